@@ -55,7 +55,7 @@ vtkEqualMassCells::vtkEqualMassCells()
   , Internals(new vtkInternals)
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(3);
+  this->SetNumberOfOutputPorts(4);
   this->SetPortPolicy(0, PORT_GATHERED_POINTS);
   this->SetPortPolicy(1, PORT_GATHERED_DENSITY);
 }
@@ -94,6 +94,12 @@ vtkPolyData* vtkEqualMassCells::GetOutlines()
 }
 
 //------------------------------------------------------------------------------
+vtkPolyData* vtkEqualMassCells::GetPolygons()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(3));
+}
+
+//------------------------------------------------------------------------------
 int vtkEqualMassCells::FillInputPortInformation(int port, vtkInformation* info)
 {
   if (port == 0)
@@ -109,7 +115,7 @@ int vtkEqualMassCells::FillInputPortInformation(int port, vtkInformation* info)
 //------------------------------------------------------------------------------
 int vtkEqualMassCells::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  const char* const types[] = { "vtkImageData", "vtkPointSet", "vtkPolyData" };
+  const char* const types[] = { "vtkImageData", "vtkPointSet", "vtkPolyData", "vtkPolyData" };
   info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
 }
@@ -205,8 +211,8 @@ int vtkEqualMassCells::RequestData(
                   "Domain, or set Measure to Uniform");
   }
   vtkImageData* labels = vtkImageData::GetData(outputVector, 0);
-  const EqualMassCells::Outputs outputs{ labels, vtkPointSet::GetData(outputVector, 1),
-    vtkPolyData::GetData(outputVector, 2) };
+  const CellOutputs outputs{ labels, vtkPointSet::GetData(outputVector, 1),
+    vtkPolyData::GetData(outputVector, 2), vtkPolyData::GetData(outputVector, 3) };
   EqualMassCells::Report report;
   if (this->Measure == DENSITY)
   {
@@ -228,7 +234,7 @@ int vtkEqualMassCells::RequestData(
     }
     report = cells.Run(input, domain, this->Internals->Labels, progress, outputs);
   }
-  addSiteColors(labels, input->GetNumberOfPoints(), progress);
+  addSiteColors(labels, outputs.Polygons, input->GetNumberOfPoints(), progress);
   // Without a Domain the grid may not be known before the data.
   if (!this->RunsForAllRanks()) // else ShareOutputs does so
   {

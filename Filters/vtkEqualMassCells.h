@@ -36,20 +36,25 @@
  * Outputs:
  * - 0, `Labels`: a vtkImageData of the domain, with the cell arrays `SiteId` (active scalars), the
  *   index of each pixel's site, and `SiteColor` (unsigned char), a number that differs between
- *   adjacent sites (if more than 256 are needed, 255 may not);
+ *   adjacent sites (if more than 256 are needed, 255 may not). With Measure Density, pixels without
+ *   mass have the SiteId -1; they are hidden by a ghost array;
  * - 1, `Sites`: the data set of input 0 with the point arrays `CellMass`, `CellCentroid` (3
  *   components) and `CellCost` of the sites' cells (the cell's share; the shares add up to the
  *   cost);
  * - 2, `Outlines`: a vtkPolyData of the borders of the sites' cells along the sides of pixels, with
  *   the cell array `SiteId`: lines in 2D, quads in 3D, vertices in 1D. Each site's cell has its
- *   whole border: a border between two cells is there twice.
+ *   whole border: a border between two cells is there twice;
+ * - 3, `Polygons`: in 2D the sites' cells as polygons, a vtkPolyData with the cell arrays `SiteId`
+ *   (active scalars), `SiteColor` and all arrays of Sites. With Shape Flow, they run along the sides
+ *   of pixels, and a cell of several parts or with holes has several polygons. In 1D and 3D it is
+ *   empty.
  *
  * Labels and Sites have the field data `TransportCost`: the mean of |x - site|_p^q over the pixels'
  * centres x, an upper bound on W_p^q from the pixels' centres to the sites. With Shape Power,
  * masses, centroids and costs are integrals over the polygons, TransportCost is W_2^2 from the
- * uniform measure to the sites, and Outlines are the sides of the polygons. With Measure Density,
- * masses, centroids and costs are those of the density: pixels are weighted by their mass, and
- * W_p^q is from the density. Further field data are `OutsideSites` and `SitesWithoutMass`, the
+ * uniform measure to the sites, Polygons are those polygons and Outlines their sides. With Measure
+ * Density, masses, centroids and costs are those of the density: pixels are weighted by their mass,
+ * and W_p^q is from the density. Further field data are `OutsideSites` and `SitesWithoutMass`, the
  * numbers of sites outside the domain and of those whose cells have no mass (below); a warning
  * counts each if they are at least one in a thousand.
  *
@@ -70,7 +75,7 @@
  * this is an error.
  *
  * With several MPI ranks, rank 0 gathers all sites and the domain and does the work. Each rank gets
- * the extent of Labels that is requested of it. Sites and Outlines are on rank 0.
+ * the extent of Labels that is requested of it. The other outputs are on rank 0.
  *
  * Cost: O(pixels * steps) and O(sites log sites). Where pixels flow to sites, a NumberOfSteps below
  * 128 is doubled until it is at least 128, at most five times; otherwise most pixels would miss the
@@ -197,12 +202,13 @@ public:
 
   ///@{
   /**
-   * The outputs: the site of each pixel, the sites with the statistics of their cells, and the
-   * borders of these cells.
+   * The outputs: the site of each pixel, the sites with the statistics of their cells, the borders
+   * of these cells, and in 2D the cells as polygons.
    */
   vtkImageData* GetLabels();
   vtkPointSet* GetSites();
   vtkPolyData* GetOutlines();
+  vtkPolyData* GetPolygons();
   ///@}
 
 protected:

@@ -68,7 +68,11 @@ Shares sharesOf(
   std::vector<std::int64_t> sums(static_cast<std::size_t>(count), 0);
   for (std::size_t pixel = 0; pixel < labels.size(); ++pixel)
   {
-    sums.at(static_cast<std::size_t>(labels[pixel])) += masses[static_cast<std::int64_t>(pixel)];
+    const std::int64_t mass = masses[static_cast<std::int64_t>(pixel)];
+    if (mass > 0)
+    {
+      sums.at(static_cast<std::size_t>(labels[pixel])) += mass;
+    }
   }
   const auto [least, most] = std::minmax_element(sums.begin(), sums.end());
   return { static_cast<double>(*least), static_cast<double>(*most),

@@ -51,6 +51,42 @@ inline std::vector<vtkIdType> runCells(vtkEqualMassCells* cells)
   return labelsOf(cells->GetLabels());
 }
 
+// The area of each site's polygons about axis z, which must have the data of the sites.
+inline std::vector<double> areasOfPolygons(Checks& checks, vtkEqualMassCells* cells)
+{
+  vtkPolyData* polygons = cells->GetPolygons();
+  vtkPointSet* sites = cells->GetSites();
+  const std::vector<vtkIdType> ids = labelsOf(polygons);
+  std::vector<double> areas(static_cast<std::size_t>(sites->GetNumberOfPoints()), 0.0);
+  vtkCellData* data = polygons->GetCellData();
+  CHECK(checks, polygons->GetNumberOfPolys() == polygons->GetNumberOfCells());
+  CHECK(checks, ids.size() == static_cast<std::size_t>(polygons->GetNumberOfCells()));
+  CHECK(checks, std::is_sorted(ids.begin(), ids.end()));
+  CHECK(checks, data->GetScalars() && data->GetScalars() == data->GetArray("SiteId"));
+  CHECK(checks, polygons->GetPoints()->GetDataType() == VTK_DOUBLE);
+  for (vtkIdType i = 0; i < polygons->GetNumberOfCells(); ++i)
+  {
+    const vtkIdType site = ids[static_cast<std::size_t>(i)];
+    for (int k = 0; k < sites->GetPointData()->GetNumberOfArrays(); ++k)
+    {
+      vtkDataArray* array = sites->GetPointData()->GetArray(k);
+      vtkDataArray* copy = array ? data->GetArray(array->GetName()) : nullptr;
+      CHECK(checks, !array || (copy && copy->GetComponent(i, 0) == array->GetComponent(site, 0)));
+    }
+    vtkNew<vtkIdList> corners;
+    polygons->GetCellPoints(i, corners);
+    for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k)
+    {
+      double a[3];
+      double b[3];
+      polygons->GetPoint(corners->GetId(k), a);
+      polygons->GetPoint(corners->GetId((k + 1) % corners->GetNumberOfIds()), b);
+      areas.at(static_cast<std::size_t>(site)) += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+    }
+  }
+  return areas;
+}
+
 inline std::vector<int> countLabels(const std::vector<vtkIdType>& labels, vtkIdType sites)
 {
   std::vector<int> counts(static_cast<std::size_t>(sites), 0);

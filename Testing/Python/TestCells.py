@@ -122,8 +122,8 @@ class Cells(unittest.TestCase):
 
     def test_ports(self):
         cells = simple.EqualMassCells(Input=sites_at(disc(20, 5)), Resolution=40)
-        names = [cells.SMProxy.GetOutputPortName(i) for i in range(3)]
-        self.assertEqual(names, ["Labels", "Sites", "Outlines"])
+        names = [cells.SMProxy.GetOutputPortName(i) for i in range(4)]
+        self.assertEqual(names, ["Labels", "Sites", "Outlines", "Polygons"])
         cell_bounds = simple.Threshold(Input=simple.OutputPort(cells, 2),
                                        Scalars=["CELLS", "SiteId"], LowerThreshold=3,
                                        UpperThreshold=3)
@@ -152,6 +152,8 @@ class Mass(unittest.TestCase):
         cells = self.cells(image, count, Resolution=max(shape))
         labels = labels_of(cells)
         self.assertEqual(len(labels), values.size)
+        np.testing.assert_array_equal(labels < 0, values.ravel() == 0)
+        labels = np.maximum(labels, 0)
         sums = np.bincount(labels, values.ravel(), count)
         self.assertLessEqual(np.abs(sums - values.sum() / count).max(), values.max())
         masses, centroids, costs = self.statistics(cells)
@@ -204,6 +206,38 @@ class Mass(unittest.TestCase):
         cells.Resolution = 300
         self.assertGreater(cost_of(cells), 1.01 * least)
 
+    def test_the_sea(self):
+        """Pixels without mass are of no site, hidden, and outside of the polygons and outlines."""
+        x, y = np.meshgrid(np.linspace(-1, 1, 60), np.linspace(-1, 1, 45))
+        radius = np.hypot(x, y * .75)
+        values = ((radius < .6) & (radius > .2)) * (1.5 + x)
+        image = density_image((60, 45), values=values.ravel())
+        image.SetSpacing(1, 1, 1)
+        sea = values.ravel() == 0
+        for shape in ("Flow", "Power"):
+            cells = self.cells(image, 12, Resolution=60, Shape=shape)
+            labels = labels_of(cells)
+            self.assertEqual(labels[~sea].min(), 0)
+            np.testing.assert_array_equal(labels == -1, sea)
+            outputs = [cells.GetClientSideObject().GetOutputDataObject(i) for i in range(4)]
+            hidden = vtk_to_numpy(outputs[0].GetCellData().GetArray("vtkGhostType"))
+            np.testing.assert_array_equal(hidden, 32 * sea)  # HIDDENCELL
+            colours = vtk_to_numpy(outputs[0].GetCellData().GetArray("SiteColor"))
+            self.assertLess(colours.max(), 9)
+            self.assertEqual(colours[sea].max(), 0)
+            surface = simple.ExtractSurface(Input=cells)
+            self.assertEqual(output_of(surface).GetNumberOfCells(), (~sea).sum())
+            # CellSize takes polygons for convex.
+            areas = simple.CellSize(Input=simple.Triangulate(Input=simple.OutputPort(cells, 3)))
+            areas = vtk_to_numpy(output_of(areas).GetCellData().GetArray("Area")).sum()
+            self.assertAlmostEqual(areas, (~sea).sum() if shape == "Flow" else sea.size, 6)
+            masses = self.statistics(cells)[0]
+            self.assertAlmostEqual(masses.sum(), values.sum())
+            of_polygons = outputs[3].GetCellData()
+            ids = vtk_to_numpy(of_polygons.GetArray("SiteId"))
+            np.testing.assert_array_equal(vtk_to_numpy(of_polygons.GetArray("CellMass")),
+                                          masses[ids])
+
     def test_a_constant_density_is_uniform(self):
         """Power: the same polygons to the accuracy of their masses. Flow: the same but for pixels
         on borders, which are given away in another order, 3 % of all."""
@@ -236,7 +270,7 @@ class Mass(unittest.TestCase):
             for name, value in properties.items():
                 setattr(cells, name, value)
             self.assertAlmostEqual(self.statistics(cells)[0].sum() / density.sum(), 1)
-            np.testing.assert_allclose(np.bincount(labels_of(cells), density, 20),
+            np.testing.assert_allclose(np.bincount(np.maximum(labels_of(cells), 0), density, 20),
                                        self.statistics(cells)[0], rtol=1e-9)
 
     def test_values_on_points(self):
@@ -308,7 +342,7 @@ class Mass(unittest.TestCase):
         self.assertEqual(len(reported.errors), 2)  # the executive's, too
         for part in text if isinstance(text, tuple) else (text,):
             self.assertIn(part, reported.errors[0])
-        for port in range(3):
+        for port in range(4):
             self.assertEqual(cells.GetOutputDataObject(port).GetNumberOfPoints(), 0)
 
     def test_errors(self):

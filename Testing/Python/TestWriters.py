@@ -40,8 +40,16 @@ NOT_COMPARED = {
 }
 
 
+def ends_the_reader(data, extension):
+    """ParaView 5.11 writes beyond its memory when it reads polygons of more than four corners from an Exodus
+    file, its own too."""
+    return extension == "e" and data.IsA("vtkPolyData") and data.GetPolys().GetMaxCellSize() > 4
+
+
 def kind_of(data):
     if data.IsA("vtkPolyData"):
+        if data.GetNumberOfPoints() == 0:
+            return "nothing"
         return "surface" if data.GetNumberOfPolys() else "particles"
     return {"vtkImageData": "image", "vtkTable": "table"}.get(data.GetClassName(), "grid")
 
@@ -160,7 +168,8 @@ def write_all(folder, done):
                 except RuntimeError:
                     pass
                 files = os.listdir(at)
-                again = read_again(simple, path) if os.path.exists(path) else None
+                is_read = os.path.exists(path) and not ends_the_reader(data, extension)
+                again = read_again(simple, path) if is_read else None
                 say("end", key, {"kind": [kind_of(data), extension], "written": bool(files),
                                  "size": size_of(data), "again": again,
                                  "said": (window.GetOutput() or "")[before:].strip()[:300]})
@@ -210,7 +219,7 @@ class Writers(unittest.TestCase):
 
     def finished(self):
         for key, result in self.results.items():
-            if result is not None:
+            if result is not None and result["kind"][0] != "nothing":
                 yield key, tuple(result["kind"]), result
 
     def test_files(self):

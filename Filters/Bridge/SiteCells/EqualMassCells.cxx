@@ -9,31 +9,26 @@
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/SiteCells/LabelGrid.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/SiteCells/DensitySiteCells.h"
+#include "Core/SiteCells/PixelMasses.h"
 #include "Core/SiteCells/PowerSiteCells.h"
 #include "Core/SiteCells/SiteCellOutlines.h"
+#include "Core/SiteCells/SiteCellPolygons.h"
 #include "Core/SiteCells/SiteCells.h"
 
-#include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
-#include "vtkPolyData.h"
 
 #include <algorithm>
 #include <memory>
 #include <string>
-#include <vector>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -54,19 +49,6 @@ double bytesOfLabellingByMass(const ImageGrid& grid)
 {
   return D == 1 ? 0.0
                 : bytesOfLabelling<D>(grid) + numberOfCells<D>(grid.Size<D>()) * D * sizeof(double);
-}
-
-// The input's points in double precision.
-vtkSmartPointer<vtkPoints> doublePoints(vtkPoints* points)
-{
-  if (points->GetDataType() == VTK_DOUBLE)
-  {
-    return points;
-  }
-  auto copy = vtkSmartPointer<vtkPoints>::New();
-  copy->SetDataTypeToDouble();
-  copy->DeepCopy(points);
-  return copy;
 }
 
 template <int D>
@@ -104,76 +86,10 @@ SiteIdArray* updateLabels(vtkPointSet* sites, const SiteLabels::Settings& settin
   return kept.Update(sites, settings, progress, make).Labels;
 }
 
-// Adds the arrays of the sites' cells to the sites' point data; measure(statistics) fills them and
-// returns the cost.
-template <class Measure>
-void addStatistics(vtkIdType count, const Measure& measure, const EqualMassCells::Outputs& outputs)
-{
-  auto masses = newArray<vtkDoubleArray>("CellMass", 1, count);
-  auto centroids = newArray<vtkDoubleArray>("CellCentroid", 3, count);
-  auto costs = newArray<vtkDoubleArray>("CellCost", 1, count);
-  const double cost = measure(SiteCellStatistics{
-    masses->GetPointer(0), { centroids->GetPointer(0), count }, costs->GetPointer(0) });
-  outputs.Sites->GetPointData()->AddArray(masses);
-  outputs.Sites->GetPointData()->AddArray(centroids);
-  outputs.Sites->GetPointData()->AddArray(costs);
-  addFieldValue(outputs.Labels, "TransportCost", cost);
-  addFieldValue(outputs.Sites, "TransportCost", cost);
-}
-
-// The vector is empty afterwards.
-template <class ArrayT>
-vtkSmartPointer<ArrayT> moveToArray(const char* name, std::vector<std::int64_t>& values)
-{
-  using Value = typename ArrayT::ValueType;
-  auto array = newArray<ArrayT>(name, 1, static_cast<vtkIdType>(values.size()));
-  std::transform(values.begin(), values.end(), array->GetPointer(0),
-    [](std::int64_t value) { return static_cast<Value>(value); });
-  values = std::vector<std::int64_t>();
-  return array;
-}
-
-template <int D>
-void writeOutlines(SiteCellOutlines<D> outlines, vtkPolyData* output)
-{
-  const auto count = static_cast<vtkIdType>(outlines.Points.size());
-  auto coordinates = newArray<vtkDoubleArray>("Points", 3, count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    std::copy_n(
-      outlines.Points[static_cast<std::size_t>(i)].data(), 3, coordinates->GetPointer(3 * i));
-  }
-  outlines.Points = {};
-  vtkNew<vtkPoints> points;
-  points->SetData(coordinates);
-  output->SetPoints(points);
-  const auto faces = static_cast<vtkIdType>(outlines.SiteIds.size());
-  const auto offsets = newArray<vtkIdTypeArray>("Offsets", 1, faces + 1);
-  for (vtkIdType i = 0; i <= faces; ++i)
-  {
-    offsets->SetValue(i, i * SiteCellOutlines<D>::Corners);
-  }
-  vtkNew<vtkCellArray> cells;
-  cells->SetData(offsets, moveToArray<vtkIdTypeArray>("Connectivity", outlines.CornerIds));
-  if constexpr (D == 1)
-  {
-    output->SetVerts(cells);
-  }
-  else if constexpr (D == 2)
-  {
-    output->SetLines(cells);
-  }
-  else
-  {
-    output->SetPolys(cells);
-  }
-  output->GetCellData()->SetScalars(moveToArray<SiteIdArray>("SiteId", outlines.SiteIds));
-}
-
 // Writes the labels, what measure(statistics) measures of the sites' cells, and their outlines.
 template <int D, class Measure>
 void writeCells(const ImageGrid& grid, SiteIdArray* labels, vtkIdType sites, Progress& progress,
-  const EqualMassCells::Outputs& outputs, const Measure& measure)
+  const CellOutputs& outputs, const Measure& measure)
 {
   outputs.Labels->GetCellData()->SetScalars(labels);
   progress.BeginStage(0.98);
@@ -182,15 +98,24 @@ void writeCells(const ImageGrid& grid, SiteIdArray* labels, vtkIdType sites, Pro
     return withMemory("the sums of the " + std::to_string(sites) + " cells", bytes,
       [&]() { return measure(statistics); });
   };
-  addStatistics(sites, withSums, outputs);
-  progress.BeginStage(1.0);
+  addStatistics(outputs, withSums);
+  progress.BeginStage(D == 2 ? 0.99 : 1.0);
   writeOutlines<D>(
     outlineSiteCells<D>(grid, labels->GetPointer(0), progress.Stage()), outputs.Outlines);
+  if constexpr (D == 2)
+  {
+    progress.BeginStage(0.995);
+    SiteCellPolygons polygons =
+      withMemory("the polygons of the cells", 9.0 * static_cast<double>(grid.NumberOfCells()),
+        [&]() { return polygonsOfSiteCells(grid, labels->GetPointer(0), progress.Stage()); });
+    progress.BeginStage(1.0);
+    writePolygons(std::move(polygons), outputs, progress);
+  }
 }
 
 template <int D>
 std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const ImageGrid& grid,
-  SiteLabels& kept, Progress& progress, const EqualMassCells::Outputs& outputs)
+  SiteLabels& kept, Progress& progress, const CellOutputs& outputs)
 {
   progress.BeginStage(0.01);
   const SiteCells<D> placed = placeSites<D>(sites, grid, progress);
@@ -210,7 +135,7 @@ std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const Image
 template <int D>
 EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* sites,
   const ImageGrid& grid, InputDensity& density, FlowCache& cache, SiteLabels& kept,
-  Progress& progress, const EqualMassCells::Outputs& outputs)
+  Progress& progress, const CellOutputs& outputs)
 {
   const auto count = static_cast<vtkIdType>(sites->GetNumberOfPoints());
   progress.BeginStage(0.02);
@@ -278,23 +203,23 @@ SiteLabels::Division makePowerCells(
 }
 
 std::int64_t writePowerCells(
-  const SiteLabels::Division& division, Progress& progress, const EqualMassCells::Outputs& outputs)
+  const SiteLabels::Division& division, Progress& progress, const CellOutputs& outputs)
 {
   const PowerSiteCells& power = *division.Power;
   outputs.Labels->GetCellData()->SetScalars(division.Labels);
   addStatistics(
-    static_cast<vtkIdType>(power.NumberOfSites()),
-    [&power](const SiteCellStatistics& statistics) { return power.Measure(statistics); }, outputs);
+    outputs, [&power](const SiteCellStatistics& statistics) { return power.Measure(statistics); });
   progress.BeginStage(1.0);
   const double bytes = 60.0 * 6.0 * static_cast<double>(power.NumberOfSites());
   withMemory(
     "the outlines", bytes, [&]() { writeOutlines<2>(power.Outlines(), outputs.Outlines); });
-  progress.EndSlice(1);
+  writePolygons(withMemory("the polygons of the cells", bytes, [&]() { return power.Polygons(); }),
+    outputs, progress);
   return power.NumberOutside();
 }
 
 std::int64_t divideByPower(vtkPointSet* sites, const ImageGrid& grid, SiteLabels& kept,
-  Progress& progress, const EqualMassCells::Outputs& outputs)
+  Progress& progress, const CellOutputs& outputs)
 {
   progress.BeginStage(0.02);
   const auto make = [&](ConstPointSpan<3> points, const Context& context) {
@@ -306,9 +231,10 @@ std::int64_t divideByPower(vtkPointSet* sites, const ImageGrid& grid, SiteLabels
 }
 
 std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, InputDensity& density,
-  SiteLabels& kept, Progress& progress, const EqualMassCells::Outputs& outputs)
+  SiteLabels& kept, Progress& progress, const CellOutputs& outputs)
 {
   constexpr double rowMoments = 18.0; // bytes a cell of the density
+  double mass = 0.0;
   progress.BeginStage(0.01);
   const SiteLabels::Settings settings{ grid, true, {}, true, kept.HashOf(density, progress) };
   progress.BeginStage(0.02);
@@ -316,7 +242,7 @@ std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, InputD
     Progress work(context);
     work.BeginStage(0.02);
     density.Prepare(FlowTables::Whole, work);
-    const double mass = massOf(density, work);
+    mass = massOf(density, work);
     work.BeginStage(1.0);
     try
     {
@@ -328,9 +254,19 @@ std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, InputD
     }
   };
   const double bytes = rowMoments * static_cast<double>(density.Grid().NumberOfCells());
-  return writePowerCells(kept.Update(sites, settings, progress,
-                           [&]() { return makePowerCells(sites, grid, bytes, progress, make); }),
-    progress, outputs);
+  const auto makeWithoutEmpty = [&]() {
+    SiteLabels::Division division = makePowerCells(sites, grid, bytes, progress, make);
+    withMemory("the masses of " + describeValues(grid) + " pixels",
+      numberOfValues(grid) * sizeof(std::int64_t), [&]() {
+        progress.BeginStage(0.96);
+        const PixelMasses<2> masses(
+          density.Source<2>(), mass / density.Grid().CellMeasure(), grid.Size<2>(), progress);
+        masses.RemoveEmptyPixels(division.Labels->GetPointer(0), progress);
+      });
+    return division;
+  };
+  return writePowerCells(
+    kept.Update(sites, settings, progress, makeWithoutEmpty), progress, outputs);
 }
 
 void requirePlane(const ImageGrid& grid)
@@ -342,14 +278,6 @@ void requirePlane(const ImageGrid& grid)
   }
 }
 
-void writeSites(vtkPointSet* sites, vtkPointSet* output)
-{
-  output->CopyStructure(sites);
-  output->SetPoints(doublePoints(sites->GetPoints()));
-  output->GetPointData()->PassData(sites->GetPointData());
-  output->GetCellData()->PassData(sites->GetCellData());
-}
-
 std::string describeLabels(const ImageGrid& grid)
 {
   return "labels of " + describeValues(grid) + " pixels (see Resolution)";
@@ -358,7 +286,7 @@ std::string describeLabels(const ImageGrid& grid)
 } // namespace
 
 EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* domain,
-  SiteLabels& kept, Progress& progress, const Outputs& outputs) const
+  SiteLabels& kept, Progress& progress, const CellOutputs& outputs) const
 {
   if (!domain)
   {
@@ -391,7 +319,7 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* do
 }
 
 EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, InputDensity& density,
-  FlowCache& cache, SiteLabels& kept, Progress& progress, const Outputs& outputs) const
+  FlowCache& cache, SiteLabels& kept, Progress& progress, const CellOutputs& outputs) const
 {
   const ImageGrid grid = LabelGrid{ this->Resolution }.On(density.Grid());
   requireCells(grid);

@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_EqualMassCells_h
 #define RectifiedTransport_EqualMassCells_h
 
+#include "Bridge/SiteCells/CellOutputs.h"
 #include "Bridge/SiteCells/SiteLabels.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
@@ -12,9 +13,7 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataObject;
-class vtkImageData;
 class vtkPointSet;
-class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
@@ -32,13 +31,6 @@ struct EqualMassCells
   int Resolution;
   bool IsPower = false; // Shape
 
-  struct Outputs
-  {
-    vtkImageData* Labels;
-    vtkPointSet* Sites;
-    vtkPolyData* Outlines;
-  };
-
   // What warnings count.
   struct Report
   {
@@ -51,9 +43,9 @@ struct EqualMassCells
   // masses of it. Reuses the kept labels if they are valid. Throws Failure, std::invalid_argument,
   // std::runtime_error, std::bad_alloc and Cancelled.
   Report Run(vtkPointSet* sites, vtkDataObject* domain, SiteLabels& kept, Progress& progress,
-    const Outputs& outputs) const;
+    const CellOutputs& outputs) const;
   Report Run(vtkPointSet* sites, InputDensity& density, FlowCache& cache, SiteLabels& kept,
-    Progress& progress, const Outputs& outputs) const;
+    Progress& progress, const CellOutputs& outputs) const;
 };
 
 } // namespace RectifiedTransport

@@ -8,8 +8,15 @@
 #include "Core/SiteCells/SiteColors.h"
 
 #include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
+#include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -17,37 +24,70 @@ namespace RectifiedTransport
 namespace
 {
 
+constexpr std::int64_t Grain = std::int64_t{ 1 } << 16;
+
+using Colors = std::vector<std::uint8_t>;
+
 template <int D>
-void writeColors(const ImageGrid& grid, const std::int64_t* labels, vtkIdType sites,
-  unsigned char* colors, Progress& progress)
+Colors colorsOf(
+  const ImageGrid& grid, const std::int64_t* labels, vtkIdType sites, Progress& progress)
 {
-  const std::vector<std::uint8_t> ofSites =
-    colourSiteCells<D>(grid.Size<D>(), labels, sites, progress.Stage());
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
-  progress.For(grid.NumberOfCells(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t pixel = first; pixel < last; ++pixel)
-    {
-      colors[pixel] = ofSites[static_cast<std::size_t>(labels[pixel])];
-    }
+  return colourSiteCells<D>(grid.Size<D>(), labels, sites, progress.Stage());
+}
+
+// 0 for elements of no site.
+void addColors(const Colors& ofSites, vtkCellData* data, Progress& progress)
+{
+  auto* ids = SiteIdArray::SafeDownCast(data->GetScalars());
+  const vtkIdType count = ids->GetNumberOfTuples();
+  auto colors = newArray<vtkUnsignedCharArray>("SiteColor", 1, count);
+  const std::int64_t* labels = ids->GetPointer(0);
+  progress.For(count, Grain, [&](std::int64_t first, std::int64_t last) {
+    std::transform(labels + first, labels + last, colors->GetPointer(first), [&](std::int64_t id) {
+      return id < 0 ? std::uint8_t{ 0 } : ofSites[static_cast<std::size_t>(id)];
+    });
   });
+  data->AddArray(colors);
+}
+
+void hidePixelsOfNone(SiteIdArray* labels, vtkCellData* data, Progress& progress)
+{
+  const vtkIdType pixels = labels->GetNumberOfTuples();
+  auto flags = newArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), 1, pixels);
+  const std::int64_t* ids = labels->GetPointer(0);
+  progress.For(pixels, Grain, [&](std::int64_t first, std::int64_t last) {
+    std::transform(ids + first, ids + last, flags->GetPointer(first), [](std::int64_t id) {
+      return static_cast<unsigned char>(id < 0 ? vtkDataSetAttributes::HIDDENCELL : 0);
+    });
+  });
+  data->AddArray(flags);
 }
 
 } // namespace
 
-void addSiteColors(vtkImageData* labels, vtkIdType sites, Progress& progress)
+void addSiteColors(vtkImageData* labels, vtkPolyData* polygons, vtkIdType sites, Progress& progress)
 {
   const ImageGrid grid = gridOf(labels, false);
-  auto* ids = SiteIdArray::SafeDownCast(labels->GetCellData()->GetScalars());
-  auto colors =
-    newArray<vtkUnsignedCharArray>("SiteColor", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
+  vtkCellData* data = labels->GetCellData();
+  auto* ids = SiteIdArray::SafeDownCast(data->GetScalars());
   constexpr double eachSite = 120.0; // a dozen neighbours
-  withMemory("the neighbours of the " + std::to_string(sites) + " sites",
+  const Colors ofSites = withMemory("the neighbours of the " + std::to_string(sites) + " sites",
     static_cast<double>(sites) * eachSite, [&]() {
       progress.BeginStage(1.0);
-      dispatchDimension(grid.Dimension(), writeColors<1>, writeColors<2>, writeColors<3>)(
-        grid, ids->GetPointer(0), sites, colors->GetPointer(0), progress);
+      return dispatchDimension(grid.Dimension(), colorsOf<1>, colorsOf<2>, colorsOf<3>)(
+        grid, ids->GetPointer(0), sites, progress);
     });
-  labels->GetCellData()->AddArray(colors);
+  addColors(ofSites, data, progress);
+  if (polygons->GetNumberOfCells() > 0)
+  {
+    addColors(ofSites, polygons->GetCellData(), progress);
+  }
+  const std::int64_t* const pixels = ids->GetPointer(0);
+  if (std::any_of(
+        pixels, pixels + ids->GetNumberOfTuples(), [](std::int64_t id) { return id < 0; }))
+  {
+    hidePixelsOfNone(ids, data, progress);
+  }
 }
 
 } // namespace RectifiedTransport

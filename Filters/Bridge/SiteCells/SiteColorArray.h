@@ -9,6 +9,7 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
+class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
@@ -16,9 +17,11 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Adds the cell array SiteColor, bytes that differ between neighbours, to an image whose cell
-// scalars are SiteId. Throws Failure and Cancelled.
-void addSiteColors(vtkImageData* labels, vtkIdType sites, Progress& progress);
+// Adds the cell array SiteColor, bytes that differ between neighbours, to the sites' cells, whose
+// cell scalars are SiteId: an image and polygons. Hides pixels of no site by a ghost array. Throws
+// Failure and Cancelled.
+void addSiteColors(
+  vtkImageData* labels, vtkPolyData* polygons, vtkIdType sites, Progress& progress);
 
 } // namespace RectifiedTransport
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Surface/DiskSurface.h"
 
+#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/PolygonInput.h"
@@ -22,13 +23,6 @@ namespace
 {
 
 constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
-
-// What an array takes for each tuple, at least.
-double bytesOfTuple(vtkAbstractArray* array)
-{
-  return static_cast<double>(array->GetNumberOfComponents()) *
-    std::max(1, array->GetDataTypeSize());
-}
 
 LargeBuffer<std::int64_t> readTriangles(vtkCellArray* cells, Progress& progress)
 {
@@ -107,34 +101,13 @@ void DiskSurface::FindInputCells(vtkPolyData* input, Progress& progress)
 
 void DiskSurface::CopyCellData(vtkPolyData* input, Progress& progress)
 {
-  vtkCellData* from = input->GetCellData();
-  vtkCellData* to = this->Surface->GetCellData();
-  const vtkIdType cells = this->Surface->GetNumberOfCells();
-  for (int i = 0; i < from->GetNumberOfArrays(); ++i)
-  {
-    vtkAbstractArray* array = from->GetAbstractArray(i);
-    const std::string name =
-      std::string("array ") + (array->GetName() ? array->GetName() : "without name");
-    if (array->GetNumberOfTuples() < input->GetNumberOfCells())
-    {
-      throw Failure("The cell " + name + " of the input surface has " +
-        std::to_string(array->GetNumberOfTuples()) + " tuples; it must have one for each of the " +
-        std::to_string(input->GetNumberOfCells()) + " cells");
-    }
-    requireMemory("the " + name, static_cast<double>(cells) * bytesOfTuple(array));
-  }
-  to->CopyAllocate(from, cells);
-  progress.ForInOrder(
-    cells, Grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t cell = first; cell < last; ++cell)
-      {
-        const auto id = static_cast<vtkIdType>(cell);
-        to->CopyData(from,
-          id < this->FirstPolygon ? id : this->InputCells.data()[id - this->FirstPolygon], id);
-      }
+  copyTuples(
+    { input->GetCellData(), input->GetNumberOfCells(), "cell", "input surface" },
+    this->Surface->GetNumberOfCells(),
+    [this](vtkIdType cell) {
+      return cell < this->FirstPolygon ? cell : this->InputCells.data()[cell - this->FirstPolygon];
     },
-    RandomAccessUnits);
+    this->Surface->GetCellData(), progress);
 }
 
 void DiskSurface::MakeDisk(const LargeBuffer<double>& coordinates, const Stages& stages)

@@ -2,6 +2,7 @@
 #include "Bridge/Surface/SurfaceInput.h"
 
 #include "Bridge/Points/CellCheck.h"
+#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputBlock.h"
 #include "Bridge/Run/Memory.h"
@@ -141,16 +142,9 @@ vtkSmartPointer<vtkPolyData> surfaceOf(vtkPointSet* grid, const PolyDataCells& c
   surface->GetFieldData()->PassData(grid->GetFieldData());
   vtkCellData* data = surface->GetCellData();
   data->CopyAllOn();
-  data->CopyAllocate(grid->GetCellData(), static_cast<vtkIdType>(ids.size()));
-  progress.ForInOrder(
-    ids.size(), Grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (auto cell = static_cast<vtkIdType>(first); cell < last; ++cell)
-      {
-        data->CopyData(grid->GetCellData(), ids.data()[cell], cell);
-      }
-    },
-    RandomAccessUnits);
+  copyTuples(
+    { grid->GetCellData(), grid->GetNumberOfCells(), "cell", "input" }, ids.size(),
+    [&ids](vtkIdType cell) { return ids.data()[cell]; }, data, progress);
   return surface;
 }
 

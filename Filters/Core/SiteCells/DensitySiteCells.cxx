@@ -5,6 +5,7 @@
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/SiteCells/EqualizeSiteMasses.h"
+#include "Core/SiteCells/JoinSpecks.h"
 #include "Core/SiteCells/SiteDensity.h"
 #include "Core/SiteCells/SplitSharedPixels.h"
 
@@ -92,6 +93,28 @@ std::vector<Point<Dimension>> meansOf(
   return means;
 }
 
+// Reaches a progress of 0.985. Moving pixels may cut off others.
+template <int Dimension>
+void equalize(const SiteGroups& groups, const PixelMasses<Dimension>& masses,
+  const std::vector<Point<Dimension>>& places, const Point<Dimension>& spacing,
+  std::int64_t* labels, Progress& progress)
+{
+  constexpr int mostRounds = 8;
+  progress.BeginStage(0.955);
+  joinSpecks<Dimension>(groups, masses, labels, progress);
+  double left = 0.02;
+  for (int round = 0; round < mostRounds; ++round, left /= 2.0)
+  {
+    progress.BeginStage(0.985 - 0.6 * left);
+    equalizeSiteMasses<Dimension>(groups, masses, places, spacing, labels, progress.Stage());
+    progress.BeginStage(0.985 - 0.5 * left);
+    if (round + 1 == mostRounds || joinSpecks<Dimension>(groups, masses, labels, progress) == 0)
+    {
+      return;
+    }
+  }
+}
+
 } // namespace
 
 TooFewPixels::TooFewPixels(std::int64_t sites, std::int64_t pixels)
@@ -132,13 +155,13 @@ template <int Dimension>
 void DensitySiteCells<Dimension>::Label(const PointTransport<Dimension>& flow, std::int64_t* labels,
   const FlowOptions& options, const Context& context) const
 {
+  Progress progress(context);
   if constexpr (Dimension == 1)
   {
     this->LabelIntervals(labels);
   }
   else
   {
-    Progress progress(context);
     progress.BeginStage(0.95);
     const SiteGroups groups = this->LabelGroups(flow, labels, options, progress.Stage());
     Point<Dimension> spacing = this->Place.template Lengths<Dimension>();
@@ -146,13 +169,14 @@ void DensitySiteCells<Dimension>::Label(const PointTransport<Dimension>& flow, s
     {
       spacing[axis] /= static_cast<double>(this->Masses().Size()[axis]);
     }
+    equalize<Dimension>(
+      groups, this->Masses(), meansOf<Dimension>(groups, this->Inside), spacing, labels, progress);
     progress.BeginStage(0.99);
-    equalizeSiteMasses<Dimension>(groups, this->Masses(), meansOf<Dimension>(groups, this->Inside),
-      spacing, labels, progress.Stage());
-    progress.BeginStage(1.0);
     splitGroupsByMass<Dimension>(
       groups, this->Masses(), this->Inside, spacing, labels, progress.Stage());
   }
+  progress.BeginStage(1.0);
+  this->Masses().RemoveEmptyPixels(labels, progress);
 }
 
 // In 1D intervals in the order of the sites are the optimal cells. A pixel belongs to the one that

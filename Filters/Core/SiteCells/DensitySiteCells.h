@@ -58,10 +58,11 @@ public:
   std::int64_t NumberOfSites() const { return static_cast<std::int64_t>(this->Given.size()); }
   std::int64_t NumberOutside() const { return this->Outside; }
 
-  // Writes the number of the site of each pixel, axis 0 fastest; `flow` is that of the density.
-  // Masses are equal to about that of the heaviest pixel. In 1D, cells are intervals in the order
-  // of the sites, and the flow is not used. Temporarily takes about 50 and 57 bytes a pixel in 2D
-  // and 3D. Throws std::invalid_argument for options, std::bad_alloc and Cancelled.
+  // Writes the number of the site of each pixel, axis 0 fastest, and -1 for pixels without mass;
+  // `flow` is that of the density. Masses are equal to about that of the heaviest pixel. What is
+  // cut off from its site cell has more than a tenth of a site's mass. In 1D, cells are intervals
+  // in the order of the sites, and the flow is not used. Temporarily takes about 50 and 57 bytes a
+  // pixel in 2D and 3D. Throws std::invalid_argument for options, std::bad_alloc and Cancelled.
   void Label(const PointTransport<Dimension>& flow, std::int64_t* labels,
     const FlowOptions& options = {}, const Context& context = Context()) const;
 

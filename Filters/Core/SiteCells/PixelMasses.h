@@ -31,6 +31,8 @@ public:
   std::int64_t Total() const { return this->Found.Total; } // about 2^58
   std::int64_t Heaviest() const { return this->Found.Heaviest; }
   std::int64_t PixelsWithMass() const { return this->Found.WithMass; }
+  // Writes -1 for the pixels without mass. Runs as the current stage. Throws Cancelled.
+  void RemoveEmptyPixels(std::int64_t* labels, Progress& progress) const;
 
 private:
   struct Summary

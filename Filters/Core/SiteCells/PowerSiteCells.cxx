@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace RectifiedTransport
@@ -221,14 +222,32 @@ double PowerSiteCells::Measure(const SiteCellStatistics& statistics) const
   return total;
 }
 
+std::vector<Point<3>> PowerSiteCells::PhysicalCorners() const
+{
+  std::vector<Point<3>> corners(this->Corners.size());
+  for (std::size_t k = 0; k < corners.size(); ++k)
+  {
+    this->Place.ToPhysical<2>(this->Corners[k].data(), corners[k].data());
+  }
+  return corners;
+}
+
+SiteCellPolygons PowerSiteCells::Polygons() const
+{
+  SiteCellPolygons polygons;
+  polygons.Points = this->PhysicalCorners();
+  polygons.CornerIds.resize(this->Corners.size());
+  std::iota(polygons.CornerIds.begin(), polygons.CornerIds.end(), std::int64_t{ 0 });
+  polygons.First = this->First;
+  polygons.SiteIds.resize(this->Costs.size());
+  std::iota(polygons.SiteIds.begin(), polygons.SiteIds.end(), std::int64_t{ 0 });
+  return polygons;
+}
+
 SiteCellOutlines<2> PowerSiteCells::Outlines() const
 {
   SiteCellOutlines<2> outlines;
-  outlines.Points.resize(this->Corners.size());
-  for (std::size_t k = 0; k < this->Corners.size(); ++k)
-  {
-    this->Place.ToPhysical<2>(this->Corners[k].data(), outlines.Points[k].data());
-  }
+  outlines.Points = this->PhysicalCorners();
   outlines.CornerIds.reserve(2 * this->Corners.size());
   outlines.SiteIds.reserve(this->Corners.size());
   for (std::int64_t site = 0; site < this->NumberOfSites(); ++site)

@@ -15,6 +15,7 @@
 #include "../Parallel/Context.h"
 #include "../Tables/Density.h"
 #include "SiteCellOutlines.h"
+#include "SiteCellPolygons.h"
 #include "SiteCellStatistics.h"
 
 #include <cstdint>
@@ -54,9 +55,12 @@ public:
   double Measure(const SiteCellStatistics& statistics) const;
   // The sides of the polygons; each cell has its own points. Throws std::bad_alloc.
   SiteCellOutlines<2> Outlines() const;
+  // One convex polygon for each site, with points of its own. Throws std::bad_alloc.
+  SiteCellPolygons Polygons() const;
 
 private:
   void Solve(ConstPointSpan<3> sites, const DensitySource<2>& density, const Context& context);
+  std::vector<Point<3>> PhysicalCorners() const;
   void Keep(const EqualMassPartition& partition, const std::vector<Point<2>>& sites);
 
   ImageGrid Place;

@@ -157,19 +157,22 @@ private:
     }
     for (std::int64_t pixel = first; pixel < last; ++pixel)
     {
-      double x[3];
-      this->Grid.template ToPhysical<Dimension>(index, x);
       const std::int64_t label = this->Labels[pixel];
-      const double* site = this->Sites[label];
-      const double d[3] = { x[0] - site[0], x[1] - site[1], x[2] - site[2] };
-      CellSum<Dimension>& sum = sums[label];
-      const double weight = this->WeightOf(pixel);
-      sum.Weight += weight;
-      for (int axis = 0; axis < Dimension; ++axis)
+      if (label >= 0)
       {
-        sum.Index[axis] += weight * index[axis];
+        double x[3];
+        this->Grid.template ToPhysical<Dimension>(index, x);
+        const double* site = this->Sites[label];
+        const double d[3] = { x[0] - site[0], x[1] - site[1], x[2] - site[2] };
+        CellSum<Dimension>& sum = sums[label];
+        const double weight = this->WeightOf(pixel);
+        sum.Weight += weight;
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          sum.Index[axis] += weight * index[axis];
+        }
+        sum.Cost += weight * cost(d);
       }
-      sum.Cost += weight * cost(d);
       for (int axis = 0; axis < Dimension; ++axis)
       {
         index[axis] += 1.0;

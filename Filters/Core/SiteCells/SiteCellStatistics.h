@@ -26,10 +26,10 @@ struct SiteCellStatistics
   double* Cost;          // the site cell's part of the cost
 };
 
-// Measures the site cells of `labels`. Sites in the same pixel share their mass, to the last bit.
-// Returns the cost: the mean of |x - site|_p^q over the pixels' centres x, with the given positions
-// of sites outside the domain. Throws std::overflow_error for a cost or a domain beyond the largest
-// double, std::bad_alloc and Cancelled.
+// Measures the site cells of `labels`, without the pixels of label -1. Sites in the same pixel
+// share their mass, to the last bit. Returns the cost: the mean of |x - site|_p^q over the pixels'
+// centres x, with the given positions of sites outside the domain. Throws std::overflow_error for a
+// cost or a domain beyond the largest double, std::bad_alloc and Cancelled.
 template <int Dimension>
 double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* labels,
   const CostNorm& norm, const SiteCellStatistics& statistics, const Context& context = Context());

@@ -24,6 +24,10 @@ public:
   void Join(std::int64_t one, std::int64_t other)
   {
     const auto [low, high] = std::minmax(one, other);
+    if (low < 0)
+    {
+      return;
+    }
     auto& known = this->Lower[static_cast<std::size_t>(high)];
     // The pair before is often the same.
     if (std::find(known.rbegin(), known.rend(), low) == known.rend())

@@ -70,7 +70,7 @@ TEST(DensitySiteCells, EqualShares)
   expectEqualShares<1>(twoGaussians<1>({ 200 }), { 500 }, 30, "Gaussians on a line");
 }
 
-// In 1D cells are intervals in the order of the sites, also where there is no mass.
+// In 1D cells are intervals in the order of the sites. Where there is no mass is no cell.
 TEST(DensitySiteCells, IntervalsInOneDimension)
 {
   TestDensity<1> density = uniformDensity<1>({ 90 }, 0.0);
@@ -84,8 +84,72 @@ TEST(DensitySiteCells, IntervalsInOneDimension)
   {
     // Half of the mass of 80 is at 30 + 40 / 3.
     const double middle = 0.5 * static_cast<double>(i) + 0.25;
-    EXPECT_EQ(labels[i], middle < 30.0 + 40.0 / 3.0 ? 1 : 0) << i;
+    const bool hasMass = middle > 30.0 && middle < 70.0;
+    EXPECT_EQ(labels[i], !hasMass ? -1 : middle < 30.0 + 40.0 / 3.0 ? 1 : 0) << i;
   }
+}
+
+// The mass of all parts of cells that are not connected with the rest of their cell, through pixels
+// of any mass, the largest in shares.
+double largestSpeck(const TestDensity<2>& density, std::size_t count)
+{
+  const GridSize<2>& size = density.Size;
+  const ImageGrid grid = pixelsOn<2>(size, size);
+  const PixelMasses<2> masses = massesOf<2>(density, size);
+  const auto places =
+    runForward<2>(makeFlow(density), randomPoints<2>(size, count, 3), FlowOptions());
+  const Labels labels = labelsOf<2>(density, grid, inSpace<2>(places));
+  std::vector<std::vector<std::int64_t>> parts(count);
+  Labels seen(labels.size(), 0);
+  for (std::size_t begin = 0; begin < labels.size(); ++begin)
+  {
+    if (seen[begin] || labels[begin] < 0)
+    {
+      continue;
+    }
+    std::vector<std::int64_t> stack{ static_cast<std::int64_t>(begin) };
+    seen[begin] = 1;
+    std::int64_t mass = 0;
+    while (!stack.empty())
+    {
+      const std::int64_t pixel = stack.back();
+      stack.pop_back();
+      mass += masses[pixel];
+      const std::int64_t x = pixel % size[0];
+      const std::int64_t y = pixel / size[0];
+      for (const auto& [i, j] : { std::pair{ x - 1, y }, { x + 1, y }, { x, y - 1 }, { x, y + 1 } })
+      {
+        const std::int64_t other = j * size[0] + i;
+        if (i >= 0 && j >= 0 && i < size[0] && j < size[1] && !seen[other] &&
+          labels[other] == labels[begin])
+        {
+          seen[other] = 1;
+          stack.push_back(other);
+        }
+      }
+    }
+    parts[labels[begin]].push_back(mass);
+  }
+  std::int64_t largest = 0;
+  for (auto& ofSite : parts)
+  {
+    std::sort(ofSite.begin(), ofSite.end());
+    largest = ofSite.size() > 1 ? std::max(largest, ofSite[ofSite.size() - 2]) : largest;
+  }
+  return static_cast<double>(largest) / static_cast<double>(masses.Total()) *
+    static_cast<double>(count);
+}
+
+// Where the density has no gaps, cells have no specks, also of a patchy one.
+TEST(DensitySiteCells, NoSpecks)
+{
+  EXPECT_EQ(largestSpeck(twoGaussians<2>({ 128, 128 }), 100), 0.0);
+  TestDensity<2> patchy = randomCells<2>({ 128, 128 }, 0.0);
+  for (double& value : patchy.Values)
+  {
+    value = std::pow(value, 8.0) + 1e-6;
+  }
+  EXPECT_EQ(largestSpeck(patchy, 60), 0.0);
 }
 
 // A constant density has the cells of the uniform measure: both flows are the same where the flow
@@ -151,7 +215,11 @@ TEST(DensitySiteCells, SpecialSites)
   EXPECT_GT(shares.Least, 0.0);
   for (const Points<3>& one : { Points<3>{ sites[0] }, Points<3>{ sites[11] } })
   {
-    EXPECT_EQ(labelsOf<2>(density, grid, one), Labels(3600, 0));
+    const Labels labels = labelsOf<2>(density, grid, one);
+    for (std::size_t i = 0; i < labels.size(); ++i)
+    {
+      EXPECT_EQ(labels[i], masses[static_cast<std::int64_t>(i)] > 0 ? 0 : -1) << i;
+    }
   }
   // All of one point: the whole is bisected.
   const Labels parts = labelsOf<2>(density, grid, Points<3>(7, sites[0]));

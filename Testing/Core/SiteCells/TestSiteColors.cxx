@@ -33,6 +33,13 @@ TEST(SiteColors, AcrossCorners)
   EXPECT_EQ(colourSiteCells<2>({ 2, 2 }, labels.data(), 3), (Colours{ 0, 1, 0 }));
 }
 
+// What is of no site is nobody's neighbour.
+TEST(SiteColors, AcrossPixelsOfNone)
+{
+  const Labels labels = { 0, -1, 1, 2 };
+  EXPECT_EQ(colourSiteCells<1>({ 4 }, labels.data(), 3), (Colours{ 0, 0, 1 }));
+}
+
 TEST(SiteColors, DifferAcrossEveryFace)
 {
   const GridSize<3> size = { 9, 8, 7 };

@@ -163,6 +163,40 @@ void checkOutlines(Checks& checks, vtkEqualMassCells* cells)
   CHECK_NEAR(checks, area, 6.0, 1e-12);
 }
 
+void checkPolygons(Checks& checks, vtkEqualMassCells* cells)
+{
+  cells->Update();
+  const std::vector<double> areas = areasOfPolygons(checks, cells);
+  for (std::size_t i = 0; i < areas.size(); ++i)
+  {
+    CHECK_NEAR(checks, areas[i], siteValue(cells, "CellMass", static_cast<vtkIdType>(i)), 1e-12);
+  }
+  // In corners alone do their points differ from those of the lines.
+  vtkPolyData* polygons = cells->GetPolygons();
+  CHECK(checks, polygons->GetNumberOfPoints() < cells->GetOutlines()->GetNumberOfPoints());
+  vtkDataArray* colors = polygons->GetCellData()->GetArray("SiteColor");
+  vtkDataArray* pixels = cells->GetLabels()->GetCellData()->GetArray("SiteColor");
+  const std::vector<vtkIdType> labels = labelsOf(cells->GetLabels());
+  const std::vector<vtkIdType> ids = labelsOf(polygons);
+  CHECK(checks, colors && colors->GetDataType() == VTK_UNSIGNED_CHAR);
+  for (std::size_t i = 0; colors && i < ids.size(); ++i)
+  {
+    const auto pixel = std::find(labels.begin(), labels.end(), ids[i]) - labels.begin();
+    CHECK(checks, colors->GetTuple1(static_cast<vtkIdType>(i)) == pixels->GetTuple1(pixel));
+  }
+}
+
+// There are none in space.
+void checkNoPolygons(Checks& checks)
+{
+  vtkNew<vtkEqualMassCells> cells;
+  cells->SetInputData(makeSites({ 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 }, 7));
+  cells->SetResolution(9);
+  cells->Update();
+  CHECK(checks, cells->GetOutlines()->GetNumberOfPolys() > 0);
+  CHECK(checks, cells->GetPolygons() && cells->GetPolygons()->GetNumberOfCells() == 0);
+}
+
 void checkData(Checks& checks)
 {
   vtkNew<vtkUnstructuredGrid> grid;
@@ -176,8 +210,8 @@ void checkData(Checks& checks)
   }
   grid->SetPoints(points);
   grid->GetPointData()->SetScalars(heat);
-  const vtkIdType corners[2] = { 2, 0 };
-  grid->InsertNextCell(VTK_LINE, 2, corners);
+  const vtkIdType ends[2] = { 2, 0 };
+  grid->InsertNextCell(VTK_LINE, 2, ends);
   vtkNew<vtkIdTypeArray> note;
   note->SetName("Note");
   note->InsertNextValue(5);
@@ -201,11 +235,22 @@ void checkData(Checks& checks)
   }
   CHECK(checks, sites->GetPointData()->GetScalars() == heat);
   CHECK(checks, sites->GetCellData()->GetArray("Note") == note);
-  for (int port = 0; port < 3; ++port)
+  for (int port = 0; port < 4; ++port)
   {
     CHECK(checks, cells->GetOutputDataObject(port)->GetFieldData()->GetArray("Note") != nullptr);
   }
   CHECK(checks, grid->GetPointData()->GetArray("CellMass") == nullptr);
+  CHECK(checks, cells->GetPolygons()->GetCellData()->GetArray("Heat") != nullptr);
+  areasOfPolygons(checks, cells);
+  // What has no value for a site cannot be a polygon's.
+  Messages messages(cells);
+  heat->SetNumberOfTuples(3);
+  auto corners = makePoints({ 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0 });
+  corners->GetPointData()->AddArray(heat);
+  cells->SetInputData(corners);
+  cells->Update();
+  CHECK(checks, messages.Errors.size() == 1);
+  CHECK(checks, cells->GetPolygons()->GetNumberOfCells() == 0);
   // Another type of sites makes another type of output.
   cells->SetInputData(makeSites(box, 5));
   cells->Update();
@@ -238,6 +283,8 @@ int TestCellsOutput(int, char*[])
   cells->SetResolution(96);
   checkLabels(checks, cells);
   checkOutlines(checks, cells);
+  checkPolygons(checks, cells);
+  checkNoPolygons(checks);
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const double exponents[][2] = { { 2, 2 }, { 2, 4 }, { 4, 4 }, { 4, 1.6 }, { 1, 1 }, { 2, 0.5 },
     { infinite, 2 } };

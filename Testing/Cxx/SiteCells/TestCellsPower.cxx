@@ -66,9 +66,13 @@ void checkOutputs(Checks& checks)
   const std::vector<vtkIdType> labels = runCells(cells);
   CHECK(checks, labels.size() == 60u * 40);
   const std::vector<double> areas = areasOf(checks, cells);
+  const std::vector<double> polygons = areasOfPolygons(checks, cells);
+  CHECK(checks, cells->GetPolygons()->GetNumberOfCells() == 80);
   double cost = 0.0;
   for (vtkIdType i = 0; i < 80; ++i)
   {
+    CHECK_NEAR(
+      checks, polygons[static_cast<std::size_t>(i)], areas[static_cast<std::size_t>(i)], 1e-15);
     const double mass = siteValue(cells, "CellMass", i);
     CHECK_NEAR(checks, mass, 6.0 / 80.0, 1e-6 * 6.0 / 80.0);
     CHECK_NEAR(checks, areas[static_cast<std::size_t>(i)], mass, 1e-11);

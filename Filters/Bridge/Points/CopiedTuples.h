@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The arrays of points or cells, copied by their ids.
+#ifndef RectifiedTransport_CopiedTuples_h
+#define RectifiedTransport_CopiedTuples_h
+
+#include "Bridge/VTKCompatibility.h"
+
+#include "vtkType.h"
+
+#include <cstdint>
+#include <functional>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataSetAttributes;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+struct TupleSource
+{
+  vtkDataSetAttributes* From;
+  vtkIdType Count;   // of its points or cells
+  const char* Owner; // "point" or "cell"
+  const char* Name;  // of the data set, in messages
+};
+
+// Copies the arrays of the source: element i of `count` gets the tuples of element idOf(i). What
+// `to` copies is for the caller to set. Runs as the current stage. Throws Failure if an array has
+// too few tuples or there is no memory, and Cancelled.
+void copyTuples(const TupleSource& source, std::int64_t count,
+  const std::function<vtkIdType(vtkIdType)>& idOf, vtkDataSetAttributes* to, Progress& progress);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The output data sets of vtkEqualMassCells.
+#ifndef RectifiedTransport_CellOutputs_h
+#define RectifiedTransport_CellOutputs_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "Core/SiteCells/SiteCellOutlines.h"
+#include "Core/SiteCells/SiteCellPolygons.h"
+#include "Core/SiteCells/SiteCellStatistics.h"
+
+#include <functional>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkImageData;
+class vtkPointSet;
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+struct CellOutputs
+{
+  vtkImageData* Labels;
+  vtkPointSet* Sites;
+  vtkPolyData* Outlines;
+  vtkPolyData* Polygons;
+};
+
+// Points in double precision, and all data.
+void writeSites(vtkPointSet* sites, vtkPointSet* output);
+
+// Adds the arrays of the sites' cells to the sites' point data; measure(statistics) fills them and
+// returns the cost.
+void addStatistics(
+  const CellOutputs& outputs, const std::function<double(const SiteCellStatistics&)>& measure);
+
+template <int Dimension>
+void writeOutlines(SiteCellOutlines<Dimension> outlines, vtkPolyData* output);
+
+// With the data of the output's sites. Runs as the current stage. Throws Failure and Cancelled.
+void writePolygons(SiteCellPolygons polygons, const CellOutputs& outputs, Progress& progress);
+
+} // namespace RectifiedTransport
+
+#endif

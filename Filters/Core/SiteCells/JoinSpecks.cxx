@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SiteCells/JoinSpecks.h"
+
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Sets of connected pixels of one group.
+template <int Dimension>
+class CellParts
+{
+public:
+  // Runs as the current stage.
+  CellParts(const PixelMasses<Dimension>& masses, std::int64_t* owners, Progress& progress)
+    : Pixels(masses.NumberOfPixels())
+    , Size(masses.Size())
+    , Owners(owners)
+    , Work(progress)
+    , Part(masses.NumberOfPixels())
+  {
+    this->VisitPixels([this](std::int64_t pixel) { this->Connect(pixel); });
+    // The first pixel of each part is its root.
+    this->VisitPixels([&](std::int64_t pixel) {
+      std::int64_t& part = this->PartOf(pixel);
+      if (part == pixel)
+      {
+        part = static_cast<std::int64_t>(this->Parts.size());
+        this->Parts.push_back({ owners[pixel], 0, false });
+      }
+      else
+      {
+        part = this->PartOf(part);
+      }
+      this->Parts[static_cast<std::size_t>(part)].Mass += masses[pixel];
+    });
+  }
+
+  // Specks have at most this mass, and are not the heaviest part of their group. Returns whether
+  // there are any.
+  bool FindSpecks(std::int64_t groups, std::int64_t mostMass)
+  {
+    std::vector<const PartOfGroup*> heaviest(static_cast<std::size_t>(groups), nullptr);
+    for (const PartOfGroup& part : this->Parts)
+    {
+      const PartOfGroup*& best = heaviest[static_cast<std::size_t>(part.Owner)];
+      best = best && best->Mass >= part.Mass ? best : &part;
+    }
+    bool isAny = false;
+    for (PartOfGroup& part : this->Parts)
+    {
+      part.IsSpeck =
+        part.Mass <= mostMass && heaviest[static_cast<std::size_t>(part.Owner)] != &part;
+      isAny = isAny || part.IsSpeck;
+    }
+    return isAny;
+  }
+
+  // Gives specks to groups beside them, not to other specks. Returns how many.
+  std::int64_t Join()
+  {
+    using Face = std::pair<std::int64_t, std::int64_t>; // a speck, and the group beside it
+    std::vector<Face> faces;
+    const auto add = [&](std::int64_t speck, std::int64_t other) {
+      const PartOfGroup& beside = this->Parts[static_cast<std::size_t>(other)];
+      if (this->Parts[static_cast<std::size_t>(speck)].IsSpeck && !beside.IsSpeck)
+      {
+        faces.emplace_back(speck, beside.Owner);
+      }
+    };
+    this->VisitPixels([&](std::int64_t pixel) {
+      this->VisitPixelsBefore(pixel, [&](std::int64_t before) {
+        if (this->PartOf(pixel) != this->PartOf(before))
+        {
+          add(this->PartOf(pixel), this->PartOf(before));
+          add(this->PartOf(before), this->PartOf(pixel));
+        }
+      });
+    });
+    std::sort(faces.begin(), faces.end());
+    std::int64_t joined = 0;
+    for (auto face = faces.begin(); face != faces.end(); ++joined)
+    {
+      const std::int64_t speck = face->first;
+      for (std::ptrdiff_t most = 0; face != faces.end() && face->first == speck;)
+      {
+        const auto end = std::upper_bound(face, faces.end(), *face);
+        if (end - face > most)
+        {
+          most = end - face;
+          this->Parts[static_cast<std::size_t>(speck)].Owner = face->second;
+        }
+        face = end;
+      }
+    }
+    this->VisitPixels([this](std::int64_t pixel) {
+      this->Owners[pixel] = this->Parts[static_cast<std::size_t>(this->PartOf(pixel))].Owner;
+    });
+    return joined;
+  }
+
+private:
+  struct PartOfGroup
+  {
+    std::int64_t Owner;
+    std::int64_t Mass;
+    bool IsSpeck;
+  };
+
+  template <class Visit>
+  void VisitPixels(const Visit& visit)
+  {
+    constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
+    this->Work.ForInOrder(this->Pixels, grain, [&visit](std::int64_t first, std::int64_t last) {
+      for (std::int64_t pixel = first; pixel < last; ++pixel)
+      {
+        visit(pixel);
+      }
+    });
+  }
+
+  // Calls visit(before) for the pixel before this one along each axis.
+  template <class Visit>
+  void VisitPixelsBefore(std::int64_t pixel, const Visit& visit) const
+  {
+    std::int64_t rest = pixel;
+    std::int64_t stride = 1;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      if (rest % this->Size[axis] > 0)
+      {
+        visit(pixel - stride);
+      }
+      rest /= this->Size[axis];
+      stride *= this->Size[axis];
+    }
+  }
+
+  std::int64_t& PartOf(std::int64_t pixel) { return this->Part.data()[pixel]; }
+
+  // Parts are trees until all are found.
+  std::int64_t RootOf(std::int64_t pixel)
+  {
+    while (this->PartOf(pixel) != pixel)
+    {
+      this->PartOf(pixel) = this->PartOf(this->PartOf(pixel));
+      pixel = this->PartOf(pixel);
+    }
+    return pixel;
+  }
+
+  void Connect(std::int64_t pixel)
+  {
+    this->PartOf(pixel) = pixel;
+    this->VisitPixelsBefore(pixel, [&](std::int64_t before) {
+      if (this->Owners[before] == this->Owners[pixel])
+      {
+        const auto [first, second] = std::minmax({ this->RootOf(before), this->RootOf(pixel) });
+        this->PartOf(second) = first;
+      }
+    });
+  }
+
+  const std::int64_t Pixels;
+  const GridSize<Dimension> Size;
+  std::int64_t* Owners;
+  Progress& Work;
+  LargeBuffer<std::int64_t> Part; // of each pixel
+  std::vector<PartOfGroup> Parts;
+};
+
+} // namespace
+
+template <int Dimension>
+std::int64_t joinSpecks(const SiteGroups& groups, const PixelMasses<Dimension>& masses,
+  std::int64_t* owners, Progress& progress)
+{
+  constexpr std::int64_t tenth = 10;
+  CellParts<Dimension> parts(masses, owners, progress);
+  return parts.FindSpecks(groups.NumberOfGroups(), masses.Total() / tenth / groups.NumberOfSites())
+    ? parts.Join()
+    : 0;
+}
+
+template std::int64_t joinSpecks<2>(
+  const SiteGroups&, const PixelMasses<2>&, std::int64_t*, Progress&);
+template std::int64_t joinSpecks<3>(
+  const SiteGroups&, const PixelMasses<3>&, std::int64_t*, Progress&);
+
+} // namespace RectifiedTransport
