@@ -14,6 +14,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 TINTS = np.array([(28, 74, 110), (110, 46, 66), (34, 94, 76), (112, 84, 36), (74, 54, 112),
                   (46, 88, 34), (104, 56, 30), (30, 92, 104)])
 LIGHT = np.array([255, 238, 190])
+SEA = np.array([13, 15, 23])
 BORDER = [0.05, 0.06, 0.09]
 SITE = [1.0, 0.42, 0.32]
 
@@ -31,7 +32,7 @@ def tints_of(labels, count):
     """The number of a tint for each territory: neighbours differ while there are tints enough."""
     pairs = np.concatenate([np.c_[labels[:, 1:].ravel(), labels[:, :-1].ravel()],
                             np.c_[labels[1:].ravel(), labels[:-1].ravel()]])
-    pairs = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
+    pairs = np.unique(pairs[(pairs[:, 0] != pairs[:, 1]) & (pairs.min(axis=1) >= 0)], axis=0)
     neighbours = [set() for _ in range(count)]
     for one, other in pairs:
         neighbours[one].add(other)
@@ -55,7 +56,8 @@ def picture_of(cells, density, count):
     light = figures.values_of(figures.resized(density, columns, rows)).astype(float)
     light = (light / max(light.max(), 1)).clip(0, 1).reshape(rows, columns, -1).mean(axis=2)
     light = light[..., None] ** 0.6
-    colours = TINTS[tints_of(sites, count)][sites] * (1 - light) + LIGHT * light
+    tints = np.vstack([TINTS[tints_of(sites, count)], SEA])  # of -1: no territory
+    colours = tints[sites] * (1 - light) + LIGHT * light
     drawn = labels.NewInstance()
     drawn.CopyStructure(labels)
     array = numpy_to_vtk(colours.reshape(-1, 3).round().astype(np.uint8), deep=1)
@@ -93,8 +95,8 @@ def row(shape, cells, count):
     example.result(cells)
     data = cells.GetClientSideObject().GetOutputDataObject(1)
     masses = vtk_to_numpy(data.GetPointData().GetArray("CellMass"))
-    sizes = np.bincount(vtk_to_numpy(example.result(cells).GetCellData().GetArray("SiteId")),
-                        minlength=count)
+    sites = vtk_to_numpy(example.result(cells).GetCellData().GetArray("SiteId"))
+    sizes = np.bincount(sites[sites >= 0], minlength=count)
     cost = data.GetFieldData().GetArray("TransportCost").GetValue(0)
     return [shape, "%.2g" % abs(masses / masses.mean() - 1).max(),
             "%d to %d" % (sizes.min(), sizes.max()), "%.4g" % np.sqrt(cost)]

@@ -10,7 +10,6 @@
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkPVDataSetAttributesInformation.h"
-#include "vtkSMArrayListDomain.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 
@@ -20,6 +19,10 @@ vtkStandardNewMacro(vtkSMDensityArrayDomain);
 
 namespace
 {
+
+// Of SetInputArrayToProcess.
+constexpr unsigned int elements = 5;
+constexpr unsigned int nameElement = 4;
 
 struct Choice
 {
@@ -73,24 +76,49 @@ Choice choose(vtkSMArrayListDomain* list, vtkPVDataInformation* data)
 
 } // namespace
 
+void vtkSMDensityArrayDomain::Update(vtkSMProperty* requestingProperty)
+{
+  this->Superclass::Update(requestingProperty);
+  vtkSMProperty* property = this->GetProperty();
+  vtkSMProperty* input = this->GetRequiredProperty("Input");
+  if (!property || !input || this->GetNumberOfStrings() == 0)
+  {
+    return;
+  }
+  vtkSMPropertyHelper given(input, true);
+  vtkSMPropertyHelper chosen(input, true);
+  chosen.SetUseUnchecked(true);
+  vtkSMPropertyHelper name(property, true);
+  name.SetUseUnchecked(true);
+  unsigned int place = 0;
+  if (chosen.GetAsProxy() != given.GetAsProxy() && name.GetNumberOfElements() == elements &&
+    !this->IsInDomain(name.GetAsString(nameElement), place))
+  {
+    this->SetDefaultValues(property, true);
+  }
+}
+
 int vtkSMDensityArrayDomain::SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues)
 {
-  constexpr unsigned int elements = 5; // of SetInputArrayToProcess
-  auto* list = vtkSMArrayListDomain::SafeDownCast(property->FindDomain("vtkSMArrayListDomain"));
   vtkPVDataInformation* data = this->GetInputDataInformation("Input");
   vtkSMPropertyHelper helper(property);
   helper.SetUseUnchecked(useUncheckedValues);
-  if (!list || !data || list->GetNumberOfStrings() == 0 || helper.GetNumberOfElements() != elements)
+  if (!data || this->GetNumberOfStrings() == 0 || helper.GetNumberOfElements() != elements)
   {
     return 0;
   }
-  const Choice choice = choose(list, data);
+  const Choice choice = choose(this, data);
   if (choice.Association >= 0)
   {
-    helper.Set(3, std::to_string(choice.Association).c_str());
+    helper.Set(nameElement - 1, std::to_string(choice.Association).c_str());
   }
-  helper.Set(4, choice.Name.c_str()); // none where all are ids or flags
+  helper.Set(nameElement, choice.Name.c_str()); // none where all are ids or flags
   return 1;
+}
+
+bool vtkSMDensityArrayDomain::IsFilteredArray(vtkPVDataInformation*, int, const char* name)
+{
+  return name && std::string(name) == vtkDataSetAttributes::GhostArrayName();
 }
 
 namespace

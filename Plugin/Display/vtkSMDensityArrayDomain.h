@@ -1,31 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSMDensityArrayDomain
- * @brief   which array of an input is its density at first
+ * @brief   which arrays of an input may be its density, and which one is at first
  *
- * A domain beside a vtkSMArrayListDomain, the XML element DensityArrayDomain. It takes the active
- * scalars of the points, else of the cells, else the first array that all blocks have, else the
- * first one, but never ids or flags, such as GlobalNodeId or vtkGhostType. All arrays stay on the
- * list.
+ * The list of an input's arrays, in XML the element DensityArrayDomain, without the ghost flags. At
+ * first it takes the active scalars of the points, else of the cells, else the first array that all
+ * blocks have, else the first one, but never ids or flags, such as GlobalNodeId.
  *
- * ParaView asks the domains of a property for its default in the order of their names: this one
- * needs a name before that of the list. Its required property is the Input.
+ * Where the panel changes the input, as the Domain of Equal-Mass Cells, it takes the first array of
+ * the new input if that has not the chosen one.
  */
 #ifndef vtkSMDensityArrayDomain_h
 #define vtkSMDensityArrayDomain_h
 
-#include "vtkSMDomain.h"
+#include "vtkSMArrayListDomain.h"
 
-class vtkPVDataInformation;
-class vtkSMArrayListDomain;
-
-class vtkSMDensityArrayDomain : public vtkSMDomain
+class vtkSMDensityArrayDomain : public vtkSMArrayListDomain
 {
 public:
   static vtkSMDensityArrayDomain* New();
-  vtkTypeMacro(vtkSMDensityArrayDomain, vtkSMDomain);
+  vtkTypeMacro(vtkSMDensityArrayDomain, vtkSMArrayListDomain);
 
-  int IsInDomain(vtkSMProperty*) override { return NOT_APPLICABLE; }
+  void Update(vtkSMProperty* requestingProperty) override;
 
   /**
    * Sets the association and the name, elements 3 and 4 of the property; no name where there are
@@ -36,6 +32,9 @@ public:
 protected:
   vtkSMDensityArrayDomain() = default;
   ~vtkSMDensityArrayDomain() override = default;
+
+  bool IsFilteredArray(
+    vtkPVDataInformation* information, int association, const char* name) override;
 
 private:
   vtkSMDensityArrayDomain(const vtkSMDensityArrayDomain&) = delete;

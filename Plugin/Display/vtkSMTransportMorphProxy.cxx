@@ -124,6 +124,7 @@ void vtkSMTransportMorphProxy::SetIgnored(const std::set<vtkSMProxy*>& sources)
 namespace
 {
 
-const bool isRegistered = RectifiedTransport::registerClass<vtkSMTransportMorphProxy>("vtkSMTransportMorphProxy");
+const bool isRegistered =
+  RectifiedTransport::registerClass<vtkSMTransportMorphProxy>("vtkSMTransportMorphProxy");
 
 } // namespace

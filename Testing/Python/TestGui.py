@@ -264,6 +264,19 @@ class Gui(unittest.TestCase):
                  if element.get("value") == cells}
         self.assertEqual(shown, {"0", "2"})
 
+    def test_cells_of_a_density(self):
+        """The array is filled in as soon as there is a domain, before Apply."""
+        array = PANEL + "DensityArray/ComboBox"
+        saved = self.state_after("gui-cells-of-a-density.png", choose("Sources", "UniformSeedSource"), APPLY,
+                                 choose("Filters", "EqualMassCells"), (array, "is currentText", ""),
+                                 (PANEL + "Domain/1QComboBox0", "set_string", "Photograph"),
+                                 (PANEL + "Measure/ComboBox", "set_string", "Density"),
+                                 (array, "is currentText", "PNGImage"), APPLY)
+        cells = next(proxy for proxy in saved.iter("Proxy") if proxy.get("type") == "EqualMassCells")
+        chosen = next(prop for prop in cells.iter("Property") if prop.get("name") == "DensityArray")
+        self.assertEqual([e.get("value") for e in chosen.findall("Element")],
+                         ["", "1", "0", "0", "PNGImage"])
+
     def test_map_of_a_surface(self):
         """A checkerboard on the surface; the square is there, too, but is not shown."""
         saved = self.state_after("gui-map.png", choose("Filters", "AreaPreservingParameterization"),

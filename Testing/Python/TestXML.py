@@ -223,7 +223,8 @@ class XML(unittest.TestCase):
         """An array is chosen from the input that it is read of."""
         for case, proxy, prop in self.each_property():
             with case:
-                listed = prop.element.find("ArrayListDomain")
+                listed = next((prop.element.find(name) for name in ("ArrayListDomain", "DensityArrayDomain")
+                               if prop.element.find(name) is not None), None)
                 if listed is None:
                     continue
                 self.assertEqual(prop.command, "SetInputArrayToProcess")
