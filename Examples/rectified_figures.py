@@ -52,14 +52,19 @@ def polydata(points):
     return data
 
 
+def cells(sizes, first=0):
+    """Cells of so many points each, one after the other."""
+    made = vtkCellArray()
+    for size in sizes:
+        made.InsertNextCell(size, range(first, first + size))
+        first += size
+    return made
+
+
 def shape(points, sizes, kind="Lines"):
     """Lines, polygons or vertices through points, so many points each."""
     data = polydata(points)
-    cells, first = vtkCellArray(), 0
-    for size in sizes:
-        cells.InsertNextCell(size, range(first, first + size))
-        first += size
-    getattr(data, "Set" + kind)(cells)
+    getattr(data, "Set" + kind)(cells(sizes))
     return data
 
 

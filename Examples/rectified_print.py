@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Discs in pictures and on pages of a size in millimetres: SVG with a circle for each, and PDF."""
+"""Discs in pictures and on pages of a size in millimetres, SVG and PDF."""
+import argparse
+import os
 import sys
 from dataclasses import dataclass
 
@@ -9,7 +11,6 @@ import rectified_figures as figures
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk
 
-MILLIMETRE = 72 / 25.4  # points of PDF
 LARGEST = 5080  # millimetres, 14400 points: what readers of PDF take
 
 
@@ -25,59 +26,53 @@ class Discs:
         return np.pi * (self.radii ** 2).sum()
 
 
-def write_svg(path, discs, width=None):
-    """Writes discs as circles, with three decimals; the page's width is in millimetres, or left to
-    who shows it."""
-    across, up = discs.size
-    page = "" if width is None else 'width="%gmm" height="%gmm" ' % (width, width * up / across)
-    fills = [""] * len(discs.points) if discs.colours is None else [
-        ' fill="#%02x%02x%02x"' % tuple(colour) for colour in discs.colours.tolist()]
-    with open(path, "w", encoding="utf-8") as file:
-        file.write('<svg xmlns="http://www.w3.org/2000/svg" %sviewBox="0 0 %g %g">\n'
-                   '<rect width="100%%" height="100%%" fill="white"/>\n' % (page, across, up))
-        for (x, y), radius, fill in zip(discs.points, discs.radii, fills):
-            file.write('<circle cx="%.3f" cy="%.3f" r="%.3f"%s/>\n' % (x, up - y, radius, fill))
-        file.write("</svg>\n")
+def width(text):
+    """An argument of a parser that is the width of a page."""
+    number = float(text)
+    if not 0 < number <= LARGEST:
+        raise argparse.ArgumentTypeError("%s is not more than 0 and at most %d mm" % (text, LARGEST))
+    return number
 
 
-def write_pdf(path, discs, width, title):
-    """Writes discs on a page of a width in millimetres. One outline serves all: a disc takes tens
-    of bytes. Black is grey of the value 0, which is printed with black ink alone."""
-    try:
-        from reportlab.pdfgen.canvas import Canvas  # only who writes PDF needs it
-    except ImportError:
-        sys.exit("PDF is written with reportlab, which is missing: apt install python3-reportlab")
-    scale = width * MILLIMETRE / discs.size[0]
-    canvas = Canvas(path, [scale * side for side in discs.size], pageCompression=1, invariant=1)
-    canvas.setTitle(title)
-    canvas.beginForm("disc", -1, -1, 1, 1)
-    canvas.circle(0, 0, 1, stroke=0, fill=1)
-    canvas.endForm()
-    canvas.setFillGray(0)
-    points = (scale * discs.points).round(3).tolist()
-    radii = (scale * discs.radii).round(4).tolist()
-    colours = None if discs.colours is None else (discs.colours / 255).round(4).tolist()
-    for i, ((x, y), radius) in enumerate(zip(points, radii)):
-        canvas.saveState()
-        if colours:
-            canvas.setFillColorRGB(*colours[i])
-        canvas.transform(radius, 0, 0, radius, x, y)
-        canvas.doForm("disc")
-        canvas.restoreState()
-    canvas.save()
+WIDTH = dict(type=width, default=200, help="of the page, in mm (default: %(default)s)")
+
+
+def drawing(discs):
+    """A white page under vertices, with the arrays Radius and Colour."""
+    right, top = discs.size
+    corners = [[0, 0], [right, 0], [right, top], [0, top]]
+    data = figures.polydata(np.concatenate([corners, discs.points]))
+    count = len(discs.points)
+    data.SetPolys(figures.cells([4]))
+    data.SetVerts(figures.cells([1] * count, first=4))
+    colours = np.zeros((count, 3), np.uint8) if discs.colours is None else discs.colours
+    for name, values in (("Radius", np.concatenate([np.zeros(4), discs.radii])),
+                         ("Colour", np.concatenate([np.full((4, 3), 255, np.uint8), colours]))):
+        array = numpy_to_vtk(values, deep=1)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+    return data
+
+
+def write(path, discs, millimetres):
+    """Writes discs as SVG or PDF, by the path's ending. The page is so wide; what lies beyond it is
+    cut off."""
+    if os.path.isfile(path):
+        os.remove(path)
+    source = example.producer(drawing(discs))
+    simple.SaveData(path, proxy=source, Width=millimetres,
+                    PageBounds=[0, discs.size[0], 0, discs.size[1], 0, 0],
+                    RadiusArray=["POINTS", "Radius"], ColorArray=["POINTS", "Colour"])
+    simple.Delete(source)
+    if not os.path.isfile(path):
+        sys.exit(1)  # the writer has said why
 
 
 def pictures(discs, pixels, enlarged=(1,)):
     """Pages as ParaView draws them, so many pixels wide: the middle, enlarged by factors."""
     width, height = discs.size
-    data = figures.shape(discs.points, [1] * len(discs.points), "Verts")
-    colours = np.zeros((len(discs.points), 3), np.uint8) if discs.colours is None else discs.colours
-    for name, values in ("Radius", discs.radii), ("Colour", colours):
-        array = numpy_to_vtk(values, deep=1)
-        array.SetName(name)
-        data.GetPointData().AddArray(array)
     view = example.picture_view([pixels, max(1, round(pixels * height / width))], [1, 1, 1])
-    source = example.producer(data)
+    source = example.producer(drawing(discs))
     shown = simple.Show(source, view, "GeometryRepresentation")
     shown.SetRepresentationType("Point Gaussian")
     shown.ShaderPreset = "Plain circle"

@@ -20,6 +20,7 @@
 #include "vtkPolyData.h"
 #include "vtkScalarsToColors.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,7 @@ vtkTransportVectorWriter::vtkTransportVectorWriter()
   : FileName(nullptr)
   , Width(100.0)
   , PageMargin(0.0)
+  , PageBounds{}
   , PointRadius(0.0)
   , LineWidth(0.25)
   , LookupTable(nullptr)
@@ -94,8 +96,9 @@ int vtkTransportVectorWriter::RequestData(
   {
     throw Failure("FileName is empty; it must be the file to write");
   }
-  const TransportVectorWriter writer{ this->Width, this->PageMargin, this->PointRadius,
+  TransportVectorWriter writer{ this->Width, this->PageMargin, {}, this->PointRadius,
     this->LineWidth, this->LookupTable };
+  std::copy_n(this->PageBounds, writer.PageBounds.size(), writer.PageBounds.begin());
   writer.Check();
   AlgorithmProgress progress(this, this->Threading);
 
@@ -134,6 +137,12 @@ void vtkTransportVectorWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
   os << indent << "Width: " << this->Width << "\n";
   os << indent << "PageMargin: " << this->PageMargin << "\n";
+  os << indent << "PageBounds:";
+  for (const double bound : this->PageBounds)
+  {
+    os << " " << bound;
+  }
+  os << "\n";
   os << indent << "PointRadius: " << this->PointRadius << "\n";
   os << indent << "LineWidth: " << this->LineWidth << "\n";
   os << indent << "LookupTable: " << (this->LookupTable ? "set" : "(none)") << "\n";

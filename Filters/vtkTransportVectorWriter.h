@@ -17,8 +17,9 @@
  * RadiusArray: one component a point, in units of the data. Data sets of a composite that lack an
  * array are drawn as without it.
  *
- * The whole drawing fits on the page, the discs' radii and half of the LineWidth included. Points
- * and cells that the ghost array marks as duplicate or hidden are not drawn.
+ * The whole drawing fits on the page, the discs' radii and half of the LineWidth included, unless
+ * PageBounds are set: then these are what the page shows, and the rest is cut off. Points and cells
+ * that the ghost array marks as duplicate or hidden are not drawn.
  *
  * The file appears under its name when it is complete: after an error or an abort, an earlier file
  * of this name is unchanged. An input without points is an error.
@@ -79,6 +80,17 @@ public:
 
   ///@{
   /**
+   * What the page shows inside of PageMargin, in units of the data: xmin, xmax, ymin, ymax, zmin,
+   * zmax, finite and in ascending order, in the plane of the two longest axes. What lies outside is
+   * cut off. Pages with the same PageBounds and Width are equal in size and scale. Default 0 0 0
+   * 0 0 0: the bounds of what is drawn.
+   */
+  vtkSetVector6Macro(PageBounds, double);
+  vtkGetVector6Macro(PageBounds, double);
+  ///@}
+
+  ///@{
+  /**
    * The radius of all discs, in units of the data, 0 or more. Default 0: from the spacing, half the
    * distance of nearest neighbours where points are dense, so that discs touch there. Not used with
    * a RadiusArray.
@@ -126,6 +138,7 @@ protected:
   char* FileName;
   double Width;
   double PageMargin;
+  double PageBounds[6];
   double PointRadius;
   double LineWidth;
   vtkScalarsToColors* LookupTable;

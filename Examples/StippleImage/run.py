@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws a photograph with dots, as a PNG and as an SVG."""
+"""Draws a photograph with dots, as a PNG and as an SVG of a width in millimetres."""
 import math
 import os
 import sys
@@ -42,7 +42,7 @@ def main():
     arguments = example.parser(
         __doc__, image=example.file(),
         particles=example.number(40000, "number of dots"),
-        pixels=example.number(2048, "longest side of the PNG")).parse_args()
+        pixels=example.number(2048, "longest side of the PNG"), width=pages.WIDTH).parse_args()
 
     example.load_plugin()
     image = example.open_image(arguments.image)
@@ -52,8 +52,8 @@ def main():
     path = example.output(arguments, "stipple-" + example.stem(arguments.image))
     points = vtk_to_numpy(example.fetch(dots).GetPoints().GetData())
     x0, x1, y0, y1 = bounds
-    pages.write_svg(path + ".svg", pages.Discs((x1 - x0, y1 - y0), points[:, :2] - [x0, y0],
-                                               np.full(len(points), radius)))
+    pages.write(path + ".svg", pages.Discs((x1 - x0, y1 - y0), points[:, :2] - [x0, y0],
+                                           np.full(len(points), radius)), arguments.width)
     write_png(path + ".png", dots, bounds, radius, arguments.pixels)
     print("%d dots of radius %.2f pixels: %s.png, %s.svg" % (len(points), radius, path, path))
 

@@ -43,7 +43,7 @@ def dots(colours, style, number, exponent):
 def main():
     parser = example.parser(
         __doc__, image=example.file(), particles=example.number(40000, "number of dots"),
-        width=dict(type=float, default=200, help="of the page, in mm (default: %(default)s)"),
+        width=pages.WIDTH,
         styles=dict(nargs="+", choices=STYLES, default=STYLES, metavar="STYLE",
                     help="of dots: " + ", ".join(STYLES) + " (default: all of them)"),
         exponent=dict(type=float, default=0.5,
@@ -51,9 +51,6 @@ def main():
                            "equal (default: %(default)s)"),
         panel=480)
     arguments = parser.parse_args()
-    if not 0 < arguments.width <= pages.LARGEST:
-        parser.error("--width is %g; it must be more than 0 and at most %d mm"
-                     % (arguments.width, pages.LARGEST))
     if not 0 < arguments.exponent <= 1:
         parser.error("--exponent is %g; it must be more than 0 and at most 1" % arguments.exponent)
 
@@ -64,8 +61,8 @@ def main():
     for style in arguments.styles:
         discs, ink = dots(colours, style, arguments.particles, arguments.exponent)
         path = example.output(arguments, name + "-" + style)
-        pages.write_svg(path + ".svg", discs, arguments.width)
-        pages.write_pdf(path + ".pdf", discs, arguments.width, os.path.basename(path))
+        for ending in ".svg", ".pdf":
+            pages.write(path + ending, discs, arguments.width)
         panels.append(pages.pictures(discs, arguments.panel, [1, DETAIL]))
         unit = arguments.width / discs.size[0]
         rows.append([style, "%d" % len(discs.points),

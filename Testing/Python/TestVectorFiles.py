@@ -123,6 +123,19 @@ class VectorFiles(unittest.TestCase):
                 self.assertAlmostEqual(dark[500].sum(), 200, delta=4)  # twice 10 mm
                 self.assertTrue(dark[500, :98].all() and not dark[500, 102:898].any())
 
+    @unittest.skipUnless(HAVE_READERS, "needs librsvg2-bin and poppler-utils")
+    def test_page_bounds(self):
+        """Half of a square in a frame: a page of this size, its margin empty, the rest cut off."""
+        plane = simple.PointDatatoCellData(simple.Elevation(simple.Plane()))
+        for extension in DRAW:
+            with self.subTest(extension):
+                drawn = self.drawn(plane, extension, PageMargin=10, PageBounds=[0, 1, -1, 1, 0, 0],
+                                   ColorArray=["CELLS", "Elevation"])
+                self.assertLess(np.abs(np.array(drawn.shape[:2]) - [1800, 1000]).max(), 2)
+                rows, columns = np.nonzero((drawn < 250).any(axis=2))
+                found = [columns.min(), columns.max(), rows.min(), rows.max()]
+                self.assertLess(np.abs(np.array(found) - [100, 500, 500, 1300]).max(), 4, found)
+
     def test_view(self):
         """At first a file is as the active view shows the data: colours, and the radius of plain circles."""
         sampler = simple.SampleDensity(photograph(), NumberOfParticles=500)

@@ -30,6 +30,14 @@ struct Colour
 using PagePoint = Point<2>;
 using PagePath = std::vector<PagePoint>;
 
+// In millimetres.
+struct DrawingPage
+{
+  PagePoint Size;
+  double ClippedMargin; // on all four sides, where nothing is visible
+  double StrokeWidth;   // of all strokes
+};
+
 // Call Begin first and End last. What is drawn later lies on top. Everything throws Failure if the
 // file cannot be written.
 class Drawing
@@ -40,8 +48,7 @@ public:
   // The longest side of a page that the format holds, in millimetres.
   virtual double LongestSide() const = 0;
 
-  // The size of the page, and the width of all strokes, in millimetres.
-  virtual void Begin(const PagePoint& size, double strokeWidth) = 0;
+  virtual void Begin(const DrawingPage& page) = 0;
   virtual void FillDisc(const PagePoint& centre, double radius, Colour colour) = 0;
   virtual void FillPolygon(const PagePath& corners, Colour colour) = 0;
   // A path with round ends and corners; a closed one returns to its first point.

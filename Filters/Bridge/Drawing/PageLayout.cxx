@@ -47,7 +47,7 @@ std::array<std::size_t, 2> DrawnBounds::LongestAxes() const
 PageLayout::PageLayout(
   const std::array<std::size_t, 2>& axes, const DrawnBounds& bounds, PageSize page)
   : Axes(axes)
-  , Origin{ bounds.From(axes[0]), bounds.From(axes[1]) }
+  , Origin{ bounds.LowerCorner()[axes[0]], bounds.LowerCorner()[axes[1]] }
   , Margins{ page.Margin, page.Margin }
 {
   constexpr double rounding = 1e-9;       // of lengths

@@ -21,7 +21,8 @@ public:
   void Include(const DrawnBounds& other, double radius);
 
   bool IsEmpty() const { return this->Lower[0] > this->Upper[0]; }
-  double From(std::size_t axis) const { return this->Lower[axis]; }
+  const double* LowerCorner() const { return this->Lower.data(); }
+  const double* UpperCorner() const { return this->Upper.data(); }
   double Length(std::size_t axis) const { return this->Upper[axis] - this->Lower[axis]; }
   // All but the axis of the least length; of equal lengths the last.
   std::array<std::size_t, 2> LongestAxes() const;
@@ -38,8 +39,8 @@ struct PageSize
   double Margin; // on all four sides
 };
 
-// The first axis points to the right, the second up. What is drawn fills the width but for the
-// margins. If all of it lies on one vertical line, its length does instead.
+// The first axis points to the right, the second up. The bounds fill the width but for the margins.
+// If all of them lie on one vertical line, its length does instead.
 class PageLayout
 {
 public:

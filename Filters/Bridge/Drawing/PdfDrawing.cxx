@@ -59,16 +59,23 @@ std::string opacityName(std::size_t opacity)
 
 } // namespace
 
-void PdfDrawing::Begin(const PagePoint& size, double strokeWidth)
+void PdfDrawing::Begin(const DrawingPage& page)
 {
-  this->Size = size;
+  this->Size = page.Size;
   this->File.Write("%PDF-1.4\n%\xE2\xE3\xCF\xD3\n"); // the second line marks a binary file
   this->Disc = this->NewObject();
   this->WriteStream(
     this->Disc, "/Type /XObject /Subtype /Form /BBox [-1 -1 1 1] /Resources << >>", unitDisc());
   append(this->Text, { PointsPerMillimetre, 0, 0, PointsPerMillimetre, 0, 0 }, "cm",
     6); // from millimetres to points
-  append(this->Text, { strokeWidth }, "w 1 J 1 j", Decimals);
+  append(this->Text, { page.StrokeWidth }, "w 1 J 1 j", Decimals);
+  if (page.ClippedMargin > 0.0)
+  {
+    append(this->Text,
+      { page.ClippedMargin, page.ClippedMargin, page.Size[0] - 2.0 * page.ClippedMargin,
+        page.Size[1] - 2.0 * page.ClippedMargin },
+      "re W n", Decimals);
+  }
 }
 
 void PdfDrawing::FillDisc(const PagePoint& centre, double radius, Colour colour)

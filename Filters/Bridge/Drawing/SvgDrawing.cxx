@@ -33,10 +33,11 @@ void appendAttribute(std::string& text, const char* name, double value)
 
 } // namespace
 
-void SvgDrawing::Begin(const PagePoint& size, double strokeWidth)
+void SvgDrawing::Begin(const DrawingPage& page)
 {
+  const PagePoint& size = page.Size;
   this->Height = size[1];
-  this->StrokeWidth = strokeWidth;
+  this->StrokeWidth = page.StrokeWidth;
   std::string& text = this->Text;
   text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
          "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"";
@@ -48,6 +49,21 @@ void SvgDrawing::Begin(const PagePoint& size, double strokeWidth)
   text += ' ';
   appendDecimal(text, size[1], Decimals);
   text += "\">\n";
+  if (page.ClippedMargin > 0.0)
+  {
+    this->BeginClip(page);
+  }
+}
+
+void SvgDrawing::BeginClip(const DrawingPage& page)
+{
+  this->IsClipped = true;
+  this->Text += "<clipPath id=\"inside\"><rect";
+  appendAttribute(this->Text, "x", page.ClippedMargin);
+  appendAttribute(this->Text, "y", page.ClippedMargin);
+  appendAttribute(this->Text, "width", page.Size[0] - 2.0 * page.ClippedMargin);
+  appendAttribute(this->Text, "height", page.Size[1] - 2.0 * page.ClippedMargin);
+  this->Text += "/></clipPath>\n<g clip-path=\"url(#inside)\">\n";
 }
 
 void SvgDrawing::FillDisc(const PagePoint& centre, double radius, Colour colour)
@@ -85,7 +101,7 @@ void SvgDrawing::Stroke(const PagePath& path, bool isClosed, Colour colour)
 void SvgDrawing::End()
 {
   this->EnterGroup(Group::None);
-  this->Text += "</svg>\n";
+  this->Text += this->IsClipped ? "</g>\n</svg>\n" : "</svg>\n";
   this->File.Write(this->Text);
 }
 

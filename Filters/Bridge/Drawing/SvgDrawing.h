@@ -22,7 +22,7 @@ public:
   }
 
   double LongestSide() const override { return 1e6; }
-  void Begin(const PagePoint& size, double strokeWidth) override;
+  void Begin(const DrawingPage& page) override;
   void FillDisc(const PagePoint& centre, double radius, Colour colour) override;
   void FillPolygon(const PagePath& corners, Colour colour) override;
   void Stroke(const PagePath& path, bool isClosed, Colour colour) override;
@@ -39,12 +39,14 @@ private:
   // What differs from the group's opaque black.
   void AppendColour(const std::string& paint, Colour colour);
   void AppendPoints(const PagePath& points);
+  void BeginClip(const DrawingPage& page);
   void Flush();
 
   OutputFile& File;
   std::string Text;
   double Height = 0.0;
   double StrokeWidth = 0.0;
+  bool IsClipped = false;
   Group Open = Group::None;
 };
 

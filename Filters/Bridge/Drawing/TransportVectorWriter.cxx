@@ -158,6 +158,68 @@ double radiusWithoutNeighbours(const DrawnBounds& points)
   return longest > 0.0 ? share * longest : 1.0;
 }
 
+using PageBounds = std::array<double, 6>;
+
+bool isGiven(const PageBounds& bounds)
+{
+  return bounds != PageBounds{};
+}
+
+void requirePageBounds(const PageBounds& bounds)
+{
+  int ascending = 0;
+  int equal = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double length = bounds[2 * axis + 1] - bounds[2 * axis];
+    ascending += length > 0.0 && std::isfinite(length) ? 1 : 0;
+    equal += length == 0.0 ? 1 : 0;
+  }
+  if (isGiven(bounds) && (ascending < 2 || ascending + equal < 3))
+  {
+    fail("PageBounds are ", bounds[0], " ", bounds[1], " ", bounds[2], " ", bounds[3], " ",
+      bounds[4], " ", bounds[5],
+      "; they must be the lowest and highest x, y and z, and longer than 0 along two axes, or all "
+      "0");
+  }
+}
+
+PageLayout layoutInBounds(const TransportVectorWriter& writer, const DrawnBounds& drawn)
+{
+  constexpr double farthest = 1e6; // millimetres, for numbers that all readers take
+  const PageBounds& bounds = writer.PageBounds;
+  DrawnBounds shown;
+  shown.Include(std::array<double, 3>{ bounds[0], bounds[2], bounds[4] }.data());
+  shown.Include(std::array<double, 3>{ bounds[1], bounds[3], bounds[5] }.data());
+  const PageLayout layout(shown.LongestAxes(), shown, { writer.Width, writer.PageMargin });
+  for (const double* corner : { drawn.LowerCorner(), drawn.UpperCorner() })
+  {
+    for (const double distance : layout.At(corner))
+    {
+      if (!(std::abs(distance) <= farthest))
+      {
+        fail("PageBounds are so small that the input reaches ", std::abs(distance),
+          " mm from the page; it may reach ", farthest, " mm: cut it with Clip or Threshold");
+      }
+    }
+  }
+  return layout;
+}
+
+PageLayout layoutOf(const TransportVectorWriter& writer, const Extent& extent)
+{
+  const bool inBounds = isGiven(writer.PageBounds);
+  const bool fitsStrokes = extent.HasStrokes && !inBounds;
+  const double margin = writer.PageMargin + (fitsStrokes ? 0.5 * writer.LineWidth : 0.0);
+  if (!(2.0 * margin < writer.Width))
+  {
+    fail("Width is ", writer.Width, "; it must be more than ", 2.0 * margin,
+      fitsStrokes ? ", twice PageMargin and the LineWidth" : ", twice PageMargin");
+  }
+  return inBounds ? layoutInBounds(writer, extent.Rest)
+                  : PageLayout(extent.Points.LongestAxes(), extent.Rest, { writer.Width, margin });
+}
+
 class LayerPainter
 {
 public:
@@ -272,6 +334,7 @@ void TransportVectorWriter::Check() const
   require("Width", this->Width, this->Width > 0.0, "more than 0 (millimetres)");
   require("PageMargin", this->PageMargin, this->PageMargin >= 0.0, "0 or more (millimetres)");
   require("LineWidth", this->LineWidth, this->LineWidth > 0.0, "more than 0 (millimetres)");
+  requirePageBounds(this->PageBounds);
   require("PointRadius", this->PointRadius, this->PointRadius >= 0.0,
     "more than 0, or 0 for a radius from the spacing");
 }
@@ -328,14 +391,7 @@ void TransportVectorWriter::Run(
   {
     fail("The input has no points; there is nothing to draw");
   }
-  const double strokeMargin = extent.HasStrokes ? 0.5 * this->LineWidth : 0.0;
-  const double margin = this->PageMargin + strokeMargin;
-  if (!(2.0 * margin < this->Width))
-  {
-    fail("Width is ", this->Width, "; it must be more than ", 2.0 * margin,
-      extent.HasStrokes ? ", twice PageMargin and the LineWidth" : ", twice PageMargin");
-  }
-  const PageLayout layout(extent.Points.LongestAxes(), extent.Rest, { this->Width, margin });
+  const PageLayout layout = layoutOf(*this, extent);
   const double longest = std::max(layout.Size()[0], layout.Size()[1]);
   if (longest > drawing.LongestSide())
   {
@@ -344,7 +400,8 @@ void TransportVectorWriter::Run(
       " mm in this format: Width must be at most ", this->Width * drawing.LongestSide() / longest);
   }
 
-  drawing.Begin(layout.Size(), this->LineWidth);
+  drawing.Begin(
+    { layout.Size(), isGiven(this->PageBounds) ? this->PageMargin : 0.0, this->LineWidth });
   progress.BeginStage(1.0, shapes);
   for (const Layer& layer : layers)
   {

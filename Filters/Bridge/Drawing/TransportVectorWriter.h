@@ -7,6 +7,7 @@
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Progress.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct TransportVectorWriter
 {
   double Width;
   double PageMargin;
+  std::array<double, 6> PageBounds; // all 0: of what is drawn
   double PointRadius;
   double LineWidth;
   vtkScalarsToColors* LookupTable; // nullptr: VTK's colours over the range of the values

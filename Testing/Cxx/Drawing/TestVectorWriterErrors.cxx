@@ -93,6 +93,16 @@ void checkProperties(Checks& checks, vtkTransportVectorWriter* writer)
     test.Expect({ "PointRadius is ", "more than 0, or 0" }, __LINE__);
     writer->SetPointRadius(0);
   }
+  for (const std::array<double, 6>& bad :
+    { std::array<double, 6>{ 0, 1, 0, 1, 1, 0 }, { 0, 1, 2, 2, 3, 3 }, { 5, 5, 5, 5, 5, 5 },
+      { 0, infinity, 0, 1, 0, 1 }, { 0, notANumber, 0, 1, 0, 1 } })
+  {
+    writer->SetPageBounds(bad.data());
+    test.Expect({ "PageBounds are ", "longer than 0 along two axes, or all 0" }, __LINE__);
+  }
+  writer->SetPageBounds(0, 1e-6, 0, 1e-6, 0, 0);
+  test.Expect({ "PageBounds are so small that the input reaches " }, __LINE__);
+  writer->SetPageBounds(0, 0, 0, 0, 0, 0);
   writer->SetPageMargin(50);
   test.Expect({ "Width is 100; it must be more than 100, twice PageMargin" }, __LINE__);
   writer->SetPageMargin(0);

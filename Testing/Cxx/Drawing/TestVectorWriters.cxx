@@ -71,6 +71,35 @@ void checkPage(Checks& checks)
   }
 }
 
+// PageBounds are the page but for its margin, whatever is drawn; what lies outside is cut off.
+void checkPageBounds(Checks& checks)
+{
+  Svg svg(shapes(corners, Cells::Verts));
+  svg.Writer->SetPointRadius(2);
+  svg.Writer->SetPageBounds(10, 30, 5, 20, 0, 0);
+  svg.Writer->SetWidth(40); // 2 mm a unit
+  std::string text = svg.Written(checks, __LINE__);
+  expectParts(checks, text,
+    { "width=\"40mm\" height=\"30mm\"", "<circle cx=\"0\" cy=\"30\" r=\"4\"/>" }, __LINE__);
+  CHECK(checks, !contains(text, "clip"));
+
+  svg.Writer->SetPageMargin(10); // 1 mm a unit
+  text = svg.Written(checks, __LINE__);
+  expectParts(checks, text,
+    { "width=\"40mm\" height=\"35mm\"", "<circle cx=\"10\" cy=\"25\" r=\"2\"/>",
+      "<clipPath id=\"inside\"><rect x=\"10\" y=\"10\" width=\"20\" height=\"15\"/>",
+      "<g clip-path=\"url(#inside)\">" },
+    __LINE__);
+  CHECK(checks, countOf(text, "<g ") == countOf(text, "</g>"));
+
+  // They choose the plane, too; lines do not widen the page.
+  Svg line(shapes(corners, Cells::Line));
+  line.Writer->SetPageBounds(10, 10, 5, 15, 0, 20);
+  line.Writer->SetLineWidth(1);
+  expectParts(checks, line.Written(checks, __LINE__),
+    { "width=\"100mm\" height=\"200mm\"", "points=\"0,130 0,130 100,130 100,130\"" }, __LINE__);
+}
+
 // The shortest axis is not seen; the others keep their order.
 void checkAxes(Checks& checks)
 {
@@ -297,6 +326,7 @@ void checkPdf(Checks& checks)
 
 int TestVectorWriters(int, char*[])
 {
-  return runChecks({ checkPage, checkAxes, checkRadiusFromSpacing, checkRadii, checkColours,
-    checkTable, checkPolygonsAndLines, checkOrder, checkGhosts, checkLocale, checkPdf });
+  return runChecks(
+    { checkPage, checkPageBounds, checkAxes, checkRadiusFromSpacing, checkRadii, checkColours,
+      checkTable, checkPolygonsAndLines, checkOrder, checkGhosts, checkLocale, checkPdf });
 }
