@@ -2,13 +2,13 @@
 #include "Display/FirstDisplay.h"
 
 #include "Display/DotDisplay.h"
+#include "Display/HintElements.h"
 
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkNew.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
-#include "vtkPVXMLElement.h"
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMRepresentationProxy.h"
@@ -22,7 +22,6 @@
 #include <sstream>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace RectifiedTransport
 {
@@ -30,6 +29,7 @@ namespace RectifiedTransport
 namespace
 {
 
+constexpr const char* elementName = "FirstDisplay";
 constexpr const char* qualitativeColours = "Brewer Qualitative Set3";
 
 bool isGiven(vtkPVXMLElement* element, const char* attribute, int& value)
@@ -40,7 +40,7 @@ bool isGiven(vtkPVXMLElement* element, const char* attribute, int& value)
 bool applies(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port)
 {
   int value = 0;
-  if (isGiven(element, "port", value) && value != port)
+  if (!isOfPort(element, port))
   {
     return false;
   }
@@ -55,24 +55,9 @@ bool applies(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port)
     value;
 }
 
-std::vector<vtkPVXMLElement*> elementsOf(vtkSMSourceProxy* producer)
-{
-  std::vector<vtkPVXMLElement*> found;
-  vtkPVXMLElement* hints = producer->GetHints();
-  for (unsigned int i = 0; hints && i < hints->GetNumberOfNestedElements(); ++i)
-  {
-    vtkPVXMLElement* element = hints->GetNestedElement(i);
-    if (element->GetName() && std::string(element->GetName()) == "FirstDisplay")
-    {
-      found.push_back(element);
-    }
-  }
-  return found;
-}
-
 vtkPVXMLElement* elementFor(vtkSMSourceProxy* producer, int port)
 {
-  for (vtkPVXMLElement* element : elementsOf(producer))
+  for (vtkPVXMLElement* element : hintElements(producer, elementName))
   {
     if (applies(element, producer, port))
     {
@@ -84,11 +69,9 @@ vtkPVXMLElement* elementFor(vtkSMSourceProxy* producer, int port)
 
 bool followsProperties(vtkSMSourceProxy* producer, int port)
 {
-  for (vtkPVXMLElement* element : elementsOf(producer))
+  for (vtkPVXMLElement* element : hintElements(producer, elementName))
   {
-    int value = port;
-    isGiven(element, "port", value);
-    if (value == port && element->GetAttribute("property"))
+    if (isOfPort(element, port) && element->GetAttribute("property"))
     {
       return true;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Display/vtkTransportDisplayController.h"
 
+#include "Display/FirstContour.h"
 #include "Display/FirstDisplay.h"
 #include "Display/vtkSMTransportMorphProxy.h"
 
@@ -19,8 +20,7 @@ vtkSMProxy* vtkTransportDisplayController::Show(
 {
   // Without a view the superclass chooses one, and calls this function with it.
   const bool isFirst = producer && view && !view->FindRepresentation(producer, outputPort);
-  vtkSMProxy* shown = vtkSMParaViewPipelineControllerWithRendering::Show(
-    producer, outputPort, view, representationType);
+  vtkSMProxy* shown = Superclass::Show(producer, outputPort, view, representationType);
   if (isFirst && shown)
   {
     RectifiedTransport::applyFirstDisplay(producer, outputPort, shown);
@@ -32,12 +32,24 @@ bool vtkTransportDisplayController::UnRegisterProxy(vtkSMProxy* proxy)
 {
   const vtkSmartPointer<vtkSMTransportMorphProxy> morph =
     vtkSMTransportMorphProxy::SafeDownCast(proxy);
-  const bool isDone = vtkSMParaViewPipelineControllerWithRendering::UnRegisterProxy(proxy);
+  const bool isDone = Superclass::UnRegisterProxy(proxy);
   if (morph)
   {
     morph->RestoreTimes();
   }
   return isDone;
+}
+
+bool vtkTransportDisplayController::PostInitializeProxy(vtkSMProxy* proxy)
+{
+  const bool isContour =
+    proxy && RectifiedTransport::isUnsetContour(proxy, this->GetInitializationTime(proxy));
+  const bool isInitialized = Superclass::PostInitializeProxy(proxy);
+  if (isContour && isInitialized)
+  {
+    RectifiedTransport::applyFirstContour(proxy);
+  }
+  return isInitialized;
 }
 
 namespace
@@ -53,7 +65,7 @@ public:
   const char* GetVTKSourceVersion() override { return VTK_SOURCE_VERSION; }
   const char* GetDescription() override
   {
-    return "How Rectified Transport's outputs look at first";
+    return "How Rectified Transport's outputs look at first, and their contours";
   }
 
 protected:

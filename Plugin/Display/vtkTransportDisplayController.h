@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTransportDisplayController
- * @brief   ParaView's controller, which sets up what a filter's output looks like at first
+ * @brief   ParaView's controller, which sets up how a filter's output is shown and contoured at
+ * first
  *
  * ParaView's own hints support one type of representation for an output, whatever the data, and
  * colour only by the active scalars. This class replaces ParaView's controller in the client's
  * object factory. It shows an output as that one does, then follows the FirstDisplay elements in
- * the hints of the filter's proxy. Proxies without them are shown as before. When a morph is
- * deleted, the times of what it was made of come back.
+ * the hints of the filter's proxy. It initialises a Contour as that one does, then follows the
+ * FirstContour elements. Proxies without them are treated as before. When a morph is deleted, the
+ * times of what it was made of come back.
  *
  * @sa vtkSMParaViewPipelineControllerWithRendering
  */
@@ -22,11 +24,13 @@ public:
   static vtkTransportDisplayController* New();
 
   // No vtkTypeMacro: Python looks the class up by its name, and knows the superclass only.
-  using vtkSMParaViewPipelineControllerWithRendering::Show;
+  using Superclass = vtkSMParaViewPipelineControllerWithRendering;
+  using Superclass::Show;
   vtkSMProxy* Show(vtkSMSourceProxy* producer, int outputPort, vtkSMViewProxy* view,
     const char* representationType) override;
+  bool PostInitializeProxy(vtkSMProxy* proxy) override;
 
-  using vtkSMParaViewPipelineControllerWithRendering::UnRegisterProxy;
+  using Superclass::UnRegisterProxy;
   bool UnRegisterProxy(vtkSMProxy* proxy) override;
 
 protected:

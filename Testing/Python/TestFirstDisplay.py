@@ -288,6 +288,75 @@ class FirstDisplay(unittest.TestCase):
         self.assertIsNotNone(simple.Show(quality, simple.CreateView("SpreadSheetView")))
 
 
+class FirstContour(unittest.TestCase):
+    """The isovalue of a Contour that is made of an output, of data that are there."""
+
+    def isovalues(self, source, **properties):
+        source.UpdatePipeline()
+        return list(simple.Contour(Input=source, **properties).Isosurfaces)
+
+    @staticmethod
+    def box(density=1, **properties):
+        solid = simple.SolidDensity(simple.Box(**properties), Resolution=24)
+        return solid if density == 1 else simple.Calculator(
+            solid, ResultArrayName="Density", Function="%g*Density" % density)
+
+    def middle(self, source):
+        source.UpdatePipeline()
+        return sum(source.PointData["Density"].GetRange()) / 2
+
+    def test_half_of_solids(self):
+        """Not half of what the particles reach."""
+        round_, box = simple.SolidDensity(simple.Sphere(), Resolution=24), self.box()
+        self.assertEqual(self.isovalues(box), [0.5])
+        for blend in (simple.MorphDensities(round_, Target=box),
+                      simple.MorphDensities(round_, Target=box, Parameter=0.1),
+                      simple.DensityBarycenter(Input=[round_, box, box])):
+            self.assertNotAlmostEqual(self.middle(blend), 0.5, places=3)
+            self.assertEqual(self.isovalues(blend), [0.5])
+
+    def test_thin_solid(self):
+        """Half of what is inside, though no cell is full."""
+        thin = self.box(ZLength=0.036)
+        self.assertLess(self.middle(thin), 0.45)
+        self.assertEqual(self.isovalues(thin), [0.5])
+
+    def test_least_of_inputs(self):
+        """The surface is there at every Parameter."""
+        for morph in (simple.MorphDensities(self.box(), Target=self.box(5)),
+                      simple.MorphDensities(self.box(5), Target=self.box())):
+            self.assertEqual(self.isovalues(morph), [0.5])
+
+    def test_what_is_given_holds(self):
+        morph = simple.MorphDensities(self.box(), Target=self.box(2))
+        self.assertEqual(self.isovalues(morph, Isosurfaces=[0.7]), [0.7])
+        morph.MassMode = "Geometric"
+        self.assertEqual(self.isovalues(morph), [0.5])
+        self.assertEqual(self.isovalues(morph, Isosurfaces=[self.middle(morph)]),
+                         [self.middle(morph)])
+        contour = simple.Contour(Input=morph, registrationName="Surface")
+        contour.Isosurfaces = [0.6, 0.8]
+        with tempfile.TemporaryDirectory(dir=OUTPUT) as folder:
+            path = os.path.join(folder, "state.pvsm")
+            simple.SaveState(path)
+            simple.ResetSession()
+            simple.LoadState(path)
+        self.assertEqual(list(simple.FindSource("Surface").Isosurfaces), [0.6, 0.8])
+
+    def test_as_before(self):
+        """Where half has no meaning or is not reached, and of other sources: ParaView's middle."""
+        half = dict(Target=self.box(2), Parameter=0.5)
+        for source in (simple.MorphDensities(self.box(2), InvertDensity=1, **half),
+                       simple.MorphDensities(self.box(), MassMode="Source", **half),
+                       simple.DensityBarycenter(Input=[self.box(100)], MassMode="Normalize"),
+                       self.box(3), simple.SplatMass(simple.Sphere(), Dimensions=[8, 8, 8])):
+            self.assertEqual(self.isovalues(source), [self.middle(source)])
+        wavelet = simple.Wavelet()
+        wavelet.UpdatePipeline()
+        self.assertEqual(self.isovalues(wavelet),
+                         [sum(wavelet.PointData["RTData"].GetRange()) / 2])
+
+
 if __name__ == "__main__":
     need_display()
     main()
