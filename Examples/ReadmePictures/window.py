@@ -32,7 +32,7 @@ def draw(picture, part, home, steps, played=True, colours=64, **options):
         file.write(STYLE)
     rt_window.write_settings(home, SIZE)
     said = rt_window.play(home, steps, options.pop("plugin"), "PNG8:" + picture,
-                          ["-stylesheet", style],
+                          [*rt_window.LOADED, "-stylesheet", style],
                           ["-crop", part, "+repage", "+dither", "-colors", str(colours)], **options)
     if played != ("Success =  true" in said):
         sys.exit(said)

@@ -9,6 +9,7 @@
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSessionProxyManager.h"
+#include "vtkSMSettingsProxy.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewProxy.h"
 #include "vtkSmartPointer.h"
@@ -52,9 +53,27 @@ Rgb colourOf(vtkSMProxy* proxy, const char* property)
   return colour;
 }
 
+constexpr std::array<const char*, 2> colourProperties = { "AmbientColor", "DiffuseColor" };
+
 vtkSMProxy* paletteOf(vtkSMProxy* proxy)
 {
   return proxy->GetSessionProxyManager()->GetProxy("settings", "ColorPalette");
+}
+
+// ParaView links colours to the palette's, which are white. A state that has the links is opened
+// with these colours instead of its own.
+void unlinkColours(vtkSMProxy* representation)
+{
+  auto* palette = vtkSMSettingsProxy::SafeDownCast(paletteOf(representation));
+  for (const char* property : colourProperties)
+  {
+    const char* source =
+      palette ? palette->GetSourcePropertyName(representation, property) : nullptr;
+    if (source)
+    {
+      palette->RemoveLink(std::string(source).c_str(), representation, property);
+    }
+  }
 }
 
 // Black or white, whichever the background is less.
@@ -142,6 +161,7 @@ public:
     if (this->IsFlat && this->View)
     {
       representation->SetScalarColoring(nullptr, vtkDataObject::POINT);
+      unlinkColours(representation);
       this->UseColour();
       this->View->AddObserver(vtkCommand::PropertyModifiedEvent, this);
       if (vtkSMProxy* palette = paletteOf(this->View))
@@ -208,7 +228,7 @@ private:
   void UseColour()
   {
     this->Colour = colourOn(this->View);
-    for (const char* property : { "AmbientColor", "DiffuseColor" })
+    for (const char* property : colourProperties)
     {
       vtkSMPropertyHelper(this->Representation, property).Set(this->Colour.data(), 3);
     }

@@ -107,6 +107,23 @@ class FirstDisplay(unittest.TestCase):
         self.assertEqual(list(shown.DiffuseColor), [1, 0, 0])
         simple.LoadPalette("BlueGrayBackground")
 
+    def test_colours_of_a_state(self):
+        """Black dots on white, as they were when the state was saved under another palette than the first."""
+        simple.LoadPalette("BlueGrayBackground")
+        shown = self.shown(self.photograph(NumberOfParticles=100, registrationName="Dots"))
+        self.assertEqual(list(shown.DiffuseColor), [1] * 3)
+        simple.LoadPalette("WhiteBackground")
+        self.assertEqual(list(shown.DiffuseColor), [0] * 3)
+        with tempfile.TemporaryDirectory(dir=OUTPUT) as folder:
+            path = os.path.join(folder, "state.pvsm")
+            simple.SaveState(path)
+            simple.ResetSession()
+            simple.LoadState(path)
+        self.view = simple.GetViews()[0]
+        shown = simple.GetRepresentation(simple.FindSource("Dots"), self.view)
+        self.assertEqual([*shown.DiffuseColor, *shown.AmbientColor], [0] * 6)
+        simple.LoadPalette("BlueGrayBackground")
+
     def test_radius_follows_the_spacing(self):
         """Half the distance of neighbours, again where there are more particles; not that of a user, and
         not while they move."""

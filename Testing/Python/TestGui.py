@@ -1,26 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""ParaView's own window: all entries are chosen from the menus and applied, pictures are kept."""
+"""ParaView's own window: all entries are chosen from the menus and applied."""
 import os
 import re
 import shutil
-import tempfile
 import unittest
-import xml.etree.ElementTree as ElementTree
 from unittest import mock
 
 from PIL import Image
 from rt_filters import FILTERS, by_label
+from rt_gui import PHOTOGRAPH, GuiTest, numbers, proxies_of, values
 from rt_testing import OUTPUT, SOURCE, main, need_display
-from rt_window import (ADVANCED, APPLY, HELP, HELP_PAGE, PANEL, choose, first_stippling, open_state,
-                       play, tick, write_settings)
+from rt_window import (ADVANCED, APPLY, HELP, HELP_PAGE, LOADED, PANEL, choose, play, tick,
+                       write_settings)
 
+ASCENT = os.path.join(SOURCE, "Testing", "Data", "ascent.png")
 OPEN = """
 from paraview.simple import *
-photograph = PNGSeriesReader(registrationName='Photograph', FileNames=[%r])
+photograph = PNGSeriesReader(registrationName='Photograph', FileNames=['%s'])
 photograph.UpdatePipeline()
 Show(photograph, GetActiveViewOrCreate('RenderView'))
 SetActiveSource(photograph)
-"""
+""" % ASCENT
 
 # A second image for Morph Densities, small enough to be quick.
 OPEN_TWO = OPEN + """
@@ -40,7 +40,6 @@ selected.Select(photograph.SMProxy, 2)
 # Half a sphere, from the side of its pole.
 OPEN_DOME = """
 from paraview.simple import *
-assert %r
 dome = Sphere(registrationName='Dome', EndPhi=90, ThetaResolution=48, PhiResolution=24)
 view = GetActiveViewOrCreate('RenderView')
 view.UseColorPaletteForBackground = 0
@@ -53,7 +52,7 @@ SetActiveSource(dome)
 # Two times of a series of photographs, each forced, which hides that they come of a series.
 OPEN_SERIES = """
 from paraview.simple import *
-photographs = PNGSeriesReader(registrationName='Photographs', FileNames=[%r] * 3,
+photographs = PNGSeriesReader(registrationName='Photographs', FileNames=['%s'] * 3,
                               ReadAsImageStack=0)
 small = ExtractSubset(Input=photographs, VOI=[0, 63, 0, 63, 0, 0])
 first, last = (ForceTime(registrationName=name, Input=small, ForcedTime=time)
@@ -62,7 +61,7 @@ for source in (first, last):
     source.UpdatePipeline()
     Show(source, GetActiveViewOrCreate('RenderView'))
 SetActiveSource(last)
-"""
+""" % ASCENT
 
 PLAY = ("VCRToolbar/1QToolButton3", "activate", "")
 # In the dialog that asks for the second input: the first source, and OK.
@@ -91,65 +90,8 @@ def typed_in_list(*numbers):
                          (editor, "set_string", str(number)), (editor, "key", "16777220"))]
 
 
-class Gui(unittest.TestCase):
-    def setUp(self):
-        self.home = tempfile.mkdtemp(dir=OUTPUT)
-        self.addCleanup(shutil.rmtree, self.home)
-        write_settings(self.home)
-
-    def state_after(self, picture, *steps, script_text=OPEN):
-        """The state that ParaView saves after these steps, begun with a photograph."""
-        script, state = (os.path.join(self.home, name) for name in ("open.py", "state.pvsm"))
-        with open(script, "w", encoding="utf-8") as file:
-            file.write(script_text % os.path.join(SOURCE, "Testing", "Data", "ascent.png"))
-        save = (("menubar/menu_File", "activate", "actionFileSaveServerState"),
-                ("FileSaveServerStateDialog", "filesSelected", state))
-        log = play(self.home, [*steps, *save], os.environ["RT_PLUGIN"],
-                   os.path.join(OUTPUT, picture), ["--script=" + script])
-        self.assertRegex(log, r"Success =\s+true")
-        self.assertNotIn("ERR|", log)
-        self.assertNotIn("pqGenericPropertyWidgetDecorator", log)
-        return ElementTree.parse(state).getroot()
-
-    def test_first_stippling(self):
-        """The README's clicks, on a photograph that ParaView itself opens: at once a picture in dots."""
-        photograph = os.path.join(SOURCE, "Testing", "Data", "raccoon.png")
-        saved = self.state_after("gui-first-stippling.png", *first_stippling(photograph),
-                                 script_text="# %s")
-        found = {proxy.get("type"): proxy for proxy in saved.iter("Proxy") if proxy.get("type")}
-        self.assertIn("PNGSeriesReader", found)
-        inverted = [prop.find("Element").get("value")
-                    for prop in found["TransportSampler"].iter("Property")
-                    if prop.get("name") == "InvertDensity"]
-        self.assertEqual(inverted, ["1"])
-        shown = found["GeometryRepresentation"]
-        values = {prop.get("name"): [e.get("value") for e in prop.findall("Element")]
-                  for prop in shown.iter("Property")}
-        self.assertEqual(values["Representation"], ["Point Gaussian"])
-        self.assertEqual(values["ShaderPreset"], ["3"])  # Plain circle
-        self.assertEqual(values["DiffuseColor"], ["0", "0", "0"])  # the background is white
-        with Image.open(os.path.join(OUTPUT, "gui-first-stippling.png")) as picture:
-            view = picture.convert("L").crop((320, 210, 1130, 710))
-        self.assertEqual(view.getextrema(), (0, 255))
-        dark = sum(view.histogram()[:128]) / (view.width * view.height)
-        self.assertTrue(0.1 < dark < 0.6, dark)
-
-    def test_tutorial(self):
-        """Its states open in the window, with their data and their views."""
-        for name in ("slice", "morph", "compare"):
-            picture = "gui-tutorial-%s.png" % name
-            path = os.path.join(SOURCE, "Examples", "Tutorial", name + ".pvsm")
-            shutil.rmtree(self.home)
-            os.mkdir(self.home)
-            write_settings(self.home)
-            saved = self.state_after(picture, *open_state(path), script_text="# %s")
-            layouts = [proxy for proxy in saved.iter("Proxy") if proxy.get("group") == "misc"
-                       and proxy.get("type") == "ViewLayout"]
-            self.assertEqual(len(list(layouts[0].iter("Item"))), 1)
-            with Image.open(os.path.join(OUTPUT, picture)) as shown:
-                view = shown.convert("L").crop((350, 200, 1400, 950))
-            self.assertEqual(view.getextrema()[1], 255)  # its background is white
-            self.assertGreater(sum(view.histogram()[:200]), 0.02 * view.width * view.height)
+class Gui(GuiTest):
+    script = OPEN
 
     def test_menus(self):
         saved = self.state_after("gui.png", choose("Filters", "TransportSampler"), APPLY,
@@ -174,7 +116,7 @@ class Gui(unittest.TestCase):
                                  choose("Sources", "UniformSeedSource"), APPLY,
                                  choose("Filters", "DensityEqualizingWarp"), *DENSITY, APPLY,
                                  choose("Filters", "TransportQuality"), *DENSITY, APPLY)
-        found = {proxy.get("type"): proxy for proxy in saved.iter("Proxy") if proxy.get("type")}
+        found = proxies_of(saved)
 
         def input_of(kind, name):
             for prop in found[kind].iter("Property"):
@@ -195,24 +137,23 @@ class Gui(unittest.TestCase):
     @unittest.skipUnless(PANEL_WIDGETS, "the plugin is built without its own widgets")
     def test_component(self):
         """A list of the luminance and the components of the array, by name."""
-        script = OPEN.replace("photograph.Update", "photograph.ReadAsImageStack = 0\nphotograph.Update")
+        script = OPEN.replace(ASCENT, PHOTOGRAPH).replace(
+            "photograph.Update", "photograph.ReadAsImageStack = 0\nphotograph.Update")
         component = PANEL + "Component/ComboBox"
         sampler = choose("Filters", "TransportSampler")
         for steps, expected in (((), -1), (((component, "set_string", "Y"),), 1)):
             saved = self.state_after(
                 "gui-component.png", sampler, (component, "is currentText", "Luminance"),
-                (component, "is count", "4"), *steps, APPLY,
-                script_text=script.replace("%r", repr(os.path.join(SOURCE, "Testing", "Data",
-                                                                   "raccoon.png"))) + "# %s")
-            self.assertEqual(self.values(saved, "TransportSampler", "Component"), [expected])
+                (component, "is count", "4"), *steps, APPLY, script_text=script)
+            self.assertEqual(numbers(saved, "TransportSampler", "Component"), [expected])
 
     def window(self, picture, *steps, script_text=OPEN, **options):
         """ParaView's output after steps that save no state."""
-        script = os.path.join(self.home, "open.py")
+        script = self.path("open.py")
         with open(script, "w", encoding="utf-8") as file:
-            file.write(script_text % os.path.join(SOURCE, "Testing", "Data", "ascent.png"))
+            file.write(script_text)
         return play(self.home, steps, os.environ["RT_PLUGIN"], os.path.join(OUTPUT, picture),
-                    ["--script=" + script], **options)
+                    [*LOADED, "--script=" + script], **options)
 
     def test_panel(self):
         """The panel makes its widgets from top to bottom, advanced ones, too; ParaView lists them for
@@ -230,7 +171,7 @@ class Gui(unittest.TestCase):
         \"Input must be vtkPolyData\" and \"Requires an input\"."""
         in_menu = sorted(filter_.label for filter_ in FILTERS if filter_.inputs)
         keys = ["Up", "Right", *["Down"] * in_menu.index("Solid Density")]  # Transport is the last menu
-        for picture, script_text in (("gui-tip.png", OPEN), ("gui-tip-none.png", "# %s")):
+        for picture, script_text in (("gui-tip.png", OPEN), ("gui-tip-none.png", "")):
             with self.subTest(picture):
                 shutil.rmtree(self.home)
                 os.mkdir(self.home)
@@ -257,7 +198,7 @@ class Gui(unittest.TestCase):
         """The domain is optional: nothing is asked. Cells and outlines are shown, not the sites."""
         saved = self.state_after("gui-cells.png", choose("Sources", "UniformSeedSource"), APPLY,
                                  choose("Filters", "EqualMassCells"), APPLY)
-        found = {proxy.get("type"): proxy for proxy in saved.iter("Proxy") if proxy.get("type")}
+        found = proxies_of(saved)
         cells = found["EqualMassCells"].get("id")
         shown = {element.get("output_port") for prop in saved.iter("Property")
                  if prop.get("name") == "Input" for element in prop.findall("Proxy")
@@ -272,23 +213,20 @@ class Gui(unittest.TestCase):
                                  (PANEL + "Domain/1QComboBox0", "set_string", "Photograph"),
                                  (PANEL + "Measure/ComboBox", "set_string", "Density"),
                                  (array, "is currentText", "PNGImage"), APPLY)
-        cells = next(proxy for proxy in saved.iter("Proxy") if proxy.get("type") == "EqualMassCells")
-        chosen = next(prop for prop in cells.iter("Property") if prop.get("name") == "DensityArray")
-        self.assertEqual([e.get("value") for e in chosen.findall("Element")],
+        self.assertEqual(values(proxies_of(saved)["EqualMassCells"], "DensityArray"),
                          ["", "1", "0", "0", "PNGImage"])
 
     def test_map_of_a_surface(self):
         """A checkerboard on the surface; the square is there, too, but is not shown."""
         saved = self.state_after("gui-map.png", choose("Filters", "AreaPreservingParameterization"),
                                  APPLY, script_text=OPEN_DOME)
-        found = {proxy.get("type"): proxy for proxy in saved.iter("Proxy") if proxy.get("type")}
-        mapped = found["AreaPreservingParameterization"].get("id")
+        mapped = proxies_of(saved)["AreaPreservingParameterization"].get("id")
         shown = {}
         for proxy in saved.iter("Proxy"):
-            values = {prop.get("name"): prop for prop in proxy.iter("Property")}
-            source = values["Input"].find("Proxy") if "Representation" in values else None
+            props = {prop.get("name"): prop for prop in proxy.iter("Property")}
+            source = props["Input"].find("Proxy") if "Representation" in props else None
             if source is not None and source.get("value") == mapped:
-                shown[source.get("output_port")] = values["Representation"].find("Element").get("value")
+                shown[source.get("output_port")] = props["Representation"].find("Element").get("value")
         self.assertEqual(shown, {"0": "Checkerboard"})
         with Image.open(os.path.join(OUTPUT, "gui-map.png")) as picture:
             view = picture.convert("RGB").crop((400, 250, 1050, 650))
@@ -302,24 +240,16 @@ class Gui(unittest.TestCase):
         domain = PANEL + "Domain/1QComboBox0"
         steps = (choose("Sources", "UniformSeedSource"), APPLY, choose("Filters", "EqualMassCells"),
                  (domain, "set_string", "Photograph"), APPLY)
-        for picture, more, count in (("gui-domain.png", (), 1),
-                                     ("gui-no-domain.png", ((domain, "set_string", "(none)"), APPLY),
-                                      0)):
-            saved = self.state_after(picture, *steps, *more)
-            cells = next(proxy for proxy in saved.iter("Proxy")
-                         if proxy.get("type") == "EqualMassCells")
-            given = next(prop for prop in cells.iter("Property") if prop.get("name") == "Domain")
-            self.assertEqual(len(given.findall("Proxy")), count)
+        saved = self.states_after("gui-domain.png", steps, ((domain, "set_string", "(none)"), APPLY))
+        given = [next(prop for prop in proxies_of(state)["EqualMassCells"].iter("Property")
+                      if prop.get("name") == "Domain") for state in saved]
+        self.assertEqual([len(prop.findall("Proxy")) for prop in given], [1, 0])
 
     def test_numbers_beyond_a_slider_are_typed(self):
         number = PANEL + "NumberOfParticles/IntRangeWidget/LineEdit"
         saved = self.state_after("gui-typed.png", choose("Filters", "TransportSampler"),
                                  (number, "set_string", "150000"), APPLY)
-        sampler = next(proxy for proxy in saved.iter("Proxy")
-                       if proxy.get("type") == "TransportSampler")
-        values = [prop.find("Element").get("value") for prop in sampler.iter("Property")
-                  if prop.get("name") == "NumberOfParticles"]
-        self.assertEqual(values, ["150000"])
+        self.assertEqual(numbers(saved, "TransportSampler", "NumberOfParticles"), [150000])
 
     def test_morph_plays(self):
         """With PublishTime the play button runs over the filter's steps, to the last one."""
@@ -328,17 +258,10 @@ class Gui(unittest.TestCase):
             "gui-morph.png", choose("Filters", "TransportInterpolator"), target, *DENSITY[1:],
             tick("PublishTime"), APPLY, PLAY,
             script_text=OPEN_TWO)
-        found = {proxy.get("type"): proxy for proxy in saved.iter("Proxy") if proxy.get("type")}
-
-        def values(kind, name):
-            for prop in found[kind].iter("Property"):
-                if prop.get("name") == name:
-                    return [float(element.get("value")) for element in prop.findall("Element")]
-            return None
-
-        self.assertEqual(values("TransportInterpolator", "PublishTime"), [1])
-        self.assertEqual(values("TimeKeeper", "TimestepValues"), [i / 10 for i in range(11)])
-        self.assertEqual(values("TimeKeeper", "Time"), [1])
+        self.assertEqual(numbers(saved, "TransportInterpolator", "PublishTime"), [1])
+        self.assertEqual(numbers(saved, "TimeKeeper", "TimestepValues"),
+                         [i / 10 for i in range(11)])
+        self.assertEqual(numbers(saved, "TimeKeeper", "Time"), [1])
 
     def test_morph_of_two_times(self):
         """Of a series: the scene has the morph's times alone, and the series' when it is deleted."""
@@ -348,12 +271,7 @@ class Gui(unittest.TestCase):
         delete = ("propertiesDock/propertiesPanel/Delete", "activate", "")
         for steps, times in (((PLAY,), [i / 10 for i in range(11)]), ((delete,), [0, 1, 2])):
             saved = self.state_after("gui-morph-series.png", *make, *steps, script_text=OPEN_SERIES)
-            self.assertEqual(self.values(saved, "TimeKeeper", "TimestepValues"), times)
-
-    def values(self, saved, kind, name):
-        proxy = next(proxy for proxy in saved.iter("Proxy") if proxy.get("type") == kind)
-        prop = next(prop for prop in proxy.iter("Property") if prop.get("name") == name)
-        return [float(element.get("value")) for element in prop.findall("Element")]
+            self.assertEqual(numbers(saved, "TimeKeeper", "TimestepValues"), times)
 
     def test_barycenter_of_selected(self):
         """Images that are selected together are its inputs; weights are typed into the panel."""
@@ -365,24 +283,25 @@ class Gui(unittest.TestCase):
                       if proxy.get("type") == "TransportBarycenter"
                       for prop in proxy.iter("Property") if prop.get("name") == "Input")
         self.assertEqual(len(inputs.findall("Proxy")), 2)
-        self.assertEqual(self.values(saved, "TransportBarycenter", "Weights"), [3, 1])
+        self.assertEqual(numbers(saved, "TransportBarycenter", "Weights"), [3, 1])
 
     @unittest.skipUnless(PANEL_WIDGETS, "the plugin is built without its own widgets")
     def test_weights_by_name(self):
         """One row of two is typed: the list has both. Undone, or emptied, it has none."""
-        begin = (choose("Filters", "TransportBarycenter"), APPLY, *weight(0, 3), APPLY)
+        typed = (*weight(0, 3), APPLY)
         undo = ("menubar/menu_Edit", "activate", "actionEditUndo")
-        for steps, expected in (((), [3, 1]), ((undo,), []),
-                                ((*weight(0, ""), *weight(1, ""), APPLY), [])):
-            saved = self.state_after("gui-weights.png", *begin, *steps, script_text=OPEN_BOTH)
-            self.assertEqual(self.values(saved, "TransportBarycenter", "Weights"), expected)
+        saved = self.states_after(
+            "gui-weights.png", (choose("Filters", "TransportBarycenter"), APPLY, *typed), (undo,),
+            typed, (*weight(0, ""), *weight(1, ""), APPLY), script_text=OPEN_BOTH)
+        self.assertEqual([numbers(state, "TransportBarycenter", "Weights") for state in saved],
+                         [[3, 1], [], [3, 1], []])
 
     @unittest.skipUnless(PANEL_WIDGETS, "the plugin is built without its own widgets")
     def test_bounds_of_data(self):
         """Those of the photograph, not of the seeds that are shown, too."""
         saved = self.state_after("gui-bounds.png", choose("Sources", "UniformSeedSource"), APPLY,
                                  (PANEL + "Bounds/TakeBounds", "activate", ""), APPLY)
-        self.assertEqual(self.values(saved, "UniformSeedSource", "Bounds"),
+        self.assertEqual(numbers(saved, "UniformSeedSource", "Bounds"),
                          [0, 511, 0, 511, 0, 0])
 
 

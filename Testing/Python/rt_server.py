@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Starts a pvserver, of several processes or of one, and runs a client against it."""
+import contextlib
 import glob
 import os
 import shutil
@@ -33,51 +34,78 @@ def read(path):
     return printed
 
 
-def end(server):
-    """Waits until a server and all it started have ended by themselves; kills what has not.
-    Returns whether that was needed."""
-    try:
-        server.wait(ENDED_WITHIN)
-        killed = False
-    except subprocess.TimeoutExpired:
-        killed = True
-    try:
-        os.killpg(server.pid, signal.SIGKILL)
-    except ProcessLookupError:
-        pass
-    server.wait()
-    return killed
+def outside_mpi():
+    """The environment without what MPI adds in pvpython: mpirun would refuse it."""
+    return {name: value for name, value in os.environ.items()
+            if not name.startswith(("OMPI_", "PMIX_"))}
+
+
+class Server:
+    """A pvserver that waits for its client at `port`."""
+
+    def __init__(self, folder, processes, environment):
+        self.port = free_port()
+        self.log = os.path.join(folder, "log")
+        command = [PVSERVER, "--server-port=%d" % self.port]
+        if processes:
+            command = [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", str(processes),
+                       "bash", "-c", APART, self.log, *command]
+        with open(self.log, "w", encoding="utf-8") as log:
+            self.process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT,
+                                            start_new_session=True,
+                                            env={**outside_mpi(), **(environment or {})})
+
+    def printed(self):
+        return read(self.log)
+
+    def wait_until_ready(self):
+        start = time.monotonic()
+        while "Waiting for client" not in self.printed() and self.process.poll() is None and \
+                time.monotonic() - start < STARTED_WITHIN:
+            time.sleep(0.1)
+
+    def kill(self):
+        """It and all that it started."""
+        try:
+            os.killpg(self.process.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        self.process.wait()
+
+    def end(self):
+        """Waits until it has ended by itself; raises AssertionError where it has to be killed."""
+        try:
+            self.process.wait(ENDED_WITHIN)
+        except subprocess.TimeoutExpired:
+            self.kill()
+            raise AssertionError("The server goes on without its client: "
+                                 + self.printed()[-3000:]) from None
+        self.kill()
+
+
+@contextlib.contextmanager
+def started(processes=None, environment=None):
+    """A Server, of processes of mpirun or without it, which ends after its client; raises
+    AssertionError where it does not."""
+    with tempfile.TemporaryDirectory() as folder:
+        server = Server(folder, processes, environment)
+        try:
+            server.wait_until_ready()
+            yield server
+        except BaseException:
+            server.kill()
+            raise
+        server.end()
 
 
 def run_client(script, *arguments, processes=None, limit=200):
-    """Runs a client, a script of pvpython with the server's port and arguments. `processes` are
-    those of mpirun, or None for a server without. Returns what the client prints and what the
-    server; raises AssertionError where the client fails or the server does not end after it."""
-    port = free_port()
-    with tempfile.TemporaryDirectory() as folder, \
-            open(os.path.join(folder, "log"), "w", encoding="utf-8") as log:
-        command = [PVSERVER, "--server-port=%d" % port]
-        if processes:
-            command = [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", str(processes),
-                       "bash", "-c", APART, log.name, *command]
-        server = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT,
-                                  start_new_session=True)
-        try:
-            start = time.monotonic()
-            while "Waiting for client" not in read(log.name) and server.poll() is None and \
-                    time.monotonic() - start < STARTED_WITHIN:
-                time.sleep(0.1)
-            client = subprocess.run([PVPYTHON, script, str(port), *arguments],
-                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                    timeout=limit)
-        except BaseException:
-            os.killpg(server.pid, signal.SIGKILL)
-            server.wait()
-            raise
-        killed = end(server)
-        printed = read(log.name)
-    if client.returncode != 0:
-        raise AssertionError(client.stdout[-3000:] + printed[-3000:])
-    if killed:
-        raise AssertionError("The server goes on without its client: " + printed[-3000:])
-    return client.stdout, printed
+    """Runs a client, a script of pvpython with the server's port and arguments. Returns what the
+    client prints and what the server; raises AssertionError where the client fails."""
+    with started(processes) as server:
+        client = subprocess.run([PVPYTHON, script, str(server.port), *arguments],
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                timeout=limit)
+        if client.returncode != 0:
+            raise AssertionError(client.stdout[-3000:] + server.printed()[-3000:])
+        server.end()
+        return client.stdout, server.printed()

@@ -18,6 +18,9 @@ MANAGE_PLUGINS = ("menubar/menuTools", "activate", "actionManage_Plugins")
 HELP_PAGE = "pqHelpWindow/1QTextBrowser0"
 
 
+LOADED = ("--plugins=RectifiedTransport",)  # options: the plugin is loaded from PV_PLUGIN_PATH
+
+
 def choose(menu, name):
     return "menubar/menu%s/Transport" % menu, "activate", name
 
@@ -26,14 +29,14 @@ def tick(name):
     return PANEL + name + "/CheckBox", "set_boolean", "true"
 
 
-def open_state(path):
+def open_state(path, files="Search files under specified directory"):
     """A state is opened, and its data found in the folder that ParaView proposes: the state's."""
     dialog = "/LoadStateOptionsDialog/"
-    files = ("scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/LoadStateDataFileOptions/"
-             "ComboBox")
+    choice = ("scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/LoadStateDataFileOptions/"
+              "ComboBox")
     return (("menubar/menu_File", "activate", "actionFileLoadServerState"),
             ("FileLoadServerStateDialog", "filesSelected", path),
-            (dialog + files, "set_string", "Search files under specified directory"),
+            (dialog + choice, "set_string", files),
             (dialog + "widget/OKButton", "activate", ""))
 
 
@@ -50,6 +53,32 @@ def first_stippling(photograph):
             ("MainControlsToolbar/1QToolButton12", "activate", ""),  # palettes
             ("/LoadPaletteMenu", "activate", "White Background"),
             ("cameraToolbar/1QToolButton3", "activate", ""))  # Zoom Closest To Data
+
+
+def connect(port):
+    """A server is added to the list of servers, and connected."""
+    pages = "pqServerConnectDialog/stackedWidget/"
+    return (("menubar/menu_File", "activate", "actionServerConnect"),
+            (pages + "page_choose/addServer", "activate", ""),
+            (pages + "page_create/name", "set_string", "mine"),
+            (pages + "page_create/port", "set_int", str(port)),
+            (pages + "page_create/okButton", "activate", ""),
+            (pages + "page_edit/editServer2ButtonBox/1QPushButton0", "activate", ""),
+            (pages + "page_choose/connect", "activate", ""))
+
+
+def manage_plugins(*steps):
+    """Steps in the Plugin Manager, whose names are relative to it."""
+    dialog = "PluginManagerDialog/"
+    return (MANAGE_PLUGINS,
+            *((dialog + target, command, arguments) for target, command, arguments in steps),
+            (dialog + "buttonBox/1QPushButton0", "activate", ""))
+
+
+def load_new(plugin, where):
+    """Load New in the list of Local or Remote Plugins."""
+    return (("splitter/%sGroup/load%s" % (where.lower(), where), "activate", ""),
+            ("pqFileDialog", "filesSelected", plugin))
 
 
 def write_events(path, steps):
@@ -76,12 +105,12 @@ def write_settings(home, size=None):
             file.write("[MainWindow]\nPosition=@Point(0 0)\nSize=@Size(%d %d)\n" % size)
 
 
-def play(home, steps, plugin, picture, options=(), import_options=(), clicks=(), seconds=120,
+def play(home, steps, plugin, picture, options=LOADED, import_options=(), clicks=(), seconds=120,
          keys=(), until="is finished"):
     """Starts ParaView, plays the steps, clicks at places of the screen, presses keys, keeps a picture
     of it and ends ParaView. Returns its output: "Success = true" if it could play all. `plugin` is the
-    plugin's file, or None if ParaView finds it. Steps that end in a dialog, or cannot be played,
-    never end: they are given so many seconds, or until the output has another text."""
+    plugin's file, or None if ParaView finds it or shall not load it. Steps that end in a dialog, or
+    cannot be played, never end: they are given so many seconds, or until the output has another text."""
     recording, log_path = (os.path.join(home, name) for name in ("play.xml", "log"))
     write_events(recording, steps)
     environment = {**os.environ, "HOME": home}
@@ -89,11 +118,11 @@ def play(home, steps, plugin, picture, options=(), import_options=(), clicks=(),
         environment["PV_PLUGIN_PATH"] = os.path.dirname(plugin)
     with open(log_path, "w", encoding="utf-8") as log:
         window = subprocess.Popen(
-            ["paraview", *options, "--plugins=RectifiedTransport", "--test-script=" + recording,
-             "--test-directory=" + home], env=environment, stdout=log, stderr=subprocess.STDOUT)
+            ["paraview", *options, "--test-script=" + recording, "--test-directory=" + home],
+            env=environment, stdout=log, stderr=subprocess.STDOUT)
     try:
-        for _ in range(seconds):
-            time.sleep(1)
+        for _ in range(4 * seconds):
+            time.sleep(0.25)
             with open(log_path, encoding="utf-8", errors="replace") as log:
                 text = log.read()
             if until in text or window.poll() is not None:
