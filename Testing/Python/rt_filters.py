@@ -15,6 +15,9 @@ VOLUME = ("FirstDisplay", {"dimension": "3", "type": "Volume", "array": "Density
 BLEND = [("View", {"type": "None", "port": "1"}),
          *((tag, {**hint, "port": "1"}) for tag, hint in PARTICLES),
          ("FirstDisplay", {"port": "0", **VOLUME[1]})]
+HALF_MORPH, HALF_MEAN = (
+    ("FirstContour", {"port": "0", "array": "Density", "half_of": inputs})
+    for inputs in ("Input DensityArray Target TargetArray", "Input DensityArray"))
 SMOOTH = {"Kernel": "TriangularShapedCloud"}
 # Properties as they stand on panels, from top to bottom.
 RULES = ["Component", "InvertDensity", "NegativeValues", "DensityResolution"]
@@ -111,13 +114,13 @@ FILTERS = [
            refused=("Parameter", 2, 0.5),
            saved=dict(Parameter=0.25, MassMode="Geometric", Kernel="Gaussian", Radius=2,
                       ParticlesPerCell=2, Dimensions=[30, 0, 0], PublishTime=1, NumberOfTimeSteps=7),
-           shown=BLEND, defaults=SMOOTH),
+           shown=[*BLEND, HALF_MORPH], defaults=SMOOTH),
     Filter("Density Barycenter", "vtkTransportBarycenter",
            {"Input": "densities"}, outputs=["Density", "Particles"],
            panel=["Weights", *DENSITY_PANEL, *BLEND_PANEL],
            refused=("ParticlesPerCell", -1, 1),
-           saved=dict(Weights=[1, 0.5, 2], MassMode="Normalize", InvertDensity=1), shown=BLEND,
-           defaults=SMOOTH),
+           saved=dict(Weights=[1, 0.5, 2], MassMode="Normalize", InvertDensity=1),
+           shown=[*BLEND, HALF_MEAN], defaults=SMOOTH),
     Filter("Splat Mass", "vtkMassSplatter",
            {"Input": "points"}, {"Reference": "image"},
            panel=["Reference", "MassArray", "Kernel", "Radius", "Boundary", "Dimensions", "Association",
@@ -131,7 +134,7 @@ FILTERS = [
            refused=("Supersampling", 99, 2), quick=dict(Resolution=12),
            saved=dict(Resolution=20, Supersampling=3, Padding=0.25, Association="Cells",
                       Threading="Serial"),
-           shown=[VOLUME]),
+           shown=[VOLUME, ("FirstContour", {"array": "Density", "value": "0.5"})]),
     Filter("Area-Preserving Parameterization", "vtkAreaPreservingParameterization", {"Input": "disk"},
            outputs=["Surface", "Flat"], panel=["Resolution", "Polish", "Corners", "Threading"],
            refused=("Resolution", 0, 12), quick=dict(Resolution=32),

@@ -196,9 +196,11 @@ std::string ClosedSurface::Openness() const
           << "; every edge must be one of two triangles, or of another even number";
   if (open > 0)
   {
-    message << ". To close it: Clip Closed Surface in place of Clip, Capping of sources and "
-               "extrusions, Clean with a Tolerance where seams gape, vtkFillHolesFilter in a "
-               "Programmable Filter, or Delaunay 3D and Extract Surface for the convex hull";
+    message
+      << ". To close it: Clip Closed Surface in place of Clip, or with a plane that cuts off "
+         "the rim of the hole; Capping of sources and extrusions; Clean with a Tolerance where "
+         "seams gape; vtkFillHolesFilter in a Programmable Filter; or Delaunay 3D and Extract "
+         "Surface for the convex hull";
   }
   return message.str();
 }

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Traced and saved scripts of a session in which the plugin was loaded before: they run as
+Documentation/Server.md says."""
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from rt_testing import OUTPUT, SOURCE, main, need_display
+
+PLUGIN = os.environ["RT_PLUGIN"]
+FOLDER = {"PV_PLUGIN_PATH": os.path.dirname(PLUGIN)}
+IMPORT = "from paraview.simple import *\n"
+RECORD = IMPORT + """
+from paraview import smstate, smtrace
+smtrace.start_trace()
+image = Wavelet(registrationName='Image', WholeExtent=[-5, 5, -5, 5, 0, 0])
+dots = SampleDensity(registrationName='Dots', Input=image, NumberOfParticles=50)
+Show(dots, GetActiveViewOrCreate('RenderView'))
+for name, text in ('trace.py', smtrace.stop_trace()), ('state.py', smstate.get_state()):
+    with open(name, 'w', encoding='utf-8') as file:
+        file.write(text + '\\n')
+"""
+COUNT = """
+dots = FindSource('Dots')
+dots.UpdatePipeline()
+print('%d dots' % dots.GetDataInformation().GetNumberOfPoints())
+"""
+
+
+def line_of_page():
+    with open(os.path.join(SOURCE, "Documentation", "Server.md"), encoding="utf-8") as file:
+        line, = re.findall(r"^```\n(LoadPlugin.*)\n```$", file.read(), re.MULTILINE)
+    return re.sub(r'\("[^"]*"', "(%r" % PLUGIN, line) + "\n"
+
+
+class Scripts(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(dir=OUTPUT)
+        printed = cls.run_script(RECORD, **FOLDER)
+        assert os.path.exists(os.path.join(cls.folder, "state.py")), printed
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    @classmethod
+    def run_script(cls, text, **environment):
+        path = os.path.join(cls.folder, "run.py")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return subprocess.run([os.environ["RT_PVPYTHON"], path], cwd=cls.folder, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
+                              env={**os.environ, **environment}).stdout
+
+    def test_scripts(self):
+        for name in "trace.py", "state.py":
+            with self.subTest(name):
+                with open(os.path.join(self.folder, name), encoding="utf-8") as file:
+                    text = file.read() + COUNT
+                self.assertNotIn("LoadPlugin", text)
+                self.assertIn("name 'SampleDensity' is not defined", self.run_script(text))
+                self.assertIn("50 dots", self.run_script(text, **FOLDER))
+                self.assertEqual(text.count(IMPORT), 1)
+                self.assertIn("50 dots",
+                              self.run_script(text.replace(IMPORT, IMPORT + line_of_page())))
+
+
+if __name__ == "__main__":
+    need_display()
+    main()
