@@ -27,14 +27,14 @@ class Examples(ExampleTest):
         self.ran("StippleImage", os.path.join(DATA, "ascent.png"))
         with open(os.path.join(OUTPUT, "stipple-ascent.svg"), encoding="utf-8") as file:
             text = file.read()
-        self.assertIn('viewBox="0 0 512 512"', text)
+        self.assertIn('viewBox="0 0 200 200"', text)
         circles = np.array(re.findall(r'<circle cx="(\S+)" cy="(\S+)"', text), float)
         self.assertEqual(len(circles), 5000)
-        self.assertTrue((circles >= 0).all() and (circles <= 512).all())
+        self.assertTrue((circles >= 0).all() and (circles <= 200).all())
         # The darkest eighth of the picture's rows, counted from its top, has the most dots.
         rows = read(os.path.join(DATA, "ascent.png"))[0].mean(axis=(1, 2))[::-1]
         ink = (255 - rows).reshape(8, 64).sum(axis=1)
-        counts = np.histogram(circles[:, 1], bins=8, range=(0, 512))[0]
+        counts = np.histogram(circles[:, 1], bins=8, range=(0, 200))[0]
         np.testing.assert_allclose(counts / counts.sum(), ink / ink.sum(), atol=0.02)
 
     def test_own_photograph(self):

@@ -7,12 +7,11 @@ import shutil
 
 import numpy as np
 from PIL import Image
-from rt_gui import GuiTest, PHOTOGRAPH, numbers, picture_of, proxies_of, save_state, values, view_of
+from rt_gui import GuiTest, PHOTOGRAPH, numbers, proxies_of, save_state, values, view_of
 from rt_testing import SOURCE, main, need_display
 from rt_window import (APPLY, choose, first_stippling, load_new, manage_plugins, open_state,
                        write_settings)
 
-SVG = "{http://www.w3.org/2000/svg}"
 WRITER = "WriterSettingsDialog/scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/"
 TRACKS = "animationViewDock/animationView/pqAnimationWidget/"
 MORPH = """

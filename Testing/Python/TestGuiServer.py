@@ -7,7 +7,7 @@ import sys
 from rt_gui import GuiTest, PHOTOGRAPH
 from rt_server import MPIRUN, PVSERVER, started
 from rt_testing import SKIPPED, main, need_display
-from rt_window import LOADED, connect, first_stippling, load_new, manage_plugins
+from rt_window import connect, first_stippling, load_new, manage_plugins
 
 PLUGIN = os.environ["RT_PLUGIN"]
 
