@@ -215,10 +215,10 @@ TEST(DensitySiteCells, SpecialSites)
   EXPECT_GT(shares.Least, 0.0);
   for (const Points<3>& one : { Points<3>{ sites[0] }, Points<3>{ sites[11] } })
   {
-    const Labels labels = labelsOf<2>(density, grid, one);
-    for (std::size_t i = 0; i < labels.size(); ++i)
+    const Labels all = labelsOf<2>(density, grid, one);
+    for (std::size_t i = 0; i < all.size(); ++i)
     {
-      EXPECT_EQ(labels[i], masses[static_cast<std::int64_t>(i)] > 0 ? 0 : -1) << i;
+      EXPECT_EQ(all[i], masses[static_cast<std::int64_t>(i)] > 0 ? 0 : -1) << i;
     }
   }
   // All of one point: the whole is bisected.

@@ -350,7 +350,8 @@ void checkLimitOfParticles(Checks& checks)
     const std::vector<double> seed{ x[i], x[i + 1], x[i + 2] };
     sampler->SetSeedsData(makePoints(seed));
     const std::size_t warnings = warningsOf(sampler).size();
-    CHECK_NEAR(checks, fieldValue(sampler->GetOutput(), "MovedParticles"), warnings, 0.0);
+    CHECK_NEAR(checks, fieldValue(sampler->GetOutput(), "MovedParticles"),
+      static_cast<double>(warnings), 0.0);
     ends[warnings] = seed;
   }
   for (const int count : { 1000, 1001 })
