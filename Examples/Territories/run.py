@@ -8,7 +8,8 @@ import numpy as np
 import rectified_example as example
 import rectified_figures as figures
 from paraview import simple
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkCellArray
 
 # Colours of territories, as many as neighbours need nearly always; of lights and of borders.
 TINTS = np.array([(28, 74, 110), (110, 46, 66), (34, 94, 76), (112, 84, 36), (74, 54, 112),
@@ -66,8 +67,28 @@ def picture_of(cells, density, count):
     return drawn
 
 
+def borders_of(cells):
+    """The outlines; of Flow without the coasts: between two territories a line is there in both
+    directions."""
+    if cells.Shape == "Power":
+        return simple.OutputPort(cells, 2)
+    outlines = cells.GetClientSideObject().GetOutputDataObject(2)
+    ends = vtk_to_numpy(outlines.GetLines().GetConnectivityArray()).reshape(-1, 2)
+    places = np.unique(vtk_to_numpy(outlines.GetPoints().GetData()).round(6), axis=0,
+                       return_inverse=True)[1].ravel()[ends]
+    _, found, counts = np.unique(np.sort(places, axis=1), axis=0, return_inverse=True,
+                                 return_counts=True)
+    twice = ends[counts[found.ravel()] == 2]
+    borders = outlines.NewInstance()
+    borders.SetPoints(outlines.GetPoints())
+    lines = vtkCellArray()
+    lines.SetData(2, numpy_to_vtkIdTypeArray(twice.ravel(), deep=1))
+    borders.SetLines(lines)
+    return example.producer(borders)
+
+
 def draw(path, cells, density, count, pixels):
-    """Territories, their outlines, and the sites."""
+    """Territories, their borders, and the sites."""
     drawn = picture_of(cells, density, count)
     x0, x1, y0, y1 = drawn.GetBounds()[:4]
     zoom = pixels / (x1 - x0)
@@ -75,13 +96,13 @@ def draw(path, cells, density, count, pixels):
     shown = simple.Show(example.producer(drawn), view)
     simple.ColorBy(shown, ("CELLS", "Colours"))
     shown.MapScalars = 0
-    for port, colour in ((2, BORDER), (1, SITE)):
-        above = 0.002 * (x1 - x0) * (3 - port)
-        layer = simple.Show(example.moved(simple.OutputPort(cells, port), 0, 0, above), view)
+    layers = ((borders_of(cells), BORDER), (simple.OutputPort(cells, 1), SITE))
+    for i, (above, colour) in enumerate(layers, 1):
+        layer = simple.Show(example.moved(above, 0, 0, 0.002 * (x1 - x0) * i), view)
         example.paint(layer, colour)
         layer.LineWidth = 1.6
         layer.Ambient, layer.Diffuse = 1, 0
-        if port == 1:
+        if colour is SITE:
             layer.SetRepresentationType("Point Gaussian")
             layer.ShaderPreset = "Plain circle"
             layer.GaussianRadius = 3.5 / zoom

@@ -112,7 +112,7 @@ def give_picture(proxy):
     view.ViewSize = [200, 200]
     view.OrientationAxesVisibility = 0
     view.UseColorPaletteForBackground = 0
-    view.Background = [0, 0, 0]
+    view.Background = [1, 1, 1]
     for shown, kind in ((slice_of(proxy), "Surface"), (particles(proxy), "Points"),
                         (proxy, "Outline")):
         simple.Show(shown, view).Representation = kind
