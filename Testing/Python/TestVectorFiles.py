@@ -124,6 +124,18 @@ class VectorFiles(unittest.TestCase):
                 self.assertTrue(dark[500, :98].all() and not dark[500, 102:898].any())
 
     @unittest.skipUnless(HAVE_READERS, "needs librsvg2-bin and poppler-utils")
+    def test_no_seams(self):
+        """Polygons of one colour are one area: between them the paper does not shine through."""
+        plane = simple.Plane(XResolution=40, YResolution=40)
+        turned = simple.Transform(Input=simple.Triangulate(Input=plane))
+        turned.Transform.Rotate = [0, 0, 10]
+        one = simple.Calculator(Input=turned, AttributeType="Cell Data", Function="3")
+        for extension in DRAW:
+            with self.subTest(extension):
+                drawn = self.drawn(one, extension, ColorArray=["CELLS", "Result"])
+                self.assertEqual(len(np.unique(drawn[300:700, 300:700].reshape(-1, 3), axis=0)), 1)
+
+    @unittest.skipUnless(HAVE_READERS, "needs librsvg2-bin and poppler-utils")
     def test_page_bounds(self):
         """Half of a square in a frame: a page of this size, its margin empty, the rest cut off."""
         plane = simple.PointDatatoCellData(simple.Elevation(simple.Plane()))

@@ -50,7 +50,8 @@ public:
 
   virtual void Begin(const DrawingPage& page) = 0;
   virtual void FillDisc(const PagePoint& centre, double radius, Colour colour) = 0;
-  virtual void FillPolygon(const PagePath& corners, Colour colour) = 0;
+  // Polygons that turn the same way, as one area: no seams show where they touch.
+  virtual void FillPolygons(const std::vector<PagePath>& polygons, Colour colour) = 0;
   // A path with round ends and corners; a closed one returns to its first point.
   virtual void Stroke(const PagePath& path, bool isClosed, Colour colour) = 0;
   virtual void End() = 0;

@@ -86,10 +86,14 @@ void PdfDrawing::FillDisc(const PagePoint& centre, double radius, Colour colour)
   this->Flush();
 }
 
-void PdfDrawing::FillPolygon(const PagePath& corners, Colour colour)
+void PdfDrawing::FillPolygons(const std::vector<PagePath>& polygons, Colour colour)
 {
   this->UseColour(colour, false);
-  this->AppendPath(corners);
+  for (const PagePath& corners : polygons)
+  {
+    this->AppendPath(corners);
+    this->Text += "h\n";
+  }
   this->Text += "f\n";
   this->Flush();
 }

@@ -78,11 +78,25 @@ void SvgDrawing::FillDisc(const PagePoint& centre, double radius, Colour colour)
   this->Flush();
 }
 
-void SvgDrawing::FillPolygon(const PagePath& corners, Colour colour)
+void SvgDrawing::FillPolygons(const std::vector<PagePath>& polygons, Colour colour)
 {
   this->EnterGroup(Group::Fills);
-  this->Text += "<polygon";
-  this->AppendPoints(corners);
+  if (polygons.size() == 1)
+  {
+    this->Text += "<polygon points=\"";
+    this->AppendPoints(polygons.front());
+  }
+  else
+  {
+    this->Text += "<path d=\"";
+    for (const PagePath& corners : polygons)
+    {
+      this->Text += 'M';
+      this->AppendPoints(corners);
+      this->Text += 'z';
+    }
+  }
+  this->Text += '"';
   this->AppendColour("fill", colour);
   this->Text += "/>\n";
   this->Flush();
@@ -91,8 +105,9 @@ void SvgDrawing::FillPolygon(const PagePath& corners, Colour colour)
 void SvgDrawing::Stroke(const PagePath& path, bool isClosed, Colour colour)
 {
   this->EnterGroup(Group::Strokes);
-  this->Text += isClosed ? "<polygon" : "<polyline";
+  this->Text += isClosed ? "<polygon points=\"" : "<polyline points=\"";
   this->AppendPoints(path);
+  this->Text += '"';
   this->AppendColour("stroke", colour);
   this->Text += "/>\n";
   this->Flush();
@@ -148,7 +163,6 @@ void SvgDrawing::AppendColour(const std::string& paint, Colour colour)
 
 void SvgDrawing::AppendPoints(const PagePath& points)
 {
-  this->Text += " points=\"";
   for (const PagePoint& point : points)
   {
     appendDecimal(this->Text, point[0], Decimals);
@@ -156,7 +170,7 @@ void SvgDrawing::AppendPoints(const PagePath& points)
     appendDecimal(this->Text, this->Height - point[1], Decimals);
     this->Text += ' ';
   }
-  this->Text.back() = '"';
+  this->Text.pop_back();
 }
 
 void SvgDrawing::Flush()

@@ -233,6 +233,11 @@ public:
   void Paint(const Shape& shape)
   {
     const Colour colour = this->Painted.Colours.Of(shape);
+    const bool isFilled = shape.Kind == ShapeKind::Polygon && this->Painted.Colours.AreGiven();
+    if (!isFilled || !(colour == this->AreaColour) || this->Area.size() == mostPolygons)
+    {
+      this->PaintArea();
+    }
     if (shape.Kind == ShapeKind::Dot)
     {
       const double radius = this->Layout.Scale() * this->Painted.RadiusAt(shape.Points[0]);
@@ -251,9 +256,9 @@ public:
     {
       this->PaintLine(shape, colour);
     }
-    else if (this->Painted.Colours.AreGiven())
+    else if (isFilled)
     {
-      this->Page.FillPolygon(this->Path, colour);
+      this->AddToArea(colour);
     }
     else
     {
@@ -261,7 +266,42 @@ public:
     }
   }
 
+  // Call it after the last shape.
+  void PaintArea()
+  {
+    if (!this->Area.empty())
+    {
+      this->Page.FillPolygons(this->Area, this->AreaColour);
+      this->Area.clear();
+    }
+  }
+
 private:
+  // Of an area, so that programs need not take long to read one.
+  static constexpr std::size_t mostPolygons = 50000;
+
+  // Where transparent polygons overlap, both count.
+  void AddToArea(Colour colour)
+  {
+    double twice = 0.0; // the area
+    for (std::size_t i = 0; i < this->Path.size(); ++i)
+    {
+      const PagePoint& a = this->Path[i];
+      const PagePoint& b = this->Path[(i + 1) % this->Path.size()];
+      twice += a[0] * b[1] - a[1] * b[0];
+    }
+    if (twice < 0.0)
+    {
+      std::reverse(this->Path.begin() + 1, this->Path.end());
+    }
+    this->Area.push_back(this->Path);
+    this->AreaColour = colour;
+    if (colour.Opacity < 255)
+    {
+      this->PaintArea();
+    }
+  }
+
   PagePoint Place(vtkIdType point) const { return this->Layout.At(this->Painted.At(point)); }
 
   // With colours on points each segment has its own.
@@ -286,6 +326,8 @@ private:
   Drawing& Page;
   PagePath Path;
   PagePath Segment;
+  std::vector<PagePath> Area; // of polygons that follow each other and have this colour
+  Colour AreaColour;
 };
 
 // VTK's own colours over the values of all data sets.
@@ -407,6 +449,7 @@ void TransportVectorWriter::Run(
   {
     LayerPainter painter(layer, layout, drawing);
     layer.Shapes.ForEach(progress, [&](const Shape& shape) { painter.Paint(shape); });
+    painter.PaintArea();
   }
   drawing.End();
 }

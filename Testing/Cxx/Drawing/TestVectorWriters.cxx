@@ -236,6 +236,41 @@ void checkPolygonsAndLines(Checks& checks)
     { "stroke=\"#320000\"", "stroke=\"#640000\"", "stroke=\"#326400\"" }, __LINE__);
 }
 
+// Polygons of one colour that follow each other are one area, all turned the same way, so that no
+// seams show; transparent ones are not, as they count where they overlap.
+void checkAreas(Checks& checks)
+{
+  const auto two = shapes(corners, Cells::Polygon);
+  vtkNew<vtkCellArray> cells;
+  for (const std::array<vtkIdType, 3>& triangle :
+    { std::array<vtkIdType, 3>{ 0, 1, 2 }, { 0, 3, 2 }, { 0, 1, 3 } })
+  {
+    cells->InsertNextCell(3, triangle.data());
+  }
+  two->SetPolys(cells);
+  for (const unsigned char opacity : { std::uint8_t{ 255 }, std::uint8_t{ 128 } })
+  {
+    two->GetCellData()->Initialize();
+    two->GetCellData()->AddArray(
+      bytes("Rgba", 4, { 9, 0, 0, opacity, 9, 0, 0, opacity, 0, 9, 0, opacity }));
+    Svg svg(two);
+    svg.Writer->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Rgba");
+    svg.Writer->SetWidth(20);
+    const std::string text = svg.Written(checks, __LINE__);
+    if (opacity == 255)
+    {
+      expectParts(checks, text,
+        { "<path d=\"M0,10 20,10 20,0zM0,10 20,0 0,0z\" fill=\"#090000\"/>",
+          "<polygon points=\"0,10 20,10 0,0\" fill=\"#000900\"/>" },
+        __LINE__);
+    }
+    else
+    {
+      CHECK(checks, countOf(text, "<polygon") == 3);
+    }
+  }
+}
+
 // What is later lies on top: polygons, lines, dots; and the blocks of a composite data set in their
 // order. An array that only one of them has colours only this one.
 void checkOrder(Checks& checks)
@@ -326,7 +361,7 @@ void checkPdf(Checks& checks)
 
 int TestVectorWriters(int, char*[])
 {
-  return runChecks(
-    { checkPage, checkPageBounds, checkAxes, checkRadiusFromSpacing, checkRadii, checkColours,
-      checkTable, checkPolygonsAndLines, checkOrder, checkGhosts, checkLocale, checkPdf });
+  return runChecks({ checkPage, checkPageBounds, checkAxes, checkRadiusFromSpacing, checkRadii,
+    checkColours, checkTable, checkPolygonsAndLines, checkAreas, checkOrder, checkGhosts,
+    checkLocale, checkPdf });
 }
