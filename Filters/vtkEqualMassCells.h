@@ -45,9 +45,9 @@
  *   the cell array `SiteId`: lines in 2D, quads in 3D, vertices in 1D. Each site's cell has its
  *   whole border: a border between two cells is there twice;
  * - 3, `Polygons`: in 2D the sites' cells as polygons, a vtkPolyData with the cell arrays `SiteId`
- *   (active scalars), `SiteColor` and all arrays of Sites. With Shape Flow, they run along the sides
- *   of pixels, and a cell of several parts or with holes has several polygons. In 1D and 3D it is
- *   empty.
+ *   (active scalars), `SiteColor` and all arrays of Sites. With Shape Flow, they run along the
+ *   sides of pixels, and a cell of several parts or with holes has several polygons. In 1D and 3D
+ *   it is empty.
  *
  * Labels and Sites have the field data `TransportCost`: the mean of |x - site|_p^q over the pixels'
  * centres x, an upper bound on W_p^q from the pixels' centres to the sites. With Shape Power,
