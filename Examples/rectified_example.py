@@ -4,6 +4,7 @@ is framed."""
 import argparse
 import glob
 import os
+import re
 import runpy
 import sys
 import types
@@ -144,6 +145,18 @@ def picture_view(size, background):
     return view
 
 
+def new_session(size, layout):
+    """An empty session with a white view, lit as ParaView lights it."""
+    simple.ResetSession()
+    view = simple.CreateRenderView(registrationName="View", ViewSize=size)
+    # Views that no layout has are not seen in the window that opens a state.
+    simple.AssignViewToLayout(view, simple.CreateLayout(layout))
+    view.UseColorPaletteForBackground = 0
+    view.Background = [1, 1, 1]
+    view.OrientationAxesVisibility = 0
+    return view
+
+
 def pixel_bounds(image):
     """The rectangle that the pixels of a photograph cover, centres and halves around them."""
     x, y = image.GetSpacing()[:2]
@@ -199,3 +212,19 @@ def save_picture(path, view):
     writer.SetInputConnection(mean.GetOutputPort())
     writer.SetFileName(path)
     writer.Write()
+
+
+def save_state(path):
+    """Writes the session to a state. Its paths of data are relative to the state's folder: ParaView
+    finds them from any clone, by "Search files under specified directory"."""
+    folder = os.path.dirname(path)
+    simple.SaveState(path)
+    with open(path, encoding="utf-8") as file:
+        state = file.read()
+
+    def relative(found):
+        place = os.path.join(ROOT, found.group(1))
+        return '"%s"' % os.path.relpath(place, folder) if os.path.isfile(place) else found.group()
+
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(re.sub('"([^"]*/[^"]*)"', relative, state))

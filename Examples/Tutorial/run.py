@@ -3,7 +3,6 @@
 and, with --states, the state files beside this script."""
 import math
 import os
-import re
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
@@ -14,18 +13,6 @@ from paraview import simple
 HERE = os.path.dirname(os.path.abspath(__file__))
 PLUME = [os.path.join(HERE, "plume-%d.vti" % i) for i in range(2)]
 BLUE, ORANGE = [0.13, 0.4, 0.67], [0.9, 0.45, 0.1]
-
-
-def new_view(size):
-    """An empty session with a white view, lit as ParaView lights it."""
-    simple.ResetSession()
-    view = simple.CreateRenderView(registrationName="View", ViewSize=size)
-    # Views that no layout has are not seen in the window that opens a state.
-    simple.AssignViewToLayout(view, simple.CreateLayout("Tutorial"))
-    view.UseColorPaletteForBackground = 0
-    view.Background = [1, 1, 1]
-    view.OrientationAxesVisibility = 0
-    return view
 
 
 def look(view, middle, away, up, height):
@@ -45,7 +32,7 @@ def figure(source, port, name):
 
 def stipple_a_slice(pixels):
     """Dots in a slice through smoke, as many in every part as its share of it."""
-    view = new_view([pixels, pixels])
+    view = example.new_session([pixels, pixels], "Tutorial")
     plume = simple.XMLImageDataReader(registrationName="Plume", FileName=PLUME)
     plume.UpdatePipeline(1)
     cut = simple.Slice(registrationName="Slice", Input=plume)
@@ -73,7 +60,7 @@ def stipple_a_slice(pixels):
 
 def morph_two_volumes(pixels, frames, resolution):
     """A brain becomes a cow, in time steps that ParaView plays."""
-    view = new_view([pixels, pixels])
+    view = example.new_session([pixels, pixels], "Tutorial")
     brain = simple.XMLImageDataReader(registrationName="Brain", FileName=[example.BRAIN])
     cow = simple.XMLPolyDataReader(registrationName="Cow",
                                    FileName=[os.path.join(example.DATA, "spot.vtp")])
@@ -107,7 +94,7 @@ def morph_two_volumes(pixels, frames, resolution):
 
 def compare_two_fields(pixels):
     """How far the smoke has come between two moments, and arrows for its ways."""
-    view = new_view([pixels, pixels])
+    view = example.new_session([pixels, pixels], "Tutorial")
     moments = [simple.XMLImageDataReader(registrationName=name, FileName=[path])
                for name, path in zip(("Earlier", "Later"), PLUME)]
     morph = simple.MorphDensities(moments[0], registrationName="Between", Target=moments[1],
@@ -140,19 +127,6 @@ def compare_two_fields(pixels):
     return view, math.sqrt(figure(morph, 0, "TransportCost"))
 
 
-def save_state(name):
-    """Writes the session to a state beside this script. Its paths of data are relative to it:
-    ParaView finds them from any clone, by "Search files under specified directory"."""
-    path = os.path.join(HERE, name + ".pvsm")
-    simple.SaveState(path)
-    with open(path, encoding="utf-8") as file:
-        state = file.read()
-    state = re.sub('"(%s/[^"]*)"' % re.escape(example.ROOT),
-                   lambda found: '"%s"' % os.path.relpath(found.group(1), HERE), state)
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(state)
-
-
 def main():
     parser = example.parser(
         __doc__, pixels=example.number(900, "side of the pictures", 16),
@@ -166,7 +140,7 @@ def main():
         path = example.output(arguments, "tutorial-%s.png" % name)
         example.save_picture(path, view)
         if arguments.states:
-            save_state(name)
+            example.save_state(os.path.join(HERE, name + ".pvsm"))
         return path
 
     view, words = stipple_a_slice(arguments.pixels)
@@ -183,7 +157,7 @@ def main():
     simple.SaveAnimation(film, view, ImageResolution=[arguments.pixels] * 2, FrameRate=12)
     if arguments.states:
         scene.AnimationTime = 0.5
-        save_state("morph")
+        example.save_state(os.path.join(HERE, "morph.pvsm"))
     print("%s, %s: %d time steps" % (film, path, len(morph.TimestepValues)))
 
     view, distance = compare_two_fields(arguments.pixels)

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A photograph in 3,000 panes of equal ink, coloured by the light at their sites."""
+from paraview.simple import *
+
+photo = PNGSeriesReader(registrationName="Photo", FileNames=["Testing/Data/ascent.png"])
+sites = SampleDensity(photo, registrationName="Sites")
+sites.InvertDensity = 1  # dark ink is mass
+sites.NumberOfParticles = 3000
+panes = EqualMassCells(sites, registrationName="Panes", Domain=photo)
+panes.Measure = "Density"
+panes.Shape = "Power"
+panes.InvertDensity = 1
+
+view = GetActiveViewOrCreate("RenderView")
+view.UseColorPaletteForBackground = 0
+view.Background = [0, 0, 0]
+shown = Show(OutputPort(panes, 3), view)
+shown.SetRepresentationType("Surface With Edges")
+ColorBy(shown, ("CELLS", "PNGImage"))
+shown.SetScalarBarVisibility(view, False)
+GetColorTransferFunction("PNGImage").ApplyPreset("Inferno (matplotlib)", True)
+GetColorTransferFunction("PNGImage").RescaleTransferFunction(0, 190)
+shown.Ambient, shown.Diffuse = 1, 0
+shown.EdgeColor = [0.05, 0.03, 0.08]
+shown.LineWidth = 1.5
+
+view.InteractionMode = "2D"
+view.CameraParallelProjection = 1
+view.CameraFocalPoint = [255.5, 255.5, 0]
+view.CameraPosition = [255.5, 255.5, 1000]
+view.CameraParallelScale = 190

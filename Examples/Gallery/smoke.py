@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Smoke half way between two moments of a simulation, as a volume."""
+from paraview.simple import *
+
+moments = [XMLImageDataReader(registrationName=name, FileName=["Examples/Tutorial/%s.vti" % name])
+           for name in ("plume-0", "plume-1")]
+morph = MorphDensities(moments[0], registrationName="Between", Target=moments[1])
+morph.Parameter = 0.5
+
+view = GetActiveViewOrCreate("RenderView")
+view.UseColorPaletteForBackground = 0
+view.Background = [0.01, 0.01, 0.03]
+shown = Show(morph, view)
+shown.SetRepresentationType("Volume")
+ColorBy(shown, ("POINTS", "Density"))
+shown.SetScalarBarVisibility(view, False)
+colours = GetColorTransferFunction("Density")
+colours.ApplyPreset("Inferno (matplotlib)", True)
+colours.RescaleTransferFunction(0, 200)
+GetOpacityTransferFunction("Density").Points = [0, 0, 0.5, 0, 15, 0.2, 0.5, 0, 200, 0.8, 0.5, 0]
+shown.ScalarOpacityUnitDistance = 0.5
+
+view.CameraFocalPoint = [2, 2, 3.3]
+view.CameraPosition = [2, -8, 4.6]
+view.CameraViewUp = [0, 0, 1]
+view.CameraViewAngle = 17

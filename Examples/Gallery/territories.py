@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Europe divided into 120 territories of equal light at night; the dark sea is nobody's."""
+from paraview.simple import *
+
+night = PNGSeriesReader(registrationName="Night", FileNames=["Testing/Data/night-europe.png"])
+dots = SampleDensity(night, registrationName="Dots", NumberOfParticles=200000)
+glow = SplatMass(dots, registrationName="Glow", Kernel="TriangularShapedCloud")
+glow.Dimensions = [171, 91, 1]
+sites = SampleDensity(glow, registrationName="Sites", NumberOfParticles=120)
+lands = EqualMassCells(sites, registrationName="Territories", Domain=glow)
+lands.Measure = "Density"
+lands.Shape = "Power"
+lands.Resolution = 855
+
+view = GetActiveViewOrCreate("RenderView")
+view.UseColorPaletteForBackground = 0
+view.Background = [0.05, 0.07, 0.12]
+shown = Show(OutputPort(lands, 0), view)
+borders = Show(OutputPort(lands, 2), view)
+borders.AmbientColor = borders.DiffuseColor = [0.05, 0.07, 0.12]
+borders.LineWidth = 2
+lights = SampleDensity(night, registrationName="Lights", NumberOfParticles=12000)
+specks = Show(lights, view)
+specks.ColorArrayName = [None, ""]
+specks.AmbientColor = specks.DiffuseColor = [1, 0.97, 0.85]
+specks.GaussianRadius = 0.2
+specks.Position = [0, 0, 1]
+
+view.InteractionMode = "2D"
+view.CameraParallelProjection = 1
+view.CameraFocalPoint = [130, 91, 0]
+view.CameraPosition = [130, 91, 1000]
+view.CameraParallelScale = 91
