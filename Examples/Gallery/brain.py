@@ -19,10 +19,10 @@ shown.GaussianRadius = 1.5
 ColorBy(shown, ("POINTS", "T1"))
 shown.SetScalarBarVisibility(view, False)
 colours = GetColorTransferFunction("T1")
-colours.ApplyPreset("Inferno (matplotlib)", True)
-colours.RescaleTransferFunction(10, 125)
+colours.ColorSpace = "RGB"
+colours.RGBPoints = [0, 0, 0, 0.1, 40, 0.4, 0.1, 0.4, 90, 0.9, 0.4, 0.15, 130, 1, 0.95, 0.6]
 
-view.CameraFocalPoint = [60, 107, 89]
+view.CameraFocalPoint = [60, 107, 86]
 view.CameraPosition = [560, 245, 190]
 view.CameraViewUp = [0, 0, 1]
-view.CameraViewAngle = 18
+view.CameraViewAngle = 20

@@ -17,7 +17,9 @@ shown.SetRepresentationType("Wireframe")
 shown.LineWidth = 2
 ColorBy(shown, ("POINTS", "Displacement", "Magnitude"))
 shown.SetScalarBarVisibility(view, False)
-GetColorTransferFunction("Displacement").ApplyPreset("Plasma (matplotlib)", True)
+colours = GetColorTransferFunction("Displacement")
+colours.ColorSpace = "RGB"
+colours.RGBPoints = [0, 0.1, 0.1, 0.5, 25, 0.7, 0.1, 0.5, 60, 1, 0.7, 0.2]
 
 view.CameraParallelProjection = 1
 view.CameraFocalPoint = [90, 108, 80]

@@ -15,6 +15,7 @@ shown.ShaderPreset = "Gaussian Blur"
 ColorBy(shown, ("POINTS", "PNGImage"))
 shown.SetScalarBarVisibility(view, False)
 colours = GetColorTransferFunction("PNGImage")
+colours.ColorSpace = "RGB"
 colours.RGBPoints = [0, 0.7, 0.35, 0.1, 90, 1, 0.75, 0.3, 255, 1, 1, 0.9]
 
 view.InteractionMode = "2D"

@@ -26,4 +26,4 @@ for i, colour in enumerate(([0.2, 0.5, 0.75], [0.45, 0.4, 0.65], [0.85, 0.4, 0.3
 view.CameraFocalPoint = [-1.6, -0.95, 0]
 view.CameraPosition = [-4.5, 3.5, -13]
 view.CameraViewUp = [0, 1, 0]
-view.CameraViewAngle = 17
+view.CameraViewAngle = 16

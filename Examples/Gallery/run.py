@@ -7,6 +7,8 @@ import os
 import runpy
 import sys
 
+from PIL import Image
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
 import rectified_example as example
@@ -24,6 +26,14 @@ def draw(name):
     return view
 
 
+def save(path, view):
+    """A picture of 256 colours: a third of the bytes."""
+    example.save_picture(path, view)
+    with Image.open(path) as picture:
+        small = picture.convert("RGB").quantize(256, dither=Image.Dither.NONE)
+    small.save(path, optimize=True)
+
+
 def main():
     arguments = example.parser(
         __doc__, output=example.IMAGES,
@@ -33,7 +43,7 @@ def main():
     for name in arguments.names or NAMES:
         view = draw(name)
         path = example.output(arguments, "gallery-%s.png" % name)
-        example.save_picture(path, view)
+        save(path, view)
         if arguments.output == example.IMAGES:
             example.save_state(os.path.join(HERE, name + ".pvsm"))
         print(path)

@@ -15,8 +15,8 @@ shown.SetRepresentationType("Volume")
 ColorBy(shown, ("POINTS", "Density"))
 shown.SetScalarBarVisibility(view, False)
 colours = GetColorTransferFunction("Density")
-colours.ApplyPreset("Inferno (matplotlib)", True)
-colours.RescaleTransferFunction(0, 200)
+colours.ColorSpace = "RGB"
+colours.RGBPoints = [0, 0.1, 0.2, 0.5, 60, 0.4, 0.6, 0.9, 200, 1, 1, 1]
 GetOpacityTransferFunction("Density").Points = [0, 0, 0.5, 0, 15, 0.2, 0.5, 0, 200, 0.8, 0.5, 0]
 shown.ScalarOpacityUnitDistance = 0.5
 

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A cow in 6,000 beads, spread evenly over its skin: a hole in the belly makes it a disk."""
+"""A cow in 4,000 beads, spread evenly over the side that is seen, which is a disk."""
 from paraview.simple import *
 
 cow = XMLPolyDataReader(registrationName="Cow", FileName=["Testing/Data/spot.vtp"])
-skin = Clip(cow, registrationName="Skin", ClipType="Sphere", Invert=0)
-skin.ClipType.Center = [0, -0.45, 0.2]
-skin.ClipType.Radius = 0.3
-dots = SampleSurface(skin, registrationName="Dots")
-dots.NumberOfParticles = 6000
+side = Clip(cow, registrationName="Side", ClipType="Plane")
+side.ClipType.Origin = [0.004, 0, 0]
+side.ClipType.Normal = [1, 0, 0]
+dots = SampleSurface(side, registrationName="Dots")
+dots.NumberOfParticles = 4000
 
 view = GetActiveViewOrCreate("RenderView")
 view.UseColorPaletteForBackground = 0
@@ -17,14 +17,16 @@ inside = WarpByVector(normals, registrationName="Inside", Vectors=["POINTS", "No
 inside.ScaleFactor = -0.02
 body = Show(inside, view)
 body.ColorArrayName = [None, ""]
-body.AmbientColor = body.DiffuseColor = [0.1, 0.1, 0.15]
+body.AmbientColor = body.DiffuseColor = [0.05, 0.15, 0.2]
 shown = Show(dots, view)
 ColorBy(shown, ("POINTS", "Normal", "Y"))
 shown.SetScalarBarVisibility(view, False)
-GetColorTransferFunction("Normal").ApplyPreset("Viridis (matplotlib)", True)
+colours = GetColorTransferFunction("Normal")
+colours.ColorSpace = "RGB"
+colours.RGBPoints = [-1, 0.25, 0.1, 0.4, 0, 0.1, 0.55, 0.55, 1, 0.95, 0.9, 0.3]
 shown.GaussianRadius = 0.019
 
-view.CameraFocalPoint = [0, 0.05, 0]
-view.CameraPosition = [-5, 2, -5]
+view.CameraFocalPoint = [0, 0.08, 0.05]
+view.CameraPosition = [-7, 1.2, -1.8]
 view.CameraViewUp = [0, 1, 0]
 view.CameraViewAngle = 15

@@ -3,7 +3,10 @@
 from paraview.simple import *
 
 night = PNGSeriesReader(registrationName="Night", FileNames=["Testing/Data/night-europe.png"])
-dots = SampleDensity(night, registrationName="Dots", NumberOfParticles=200000)
+light = Calculator(night, registrationName="Light", ResultArrayName="Light")
+light.Function = "max(PNGImage-4,0)"  # the sea is dark
+dots = SampleDensity(light, registrationName="Dots", NumberOfParticles=200000)
+dots.DensityArray = ["POINTS", "Light"]
 glow = SplatMass(dots, registrationName="Glow", Kernel="TriangularShapedCloud")
 glow.Dimensions = [171, 91, 1]
 sites = SampleDensity(glow, registrationName="Sites", NumberOfParticles=120)
@@ -19,7 +22,8 @@ shown = Show(OutputPort(lands, 0), view)
 borders = Show(OutputPort(lands, 2), view)
 borders.AmbientColor = borders.DiffuseColor = [0.05, 0.07, 0.12]
 borders.LineWidth = 2
-lights = SampleDensity(night, registrationName="Lights", NumberOfParticles=12000)
+lights = SampleDensity(light, registrationName="Lights", NumberOfParticles=12000)
+lights.DensityArray = ["POINTS", "Light"]
 specks = Show(lights, view)
 specks.ColorArrayName = [None, ""]
 specks.AmbientColor = specks.DiffuseColor = [1, 0.97, 0.85]
