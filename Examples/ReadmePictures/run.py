@@ -11,17 +11,8 @@ import rectified_example as example
 import rectified_figures as figures
 import rectified_shapes as shapes
 from paraview import simple
-from vtkmodules.vtkImagingColor import vtkImageLuminance
-from vtkmodules.vtkImagingCore import vtkImageResize
 
 STRIP = [560, 420]  # the size of a picture of the photograph
-
-
-def draw_density(path):
-    """The photograph as the filter sees it: its luminance."""
-    grey = figures.apply(vtkImageLuminance(), figures.photograph(example.PHOTOGRAPH))
-    small = figures.apply(vtkImageResize(), grey, OutputDimensions=(*STRIP, 1))
-    figures.save(path, figures.values_of(small))
 
 
 def draw_particles(path, stipple):
@@ -137,7 +128,6 @@ def main():
     def path(name):
         return example.output(arguments, name + ".png")
 
-    draw_density(path("density"))
     draw_particles(path("particles"), stipple)
     draw_example(path("volume"), "SampleVolume", "particles-brain-t1.png", "--particles", "100000",
                  "--pixels", str(STRIP[1]))
@@ -170,7 +160,7 @@ def main():
     draw_example(path("video"), "VideoStippling", "video-stippling.png", "--panel", "220")
     draw_examples({path("tutorial-" + name): "tutorial-%s.png" % name
                    for name in ("slice", "morph", "compare")}, "Tutorial", "--pixels", "600")
-    print("density, particles, volume, cartogram, cells, territories, colours, patterns, flow, "
+    print("particles, volume, cartogram, cells, territories, colours, patterns, flow, "
           "flow-maps, map, paths, morph, morph-3d, barycenters, splats, solid, parameterization, "
           "surface-dots, print, video, tutorial-slice, tutorial-morph, tutorial-compare: "
           + arguments.output)

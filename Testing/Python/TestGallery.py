@@ -76,7 +76,7 @@ class Gallery(unittest.TestCase):
         simple.ResetSession()
         path = os.path.join(place, name + ".pvsm")
         with open(path, encoding="utf-8") as file:
-            self.assertEqual(re.findall(r'"(?:/|[A-Z]:)[^"]*[/.][^"]*"', file.read()), [])
+            self.assertEqual(re.findall(r'value="((?:/|[A-Z]:).+?)"', file.read()), [])
         simple.LoadState(path, data_directory=place)
         read_files = [path for source in simple.GetSources().values()
                       for files in ("FileName", "FileNames")
