@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Europe as large as its light at night: cells of a map that grow until the light is even."""
+"""A map of Europe whose cells grow with their light at night."""
 from paraview.simple import *
 
 night = PNGSeriesReader(registrationName="Night", FileNames=["Testing/Data/night-europe.png"])

@@ -20,7 +20,8 @@ ColorBy(shown, ("CELLS", "PNGImage"))
 shown.SetScalarBarVisibility(view, False)
 colours = GetColorTransferFunction("PNGImage")
 colours.ColorSpace = "RGB"
-colours.RGBPoints = [0, 0.05, 0.05, 0.2, 70, 0.35, 0.15, 0.45, 130, 0.9, 0.4, 0.3, 200, 1, 0.95, 0.7]
+colours.RGBPoints = [0, 0.05, 0.05, 0.2, 70, 0.35, 0.15, 0.45,
+                     130, 0.9, 0.4, 0.3, 200, 1, 0.95, 0.7]
 shown.Ambient, shown.Diffuse = 1, 0
 shown.EdgeColor = [0.05, 0.03, 0.08]
 shown.LineWidth = 1.5

@@ -14,6 +14,8 @@ lands = EqualMassCells(sites, registrationName="Territories", Domain=glow)
 lands.Measure = "Density"
 lands.Shape = "Power"
 lands.Resolution = 855
+lights = SampleDensity(light, registrationName="Lights", NumberOfParticles=12000)
+lights.DensityArray = ["POINTS", "Light"]
 
 view = GetActiveViewOrCreate("RenderView")
 view.UseColorPaletteForBackground = 0
@@ -22,8 +24,6 @@ shown = Show(OutputPort(lands, 0), view)
 borders = Show(OutputPort(lands, 2), view)
 borders.AmbientColor = borders.DiffuseColor = [0.05, 0.07, 0.12]
 borders.LineWidth = 2
-lights = SampleDensity(light, registrationName="Lights", NumberOfParticles=12000)
-lights.DensityArray = ["POINTS", "Light"]
 specks = Show(lights, view)
 specks.ColorArrayName = [None, ""]
 specks.AmbientColor = specks.DiffuseColor = [1, 0.97, 0.85]
