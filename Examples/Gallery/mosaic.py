@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A photograph in 3,000 panes of equal ink, coloured by the light at their sites."""
+"""A photograph in 6,000 panes of equal ink, coloured by the light at their sites."""
 from paraview.simple import *
 
 photo = PNGSeriesReader(registrationName="Photo", FileNames=["Testing/Data/ascent.png"])
 sites = SampleDensity(photo, registrationName="Sites")
 sites.InvertDensity = 1  # dark ink is mass
-sites.NumberOfParticles = 3000
+sites.NumberOfParticles = 6000
 panes = EqualMassCells(sites, registrationName="Panes", Domain=photo)
 panes.Measure = "Density"
 panes.Shape = "Power"
@@ -24,7 +24,7 @@ colours.RGBPoints = [0, 0.05, 0.05, 0.2, 70, 0.35, 0.15, 0.45,
                      130, 0.9, 0.4, 0.3, 200, 1, 0.95, 0.7]
 shown.Ambient, shown.Diffuse = 1, 0
 shown.EdgeColor = [0.05, 0.03, 0.08]
-shown.LineWidth = 1.5
+shown.LineWidth = 1
 
 view.InteractionMode = "2D"
 view.CameraParallelProjection = 1

@@ -23,7 +23,7 @@ ColorBy(shown, ("POINTS", "Normal", "Y"))
 shown.SetScalarBarVisibility(view, False)
 colours = GetColorTransferFunction("Normal")
 colours.ColorSpace = "RGB"
-colours.RGBPoints = [-1, 0.25, 0.1, 0.4, 0, 0.1, 0.55, 0.55, 1, 0.95, 0.9, 0.3]
+colours.RGBPoints = [-1, 0.45, 0.3, 0.7, 0, 0.2, 0.8, 0.75, 1, 1, 0.95, 0.5]
 shown.GaussianRadius = 0.019
 
 view.CameraFocalPoint = [0, 0.08, 0.05]
