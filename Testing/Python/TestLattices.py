@@ -403,6 +403,11 @@ class WhichArray(unittest.TestCase):
                       simple.RelaxBlueNoise(dots, Density=source),
                       simple.EqualMassCells(dots, Domain=source)):
             self.assertEqual(list(proxy.DensityArray), ["CELLS", "zeta"])
+            # Ids may be a density where they are chosen, flags never.
+            listed = proxy.GetProperty("DensityArray").GetDomain("array_list")
+            names = {listed.GetString(i) for i in range(listed.GetNumberOfStrings())}
+            self.assertIn("GlobalNodeId", names)
+            self.assertNotIn(vtkDataSetAttributes.GhostArrayName(), names)
         self.assertEqual(list(simple.MorphDensities(source, Target=source).TargetArray),
                          ["CELLS", "zeta"])
         for name in ("Solid", "FLUID", "Humid", "vtkness"):  # which end or begin so, but are words
