@@ -7,6 +7,7 @@
 #include "vtkPVXMLElement.h"
 #include "vtkSMProperty.h"
 #include "vtkSMProxy.h"
+#include "vtkSMProxyManager.h"
 
 #include <QAction>
 #include <QActionEvent>
@@ -23,6 +24,13 @@ QString tipOf(vtkSMProxy* prototype)
   vtkPVXMLElement* hints = input ? input->GetHints() : nullptr;
   vtkPVXMLElement* tip = hints ? hints->FindNestedElementByName("SelectionTip") : nullptr;
   return tip ? tip->GetAttributeOrEmpty("text") : QString();
+}
+
+// Without a session, getPrototype crashes.
+bool isConnected()
+{
+  return vtkSMProxyManager::IsInitialized() &&
+    vtkSMProxyManager::GetProxyManager()->GetActiveSessionProxyManager();
 }
 
 QList<pqProxyGroupMenuManager*> managers()
@@ -71,9 +79,9 @@ bool pqSelectionTips::eventFilter(QObject* holder, QEvent* event)
 
 void pqSelectionTips::follow(QAction* action, pqProxyGroupMenuManager* manager)
 {
-  // ParaView sets the tip again whenever the selection changes.
+  // ParaView sets the tip again whenever the selection changes, and when a server has gone.
   QObject::connect(action, &QAction::changed, this, [action, manager]() {
-    if (!action->isEnabled())
+    if (!action->isEnabled() && isConnected())
     {
       const QString tip = tipOf(manager->getPrototype(action));
       if (!tip.isEmpty() && action->statusTip() != tip)
