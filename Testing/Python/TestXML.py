@@ -223,8 +223,8 @@ class XML(unittest.TestCase):
         """An array is chosen from the input that it is read of."""
         for case, proxy, prop in self.each_property():
             with case:
-                listed = next((prop.element.find(name) for name in ("ArrayListDomain", "DensityArrayDomain")
-                               if prop.element.find(name) is not None), None)
+                listed = next((child for child in prop.element
+                               if child.tag in ("ArrayListDomain", "DensityArrayDomain")), None)
                 if listed is None:
                     continue
                 self.assertEqual(prop.command, "SetInputArrayToProcess")
