@@ -103,11 +103,7 @@ public:
     this->Job.CoarseRatio = coarseRatio<Dimension>(options, kind);
     if (options.Integrator == Integrator::Multistep)
     {
-      this->Weights.reserve(static_cast<std::size_t>(this->Job.Steps));
-      for (std::int64_t step = 0; step < this->Job.Steps; ++step)
-      {
-        this->Weights.push_back(multistepWeights(step, this->Job.Steps));
-      }
+      this->Weights = multistepWeightsOf(this->Job.Steps, directionOf(kind));
     }
     this->Job.Weights = this->Weights.empty() ? nullptr : this->Weights.data();
   }

@@ -273,10 +273,7 @@ FlowMap<Dimension>::FlowMap(
   const FlowMapShape<Dimension>& shape, const FlowJob<Dimension>& job, const Context& context)
 {
   Progress progress(context);
-  for (int step = 0; step < shape.Steps; ++step)
-  {
-    this->Weights.push_back(multistepWeights(step, shape.Steps));
-  }
+  this->Weights = multistepWeightsOf(shape.Steps, shape.Direction);
   this->Map.Steps = shape.Steps;
   this->Map.Weights = this->Weights.data();
   // The job of the nodes: its map has the levels that are made so far. Nodes lie far apart.

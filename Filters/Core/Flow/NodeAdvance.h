@@ -85,21 +85,22 @@ private:
   {
     std::vector<StepWeights> weights;
     const std::int64_t all = this->Job.Map->Steps;
-    const auto add = [&weights](std::int64_t count, std::int64_t steps) {
+    const auto add = [&weights](std::int64_t count, std::int64_t steps, Predictor predictor) {
       for (std::int64_t step = 0; step < count; ++step)
       {
-        weights.push_back(stretchedWeights(step, count, steps));
+        weights.push_back(stretchedWeights(step, count, steps, predictor));
       }
     };
     if (this->Job.Backward)
     {
       const std::int64_t to = parent < 0 ? all : this->Job.Map->Levels[parent].HandOver;
       const std::int64_t count = nodeSteps(this->Level.HandOver, to);
-      add(count, 2 * count);
+      // Up to time 0: the last steps are the longest ones here.
+      add(count, 2 * count, Predictor::Stiff);
     }
     else if (parent < 0)
     {
-      add(startSteps(all, this->Level.HandOver), latticeSteps * all);
+      add(startSteps(all, this->Level.HandOver), latticeSteps * all, Predictor::Adams);
     }
     return weights;
   }

@@ -70,15 +70,12 @@ void expectSameBits(const TestDensity<Dimension>& density)
   Progress progress(serial);
   const SummedAreaTables<Dimension> tables(density.Source(), progress);
   const Points<Dimension> seeds = randomPoints<Dimension>(density.Size, 1000);
-  std::vector<StepWeights> weights;
-  for (std::int64_t step = 0; step < 24; ++step)
-  {
-    weights.push_back(multistepWeights(step, 24));
-  }
   for (const bool nearest : { false, true })
   {
     for (const bool back : { false, true })
     {
+      const std::vector<StepWeights> weights =
+        multistepWeightsOf(24, back ? FlowDirection::Backward : FlowDirection::Forward);
       for (const Integrator method : AllIntegrators)
       {
         FlowJob<Dimension> job{};

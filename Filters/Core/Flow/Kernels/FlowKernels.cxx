@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/Kernels/FlowKernels.h"
 
+#include <cstddef>
+
 namespace RectifiedTransport
 {
 
@@ -34,7 +36,14 @@ double grading(std::int64_t step, std::int64_t steps)
   return sine * sine;
 }
 
-StepWeights multistepWeights(std::int64_t step, std::int64_t steps)
+Predictor predictorFor(FlowDirection direction, double timeLeft)
+{
+  constexpr double wide = 0.95;
+  return direction == FlowDirection::Backward && timeLeft <= wide ? Predictor::Stiff
+                                                                  : Predictor::Adams;
+}
+
+StepWeights multistepWeights(std::int64_t step, std::int64_t steps, Predictor predictor)
 {
   const auto at = [steps](std::int64_t k) { return grading(k, steps); };
   StepWeights weights;
@@ -65,14 +74,34 @@ StepWeights multistepWeights(std::int64_t step, std::int64_t steps)
     p[1] = 0.5 / first;
     p[2] = 0.0;
   }
+  else if (predictor == Predictor::Stiff)
+  {
+    p[0] = 1.0 - 0.5 / second;
+    p[1] = 0.0;
+    p[2] = 0.5 / second;
+  }
+  return weights;
+}
+
+// Backwards time 1 comes first, so that the graded time is what is left until time 1.
+std::vector<StepWeights> multistepWeightsOf(std::int64_t steps, FlowDirection direction)
+{
+  std::vector<StepWeights> weights;
+  weights.reserve(static_cast<std::size_t>(steps));
+  for (std::int64_t step = 0; step < steps; ++step)
+  {
+    weights.push_back(
+      multistepWeights(step, steps, predictorFor(direction, grading(step + 1, steps))));
+  }
   return weights;
 }
 
 // Adams weights depend on ratios of steps alone: only times and lengths are stretched.
-StepWeights stretchedWeights(std::int64_t step, std::int64_t count, std::int64_t steps)
+StepWeights stretchedWeights(
+  std::int64_t step, std::int64_t count, std::int64_t steps, Predictor predictor)
 {
   const double end = grading(count, steps);
-  StepWeights weights = multistepWeights(step, steps);
+  StepWeights weights = multistepWeights(step, steps, predictor);
   weights.Time = step + 1 == count ? 1.0 : weights.Time / end;
   weights.Length /= end;
   return weights;

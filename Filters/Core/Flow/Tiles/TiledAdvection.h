@@ -49,6 +49,7 @@ public:
     , Rounds(density, graded, plan.Tiles, progress)
     , Read(flowKernels().Read<Dimension>())
     , LastPass(shared.Job.Backward ? 0 : shared.LastPass())
+    , Weights(multistepWeightsOf(plan.Shape.Steps, plan.Shape.Direction))
   {
     this->Wide.Tables = graded.View();
     this->Wide.ShouldStop = [](void* clientData) {
@@ -56,10 +57,6 @@ public:
     };
     this->Wide.ClientData = &progress;
     this->Wide.Sparse = true;
-    for (std::int64_t step = 0; step < plan.Shape.Steps; ++step)
-    {
-      this->Weights.push_back(multistepWeights(step, plan.Shape.Steps));
-    }
     if (map)
     {
       this->Map = map->View();
@@ -452,7 +449,7 @@ private:
   TileRounds<Dimension> Rounds;
   const ReadMap<Dimension> Read;
   const int LastPass;
-  std::vector<StepWeights> Weights;
+  const std::vector<StepWeights> Weights;
   FlowMapView<Dimension> Map;
 };
 
