@@ -85,22 +85,28 @@ private:
   {
     std::vector<StepWeights> weights;
     const std::int64_t all = this->Job.Map->Steps;
-    const auto add = [&weights](std::int64_t count, std::int64_t steps, Predictor predictor) {
-      for (std::int64_t step = 0; step < count; ++step)
-      {
-        weights.push_back(stretchedWeights(step, count, steps, predictor));
-      }
-    };
     if (this->Job.Backward)
     {
       const std::int64_t to = parent < 0 ? all : this->Job.Map->Levels[parent].HandOver;
       const std::int64_t count = nodeSteps(this->Level.HandOver, to);
-      // Up to time 0: the last steps are the longest ones here.
-      add(count, 2 * count, Predictor::Stiff);
+      // Short steps at first, as no velocities are behind, and before time 0.
+      const std::int64_t steps = parent < 0 ? count : 2 * count;
+      const double begin = grading(this->Level.HandOver, all); // what is left until time 1
+      const double length = grading(to, all) - begin;
+      for (std::int64_t step = 0; step < count; ++step)
+      {
+        const double part = grading(step + 1, steps) / grading(count, steps);
+        weights.push_back(stretchedWeights(
+          step, count, steps, predictorFor(FlowDirection::Backward, begin + part * length)));
+      }
     }
     else if (parent < 0)
     {
-      add(startSteps(all, this->Level.HandOver), latticeSteps * all, Predictor::Adams);
+      const std::int64_t count = startSteps(all, this->Level.HandOver);
+      for (std::int64_t step = 0; step < count; ++step)
+      {
+        weights.push_back(stretchedWeights(step, count, latticeSteps * all));
+      }
     }
     return weights;
   }
