@@ -22,10 +22,15 @@ constexpr int refinements = 5; // 2N, 4N ... 32N
 inline void check(const FlowOptions& options)
 {
   constexpr int maximumSteps = FlowOptions::MaximumNumberOfSteps;
-  if (options.NumberOfSteps < 1 || options.NumberOfSteps > maximumSteps)
+  if (options.NumberOfSteps < 0 || options.NumberOfSteps > maximumSteps)
   {
     throw std::invalid_argument("NumberOfSteps is " + std::to_string(options.NumberOfSteps) +
-      ", it must be from 1 to " + std::to_string(maximumSteps));
+      ", it must be from 0 to " + std::to_string(maximumSteps));
+  }
+  if (!(options.AreaTolerance > 0.0 && options.AreaTolerance <= 1.0))
+  {
+    throw std::invalid_argument("AreaTolerance is " + std::to_string(options.AreaTolerance) +
+      ", it must be above 0 and at most 1");
   }
   if (!(options.Tolerance > 0.0) || !std::isfinite(options.Tolerance))
   {
@@ -87,12 +92,11 @@ template <int Dimension>
 class AdvectionJob
 {
 public:
-  // Throws std::invalid_argument.
+  // Of valid options with steps.
   AdvectionJob(const TableView<Dimension>& tables, AdvectionKind kind, const FlowOptions& options)
     : Kind(kind)
     , Refinement(firstRefinement(options, kind))
   {
-    check(options);
     this->Job.Tables = tables;
     this->Job.Integrator = options.Integrator;
     this->Job.Backward = kind == AdvectionKind::Backward;

@@ -114,13 +114,24 @@ FlowReport transportPivot(const PointTransport<Dimension>& flow,
   const std::int64_t each = places > 0 ? particles / places : 0;
   // All places take the same way, as the particles of one run do.
   check(options);
-  const FlowOptions same = withFlowMaps<Dimension>(
-    options, flow.Size(), FlowDirection::Forward, static_cast<double>(particles));
   Progress progress(context);
   FlowReport report;
+  FlowOptions same = options;
+  if (options.NumberOfSteps == 0)
+  {
+    progress.BeginStage(0.1);
+    const StepChoice choice = flow.ChooseSteps(options, FlowDirection::Forward, progress.Stage());
+    same = choice.Of(options);
+    report.AreaError = choice.AreaError;
+  }
+  report.NumberOfSteps = same.Integrator == Integrator::Adaptive ? 0 : same.NumberOfSteps;
+  same = withFlowMaps<Dimension>(
+    same, flow.Size(), FlowDirection::Forward, static_cast<double>(particles));
+  const double begin = progress.StageEnd();
   for (std::int64_t place = 0; place < places; ++place)
   {
-    progress.BeginStage(static_cast<double>(place + 1) / static_cast<double>(places));
+    progress.BeginStage(
+      begin + (1.0 - begin) * static_cast<double>(place + 1) / static_cast<double>(places));
     const std::int64_t low = std::clamp<std::int64_t>(first - place * each, 0, each);
     const std::int64_t high = std::clamp<std::int64_t>(last - place * each, 0, each);
     if (low == high && !progress.Group().AreSeveral())

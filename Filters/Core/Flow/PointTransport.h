@@ -34,6 +34,11 @@ public:
   virtual const GridSize<Dimension>& Size() const = 0;
   virtual bool Serves(TransportUse use) const = 0;
 
+  // What NumberOfSteps 0 of the options means in a direction. Kept: other runs find it again at no
+  // cost. Collective.
+  virtual StepChoice ChooseSteps(const FlowOptions& options, FlowDirection direction,
+    const Context& context = Context()) const = 0;
+
   // Moves points of time 0 (uniform) to time 1 (distributed like the density).
   virtual FlowReport Forward(const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions,
     const FlowOptions& options = {}, const Context& context = Context()) const = 0;
@@ -47,7 +52,7 @@ public:
     const Context& context = Context()) const = 0;
   // Forward, but writes for each point only the number, axis 0 fastest, of the density's cell with
   // mass in which it ends. For densities of isolated cells, which most particles miss at first:
-  // fewer than 128 steps become up to 32 times as many in the first pass.
+  // fewer than 128 steps become up to 32 times as many in the first pass, and 0 means the fewest.
   virtual FlowReport ForwardToCells(const FlowSeeds<Dimension>& seeds, std::int64_t* cells,
     const FlowOptions& options = {}, const Context& context = Context()) const = 0;
 

@@ -3,9 +3,12 @@
 
 #include "Core/Flow/FlowArguments.h"
 #include "Core/Flow/FlowEngine.h"
+#include "Core/Flow/Steps/AutomaticSteps.h"
+#include "Core/Flow/Steps/KeptStepChoices.h"
 #include "Core/Flow/Tiles/TiledEngine.h"
 #include "Core/Flow/WholeEngine.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/RankExchange.h"
 #include "Core/Tables/NearestMass.h"
 
 #include <algorithm>
@@ -35,6 +38,7 @@ template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(const DensitySource<Dimension>& density, FlowTables tables,
   const Context& context, const TileLimits& limits)
   : Cells(density.Size)
+  , Steps(std::make_unique<KeptStepChoices>())
 {
   check<Dimension>(density.Size, "a density");
   Progress progress(context);
@@ -56,6 +60,7 @@ template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(
   const DensitySource<Dimension>& density, RectifiedFlow&& previous, const Context& context)
   : Cells(density.Size)
+  , Steps(std::make_unique<KeptStepChoices>())
 {
   check<Dimension>(density.Size, "a density");
   TableMemory memory;
@@ -194,17 +199,57 @@ bool RectifiedFlow<Dimension>::Serves(TransportUse /*use*/) const
 }
 
 template <int Dimension>
+StepChoice RectifiedFlow<Dimension>::ChooseSteps(
+  const FlowOptions& options, FlowDirection direction, const Context& context) const
+{
+  check(options);
+  return this->Steps->FindOrMake(options, direction, *context.Group,
+    [&]() { return chooseSteps<Dimension>(*this->Engine, options, direction, context); });
+}
+
+// run(options, context) with the steps that are asked for.
+template <int Dimension>
+template <class Run>
+FlowReport RectifiedFlow<Dimension>::RunWithSteps(const FlowOptions& options,
+  FlowDirection direction, double particles, const Context& context, const Run& run) const
+{
+  check(options);
+  Progress progress(context);
+  StepChoice choice;
+  FlowOptions chosen = options;
+  if (options.NumberOfSteps == 0)
+  {
+    constexpr double part = 0.1;
+    progress.BeginStage(part);
+    const bool hasParticles = !onAllRanks(*context.Group, particles == 0.0);
+    choice = hasParticles ? this->ChooseSteps(options, direction, progress.Stage()) : choice;
+    chosen = choice.Of(options);
+  }
+  progress.BeginStage(1.0);
+  FlowReport report = run(chosen, progress.Stage());
+  report.NumberOfSteps = chosen.Integrator == Integrator::Adaptive ? 0 : chosen.NumberOfSteps;
+  report.AreaError = choice.AreaError;
+  return report;
+}
+
+template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::Forward(const FlowSeeds<Dimension>& seeds,
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
-  return this->Engine->Advect(AdvectionKind::Forward, seeds, positions, options, context);
+  return this->RunWithSteps(options, FlowDirection::Forward, seeds.Count(), context,
+    [&](const FlowOptions& chosen, const Context& stage) {
+      return this->Engine->Advect(AdvectionKind::Forward, seeds, positions, chosen, stage);
+    });
 }
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::Backward(const FlowSeeds<Dimension>& points,
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
-  return this->Engine->Advect(AdvectionKind::Backward, points, positions, options, context);
+  return this->RunWithSteps(options, FlowDirection::Backward, points.Count(), context,
+    [&](const FlowOptions& chosen, const Context& stage) {
+      return this->Engine->Advect(AdvectionKind::Backward, points, positions, chosen, stage);
+    });
 }
 
 template <int Dimension>
@@ -217,14 +262,19 @@ FlowReport RectifiedFlow<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds
   {
     checkCount(positions.size(), seeds.Count() * static_cast<double>(times.size()));
   }
-  return this->Engine->AdvectAt(seeds, times, positions, options, context);
+  return this->RunWithSteps(options, FlowDirection::Forward, seeds.Count(), context,
+    [&](const FlowOptions& chosen, const Context& stage) {
+      return this->Engine->AdvectAt(seeds, times, positions, chosen, stage);
+    });
 }
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::ForwardToCells(const FlowSeeds<Dimension>& seeds,
   std::int64_t* cells, const FlowOptions& options, const Context& context) const
 {
-  return this->Engine->AdvectToCells(seeds, cells, options, context);
+  check(options);
+  const FlowOptions chosen = options.NumberOfSteps == 0 ? StepChoice().Of(options) : options;
+  return this->Engine->AdvectToCells(seeds, cells, chosen, context);
 }
 
 template <int Dimension>

@@ -32,6 +32,7 @@ namespace RectifiedTransport
 
 template <int Dimension>
 class FlowEngine;
+class KeptStepChoices;
 
 // The summed-area tables of one density and the flow that they define. Construction costs
 // O(cells), an advection O(particles * steps * 2^Dimension). Const members may run concurrently.
@@ -98,6 +99,8 @@ public:
     const double* shares, double* measures, const Context& context = Context()) const;
 
   bool Serves(TransportUse use) const override;
+  StepChoice ChooseSteps(const FlowOptions& options, FlowDirection direction,
+    const Context& context = Context()) const override;
   FlowReport Forward(const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions,
     const FlowOptions& options = {}, const Context& context = Context()) const override;
   FlowReport Backward(const FlowSeeds<Dimension>& points, PointSpan<Dimension> positions,
@@ -109,8 +112,13 @@ public:
     const FlowOptions& options = {}, const Context& context = Context()) const override;
 
 private:
+  template <class Run>
+  FlowReport RunWithSteps(const FlowOptions& options, FlowDirection direction, double particles,
+    const Context& context, const Run& run) const;
+
   GridSize<Dimension> Cells;
   std::unique_ptr<FlowEngine<Dimension>> Engine;
+  std::unique_ptr<KeptStepChoices> Steps;
 };
 
 // One-off: builds the tables, transports the points, releases the tables.

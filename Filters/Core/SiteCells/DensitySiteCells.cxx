@@ -60,7 +60,9 @@ FlowOptions refined(FlowOptions options)
 {
   constexpr int enough = 128;
   constexpr int mostDoublings = 5;
-  for (int i = 0; i < mostDoublings && options.NumberOfSteps < enough; ++i)
+  options.LeastSteps = std::max(options.LeastSteps, enough);
+  for (int i = 0; i < mostDoublings && options.NumberOfSteps > 0 && options.NumberOfSteps < enough;
+       ++i)
   {
     options.NumberOfSteps *= 2;
   }

@@ -83,8 +83,10 @@ bool servesTiles(const GridSize<Dimension>& size, const FlowOptions& options,
   }
   else
   {
+    const int steps =
+      options.NumberOfSteps == 0 ? StepChoice().Of(options).NumberOfSteps : options.NumberOfSteps;
     return takesFlowMaps(options) &&
-      TilePlan<Dimension>(size, options.NumberOfSteps, direction, false, limits).IsPossible();
+      TilePlan<Dimension>(size, steps, direction, false, limits).IsPossible();
   }
 }
 

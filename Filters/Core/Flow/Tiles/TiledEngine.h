@@ -10,6 +10,7 @@
 #include "Core/Flow/Tiles/TiledShares.h"
 #include "Core/Tables/DensityShare.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 
@@ -42,7 +43,22 @@ public:
     FlowDirection direction, double particles, bool isLattice, const TileLimits& limits)
   {
     requireTiles<Dimension>(size, options, direction, limits);
-    return PlanFor(size, options, direction, particles, limits).MemorySize(particles, isLattice);
+    FlowOptions fixed = options;
+    double most = 0.0;
+    // What NumberOfSteps 0 may mean.
+    constexpr int usual = 512;
+    int last = options.NumberOfSteps;
+    if (options.NumberOfSteps == 0)
+    {
+      fixed = StepChoice().Of(options);
+      last = std::max(usual, fixed.NumberOfSteps);
+    }
+    for (; fixed.NumberOfSteps <= last; fixed.NumberOfSteps *= 2)
+    {
+      most = std::max(most,
+        PlanFor(size, fixed, direction, particles, limits).MemorySize(particles, isLattice));
+    }
+    return most;
   }
   static double MemoryForShares(const GridSize<Dimension>& size, const Point<Dimension>& aspect,
     double boxes, const TileLimits& limits)

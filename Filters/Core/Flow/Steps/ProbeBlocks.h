@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Blocks of cells, spread over a density, by whose images the error of a flow is measured.
+#ifndef RectifiedTransport_ProbeBlocks_h
+#define RectifiedTransport_ProbeBlocks_h
+
+#include "Core/Flow/FlowEngine.h"
+#include "Core/Flow/FlowOptions.h"
+#include "Core/Geometry/Points.h"
+#include "Core/Parallel/Progress.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// Cells of at most this part of the mean density do not count.
+constexpr double leastOfMean = 0.05;
+
+// The part of a block that is measured. Masses are in cells of the mean density.
+template <int Dimension>
+struct ProbeBlock
+{
+  Point<Dimension> Low{};
+  Point<Dimension> High{};
+  double Mass = 0.0;
+  double Contrast = 1.0; // largest ratio of mean densities in a box about the block and in its half
+  bool Counts = true;    // all its cells do
+  bool HasMass = true;   // in all its cells
+};
+
+template <int Dimension>
+class ProbeBlocks
+{
+public:
+  // Backward only blocks that count. Collective. Throws Cancelled.
+  ProbeBlocks(FlowEngine<Dimension>& engine, FlowDirection direction, Progress& progress);
+
+  const std::vector<ProbeBlock<Dimension>>& Blocks() const { return this->Found; }
+  const GridSize<Dimension>& Grid() const { return this->Size; }
+  // The measure of a whole block, in cells.
+  double Volume() const { return this->Measure; }
+  // In mean densities; of a graded table interpolated. A box that is not empty.
+  double MeanIn(const Point<Dimension>& low, const Point<Dimension>& high) const;
+  // Whether the cells at the corners of an image, and halfway between them, count.
+  bool IsDense(const Point<Dimension>* corners) const;
+  // Whether densities about blocks hardly differ from scale to scale, as in photographs.
+  bool HaveLittleContrast() const;
+
+private:
+  std::int64_t WantedBlocks() const;
+  ProbeBlock<Dimension> Examine(std::int64_t number);
+  void ExamineCells(ProbeBlock<Dimension>& block);
+  double ContrastAbout(const ProbeBlock<Dimension>& block) const;
+
+  FlowEngine<Dimension>& Engine;
+  const bool IsBackward;
+  GridSize<Dimension> Size{};
+  GridSize<Dimension> Side{}; // of a block
+  double Cells = 1.0;
+  double Measure = 1.0;
+  std::vector<ProbeBlock<Dimension>> Found;
+};
+
+} // namespace RectifiedTransport
+
+#endif
