@@ -96,8 +96,9 @@ int vtkDensityEqualizingWarp::RequestData(
   output->CopyStructure(input);
   output->GetPointData()->PassData(input->GetPointData());
   output->GetCellData()->PassData(input->GetCellData());
-  const std::int64_t outside =
-    sumOverRanks(ranks, warp.Run(*density, input, this->GetFlowCache(), progress, output));
+  const DensityEqualizingWarp::Report report =
+    warp.Run(*density, input, this->GetFlowCache(), progress, output);
+  const std::int64_t outside = sumOverRanks(ranks, report.Outside);
   const std::int64_t points = sumOverRanks<std::int64_t>(ranks, input->GetNumberOfPoints());
   addFieldValue(output, "OutsidePoints", static_cast<double>(outside));
   if (isWorthWarning(outside, points))
@@ -105,6 +106,7 @@ int vtkDensityEqualizingWarp::RequestData(
     this->WarnOnFirstRank(std::to_string(outside) + " of " + std::to_string(points) +
       " points outside the domain of the density moved as its border does");
   }
+  this->WarnOfSteps(report.Flow, warp.Flow, FlowDirection::Backward);
   return 1;
 }
 

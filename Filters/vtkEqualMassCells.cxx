@@ -9,8 +9,8 @@
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/StepReport.h"
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/SiteCells/EqualMassCells.h"
@@ -246,7 +246,12 @@ int vtkEqualMassCells::RequestData(
   {
     addFieldValue(output, "OutsideSites", static_cast<double>(report.Outside));
     addFieldValue(output, "SitesWithoutMass", static_cast<double>(report.WithoutMass));
+    if (this->Shape == FLOW)
+    {
+      addSteps(output, { report.Flow });
+    }
   }
+  this->WarnOfSteps(report.Flow, cells.Flow, FlowDirection::Backward);
   if (isWorthWarning(report.Outside, sites))
   {
     const bool isOne = report.Outside == 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportAlgorithm.h"
 
+#include "Bridge/Run/StepReport.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 
@@ -12,7 +13,8 @@ vtkTransportAlgorithm::vtkTransportAlgorithm(int densityPort)
   : vtkDensityAlgorithm(densityPort)
   , Tables(TABLES_AUTO)
   , Integrator(MULTISTEP)
-  , NumberOfSteps(32)
+  , NumberOfSteps(0)
+  , AreaTolerance(0.02)
   , Tolerance(0.01)
   , TableLookup(INTERPOLATED)
   , FlowMaps(FLOW_MAPS_AUTO)
@@ -50,6 +52,17 @@ const char* vtkTransportAlgorithm::GetFlowMapsAsString()
 FlowOptions vtkTransportAlgorithm::GetFlowOptions()
 {
   return flowOptionsOf(*this);
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportAlgorithm::WarnOfSteps(const FlowReport& flow, const FlowOptions& options,
+  FlowDirection direction, const std::string& name)
+{
+  const std::string warning = stepWarning(flow, options, direction);
+  if (!warning.empty())
+  {
+    this->WarnOnFirstRank(name.empty() ? warning : name + ": " + warning);
+  }
 }
 
 //------------------------------------------------------------------------------

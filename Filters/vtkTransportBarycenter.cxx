@@ -161,9 +161,9 @@ int vtkTransportBarycenter::RequestData(
   {
     inputs[i].Weight = weights[i];
   }
-  const DensityBlend::Report report =
+  const BlendReport report =
     this->Blend->Run(inputs, settings, this->GetFlowCache(), progress, BlendOutput(outputVector));
-  this->WarnOfMoved(report.Moved, report.Particles);
+  this->WarnOfMaps(report);
   return 1;
 }
 

@@ -265,11 +265,16 @@ void vtkTransportBlend::ReportOtherBlocks(std::int64_t others, bool areAll)
 }
 
 //------------------------------------------------------------------------------
-void vtkTransportBlend::WarnOfMoved(std::int64_t moved, std::int64_t particles)
+void vtkTransportBlend::WarnOfMaps(const BlendReport& report)
 {
-  if (isWorthWarning(moved, particles))
+  for (const std::string& warning : report.Steps)
   {
-    this->WarnOnFirstRank(std::to_string(moved) + (moved == 1 ? " particle" : " particles") +
+    this->WarnOnFirstRank(warning);
+  }
+  if (isWorthWarning(report.Moved, report.Particles))
+  {
+    this->WarnOnFirstRank(std::to_string(report.Moved) +
+      (report.Moved == 1 ? " particle" : " particles") +
       " in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare them "
       "that)");
   }

@@ -51,6 +51,7 @@
 namespace RectifiedTransport
 {
 struct BlendInput;
+struct BlendReport;
 struct BlendSettings;
 } // namespace RectifiedTransport
 
@@ -174,9 +175,10 @@ protected:
     const char* const* names, RectifiedTransport::Progress& progress);
 
   /**
-   * Warn of particles that ended in empty cells, if they are at least one in a thousand.
+   * Warn of new maps that do not keep AreaTolerance, and of particles that ended in empty cells, if
+   * they are at least one in a thousand.
    */
-  void WarnOfMoved(std::int64_t moved, std::int64_t particles);
+  void WarnOfMaps(const RectifiedTransport::BlendReport& report);
 
   /**
    * Warn of blocks that are not data sets with cells. It is an error if no block is one.

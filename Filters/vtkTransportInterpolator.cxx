@@ -172,9 +172,9 @@ int vtkTransportInterpolator::RequestData(
   {
     inputs[0].Weight = 1.0 - parameter;
     inputs[1].Weight = parameter;
-    const DensityBlend::Report report =
+    const BlendReport report =
       this->Blend->Run(inputs, settings, this->GetFlowCache(), progress, BlendOutput(outputVector));
-    this->WarnOfMoved(report.Moved, report.Particles);
+    this->WarnOfMaps(report);
   }
   for (int i = 0; this->PublishTime && i < outputVector->GetNumberOfInformationObjects(); ++i)
   {

@@ -125,6 +125,8 @@ int vtkTransportMap::RequestData(
     map.Run(*density, wanted, this->GetFlowCache(), progress, output);
   // The association of the density may not be known before the data.
   announceGrid(result.Grid, outputInformation);
+  this->WarnOfSteps(
+    result.Flow, map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward);
   const auto samples = static_cast<std::int64_t>(result.Samples);
   if (isWorthWarning(result.MovedToMass, samples))
   {

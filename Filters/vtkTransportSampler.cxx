@@ -114,6 +114,7 @@ int vtkTransportSampler::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const TransportSampler::Report report =
     sampler.Run(*density, seeds, this->GetFlowCache(), progress, output);
+  this->WarnOfSteps(report.Flow, sampler.Flow, FlowDirection::Forward);
   const std::string ofAll = " of " + std::to_string(report.Particles);
   if (report.SeedsMoved > 0)
   {

@@ -134,7 +134,7 @@ public:
   ///@{
   /**
    * On: instead of vertices, output one polyline a particle from its seed to its position at
-   * FlowTime, with NumberOfSteps + 1 points at equal intervals of time, independent of the
+   * FlowTime, with NumberOfSteps + 1 points (33 with 0 steps) at equal times, independent of the
    * integrator's steps. Point data: `SeedId`, `Time` and `Mass`, the mass of the particle at each
    * point of its path (the masses of one point of each path sum to TotalMass). Off by default.
    */

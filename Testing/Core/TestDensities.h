@@ -256,6 +256,15 @@ SeparableDensity<Dimension> randomSeparable(
   return density;
 }
 
+// A disc in the plane, a ball in space, whose density is `ratio` times that of the rest.
+template <int Dimension>
+TestDensity<Dimension> denseBall(std::int64_t side, double ratio)
+{
+  return sampleDensity<Dimension>(evenSize<Dimension>(side), [&](const Point<Dimension>& p) {
+    return squaredDistance<Dimension>(p, 0.47) < 0.15 * 0.15 ? ratio : 1.0;
+  });
+}
+
 } // namespace RectifiedTransport
 
 #endif

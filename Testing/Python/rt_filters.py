@@ -22,7 +22,7 @@ SMOOTH = {"Kernel": "TriangularShapedCloud"}
 # Properties as they stand on panels, from top to bottom.
 RULES = ["Component", "InvertDensity", "NegativeValues", "DensityResolution"]
 DENSITY_PANEL = ["DensityArray", *RULES]
-FLOW_PANEL = ["Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "FlowMaps"]
+FLOW_PANEL = ["Integrator", "NumberOfSteps", "AreaTolerance", "Tolerance", "TableLookup", "FlowMaps"]
 BLEND_PANEL = ["ParticlesPerCell", "MassMode", "Dimensions", "Kernel", "Radius",
                *FLOW_PANEL, "Tables", "Threading"]
 
@@ -78,7 +78,7 @@ FILTERS = [
            {"Input": "density"}, {"Seeds": "points"},
            panel=["Seeds", "NumberOfParticles", "SeedPattern", "RandomSeed", "SamplesPerCell", "FlowTime",
                   *DENSITY_PANEL, "OutputPaths", "SampleArrays", *FLOW_PANEL, "Tables", "Threading"],
-           refused=("NumberOfSteps", 0, 2), quick=dict(NumberOfParticles=50),
+           refused=("NumberOfSteps", -1, 2), quick=dict(NumberOfParticles=50),
            variants={"paths": dict(NumberOfParticles=5, OutputPaths=1, NumberOfSteps=4)},
            saved=dict(InvertDensity=1, FlowTime=0.75, Integrator="RungeKutta4", NumberOfSteps=12),
            shown=[PARTICLES[0],
@@ -87,7 +87,7 @@ FILTERS = [
                   ("FirstDisplay", {"property": "OutputPaths", "value": "0", **DOTS})]),
     Filter("Transport Map", "vtkTransportMap", {"Input": "density"},
            panel=["Direction", *DENSITY_PANEL, "SampleDimensions", *FLOW_PANEL, "Tables", "Threading"],
-           refused=("NumberOfSteps", 0, 2),
+           refused=("NumberOfSteps", -1, 2),
            saved=dict(InvertDensity=1, Direction="DensityToUniform", SampleDimensions=[20, 30, 1],
                       Integrator="Adaptive", Tolerance=0.5),
            shown=[("FirstDisplay", {"dimension": "3", "type": "Surface", "array": "Displacement"}),
@@ -194,6 +194,7 @@ PROPERTIES = {
     "NegativeValues": Property(["Error", "Clamp"]),
     "Integrator": Property(["Multistep", "RungeKutta4", "Euler", "Adaptive"], advanced=True),
     "NumberOfSteps": Property(advanced=True, shown_by=("Integrator",), differing=(32, 1)),
+    "AreaTolerance": Property(advanced=True, shown_by=("Integrator", "NumberOfSteps"), differing=(0.5, 0.002)),
     "Tolerance": Property(advanced=True, shown_by=("Integrator",), differing=(0.01, 2.0)),
     "TableLookup": Property(["Interpolated", "Nearest"], advanced=True),
     "FlowMaps": Property(["Auto", "On", "Off"], advanced=True, shown_by=("Integrator",), differing=(1, 2),

@@ -10,8 +10,8 @@
 #include "Bridge/Ranks/PlaceOwners.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Run/StepReport.h"
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Flow/WeightedMean.h"
 #include "Core/Geometry/LengthScale.h"
@@ -31,6 +31,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <sstream>
 #include <utility>
@@ -118,8 +119,8 @@ BlendOutput::BlendOutput(vtkInformationVector* outputs)
 {
 }
 
-DensityBlend::Report DensityBlend::Run(const std::vector<BlendInput>& inputs,
-  const BlendSettings& settings, FlowCache& tables, Progress& progress, const BlendOutput& output)
+BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
+  FlowCache& tables, Progress& progress, const BlendOutput& output)
 {
   const Ranks& ranks = progress.Group();
   const ImageGrid geometry = gridBetween(inputs, settings.Dimensions);
@@ -143,7 +144,7 @@ DensityBlend::Report DensityBlend::Run(const std::vector<BlendInput>& inputs,
   const double maps =
     stageEnds({ static_cast<double>(newMaps) * Cost::flow(settings.Flow, geometry.Dimension()),
       Cost::MeanAndSplat })[0];
-  const std::int64_t moved = this->MakeMaps(inputs, pivot, tables, progress, maps);
+  BlendReport report = this->MakeMaps(inputs, pivot, tables, progress, maps);
 
   progress.BeginStage(maps + partOfMean * (1.0 - maps));
   this->TakeMeans(inputs, progress);
@@ -165,6 +166,9 @@ DensityBlend::Report DensityBlend::Run(const std::vector<BlendInput>& inputs,
   const std::int64_t movedInAll =
     std::accumulate(this->Maps.begin(), this->Maps.end(), std::int64_t{ 0 },
       [](std::int64_t sum, const LinearizedMap& map) { return sum + map.Moved(); });
+  std::vector<FlowReport> flows;
+  std::transform(this->Maps.begin(), this->Maps.end(), std::back_inserter(flows),
+    [](const LinearizedMap& map) { return map.Flow(); });
   const auto movedOnRanks = static_cast<double>(sumOverRanks(ranks, movedInAll));
   for (vtkDataObject* part :
     { static_cast<vtkDataObject*>(output.Density), static_cast<vtkDataObject*>(output.Particles) })
@@ -175,8 +179,11 @@ DensityBlend::Report DensityBlend::Run(const std::vector<BlendInput>& inputs,
     }
     addFieldValue(part, "TotalMass", mass);
     addFieldValue(part, "MovedParticles", movedOnRanks);
+    addSteps(part, flows);
   }
-  return { count, sumOverRanks(ranks, moved) };
+  report.Particles = count;
+  report.Moved = sumOverRanks(ranks, report.Moved);
+  return report;
 }
 
 // As the work of the current stage.
@@ -219,7 +226,7 @@ std::size_t DensityBlend::MatchMaps(
   return missing;
 }
 
-std::int64_t DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
+BlendReport DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
   const LinearizedMapSettings& settings, FlowCache& tables, Progress& progress, double end)
 {
   // The tables take as much memory as the particles, and little time to build.
@@ -228,7 +235,7 @@ std::int64_t DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
     FlowCache& Tables;
     ~Releaser() { this->Tables.Release(); }
   } const releaser{ tables };
-  std::int64_t moved = 0;
+  BlendReport report;
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
     LinearizedMap& map = this->Maps[i];
@@ -250,14 +257,19 @@ std::int64_t DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
     try
     {
       map.Make(density, settings, tables, progress, until);
-      moved += map.Moved();
+      report.Moved += map.Moved();
+      const std::string warning = stepWarning(map.Flow(), settings.Options, FlowDirection::Forward);
+      if (!warning.empty())
+      {
+        report.Steps.push_back(inputs[i].Name + ": " + warning);
+      }
     }
     catch (const Failure& failure)
     {
       throw Failure(inputs[i].Name, failure);
     }
   }
-  return moved;
+  return report;
 }
 
 void DensityBlend::TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress)

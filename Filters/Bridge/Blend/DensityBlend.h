@@ -70,28 +70,29 @@ struct BlendOutput
   vtkPolyData* Particles;
 };
 
+// On all ranks.
+struct BlendReport
+{
+  std::int64_t Particles = 0;
+  std::int64_t Moved = 0;         // out of empty cells of the densities, by new maps
+  std::vector<std::string> Steps; // a warning for each new map that does not keep its tolerance
+};
+
 class DensityBlend
 {
 public:
-  // On all ranks.
-  struct Report
-  {
-    std::int64_t Particles = 0;
-    std::int64_t Moved = 0; // out of empty cells of the densities, by new maps
-  };
-
   // Keeps the maps of these inputs for the next call. Builds tables in `tables` and releases them.
   // Each rank gets the part of the image that it wants and the particles at positions that it owns.
   // Collective. Throws Failure, which names the input, and Cancelled.
-  Report Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
+  BlendReport Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
     FlowCache& tables, Progress& progress, const BlendOutput& output);
 
 private:
   std::size_t MatchMaps(const std::vector<BlendInput>& inputs,
     const LinearizedMapSettings& settings, Progress& progress);
-  // Returns how many particles of this rank the new maps moved out of empty cells.
-  std::int64_t MakeMaps(const std::vector<BlendInput>& inputs,
-    const LinearizedMapSettings& settings, FlowCache& tables, Progress& progress, double end);
+  // Returns how many particles of this rank the new maps moved, and their warnings.
+  BlendReport MakeMaps(const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings,
+    FlowCache& tables, Progress& progress, double end);
   double CompareEnds(const ImageGrid& geometry, std::int64_t particles, Progress& progress);
   void TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress);
   double TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const;

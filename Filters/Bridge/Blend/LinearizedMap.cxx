@@ -91,13 +91,12 @@ void LinearizedMap::Move(InputDensity& density, FlowCache& tables, Progress& pro
 
   const double begin = progress.StageEnd();
   progress.BeginStage(begin + (1.0 - partOfConversion) * (end - begin));
-  const FlowReport report = transportPivot<D>(flow.Transport<D>(), pivot,
-    this->Settings.Share.First, { positions, particles }, options, progress.Stage());
+  this->Report = transportPivot<D>(flow.Transport<D>(), pivot, this->Settings.Share.First,
+    { positions, particles }, options, progress.Stage());
   progress.BeginStage(end);
   toPhysical<D>(
     this->Geometry, { positions, particles }, progress, { physical->GetPointer(0), particles });
   this->Kept = physical;
-  this->MovedToMass = report.MovedToMass;
 }
 
 } // namespace RectifiedTransport

@@ -59,7 +59,8 @@ public:
   double TotalMass() const { return this->Mass; }
   // How many of the share's particles ended in an empty cell of the density and were moved to the
   // nearest mass.
-  std::int64_t Moved() const { return this->MovedToMass; }
+  std::int64_t Moved() const { return this->Report.MovedToMass; }
+  const FlowReport& Flow() const { return this->Report; } // of this rank
 
 private:
   template <int D>
@@ -70,7 +71,7 @@ private:
   LinearizedMapSettings Settings{ {}, 0, {}, {}, { 0, 1, 0 } };
   vtkSmartPointer<vtkDoubleArray> Kept;
   double Mass = 0.0;
-  std::int64_t MovedToMass = 0;
+  FlowReport Report;
 };
 
 } // namespace RectifiedTransport

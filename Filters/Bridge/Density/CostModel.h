@@ -35,7 +35,8 @@ inline double tables(const FlowCache& cache, const InputDensity& density)
 inline double flow(const FlowOptions& options, int dimension)
 {
   const double evaluation = dimension == 3 ? 60.0 : 15.0;
-  return evaluation * options.NumberOfSteps *
+  constexpr int usual = 64; // that 0 stands for
+  return evaluation * (options.NumberOfSteps > 0 ? options.NumberOfSteps : usual) *
     (options.Integrator == Integrator::RungeKutta4 ? 4.0 : 1.0);
 }
 

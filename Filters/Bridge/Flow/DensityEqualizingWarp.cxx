@@ -6,6 +6,7 @@
 #include "Bridge/Density/TableChoice.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Run/StepReport.h"
 #include "Core/Geometry/Dispatch.h"
 
 #include "vtkDoubleArray.h"
@@ -79,12 +80,12 @@ public:
     return outside;
   }
 
-  void Flow(const PointTransport<D>& flow, const FlowOptions& options)
+  FlowReport Flow(const PointTransport<D>& flow, const FlowOptions& options)
   {
     const PointSpan<D> points(this->Index, this->Count);
     try
     {
-      flow.Backward(points, points, options, this->Work.Stage());
+      return flow.Backward(points, points, options, this->Work.Stage());
     }
     catch (const std::bad_alloc& caught)
     {
@@ -138,8 +139,8 @@ private:
 };
 
 template <int D>
-std::int64_t warp(const DensityEqualizingWarp& settings, InputDensity& density, vtkPointSet* input,
-  FlowCache& cache, Progress& progress, vtkPointSet* output)
+DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputDensity& density,
+  vtkPointSet* input, FlowCache& cache, Progress& progress, vtkPointSet* output)
 {
   const double count = static_cast<double>(input->GetNumberOfPoints());
   const auto ends = stageEnds({ Cost::tables(cache, density), Cost::Seed * count,
@@ -149,21 +150,23 @@ std::int64_t warp(const DensityEqualizingWarp& settings, InputDensity& density, 
     { settings.Flow, FlowDirection::Backward, count, false, "" });
   const SharedFlow& flow = cache.Update(density, progress, ends[0], tables);
   progress.BeginStage(ends[1]);
-  const std::int64_t outside = points.Read();
+  DensityEqualizingWarp::Report report;
+  report.Outside = points.Read();
   if (settings.Blend > 0.0)
   {
     progress.BeginStage(ends[2]);
-    points.Flow(flow.Transport<D>(), settings.Flow);
+    report.Flow = points.Flow(flow.Transport<D>(), settings.Flow);
   }
   progress.BeginStage(1.0);
   points.Write(settings.Blend, output);
-  return outside;
+  addSteps(output, { report.Flow });
+  return report;
 }
 
 } // namespace
 
-std::int64_t DensityEqualizingWarp::Run(InputDensity& density, vtkPointSet* input, FlowCache& cache,
-  Progress& progress, vtkPointSet* output) const
+DensityEqualizingWarp::Report DensityEqualizingWarp::Run(InputDensity& density, vtkPointSet* input,
+  FlowCache& cache, Progress& progress, vtkPointSet* output) const
 {
   return dispatchDimension(density.Grid().Dimension(), warp<1>, warp<2>, warp<3>)(
     *this, density, input, cache, progress, output);

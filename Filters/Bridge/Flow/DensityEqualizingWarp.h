@@ -27,9 +27,15 @@ struct DensityEqualizingWarp
   TableSetting Tables;
   double Blend;
 
-  // Sets the points and `Displacement` of an output that already has the rest of the input. Returns
-  // the number of points outside the domain. Throws Failure and Cancelled.
-  std::int64_t Run(InputDensity& density, vtkPointSet* input, FlowCache& cache, Progress& progress,
+  struct Report
+  {
+    std::int64_t Outside = 0; // points of this rank outside the domain
+    FlowReport Flow;
+  };
+
+  // Sets the points and `Displacement` of an output that already has the rest of the input. Throws
+  // Failure and Cancelled.
+  Report Run(InputDensity& density, vtkPointSet* input, FlowCache& cache, Progress& progress,
     vtkPointSet* output) const;
 };
 

@@ -7,7 +7,7 @@
 #include "Bridge/Flow/MapField.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/StepReport.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
 
@@ -82,7 +82,8 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   addFieldValue(output, "TransportCost", cost);
   const std::int64_t moved = sumOverRanks(ranks, report.MovedToMass);
   addFieldValue(output, "MovedSamples", static_cast<double>(moved));
-  return { samples, all, moved };
+  addSteps(output, { report });
+  return { samples, all, report, moved };
 }
 
 } // namespace

@@ -34,6 +34,7 @@ struct TransportMap
   {
     ImageGrid Grid; // of all samples
     double Samples;
+    FlowReport Flow;
     std::int64_t MovedToMass; // from empty cells of the density
   };
 

@@ -9,8 +9,8 @@
 #include "Bridge/Points/SeedInput.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/PlaceOwners.h"
-#include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Run/StepReport.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankShare.h"
@@ -42,7 +42,8 @@ constexpr double maximumCount = 9e18; // of particles, as integers
 // The times of the output positions: FlowTime, or those of a path's points.
 std::vector<double> timesOf(const TransportSampler& sampler)
 {
-  const int steps = sampler.OutputPaths ? sampler.Flow.NumberOfSteps : 0;
+  const int asked = sampler.Flow.NumberOfSteps;
+  const int steps = !sampler.OutputPaths ? 0 : asked > 0 ? asked : FlowOptions::FewestSteps;
   std::vector<double> times;
   for (int i = 0; i < steps; ++i)
   {
@@ -197,14 +198,12 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     }
     else if (times.back() == 1.0 && times.size() == 1)
     {
-      report.ParticlesMoved =
-        flow.Transport<D>().Forward(seeds, positions, sampler.Flow, progress.Stage()).MovedToMass;
+      report.Flow = flow.Transport<D>().Forward(seeds, positions, sampler.Flow, progress.Stage());
     }
     else
     {
-      report.ParticlesMoved = flow.Transport<D>()
-                                .ForwardAt(seeds, times, positions, sampler.Flow, progress.Stage())
-                                .MovedToMass;
+      report.Flow =
+        flow.Transport<D>().ForwardAt(seeds, times, positions, sampler.Flow, progress.Stage());
     }
   }
   catch (const std::bad_alloc& caught)
@@ -229,7 +228,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   const PlaceOwners owners(grid, density.Pieces(), ranks);
   moveToOwners(output, static_cast<std::int64_t>(times.size()), owners, ranks, progress);
   report.SeedsMoved = sumOverRanks(ranks, report.SeedsMoved);
-  report.ParticlesMoved = sumOverRanks(ranks, report.ParticlesMoved);
+  report.ParticlesMoved = sumOverRanks(ranks, report.Flow.MovedToMass);
   report.Particles = share.All;
   if (addsArrays)
   {
@@ -241,6 +240,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   addFieldValue(output, "TransportCost", cost);
   addFieldValue(output, "MovedParticles", static_cast<double>(report.ParticlesMoved));
   addFieldValue(output, "OutsideSeeds", static_cast<double>(report.SeedsMoved));
+  addSteps(output, { report.Flow });
   return report;
 }
 

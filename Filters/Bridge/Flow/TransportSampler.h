@@ -41,6 +41,7 @@ struct TransportSampler
   struct Report
   {
     std::int64_t Particles = 0;
+    FlowReport Flow;                 // of this rank
     std::int64_t SeedsMoved = 0;     // to the domain's border
     std::int64_t ParticlesMoved = 0; // from empty cells of the density to the nearest mass
   };

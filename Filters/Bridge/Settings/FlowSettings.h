@@ -25,8 +25,10 @@ FlowOptions flowOptionsOf(Filter& filter)
 {
   constexpr int most = FlowOptions::MaximumNumberOfSteps;
   requireChoice("Integrator", filter.GetIntegrator(), IntegratorTexts);
-  requireThat(filter.GetNumberOfSteps() >= 1 && filter.GetNumberOfSteps() <= most, "NumberOfSteps",
-    filter.GetNumberOfSteps(), "from 1 to 10000");
+  requireThat(filter.GetNumberOfSteps() >= 0 && filter.GetNumberOfSteps() <= most, "NumberOfSteps",
+    filter.GetNumberOfSteps(), "from 1 to 10000, or 0 (as many as AreaTolerance asks)");
+  requireThat(filter.GetAreaTolerance() > 0.0 && filter.GetAreaTolerance() <= 1.0, "AreaTolerance",
+    filter.GetAreaTolerance(), "above 0 and at most 1");
   requireThat(filter.GetTolerance() > 0.0 && std::isfinite(filter.GetTolerance()), "Tolerance",
     filter.GetTolerance(), "a positive number of cells");
   requireChoice("TableLookup", filter.GetTableLookup(), TableLookupTexts);
@@ -34,6 +36,7 @@ FlowOptions flowOptionsOf(Filter& filter)
   FlowOptions options;
   options.Integrator = static_cast<Integrator>(filter.GetIntegrator());
   options.NumberOfSteps = filter.GetNumberOfSteps();
+  options.AreaTolerance = filter.GetAreaTolerance();
   options.Tolerance = filter.GetTolerance();
   options.Lookup = static_cast<TableLookup>(filter.GetTableLookup());
   options.Maps = static_cast<FlowMaps>(filter.GetFlowMaps());
@@ -45,6 +48,7 @@ void printFlowOptions(Filter& filter, std::ostream& os, vtkIndent indent)
 {
   os << indent << "Integrator: " << filter.GetIntegratorAsString() << "\n";
   os << indent << "NumberOfSteps: " << filter.GetNumberOfSteps() << "\n";
+  os << indent << "AreaTolerance: " << filter.GetAreaTolerance() << "\n";
   os << indent << "Tolerance: " << filter.GetTolerance() << "\n";
   os << indent << "TableLookup: " << filter.GetTableLookupAsString() << "\n";
   os << indent << "FlowMaps: " << filter.GetFlowMapsAsString() << "\n";

@@ -70,20 +70,20 @@ SiteCells<D> placeSites(vtkPointSet* sites, const ImageGrid& grid, Progress& pro
     });
 }
 
-// The kept labels, or those that label(labels) writes.
+// The kept labels, or those that label(labels) writes; it returns the report of the flow.
 template <int D, class Label>
-SiteIdArray* updateLabels(vtkPointSet* sites, const SiteLabels::Settings& settings, double bytes,
-  SiteLabels& kept, Progress& progress, const Label& label)
+const SiteLabels::Division& updateLabels(vtkPointSet* sites, const SiteLabels::Settings& settings,
+  double bytes, SiteLabels& kept, Progress& progress, const Label& label)
 {
   const ImageGrid& grid = settings.Grid;
   const auto make = [&]() -> SiteLabels::Division {
     progress.BeginStage(0.95);
     auto labels = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
-    withMemory("labels of " + describeSize<D>(grid.Size<D>()) + " pixels", bytes,
-      [&]() { label(labels->GetPointer(0)); });
-    return { labels, nullptr };
+    const FlowReport flow = withMemory("labels of " + describeSize<D>(grid.Size<D>()) + " pixels",
+      bytes, [&]() { return label(labels->GetPointer(0)); });
+    return { labels, nullptr, flow };
   };
-  return kept.Update(sites, settings, progress, make).Labels;
+  return kept.Update(sites, settings, progress, make);
 }
 
 // Writes the labels, what measure(statistics) measures of the sites' cells, and their outlines.
@@ -114,21 +114,22 @@ void writeCells(const ImageGrid& grid, SiteIdArray* labels, vtkIdType sites, Pro
 }
 
 template <int D>
-std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const ImageGrid& grid,
-  SiteLabels& kept, Progress& progress, const CellOutputs& outputs)
+EqualMassCells::Report divide(const EqualMassCells& cells, vtkPointSet* sites,
+  const ImageGrid& grid, SiteLabels& kept, Progress& progress, const CellOutputs& outputs)
 {
   progress.BeginStage(0.01);
   const SiteCells<D> placed = placeSites<D>(sites, grid, progress);
   progress.BeginStage(0.02);
-  SiteIdArray* labels =
+  const SiteLabels::Division& division =
     updateLabels<D>(sites, { grid, false, cells.Flow }, bytesOfLabelling<D>(grid), kept, progress,
-      [&](std::int64_t* values) { placed.Label(values, cells.Flow, progress.Stage()); });
+      [&](std::int64_t* values) { return placed.Label(values, cells.Flow, progress.Stage()); });
+  SiteIdArray* labels = division.Labels;
   writeCells<D>(grid, labels, static_cast<vtkIdType>(placed.NumberOfSites()), progress, outputs,
     [&](const SiteCellStatistics& statistics) {
       return measureSiteCells<D>(
         placed, labels->GetPointer(0), cells.Norm, statistics, progress.Stage());
     });
-  return placed.NumberOutside();
+  return { placed.NumberOutside(), 0, division.Flow };
 }
 
 // The sites' cells by the mass of a density.
@@ -161,12 +162,13 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
     }
   });
   progress.BeginStage(0.07);
-  SiteIdArray* labels =
+  const SiteLabels::Division& division =
     updateLabels<D>(sites, { grid, false, cells.Flow, true, kept.HashOf(density, progress) },
       bytesOfLabellingByMass<D>(grid), kept, progress, [&](std::int64_t* values) {
-        placed.Label(flow.Transport<D>(), values, cells.Flow, progress.Stage());
+        return placed.Label(flow.Transport<D>(), values, cells.Flow, progress.Stage());
       });
-  EqualMassCells::Report report{ placed.NumberOutside(), 0 };
+  SiteIdArray* labels = division.Labels;
+  EqualMassCells::Report report{ placed.NumberOutside(), 0, division.Flow };
   writeCells<D>(grid, labels, count, progress, outputs, [&](const SiteCellStatistics& statistics) {
     const double cost = measureSiteCells<D>(
       placed, labels->GetPointer(0), flow.TotalMass(), cells.Norm, statistics, progress.Stage());
@@ -311,11 +313,10 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* do
   writeSites(sites, outputs.Sites);
   if (this->IsPower)
   {
-    return { divideByPower(sites, grid, kept, progress, outputs), 0 };
+    return { divideByPower(sites, grid, kept, progress, outputs), 0, {} };
   }
-  return { dispatchDimension(grid.Dimension(), divide<1>, divide<2>, divide<3>)(
-             *this, sites, grid, kept, progress, outputs),
-    0 };
+  return dispatchDimension(grid.Dimension(), divide<1>, divide<2>, divide<3>)(
+    *this, sites, grid, kept, progress, outputs);
 }
 
 EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, InputDensity& density,
@@ -337,7 +338,7 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, InputDensity& den
   if (this->IsPower)
   {
     cache.Release();
-    return { divideMassByPower(sites, grid, density, kept, progress, outputs), 0 };
+    return { divideMassByPower(sites, grid, density, kept, progress, outputs), 0, {} };
   }
   return dispatchDimension(grid.Dimension(), divideMass<1>, divideMass<2>, divideMass<3>)(
     *this, sites, grid, density, cache, kept, progress, outputs);

@@ -39,6 +39,7 @@ public:
   {
     vtkSmartPointer<SiteIdArray> Labels;
     std::shared_ptr<const PowerSiteCells> Power; // of Shape Power, else nullptr
+    FlowReport Flow;                             // of Shape Flow
   };
   // What it depends on besides the sites.
   struct Settings

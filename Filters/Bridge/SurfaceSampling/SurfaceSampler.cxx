@@ -4,9 +4,9 @@
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Points/SampledArrays.h"
-#include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/StepReport.h"
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Surface/DiskSurface.h"
 #include "Bridge/Surface/SurfaceInput.h"
@@ -144,6 +144,10 @@ std::vector<std::string> SurfaceSamplingReport::Warnings() const
       " particles in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare "
       "them that)");
   }
+  if (!this->Steps.empty())
+  {
+    warnings.push_back(this->Steps);
+  }
   if (this->IsAreaPreserving)
   {
     std::ostringstream text;
@@ -215,7 +219,9 @@ SurfaceSamplingReport SurfaceSampler::Run(const SurfaceInput& given, const Surfa
     PlacesOnSurface(surface, samples.Places), progress, ends[6], output->GetPointData());
   addFieldValue(output, "TotalMass", masses.Total());
   addFieldValue(output, "MovedParticles", static_cast<double>(samples.Flow.MovedToMass));
-  return { samples.Places.size(), samples.Flow.MovedToMass, disk.NumberOfTriangles(),
+  addSteps(output, { samples.Flow });
+  return { samples.Places.size(), samples.Flow.MovedToMass,
+    stepWarning(samples.Flow, this->Flow, FlowDirection::Forward), disk.NumberOfTriangles(),
     countCollapsed(disk, map.Square.Corners), samples.PatchError, samples.IsAreaPreserving,
     surface.IsRepaired() ? surface.RepairWarning() : "" };
 }

@@ -28,6 +28,7 @@ struct SurfaceSamplingReport
 {
   std::int64_t Particles = 0;
   std::int64_t Moved = 0; // from empty cells of the grid to the nearest mass
+  std::string Steps;      // a warning; empty if there is none
   std::int64_t Triangles = 0;
   std::int64_t Collapsed = 0; // triangles without area in the map
   double PatchError = 0.0;

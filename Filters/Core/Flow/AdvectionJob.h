@@ -39,6 +39,12 @@ inline void check(const FlowOptions& options)
   }
 }
 
+// Those that all particles take; 0 with Adaptive.
+inline int stepsOf(const FlowOptions& options)
+{
+  return options.Integrator == Integrator::Adaptive ? 0 : options.NumberOfSteps;
+}
+
 enum class AdvectionKind
 {
   Forward,

@@ -124,7 +124,7 @@ FlowReport transportPivot(const PointTransport<Dimension>& flow,
     same = choice.Of(options);
     report.AreaError = choice.AreaError;
   }
-  report.NumberOfSteps = same.Integrator == Integrator::Adaptive ? 0 : same.NumberOfSteps;
+  report.NumberOfSteps = stepsOf(same);
   same = withFlowMaps<Dimension>(
     same, flow.Size(), FlowDirection::Forward, static_cast<double>(particles));
   const double begin = progress.StageEnd();

@@ -227,7 +227,7 @@ FlowReport RectifiedFlow<Dimension>::RunWithSteps(const FlowOptions& options,
   }
   progress.BeginStage(1.0);
   FlowReport report = run(chosen, progress.Stage());
-  report.NumberOfSteps = chosen.Integrator == Integrator::Adaptive ? 0 : chosen.NumberOfSteps;
+  report.NumberOfSteps = stepsOf(chosen);
   report.AreaError = choice.AreaError;
   return report;
 }
@@ -274,7 +274,9 @@ FlowReport RectifiedFlow<Dimension>::ForwardToCells(const FlowSeeds<Dimension>& 
 {
   check(options);
   const FlowOptions chosen = options.NumberOfSteps == 0 ? StepChoice().Of(options) : options;
-  return this->Engine->AdvectToCells(seeds, cells, chosen, context);
+  FlowReport report = this->Engine->AdvectToCells(seeds, cells, chosen, context);
+  report.NumberOfSteps = stepsOf(chosen) << firstRefinement(chosen, AdvectionKind::ForwardToCells);
+  return report;
 }
 
 template <int Dimension>

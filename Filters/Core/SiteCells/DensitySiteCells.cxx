@@ -154,10 +154,11 @@ DensitySiteCells<Dimension>::DensitySiteCells(ConstPointSpan<3> sites, const Ima
 }
 
 template <int Dimension>
-void DensitySiteCells<Dimension>::Label(const PointTransport<Dimension>& flow, std::int64_t* labels,
-  const FlowOptions& options, const Context& context) const
+FlowReport DensitySiteCells<Dimension>::Label(const PointTransport<Dimension>& flow,
+  std::int64_t* labels, const FlowOptions& options, const Context& context) const
 {
   Progress progress(context);
+  FlowReport report;
   if constexpr (Dimension == 1)
   {
     this->LabelIntervals(labels);
@@ -165,7 +166,7 @@ void DensitySiteCells<Dimension>::Label(const PointTransport<Dimension>& flow, s
   else
   {
     progress.BeginStage(0.95);
-    const SiteGroups groups = this->LabelGroups(flow, labels, options, progress.Stage());
+    const SiteGroups groups = this->LabelGroups(flow, labels, options, progress.Stage(), report);
     Point<Dimension> spacing = this->Place.template Lengths<Dimension>();
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -179,6 +180,7 @@ void DensitySiteCells<Dimension>::Label(const PointTransport<Dimension>& flow, s
   }
   progress.BeginStage(1.0);
   this->Masses().RemoveEmptyPixels(labels, progress);
+  return report;
 }
 
 // In 1D intervals in the order of the sites are the optimal cells. A pixel belongs to the one that
@@ -207,7 +209,8 @@ void DensitySiteCells<Dimension>::LabelIntervals(std::int64_t* labels) const
 // Labels pixels by groups of the sites that the map takes into one pixel.
 template <int Dimension>
 SiteGroups DensitySiteCells<Dimension>::LabelGroups(const PointTransport<Dimension>& flow,
-  std::int64_t* labels, const FlowOptions& options, const Context& context) const
+  std::int64_t* labels, const FlowOptions& options, const Context& context,
+  FlowReport& report) const
 {
   const GridSize<Dimension> size = this->Masses().Size();
   const std::int64_t pixels = this->Masses().NumberOfPixels();
@@ -216,7 +219,7 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const PointTransport<Dimensi
   std::vector<Point<Dimension>> even(this->Inside); // where the sites come to
   rescale<Dimension>(even, size, flow.Size(), progress);
   progress.BeginStage(0.05);
-  flow.Backward(even, even, refined(options), progress.Stage());
+  report = flow.Backward(even, even, refined(options), progress.Stage());
   rescale<Dimension>(even, flow.Size(), size, progress);
   const SiteDensity<Dimension> sites(size, even);
   SiteGroups groups = sites.Groups();

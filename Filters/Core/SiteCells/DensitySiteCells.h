@@ -62,14 +62,15 @@ public:
   // `flow` is that of the density. Masses are equal to about that of the heaviest pixel. What is
   // cut off from its site cell has more than a tenth of a site's mass. In 1D, cells are intervals
   // in the order of the sites, and the flow is not used. Temporarily takes about 50 and 57 bytes a
-  // pixel in 2D and 3D. Throws std::invalid_argument for options, std::bad_alloc and Cancelled.
-  void Label(const PointTransport<Dimension>& flow, std::int64_t* labels,
+  // pixel in 2D and 3D. Reports the way of the sites to the uniform measure. Throws
+  // std::invalid_argument for options, std::bad_alloc and Cancelled.
+  FlowReport Label(const PointTransport<Dimension>& flow, std::int64_t* labels,
     const FlowOptions& options = {}, const Context& context = Context()) const;
 
 private:
   void LabelIntervals(std::int64_t* labels) const;
   SiteGroups LabelGroups(const PointTransport<Dimension>& flow, std::int64_t* labels,
-    const FlowOptions& options, const Context& context) const;
+    const FlowOptions& options, const Context& context, FlowReport& report) const;
   void MergeGroups(const PointTransport<Dimension>& flow, const std::vector<Point<Dimension>>& even,
     SiteGroups& groups, std::int64_t* labels, const FlowOptions& options,
     const Context& context) const;

@@ -47,7 +47,7 @@ SiteCells<Dimension>::SiteCells(
 }
 
 template <int Dimension>
-void SiteCells<Dimension>::Label(
+FlowReport SiteCells<Dimension>::Label(
   std::int64_t* labels, const FlowOptions& options, const Context& context) const
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
@@ -55,6 +55,7 @@ void SiteCells<Dimension>::Label(
   const GridSize<Dimension> size = sites.Size();
   const auto pixels = this->Place.NumberOfCells();
   Progress progress(context);
+  FlowReport report;
   if (sites.NumberOfPixels() == 1)
   {
     std::fill_n(labels, pixels, std::int64_t{ 0 });
@@ -64,7 +65,8 @@ void SiteCells<Dimension>::Label(
     progress.BeginStage(0.03);
     const RectifiedFlow<Dimension> flow(sites, progress.Stage());
     progress.BeginStage(0.93);
-    flow.ForwardToCells(FlowSeeds<Dimension>::Lattice(size), labels, options, progress.Stage());
+    report =
+      flow.ForwardToCells(FlowSeeds<Dimension>::Lattice(size), labels, options, progress.Stage());
     progress.BeginStage(0.95);
     progress.For(pixels, grain, [&](std::int64_t first, std::int64_t last) {
       std::transform(labels + first, labels + last, labels + first,
@@ -80,6 +82,7 @@ void SiteCells<Dimension>::Label(
   equalizeSiteCells<Dimension>(sites, spacing, labels, progress.Stage());
   progress.BeginStage(1.0);
   splitSharedPixels<Dimension>(sites, this->Inside, spacing, labels, progress.Stage());
+  return report;
 }
 
 template <int Dimension>

@@ -41,9 +41,9 @@ public:
   std::int64_t NumberOutside() const { return this->Outside; }
 
   // Writes the number of the site of each pixel, axis 0 fastest. Temporarily takes about 21, 34 and
-  // 33 bytes a pixel in 1D, 2D and 3D. Throws std::invalid_argument for options, std::bad_alloc and
-  // Cancelled.
-  void Label(std::int64_t* labels, const FlowOptions& options = {},
+  // 33 bytes a pixel in 1D, 2D and 3D. Reports the way of the pixels to the sites. Throws
+  // std::invalid_argument for options, std::bad_alloc and Cancelled.
+  FlowReport Label(std::int64_t* labels, const FlowOptions& options = {},
     const Context& context = Context()) const;
 
 private:

@@ -135,9 +135,18 @@ TEST(Errors, NumberOfSteps)
   for (const Integrator method :
     { Integrator::Multistep, Integrator::RungeKutta4, Integrator::Euler })
   {
-    expectRefused(steps(0, method), "0");
     expectRefused(steps(-3, method), "-3");
     expectRefused(steps(10001, method), "10001");
+  }
+}
+
+TEST(Errors, AreaTolerance)
+{
+  for (const double tolerance : { 0.0, -0.02, 1.001, NaN, Infinity })
+  {
+    FlowOptions options;
+    options.AreaTolerance = tolerance;
+    expectRefused(options, "AreaTolerance is " + std::to_string(tolerance));
   }
 }
 

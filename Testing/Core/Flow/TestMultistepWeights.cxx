@@ -95,8 +95,8 @@ TEST(MultistepWeights, StiffPredictor)
         EXPECT_TRUE(std::equal(stiff.Predictor, stiff.Predictor + 3, usual.Predictor));
         continue;
       }
-      const double behind = multistepWeights(step - 1, steps).Length +
-        multistepWeights(step - 2, steps).Length;
+      const double behind =
+        multistepWeights(step - 1, steps).Length + multistepWeights(step - 2, steps).Length;
       EXPECT_EQ(stiff.Predictor[1], 0.0);
       const double line[] = { stiff.Predictor[0], stiff.Predictor[2] };
       double mean = 0.0;

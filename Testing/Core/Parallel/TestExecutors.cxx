@@ -170,7 +170,9 @@ TEST(Executors, NoMemoryForAFlowMap)
   expectBadAlloc("with maps", [&]() {
     try
     {
-      flow.Forward(seeds, positions, with(FlowMaps::On));
+      FlowOptions options = with(FlowMaps::On);
+      options.NumberOfSteps = 32;
+      flow.Forward(seeds, positions, options);
     }
     catch (const NoMemoryForFlowMap& map)
     {

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// NumberOfSteps 0: how many steps are chosen, and whether they keep AreaTolerance.
+#include "Core/Flow/PivotLattice.h"
+
+#include "BlockAreas.h"
+#include "TestFlow.h"
+#include "TestTiles.h"
+#include "ThreadRanks.h"
+#include "ThreadsExecutor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+template <int Dimension>
+StepChoice choiceOf(const TestDensity<Dimension>& density, FlowDirection direction,
+  const FlowOptions& options = {}, const Context& context = Context())
+{
+  return RectifiedFlow<Dimension>(density.Source(), context)
+    .ChooseSteps(options, direction, context);
+}
+
+FlowOptions within(double tolerance, Integrator method = Integrator::Multistep)
+{
+  FlowOptions options;
+  options.AreaTolerance = tolerance;
+  options.Integrator = method;
+  return options;
+}
+
+template <int Dimension>
+TestDensity<Dimension> spike(std::int64_t side, double height)
+{
+  TestDensity<Dimension> density = uniformDensity<Dimension>(evenSize<Dimension>(side));
+  GridSize<Dimension> cell;
+  cell.fill(side / 3);
+  density.Values[static_cast<std::size_t>(cellIndex<Dimension>(cell, density.Size))] = height;
+  return density;
+}
+
+template <int Dimension>
+void expectKept(const TestDensity<Dimension>& density, double tolerance)
+{
+  const RectifiedFlow<Dimension> flow = makeFlow(density);
+  const FlowOptions options = within(tolerance);
+  const StepChoice choice = flow.ChooseSteps(options, FlowDirection::Backward);
+  EXPECT_LE(choice.AreaError, tolerance);
+  const std::vector<double> exact =
+    blockAreas<Dimension>(density, flow, with(FlowMaps::Off, steps(4096))).Area;
+  for (const FlowMaps maps : OffAndOn)
+  {
+    const double error = blockAreas<Dimension>(density, flow, with(maps, options)).Error(exact);
+    EXPECT_LT(error, tolerance) << nameOf(maps) << ", " << choice.NumberOfSteps << " steps";
+  }
+  // Not by far more steps than it takes.
+  const FlowOptions fewer = with(FlowMaps::Off, steps(choice.NumberOfSteps / 4));
+  EXPECT_GT(blockAreas<Dimension>(density, flow, fewer).Error(exact), tolerance)
+    << choice.NumberOfSteps << " steps";
+}
+
+TEST(AutomaticSteps, KeepTheTolerance)
+{
+  expectKept<2>(denseBall<2>(128, 100.0), 0.02);
+  expectKept<2>(denseBall<2>(128, 100.0), 0.1);
+  expectKept<2>(denseBall<2>(192, 10.0), 0.02);
+  expectKept<2>(twoGaussians<2>({ 200, 170 }), 0.02);
+  expectKept<2>(randomCells<2>({ 160, 200 }), 0.02);
+  expectKept<3>(denseBall<3>(48, 100.0), 0.02);
+}
+
+// Contrasts make steps, scales without contrast do not.
+TEST(AutomaticSteps, Contrast)
+{
+  for (const TestDensity<2>& plain :
+    { uniformDensity<2>({ 200, 150 }), randomCells<2>({ 200, 150 }, 0.0) })
+  {
+    const StepChoice choice = choiceOf<2>(plain, FlowDirection::Forward);
+    EXPECT_EQ(choice.NumberOfSteps, 32);
+    EXPECT_TRUE(std::isnan(choice.AreaError));
+  }
+  for (const FlowDirection direction : { FlowDirection::Forward, FlowDirection::Backward })
+  {
+    const int ten = choiceOf<2>(denseBall<2>(128, 10.0), direction).NumberOfSteps;
+    const int hundred = choiceOf<2>(denseBall<2>(128, 100.0), direction).NumberOfSteps;
+    EXPECT_GT(ten, 32);
+    EXPECT_GT(hundred, ten);
+    const int rough = choiceOf<2>(denseBall<2>(128, 100.0), direction, within(0.2)).NumberOfSteps;
+    EXPECT_LT(rough, hundred);
+    EXPECT_GE(rough, 32);
+  }
+}
+
+// Each axis of a density of one, two or three, with any number of cells.
+TEST(AutomaticSteps, EveryShape)
+{
+  const auto isUsual = [](const StepChoice& choice) {
+    return choice.NumberOfSteps >= 32 && choice.NumberOfSteps <= 4096;
+  };
+  for (const FlowDirection direction : { FlowDirection::Forward, FlowDirection::Backward })
+  {
+    for (const std::int64_t side : { 1, 2, 3, 5, 300 })
+    {
+      EXPECT_TRUE(isUsual(choiceOf<1>(randomCells<1>({ side }, 0.0), direction)));
+      EXPECT_TRUE(isUsual(choiceOf<2>(randomCells<2>({ side, 3 }, 0.0), direction)));
+      EXPECT_TRUE(isUsual(choiceOf<3>(randomCells<3>({ 2, side, 4 }, 0.0), direction)));
+    }
+    // No block counts.
+    TestDensity<2> lonely = uniformDensity<2>({ 40, 40 });
+    std::fill(lonely.Values.begin(), lonely.Values.end(), 0.0);
+    lonely.Values[777] = 1.0;
+    EXPECT_TRUE(isUsual(choiceOf<2>(lonely, direction)));
+  }
+}
+
+TEST(AutomaticSteps, WhatCannotBeReached)
+{
+  const StepChoice choice = choiceOf<2>(spike<2>(96, 1e6), FlowDirection::Backward);
+  EXPECT_EQ(choice.NumberOfSteps, 4096);
+  EXPECT_GT(choice.AreaError, 0.02);
+}
+
+// Many steps are left to Adaptive where that takes less time, and keeps the tolerance.
+TEST(AutomaticSteps, Adaptive)
+{
+  const TestDensity<2> density = spike<2>(256, 1e6);
+  const RectifiedFlow<2> flow = makeFlow(density);
+  const StepChoice choice = flow.ChooseSteps({}, FlowDirection::Forward);
+  EXPECT_GT(choice.NumberOfSteps, 512);
+  EXPECT_GT(choice.Tolerance, 0.0);
+  EXPECT_LE(choice.AreaError, 0.02);
+  const Points<2> seeds = randomPoints<2>(density.Size, 300);
+  Points<2> positions(seeds.size());
+  const FlowReport report = flow.Forward(seeds, positions);
+  EXPECT_EQ(report.NumberOfSteps, 0);
+  EXPECT_EQ(report.AreaError, choice.AreaError);
+  EXPECT_LT(report.Evaluations, 300 * choice.NumberOfSteps / 2);
+  EXPECT_TRUE(sameBits<2>(positions, runForward(flow, seeds, adaptive(choice.Tolerance))));
+}
+
+// A run with 0 steps is one with those that are chosen, and says so.
+TEST(AutomaticSteps, Reports)
+{
+  const TestDensity<2> density = denseBall<2>(128, 100.0);
+  const RectifiedFlow<2> flow = makeFlow(density);
+  const Points<2> seeds = randomPoints<2>(density.Size, 500);
+  Points<2> positions(seeds.size());
+  for (const FlowDirection direction : { FlowDirection::Forward, FlowDirection::Backward })
+  {
+    const bool isBackward = direction == FlowDirection::Backward;
+    const StepChoice choice = flow.ChooseSteps({}, direction);
+    const FlowReport report =
+      isBackward ? flow.Backward(seeds, positions) : flow.Forward(seeds, positions);
+    EXPECT_EQ(report.NumberOfSteps, choice.NumberOfSteps);
+    EXPECT_EQ(report.AreaError, choice.AreaError);
+    const FlowOptions fixed = steps(choice.NumberOfSteps);
+    EXPECT_TRUE(sameBits<2>(
+      positions, isBackward ? runBackward(flow, seeds, fixed) : runForward(flow, seeds, fixed)));
+    const FlowReport given = isBackward ? flow.Backward(seeds, positions, steps(48))
+                                        : flow.Forward(seeds, positions, steps(48));
+    EXPECT_EQ(given.NumberOfSteps, 48);
+    EXPECT_TRUE(std::isnan(given.AreaError));
+  }
+  FlowOptions atLeast;
+  atLeast.LeastSteps = 3000;
+  EXPECT_EQ(flow.Backward(seeds, positions, atLeast).NumberOfSteps, 3000);
+  FlowOptions nearest;
+  nearest.Lookup = TableLookup::Nearest;
+  EXPECT_EQ(flow.Backward(seeds, positions, nearest).NumberOfSteps, 32);
+  EXPECT_EQ(flow.Backward(seeds, positions, adaptive(0.01)).NumberOfSteps, 0);
+  std::vector<std::int64_t> cells(seeds.size());
+  EXPECT_EQ(flow.ForwardToCells(seeds, cells.data()).NumberOfSteps, 128);
+  const PivotLattice<2> pivot = pivotLattice<2>({ 20, 20 }, 4);
+  Points<2> particles(static_cast<std::size_t>(pivot.NumberOfParticles()));
+  const FlowReport morph = transportPivot<2>(flow, pivot, particles);
+  EXPECT_EQ(morph.NumberOfSteps, flow.ChooseSteps({}, FlowDirection::Forward).NumberOfSteps);
+  EXPECT_GT(morph.AreaError, 0.0);
+}
+
+// The published schemes need more steps: they are uniform.
+TEST(AutomaticSteps, OtherIntegrators)
+{
+  const TestDensity<2> density = denseBall<2>(64, 10.0);
+  for (const FlowDirection direction : { FlowDirection::Forward, FlowDirection::Backward })
+  {
+    const int graded = choiceOf<2>(density, direction).NumberOfSteps;
+    const auto of = [&](Integrator method) {
+      return choiceOf<2>(density, direction, within(0.02, method)).NumberOfSteps;
+    };
+    EXPECT_GE(of(Integrator::RungeKutta4), graded);
+    EXPECT_GT(of(Integrator::Euler), of(Integrator::RungeKutta4));
+  }
+}
+
+// A choice is made once for a density: later ones take no work that could be cancelled.
+TEST(AutomaticSteps, AreKept)
+{
+  const TestDensity<2> density = denseBall<2>(128, 100.0);
+  const RectifiedFlow<2> flow = makeFlow(density);
+  const SerialExecutor serial;
+  const Context cancelled(serial, {}, []() { return true; });
+  const auto choose = [&](const FlowOptions& options) {
+    return flow.ChooseSteps(options, FlowDirection::Backward, cancelled);
+  };
+  EXPECT_THROW(choose({}), Cancelled);
+  const StepChoice first = flow.ChooseSteps({}, FlowDirection::Backward);
+  EXPECT_EQ(choose({}).NumberOfSteps, first.NumberOfSteps);
+  EXPECT_EQ(choose(with(FlowMaps::On)).AreaError, first.AreaError);
+  EXPECT_THROW(choose(within(0.01)), Cancelled);
+  EXPECT_THROW(flow.ChooseSteps({}, FlowDirection::Forward, cancelled), Cancelled);
+}
+
+template <int Dimension>
+void expectSameOnRanks(const TestDensity<Dimension>& density, const TileLimits& limits)
+{
+  for (const FlowDirection direction : { FlowDirection::Forward, FlowDirection::Backward })
+  {
+    const ThreadsExecutor threads(3);
+    const StepChoice whole = choiceOf<Dimension>(density, direction);
+    EXPECT_EQ(choiceOf<Dimension>(density, direction, {}, threads).AreaError, whole.AreaError);
+    const TiledRun<Dimension> tiled(density, limits);
+    const StepChoice alone = tiled.Flow.ChooseSteps({}, direction);
+    EXPECT_GT(alone.AreaError, 0.0);
+    EXPECT_NEAR(
+      std::log2(static_cast<double>(alone.NumberOfSteps) / whole.NumberOfSteps), 0.0, 0.7);
+    for (const int count : { 2, 3 })
+    {
+      runOnRanks(count, [&](const Ranks& ranks) {
+        Context context;
+        context.Group = &ranks;
+        const RectifiedFlow<Dimension> flow(density.Source(), context);
+        EXPECT_EQ(flow.ChooseSteps({}, direction, context).AreaError, whole.AreaError);
+        const BoxesOfDensity<Dimension> boxes(density, ranks);
+        const RectifiedFlow<Dimension> inTiles(
+          DensitySource<Dimension>(density.Size, boxes), FlowTables::Tiled, context, limits);
+        const StepChoice shared = inTiles.ChooseSteps({}, direction, context);
+        EXPECT_EQ(shared.NumberOfSteps, alone.NumberOfSteps);
+        EXPECT_EQ(shared.AreaError, alone.AreaError);
+      });
+    }
+  }
+}
+
+TEST(AutomaticSteps, SameOnRanksAndThreads)
+{
+  expectSameOnRanks<2>(denseBall<2>(150, 100.0), manyTiles<2>());
+  expectSameOnRanks<3>(denseBall<3>(70, 30.0), manyTiles<3>());
+}
+
+// Corners of a box that is stretched, turned and sheared have its volume; turned over, the
+// negative one.
+TEST(ImageMeasure, LinearMaps)
+{
+  const double matrix[3][3] = { { 2.0, 0.5, 0.1 }, { -0.3, 1.5, 0.7 }, { 0.2, -0.4, 3.0 } };
+  const double determinant =
+    2.0 * (1.5 * 3.0 + 0.4 * 0.7) - 0.5 * (-0.3 * 3.0 - 0.2 * 0.7) + 0.1 * (0.3 * 0.4 - 0.2 * 1.5);
+  Point<3> corners[8];
+  Point<3> mirrored[8];
+  for (std::size_t i = 0; i < 8; ++i)
+  {
+    const double x[3] = { static_cast<double>(i & 1), static_cast<double>(i >> 1 & 1),
+      static_cast<double>(i >> 2) };
+    for (std::size_t r = 0; r < 3; ++r)
+    {
+      corners[i][r] = 5.0 + matrix[r][0] * x[0] + matrix[r][1] * x[1] + matrix[r][2] * x[2];
+    }
+    mirrored[i] = { corners[i][1], corners[i][0], corners[i][2] };
+  }
+  EXPECT_NEAR(imageMeasure<3>(corners), determinant, 1e-12);
+  EXPECT_NEAR(imageMeasure<3>(mirrored), -determinant, 1e-12);
+  const Point<2> square[4] = { { 1.0, 1.0 }, { 3.0, 1.5 }, { 0.5, 4.0 }, { 2.5, 4.5 } };
+  EXPECT_NEAR(imageMeasure<2>(square), 2.0 * 3.0 + 0.5 * 0.5, 1e-12);
+  const Point<1> line[2] = { { 7.0 }, { 4.0 } };
+  EXPECT_EQ(imageMeasure<1>(line), -3.0);
+}
+
+// Against an integration with many points.
+TEST(ImageMeasure, TrilinearMap)
+{
+  Point<3> corners[8];
+  for (std::size_t i = 0; i < 8; ++i)
+  {
+    corners[i] = { static_cast<double>(i & 1), static_cast<double>(i >> 1 & 1),
+      static_cast<double>(i >> 2) };
+  }
+  corners[7] = { 1.4, 1.3, 1.7 };
+  corners[2] = { -0.2, 1.1, 0.3 };
+  constexpr int points = 40;
+  const auto place = [&](double u, double v, double w) {
+    Point<3> x{};
+    for (std::size_t i = 0; i < 8; ++i)
+    {
+      const double weight = ((i & 1) != 0 ? u : 1.0 - u) * ((i >> 1 & 1) != 0 ? v : 1.0 - v) *
+        (i >> 2 != 0 ? w : 1.0 - w);
+      for (std::size_t r = 0; r < 3; ++r)
+      {
+        x[r] += weight * corners[i][r];
+      }
+    }
+    return x;
+  };
+  double sum = 0.0;
+  for (int i = 0; i < points * points * points; ++i)
+  {
+    const double u = (i % points + 0.5) / points;
+    const double v = (i / points % points + 0.5) / points;
+    const double w = (i / points / points + 0.5) / points;
+    constexpr double h = 0.25; // the map is linear along each axis
+    double d[3][3];
+    for (std::size_t r = 0; r < 3; ++r)
+    {
+      d[0][r] = (place(u + h, v, w)[r] - place(u - h, v, w)[r]) / (2.0 * h);
+      d[1][r] = (place(u, v + h, w)[r] - place(u, v - h, w)[r]) / (2.0 * h);
+      d[2][r] = (place(u, v, w + h)[r] - place(u, v, w - h)[r]) / (2.0 * h);
+    }
+    sum += d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) -
+      d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0]) +
+      d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
+  }
+  EXPECT_NEAR(imageMeasure<3>(corners), sum / (points * points * points), 1e-4);
+}
+
+} // namespace
+} // namespace RectifiedTransport
