@@ -36,8 +36,8 @@ void expectConvergence(const TestDensity<Dimension>& density, const TileLimits& 
 {
   const RectifiedFlow<Dimension> flow = makeFlow(density);
   const Points<Dimension> points =
-    runForward(flow, randomPoints<Dimension>(density.Size, 500), steps(1024));
-  const Points<Dimension> exact = runBackward(flow, points, with(FlowMaps::Off, steps(8192)));
+    runForward(flow, randomPoints<Dimension>(density.Size, 300), steps(1024));
+  const Points<Dimension> exact = runBackward(flow, points, with(FlowMaps::Off, steps(4096)));
   const TiledRun<Dimension> tiled(density, limits);
   // Tables of graded nodes and lattices of floats have errors of their own.
   const int tileSteps = Dimension == 3 ? 64 : 128;
@@ -61,7 +61,7 @@ TEST(BackwardSteps, Order2D)
 
 TEST(BackwardSteps, Order3D)
 {
-  expectConvergence<3>(twoGaussians<3>({ 140, 121, 133 }), tileLimits<3>(0, 1000000, 64));
+  expectConvergence<3>(twoGaussians<3>({ 100, 91, 93 }), tileLimits<3>(0, 400000, 48));
 }
 
 TEST(BackwardSteps, AreasAroundADenseDisc)

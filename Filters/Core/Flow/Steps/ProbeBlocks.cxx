@@ -139,7 +139,7 @@ template <int Dimension>
 std::int64_t ProbeBlocks<Dimension>::WantedBlocks() const
 {
   constexpr std::int64_t many = 256;
-  constexpr std::int64_t few = 64;
+  constexpr std::int64_t few = 128;
   constexpr std::int64_t runs = 3; // of all step counts up to 2 N, in runs of N steps
   constexpr std::int64_t part = 10;
   return static_cast<double>(many * power(2, Dimension) * runs * part) <= this->Cells ? many : few;
