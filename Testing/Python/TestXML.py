@@ -21,6 +21,7 @@ OF_MEASURE = {
     "InvertDensity": ((0, 1), "colours"),
     "NegativeValues": ((0, 1), "negative"),
     "DensityResolution": ((256, 3), "mesh"),
+    "AreaTolerance": None,  # see test_tolerance_is_shown_where_it_sets_steps
 }
 
 
@@ -313,6 +314,13 @@ class XML(unittest.TestCase):
                                       for one in found],
                                      [("InputDataTypeDecorator", "vtkImageData", "1")])
                     continue
+                if prop.name == "AreaTolerance":  # by both
+                    self.assertEqual([dict(one.attrib) for one in found], [
+                        {"type": "GenericDecorator", "mode": "visibility", "property": "Integrator",
+                         "value": "3", "inverse": "1"},
+                        {"type": "GenericDecorator", "mode": "visibility",
+                         "property": "NumberOfSteps", "value": "0"}])
+                    continue
                 self.assertEqual(len(found), 1 if depends_on(proxy, prop) else 0)
                 for decorator in found:
                     self.assertEqual(decorator.get("type"), "GenericDecorator")
@@ -330,7 +338,7 @@ class XML(unittest.TestCase):
         for case, proxy, prop in self.each_property():
             with case:
                 for decorator in decorators(prop):
-                    if decorator.get("property") in (None, "Measure"):
+                    if decorator.get("property") in (None, "Measure") or prop.name == "AreaTolerance":
                         continue  # shown by the type of the input, and see below
                     owner = proxy.properties[decorator.get("property")]
                     for value in owner.texts or (("0", "1") if owner.boolean else ()):
@@ -347,6 +355,15 @@ class XML(unittest.TestCase):
                     one, other = (result(proxy, {"Measure": measure, name: number}, case[1])
                                   for number in case[0])
                     self.assertEqual(one != other, measure == 1)
+
+    def test_tolerance_is_shown_where_it_sets_steps(self):
+        proxy = next(proxy for proxy in proxies() if proxy.label == "Density-Equalizing Warp")
+        for shown, values in ((True, {}), (True, {"Integrator": 2}), (False, {"NumberOfSteps": 32}),
+                              (False, {"Integrator": 3})):
+            with self.subTest(**values):
+                one, other = (result(proxy, {**values, "AreaTolerance": number})
+                              for number in known(proxy.properties["AreaTolerance"]).differing)
+                self.assertEqual(one != other, shown)
 
     def test_component_is_shown_for_arrays_of_several(self):
         for case, proxy, prop in self.each_property():

@@ -194,7 +194,7 @@ PROPERTIES = {
     "NegativeValues": Property(["Error", "Clamp"]),
     "Integrator": Property(["Multistep", "RungeKutta4", "Euler", "Adaptive"], advanced=True),
     "NumberOfSteps": Property(advanced=True, shown_by=("Integrator",), differing=(32, 1)),
-    "AreaTolerance": Property(advanced=True, shown_by=("Integrator", "NumberOfSteps"), differing=(0.5, 0.002)),
+    "AreaTolerance": Property(advanced=True, shown_by=("Integrator", "NumberOfSteps"), differing=(0.5, 1e-5)),
     "Tolerance": Property(advanced=True, shown_by=("Integrator",), differing=(0.01, 2.0)),
     "TableLookup": Property(["Interpolated", "Nearest"], advanced=True),
     "FlowMaps": Property(["Auto", "On", "Off"], advanced=True, shown_by=("Integrator",), differing=(1, 2),

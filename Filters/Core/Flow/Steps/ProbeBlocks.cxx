@@ -14,7 +14,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t blockSide = 4; // cells
+constexpr std::int64_t blockSide = 4; // cells, no more than a quarter of an axis
 
 // The root of g^(d+1) = g + 1: multiples of the powers of 1/g fill the unit box evenly (the R_d
 // sequence of Roberts).
@@ -42,7 +42,7 @@ ProbeBlocks<Dimension>::ProbeBlocks(
   this->Cells = numberOfCells<Dimension>(this->Size);
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    this->Side[axis] = std::min(blockSide, this->Size[axis]);
+    this->Side[axis] = std::clamp<std::int64_t>(this->Size[axis] / 4, 1, blockSide);
     this->Measure *= static_cast<double>(this->Side[axis]);
   }
   // Each rank examines every so many-th block of the sequence.
@@ -164,8 +164,8 @@ ProbeBlock<Dimension> ProbeBlocks<Dimension>::Examine(std::int64_t number)
   return block;
 }
 
-// Next to cells that do not count, corners have no certain image: backward half a cell at all sides
-// of the block is left out then.
+// Next to cells that do not count, corners have no certain image: backward an eighth of the block
+// is left out at each of its sides then.
 template <int Dimension>
 void ProbeBlocks<Dimension>::ExamineCells(ProbeBlock<Dimension>& block)
 {
@@ -207,11 +207,9 @@ void ProbeBlocks<Dimension>::ExamineCells(ProbeBlock<Dimension>& block)
   }
   for (int axis = 0; axis < Dimension && this->IsBackward && !isSurrounded; ++axis)
   {
-    if (this->Side[axis] > 1)
-    {
-      block.Low[axis] += 0.5;
-      block.High[axis] -= 0.5;
-    }
+    const double margin = (block.High[axis] - block.Low[axis]) / 8.0;
+    block.Low[axis] += margin;
+    block.High[axis] -= margin;
   }
   block.Mass = this->Engine.Share(block.Low, block.High) * this->Cells;
 }

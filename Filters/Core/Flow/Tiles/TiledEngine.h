@@ -55,8 +55,8 @@ public:
     }
     for (; fixed.NumberOfSteps <= last; fixed.NumberOfSteps *= 2)
     {
-      most = std::max(most,
-        PlanFor(size, fixed, direction, particles, limits).MemorySize(particles, isLattice));
+      most = std::max(
+        most, PlanFor(size, fixed, direction, particles, limits).MemorySize(particles, isLattice));
     }
     return most;
   }
