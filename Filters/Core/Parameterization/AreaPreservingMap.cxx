@@ -54,10 +54,11 @@ public:
           cells * (this->IsOnSide(i, axis) ? std::clamp(position, inside, 1.0 - inside) : position);
       }
     }
-    // Conformal maps squeeze areas by factors of up to 10^5, where 32 steps are not enough: with
-    // 256 no longer the integrator but the triangles' straight edges limit what the flow reaches.
+    // Conformal maps squeeze areas by factors of up to 10^5. With 256 steps the triangles' straight
+    // edges limit what the flow reaches on most surfaces, no longer the integrator. Fewer would do
+    // for the areas, but turn over more triangles where the surface is squeezed.
     FlowOptions options;
-    options.NumberOfSteps = 256;
+    options.LeastSteps = 256;
     options.Maps = FlowMaps::Off; // most of the time goes elsewhere
     flow.Backward(positions, positions, options, progress.Stage());
     progress.BeginStage(1.0);
