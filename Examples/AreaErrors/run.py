@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws how exactly a disc of high density is equalized with few steps, and with as many as needed."""
+"""Draws the errors of areas around a dense disc: with 32 steps, and with as many as needed."""
 import os
 import sys
 
@@ -8,7 +8,7 @@ import numpy
 import rectified_example as example
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 
 BLOCK = 4  # cells along each side
@@ -73,8 +73,10 @@ def main():
             (area <= 0).sum()))
         values = numpy_to_vtk(numpy.repeat(numpy.repeat(error, BLOCK, 0), BLOCK, 1).ravel(), deep=1)
         values.SetName("AreaError")
-        warped.GetCellData().AddArray(values)
-        shown = simple.Show(example.moved(example.producer(warped), 1.04 * column * arguments.cells, 0, 0),
+        drawn = vtkPolyData()
+        drawn.ShallowCopy(geometry.GetOutput())
+        drawn.GetCellData().AddArray(values)
+        shown = simple.Show(example.moved(example.producer(drawn), 1.04 * column * arguments.cells, 0, 0),
                             view, "GeometryRepresentation")
         simple.ColorBy(shown, ("CELLS", "AreaError"))
         shown.SetRepresentationType("Surface")

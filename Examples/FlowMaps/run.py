@@ -73,10 +73,10 @@ def contrasting(image):
 
 
 def advected(density, seeds, **options):
-    """Where Sample Density takes seeds."""
+    """Where Sample Density takes seeds in 32 steps."""
     points = figures.shape(seeds, [1] * len(seeds), "Verts")
     transport = simple.SampleDensity(example.producer(density), Seeds=example.producer(points),
-                                     InvertDensity=1)
+                                     InvertDensity=1, NumberOfSteps=32)
     ends = vtk_to_numpy(example.result(transport, **options).GetPoints().GetData())[:, :2].copy()
     simple.Delete(transport)
     return ends

@@ -132,6 +132,7 @@ def main():
     draw_example(path("volume"), "SampleVolume", "particles-brain-t1.png", "--particles", "100000",
                  "--pixels", str(STRIP[1]))
     draw_example(path("cartogram"), "Cartogram", "cartogram-raccoon.png", "--pixels", "720")
+    draw_example(path("area-errors"), "AreaErrors", "area-errors.png", "--pixels", "720")
     draw_example(path("cells"), "Figure5Cells", "figure5-cells.png", "--sites", "256",
                  "--resolution", "512", "--pixels", "1020")
     draw_example(path("cells-shapes"), "PowerCells", "power-cells-random.png", "--sites", "150")

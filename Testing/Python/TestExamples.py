@@ -121,6 +121,16 @@ class Examples(ExampleTest):
         self.ran("Cartogram")
         self.check_picture("cartogram-raccoon.png")
 
+    def test_area_errors(self):
+        """With as many steps as needed, hardly a block is off and no cell folds."""
+        few, enough = self.ran("AreaErrors").splitlines()[-3:-1]
+        numbers = [[float(word) for word in re.findall(r"\d+\.?\d*", line)] for line in (few, enough)]
+        (steps, *_, largest, _, _, folded), (more, *_, left, _, _, none) = numbers
+        self.assertEqual((steps, none), (32, 0))
+        self.assertTrue(100 < more < 500, more)
+        self.assertTrue(folded > 50 and left < 0.6 * largest, numbers)
+        self.check_picture("area-errors.png")
+
     def test_sample_volume(self):
         self.ran("SampleVolume")
         self.check_picture("particles-brain-t1.png")
