@@ -7,6 +7,7 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/PartText.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/TableSettings.h"
@@ -105,6 +106,15 @@ int vtkDensityEqualizingWarp::RequestData(
   {
     this->WarnOnFirstRank(std::to_string(outside) + " of " + std::to_string(points) +
       " points outside the domain of the density moved as its border does");
+  }
+  const std::int64_t turned = sumOverRanks(ranks, report.Cells.Turned);
+  const std::int64_t cells = sumOverRanks(ranks, report.Cells.All);
+  addFieldValue(output, "FoldedCells", static_cast<double>(turned));
+  if (turned > 0)
+  {
+    this->WarnOnFirstRank(describePart(turned, cells, "cells") +
+      " turned over; more NumberOfSteps turn them back, smaller cells do not (where there is no "
+      "mass, add a small part of the mean to the density)");
   }
   this->WarnOfSteps(report.Flow, warp.Flow, FlowDirection::Backward);
   return 1;

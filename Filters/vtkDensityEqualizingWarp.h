@@ -22,6 +22,13 @@
  * the number of such points; a warning counts them if they are at least one in a thousand. NaN or
  * infinite coordinates are an error.
  *
+ * The field data `FoldedCells` is the number of the input's cells that turned over: their signed
+ * area seen along the normal of a 2D density, signed volume in a 3D one, signed length along a 1D
+ * one, changed its sign or became 0 although it was not. Polygons and triangle strips have an area;
+ * tetra, voxels, hexahedra, wedges, pyramids, prisms and polyhedra (with faces seen from outside,
+ * as VTK defines them) a volume; cells of higher order count by their corners. Ghost cells do not
+ * count. A warning says how many there are if there are any.
+ *
  * Cost: O(cells) for the tables, which are kept until the density changes, and O(points * steps).
  * Memory: 48 bytes a point for the output and, while it runs, 16 more in 2D, plus the tables (see
  * vtkTransportAlgorithm).

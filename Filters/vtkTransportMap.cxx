@@ -6,6 +6,7 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/PartText.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/TableSettings.h"
@@ -133,6 +134,11 @@ int vtkTransportMap::RequestData(
     this->WarnOnFirstRank(std::to_string(result.MovedToMass) + " of " + std::to_string(samples) +
       " samples in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare "
       "them that)");
+  }
+  if (result.Folded > 0)
+  {
+    this->WarnOnFirstRank(describePart(result.Folded, samples, "samples") +
+      " are folded: JacobianDeterminant is 0 or negative there; more NumberOfSteps unfold them");
   }
   return 1;
 }

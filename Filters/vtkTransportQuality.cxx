@@ -118,6 +118,7 @@ int vtkTransportQuality::RequestData(
   addColumn<vtkIdTypeArray>(output, "InEmptyCells", static_cast<vtkIdType>(quality.InEmptyCells));
   addColumn<vtkIdTypeArray>(output, "Outside", static_cast<vtkIdType>(quality.Outside));
   addColumn<vtkDoubleArray>(output, "DensityError", quality.DensityError);
+  addColumn<vtkDoubleArray>(output, "LargestBlockError", quality.Blocks.Largest);
   addColumn<vtkDoubleArray>(output, "TransportCost", quality.TransportCost);
   addColumn<vtkDoubleArray>(output, "SmallestSpacing", quality.SmallestSpacing);
   addColumn<vtkDoubleArray>(output, "MeanSpacing", quality.MeanSpacing);

@@ -18,6 +18,8 @@
  *   averaged over blocks of BlockSize cells: sqrt(sum (p - m)^2 / v) / sqrt(sum m^2 / v), where p
  *   and m are a block's shares of the particles' mass and of the density's, and v is its measure.
  *   Particles outside count in the total mass, but in no block;
+ * - `LargestBlockError`, the largest |p - m| / m of these blocks, of those in which the mean of the
+ *   density is more than 5 % of that of the domain;
  * - `TransportCost`, the mean of |Displacement|^2, by weight, in squared physical units, from the
  *   point array `Displacement`; 0 without it;
  * - `SmallestSpacing` and `MeanSpacing`, over the particles in the domain that have mass: the
@@ -46,7 +48,8 @@
  * 8 and 24 more. The numbers are bitwise the same for every number of threads.
  *
  * @warning With few particles a block, DensityError measures their noise: about 1 / sqrt(particles
- * a block) for independent particles.
+ * a block) for independent particles. LargestBlockError does so in blocks where the density is
+ * thin; set a larger BlockSize for it.
  *
  * \code{.cpp}
  * vtkNew<vtkTransportQuality> quality;

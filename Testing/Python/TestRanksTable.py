@@ -72,7 +72,8 @@ class RanksTable(unittest.TestCase):
         for rank in those:
             for field, value in expected["fields"].items():
                 if rank[name]["points"][0] and name not in NUMBERS_ALONE:
-                    self.assertEqual(rank[name]["fields"].get(field), value, field)
+                    # As text: NaN is not NaN.
+                    self.assertEqual(repr(rank[name]["fields"].get(field)), repr(value), field)
         for owner in ("points", "cells"):
             if name in NUMBERS_ALONE:
                 self.assertEqual(sum(len(rank[name][owner][0]) for rank in those),
@@ -97,6 +98,17 @@ class RanksTable(unittest.TestCase):
         for name in names:
             self.assertEqual(len(first[name]["points"][0]), 1)
             self.assertTrue(all(not rank[name]["points"][0] for rank in others))
+
+    def test_folds_and_blocks(self):
+        """Rows have some of them, in both directions, of whole tables and of tiles."""
+        fields = {name: given["fields"] for name, given in run(1)[0].items()}
+        for name in ("map folds back", "map folds tiled", "warp of volumes"):
+            with self.subTest(name):
+                self.assertGreater(fields[name]["FoldedCells"][0], 0)
+        for name in ("map points", "map back", "map tiled", "map folds"):
+            with self.subTest(name):
+                quantile, largest = fields[name]["LargestBlockError"]
+                self.assertTrue(0 < quantile <= largest, fields[name])
 
     def test_particles_are_where_they_lie(self):
         """More than one rank has some of them, and those of paths as of points."""

@@ -170,6 +170,18 @@ def main(path):
     give("map coarse", simple.TransportMap(Input=cells, SampleDimensions=[5, 7, 3], **usual))
     give("map tiled", simple.TransportMap(Input=image, Tables="Tiled", NegativeValues="Clamp",
                                           NumberOfSteps=32))
+    steep = simple.Calculator(Input=image, Function="if(coordsX^2 + coordsY^2 < 9, 1000, 1)",
+                              ResultArrayName="Steep")
+    folds = dict(DensityArray=["POINTS", "Steep"], NumberOfSteps=6)
+    give("map folds", simple.TransportMap(Input=steep, **folds))
+    give("map folds back", simple.TransportMap(Input=steep, Direction="DensityToUniform", **folds))
+    give("map folds tiled", simple.TransportMap(
+        Input=steep, Direction="DensityToUniform", Tables="Tiled",
+        **dict(folds, NumberOfSteps=32)))
+    give("warp of volumes", simple.DensityEqualizingWarp(
+        Input=with_ghosts(simple.Threshold(Input=steep, Scalars=["POINTS", "RTData"],
+                                           LowerThreshold=-1000, UpperThreshold=1000), 1),
+        Density=steep, **folds))
     shell = simple.Contour(Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[150.0],
                            ComputeNormals=0)
     give("warp", simple.DensityEqualizingWarp(Input=shell, Density=image, **usual))

@@ -22,6 +22,7 @@ constexpr double MassShare = 150.0;    // of a sample in 3D, with the sample's o
 constexpr double MeanAndSplat = 60.0;  // of a particle of a blend
 constexpr double Comparison = 4000.0;  // of a particle with a density
 constexpr double Relaxation = 20000.0; // of a point, in each iteration
+constexpr double TurnedCell = 200.0;   // of a vtkCell, to find whether it turned over
 constexpr double Reading = 2.0;        // of a cell's value
 
 inline double tables(const FlowCache& cache, const InputDensity& density)

@@ -142,9 +142,12 @@ template <int D>
 DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputDensity& density,
   vtkPointSet* input, FlowCache& cache, Progress& progress, vtkPointSet* output)
 {
+  const bool moves = settings.Blend > 0.0;
+  const auto cells = static_cast<double>(moves ? input->GetNumberOfCells() : 0);
   const double count = static_cast<double>(input->GetNumberOfPoints());
   const auto ends = stageEnds({ Cost::tables(cache, density), Cost::Seed * count,
-    settings.Blend == 0.0 ? 0.0 : Cost::flow(settings.Flow, D) * count, Cost::Seed * count });
+    moves ? Cost::flow(settings.Flow, D) * count : 0.0, Cost::Seed * count,
+    Cost::TurnedCell * cells });
   WarpedPoints<D> points(density.Grid(), input, progress);
   const FlowTables tables = chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
     { settings.Flow, FlowDirection::Backward, count, false, "" });
@@ -152,14 +155,19 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
   progress.BeginStage(ends[1]);
   DensityEqualizingWarp::Report report;
   report.Outside = points.Read();
-  if (settings.Blend > 0.0)
+  if (moves)
   {
     progress.BeginStage(ends[2]);
     report.Flow = points.Flow(flow.Transport<D>(), settings.Flow);
   }
-  progress.BeginStage(1.0);
+  progress.BeginStage(ends[3]);
   points.Write(settings.Blend, output);
   addSteps(output, { report.Flow });
+  progress.BeginStage(1.0);
+  if (moves)
+  {
+    report.Cells = countTurnedCells(density.Grid(), input, output, progress);
+  }
   return report;
 }
 

@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_DensityEqualizingWarp_h
 #define RectifiedTransport_DensityEqualizingWarp_h
 
+#include "Bridge/Flow/TurnedCells.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
@@ -30,6 +31,7 @@ struct DensityEqualizingWarp
   struct Report
   {
     std::int64_t Outside = 0; // points of this rank outside the domain
+    TurnedCells Cells;        // of this rank's input
     FlowReport Flow;
   };
 

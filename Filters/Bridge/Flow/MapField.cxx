@@ -2,7 +2,10 @@
 #include "Bridge/Flow/MapField.h"
 
 #include "Bridge/Run/Memory.h"
+#include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Quality/MapBlocks.h"
+#include "Core/Quality/MapFolds.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -35,6 +38,7 @@ MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const
   , Lattice(samples.Size<D>())
   , OwnPart(LatticePart<D>::WholeOf(this->Lattice))
   , Wanted(this->OwnPart)
+  , Measured(this->OwnPart)
   , Kept(this->OwnPart)
 {
   if (ranks.AreSeveral())
@@ -86,7 +90,9 @@ void MapField<D>::FindParts(const ImageGrid& samples, const TupleBox& wanted, co
     this->Held.push_back(this->BoxOf(part));
   }
   this->Wanted = latticePartOf<D>(wanted, samples);
-  this->Kept = this->Wanted.Around(this->Lattice).With(this->OwnPart);
+  this->Measured = this->OwnPart.Around(this->Lattice)
+                     .With(MapBlocks<D>::SamplesOf(MapBlocks<D>::Of(this->Lattice, this->OwnPart)));
+  this->Kept = this->Wanted.Around(this->Lattice).With(this->Measured);
   // Displacements are written layer by layer where positions of layers before were.
   const int last = D - 1;
   if (D == 3 && this->Wanted.Count() > 0 && this->Kept.Low[last] == this->Wanted.Low[last])
@@ -118,18 +124,20 @@ PointSpan<D> MapField<D>::Positions()
   return { first, this->Kept.Count() };
 }
 
-// What derivatives at the border of the wanted samples depend on, too.
+// What derivatives at the border of the wanted samples depend on, and figures of this rank's.
 template <int D>
 void MapField<D>::Complete()
 {
   const auto array = arrayOn(this->Positions().data(), D, this->Kept.Count());
-  completeBoxes(this->Held, this->BoxOf(this->Wanted.Around(this->Lattice)),
-    this->BoxOf(this->Kept), this->Processes, array);
+  for (const LatticePart<D>& part : { this->Wanted.Around(this->Lattice), this->Measured })
+  {
+    completeBoxes(this->Held, this->BoxOf(part), this->BoxOf(this->Kept), this->Processes, array);
+  }
 }
 
 template <int D>
-double MapField<D>::Write(
-  const RectifiedFlow<D>* flow, Progress& progress, double end, vtkDataSetAttributes* output)
+MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direction,
+  const DensitySource<D>& density, Progress& progress, double end, vtkDataSetAttributes* output)
 {
   if (this->Processes.AreSeveral())
   {
@@ -138,25 +146,41 @@ double MapField<D>::Write(
   const std::int64_t count = this->Wanted.Count();
   auto divergences = newArray<vtkDoubleArray>("Divergence", 1, count);
   auto determinants = newArray<vtkDoubleArray>("JacobianDeterminant", 1, count);
-  const MapDerivatives<D> derivatives(this->Lattice, this->Wanted, this->Kept,
-    latticeStep<D>(this->Lattice, this->Geometry.template Size<D>()), this->Positions());
+  const Point<D> step = latticeStep<D>(this->Lattice, this->Geometry.template Size<D>());
+  const RectifiedFlow<D>* begins = direction == FlowDirection::Backward ? &flow : nullptr;
+  MapFigures figures;
+  constexpr double partOfBlocks = 0.2;
+  figures.Blocks = measureBlocks<D>({ this->Lattice, this->OwnPart, this->Kept, this->Positions() },
+    density, flow.Total(), direction, progress,
+    progress.StageEnd() + partOfBlocks * (end - progress.StageEnd()));
+  const MapDerivatives<D> derivatives(
+    this->Lattice, this->Wanted, this->Kept, step, this->Positions());
   const MapDisplacement<D> moves(
-    this->Geometry, this->Lattice, this->Wanted, this->Kept, this->Positions(), flow);
+    this->Geometry, this->Lattice, this->Wanted, this->Kept, this->Positions(), begins);
+  const MapFolds<D> folds(this->Lattice, begins);
   DisplacementSums sums;
   const bool hasOwn = this->Wanted.Contains(this->OwnPart);
   if (!hasOwn)
   {
     progress.BeginStage(0.5 * (progress.StageEnd() + end));
     MapDisplacement<D>(
-      this->Geometry, this->Lattice, this->OwnPart, this->Kept, this->Positions(), flow)
+      this->Geometry, this->Lattice, this->OwnPart, this->Kept, this->Positions(), begins)
       .Count(sums, progress);
+    figures.Folded = folds.Count(this->OwnPart, this->Kept, step, this->Positions(), progress);
   }
   this->WriteSamples(derivatives, moves, sums, progress, end, divergences->GetPointer(0),
     determinants->GetPointer(0));
+  if (hasOwn)
+  {
+    figures.Folded =
+      folds.Count(this->OwnPart, this->Wanted, determinants->GetPointer(0), progress);
+  }
   output->SetVectors(std::exchange(this->Displacement, nullptr));
   output->AddArray(divergences);
   output->AddArray(determinants);
-  return moves.MeanSquare(sumOverRanks(this->Processes, sums));
+  figures.Cost = moves.MeanSquare(sumOverRanks(this->Processes, sums));
+  figures.Folded = sumOverRanks(this->Processes, figures.Folded);
+  return figures;
 }
 
 // Derivatives depend on the positions of the layers before and after.

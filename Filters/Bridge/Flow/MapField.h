@@ -6,12 +6,15 @@
 
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Flow/FlowOptions.h"
 #include "Core/Flow/MapDerivatives.h"
 #include "Core/Flow/MapDisplacement.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/LatticePart.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Quality/BlockErrors.h"
+#include "Core/Tables/Density.h"
 
 #include "vtkSmartPointer.h"
 
@@ -27,6 +30,14 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
+
+// What a map says about all of its samples.
+struct MapFigures
+{
+  double Cost = 0.0; // the mean squared displacement
+  std::int64_t Folded = 0;
+  BlockErrors Blocks;
+};
 
 // In 3D positions and displacements share memory.
 template <int D>
@@ -49,11 +60,11 @@ public:
   PointSpan<D> Positions();
 
   // Computes Displacement, Divergence and JacobianDeterminant of the wanted samples; positions are
-  // undefined afterwards. Returns the mean squared displacement of all samples; if `flow` is given,
-  // weighted by the mass of its density in their lattice cells. Progress reaches `end`. Throws
-  // Failure and Cancelled.
-  double Write(
-    const RectifiedFlow<D>* flow, Progress& progress, double end, vtkDataSetAttributes* output);
+  // undefined afterwards. The map begins at the uniform measure (forward) or at the density
+  // (backward), and so do the weights of samples in the cost. `density` has the values that `flow`
+  // moves points by. Progress reaches `end`. Collective. Throws Failure and Cancelled.
+  MapFigures Write(const RectifiedFlow<D>& flow, FlowDirection direction,
+    const DensitySource<D>& density, Progress& progress, double end, vtkDataSetAttributes* output);
 
 private:
   void FindParts(const ImageGrid& samples, const TupleBox& wanted, const Ranks& ranks);
@@ -68,6 +79,7 @@ private:
   GridSize<D> Lattice;
   LatticePart<D> OwnPart;
   LatticePart<D> Wanted;
+  LatticePart<D> Measured; // what the figures of the own part depend on
   LatticePart<D> Kept;
   std::int64_t Ahead = 0;     // tuples in the memory before the positions
   std::vector<TupleBox> Held; // by the ranks

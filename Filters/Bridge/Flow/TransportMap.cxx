@@ -76,14 +76,19 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   {
     prepareShares<D>(flow, field.Whole(), field.Part());
   }
-  const double cost =
-    field.Write(map.Backward ? &flow : nullptr, progress, 1.0, output->GetAttributes(owner));
+  // Whole tables may have been made by another filter: these values are read piece by piece.
+  density.Prepare(FlowTables::Tiled, progress);
+  const MapFigures figures =
+    field.Write(flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward,
+      density.Source<D>(), progress, 1.0, output->GetAttributes(owner));
   addFieldValue(output, "TotalMass", shared.TotalMass());
-  addFieldValue(output, "TransportCost", cost);
+  addFieldValue(output, "TransportCost", figures.Cost);
   const std::int64_t moved = sumOverRanks(ranks, report.MovedToMass);
   addFieldValue(output, "MovedSamples", static_cast<double>(moved));
+  addFieldValue(output, "FoldedCells", static_cast<double>(figures.Folded));
+  addFieldTuple(output, "LargestBlockError", { figures.Blocks.Quantile, figures.Blocks.Largest });
   addSteps(output, { report });
-  return { samples, all, report, moved };
+  return { samples, all, report, moved, figures.Folded };
 }
 
 } // namespace

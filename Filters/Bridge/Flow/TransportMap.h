@@ -36,6 +36,7 @@ struct TransportMap
     double Samples;
     FlowReport Flow;
     std::int64_t MovedToMass; // from empty cells of the density
+    std::int64_t Folded;
   };
 
   // The grid of the samples on the density's domain. Throws Failure.

@@ -26,6 +26,17 @@ inline void addFieldValues(
   output->GetFieldData()->AddArray(array);
 }
 
+// The same, of one tuple.
+inline void addFieldTuple(
+  vtkDataObject* output, const char* name, const std::vector<double>& components)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(static_cast<int>(components.size()));
+  array->InsertNextTuple(components.data());
+  output->GetFieldData()->AddArray(array);
+}
+
 inline void addFieldValue(vtkDataObject* output, const char* name, double value)
 {
   addFieldValues(output, name, { value });

@@ -257,6 +257,16 @@ private:
       });
     });
     this->Quality.DensityError = std::sqrt(squares.Difference / squares.Norm);
+    const double cells = numberOfCells<Dimension>(this->Grid.template Size<Dimension>());
+    std::vector<double> errors;
+    this->InOrder(this->OwnBlocks.Count, [&](std::int64_t i) {
+      const double measure = this->Blocks.Box(this->OwnBlocks.First + i).Cells() / cells;
+      if (expected[i] > leastOfMean * measure)
+      {
+        errors.push_back(std::abs(found[i] - expected[i]) / expected[i]);
+      }
+    });
+    this->Quality.Blocks = largestErrors(std::move(errors), this->Group);
   }
 
   // Divides the distance of each nearest neighbour by the largest spacing at the density of that

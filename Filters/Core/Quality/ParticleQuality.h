@@ -6,6 +6,7 @@
 #include "../Flow/RectifiedFlow.h"
 #include "../Geometry/ImageGrid.h"
 #include "../Parallel/Context.h"
+#include "BlockErrors.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -33,6 +34,8 @@ struct ParticleQuality
   // The relative L2 distance between the particles' density and the given one, both averaged over
   // blocks of grid cells.
   double DensityError = 0.0;
+  // The relative errors of the masses of blocks whose density is more than leastOfMean.
+  BlockErrors Blocks;
   double TransportCost = 0.0; // mean squared displacement, by mass
   // Over the particles inside that have mass: the distance to the nearest other particle, relative
   // to the densest lattice packing at the local density. 0 if there are no such particles.

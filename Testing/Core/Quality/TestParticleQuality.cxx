@@ -92,6 +92,22 @@ TEST(ParticleQuality, AllInOneHalf)
   const auto density = uniform<2>({ 8, 4 });
   EXPECT_NEAR(qualityOf<2>(density, grid, { points }, 4).DensityError, 1.0, 1e-14);
   EXPECT_NEAR(qualityOf<2>(density, grid, { points }, 8).DensityError, 0.0, 1e-14);
+  EXPECT_NEAR(qualityOf<2>(density, grid, { points }, 4).Blocks.Largest, 1.0, 1e-14);
+  EXPECT_NEAR(qualityOf<2>(density, grid, { points }, 8).Blocks.Largest, 0.0, 1e-14);
+}
+
+// Blocks count if their mean density is more than a twentieth of that of all.
+TEST(ParticleQuality, ThinBlocks)
+{
+  const auto grid = makeGrid<1>({ 5 }, { 1.0, 1.0, 1.0 }); // the last block has one cell
+  const std::vector<Point<3>> points = { { 0.5, 0.0, 0.0 }, { 1.5, 0.0, 0.0 }, { 4.5, 0.0, 0.0 } };
+  const auto errorsOf = [&](double thin) {
+    const TestDensity<1> density{ { 5 }, { 1.0, 1.0, thin, thin, 1.0 } };
+    return qualityOf<1>(density, grid, { points }, 2).Blocks;
+  };
+  EXPECT_NEAR(errorsOf(0.03).Largest, 0.02, 1e-14); // 2/3 for 2/3.06
+  EXPECT_NEAR(errorsOf(0.04).Largest, 1.0, 1e-14);  // empty
+  EXPECT_NEAR(errorsOf(0.03).Quantile, 0.02, 1e-14);
 }
 
 TEST(ParticleQuality, BlocksOfManyParticles)
@@ -176,6 +192,7 @@ TEST(ParticleQuality, SameBitsOnAnyThreads)
   EXPECT_GT(one.Outside, 0);
   EXPECT_EQ(one.Outside, many.Outside);
   EXPECT_EQ(one.DensityError, many.DensityError);
+  EXPECT_EQ(one.Blocks.Largest, many.Blocks.Largest);
   EXPECT_EQ(one.TransportCost, many.TransportCost);
   EXPECT_EQ(one.SmallestSpacing, many.SmallestSpacing);
   EXPECT_EQ(one.MeanSpacing, many.MeanSpacing);
@@ -253,6 +270,8 @@ void expectSame(const ParticleQuality& found, const ParticleQuality& expected)
   EXPECT_EQ(found.Outside, expected.Outside);
   EXPECT_EQ(found.InEmptyCells, expected.InEmptyCells);
   EXPECT_EQ(found.DensityError, expected.DensityError);
+  EXPECT_EQ(found.Blocks.Quantile, expected.Blocks.Quantile);
+  EXPECT_EQ(found.Blocks.Largest, expected.Blocks.Largest);
   EXPECT_EQ(found.TransportCost, expected.TransportCost);
   EXPECT_EQ(found.SmallestSpacing, expected.SmallestSpacing);
   EXPECT_EQ(found.MeanSpacing, expected.MeanSpacing);

@@ -111,10 +111,13 @@ void checkWarning(Checks& checks)
   map->SetNumberOfSteps(1);
   map->Update();
   CHECK(checks, messages.Errors.empty());
-  CHECK(checks, messages.Warnings.size() == 1);
+  CHECK(checks, messages.Warnings.size() == 2);
   CHECK(checks,
     !messages.Warnings.empty() &&
       contains(messages.Warnings[0], " of 1600 samples in empty cells moved to the nearest cell"));
+  CHECK(checks,
+    messages.Warnings.size() == 2 &&
+      contains(messages.Warnings[1], " %) are folded: JacobianDeterminant is 0 or negative there"));
 }
 
 } // namespace

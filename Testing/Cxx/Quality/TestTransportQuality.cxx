@@ -163,6 +163,7 @@ void checkBlocks(Checks& checks)
   quality->SetDensityData(image);
   quality->SetBlockSize(2);
   CHECK_NEAR(checks, measured(quality, "DensityError"), std::sqrt(difference / norm), 1e-12);
+  CHECK_NEAR(checks, value(quality, "LargestBlockError"), 1.0, 1e-12); // of the empty block
   CHECK(checks, value(quality, "Particles") == 5);
   CHECK(checks, value(quality, "Outside") == 1);
   CHECK_NEAR(checks, value(quality, "TotalMass"), 90.0, 1e-12);
@@ -173,6 +174,10 @@ void checkBlocks(Checks& checks)
   addArray(matching, "Mass", { 120, 90, 150, 90, 0 });
   quality->SetInputData(matching);
   CHECK_NEAR(checks, measured(quality, "DensityError"), 0.0, 1e-12);
+  CHECK_NEAR(checks, value(quality, "LargestBlockError"), 0.0, 1e-12);
+  addArray(matching, "Mass", { 60, 90, 150, 120, 30 });
+  matching->Modified();
+  CHECK_NEAR(checks, measured(quality, "LargestBlockError"), 0.5, 1e-12);
   addArray(particles, "Mass", { 70, 50, 90, 150, 0 });
   quality->SetInputData(particles);
   addArray(particles, "Displacement", { 1, 2, 2, 0, 0, 0, 0, 0, 0, 3, 0, 4, 7, 7, 7 }, 3);

@@ -57,7 +57,7 @@ void checkThreads(Checks& checks, int depth, int tables)
     return runQuality(quality);
   };
   const std::vector<double> one = expectSameBits(checks, run, __LINE__);
-  CHECK(checks, one.size() == 8 && one[2] > 0 && one[3] > 0);
+  CHECK(checks, one.size() == 9 && one[2] > 0 && one[3] > 0);
 }
 
 // In the middle of the spacings, which take a volume long; their first slice, too.
@@ -93,7 +93,7 @@ void checkAbort(Checks& checks)
   ProgressTest test(quality);
   changeDensity(image);
   quality->SetInputData(makePoints(randomCoordinates(bounds, 50000)));
-  CHECK(checks, runQuality(quality).size() == 8);
+  CHECK(checks, runQuality(quality).size() == 9);
   test.ExpectRising(checks, 6, __LINE__);
   CHECK(checks, messages.Errors.empty());
 }

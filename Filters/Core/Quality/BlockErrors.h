@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The largest relative errors of the areas or masses of blocks.
+#ifndef RectifiedTransport_BlockErrors_h
+#define RectifiedTransport_BlockErrors_h
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Ranks;
+
+// Blocks count whose density is more than this part of the mean.
+constexpr double leastOfMean = 0.05;
+
+// The largest values of all ranks, `count` of them, or all if there are fewer; in no order.
+// Collective.
+std::vector<double> largestOf(std::vector<double> own, std::int64_t count, const Ranks& ranks);
+
+// NaN if there are no blocks.
+struct BlockErrors
+{
+  double Quantile = std::numeric_limits<double>::quiet_NaN(); // of 99.9 % of the blocks
+  double Largest = std::numeric_limits<double>::quiet_NaN();
+};
+
+// Of the errors of the blocks of all ranks, n in all, numbered from 0 in ascending order: the
+// quantile is number floor(0.999 n). Each rank sends no more than a thousandth of n. Collective.
+BlockErrors largestErrors(std::vector<double> own, const Ranks& ranks);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Integrals over pieces of a boundary that add up, over a closed boundary, to the measure inside it
+// or to the density's mass there: those of the field (F, 0, ...) across it, where F is the measure
+// or the mass, along axis 0, below a point (Gauss's theorem).
+#ifndef RectifiedTransport_BoundaryIntegrals_h
+#define RectifiedTransport_BoundaryIntegrals_h
+
+#include "Core/Geometry/Points.h"
+#include "Core/Quality/CellPolygons.h"
+#include "Core/Quality/DensityRows.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// A triangle in space, anticlockwise from outside.
+using TriangleCorners = const double* const (&)[3];
+
+// Twice the area of its shadow along axis 0.
+inline double twiceShadow(TriangleCorners x)
+{
+  return (x[1][1] - x[0][1]) * (x[2][2] - x[0][2]) - (x[1][2] - x[0][2]) * (x[2][1] - x[0][1]);
+}
+
+// For lengths, areas and volumes.
+class MeasureIntegral
+{
+public:
+  // Below a point of a line.
+  double Point(const double* x) const { return x[0]; }
+  // Along an edge, with the inside to the left.
+  double Edge(const double* a, const double* b) const
+  {
+    return 0.5 * (a[0] + b[0]) * (b[1] - a[1]);
+  }
+  double Triangle(TriangleCorners x) const
+  {
+    return (x[0][0] + x[1][0] + x[2][0]) / 6.0 * twiceShadow(x);
+  }
+};
+
+// How the mass below a triangle is found.
+enum class TriangleRule
+{
+  Centroid, // fast: by one point
+  Exact     // by the parts in the grid's cells
+};
+
+// For the mass that is in the cells of some rows of a density, as they scale it; other parts of the
+// pieces do not count. Exact but for the first rule.
+template <int Dimension>
+class MassIntegral
+{
+public:
+  // In 3D sums of rows begin at x = `start`: sums of neighbouring rows differ the more, and with
+  // them the errors of triangles, the farther they go.
+  explicit MassIntegral(const DensityRows<Dimension>& rows, double start = 0.0,
+    TriangleRule rule = TriangleRule::Centroid)
+    : Rows(rows)
+    , Cells(rows.Cells())
+    , Start(start)
+    , Rule(rule)
+  {
+  }
+
+  double Point(const double* x) const
+  {
+    const double inside = std::clamp(
+      x[0], static_cast<double>(this->Cells.Low[0]), static_cast<double>(this->Cells.End(0)));
+    return this->Rows.Before(this->Rows.Row(this->Cells.Low), inside);
+  }
+
+  // Row by row.
+  double Edge(const double* a, const double* b) const
+  {
+    const bool rises = a[1] < b[1];
+    const double* low = rises ? a : b;
+    const double* high = rises ? b : a;
+    const double end = std::min(high[1], static_cast<double>(this->Cells.End(1)));
+    double y = std::max(low[1], static_cast<double>(this->Cells.Low[1]));
+    if (!(y < end))
+    {
+      return 0.0;
+    }
+    const double width = high[0] - low[0];
+    const double height = high[1] - low[1];
+    const auto at = [&](double place) {
+      return place == high[1] ? high[0] : low[0] + width * ((place - low[1]) / height);
+    };
+    double x = y == low[1] ? low[0] : at(y);
+    double sum = 0.0;
+    for (auto row = static_cast<std::int64_t>(y); y < end; ++row)
+    {
+      const double nextY = std::min(end, static_cast<double>(row + 1));
+      const double nextX = at(nextY);
+      GridSize<Dimension> cell{};
+      cell[Last] = row;
+      sum += (nextY - y) * this->MeanBefore(this->Rows.Row(cell), x, nextX);
+      y = nextY;
+      x = nextX;
+    }
+    return rises ? sum : -sum;
+  }
+
+  double Triangle(TriangleCorners x) const
+  {
+    return this->Rule == TriangleRule::Exact ? this->ExactTriangle(x) : this->TriangleByCentroid(x);
+  }
+
+private:
+  static constexpr int Last = Dimension - 1;
+
+  // The mean over the places between two of a row.
+  double MeanBefore(const double* row, double from, double to) const
+  {
+    const double low = std::min(from, to);
+    const double high = std::max(from, to);
+    const std::int64_t end = this->Cells.End(0) - 1;
+    const std::int64_t first = std::min(static_cast<std::int64_t>(low), end);
+    const std::int64_t last = std::min(static_cast<std::int64_t>(high), end);
+    if (first == last)
+    {
+      return this->Rows.Before(row, first, 0.5 * (low + high));
+    }
+    double sum = 0.0;
+    double x = low;
+    for (std::int64_t cell = first; cell <= last; ++cell)
+    {
+      const double next = cell == last ? high : static_cast<double>(cell + 1);
+      sum += (next - x) * this->Rows.Before(row, cell, 0.5 * (x + next));
+      x = next;
+    }
+    return sum / (high - low);
+  }
+
+  double TriangleByCentroid(TriangleCorners x) const
+  {
+    constexpr double third = 1.0 / 3.0;
+    double centroid[3];
+    for (int a = 0; a < 3; ++a)
+    {
+      centroid[a] = third * (x[0][a] + x[1][a] + x[2][a]);
+    }
+    GridSize<Dimension> cell{};
+    for (int a = 1; a < Dimension; ++a)
+    {
+      cell[a] = std::min(static_cast<std::int64_t>(centroid[a]), this->Rows.Size()[a] - 1);
+    }
+    if (!this->HasLayer(cell[Last]))
+    {
+      return 0.0;
+    }
+    const double* row = this->Rows.Row(cell);
+    const double below = this->Rows.Before(row, centroid[0]) - this->Rows.Before(row, this->Start);
+    return 0.5 * below * twiceShadow(x);
+  }
+
+  double ExactTriangle(TriangleCorners x) const
+  {
+    SpacePolygon triangle;
+    for (const double* corner : x)
+    {
+      triangle.Add(corner);
+    }
+    double sum = 0.0;
+    GridSize<3> cell{};
+    visitCells<2>(triangle, this->Rows.Size(), cell,
+      [&](const SpacePolygon& part, const GridSize<3>& at) { sum += this->BelowPart(part, at); });
+    return sum;
+  }
+
+  // In a cell the mass below is linear along axis 0.
+  double BelowPart(const SpacePolygon& part, const GridSize<3>& cell) const
+  {
+    if (!this->HasLayer(cell[Last]))
+    {
+      return 0.0;
+    }
+    double area = 0.0; // of the shadow
+    double moment = 0.0;
+    const auto floor = static_cast<double>(cell[0]);
+    for (int i = 2; i < part.Count; ++i)
+    {
+      const auto& x = part.Corners;
+      const double shadow = 0.5 * twiceShadow({ x[0], x[i - 1], x[i] });
+      area += shadow;
+      moment += shadow * ((x[0][0] - floor) + (x[i - 1][0] - floor) + (x[i][0] - floor)) / 3.0;
+    }
+    const double* row = this->Rows.Row(cell);
+    return area * (row[cell[0]] - this->Rows.Before(row, this->Start)) +
+      moment * (row[cell[0] + 1] - row[cell[0]]);
+  }
+
+  bool HasLayer(std::int64_t layer) const
+  {
+    return layer >= this->Cells.Low[Last] && layer < this->Cells.End(Last);
+  }
+
+  const DensityRows<Dimension>& Rows;
+  const LatticePart<Dimension> Cells;
+  const double Start;
+  const TriangleRule Rule;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,462 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Quality/MapBlocks.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Reduction.h"
+#include "Core/Quality/BoundaryIntegrals.h"
+#include "Core/Quality/DensityRows.h"
+#include "Core/Tables/CoveredCells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = 64; // blocks or faces
+
+template <int Dimension>
+class BlocksRun
+{
+public:
+  BlocksRun(const MapSamples<Dimension>& map, const DensitySource<Dimension>& density, double total,
+    Progress& progress, double end)
+    : Map(map)
+    , Work(progress)
+    , Start(progress.StageEnd())
+    , End(end)
+    , Size(density.Size)
+    , Distributed(density.IsDistributed())
+    , Step(latticeStep<Dimension>(map.Lattice, density.Size))
+    , Rows(density, total)
+    , Blocks(MapBlocks<Dimension>::Of(map.Lattice, map.Own))
+    , Count(this->Blocks.IsEmpty() ? 0 : this->Blocks.Count())
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      this->Faces[axis] = this->Blocks;
+      ++this->Faces[axis].Cells[axis];
+      this->Through[axis].assign(
+        static_cast<std::size_t>(this->Count > 0 ? this->Faces[axis].Count() : 0), 0.0);
+    }
+  }
+
+  BlockErrors Forward()
+  {
+    const LatticePart<Dimension> cells = this->CellsAround();
+    if constexpr (Dimension < 3)
+    {
+      this->InLayers(cells, this->Start, this->End,
+        [&]() { this->AddThrough(MassIntegral<Dimension>(this->Rows)); });
+      return largestErrors(this->Errors([&](std::int64_t block) {
+        return this->MassError(this->Inside(this->Blocks.CellOf(block)));
+      }),
+        this->Work.Group());
+    }
+    else
+    {
+      return this->ForwardInSpace(cells);
+    }
+  }
+
+  BlockErrors Backward()
+  {
+    const auto count = static_cast<std::size_t>(this->Count);
+    std::vector<double> masses(count, 0.0);
+    std::vector<double> least(count, std::numeric_limits<double>::infinity());
+    constexpr double partOfMasses = 0.7;
+    const double middle = this->Start + partOfMasses * (this->End - this->Start);
+    this->InLayers(this->CellsOf(this->Blocks), this->Start, middle, [&]() {
+      this->Work.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          const auto at = static_cast<std::size_t>(i);
+          this->AddMass(this->Blocks.CellOf(i), masses[at], least[at]);
+        }
+      });
+    });
+    this->Work.BeginStage(this->End);
+    this->AddThrough(MeasureIntegral());
+    const double cells = numberOfCells<Dimension>(this->Size);
+    const double mean = this->Rows.TotalMass() / cells;
+    std::vector<double> errors = this->Errors([&](std::int64_t block) {
+      const auto at = static_cast<std::size_t>(block);
+      if (!(least[at] > leastOfMean * mean))
+      {
+        return -1.0;
+      }
+      const double wanted = masses[at] / mean; // of the measure
+      return std::abs(this->Inside(this->Blocks.CellOf(block)) - wanted) / wanted;
+    });
+    errors.erase(
+      std::remove_if(errors.begin(), errors.end(), [](double e) { return e < 0.0; }), errors.end());
+    return largestErrors(std::move(errors), this->Work.Group());
+  }
+
+private:
+  const double* At(const GridSize<Dimension>& sample) const
+  {
+    return this->Map.Positions[this->Map.Within.NumberOf(sample)];
+  }
+
+  // The integral over a face of blocks across an axis, in the direction of the axis.
+  template <class Integral>
+  double Across(int axis, const GridSize<Dimension>& face, const Integral& integral) const
+  {
+    constexpr std::int64_t size = MapBlocks<Dimension>::Size;
+    GridSize<Dimension> sample;
+    for (int a = 0; a < Dimension; ++a)
+    {
+      sample[a] = size * face[a];
+    }
+    const double* first = this->At(sample);
+    const auto strideOf = [this](int a) {
+      std::int64_t stride = Dimension;
+      for (int b = 0; b < a; ++b)
+      {
+        stride *= this->Map.Within.Cells[b];
+      }
+      return stride;
+    };
+    if constexpr (Dimension == 1)
+    {
+      return integral.Point(first);
+    }
+    else if constexpr (Dimension == 2)
+    {
+      // Anticlockwise: up on the right, to the left at the top.
+      const std::int64_t stride = strideOf(1 - axis);
+      double sum = 0.0;
+      for (std::int64_t i = 0; i < size; ++i)
+      {
+        sum += integral.Edge(first + i * stride, first + (i + 1) * stride);
+      }
+      return axis == 0 ? sum : -sum;
+    }
+    else
+    {
+      const std::int64_t alongU = strideOf((axis + 1) % Dimension);
+      const std::int64_t alongV = strideOf((axis + 2) % Dimension);
+      double sum = 0.0;
+      for (std::int64_t j = 0; j < size; ++j)
+      {
+        for (std::int64_t i = 0; i < size; ++i)
+        {
+          const double* low = first + i * alongU + j * alongV;
+          const double* across = low + alongU + alongV;
+          sum += integral.Triangle({ low, low + alongU, across }) +
+            integral.Triangle({ low, across, low + alongV });
+        }
+      }
+      return sum;
+    }
+  }
+
+  template <class Integral>
+  void AddThrough(const Integral& integral)
+  {
+    for (int axis = 0; axis<Dimension&& this->Count> 0; ++axis)
+    {
+      const LatticePart<Dimension>& faces = this->Faces[axis];
+      this->Work.For(
+        faces.Count(), grain,
+        [&](std::int64_t first, std::int64_t last) {
+          for (std::int64_t i = first; i < last; ++i)
+          {
+            this->Through[axis][static_cast<std::size_t>(i)] +=
+              this->Across(axis, faces.CellOf(i), integral);
+          }
+        },
+        64 * grain);
+    }
+  }
+
+  // Fast for all blocks, then exactly for those that seem to have the largest errors.
+  BlockErrors ForwardInSpace(const LatticePart<Dimension>& cells)
+  {
+    constexpr std::int64_t partExactly = 20;
+    const Ranks& ranks = this->Work.Group();
+    const double middle = 0.5 * (this->Start + this->End);
+    std::vector<double> masses(static_cast<std::size_t>(this->Count), 0.0);
+    std::vector<std::int64_t> blocks(masses.size());
+    std::iota(blocks.begin(), blocks.end(), std::int64_t{ 0 });
+    this->InLayers(cells, this->Start, middle,
+      [&]() { this->AddInside(blocks, TriangleRule::Centroid, masses); });
+    const auto errorOf = [&](std::int64_t block) {
+      return this->MassError(masses[static_cast<std::size_t>(block)]);
+    };
+    std::vector<double> errors = this->Errors(errorOf);
+    const std::int64_t all = sumOverRanks(ranks, this->Count);
+    const std::vector<double> largest =
+      largestOf(errors, (all + partExactly - 1) / partExactly, ranks);
+    if (largest.empty())
+    {
+      return {};
+    }
+    const double least = *std::min_element(largest.begin(), largest.end());
+    blocks.clear();
+    for (std::int64_t block = 0; block < this->Count; ++block)
+    {
+      if (errors[static_cast<std::size_t>(block)] >= least)
+      {
+        blocks.push_back(block);
+        masses[static_cast<std::size_t>(block)] = 0.0;
+      }
+    }
+    this->InLayers(
+      cells, middle, this->End, [&]() { this->AddInside(blocks, TriangleRule::Exact, masses); });
+    std::fill(errors.begin(), errors.end(), 0.0);
+    for (const std::int64_t block : blocks)
+    {
+      errors[static_cast<std::size_t>(block)] = errorOf(block);
+    }
+    return largestErrors(std::move(errors), ranks);
+  }
+
+  // Adds the masses in the images of blocks, each with sums that begin in its middle.
+  void AddInside(
+    const std::vector<std::int64_t>& blocks, TriangleRule rule, std::vector<double>& masses)
+  {
+    constexpr std::int64_t size = MapBlocks<Dimension>::Size;
+    this->Work.For(
+      static_cast<std::int64_t>(blocks.size()), grain,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          const std::int64_t number = blocks[static_cast<std::size_t>(i)];
+          const GridSize<Dimension> block = this->Blocks.CellOf(number);
+          GridSize<Dimension> middle = block;
+          for (std::int64_t& sample : middle)
+          {
+            sample = size * sample + size / 2;
+          }
+          const MassIntegral<Dimension> mass(this->Rows, *this->At(middle), rule);
+          for (int axis = 0; axis < Dimension; ++axis)
+          {
+            GridSize<Dimension> above = block;
+            ++above[axis];
+            masses[static_cast<std::size_t>(number)] +=
+              this->Across(axis, above, mass) - this->Across(axis, block, mass);
+          }
+        }
+      },
+      16 * grain);
+  }
+
+  // Forward, of the mass in the image of a block.
+  double MassError(double mass) const
+  {
+    double share = 1.0;
+    for (const std::int64_t samples : this->Map.Lattice)
+    {
+      share *= static_cast<double>(MapBlocks<Dimension>::Size) / static_cast<double>(samples);
+    }
+    return std::abs(mass / this->Rows.TotalMass() - share) / share;
+  }
+
+  // What the integrals over the faces of a block add up to.
+  double Inside(const GridSize<Dimension>& block) const
+  {
+    double sum = 0.0;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      GridSize<Dimension> above = block;
+      ++above[axis];
+      const auto at = [&](const GridSize<Dimension>& face) {
+        return this->Through[axis][static_cast<std::size_t>(this->Faces[axis].NumberOf(face))];
+      };
+      sum += at(above) - at(block);
+    }
+    return sum;
+  }
+
+  CoveredCells Covered(int axis, std::int64_t block, std::int64_t blocks = 1) const
+  {
+    constexpr std::int64_t size = MapBlocks<Dimension>::Size;
+    const double step = this->Step[axis];
+    return { (static_cast<double>(size * block) + 0.5) * step,
+      (static_cast<double>(size * (block + blocks)) + 0.5) * step, this->Size[axis] };
+  }
+
+  // The grid cells that blocks cover.
+  LatticePart<Dimension> CellsOf(const LatticePart<Dimension>& blocks) const
+  {
+    LatticePart<Dimension> cells{ {}, {} };
+    for (int axis = 0; axis < Dimension && !blocks.IsEmpty(); ++axis)
+    {
+      const CoveredCells covered = this->Covered(axis, blocks.Low[axis], blocks.Cells[axis]);
+      cells.Low[axis] = covered.First;
+      cells.Cells[axis] = covered.End - covered.First;
+    }
+    return cells;
+  }
+
+  // The grid cells that the images of the samples of this rank's blocks are in, or more.
+  LatticePart<Dimension> CellsAround()
+  {
+    const auto whole = LatticePart<Dimension>::WholeOf(this->Size);
+    if (this->Count == 0 || (!this->Distributed && this->Rows.LayersAtOnce() >= this->Size[Last]))
+    {
+      return this->Count == 0 ? LatticePart<Dimension>{ {}, {} } : whole;
+    }
+    struct Bounds
+    {
+      Point<Dimension> Low;
+      Point<Dimension> High;
+    };
+    Bounds none;
+    none.Low.fill(std::numeric_limits<double>::infinity());
+    none.High.fill(-std::numeric_limits<double>::infinity());
+    const LatticePart<Dimension> samples = MapBlocks<Dimension>::SamplesOf(this->Blocks);
+    const auto join = [](Bounds a, const Bounds& b) {
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        a.Low[axis] = std::min(a.Low[axis], b.Low[axis]);
+        a.High[axis] = std::max(a.High[axis], b.High[axis]);
+      }
+      return a;
+    };
+    const Bounds bounds = reduceChunks(
+      this->Work, samples.Count(), 4096, none,
+      [&](std::int64_t first, std::int64_t last) {
+        Bounds found = none;
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          Point<Dimension> x;
+          std::copy_n(this->At(samples.CellOf(i)), Dimension, x.begin());
+          found = join(found, { x, x });
+        }
+        return found;
+      },
+      join);
+    LatticePart<Dimension> cells = whole;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const std::int64_t end = this->Size[axis] - 1;
+      cells.Low[axis] =
+        std::clamp<std::int64_t>(static_cast<std::int64_t>(bounds.Low[axis]), 0, end);
+      cells.Cells[axis] =
+        std::clamp<std::int64_t>(static_cast<std::int64_t>(bounds.High[axis]), 0, end) + 1 -
+        cells.Low[axis];
+    }
+    return cells;
+  }
+
+  // Calls visit() with the rows of one after the other of the layers of the grid that the cells are
+  // in. Where layers begin does not depend on the cells.
+  template <class Visit>
+  void InLayers(const LatticePart<Dimension>& cells, double start, double end, const Visit& visit)
+  {
+    const std::int64_t each = this->Rows.LayersAtOnce();
+    const std::int64_t all = cells.Cells[Last];
+    std::int64_t low = cells.Low[Last] / each * each;
+    while (!onAllRanks(this->Work.Group(), low >= cells.End(Last)))
+    {
+      LatticePart<Dimension> layers = cells;
+      layers.Low[Last] = std::min(low, this->Size[Last]);
+      layers.Cells[Last] = low < cells.End(Last) ? std::min(each, this->Size[Last] - low) : 0;
+      low += each;
+      const auto done = static_cast<double>(std::min(all, low - cells.Low[Last]));
+      this->Work.BeginStage(
+        start + (end - start) * done / static_cast<double>(std::max<std::int64_t>(1, all)));
+      this->Rows.Read(layers, this->Work);
+      if (!layers.IsEmpty())
+      {
+        visit();
+      }
+    }
+    this->Work.BeginStage(end);
+  }
+
+  // Adds the mass of a block in the cells of the rows, and the least value of a cell.
+  void AddMass(const GridSize<Dimension>& block, double& mass, double& least) const
+  {
+    const LatticePart<Dimension>& held = this->Rows.Cells();
+    const LatticePart<Dimension> cells = this->CellsOf({ block, oneBlock() }).And(held);
+    if (cells.IsEmpty())
+    {
+      return;
+    }
+    const CoveredCells x = this->Covered(0, block[0]);
+    const double low = std::max(x.Low, static_cast<double>(cells.Low[0]));
+    const double high = std::min(x.High, static_cast<double>(cells.End(0)));
+    const std::int64_t rows = cells.Count() / cells.Cells[0];
+    for (std::int64_t i = 0; i < rows; ++i)
+    {
+      const GridSize<Dimension> cell = cells.CellOf(i * cells.Cells[0]);
+      double part = 1.0;
+      for (int axis = 1; axis < Dimension; ++axis)
+      {
+        part *= this->Covered(axis, block[axis]).PartOf(cell[axis]);
+      }
+      const double* row = this->Rows.Row(cell);
+      mass += part * (this->Rows.Before(row, high) - this->Rows.Before(row, low));
+      for (std::int64_t c = cells.Low[0]; c < cells.End(0); ++c)
+      {
+        least = std::min(least, row[c + 1] - row[c]);
+      }
+    }
+  }
+  static GridSize<Dimension> oneBlock()
+  {
+    GridSize<Dimension> one;
+    one.fill(1);
+    return one;
+  }
+
+  template <class Error>
+  std::vector<double> Errors(const Error& error)
+  {
+    std::vector<double> errors(static_cast<std::size_t>(this->Count));
+    this->Work.For(this->Count, 16 * grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        errors[static_cast<std::size_t>(i)] = error(i);
+      }
+    });
+    return errors;
+  }
+
+  static constexpr int Last = Dimension - 1;
+  const MapSamples<Dimension>& Map;
+  Progress& Work;
+  const double Start;
+  const double End;
+  const GridSize<Dimension> Size;
+  const bool Distributed;
+  const Point<Dimension> Step;
+  DensityRows<Dimension> Rows;
+  const LatticePart<Dimension> Blocks;
+  const std::int64_t Count;
+  std::array<LatticePart<Dimension>, Dimension> Faces; // below blocks along an axis, and the last
+  std::array<std::vector<double>, Dimension> Through;  // the integrals over them
+};
+
+} // namespace
+
+template <int Dimension>
+BlockErrors measureBlocks(const MapSamples<Dimension>& map, const DensitySource<Dimension>& density,
+  double total, FlowDirection direction, Progress& progress, double end)
+{
+  BlocksRun<Dimension> run(map, density, total, progress, end);
+  return direction == FlowDirection::Backward ? run.Backward() : run.Forward();
+}
+
+template BlockErrors measureBlocks<1>(
+  const MapSamples<1>&, const DensitySource<1>&, double, FlowDirection, Progress&, double);
+template BlockErrors measureBlocks<2>(
+  const MapSamples<2>&, const DensitySource<2>&, double, FlowDirection, Progress&, double);
+template BlockErrors measureBlocks<3>(
+  const MapSamples<3>&, const DensitySource<3>&, double, FlowDirection, Progress&, double);
+
+} // namespace RectifiedTransport

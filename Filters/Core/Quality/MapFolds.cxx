@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Quality/MapFolds.h"
+
+#include "Core/Flow/MapDerivatives.h"
+#include "Core/Flow/RectifiedFlow.h"
+#include "Core/Tables/CoveredCells.h"
+
+#include <algorithm>
+#include <atomic>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+std::int64_t MapFolds<Dimension>::Count(const LatticePart<Dimension>& part,
+  const LatticePart<Dimension>& within, const double* determinants, Progress& progress) const
+{
+  return this->CountRows(
+    part,
+    [&](const LatticePart<Dimension>& row, std::vector<double>&) {
+      return determinants + within.NumberOf(row.Low);
+    },
+    progress);
+}
+
+template <int Dimension>
+std::int64_t MapFolds<Dimension>::Count(const LatticePart<Dimension>& part,
+  const LatticePart<Dimension>& within, const Point<Dimension>& step,
+  ConstPointSpan<Dimension> positions, Progress& progress) const
+{
+  return this->CountRows(
+    part,
+    [&](const LatticePart<Dimension>& row, std::vector<double>& memory) {
+      const auto count = static_cast<std::size_t>(row.Count());
+      memory.resize(2 * count);
+      MapDerivatives<Dimension>(this->Lattice, row, within, step, positions)
+        .Write(0, row.Count(), memory.data() + count, memory.data());
+      return static_cast<const double*>(memory.data());
+    },
+    progress);
+}
+
+// `determinantsOf` gives those of a row of samples, in a buffer or elsewhere.
+template <int Dimension>
+template <class Determinants>
+std::int64_t MapFolds<Dimension>::CountRows(
+  const LatticePart<Dimension>& part, const Determinants& determinantsOf, Progress& progress) const
+{
+  if (part.IsEmpty())
+  {
+    return 0;
+  }
+  // In 1D the row is cut.
+  constexpr std::int64_t most = 1 << 13;
+  const std::int64_t length = Dimension > 1 ? part.Cells[0] : std::min(most, part.Cells[0]);
+  const std::int64_t rows = (part.Count() + length - 1) / length;
+  std::atomic<std::int64_t> folded{ 0 };
+  progress.For(
+    rows, std::max<std::int64_t>(1, most / length),
+    [&](std::int64_t first, std::int64_t last) {
+      std::int64_t found = 0;
+      std::vector<double> memory;
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        LatticePart<Dimension> row{ part.CellOf(i * length), {} };
+        row.Cells.fill(1);
+        row.Cells[0] = std::min(length, part.End(0) - row.Low[0]);
+        const double* determinants = determinantsOf(row, memory);
+        GridSize<Dimension> sample = row.Low;
+        for (std::int64_t k = 0; k < row.Cells[0]; ++k, ++sample[0])
+        {
+          if (determinants[k] <= 0.0 && !this->IsCorner(sample) && this->HasMass(sample))
+          {
+            ++found;
+          }
+        }
+      }
+      folded += found;
+    },
+    std::max<std::int64_t>(1, 32 * most / length));
+  return folded;
+}
+
+template <int Dimension>
+bool MapFolds<Dimension>::IsCorner(const GridSize<Dimension>& sample) const
+{
+  constexpr std::int64_t outermost = 2;
+  int atBorder = 0;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const std::int64_t samples = this->Lattice[axis];
+    const bool isAxis = samples > 1; // else displacements do not change along it
+    atBorder += isAxis && (sample[axis] < outermost || sample[axis] >= samples - outermost) ? 1 : 0;
+  }
+  return atBorder > 1;
+}
+
+// By the occupied grid cells: shares from tables have rounding errors.
+template <int Dimension>
+bool MapFolds<Dimension>::HasMass(const GridSize<Dimension>& sample) const
+{
+  if (!this->Density)
+  {
+    return true;
+  }
+  const GridSize<Dimension>& size = this->Density->Size();
+  const Point<Dimension> step = latticeStep<Dimension>(this->Lattice, size);
+  LatticePart<Dimension> cells;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const auto place = static_cast<double>(sample[axis]);
+    const CoveredCells covered(place * step[axis], (place + 1.0) * step[axis], size[axis]);
+    cells.Low[axis] = covered.First;
+    cells.Cells[axis] = covered.End - covered.First;
+  }
+  const std::int64_t count = cells.Count();
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const GridSize<Dimension> cell = cells.CellOf(i);
+    Point<Dimension> centre = cellCentre<Dimension>();
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      centre[axis] += static_cast<double>(cell[axis]);
+    }
+    if (this->Density->HasMass(centre))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+template class MapFolds<1>;
+template class MapFolds<2>;
+template class MapFolds<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a sampled transport map folds: it turns space over.
+#ifndef RectifiedTransport_MapFolds_h
+#define RectifiedTransport_MapFolds_h
+
+#include "../Geometry/LatticePart.h"
+#include "../Parallel/Progress.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+class RectifiedFlow;
+
+// Counts the samples whose determinant of the map's Jacobian matrix is 0 or negative and whose cell
+// of the lattice has mass. Where faces of the domain meet, in its corners and in 3D at its edges,
+// the map has no derivative, and differences may give a negative one: the two outermost samples
+// along both axes do not count.
+template <int Dimension>
+class MapFolds
+{
+public:
+  // Over the domain of a density, in whose cells samples need mass; nullptr if all have.
+  MapFolds(const GridSize<Dimension>& lattice, const RectifiedFlow<Dimension>* density)
+    : Lattice(lattice)
+    , Density(density)
+  {
+  }
+
+  // Of a part, by the determinants of the samples of a larger part, axis 0 fastest. Runs as the
+  // current stage. Throws Cancelled.
+  std::int64_t Count(const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
+    const double* determinants, Progress& progress) const;
+  // The same by their images, as MapDerivatives takes them.
+  std::int64_t Count(const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
+    const Point<Dimension>& step, ConstPointSpan<Dimension> positions, Progress& progress) const;
+
+private:
+  template <class Determinants>
+  std::int64_t CountRows(const LatticePart<Dimension>& part, const Determinants& determinantsOf,
+    Progress& progress) const;
+  bool IsCorner(const GridSize<Dimension>& sample) const;
+  bool HasMass(const GridSize<Dimension>& sample) const;
+
+  const GridSize<Dimension> Lattice;
+  const RectifiedFlow<Dimension>* const Density;
+};
+
+} // namespace RectifiedTransport
+
+#endif
