@@ -2,6 +2,8 @@
 // The results' very bits: the same from every compiler, on every processor and with every
 // instruction set (the tests run once with each). A change that means to alter results states its
 // new digests here, and in the changelog.
+#include "AreaErrors.h"
+#include "Core/Equalize/EqualizeAreas.h"
 #include "Core/Flow/MapDerivatives.h"
 #include "Core/Quality/NearestNeighbours.h"
 #include "Core/Seeds/Seeds.h"
@@ -47,11 +49,13 @@ void expectDigest(const std::string& what, const Digest& digest)
     { "1D RungeKutta4", 0x29b787eb195f4102u },
     { "1D Euler", 0x24d0d16e57951994u },
     { "1D Adaptive", 0x4472fd3390f8d38fu },
+    { "1D equalized", 0x41a3de7c45b34bcfu },
     { "1D lattice", 0x916a40e5229fe6c4u },
     { "2D Multistep", 0xbabdbc16eb47b46eu },
     { "2D RungeKutta4", 0x54c8c44d583eb003u },
     { "2D Euler", 0xe9d12fe1b7fc73b1u },
     { "2D Adaptive", 0x439f2ed3f211c1c9u },
+    { "2D equalized", 0xac53444c54e96004u },
     { "2D lattice", 0xda3f4be09db5ede2u },
     { "3D Multistep", 0x2ac4b3726f29677u },
     { "2D maps", 0x4002fd163e0995beu },
@@ -59,6 +63,7 @@ void expectDigest(const std::string& what, const Digest& digest)
     { "3D RungeKutta4", 0xf6297220318b606du },
     { "3D Euler", 0x2770eb9ea33e134du },
     { "3D Adaptive", 0x19618df03942d44bu },
+    { "3D equalized", 0xa4420a0c58a2facbu },
     { "3D lattice", 0x19d6d67191368a85u },
     { "seeds 0", 0xe0002fd2e6c93e45u },
     { "seeds 2", 0x6a2ae7ea9cf04cbdu },
@@ -132,6 +137,24 @@ void expectFlow(const GridSize<Dimension>& size)
     digest.Add(valuesOf(places));
     expectDigest(name + "maps", digest);
   }
+
+  const TestDensity<Dimension> density = patchyCells<Dimension>(size);
+  Points<Dimension> corners = cornerLattice<Dimension>(size);
+  const Points<Dimension> offsets = randomPoints<Dimension>(evenSize<Dimension>(1), corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const auto side = static_cast<double>(size[axis]);
+      const bool isOnSide = corners[i][axis] == 0.0 || corners[i][axis] == side;
+      corners[i][axis] += isOnSide ? 0.0 : 0.25 * (offsets[i][axis] - 0.5);
+    }
+  }
+  equalizeAreas<Dimension>(
+    DensityArray<Dimension, double>(density.Values.data(), size), size, flow.Total(), corners);
+  Digest equalized;
+  equalized.Add(valuesOf(corners));
+  expectDigest(name + "equalized", equalized);
 
   const auto lattice = evenSize<Dimension>(Dimension == 1 ? 700 : Dimension == 2 ? 24 : 9);
   Points<Dimension> positions(static_cast<std::size_t>(cellCount<Dimension>(lattice)));

@@ -14,6 +14,7 @@ CORE = {
     "Mesh": {"Parallel", "Geometry"},
     "Tables": {"Parallel", "Geometry"},
     "Flow": {"Parallel", "Geometry", "Tables"},
+    "Equalize": {"Parallel", "Geometry", "Tables", "Flow"},
     "SiteCells": {"Parallel", "Algebra", "Geometry", "Tables", "Flow", "PowerCells"},
     "Quality": {"Parallel", "Geometry", "Tables", "Flow"},
     "PowerCells": {"Parallel", "Algebra", "Geometry", "Tables"},

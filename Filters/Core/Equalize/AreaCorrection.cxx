@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Equalize/AreaCorrection.h"
+
+#include "Core/Equalize/CornerLattice.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
+
+#include <algorithm>
+#include <array>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = 1 << 13;
+
+// The masses of a flow's cells. The tables' differences are not exactly zero where there is none.
+template <int Dimension>
+class CellShares final : public DensityValues
+{
+public:
+  explicit CellShares(const RectifiedFlow<Dimension>& flow)
+    : Flow(flow)
+  {
+  }
+  void Read(std::int64_t first, std::int64_t count, double* values) const override
+  {
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      std::int64_t rest = first + i;
+      Point<Dimension> low;
+      Point<Dimension> high;
+      Point<Dimension> centre;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        low[axis] = static_cast<double>(rest % this->Flow.Size()[axis]);
+        high[axis] = low[axis] + 1.0;
+        centre[axis] = low[axis] + 0.5;
+        rest /= this->Flow.Size()[axis];
+      }
+      values[i] = this->Flow.HasMass(centre) ? this->Flow.Share(low, high) : 0.0;
+    }
+  }
+
+private:
+  const RectifiedFlow<Dimension>& Flow;
+};
+
+// Number `corner` of the corners of cells.
+template <int Dimension>
+Point<Dimension> cornerAt(std::int64_t corner, const GridSize<Dimension>& size)
+{
+  Point<Dimension> place;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    place[axis] = static_cast<double>(corner % (size[axis] + 1));
+    corner /= size[axis] + 1;
+  }
+  return place;
+}
+
+} // namespace
+
+template <int Dimension>
+AreaCorrection<Dimension>::AreaCorrection(const RectifiedFlow<Dimension>& flow,
+  const FlowOptions& options, const EqualizeOptions& equalize, const Context& context)
+  : Size(flow.Size())
+{
+  Context alone = context;
+  alone.Group = &SoloRanks::Get();
+  Progress progress(alone);
+  const auto count = static_cast<std::int64_t>(numberOfCorners<Dimension>(this->Size));
+  LargeBuffer<double> corners(count * Dimension);
+  const PointSpan<Dimension> images(corners.data(), count);
+  progress.BeginStage(0.02, count);
+  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      const Point<Dimension> place = cornerAt<Dimension>(i, this->Size);
+      std::copy_n(place.data(), Dimension, images[i]);
+    }
+  });
+  progress.BeginStage(0.6);
+  flow.Backward(images, images, options, progress.Stage());
+
+  progress.BeginStage(0.62, count);
+  this->Moves = LargeBuffer<float>(count * Dimension);
+  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+    std::fill_n(this->Moves.data() + first * Dimension, (last - first) * Dimension, 0.0F);
+  });
+  progress.BeginStage(1.0);
+  this->Found = equalizeAreas<Dimension>(CellShares<Dimension>(flow), this->Size, 1.0, images,
+    equalize, progress.Stage(), this->Moves.data());
+}
+
+template <int Dimension>
+void AreaCorrection<Dimension>::Correct(const double* point, double* image) const
+{
+  std::array<std::int64_t, Dimension> cell;
+  double rest[Dimension];
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const auto side = static_cast<double>(this->Size[axis]);
+    const double x = std::min(std::max(point[axis], 0.0), side);
+    cell[axis] = std::min(static_cast<std::int64_t>(x), this->Size[axis] - 1);
+    rest[axis] = x - static_cast<double>(cell[axis]);
+  }
+  double move[Dimension] = {};
+  for (int corner = 0; corner < 1 << Dimension; ++corner)
+  {
+    double weight = 1.0;
+    std::int64_t number = 0;
+    for (int axis = Dimension; axis-- > 0;)
+    {
+      const int isHigh = corner >> axis & 1;
+      weight *= isHigh ? rest[axis] : 1.0 - rest[axis];
+      number = number * (this->Size[axis] + 1) + cell[axis] + isHigh;
+    }
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      move[axis] += weight * static_cast<double>(this->Moves.data()[number * Dimension + axis]);
+    }
+  }
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    image[axis] =
+      std::min(std::max(image[axis] + move[axis], 0.0), static_cast<double>(this->Size[axis]));
+  }
+}
+
+template <int Dimension>
+double AreaCorrection<Dimension>::MemoryFor(const GridSize<Dimension>& size)
+{
+  constexpr double ofCorner = Dimension * (sizeof(double) + sizeof(float));
+  return ofCorner * numberOfCorners<Dimension>(size) + equalizeAreasMemory<Dimension>(size);
+}
+
+template class AreaCorrection<1>;
+template class AreaCorrection<2>;
+template class AreaCorrection<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A correction of the map from a density to the uniform measure: the corners of the density's cells
+// are moved back along the flow, equalizeAreas moves them further, and other points move as the
+// corners of their cell do, interpolated.
+#ifndef RectifiedTransport_AreaCorrection_h
+#define RectifiedTransport_AreaCorrection_h
+
+#include "../Flow/RectifiedFlow.h"
+#include "../Parallel/LargeBuffer.h"
+#include "EqualizeAreas.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+class AreaCorrection
+{
+public:
+  // Of a flow with whole tables. Not collective: every rank that calls it gets the same bits.
+  // Throws std::invalid_argument, std::bad_alloc and Cancelled.
+  AreaCorrection(const RectifiedFlow<Dimension>& flow, const FlowOptions& options,
+    const EqualizeOptions& equalize = {}, const Context& context = Context());
+
+  // Options for the correction and for the points: FlowMaps::Auto would choose by the number of
+  // points, and the errors of a flow with maps are not those of one without.
+  static FlowOptions OptionsFor(FlowOptions options)
+  {
+    options.Maps = options.Maps == FlowMaps::Auto ? FlowMaps::On : options.Maps;
+    return options;
+  }
+
+  // `image` is where Backward, with the same options, takes a point of the box: adds the
+  // correction.
+  void Correct(const double* point, double* image) const;
+
+  const EqualizeReport& Report() const { return this->Found; }
+  std::int64_t MemorySize() const { return this->Moves.bytes(); }
+  // About the most bytes while it is made.
+  static double MemoryFor(const GridSize<Dimension>& size);
+
+private:
+  const GridSize<Dimension> Size;
+  EqualizeReport Found;
+  LargeBuffer<float> Moves; // of the corners, interleaved
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Equalize/AreaProjection.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr float leastMobility = 1e-6F;
+
+} // namespace
+
+template <int Dimension>
+AreaProjection<Dimension>::AreaProjection(CornerLattice<Dimension>& lattice)
+  : Lattice(lattice)
+  , Kernels(equalizeKernels<Dimension>())
+  , Mobility(lattice.CornerRows() * lattice.CornersOfRow())
+  , Multipliers(lattice.CellRows() * lattice.Cells()[0])
+{
+}
+
+template <int Dimension>
+double AreaProjection<Dimension>::Memory(const GridSize<Dimension>& size)
+{
+  return (numberOfCells<Dimension>(size) + numberOfCorners<Dimension>(size)) * sizeof(float);
+}
+
+template <int Dimension>
+void AreaProjection<Dimension>::SetTargets(const float* targets, Progress& progress)
+{
+  this->Targets = targets;
+  this->Lattice.ForRows(
+    this->Lattice.CornerRows(), progress, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t row = first; row < last; ++row)
+      {
+        this->FindMobility(row);
+      }
+    });
+}
+
+// The least target of the cells of a corner: a move that suits a large cell could fold a small
+// one beside it.
+template <int Dimension>
+void AreaProjection<Dimension>::FindMobility(std::int64_t cornerRow)
+{
+  const std::int64_t cells = this->Lattice.Cells()[0];
+  float* mobility = this->Mobility.data() + cornerRow * (cells + 1);
+  std::fill_n(mobility, cells + 1, static_cast<float>(cells)); // more than a cell's share
+  const RowsAbout about = this->Lattice.CellRowsAbout(cornerRow);
+  for (int r = 0; r < 4; ++r)
+  {
+    if (about[r] < 0)
+    {
+      continue;
+    }
+    const float* targets = this->Targets + about[r] * cells;
+    for (std::int64_t i = 0; i < cells; ++i)
+    {
+      mobility[i] = std::min(mobility[i], targets[i]);
+    }
+    for (std::int64_t i = 0; i < cells; ++i)
+    {
+      mobility[i + 1] = std::min(mobility[i + 1], targets[i]);
+    }
+  }
+  for (std::int64_t i = 0; i <= cells; ++i)
+  {
+    mobility[i] = std::max(mobility[i], leastMobility);
+  }
+}
+
+template <int Dimension>
+void AreaProjection<Dimension>::FindMultipliers(
+  std::int64_t cellRow, typename CornerLattice<Dimension>::Rows& rows, std::vector<double>& areas)
+{
+  const std::int64_t cells = this->Lattice.Cells()[0];
+  const CellRow<Dimension>& corners = rows.AtCells(cellRow, false);
+  const std::array<std::int64_t, 2> place = this->Lattice.PlaceOf(cellRow, 0);
+  const float* mobilities[4];
+  for (int r = 0; r < (Dimension == 3 ? 4 : 2); ++r)
+  {
+    mobilities[r] = this->Mobility.data() +
+      this->Lattice.NumberOf({ place[0] + r % 2, place[1] + r / 2 }, 1) * (cells + 1);
+  }
+  this->Kernels.Areas(corners, areas.data());
+  this->Kernels.Multipliers(corners, mobilities, areas.data(), this->Targets + cellRow * cells,
+    this->Multipliers.data() + cellRow * cells);
+}
+
+template <int Dimension>
+void AreaProjection<Dimension>::Project(
+  std::int64_t cornerRow, typename CornerLattice<Dimension>::Rows& rows, const float* none)
+{
+  const std::int64_t cells = this->Lattice.Cells()[0];
+  const std::int64_t first = cornerRow * (cells + 1);
+  ProjectedRow<Dimension> row;
+  std::copy_n(rows.AboutCorners(cornerRow), CornerLattice<Dimension>::RowsOfCell, row.Corners);
+  row.Cells = cells;
+  const RowsAbout about = this->Lattice.CellRowsAbout(cornerRow);
+  for (int r = 0; r < (Dimension == 3 ? 4 : 2); ++r)
+  {
+    row.Multipliers[r] = about[r] < 0 ? none : this->Multipliers.data() + about[r] * cells;
+  }
+  row.Mobility = this->Mobility.data() + first;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    row.Before[axis] = this->Lattice.Moves(axis) + first;
+    row.After[axis] = this->Lattice.NextMoves(axis) + first;
+  }
+  this->Kernels.Project(row);
+  this->Lattice.KeepOnSides(cornerRow, row.After);
+}
+
+template <int Dimension>
+void AreaProjection<Dimension>::Sweep(Progress& progress)
+{
+  using Rows = typename CornerLattice<Dimension>::Rows;
+  this->Lattice.ForRows(
+    this->Lattice.CellRows(), progress, [&](std::int64_t first, std::int64_t last) {
+      Rows rows(this->Lattice, true);
+      std::vector<double> areas(static_cast<std::size_t>(this->Lattice.Cells()[0]));
+      for (std::int64_t row = first; row < last; ++row)
+      {
+        this->FindMultipliers(row, rows, areas);
+      }
+    });
+  this->Lattice.ForRows(
+    this->Lattice.CornerRows(), progress, [&](std::int64_t first, std::int64_t last) {
+      Rows rows(this->Lattice, true);
+      const std::vector<float> none(static_cast<std::size_t>(this->Lattice.Cells()[0]), 0.0F);
+      for (std::int64_t row = first; row < last; ++row)
+      {
+        this->Project(row, rows, none.data());
+      }
+    });
+  this->Lattice.TakeNextMoves();
+}
+
+template <int Dimension>
+void AreaProjection<Dimension>::Sweep(
+  const unsigned char* states, unsigned char bit, const ActiveRows& active, Progress& progress)
+{
+  using Rows = typename CornerLattice<Dimension>::Rows;
+  const std::int64_t cells = this->Lattice.Cells()[0];
+  // Rows about an active row of corners are read, too.
+  this->Lattice.ForRows(
+    this->Lattice.CellRows(), progress, [&](std::int64_t first, std::int64_t last) {
+      Rows rows(this->Lattice, true);
+      std::vector<double> areas(static_cast<std::size_t>(cells));
+      for (std::int64_t row = first; row < last; ++row)
+      {
+        float* multipliers = this->Multipliers.data() + row * cells;
+        if (!active.OfCells[static_cast<std::size_t>(row)])
+        {
+          std::fill_n(multipliers, cells, 0.0F);
+          continue;
+        }
+        this->FindMultipliers(row, rows, areas);
+        for (std::int64_t i = 0; i < cells; ++i)
+        {
+          multipliers[i] = (states[row * cells + i] & bit) != 0 ? multipliers[i] : 0.0F;
+        }
+      }
+    });
+  this->Lattice.ForRows(
+    this->Lattice.CornerRows(), progress, [&](std::int64_t first, std::int64_t last) {
+      Rows rows(this->Lattice, true);
+      const std::vector<float> none(static_cast<std::size_t>(cells), 0.0F);
+      for (std::int64_t row = first; row < last; ++row)
+      {
+        if (active.OfCorners[static_cast<std::size_t>(row)])
+        {
+          this->Project(row, rows, none.data());
+        }
+      }
+    });
+  this->Lattice.ForRows(
+    this->Lattice.CornerRows(), progress, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t row = first; row < last; ++row)
+      {
+        if (active.OfCorners[static_cast<std::size_t>(row)])
+        {
+          this->Lattice.TakeNextMoves(row);
+        }
+      }
+    });
+}
+
+template class AreaProjection<2>;
+template class AreaProjection<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Equalize/EqualizeAreas.h"
+
+#include "Core/Equalize/AreaProjection.h"
+#include "Core/Equalize/CornerLattice.h"
+#include "Core/Equalize/FaceSystem.h"
+#include "Core/Equalize/MoveLimits.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grainCells = 1 << 13;
+constexpr int mostIterations = 50;
+constexpr int sweeps = 2; // of projections after each linear system
+
+// The moves of a pass that makes nothing better are halved so often, at most.
+constexpr int mostHalvings = 3;
+
+template <int Dimension>
+class Equalization
+{
+public:
+  Equalization(const DensityValues& density, const GridSize<Dimension>& size, double total,
+    PointSpan<Dimension> corners, const Context& context)
+    : Density(density)
+    , PerMass(numberOfCells<Dimension>(size) / total)
+    , Size(size)
+    , Lattice(size, corners)
+    , System(size)
+    , Projection(this->Lattice)
+    , Limits(this->Lattice, this->Projection)
+    , Targets(this->Lattice.CellRows() * size[0])
+    , Kernels(equalizeKernels<Dimension>())
+    , Stages(context)
+  {
+  }
+
+  EqualizeReport Run(const EqualizeOptions& options, float* moves)
+  {
+    EqualizeReport report;
+    const std::int64_t cells = this->Targets.size();
+    const std::int64_t rows = this->Lattice.CellRows();
+    for (int pass = 0; pass < options.Passes; ++pass)
+    {
+      const auto stage = [&](double part, std::int64_t units) {
+        this->Stages.BeginStage((pass + part) / options.Passes, units);
+      };
+      stage(0.15, rows);
+      const AreaSums found = this->Measure(pass == 0);
+      if (pass == 0)
+      {
+        report.FoldedBefore = found.Folded;
+        report.FoldedAfter = found.Folded;
+      }
+      stage(0.6, 3 * cells + FaceSystem<Dimension>::WorkOf(cells, usualIterations));
+      this->Center(found.Missing);
+      this->System.Prepare(this->Stages);
+      report.Iterations += this->System.Solve(options.Tolerance, mostIterations, this->Stages);
+      stage(0.7, rows);
+      this->FindMoves();
+      stage(0.95, (2 * sweeps + 3) * rows);
+      this->Projection.SetTargets(this->Targets.data(), this->Stages);
+      for (int sweep = 0; sweep < sweeps; ++sweep)
+      {
+        this->Projection.Sweep(this->Stages);
+      }
+      const auto isBetter = [&found](const AreaSums& moved) {
+        return moved.Folded <= found.Folded && moved.Error < found.Error;
+      };
+      AreaSums moved =
+        this->Limits.Apply(this->Targets.data(), found.Folded, report.Limited, this->Stages);
+      for (int halving = 0; halving < mostHalvings && !isBetter(moved); ++halving)
+      {
+        this->Limits.HalveMoves(this->Stages);
+        moved =
+          this->Limits.Apply(this->Targets.data(), found.Folded, report.Limited, this->Stages);
+      }
+      if (!isBetter(moved))
+      {
+        break;
+      }
+      stage(1.0, rows);
+      this->ForRows(
+        this->Lattice.CornerRows(), [&](std::int64_t row) { this->Lattice.Apply(row, moves); });
+      report.FoldedAfter = moved.Folded;
+      ++report.Passes;
+    }
+    this->Stages.BeginStage(1.0);
+    this->Stages.EndSlice(1);
+    return report;
+  }
+
+private:
+  static constexpr int usualIterations = 8;
+
+  template <class Work>
+  void ForRows(std::int64_t rows, const Work& work)
+  {
+    this->Lattice.ForRows(rows, this->Stages, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t row = first; row < last; ++row)
+      {
+        work(row);
+      }
+    });
+  }
+
+  // Areas, the weights of faces, and the right-hand side: minus the missing areas.
+  AreaSums Measure(bool isFirst)
+  {
+    this->Lattice.ForRows(
+      this->Lattice.CellRows(), this->Stages, [&](std::int64_t first, std::int64_t last) {
+        typename CornerLattice<Dimension>::Rows rows(this->Lattice, false);
+        std::vector<double> masses(static_cast<std::size_t>(this->Size[0]));
+        std::vector<double> areas(masses.size());
+        for (std::int64_t row = first; row < last; ++row)
+        {
+          const CellRow<Dimension>& corners = rows.AtCells(row, true);
+          this->Kernels.Areas(corners, areas.data());
+          this->WriteWeights(row, corners);
+          if (isFirst)
+          {
+            this->ReadTargets(row, masses);
+          }
+          this->WriteRow(row, areas.data());
+        }
+      });
+    return this->Limits.SumOfRows();
+  }
+
+  // Masses in units in which the mean of a cell is one. A float keeps no more than the area of a
+  // cell needs, but it keeps that a cell has mass.
+  void ReadTargets(std::int64_t row, std::vector<double>& masses)
+  {
+    constexpr double least = std::numeric_limits<float>::min();
+    this->Density.Read(row * this->Size[0], this->Size[0], masses.data());
+    float* targets = this->Targets.data() + row * this->Size[0];
+    for (std::size_t i = 0; i < masses.size(); ++i)
+    {
+      const double mass = masses[i] * this->PerMass;
+      targets[i] = static_cast<float>(mass > 0.0 ? std::max(mass, least) : 0.0);
+    }
+  }
+
+  void WriteRow(std::int64_t row, const double* areas)
+  {
+    const std::int64_t from = row * this->Size[0];
+    const float* targets = this->Targets.data() + from;
+    float* right = this->System.RightHandSide() + from;
+    this->Limits.Guard(row, targets, areas);
+    for (std::int64_t i = 0; i < this->Size[0]; ++i)
+    {
+      right[i] = static_cast<float>(areas[i] - static_cast<double>(targets[i]));
+    }
+  }
+
+  void WriteWeights(std::int64_t row, const CellRow<Dimension>& corners)
+  {
+    float* weights[Dimension];
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      weights[axis] = this->System.Weights(axis) + row * this->Size[0];
+    }
+    this->Kernels.Weights(corners, weights);
+    const std::array<std::int64_t, 2> place = this->Lattice.PlaceOf(row, 0);
+    for (int axis = 1; axis < Dimension; ++axis)
+    {
+      if (place[axis - 1] + 1 == this->Size[axis])
+      {
+        std::fill_n(weights[axis], this->Size[0], 0.0F);
+      }
+    }
+  }
+
+  // The images fill the box but for rounding, and the system is solvable if nothing is missing.
+  void Center(double missing)
+  {
+    const std::int64_t cells = this->Targets.size();
+    const auto mean = static_cast<float>(missing / static_cast<double>(cells));
+    float* right = this->System.RightHandSide();
+    this->Stages.For(cells, grainCells, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t q = first; q < last; ++q)
+      {
+        right[q] += mean;
+      }
+    });
+  }
+
+  void FindMoves()
+  {
+    this->Lattice.ForRows(
+      this->Lattice.CornerRows(), this->Stages, [&](std::int64_t first, std::int64_t last) {
+        typename CornerLattice<Dimension>::Rows rows(this->Lattice, false);
+        for (std::int64_t row = first; row < last; ++row)
+        {
+          this->FindMovesOf(row, rows.AboutCorners(row));
+        }
+      });
+  }
+
+  void FindMovesOf(std::int64_t cornerRow, const PointRow<Dimension>* corners)
+  {
+    const std::int64_t cell =
+      this->Lattice.NumberOf(this->Lattice.PlaceOf(cornerRow, 1), 0) * this->Size[0];
+    CornerRow<Dimension> row;
+    std::copy_n(corners, CornerLattice<Dimension>::RowsOfCell, row.Corners);
+    row.Cells = this->Size[0];
+    row.Potential = this->System.Solution() + cell;
+    std::int64_t stride = 1;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      row.Weights[axis] = this->System.Weights(axis) + cell;
+      row.Stride[axis] = stride;
+      stride *= this->Size[axis];
+      row.Moves[axis] = this->Lattice.Moves(axis) + cornerRow * this->Lattice.CornersOfRow();
+    }
+    this->Kernels.Moves(row);
+    this->Lattice.KeepOnSides(cornerRow, row.Moves);
+  }
+
+  const DensityValues& Density;
+  const double PerMass;
+  const GridSize<Dimension> Size;
+  CornerLattice<Dimension> Lattice;
+  FaceSystem<Dimension> System;
+  AreaProjection<Dimension> Projection;
+  MoveLimits<Dimension> Limits;
+  LargeBuffer<float> Targets;
+  const EqualizeKernels<Dimension> Kernels;
+  Progress Stages;
+};
+
+// Along a line, the corners are the sums of the masses before them.
+EqualizeReport sumMasses(const DensityValues& density, std::int64_t cells, double total,
+  PointSpan<1> corners, const Context& context, float* moves)
+{
+  const auto place = [&](std::int64_t corner, double x) {
+    double& at = corners.data()[corner];
+    if (moves)
+    {
+      moves[corner] += static_cast<float>(x - at);
+    }
+    at = x;
+  };
+  EqualizeReport report;
+  report.Passes = 1;
+  Progress progress(context);
+  progress.BeginStage(1.0, cells);
+  std::vector<double> masses(static_cast<std::size_t>(std::min(cells, grainCells)));
+  const double perMass = static_cast<double>(cells) / total;
+  double before = 0.0;
+  place(0, 0.0);
+  progress.ForInOrder(cells, grainCells, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t begin = first; begin < last; begin += grainCells)
+    {
+      const std::int64_t count = std::min(grainCells, last - begin);
+      density.Read(begin, count, masses.data());
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        before += perMass * masses[static_cast<std::size_t>(i)];
+        const bool isLast = begin + i + 1 == cells;
+        const auto side = static_cast<double>(cells);
+        place(begin + i + 1, isLast ? side : std::min(before, side));
+      }
+    }
+  });
+  return report;
+}
+
+} // namespace
+
+template <int Dimension>
+EqualizeReport equalizeAreas(const DensityValues& density, const GridSize<Dimension>& size,
+  double total, PointSpan<Dimension> corners, const EqualizeOptions& options,
+  const Context& context, float* moves)
+{
+  if (options.Passes < 0)
+  {
+    throw std::invalid_argument(
+      "Passes is " + std::to_string(options.Passes) + "; it must be at least 0");
+  }
+  if (!(options.Tolerance > 0.0 && options.Tolerance < 1.0))
+  {
+    throw std::invalid_argument(
+      "Tolerance is " + std::to_string(options.Tolerance) + "; it must be between 0 and 1");
+  }
+  if (static_cast<double>(corners.size()) != numberOfCorners<Dimension>(size))
+  {
+    throw std::invalid_argument("there are " + std::to_string(corners.size()) +
+      " points; the cells have " +
+      std::to_string(static_cast<std::int64_t>(numberOfCorners<Dimension>(size))) + " corners");
+  }
+  if constexpr (Dimension == 1)
+  {
+    return options.Passes > 0 ? sumMasses(density, size[0], total, corners, context, moves)
+                              : EqualizeReport();
+  }
+  else
+  {
+    return Equalization<Dimension>(density, size, total, corners, context).Run(options, moves);
+  }
+}
+
+template <int Dimension>
+double equalizeAreasMemory(const GridSize<Dimension>& size)
+{
+  if constexpr (Dimension == 1)
+  {
+    return static_cast<double>(grainCells) * sizeof(double);
+  }
+  else
+  {
+    return CornerLattice<Dimension>::Memory(size) + FaceSystem<Dimension>::Memory(size) +
+      AreaProjection<Dimension>::Memory(size) + MoveLimits<Dimension>::Memory(size) +
+      numberOfCells<Dimension>(size) * sizeof(float);
+  }
+}
+
+template EqualizeReport equalizeAreas<1>(const DensityValues&, const GridSize<1>&, double,
+  PointSpan<1>, const EqualizeOptions&, const Context&, float*);
+template EqualizeReport equalizeAreas<2>(const DensityValues&, const GridSize<2>&, double,
+  PointSpan<2>, const EqualizeOptions&, const Context&, float*);
+template EqualizeReport equalizeAreas<3>(const DensityValues&, const GridSize<3>&, double,
+  PointSpan<3>, const EqualizeOptions&, const Context&, float*);
+template double equalizeAreasMemory<1>(const GridSize<1>&);
+template double equalizeAreasMemory<2>(const GridSize<2>&);
+template double equalizeAreasMemory<3>(const GridSize<3>&);
+
+} // namespace RectifiedTransport

@@ -1,0 +1,426 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Equalize/FaceSystem.h"
+
+#include "Core/Parallel/Reduction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = 1 << 13;      // cells
+constexpr std::int64_t firstSlice = 1 << 18; // a few milliseconds
+
+// Damping of Jacobi's iteration: Chebyshev's polynomial of second degree on [1/2, 2], where the
+// eigenvalues of the modes lie that a coarser level does not see; 2 is Gershgorin's bound.
+constexpr double firstFactor = 1.0 / (1.25 - 0.75 * 0.70710678118654752);
+constexpr double secondFactor = 1.0 / (1.25 + 0.75 * 0.70710678118654752);
+constexpr std::int64_t coarsest = 8; // cells
+constexpr int coarsestSweeps = 8;
+
+template <int Dimension>
+std::int64_t cellsOf(const GridSize<Dimension>& size)
+{
+  std::int64_t count = 1;
+  for (const std::int64_t cells : size)
+  {
+    count *= cells;
+  }
+  return count;
+}
+
+// Cells between neighbours along the last axis, the farthest ones, all together.
+template <int Dimension>
+std::int64_t marginOf(const GridSize<Dimension>& size)
+{
+  std::int64_t margin = 1;
+  std::int64_t stride = 1;
+  for (int axis = 0; axis + 1 < Dimension; ++axis)
+  {
+    stride *= size[axis];
+    margin += stride;
+  }
+  return margin;
+}
+
+template <int Dimension>
+GridSize<Dimension> halfOf(const GridSize<Dimension>& size)
+{
+  GridSize<Dimension> half = size;
+  for (std::int64_t& cells : half)
+  {
+    cells = (cells + 1) / 2;
+  }
+  return half;
+}
+
+// The rows of two levels: which rows of the fine grid are in a row of the coarse one.
+template <int Dimension>
+class RowsOfCoarse
+{
+public:
+  RowsOfCoarse(const GridSize<Dimension>& fine, const GridSize<Dimension>& coarse)
+    : Fine(fine)
+    , Coarse(coarse)
+  {
+  }
+  // Calls work(row of the fine grid, its place along axes 1 and 2).
+  template <class Work>
+  void ForEach(std::int64_t coarseRow, const Work& work) const
+  {
+    std::array<std::int64_t, 3> place{ 0, coarseRow % this->Coarse[1],
+      coarseRow / this->Coarse[1] };
+    const std::int64_t slices = Dimension == 3 ? this->Fine[Dimension - 1] : 1;
+    for (std::int64_t k = 2 * place[2]; k < std::min(2 * place[2] + 2, slices); ++k)
+    {
+      for (std::int64_t j = 2 * place[1]; j < std::min(2 * place[1] + 2, this->Fine[1]); ++j)
+      {
+        work(k * this->Fine[1] + j, std::array<std::int64_t, 3>{ 0, j, k });
+      }
+    }
+  }
+
+private:
+  GridSize<Dimension> Fine;
+  GridSize<Dimension> Coarse;
+};
+
+} // namespace
+
+template <int Dimension>
+CellArray<Dimension>::CellArray(const GridSize<Dimension>& size)
+  : Margin(marginOf<Dimension>(size))
+  , Values(cellsOf<Dimension>(size) + 2 * this->Margin)
+{
+  std::fill_n(this->Values.data(), this->Margin, 0.0F);
+  std::fill_n(this->Values.data() + this->Values.size() - this->Margin, this->Margin, 0.0F);
+}
+
+template <int Dimension>
+FaceSystem<Dimension>::Level::Level(const GridSize<Dimension>& size)
+  : Size(size)
+  , Cells(cellsOf<Dimension>(size))
+  , Inverse(size)
+  , Right(size)
+  , X(size)
+  , Other(size)
+{
+  std::int64_t stride = 1;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    this->Weights[axis] = CellArray<Dimension>(size);
+    this->Stride[axis] = stride;
+    stride *= size[axis];
+  }
+}
+
+template <int Dimension>
+FaceWeights<Dimension> FaceSystem<Dimension>::Level::View() const
+{
+  FaceWeights<Dimension> view;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    view.Weights[axis] = this->Weights[axis].data();
+    view.Stride[axis] = this->Stride[axis];
+  }
+  view.Inverse = this->Inverse.data();
+  return view;
+}
+
+template <int Dimension>
+FaceSystem<Dimension>::FaceSystem(const GridSize<Dimension>& size)
+  : Kernels(equalizeKernels<Dimension>())
+  , Found(size)
+  , Search(size)
+{
+  this->Levels.emplace_back(size);
+  while (this->Levels.back().Cells > coarsest)
+  {
+    this->Levels.emplace_back(halfOf<Dimension>(this->Levels.back().Size));
+  }
+}
+
+template <int Dimension>
+double FaceSystem<Dimension>::Memory(const GridSize<Dimension>& size)
+{
+  double cells = 2.0 * numberOfCells<Dimension>(size);
+  for (GridSize<Dimension> level = size;; level = halfOf<Dimension>(level))
+  {
+    cells += (Dimension + 4.0) * numberOfCells<Dimension>(level);
+    if (cellsOf<Dimension>(level) <= coarsest)
+    {
+      return cells * sizeof(float);
+    }
+  }
+}
+
+template <int Dimension>
+void FaceSystem<Dimension>::For(std::int64_t cells, RangeKernel kernel, Progress& progress) const
+{
+  if (cells <= grain)
+  {
+    kernel(0, cells);
+    return;
+  }
+  progress.For(cells, grain, kernel, firstSlice);
+}
+
+template <int Dimension>
+void FaceSystem<Dimension>::ForRows(
+  const Level& coarse, RangeKernel kernel, Progress& progress) const
+{
+  const std::int64_t rows = coarse.Cells / coarse.Size[0];
+  if (coarse.Cells <= grain)
+  {
+    kernel(0, rows);
+    return;
+  }
+  progress.For(rows, std::max<std::int64_t>(grain / coarse.Size[0], 1), kernel,
+    std::max<std::int64_t>(firstSlice / coarse.Size[0], 1));
+}
+
+template <int Dimension>
+void FaceSystem<Dimension>::Invert(Level& level, Progress& progress)
+{
+  float* inverse = level.Inverse.data();
+  this->For(
+    level.Cells,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t q = first; q < last; ++q)
+      {
+        float sum = 0.0F;
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          const float* w = level.Weights[axis].data();
+          sum += w[q] + w[q - level.Stride[axis]];
+        }
+        inverse[q] = sum > 0.0F ? 1.0F / sum : 0.0F;
+      }
+    },
+    progress);
+}
+
+// A face of a coarse cell has the area of the fine faces in it and twice the distance.
+template <int Dimension>
+void FaceSystem<Dimension>::Coarsen(const Level& fine, Level& coarse, Progress& progress)
+{
+  const RowsOfCoarse<Dimension> rows(fine.Size, coarse.Size);
+  this->ForRows(
+    coarse,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t row = first; row < last; ++row)
+      {
+        const std::int64_t to = row * coarse.Size[0];
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          float* sum = coarse.Weights[axis].data() + to;
+          std::fill_n(sum, coarse.Size[0], 0.0F);
+          rows.ForEach(row, [&](std::int64_t fineRow, const std::array<std::int64_t, 3>& place) {
+            const float* w = fine.Weights[axis].data() + fineRow * fine.Size[0];
+            if (axis == 0)
+            {
+              for (std::int64_t i = 1; i < fine.Size[0]; i += 2)
+              {
+                sum[i / 2] += 0.5F * w[i];
+              }
+            }
+            else if (place[axis] % 2 == 1)
+            {
+              const std::int64_t pairs = fine.Size[0] / 2;
+              for (std::int64_t i = 0; i < pairs; ++i)
+              {
+                sum[i] += 0.5F * (w[2 * i] + w[2 * i + 1]);
+              }
+              if (fine.Size[0] % 2 == 1)
+              {
+                sum[pairs] += 0.5F * w[2 * pairs];
+              }
+            }
+          });
+        }
+      }
+    },
+    progress);
+}
+
+template <int Dimension>
+void FaceSystem<Dimension>::Prepare(Progress& progress)
+{
+  this->Invert(this->Levels.front(), progress);
+  for (std::size_t at = 1; at < this->Levels.size(); ++at)
+  {
+    this->Coarsen(this->Levels[at - 1], this->Levels[at], progress);
+    this->Invert(this->Levels[at], progress);
+  }
+}
+
+template <int Dimension>
+void FaceSystem<Dimension>::Restrict(const Level& fine, Level& coarse, Progress& progress)
+{
+  const RowsOfCoarse<Dimension> rows(fine.Size, coarse.Size);
+  const FaceWeights<Dimension> system = fine.View();
+  const std::int64_t cells = fine.Size[0];
+  const std::int64_t pairs = cells / 2;
+  this->ForRows(
+    coarse,
+    [&](std::int64_t first, std::int64_t last) {
+      std::vector<float> values(static_cast<std::size_t>(cells));
+      for (std::int64_t row = first; row < last; ++row)
+      {
+        float* sum = coarse.Right.data() + row * coarse.Size[0];
+        std::fill_n(sum, coarse.Size[0], 0.0F);
+        rows.ForEach(row, [&](std::int64_t fineRow, const std::array<std::int64_t, 3>&) {
+          const float* r = values.data();
+          this->Kernels.Residual(system, fine.X.data(), fine.Right.data(), fineRow * cells,
+            (fineRow + 1) * cells, values.data());
+          for (std::int64_t i = 0; i < pairs; ++i)
+          {
+            sum[i] += r[2 * i] + r[2 * i + 1];
+          }
+          if (cells % 2 == 1)
+          {
+            sum[pairs] += r[cells - 1];
+          }
+        });
+      }
+    },
+    progress);
+}
+
+template <int Dimension>
+void FaceSystem<Dimension>::Prolong(const Level& coarse, Level& fine, Progress& progress)
+{
+  const RowsOfCoarse<Dimension> rows(fine.Size, coarse.Size);
+  const std::int64_t cells = fine.Size[0];
+  const std::int64_t pairs = cells / 2;
+  this->ForRows(
+    coarse,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t row = first; row < last; ++row)
+      {
+        const float* from = coarse.X.data() + row * coarse.Size[0];
+        rows.ForEach(row, [&](std::int64_t fineRow, const std::array<std::int64_t, 3>&) {
+          float* to = fine.X.data() + fineRow * cells;
+          for (std::int64_t i = 0; i < pairs; ++i)
+          {
+            to[2 * i] += from[i];
+            to[2 * i + 1] += from[i];
+          }
+          if (cells % 2 == 1)
+          {
+            to[cells - 1] += from[pairs];
+          }
+        });
+      }
+    },
+    progress);
+}
+
+template <int Dimension>
+void FaceSystem<Dimension>::Relax(Level& level, bool fromZero, double factor, Progress& progress)
+{
+  const FaceWeights<Dimension> system = level.View();
+  const float* x = fromZero ? nullptr : level.X.data();
+  this->For(
+    level.Cells,
+    [&](std::int64_t first, std::int64_t last) {
+      this->Kernels.Relax(
+        system, x, level.Right.data(), static_cast<float>(factor), first, last, level.Other.data());
+    },
+    progress);
+  std::swap(level.X, level.Other);
+}
+
+// Symmetric, hence the factors in the opposite order on the way up.
+template <int Dimension>
+void FaceSystem<Dimension>::Cycle(std::size_t at, Progress& progress)
+{
+  Level& level = this->Levels[at];
+  this->Relax(level, true, firstFactor, progress);
+  this->Relax(level, false, secondFactor, progress);
+  if (at + 1 < this->Levels.size())
+  {
+    Level& coarse = this->Levels[at + 1];
+    this->Restrict(level, coarse, progress);
+    this->Cycle(at + 1, progress);
+    this->Prolong(coarse, level, progress);
+  }
+  else
+  {
+    for (int sweep = 0; sweep < coarsestSweeps; ++sweep)
+    {
+      this->Relax(level, false, secondFactor, progress);
+      this->Relax(level, false, firstFactor, progress);
+      this->Relax(level, false, firstFactor, progress);
+      this->Relax(level, false, secondFactor, progress);
+    }
+  }
+  this->Relax(level, false, secondFactor, progress);
+  this->Relax(level, false, firstFactor, progress);
+}
+
+template <int Dimension>
+int FaceSystem<Dimension>::Solve(double tolerance, int maximum, Progress& progress)
+{
+  Level& finest = this->Levels.front();
+  const FaceWeights<Dimension> system = finest.View();
+  const auto sum = [&](const auto& part) {
+    return reduceChunks(
+      progress, finest.Cells, grain, 0.0, part, [](double a, double b) { return a + b; },
+      firstSlice);
+  };
+  float* r = finest.Right.data();
+  float* x = this->Found.data();
+  float* p = this->Search.data();
+  std::fill_n(x, finest.Cells, 0.0F);
+  std::fill_n(p, finest.Cells, 0.0F);
+  const double begin = sum(
+    [&](std::int64_t first, std::int64_t last) { return this->Kernels.Dot(r, r, first, last); });
+  double before = 0.0;
+  for (int iteration = 0; iteration < maximum; ++iteration)
+  {
+    if (!(begin > 0.0))
+    {
+      return iteration;
+    }
+    this->Cycle(0, progress);
+    const float* z = finest.X.data();
+    const double rz = sum(
+      [&](std::int64_t first, std::int64_t last) { return this->Kernels.Dot(r, z, first, last); });
+    const auto beta = static_cast<float>(iteration == 0 ? 0.0 : rz / before);
+    before = rz;
+    this->For(
+      finest.Cells,
+      [&](std::int64_t first, std::int64_t last) { this->Kernels.Turn(beta, z, first, last, p); },
+      progress);
+    float* q = finest.Other.data();
+    const double pq = sum([&](std::int64_t first, std::int64_t last) {
+      return this->Kernels.Apply(system, p, first, last, q);
+    });
+    if (!(rz > 0.0 && pq > 0.0))
+    {
+      return iteration;
+    }
+    const auto alpha = static_cast<float>(rz / pq);
+    const double now = sum([&](std::int64_t first, std::int64_t last) {
+      return this->Kernels.Advance(alpha, p, q, first, last, x, r);
+    });
+    if (now <= tolerance * tolerance * begin)
+    {
+      return iteration + 1;
+    }
+  }
+  return maximum;
+}
+
+template class CellArray<2>;
+template class CellArray<3>;
+template class FaceSystem<2>;
+template class FaceSystem<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Poisson's equation on the cells of a grid, with a weight at each face:
+//   sum over the faces of q: w (x_q - x_r) = b_q, no flux at the border,
+// by conjugate gradients, preconditioned by a multigrid V-cycle.
+#ifndef RectifiedTransport_FaceSystem_h
+#define RectifiedTransport_FaceSystem_h
+
+#include "Core/Equalize/Kernels/EqualizeKernels.h"
+#include "Core/Geometry/GridSize.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// Values of the cells of a grid. The largest distance of neighbours, and one, may be read before
+// and after them: zeros.
+template <int Dimension>
+class CellArray
+{
+public:
+  CellArray() = default;
+  explicit CellArray(const GridSize<Dimension>& size);
+  float* data() { return this->Values.data() + this->Margin; }
+  const float* data() const { return this->Values.data() + this->Margin; }
+
+private:
+  std::int64_t Margin = 0;
+  LargeBuffer<float> Values;
+};
+
+template <int Dimension>
+class FaceSystem
+{
+public:
+  explicit FaceSystem(const GridSize<Dimension>& size);
+
+  // To be written before Prepare: the weights of the cells' upper faces along an axis, 0 at the
+  // border, and the right-hand side, whose sum is zero. Solve overwrites the latter.
+  float* Weights(int axis) { return this->Levels.front().Weights[axis].data(); }
+  float* RightHandSide() { return this->Levels.front().Right.data(); }
+  // Makes the coarser levels. Units of progress: twice the cells.
+  void Prepare(Progress& progress);
+  // Returns the number of iterations. Units of progress: WorkOf(cells, iterations).
+  int Solve(double tolerance, int maximum, Progress& progress);
+  const float* Solution() const { return this->Found.data(); }
+
+  static std::int64_t WorkOf(std::int64_t cells, int iterations) { return 10 * cells * iterations; }
+  static double Memory(const GridSize<Dimension>& size);
+
+private:
+  struct Level
+  {
+    GridSize<Dimension> Size;
+    std::int64_t Cells;
+    std::int64_t Stride[Dimension];
+    CellArray<Dimension> Weights[Dimension];
+    CellArray<Dimension> Inverse;
+    CellArray<Dimension> Right;
+    CellArray<Dimension> X;
+    CellArray<Dimension> Other;
+
+    explicit Level(const GridSize<Dimension>& size);
+    FaceWeights<Dimension> View() const;
+  };
+
+  // Runs a kernel on the progress's threads, but small levels here.
+  void For(std::int64_t cells, RangeKernel kernel, Progress& progress) const;
+  void ForRows(const Level& coarse, RangeKernel kernel, Progress& progress) const;
+  void Invert(Level& level, Progress& progress);
+  void Coarsen(const Level& fine, Level& coarse, Progress& progress);
+  void Restrict(const Level& fine, Level& coarse, Progress& progress);
+  void Prolong(const Level& coarse, Level& fine, Progress& progress);
+  void Cycle(std::size_t at, Progress& progress);
+  void Relax(Level& level, bool fromZero, double factor, Progress& progress);
+
+  EqualizeKernels<Dimension> Kernels;
+  std::vector<Level> Levels;
+  CellArray<Dimension> Found;
+  CellArray<Dimension> Search;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The loops of equalizeAreas over rows of the lattice and over cells, one set for each instruction
+// set, and the choice among them.
+#ifndef RectifiedTransport_EqualizeKernels_h
+#define RectifiedTransport_EqualizeKernels_h
+
+#include "Core/Parallel/InstructionSet.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// A row of a lattice of points along axis 0, an array a coordinate.
+template <int Dimension>
+struct PointRow
+{
+  const double* X[Dimension];
+};
+
+// The rows of corners at and after a row of cells, by their offsets 0, 1, 2 along axis 1 and, in
+// 3D, axis 2: row [offset1 + 3 * offset2]. Rows beyond the lattice repeat its last row.
+template <int Dimension>
+struct CellRow
+{
+  PointRow<Dimension> Corners[Dimension == 2 ? 3 : 9];
+  std::int64_t Cells;
+};
+
+// The rows about a row of corners, by their offsets -1, 0, 1 in the same order. Rows beyond the
+// lattice repeat the nearest one, so that their faces are empty.
+template <int Dimension>
+struct CornerRow
+{
+  PointRow<Dimension> Corners[Dimension == 2 ? 3 : 9];
+  std::int64_t Cells; // along axis 0
+  // The fluxes of the cells' upper faces along each axis, of the cell at the low corner's place of
+  // each row: [axis][row], as the corners' rows.
+  const float* Weights[Dimension];
+  const float* Potential;
+  std::int64_t Stride[Dimension]; // of cells
+  float* Moves[Dimension];        // output, a corner each
+};
+
+// The same rows with their moves, and the multipliers of the rows of cells below (-1) and above (0)
+// along axis 1, in 3D also axis 2: [offset1 + 1 + 2 * (offset2 + 1)]. Zeros where there are none.
+template <int Dimension>
+struct ProjectedRow
+{
+  PointRow<Dimension> Corners[Dimension == 2 ? 3 : 9];
+  std::int64_t Cells;
+  const float* Multipliers[Dimension == 2 ? 2 : 4];
+  const float* Mobility;          // of the corners
+  const float* Before[Dimension]; // moves of the corners
+  float* After[Dimension];        // output
+};
+
+// Cells of a grid, flat, and the weights of their upper faces along each axis; 0 at the border.
+// Arrays may be read as far before and after the cells as the largest stride.
+template <int Dimension>
+struct FaceWeights
+{
+  const float* Weights[Dimension];
+  std::int64_t Stride[Dimension];
+  const float* Inverse; // of the sum over a cell's faces
+};
+
+template <int Dimension>
+struct EqualizeKernels
+{
+  // Areas or volumes of the (multi)linear images of the cells.
+  void (*Areas)(const CellRow<Dimension>& row, double* areas);
+  // Weights of the upper faces along all axes; the last along axis 0 is 0.
+  void (*Weights)(const CellRow<Dimension>& row, float* const* weights);
+  // The moves of a row of corners that fit the fluxes through the faces about them.
+  void (*Moves)(const CornerRow<Dimension>& row);
+
+  // For each cell (target - area) / (sum over its corners of mobility * squared gradient of its
+  // area). The mobilities' rows are those of the corners with offsets 0 and 1.
+  void (*Multipliers)(const CellRow<Dimension>& row, const float* const* mobilities,
+    const double* areas, const float* targets, float* multipliers);
+  // The moves of a row of corners and the sum over their cells of multiplier * gradient,
+  // times their mobility.
+  void (*Project)(const ProjectedRow<Dimension>& row);
+
+  // For cells [first, last) of a system A x = b with (A x)_q = sum over faces w (x_q - x_r):
+  // output = b - A x
+  void (*Residual)(const FaceWeights<Dimension>& system, const float* x, const float* b,
+    std::int64_t first, std::int64_t last, float* output);
+  // output = x + factor * (b - A x) / diagonal; x null: x = 0
+  void (*Relax)(const FaceWeights<Dimension>& system, const float* x, const float* b, float factor,
+    std::int64_t first, std::int64_t last, float* output);
+  // output = A x; returns the sum of x * output.
+  double (*Apply)(const FaceWeights<Dimension>& system, const float* x, std::int64_t first,
+    std::int64_t last, float* output);
+  // Returns the sum of a * b.
+  double (*Dot)(const float* a, const float* b, std::int64_t first, std::int64_t last);
+  // x += factor * p, r -= factor * q; returns the sum of r^2.
+  double (*Advance)(float factor, const float* p, const float* q, std::int64_t first,
+    std::int64_t last, float* x, float* r);
+  // p = z + factor * p
+  void (*Turn)(float factor, const float* z, std::int64_t first, std::int64_t last, float* p);
+};
+
+template <int Dimension>
+EqualizeKernels<Dimension> equalizeKernelsSSE2();
+template <int Dimension>
+EqualizeKernels<Dimension> equalizeKernelsAVX2();
+template <int Dimension>
+EqualizeKernels<Dimension> equalizeKernelsAVX512();
+
+// All compute the same bits.
+template <int Dimension>
+EqualizeKernels<Dimension> equalizeKernels(InstructionSet set = instructionSet());
+
+} // namespace RectifiedTransport
+
+#endif

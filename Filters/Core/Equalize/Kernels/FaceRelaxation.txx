@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loops of conjugate gradients and Jacobi's iteration. Included by EqualizeKernels.txx.
+
+// Sums are taken in lanes, in the same order for every instruction set.
+constexpr int sumLanes = 16;
+
+RT_INLINE double addLanes(const double (&lanes)[sumLanes])
+{
+  double sum = 0.0;
+  for (int lane = 0; lane < sumLanes; ++lane)
+  {
+    sum += lanes[lane];
+  }
+  return sum;
+}
+
+// The sum of term(i), i in [first, last).
+template <class Term>
+RT_INLINE double sumOf(std::int64_t first, std::int64_t last, const Term& term)
+{
+  alignas(64) double lanes[sumLanes] = {};
+  const std::int64_t whole = first + (last - first) / sumLanes * sumLanes;
+  for (std::int64_t i = first; i < whole; i += sumLanes)
+  {
+#pragma omp simd
+    for (int lane = 0; lane < sumLanes; ++lane)
+    {
+      lanes[lane] += static_cast<double>(term(i + lane));
+    }
+  }
+  for (std::int64_t i = whole; i < last; ++i)
+  {
+    lanes[i - whole] += static_cast<double>(term(i));
+  }
+  return addLanes(lanes);
+}
+
+// Minus (A x)_q.
+template <int Dimension>
+RT_INLINE float inflow(const FaceWeights<Dimension>& system, const float* x, std::int64_t q)
+{
+  float sum = 0.0F;
+#pragma GCC unroll 3
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const float* w = system.Weights[axis];
+    const std::int64_t s = system.Stride[axis];
+    sum += w[q] * (x[q + s] - x[q]) + w[q - s] * (x[q - s] - x[q]);
+  }
+  return sum;
+}
+
+template <int Dimension>
+void residual(const FaceWeights<Dimension>& given, const float* x, const float* b,
+  std::int64_t first, std::int64_t last, float* __restrict output)
+{
+  const FaceWeights<Dimension> system = given;
+#pragma omp simd
+  for (std::int64_t q = first; q < last; ++q)
+  {
+    output[q - first] = b[q] + inflow<Dimension>(system, x, q);
+  }
+}
+
+template <int Dimension>
+void relax(const FaceWeights<Dimension>& given, const float* x, const float* b, float factor,
+  std::int64_t first, std::int64_t last, float* __restrict output)
+{
+  const FaceWeights<Dimension> system = given;
+  if (!x)
+  {
+#pragma omp simd
+    for (std::int64_t q = first; q < last; ++q)
+    {
+      output[q] = factor * (system.Inverse[q] * b[q]);
+    }
+    return;
+  }
+#pragma omp simd
+  for (std::int64_t q = first; q < last; ++q)
+  {
+    output[q] = x[q] + factor * (system.Inverse[q] * (b[q] + inflow<Dimension>(system, x, q)));
+  }
+}
+
+template <int Dimension>
+double apply(const FaceWeights<Dimension>& given, const float* x, std::int64_t first,
+  std::int64_t last, float* __restrict output)
+{
+  const FaceWeights<Dimension> system = given;
+  return sumOf(first, last, [&](std::int64_t q) {
+    const float value = -inflow<Dimension>(system, x, q);
+    output[q] = value;
+    return x[q] * value;
+  });
+}
+
+double dot(const float* a, const float* b, std::int64_t first, std::int64_t last)
+{
+  return sumOf(first, last, [&](std::int64_t q) { return a[q] * b[q]; });
+}
+
+double advance(float factor, const float* p, const float* q, std::int64_t first, std::int64_t last,
+  float* __restrict x, float* __restrict r)
+{
+  return sumOf(first, last, [&](std::int64_t i) {
+    x[i] += factor * p[i];
+    const float value = r[i] - factor * q[i];
+    r[i] = value;
+    return value * value;
+  });
+}
+
+void turn(float factor, const float* z, std::int64_t first, std::int64_t last, float* __restrict p)
+{
+#pragma omp simd
+  for (std::int64_t i = first; i < last; ++i)
+  {
+    p[i] = z[i] + factor * p[i];
+  }
+}
