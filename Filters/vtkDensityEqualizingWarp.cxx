@@ -31,6 +31,7 @@ using namespace RectifiedTransport;
 vtkDensityEqualizingWarp::vtkDensityEqualizingWarp()
   : vtkTransportAlgorithm(1)
   , Blend(1.0)
+  , EqualizeAreas(false)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
@@ -83,6 +84,7 @@ int vtkDensityEqualizingWarp::RequestData(
   warp.Tables = tableSetting(this->Tables);
   warp.Flow = this->GetFlowOptions();
   warp.Blend = this->Blend;
+  warp.EqualizeAreas = this->EqualizeAreas != 0;
   const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
   vtkPointSet* input = pointSetOf(inputVector[0]);
@@ -125,5 +127,6 @@ void vtkDensityEqualizingWarp::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Blend: " << this->Blend << "\n";
+  os << indent << "EqualizeAreas: " << (this->EqualizeAreas ? "On" : "Off") << "\n";
 }
 VTK_ABI_NAMESPACE_END

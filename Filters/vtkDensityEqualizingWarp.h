@@ -72,6 +72,18 @@ public:
   vtkGetMacro(Blend, double);
   ///@}
 
+  ///@{
+  /**
+   * Whether the map is corrected until the areas (volumes) of the density's cells are their
+   * masses. Once for a density and the settings of the flow, the corners of all its cells are moved
+   * back and Poisson's equation is solved on their images; points move as the corners do,
+   * interpolated. Needs whole tables. Default off.
+   */
+  vtkSetMacro(EqualizeAreas, vtkTypeBool);
+  vtkGetMacro(EqualizeAreas, vtkTypeBool);
+  vtkBooleanMacro(EqualizeAreas, vtkTypeBool);
+  ///@}
+
   /**
    * Set the density (input 1), as the output of another filter.
    */
@@ -99,6 +111,7 @@ protected:
     vtkInformationVector* outputVector) override;
 
   double Blend;
+  vtkTypeBool EqualizeAreas;
 
 private:
   vtkDensityEqualizingWarp(const vtkDensityEqualizingWarp&) = delete;

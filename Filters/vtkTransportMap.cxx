@@ -33,6 +33,7 @@ const char* const DirectionTexts[] = { "UniformToDensity", "DensityToUniform" };
 vtkTransportMap::vtkTransportMap()
   : Direction(UNIFORM_TO_DENSITY)
   , SampleDimensions{ 0, 0, 0 }
+  , EqualizeAreas(false)
 {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
@@ -110,6 +111,7 @@ int vtkTransportMap::RequestData(
   map.Tables = tableSetting(this->Tables);
   map.Flow = this->GetFlowOptions();
   map.Backward = this->Direction == DENSITY_TO_UNIFORM;
+  map.EqualizeAreas = this->EqualizeAreas != 0;
   std::copy_n(this->SampleDimensions, 3, map.SampleDimensions.begin());
   const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
@@ -150,5 +152,6 @@ void vtkTransportMap::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Direction: " << this->GetDirectionAsString() << "\n";
   os << indent << "SampleDimensions: " << this->SampleDimensions[0] << " "
      << this->SampleDimensions[1] << " " << this->SampleDimensions[2] << "\n";
+  os << indent << "EqualizeAreas: " << (this->EqualizeAreas ? "On" : "Off") << "\n";
 }
 VTK_ABI_NAMESPACE_END

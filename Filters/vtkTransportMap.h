@@ -118,6 +118,18 @@ public:
   vtkGetVector3Macro(SampleDimensions, int);
   ///@}
 
+  ///@{
+  /**
+   * Whether the map of DensityToUniform is corrected until the areas (volumes) of the density's
+   * cells are their masses. Once for a density and the settings of the flow, the corners of all its
+   * cells are moved back and Poisson's equation is solved on their images; samples move as the
+   * corners do, interpolated. Needs whole tables. Default off.
+   */
+  vtkSetMacro(EqualizeAreas, vtkTypeBool);
+  vtkGetMacro(EqualizeAreas, vtkTypeBool);
+  vtkBooleanMacro(EqualizeAreas, vtkTypeBool);
+  ///@}
+
   /**
    * The image with the map's fields.
    */
@@ -136,6 +148,7 @@ protected:
 
   int Direction;
   int SampleDimensions[3];
+  vtkTypeBool EqualizeAreas;
 
 private:
   vtkTransportMap(const vtkTransportMap&) = delete;

@@ -92,6 +92,11 @@ def give_data():
         give("map " + name, simple.TransportMap(density, **chosen, **usual))
     shell = simple.Contour(Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[150.0],
                            ComputeNormals=0)
+    give("equal areas", simple.DensityEqualizingWarp(
+        Input=shell, Density=image, EqualizeAreas=1, NegativeValues="Clamp", NumberOfSteps=8))
+    give("map of equal areas", simple.TransportMap(
+        image, Direction="DensityToUniform", EqualizeAreas=1, NegativeValues="Clamp",
+        NumberOfSteps=8))
     give("warp mesh", simple.DensityEqualizingWarp(Input=shell, Density=meshes["mesh"], **usual))
     drum = simple.Cylinder(Resolution=24)  # whole on each rank
     hill = simple.Contour(Input=simple.Wavelet(WholeExtent=[-7, 7] * 3), ComputeNormals=0,

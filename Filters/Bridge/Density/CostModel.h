@@ -41,6 +41,14 @@ inline double flow(const FlowOptions& options, int dimension)
     (options.Integrator == Integrator::RungeKutta4 ? 4.0 : 1.0);
 }
 
+// Of the correction of areas, for each cell of the density: the flow of its corners, and the
+// passes.
+inline double equalization(const FlowOptions& options, int dimension)
+{
+  const double passes = dimension == 3 ? 1500.0 : 500.0;
+  return flow(options, dimension) + passes;
+}
+
 } // namespace Cost
 
 // The progress at the ends of stages, in proportion to their estimated times.

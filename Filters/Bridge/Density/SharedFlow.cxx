@@ -148,6 +148,35 @@ std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(InputDensity& density,
   return made;
 }
 
+template <int D>
+std::shared_ptr<const AreaCorrection<D>> SharedFlow::Correction(
+  const FlowOptions& options, Progress& progress) const
+{
+  using Made = std::shared_ptr<const AreaCorrection<D>>;
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    const Made* kept = std::get_if<Made>(&this->KeptCorrection);
+    if (kept && *kept && this->CorrectionOptions == options)
+    {
+      return *kept;
+    }
+    this->KeptCorrection = Made(); // two side by side would double the peak
+  }
+  const RectifiedFlow<D>& flow = this->Flow<D>();
+  const std::string purpose =
+    "the areas of " + describeSize<D>(flow.Size()) + " cells (EqualizeAreas Off needs none)";
+  const double bytes = AreaCorrection<D>::MemoryFor(flow.Size());
+  requireMemory(purpose, bytes);
+  Made made = withMemory(purpose, bytes, [&]() {
+    return std::make_shared<const AreaCorrection<D>>(
+      flow, options, EqualizeOptions(), progress.Stage());
+  });
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  this->CorrectionOptions = options;
+  this->KeptCorrection = made;
+  return made;
+}
+
 void SharedFlow::Attach(InputDensity& density, Progress& progress)
 {
   if (this->Kind == FlowTables::Tiled)
@@ -165,6 +194,12 @@ void SharedFlow::Attach(InputDensity& density, Progress& progress)
   }
 }
 
+template std::shared_ptr<const AreaCorrection<1>> SharedFlow::Correction<1>(
+  const FlowOptions&, Progress&) const;
+template std::shared_ptr<const AreaCorrection<2>> SharedFlow::Correction<2>(
+  const FlowOptions&, Progress&) const;
+template std::shared_ptr<const AreaCorrection<3>> SharedFlow::Correction<3>(
+  const FlowOptions&, Progress&) const;
 template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<1>(
   InputDensity&, const ContentHash&, FlowTables, std::shared_ptr<SharedFlow>, Progress&, double);
 template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<2>(

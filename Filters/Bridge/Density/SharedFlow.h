@@ -4,11 +4,13 @@
 #define RectifiedTransport_SharedFlow_h
 
 #include "Bridge/Density/InputDensity.h"
+#include "Core/Equalize/AreaCorrection.h"
 #include "Core/Flow/RectifiedFlow.h"
 
 #include "vtkTimeStamp.h"
 
 #include <memory>
+#include <mutex>
 #include <variant>
 
 namespace RectifiedTransport
@@ -36,6 +38,12 @@ public:
   {
     return std::get<RectifiedFlow<D>>(this->Kept);
   }
+  // By what points that go back have to be corrected for equal areas. Kept until other options: it
+  // costs the flow of all corners of cells. Of whole tables; not collective. Runs as the current
+  // stage. Throws Failure and Cancelled.
+  template <int D>
+  std::shared_ptr<const AreaCorrection<D>> Correction(
+    const FlowOptions& options, Progress& progress) const;
   // Density times cell measure, summed.
   double TotalMass() const { return this->Mass; }
   const UnusualValues& Unusual() const { return this->Values; }
@@ -57,7 +65,13 @@ private:
   using AnyFlow =
     std::variant<std::monostate, RectifiedFlow<1>, RectifiedFlow<2>, RectifiedFlow<3>>;
 
+  using AnyCorrection = std::variant<std::shared_ptr<const AreaCorrection<1>>,
+    std::shared_ptr<const AreaCorrection<2>>, std::shared_ptr<const AreaCorrection<3>>>;
+
   AnyFlow Kept;
+  mutable std::mutex Mutex; // of the next two: several filters may share this
+  mutable FlowOptions CorrectionOptions;
+  mutable AnyCorrection KeptCorrection;
   FlowTables Kind;
   double Mass;
   UnusualValues Values;

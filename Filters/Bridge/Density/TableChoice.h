@@ -22,6 +22,9 @@ struct TableUse
   std::string WholeFor; // what only whole tables give; empty for nothing
 };
 
+// For WholeFor.
+constexpr const char* EqualAreas = "equal areas (EqualizeAreas)";
+
 // The tables of a density of this size, for a value in range. Auto means tiles above 2^26 grid
 // cells if they support the use. Throws Failure if Tiled is set and tiles do not support the use or
 // do not fit in memory.

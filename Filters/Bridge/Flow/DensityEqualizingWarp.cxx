@@ -94,10 +94,24 @@ public:
     }
   }
 
+  // After Flow.
+  void Correct(const AreaCorrection<D>& correction)
+  {
+    const double* points = this->Points->GetPointer(0);
+    this->Work.For(this->Count, grain, [=, &correction](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        double point[D];
+        this->Grid.template ToIndex<D>(points + i * 3, point);
+        this->Grid.template ClampToDomain<D>(point);
+        correction.Correct(point, this->Index + i * D);
+      }
+    });
+  }
+
   // Overwrites the index coordinates in 3D.
   void Write(double blend, vtkPointSet* output)
   {
-    constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
     double* points = this->Points->GetPointer(0);
     double* displacements = this->Displacements->GetPointer(0);
     this->Work.For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
@@ -127,6 +141,8 @@ public:
   }
 
 private:
+  static constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+
   const ImageGrid& Grid;
   vtkPointSet* Input;
   Progress& Work;
@@ -143,14 +159,19 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
   vtkPointSet* input, FlowCache& cache, Progress& progress, vtkPointSet* output)
 {
   const bool moves = settings.Blend > 0.0;
-  const auto cells = static_cast<double>(moves ? input->GetNumberOfCells() : 0);
+  const bool equalizes = moves && settings.EqualizeAreas;
   const double count = static_cast<double>(input->GetNumberOfPoints());
+  const auto inputCells = static_cast<double>(moves ? input->GetNumberOfCells() : 0);
+  const auto gridCells = static_cast<double>(density.Grid().NumberOfCells());
+  const FlowOptions options =
+    equalizes ? AreaCorrection<D>::OptionsFor(settings.Flow) : settings.Flow;
   const auto ends = stageEnds({ Cost::tables(cache, density), Cost::Seed * count,
-    moves ? Cost::flow(settings.Flow, D) * count : 0.0, Cost::Seed * count,
-    Cost::TurnedCell * cells });
+    moves ? Cost::flow(options, D) * count : 0.0,
+    equalizes ? Cost::equalization(options, D) * gridCells : 0.0,
+    equalizes ? Cost::Seed * count : 0.0, Cost::Seed * count, Cost::TurnedCell * inputCells });
   WarpedPoints<D> points(density.Grid(), input, progress);
   const FlowTables tables = chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
-    { settings.Flow, FlowDirection::Backward, count, false, "" });
+    { options, FlowDirection::Backward, count, false, settings.EqualizeAreas ? EqualAreas : "" });
   const SharedFlow& flow = cache.Update(density, progress, ends[0], tables);
   progress.BeginStage(ends[1]);
   DensityEqualizingWarp::Report report;
@@ -158,9 +179,16 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
   if (moves)
   {
     progress.BeginStage(ends[2]);
-    report.Flow = points.Flow(flow.Transport<D>(), settings.Flow);
+    report.Flow = points.Flow(flow.Transport<D>(), options);
   }
-  progress.BeginStage(ends[3]);
+  if (equalizes && input->GetNumberOfPoints() > 0)
+  {
+    progress.BeginStage(ends[3]);
+    const auto correction = flow.Correction<D>(options, progress);
+    progress.BeginStage(ends[4], input->GetNumberOfPoints());
+    points.Correct(*correction);
+  }
+  progress.BeginStage(ends[5]);
   points.Write(settings.Blend, output);
   addSteps(output, { report.Flow });
   progress.BeginStage(1.0);

@@ -27,6 +27,7 @@ struct DensityEqualizingWarp
   FlowOptions Flow;
   TableSetting Tables;
   double Blend;
+  bool EqualizeAreas;
 
   struct Report
   {

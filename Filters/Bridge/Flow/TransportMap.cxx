@@ -44,6 +44,29 @@ void prepareShares(
   flow.PrepareShares(low, high);
 }
 
+// Corrects the images of this rank's samples.
+template <int D>
+void correct(
+  const AreaCorrection<D>& correction, const Point<D>& step, MapField<D>& field, Progress& progress)
+{
+  constexpr std::int64_t grain = 1 << 12;
+  const LatticePart<D>& part = field.Part();
+  const LatticeParts<D> parts = field.Parts();
+  const PointSpan<D> positions = field.Positions();
+  progress.For(part.Count(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      const GridSize<D> cell = part.CellOf(i);
+      Point<D> sample;
+      for (int a = 0; a < D; ++a)
+      {
+        sample[a] = (static_cast<double>(cell[a]) + 0.5) * step[a];
+      }
+      correction.Correct(sample.data(), positions[parts.IndexOf(cell)]);
+    }
+  });
+}
+
 template <int D>
 TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   const ImageGrid& samples, const Extent& wanted, FlowCache& cache, Progress& progress,
@@ -53,7 +76,11 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   const GridSize<D> lattice = samples.Size<D>();
   const double all = numberOfCells<D>(lattice);
   const double count = all / ranks.Count();
-  const auto ends = stageEnds({ Cost::tables(cache, density), Cost::flow(map.Flow, D) * count,
+  const bool equalizes = map.Backward && map.EqualizeAreas;
+  const FlowOptions options = equalizes ? AreaCorrection<D>::OptionsFor(map.Flow) : map.Flow;
+  const double cells = static_cast<double>(density.Grid().NumberOfCells());
+  const auto ends = stageEnds({ Cost::tables(cache, density), Cost::flow(options, D) * count,
+    equalizes ? Cost::equalization(options, D) * cells : 0.0, equalizes ? Cost::Seed * count : 0.0,
     (map.Backward && D == 3 ? Cost::MassShare : Cost::Write) * count });
   const int owner = samples.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
   MapField<D> field(density.Grid(), samples, tuplesOf(wanted, owner, samples.Extent()),
@@ -63,15 +90,23 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   output->SetExtent(extent.data());
 
   const FlowTables tables = chooseTables<D>(map.Tables, density.Grid().Size<D>(),
-    { map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward, count, true, "" });
+    { options, map.Backward ? FlowDirection::Backward : FlowDirection::Forward, count, true,
+      equalizes ? EqualAreas : "" });
   const SharedFlow& shared = cache.Update(density, progress, ends[0], tables);
   const RectifiedFlow<D>& flow = shared.Flow<D>();
   progress.BeginStage(ends[1]);
   const auto seeds = FlowSeeds<D>::Lattice(lattice, field.Parts());
   const PointTransport<D>& transport = shared.Transport<D>();
   const FlowReport report = map.Backward
-    ? transport.Backward(seeds, field.Positions(), map.Flow, progress.Stage())
-    : transport.Forward(seeds, field.Positions(), map.Flow, progress.Stage());
+    ? transport.Backward(seeds, field.Positions(), options, progress.Stage())
+    : transport.Forward(seeds, field.Positions(), options, progress.Stage());
+  if (equalizes)
+  {
+    progress.BeginStage(ends[2]);
+    const auto correction = shared.Correction<D>(options, progress);
+    progress.BeginStage(ends[3], field.Part().Count());
+    correct<D>(*correction, latticeStep<D>(lattice, flow.Size()), field, progress);
+  }
   if (map.Backward)
   {
     prepareShares<D>(flow, field.Whole(), field.Part());

@@ -28,6 +28,7 @@ struct TransportMap
   FlowOptions Flow;
   TableSetting Tables;
   bool Backward;
+  bool EqualizeAreas;                  // of Backward
   std::array<int, 3> SampleDimensions; // 0 keeps the number of the density's values
 
   struct Report
