@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the benchmarks and prints the tables of Documentation/Speed.md.
 
-usage: python3 run.py [--help] [--repetitions N] [--quality | --tiles | ...] PROGRAM
+usage: python3 run.py [--help] [--repetitions N] [--quality | --steps | ...] PROGRAM
 
 Every figure is the median of the repetitions, which are interleaved at random. One thread is
 measured in processor time, two in wall-clock time.
@@ -272,6 +272,41 @@ def quality(r):
                f"{r.strays('Quality/shape_64/forward/paper')} of the paper's.")
 
 
+STEPS = (("raccoon", "`raccoon.png`, ink, 1024 × 768"), ("raccoon-4", "the same, 256 × 192"),
+         ("ascent", "`ascent.png`, ink, 512²"),
+         ("night-europe", "`night-europe.png`, ink, 342 × 182"), ("gauss", "Gaussian, 256²"),
+         ("gausses", "five Gaussians"), ("peak", "peak of 1000 over ones, smooth"),
+         *((f"disc{ratio}", f"disc, {ratio} times as dense") for ratio in (10, 100, 1000)),
+         *((f"disc100-{side}", f"disc of 100, {side}²") for side in (64, 512, 1024)),
+         *((f"square{ratio}", f"square, {ratio} times as dense") for ratio in (10, 100, 1000)),
+         *((f"checker{ratio}", f"8 × 8 squares, 1 and {ratio}") for ratio in (3, 10)),
+         ("disc01", "disc, 0 outside"), ("star01", "star, 0 outside"),
+         ("clumps", "150 lognormal clumps"), ("noise", "white noise"), ("noise3", "its cube"),
+         ("noiselog", "lognormal noise"), ("ball10-3d", "ball, 10 times as dense, 64³"),
+         ("ball100-3d", "100 times"), ("clumps-3d", "150 clumps, 64³"),
+         ("brain", "`brain-t1.vti`, 5 % of the mean added"))
+
+
+def steps(r):
+    rows = []
+    for density, text in STEPS:
+        row = [text]
+        for way in ("backward", "forward"):
+            name = f"Steps/{way}/{density}"
+            if name not in r.runs:
+                row += [""] * 4
+                continue
+            taken = r.median(name, "steps")
+            row += [f"{taken:.0f}" if taken else "Adaptive"]
+            for kind in ("", "few_", "paper_"):
+                row += ["" if f"{kind}error" not in r.runs[name][0] else
+                        f"{r.median(name, f'{kind}error'):.2g}, "
+                        f"{r.median(name, f'{kind}folded'):.0f}"]
+        rows.append(row)
+    print_table(["density", "backward: steps", "error, folded", "32 steps", "paper",
+                 "forward: steps", "error, folded", "32 steps", "paper"], rows)
+
+
 def morphs(r):
     jobs(r, [job for job in JOBS if job[1].startswith(("Morph", "Barycenters"))])
     splats(r)
@@ -339,6 +374,7 @@ OPTIONS = {"quality": ("how good the particles are", "Quality", quality),
            "morphs": ("morphs, barycenters and splats", "Morph|Barycenters|Splat3D", morphs),
            "parameterization": ("maps of disks", "Parameterization", parameterization),
            "relaxation": ("blue noise", "Relaxation", relaxation),
+           "steps": ("how exactly areas are kept", "Steps", steps),
            "tiles": ("large grids: 7 GB of memory, 8 minutes a repetition", "Tiles", tiles)}
 
 
@@ -372,7 +408,7 @@ def main():
         return show(Results(run(arguments, names)))
     # A process that has ever kept freed memory reuses it: those benchmarks run on their own.
     results = Results(run(
-        arguments, "-_reused|Lattice|Tiles|Quality|_fresh|Parameterization|Relaxation"))
+        arguments, "-_reused|Lattice|Tiles|Quality|_fresh|Parameterization|Relaxation|Areas|Steps"))
     results.add(run(arguments, "_reused"))
 
     print_text("Whole updates of filters with a new density, on one thread of an "

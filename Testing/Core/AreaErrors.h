@@ -20,14 +20,46 @@ namespace RectifiedTransport
 constexpr std::int64_t AreaBlock = 4; // cells along each axis
 constexpr double LeastOfMean = 0.05;  // of the cells of a block that counts
 
-// Of blocks all of whose cells are dense enough: |area - mass| / mass.
+// Of each block of cells, axis 0 fastest.
+struct BlockAreas
+{
+  std::vector<double> Area; // of its image
+  std::vector<double> Mass; // in cells of the mean density
+  std::vector<bool> Counts; // all its cells are dense enough
+  std::int64_t Folded = 0;  // cells with mass whose images have no positive area
+
+  // The relative errors of the blocks that count, ascending.
+  std::vector<double> Errors(const std::vector<double>& exact) const
+  {
+    std::vector<double> errors;
+    for (std::size_t block = 0; block < this->Area.size(); ++block)
+    {
+      if (this->Counts[block])
+      {
+        errors.push_back(std::abs(this->Area[block] - exact[block]) / this->Mass[block]);
+      }
+    }
+    std::sort(errors.begin(), errors.end());
+    return errors;
+  }
+};
+
+// What a part of ascending errors keeps; 0 without errors.
+inline double quantileOf(const std::vector<double>& errors, double part)
+{
+  return errors.empty() ? 0.0
+                        : errors[std::min(errors.size() - 1,
+                            static_cast<std::size_t>(part * static_cast<double>(errors.size())))];
+}
+
+// Of areas against masses.
 struct AreaErrors
 {
   double Quantile999 = 0.0;
   double Quantile99 = 0.0;
   double Mean = 0.0;
   std::int64_t Blocks = 0;
-  std::int64_t Folded = 0; // cells with mass whose images have no positive area
+  std::int64_t Folded = 0;
 };
 
 // Corners of all cells, axis 0 fastest, `parts` of them along each side of a cell.
@@ -53,7 +85,7 @@ std::vector<Point<Dimension>> cornerLattice(const GridSize<Dimension>& size, std
 
 // `images` are those of a cornerLattice of the density.
 template <int Dimension>
-AreaErrors measureAreas(const TestDensity<Dimension>& density,
+BlockAreas blockAreas(const TestDensity<Dimension>& density,
   const std::vector<Point<Dimension>>& images, std::int64_t parts = 1)
 {
   GridSize<Dimension> points;
@@ -70,10 +102,9 @@ AreaErrors measureAreas(const TestDensity<Dimension>& density,
   {
     mean += value / static_cast<double>(density.Values.size());
   }
-  std::vector<double> areas(static_cast<std::size_t>(cellCount<Dimension>(blocks)));
-  std::vector<double> masses(areas.size());
-  std::vector<bool> counts(areas.size(), true);
-  AreaErrors errors;
+  const auto count = static_cast<std::size_t>(cellCount<Dimension>(blocks));
+  BlockAreas found{ std::vector<double>(count), std::vector<double>(count),
+    std::vector<bool>(count, true), 0 };
   for (std::size_t cell = 0; cell < density.Values.size(); ++cell)
   {
     const GridSize<Dimension> at = cellAt<Dimension>(static_cast<std::int64_t>(cell), density.Size);
@@ -96,7 +127,7 @@ AreaErrors measureAreas(const TestDensity<Dimension>& density,
       area += measure;
       isFolded = isFolded || !(measure > 0.0);
     }
-    errors.Folded += isFolded && density.Values[cell] > 0.0 ? 1 : 0;
+    found.Folded += isFolded && density.Values[cell] > 0.0 ? 1 : 0;
     GridSize<Dimension> block;
     bool isInside = true;
     for (int axis = 0; axis < Dimension; ++axis)
@@ -106,34 +137,31 @@ AreaErrors measureAreas(const TestDensity<Dimension>& density,
     }
     if (isInside)
     {
-      const std::int64_t number = cellIndex<Dimension>(block, blocks);
-      areas[number] += area;
-      masses[number] += density.Values[cell] / mean;
-      counts[number] = counts[number] && density.Values[cell] > LeastOfMean * mean;
+      const auto number = static_cast<std::size_t>(cellIndex<Dimension>(block, blocks));
+      found.Area[number] += area;
+      found.Mass[number] += density.Values[cell] / mean;
+      found.Counts[number] = found.Counts[number] && density.Values[cell] > LeastOfMean * mean;
     }
   }
-  std::vector<double> found;
-  for (std::size_t block = 0; block < areas.size(); ++block)
+  return found;
+}
+
+template <int Dimension>
+AreaErrors measureAreas(const TestDensity<Dimension>& density,
+  const std::vector<Point<Dimension>>& images, std::int64_t parts = 1)
+{
+  const BlockAreas blocks = blockAreas<Dimension>(density, images, parts);
+  const std::vector<double> errors = blocks.Errors(blocks.Mass);
+  AreaErrors found;
+  found.Blocks = static_cast<std::int64_t>(errors.size());
+  found.Folded = blocks.Folded;
+  found.Quantile999 = quantileOf(errors, 0.999);
+  found.Quantile99 = quantileOf(errors, 0.99);
+  for (const double error : errors)
   {
-    if (counts[block])
-    {
-      found.push_back(std::abs(areas[block] - masses[block]) / masses[block]);
-      errors.Mean += found.back();
-    }
+    found.Mean += error / static_cast<double>(errors.size());
   }
-  errors.Blocks = static_cast<std::int64_t>(found.size());
-  if (!found.empty())
-  {
-    std::sort(found.begin(), found.end());
-    const auto quantile = [&found](double part) {
-      return found[std::min(
-        found.size() - 1, static_cast<std::size_t>(part * static_cast<double>(found.size())))];
-    };
-    errors.Quantile999 = quantile(0.999);
-    errors.Quantile99 = quantile(0.99);
-    errors.Mean /= static_cast<double>(found.size());
-  }
-  return errors;
+  return found;
 }
 
 } // namespace RectifiedTransport
