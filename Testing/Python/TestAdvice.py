@@ -3,8 +3,9 @@
 put first. The filter then has a result."""
 import unittest
 
+import numpy as np
 from rt_filters import of_kind
-from rt_testing import Listener, load_plugin, main, output_of, producer, size_of
+from rt_testing import Listener, density_image, load_plugin, main, output_of, producer, size_of
 
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (VTK_QUADRATIC_TRIANGLE, vtkCellArray, vtkImageData,
@@ -175,6 +176,34 @@ class FollowingAdvice(unittest.TestCase):
                     reported = Listener(made.GetClientSideObject())
                     self.assertGreater(size_of(output_of(made)), 0, reported.errors)
                     self.assertEqual(reported.errors, [])
+
+
+    def test_steps(self):
+        """A density of one high cell, which Euler does not resolve, nor Multistep in tiles."""
+        image = density_image((128, 128), values=np.ones(128 ** 2))
+        image.GetCellData().GetScalars().SetValue(64 * 128 + 42, 1e5)
+        source = producer(simple, image)
+        flat = simple.Calculator(Input=source, AttributeType="Cell Data", Function="Density + 100",
+                                 ResultArrayName="Density")
+        for settings, words, cure in (({"Integrator": "Euler"}, "(Integrator Multistep needs fewer)",
+                                       {"Integrator": "Multistep"}),
+                                      ({"Tables": "Tiled"}, "a part of the mean added with Calculator",
+                                       {"Input": flat})):
+            with self.subTest(**settings):
+                made = simple.TransportMap(Input=source, DensityArray=["CELLS", "Density"],
+                                           Direction="DensityToUniform", **settings)
+                reported = Listener(made.GetClientSideObject())
+                steps = output_of(made).GetFieldData().GetArray("StepsTaken").GetValue(0)
+                warned = [line for line in reported.warnings if "AreaTolerance" in line]
+                self.assertEqual((steps, len(warned)), (4096, 1), reported.warnings)
+                self.assertIn("AreaTolerance 0.02 is not reached: with 4096 steps", warned[0])
+                self.assertIn(words, warned[0])
+                for name, value in cure.items():
+                    setattr(made, name, value)
+                reported = Listener(made.GetClientSideObject())
+                found = output_of(made).GetFieldData().GetArray("AreaErrorEstimate").GetValue(0)
+                self.assertLessEqual(found, 0.02)
+                self.assertEqual([line for line in reported.warnings if "AreaTolerance" in line], [])
 
 
 if __name__ == "__main__":

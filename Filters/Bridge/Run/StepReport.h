@@ -41,7 +41,9 @@ inline std::string stepWarning(
        << flow.NumberOfSteps << " steps, the most that NumberOfSteps 0 takes, "
        << (direction == FlowDirection::Backward ? "areas" : "masses")
        << " of blocks of 4 cells a side are off by about " << 100.0 * flow.AreaError
-       << " % (a density without single peaks this high, for example smoothed, allows less)";
+       << (options.Integrator == Integrator::Multistep
+              ? " % (less contrast helps, for example a part of the mean added with Calculator)"
+              : " % (Integrator Multistep needs fewer)");
   return text.str();
 }
 

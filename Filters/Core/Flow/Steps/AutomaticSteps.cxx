@@ -140,7 +140,7 @@ private:
         error = std::max(error, std::abs(change) / this->Probes.Volume());
       }
     }
-    return (this->IsBackward ? 2.0 : 1.5) * error;
+    return (this->IsBackward ? 2.0 : 1.75) * error;
   }
 
   // The mass that the sides of a block's image sweep over, outwards, on a straight way from one
@@ -209,23 +209,22 @@ private:
     FlowOptions options = this->Options;
     options.Integrator = Integrator::Adaptive;
     options.Tolerance = partOfTolerance * this->Options.AreaTolerance;
-    StepChoice found = choice;
-    found.Tolerance = options.Tolerance;
-    const Images coarse = this->Move(options);
-    double velocities = this->Velocities;
-    options.Tolerance *= finer;
-    const Images fine = this->Move(options);
-    found.AreaError = this->ErrorOf(coarse, fine);
-    if (found.AreaError > this->Options.AreaTolerance)
-    {
-      // The finer one has less than half of the error.
-      found.Tolerance = options.Tolerance;
-      found.AreaError *= 0.5;
-      velocities = this->Velocities;
-    }
+    Images coarse = this->Move(options);
     const double steps = choice.NumberOfSteps * static_cast<double>(coarse.size());
-    return found.AreaError <= this->Options.AreaTolerance && cost * velocities < steps ? found
-                                                                                       : choice;
+    while (cost * this->Velocities < steps)
+    {
+      StepChoice found = choice;
+      found.Tolerance = options.Tolerance;
+      options.Tolerance *= finer;
+      const Images fine = this->Move(options);
+      found.AreaError = this->ErrorOf(coarse, fine);
+      if (found.AreaError <= this->Options.AreaTolerance)
+      {
+        return found;
+      }
+      coarse = fine;
+    }
+    return choice;
   }
 
   FlowEngine<Dimension>& Engine;
