@@ -115,7 +115,8 @@ int vtkDensityEqualizingWarp::RequestData(
   if (turned > 0)
   {
     this->WarnOnFirstRank(describePart(turned, cells, "cells") +
-      " turned over; more NumberOfSteps turn most of them back, smaller cells do not (where there is no "
+      " turned over; more NumberOfSteps turn most of them back, smaller cells do not (where there "
+      "is no "
       "mass, add a small part of the mean to the density)");
   }
   this->WarnOfSteps(report.Flow, warp.Flow, FlowDirection::Backward);

@@ -140,7 +140,8 @@ int vtkTransportMap::RequestData(
   if (result.Folded > 0)
   {
     this->WarnOnFirstRank(describePart(result.Folded, samples, "samples") +
-      " are folded: JacobianDeterminant is 0 or negative there; more NumberOfSteps unfold most of them");
+      " are folded: JacobianDeterminant is 0 or negative there; more NumberOfSteps unfold them, "
+      "but not beside regions without mass, where the map tears");
   }
   return 1;
 }
