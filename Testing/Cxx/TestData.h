@@ -112,9 +112,15 @@ template <class Filter>
 void expectFlowErrors(ErrorTest& test, Filter* filter, int line)
 {
   const int steps = filter->GetNumberOfSteps();
-  filter->SetNumberOfSteps(0);
-  test.Expect("NumberOfSteps is 0; it must be from 1 to 10000", line);
+  filter->SetNumberOfSteps(-1);
+  test.Expect("NumberOfSteps is -1; it must be from 1 to 10000, or 0", line);
   filter->SetNumberOfSteps(steps);
+  for (const double tolerance : { 0.0, -0.02, 1.5, std::nan("") })
+  {
+    filter->SetAreaTolerance(tolerance);
+    test.Expect("; it must be above 0 and at most 1", line);
+  }
+  filter->SetAreaTolerance(0.02);
   filter->SetThreading(9);
   test.Expect("Threading is 9; it must be 0 (Auto)", line);
   filter->SetThreadingToAuto();

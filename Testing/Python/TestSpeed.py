@@ -17,7 +17,7 @@ import run as benchmarks  # noqa: E402
 LABELS = {"density": 2, "cells": 5, "triangles": 0}
 WRITTEN = {"part", "what", "`Threading`", "`NumberOfSteps`"}
 PRINTED = (benchmarks.ALL,
-           *(benchmarks.OPTIONS[name][2:] for name in ("tiles", "parameterization", "quality")))
+           *(benchmarks.OPTIONS[name][2:] for name in ("tiles", "parameterization", "quality", "steps")))
 
 
 class MadeUp(dict):

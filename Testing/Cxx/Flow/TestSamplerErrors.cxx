@@ -54,7 +54,7 @@ void checkProperties(Checks& checks)
   s->SetIntegrator(-1);
   test.Expect({ "Integrator is -1", "0 (Multistep)", "3 (Adaptive)" }, __LINE__);
   s->SetIntegrator(0);
-  for (const int steps : { 0, 10001, -7 })
+  for (const int steps : { -1, 10001, -7 })
   {
     s->SetNumberOfSteps(steps);
     test.Expect({ "NumberOfSteps is " + std::to_string(steps), "from 1 to 10000" }, __LINE__);

@@ -74,7 +74,7 @@ void checkOutput(Checks& checks)
     CHECK_NEAR(checks, sumOf(arrayValues(pointArray(particles, "Mass"))), areaOf(hill), 1e-10);
     CHECK(checks, fieldValue(particles, "Own") == 5.0);
     CHECK(checks, fieldValue(particles, "MovedParticles") == 0.0);
-    CHECK(checks, particles->GetFieldData()->GetNumberOfArrays() == 3);
+    CHECK(checks, particles->GetFieldData()->GetNumberOfArrays() == 5);
     expectOnCells(checks, hill, particles, __LINE__);
   }
   for (vtkIdType i = 0; i < 1000; ++i)
