@@ -95,14 +95,14 @@ void checkPaths(Sampler* sampler, Findings& findings)
   vtkPolyData* output = sampler->GetOutput();
   const vtkIdType points = output->GetNumberOfPoints();
   const vtkIdType paths = output->GetNumberOfCells();
-  findings.That(
-    points == paths * (sampler->GetNumberOfSteps() + 1), "a point for each time of each path");
+  const int asked = sampler->GetNumberOfSteps();
+  const int times = (asked > 0 ? asked : 32) + 1;
+  findings.That(points == paths * times, "a point for each time of each path");
   requireArray(output->GetPointData(), "SeedId", 1, points, findings);
   requireArray(output->GetPointData(), "Time", 1, points, findings);
   vtkDataArray* mass = requireArray(output->GetPointData(), "Mass", 1, points, findings);
-  findings.Near(sumOf(mass),
-    requireField(output, "TotalMass", findings) * (sampler->GetNumberOfSteps() + 1), 1e-9,
-    "mass of paths");
+  findings.Near(
+    sumOf(mass), requireField(output, "TotalMass", findings) * times, 1e-9, "mass of paths");
 }
 
 void checkSampler(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
@@ -170,6 +170,7 @@ using Map = vtkTransportMap;
 void drawMap(Settings& settings)
 {
   settings.Draw<Map, int>("Direction", &Map::SetDirection, { 0, 1 }, { -1, 2 });
+  settings.Draw<Map, vtkTypeBool>("EqualizeAreas", &Map::SetEqualizeAreas, { 0, 1 }, {}, 0.3);
   RandomSource& random = settings.GetRandom();
   if (random.Chance(0.3))
   {
@@ -251,6 +252,7 @@ using Warp = vtkDensityEqualizingWarp;
 void drawWarp(Settings& settings)
 {
   settings.Draw<Warp, double>("Blend", &Warp::SetBlend, { 0.0, 0.3, 1.0 }, { -0.1, 1.5, NaN });
+  settings.Draw<Warp, vtkTypeBool>("EqualizeAreas", &Warp::SetEqualizeAreas, { 0, 1 }, {}, 0.3);
   drawFlowSettings<vtkTransportAlgorithm>(settings);
   drawTables<Warp>(settings);
   drawDensitySettings(settings);

@@ -124,7 +124,7 @@ void checkQuality(Checks& checks)
   quality->SetDensityData(makeImage(5, 4, 1, true, [](vtkIdType i) { return i == 5 ? 0 : 1 + i; }));
   quality->SetInputData(makeParticles(all));
   const std::vector<double> expected = runQuality(quality);
-  CHECK(checks, expected.size() == 8 && expected[0] == 12 && expected[2] == 1 && expected[5] > 0);
+  CHECK(checks, expected.size() == 9 && expected[0] == 12 && expected[2] == 1 && expected[5] > 0);
 
   // On others, in the empty cell, outside, with figures that are none; before, between and after.
   std::vector<Particle> more = all;

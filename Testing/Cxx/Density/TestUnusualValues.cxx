@@ -17,6 +17,8 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
+
 namespace
 {
 
@@ -257,7 +259,10 @@ void checkOnce(Checks& checks)
   Messages ofMap(map);
   map->SetInputData(image);
   map->Update();
-  CHECK(checks, ofMap.Warnings.size() == 1);
+  const auto isOfValues = [](const std::string& text) {
+    return text.find("of the density array") != std::string::npos;
+  };
+  CHECK(checks, std::count_if(ofMap.Warnings.begin(), ofMap.Warnings.end(), isOfValues) == 1);
 
   auto morph = makeMorph(floats(bumpy), image);
   Messages ofMorph(morph);

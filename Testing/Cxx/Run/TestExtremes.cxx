@@ -28,6 +28,11 @@ std::string notFinite(vtkFieldData* data)
   for (int i = 0; data && i < data->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = data->GetArray(i);
+    const std::string name = array && array->GetName() ? array->GetName() : "";
+    if (name == "AreaErrorEstimate" || name == "LargestBlockError")
+    {
+      continue; // NaN says that there is nothing to measure
+    }
     for (vtkIdType v = 0; array && v < array->GetNumberOfValues(); ++v)
     {
       const int components = array->GetNumberOfComponents();
