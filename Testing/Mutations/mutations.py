@@ -222,7 +222,7 @@ OTHERS = [
     # the plugin's XML: a domain, a range in the text, a decorator, a hint, an enumeration
     X("Plugin/TransportSampler.xml", 'name="FlowTime" command="SetFlowTime" number_of_elements="1"\n'
       '        default_values="1">\n        <DoubleRangeDomain name="range" min="0" max="«1»"/>', "2"),
-    X("Plugin/TransportCommon.ent", "Range: 1 to «10000». Default: 32", "1000"),
+    X("Plugin/TransportCommon.ent", "Range: 0 to «10000». Default: 0", "1000"),
     X("Plugin/TransportSampler.xml", 'property="SeedPattern" «values="1 2"»/>', 'values="1 3"'),
     X("Plugin/TransportSampler.xml", '<RepresentationType view="RenderView" type="«Point Gaussian»"/>',
       "Points"),
