@@ -3,6 +3,7 @@
 
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Tables/BoxShare.h"
+#include "Core/Tables/NearestMass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,8 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t blockSide = 4; // cells, no more than a quarter of an axis
+constexpr std::int64_t enoughForContrast = 64; // blocks
+constexpr std::int64_t blockSide = 4;          // cells, no more than a quarter of an axis
 
 // The root of g^(d+1) = g + 1: multiples of the powers of 1/g fill the unit box evenly (the R_d
 // sequence of Roberts).
@@ -59,7 +61,7 @@ ProbeBlocks<Dimension>::ProbeBlocks(
       {
         return;
       }
-      if (block.Counts || !this->IsBackward)
+      if (block.Counts)
       {
         this->Found.push_back(block);
       }
@@ -125,7 +127,7 @@ bool ProbeBlocks<Dimension>::HaveLittleContrast() const
   std::vector<double> contrasts;
   for (const ProbeBlock<Dimension>& block : this->Found)
   {
-    if (block.HasMass)
+    if (block.Contrast > 0.0)
     {
       contrasts.push_back(block.Contrast);
     }
@@ -159,53 +161,63 @@ ProbeBlock<Dimension> ProbeBlocks<Dimension>::Examine(std::int64_t number)
     block.Low[axis] = std::floor((place - std::floor(place)) * choices);
     block.High[axis] = block.Low[axis] + static_cast<double>(this->Side[axis]);
   }
-  this->ExamineCells(block);
-  block.Contrast = this->ContrastAbout(block);
+  if (this->IsBackward)
+  {
+    this->ExamineCells(block);
+  }
+  else if (number <= enoughForContrast && this->HasMassIn(block))
+  {
+    block.Contrast = this->ContrastAbout(block);
+  }
   return block;
 }
 
-// Next to cells that do not count, corners have no certain image: backward an eighth of the block
-// is left out at each of its sides then.
+// Whether all cells of a block have mass.
+template <int Dimension>
+bool ProbeBlocks<Dimension>::HasMassIn(const ProbeBlock<Dimension>& block) const
+{
+  const TableView<Dimension>& tables = this->Engine.View();
+  bool hasMass = true;
+  this->ForCells(block.Low, block.High, [&](const Point<Dimension>& from, const Point<Dimension>&) {
+    Point<Dimension> centre = from;
+    for (double& coordinate : centre)
+    {
+      coordinate += 0.5;
+    }
+    hasMass = hasMass && RectifiedTransport::hasMass<Dimension>(tables, centre);
+  });
+  return hasMass;
+}
+
+// Next to cells that do not count, corners have no certain image: an eighth of the block is left
+// out at each of its sides then.
 template <int Dimension>
 void ProbeBlocks<Dimension>::ExamineCells(ProbeBlock<Dimension>& block)
 {
   GridSize<Dimension> low;
   GridSize<Dimension> high;
+  Point<Dimension> first;
+  Point<Dimension> end;
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    const auto first = static_cast<std::int64_t>(block.Low[axis]);
-    low[axis] = std::max<std::int64_t>(0, first - 1);
-    high[axis] = std::min(this->Size[axis], first + this->Side[axis] + 1);
+    first[axis] = std::max(0.0, block.Low[axis] - 1.0);
+    end[axis] = std::min(static_cast<double>(this->Size[axis]), block.High[axis] + 1.0);
+    low[axis] = static_cast<std::int64_t>(first[axis]);
+    high[axis] = static_cast<std::int64_t>(end[axis]);
   }
   this->Engine.PrepareShares(low, high);
   bool isSurrounded = true;
-  for (GridSize<Dimension> cell = low; cell[Dimension - 1] < high[Dimension - 1];)
-  {
-    Point<Dimension> from;
-    Point<Dimension> to;
+  this->ForCells(first, end, [&](const Point<Dimension>& from, const Point<Dimension>& to) {
     bool isInside = true;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      from[axis] = static_cast<double>(cell[axis]);
-      to[axis] = from[axis] + 1.0;
       isInside = isInside && from[axis] >= block.Low[axis] && to[axis] <= block.High[axis];
     }
-    constexpr double rounding = 1e-12; // of sums in the tables
-    const double density = this->Engine.Share(from, to) * this->Cells;
-    const bool counts = density > leastOfMean;
+    const bool counts = this->Engine.Share(from, to) * this->Cells > leastOfMean;
     isSurrounded = isSurrounded && counts;
     block.Counts = block.Counts && (counts || !isInside);
-    block.HasMass = block.HasMass && (density > rounding || !isInside);
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      if (++cell[axis] < high[axis] || axis + 1 == Dimension)
-      {
-        break;
-      }
-      cell[axis] = low[axis];
-    }
-  }
-  for (int axis = 0; axis < Dimension && this->IsBackward && !isSurrounded; ++axis)
+  });
+  for (int axis = 0; axis < Dimension && !isSurrounded; ++axis)
   {
     const double margin = (block.High[axis] - block.Low[axis]) / 8.0;
     block.Low[axis] += margin;

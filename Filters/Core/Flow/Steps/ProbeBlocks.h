@@ -24,9 +24,10 @@ struct ProbeBlock
   Point<Dimension> Low{};
   Point<Dimension> High{};
   double Mass = 0.0;
-  double Contrast = 1.0; // largest ratio of mean densities in a box about the block and in its half
-  bool Counts = true;    // all its cells do
-  bool HasMass = true;   // in all its cells
+  // The largest ratio of mean densities in a box about the block and in one of half the width; of
+  // the first blocks, forward, if all cells of the block have mass.
+  double Contrast = 0.0;
+  bool Counts = true; // all its cells do; backward only
 };
 
 template <int Dimension>
@@ -48,8 +49,34 @@ public:
   bool HaveLittleContrast() const;
 
 private:
+  // function(low, high) of each cell of a box of whole cells.
+  template <class Function>
+  void ForCells(
+    const Point<Dimension>& low, const Point<Dimension>& high, const Function& function) const
+  {
+    for (Point<Dimension> from = low; from[Dimension - 1] < high[Dimension - 1];)
+    {
+      Point<Dimension> to = from;
+      for (double& coordinate : to)
+      {
+        coordinate += 1.0;
+      }
+      function(from, to);
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        from[axis] += 1.0;
+        if (from[axis] < high[axis] || axis + 1 == Dimension)
+        {
+          break;
+        }
+        from[axis] = low[axis];
+      }
+    }
+  }
+
   std::int64_t WantedBlocks() const;
   ProbeBlock<Dimension> Examine(std::int64_t number);
+  bool HasMassIn(const ProbeBlock<Dimension>& block) const;
   void ExamineCells(ProbeBlock<Dimension>& block);
   double ContrastAbout(const ProbeBlock<Dimension>& block) const;
 
