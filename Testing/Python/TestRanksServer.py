@@ -18,7 +18,7 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, makes the window
 CLIENT = os.path.join(os.path.dirname(__file__), "ranks_server_client.py")
 SEVERAL = (2, 3)
 LIMIT = 100  # seconds for a client; it takes six on an idle machine
-WRONG_STEPS = ("0", "-5", "99999")
+WRONG_STEPS = ("-1", "-5", "99999")
 FILTERS = ("particles", "map", "warp")
 
 

@@ -14,4 +14,4 @@ image = simple.Wavelet(WholeExtent=[0, side - 1] * 3)
 image.UpdatePipeline()
 if maps != "none":
     simple.SampleDensity(Input=image, Tables="Tiled", NumberOfParticles=100, FlowMaps=maps,
-                         NegativeValues="Clamp", SampleArrays=0).UpdatePipeline()
+                         NegativeValues="Clamp", SampleArrays=0, NumberOfSteps=32).UpdatePipeline()

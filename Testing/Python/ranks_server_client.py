@@ -8,7 +8,7 @@ import sys
 from paraview import simple
 
 PORT, FOLDER = int(sys.argv[1]), sys.argv[2]
-WRONG_STEPS = ("0", "-5", "99999")  # each once, so that its messages can be told apart
+WRONG_STEPS = ("-1", "-5", "99999")  # each once, so that its messages can be told apart
 
 simple.Connect("localhost", PORT)
 for remote in (True, False):
