@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Equalize/MoveLimits.h"
 
+#include "Core/Tables/Density.h"
+
 #include <algorithm>
 
 namespace RectifiedTransport
@@ -26,8 +28,7 @@ enum CellState : unsigned char
 // The square of the error of a cell's area: relative, but for thin cells, and at most one.
 double errorOf(double mass, double area)
 {
-  constexpr double thin = 0.05;
-  const double error = (mass - area) / std::max(mass, thin);
+  const double error = (mass - area) / std::max(mass, leastOfMean);
   return mass > 0.0 ? std::min(error * error, 1.0) : 0.0;
 }
 

@@ -12,9 +12,6 @@ namespace RectifiedTransport
 
 class Ranks;
 
-// Blocks count whose density is more than this part of the mean.
-constexpr double leastOfMean = 0.05;
-
 // The largest values of all ranks, `count` of them, or all if there are fewer; in no order.
 // Collective.
 std::vector<double> largestOf(std::vector<double> own, std::int64_t count, const Ranks& ranks);

@@ -15,6 +15,10 @@
 namespace RectifiedTransport
 {
 
+// Cells of at most this part of the mean density are thin: errors of areas and masses leave them
+// out.
+constexpr double leastOfMean = 0.05;
+
 // The values of the grid cells, which are numbered with axis 0 fastest.
 class DensityValues
 {

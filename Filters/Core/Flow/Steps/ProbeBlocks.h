@@ -14,9 +14,6 @@
 namespace RectifiedTransport
 {
 
-// Cells of at most this part of the mean density do not count.
-constexpr double leastOfMean = 0.05;
-
 // The part of a block that is measured. Masses are in cells of the mean density.
 template <int Dimension>
 struct ProbeBlock
@@ -27,7 +24,7 @@ struct ProbeBlock
   // The largest ratio of mean densities in a box about the block and in one of half the width; of
   // the first blocks, forward, if all cells of the block have mass.
   double Contrast = 0.0;
-  bool Counts = true; // all its cells do; backward only
+  bool Counts = true; // no cell of it is thin; backward only
 };
 
 template <int Dimension>
@@ -43,7 +40,7 @@ public:
   double Volume() const { return this->Measure; }
   // In mean densities; of a graded table interpolated. A box that is not empty.
   double MeanIn(const Point<Dimension>& low, const Point<Dimension>& high) const;
-  // Whether the cells at the corners of an image, and halfway between them, count.
+  // Whether no cell at the corners of an image, or halfway between them, is thin.
   bool IsDense(const Point<Dimension>* corners) const;
   // Whether densities about blocks hardly differ from scale to scale, as in photographs.
   bool HaveLittleContrast() const;
