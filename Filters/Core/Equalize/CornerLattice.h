@@ -15,17 +15,6 @@
 namespace RectifiedTransport
 {
 
-template <int Dimension>
-double numberOfCorners(const GridSize<Dimension>& cells)
-{
-  double count = 1.0;
-  for (const std::int64_t side : cells)
-  {
-    count *= static_cast<double>(side) + 1.0;
-  }
-  return count;
-}
-
 // Numbers of rows of cells about a row of corners, [offset1 + 2 * offset2]; -1 if there is none.
 using RowsAbout = std::array<std::int64_t, 4>;
 

@@ -23,17 +23,6 @@ constexpr double secondFactor = 1.0 / (1.25 + 0.75 * 0.70710678118654752);
 constexpr std::int64_t coarsest = 8; // cells
 constexpr int coarsestSweeps = 8;
 
-template <int Dimension>
-std::int64_t cellsOf(const GridSize<Dimension>& size)
-{
-  std::int64_t count = 1;
-  for (const std::int64_t cells : size)
-  {
-    count *= cells;
-  }
-  return count;
-}
-
 // Cells between neighbours along the last axis, the farthest ones, all together.
 template <int Dimension>
 std::int64_t marginOf(const GridSize<Dimension>& size)
@@ -95,7 +84,7 @@ private:
 template <int Dimension>
 CellArray<Dimension>::CellArray(const GridSize<Dimension>& size)
   : Margin(marginOf<Dimension>(size))
-  , Values(cellsOf<Dimension>(size) + 2 * this->Margin)
+  , Values(static_cast<std::int64_t>(numberOfCells<Dimension>(size)) + 2 * this->Margin)
 {
   std::fill_n(this->Values.data(), this->Margin, 0.0F);
   std::fill_n(this->Values.data() + this->Values.size() - this->Margin, this->Margin, 0.0F);
@@ -104,7 +93,7 @@ CellArray<Dimension>::CellArray(const GridSize<Dimension>& size)
 template <int Dimension>
 FaceSystem<Dimension>::Level::Level(const GridSize<Dimension>& size)
   : Size(size)
-  , Cells(cellsOf<Dimension>(size))
+  , Cells(static_cast<std::int64_t>(numberOfCells<Dimension>(size)))
   , Inverse(size)
   , Right(size)
   , X(size)
@@ -152,7 +141,7 @@ double FaceSystem<Dimension>::Memory(const GridSize<Dimension>& size)
   for (GridSize<Dimension> level = size;; level = halfOf<Dimension>(level))
   {
     cells += (Dimension + 4.0) * numberOfCells<Dimension>(level);
-    if (cellsOf<Dimension>(level) <= coarsest)
+    if (numberOfCells<Dimension>(level) <= coarsest)
     {
       return cells * sizeof(float);
     }

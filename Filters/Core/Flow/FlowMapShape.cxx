@@ -65,17 +65,6 @@ constexpr double mostRest(FlowDirection direction)
   return direction == FlowDirection::Forward ? 0.4 : 0.3;
 }
 
-template <int Dimension>
-double numberOfNodes(const GridSize<Dimension>& cells)
-{
-  double nodes = 1.0;
-  for (const std::int64_t count : cells)
-  {
-    nodes *= static_cast<double>(count + 1);
-  }
-  return nodes;
-}
-
 // Everything in units of the geometric mean of the axes' sizes: the flow commutes with scalings of
 // axes, and so do the lattices. With S that mean and s = 1 - t at a hand-over, the box there is
 //   W = S s / (1 - s)
@@ -191,7 +180,7 @@ public:
       const double evaluations = i + 1 < levels.size()
         ? Fixed::Interpolation + this->FromCoarser(levels[i + 1].HandOver, here)
         : latticeSteps * (this->Steps - here);
-      levels[i].Cost = numberOfNodes<Dimension>(levels[i].Cells) * evaluations * Fixed::Node;
+      levels[i].Cost = numberOfCorners<Dimension>(levels[i].Cells) * evaluations * Fixed::Node;
     }
     return levels;
   }
@@ -311,7 +300,7 @@ FlowMapShape<Dimension>::FlowMapShape(const GridSize<Dimension>& size, int numbe
       double cost = 0.0;
       for (const Level& level : levels)
       {
-        nodes += numberOfNodes<Dimension>(level.Cells);
+        nodes += numberOfCorners<Dimension>(level.Cells);
         cost += level.Cost;
       }
       if (nodes > mostNodes * numberOfCells<Dimension>(size))
@@ -338,7 +327,7 @@ double FlowMapShape<Dimension>::MemorySize() const
   double bytes = 0.0;
   for (const Level& level : this->Levels)
   {
-    bytes += numberOfNodes<Dimension>(level.Cells) * record * sizeof(float) +
+    bytes += numberOfCorners<Dimension>(level.Cells) * record * sizeof(float) +
       numberOfCells<Dimension>(level.Cells);
   }
   return bytes;

@@ -38,6 +38,17 @@ double numberOfCells(const GridSize<Dimension>& size)
   return count;
 }
 
+// The corners of the cells: one more along each axis.
+template <int Dimension>
+double numberOfCorners(GridSize<Dimension> cells)
+{
+  for (std::int64_t& side : cells)
+  {
+    ++side;
+  }
+  return numberOfCells<Dimension>(cells);
+}
+
 // The sides of a cell of a lattice that fills the box [0, size].
 template <int Dimension>
 Point<Dimension> latticeStep(const GridSize<Dimension>& lattice, const GridSize<Dimension>& size)
