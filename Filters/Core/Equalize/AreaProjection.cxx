@@ -114,34 +114,10 @@ void AreaProjection<Dimension>::Project(
   this->Lattice.KeepOnSides(cornerRow, row.After);
 }
 
+// `active` null: all rows, and all cells of theirs.
 template <int Dimension>
-void AreaProjection<Dimension>::Sweep(Progress& progress)
-{
-  using Rows = typename CornerLattice<Dimension>::Rows;
-  this->Lattice.ForRows(
-    this->Lattice.CellRows(), progress, [&](std::int64_t first, std::int64_t last) {
-      Rows rows(this->Lattice, true);
-      std::vector<double> areas(static_cast<std::size_t>(this->Lattice.Cells()[0]));
-      for (std::int64_t row = first; row < last; ++row)
-      {
-        this->FindMultipliers(row, rows, areas);
-      }
-    });
-  this->Lattice.ForRows(
-    this->Lattice.CornerRows(), progress, [&](std::int64_t first, std::int64_t last) {
-      Rows rows(this->Lattice, true);
-      const std::vector<float> none(static_cast<std::size_t>(this->Lattice.Cells()[0]), 0.0F);
-      for (std::int64_t row = first; row < last; ++row)
-      {
-        this->Project(row, rows, none.data());
-      }
-    });
-  this->Lattice.TakeNextMoves();
-}
-
-template <int Dimension>
-void AreaProjection<Dimension>::Sweep(
-  const unsigned char* states, unsigned char bit, const ActiveRows& active, Progress& progress)
+void AreaProjection<Dimension>::SweepRows(
+  const ActiveRows* active, const unsigned char* states, unsigned char bit, Progress& progress)
 {
   using Rows = typename CornerLattice<Dimension>::Rows;
   const std::int64_t cells = this->Lattice.Cells()[0];
@@ -153,13 +129,13 @@ void AreaProjection<Dimension>::Sweep(
       for (std::int64_t row = first; row < last; ++row)
       {
         float* multipliers = this->Multipliers.data() + row * cells;
-        if (!active.OfCells[static_cast<std::size_t>(row)])
+        if (active && !active->OfCells[static_cast<std::size_t>(row)])
         {
           std::fill_n(multipliers, cells, 0.0F);
           continue;
         }
         this->FindMultipliers(row, rows, areas);
-        for (std::int64_t i = 0; i < cells; ++i)
+        for (std::int64_t i = 0; active && i < cells; ++i)
         {
           multipliers[i] = (states[row * cells + i] & bit) != 0 ? multipliers[i] : 0.0F;
         }
@@ -171,12 +147,26 @@ void AreaProjection<Dimension>::Sweep(
       const std::vector<float> none(static_cast<std::size_t>(cells), 0.0F);
       for (std::int64_t row = first; row < last; ++row)
       {
-        if (active.OfCorners[static_cast<std::size_t>(row)])
+        if (!active || active->OfCorners[static_cast<std::size_t>(row)])
         {
           this->Project(row, rows, none.data());
         }
       }
     });
+}
+
+template <int Dimension>
+void AreaProjection<Dimension>::Sweep(Progress& progress)
+{
+  this->SweepRows(nullptr, nullptr, 0, progress);
+  this->Lattice.TakeNextMoves();
+}
+
+template <int Dimension>
+void AreaProjection<Dimension>::Sweep(
+  const unsigned char* states, unsigned char bit, const ActiveRows& active, Progress& progress)
+{
+  this->SweepRows(&active, states, bit, progress);
   this->Lattice.ForRows(
     this->Lattice.CornerRows(), progress, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t row = first; row < last; ++row)

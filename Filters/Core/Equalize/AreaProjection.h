@@ -43,6 +43,9 @@ private:
   void Project(
     std::int64_t cornerRow, typename CornerLattice<Dimension>::Rows& rows, const float* none);
 
+  void SweepRows(
+    const ActiveRows* active, const unsigned char* states, unsigned char bit, Progress& progress);
+
   CornerLattice<Dimension>& Lattice;
   const EqualizeKernels<Dimension> Kernels;
   const float* Targets = nullptr;
