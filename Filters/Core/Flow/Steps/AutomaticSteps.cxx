@@ -52,6 +52,17 @@ public:
     , Probes(engine, direction, this->Work)
   {
     this->Options.Maps = FlowMaps::Off;
+    for (const ProbeBlock<Dimension>& block : this->Probes.Blocks())
+    {
+      for (int corner = 0; corner < Corners; ++corner)
+      {
+        Point<Dimension>& start = this->Starts.emplace_back();
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          start[axis] = (corner >> axis & 1) != 0 ? block.High[axis] : block.Low[axis];
+        }
+      }
+    }
   }
 
   StepChoice Choose()
@@ -86,26 +97,15 @@ private:
 
   Images Move(int steps)
   {
-    this->Options.NumberOfSteps = steps;
-    return this->Move(this->Options);
+    FlowOptions options = this->Options;
+    options.NumberOfSteps = steps;
+    return this->Move(options);
   }
 
   // Each rank moves a part. Collective.
   Images Move(const FlowOptions& options)
   {
-    Images corners;
-    for (const ProbeBlock<Dimension>& block : this->Probes.Blocks())
-    {
-      for (int corner = 0; corner < Corners; ++corner)
-      {
-        Point<Dimension> point;
-        for (int axis = 0; axis < Dimension; ++axis)
-        {
-          point[axis] = (corner >> axis & 1) != 0 ? block.High[axis] : block.Low[axis];
-        }
-        corners.push_back(point);
-      }
-    }
+    Images corners = this->Starts;
     const auto count = static_cast<std::int64_t>(corners.size());
     const Ranks& ranks = this->Work.Group();
     const RankShare share(count, ranks);
@@ -232,6 +232,7 @@ private:
   const bool IsBackward;
   Progress Work;
   const ProbeBlocks<Dimension> Probes;
+  Images Starts;
   double Velocities = 0.0; // of all corners, of the last move
 };
 
