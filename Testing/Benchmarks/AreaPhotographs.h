@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The densities of AreaSuite.h that are read from Testing/Data: photographs, as ink or as light,
-// and a brain.
+// Densities that are read from Testing/Data, photographs, as ink or as light, and a brain; and the
+// list of all densities on which areas and masses are measured.
 #ifndef RectifiedTransport_AreaPhotographs_h
 #define RectifiedTransport_AreaPhotographs_h
 
 #include "../Core/TestDensities.h"
+#include "AreaSuite.h"
 
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
@@ -14,8 +15,10 @@
 #include <vtkXMLImageDataReader.h>
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -77,6 +80,33 @@ inline TestDensity<3> brainDensity(double partOfMean)
   std::for_each(
     density.Values.begin(), density.Values.end(), [added](double& value) { value += added; });
   return density;
+}
+
+// add(name, function that makes the density), of each dimension.
+template <class Add>
+void forAreaDensities(const Add& add)
+{
+  const auto add2D = [&add](const std::string& name, std::function<TestDensity<2>()> make) {
+    add(name, std::move(make));
+  };
+  add2D("raccoon", []() { return photographDensity("raccoon"); });
+  add2D("raccoon-4", []() { return photographDensity("raccoon", true, 4); });
+  add2D("ascent", []() { return photographDensity("ascent"); });
+  add2D("night-europe", []() { return photographDensity("night-europe"); });
+  for (const std::string name :
+    { "gauss", "gausses", "peak", "disc01", "star01", "disc10", "disc100", "disc1000", "square10",
+      "square100", "square1000", "checker3", "checker10", "clumps", "noise", "noise3", "noiselog" })
+  {
+    add2D(name, [name]() { return areaDensity2D(name, { 256, 256 }); });
+  }
+  const auto add3D = [&add](const std::string& name, std::function<TestDensity<3>()> make) {
+    add(name, std::move(make));
+  };
+  for (const std::string name : { "ball10", "ball100", "clumps" })
+  {
+    add3D(name + "-3d", [name]() { return areaDensity3D(name, { 64, 64, 64 }); });
+  }
+  add3D("brain", []() { return brainDensity(0.05); });
 }
 
 } // namespace RectifiedTransport

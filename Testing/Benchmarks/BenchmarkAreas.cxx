@@ -8,7 +8,6 @@
 
 #include "../Core/AreaErrors.h"
 #include "AreaPhotographs.h"
-#include "AreaSuite.h"
 
 #include "Core/Equalize/AreaCorrection.h"
 
@@ -140,21 +139,7 @@ void add(const std::string& name, const std::function<TestDensity<Dimension>()>&
 }
 
 const bool isRegistered = []() {
-  add<2>("raccoon", []() { return photographDensity("raccoon"); });
-  add<2>("raccoon-4", []() { return photographDensity("raccoon", true, 4); });
-  add<2>("ascent", []() { return photographDensity("ascent"); });
-  add<2>("night-europe", []() { return photographDensity("night-europe"); });
-  for (const std::string name :
-    { "gauss", "gausses", "peak", "disc01", "star01", "disc10", "disc100", "disc1000", "square10",
-      "square100", "checker3", "checker10", "clumps", "noise", "noise3", "noiselog" })
-  {
-    add<2>(name, [name]() { return areaDensity2D(name, { 256, 256 }); });
-  }
-  for (const std::string name : { "ball10", "ball100", "clumps" })
-  {
-    add<3>(name + "-3d", [name]() { return areaDensity3D(name, { 64, 64, 64 }); });
-  }
-  add<3>("brain", []() { return brainDensity(0.05); });
+  forAreaDensities([](const std::string& name, const auto& make) { add(name, make); });
   return true;
 }();
 

@@ -184,27 +184,13 @@ void add(const std::string& name, const std::function<TestDensity<Dimension>()>&
 }
 
 const bool added = []() {
-  add<2>("raccoon", []() { return photographDensity("raccoon"); });
-  add<2>("raccoon-4", []() { return photographDensity("raccoon", true, 4); });
-  add<2>("ascent", []() { return photographDensity("ascent"); });
-  add<2>("night-europe", []() { return photographDensity("night-europe"); });
-  for (const std::string name :
-    { "gauss", "gausses", "peak", "disc01", "star01", "disc10", "disc100", "disc1000", "square10",
-      "square100", "square1000", "checker3", "checker10", "clumps", "noise", "noise3", "noiselog" })
-  {
-    add<2>(name, [name]() { return areaDensity2D(name, { 256, 256 }); });
-  }
+  forAreaDensities([](const std::string& name, const auto& make) { add(name, make); });
   for (const std::int64_t side : { 64, 512, 1024 })
   {
     add<2>("disc100-" + std::to_string(side), [side]() {
       return areaDensity2D("disc100", { side, side });
     });
   }
-  for (const std::string name : { "ball10", "ball100", "clumps" })
-  {
-    add<3>(name + "-3d", [name]() { return areaDensity3D(name, { 64, 64, 64 }); });
-  }
-  add<3>("brain", []() { return brainDensity(0.05); });
   return true;
 }();
 
