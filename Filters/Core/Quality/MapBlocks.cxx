@@ -4,8 +4,10 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Reduction.h"
+#include "Core/Quality/BlockImages.h"
 #include "Core/Quality/BoundaryIntegrals.h"
 #include "Core/Quality/DensityRows.h"
+#include "Core/Quality/ItemsByLayer.h"
 #include "Core/Tables/CoveredCells.h"
 
 #include <algorithm>
@@ -32,6 +34,7 @@ public:
   BlocksRun(const MapSamples<Dimension>& map, const DensitySource<Dimension>& density, double total,
     Progress& progress, double end)
     : Map(map)
+    , Images(map)
     , Work(progress)
     , Start(progress.StageEnd())
     , End(end)
@@ -56,8 +59,20 @@ public:
     const LatticePart<Dimension> cells = this->CellsAround();
     if constexpr (Dimension < 3)
     {
-      this->InLayers(cells, this->Start, this->End,
-        [&]() { this->AddThrough(MassIntegral<Dimension>(this->Rows)); });
+      std::vector<ItemsByLayer> faces;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        faces.push_back(this->FacesByLayer(axis, cells));
+      }
+      this->InLayers(cells, this->Start, this->End, [&](const LayerSpan& batch) {
+        const MassIntegral<Dimension> mass(this->Rows);
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          const std::vector<std::int64_t>& found = faces[static_cast<std::size_t>(axis)].In(batch);
+          this->AddThrough(mass, axis, static_cast<std::int64_t>(found.size()),
+            [&found](std::int64_t i) { return found[static_cast<std::size_t>(i)]; });
+        }
+      });
       return largestErrors(this->Errors([&](std::int64_t block) {
         return this->MassError(this->Inside(this->Blocks.CellOf(block)));
       }),
@@ -76,9 +91,10 @@ public:
     std::vector<double> least(count, std::numeric_limits<double>::infinity());
     constexpr double partOfMasses = 0.7;
     const double middle = this->Start + partOfMasses * (this->End - this->Start);
-    this->InLayers(this->CellsOf(this->Blocks), this->Start, middle, [&]() {
-      this->Work.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
+    this->InLayers(this->CellsOf(this->Blocks), this->Start, middle, [&](const LayerSpan& batch) {
+      const auto [begin, end] = this->BlocksIn(batch);
+      this->Work.For(end - begin, grain, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = begin + first; i < begin + last; ++i)
         {
           const auto at = static_cast<std::size_t>(i);
           this->AddMass(this->Blocks.CellOf(i), masses[at], least[at]);
@@ -86,7 +102,11 @@ public:
       });
     });
     this->Work.BeginStage(this->End);
-    this->AddThrough(MeasureIntegral());
+    for (int axis = 0; axis<Dimension&& this->Count> 0; ++axis)
+    {
+      this->AddThrough(
+        MeasureIntegral(), axis, this->Faces[axis].Count(), [](std::int64_t i) { return i; });
+    }
     const double cells = numberOfCells<Dimension>(this->Size);
     const double mean = this->Rows.TotalMass() / cells;
     std::vector<double> errors = this->Errors([&](std::int64_t block) {
@@ -104,81 +124,74 @@ public:
   }
 
 private:
-  const double* At(const GridSize<Dimension>& sample) const
+  // Over faces across an axis, whose numbers are numberOf(0 ... count - 1).
+  template <class Integral, class NumberOf>
+  void AddThrough(const Integral& integral, int axis, std::int64_t count, const NumberOf& numberOf)
   {
-    return this->Map.Positions[this->Map.Within.NumberOf(sample)];
-  }
-
-  // The integral over a face of blocks across an axis, in the direction of the axis.
-  template <class Integral>
-  double Across(int axis, const GridSize<Dimension>& face, const Integral& integral) const
-  {
-    constexpr std::int64_t size = MapBlocks<Dimension>::Size;
-    GridSize<Dimension> sample;
-    for (int a = 0; a < Dimension; ++a)
-    {
-      sample[a] = size * face[a];
-    }
-    const double* first = this->At(sample);
-    const auto strideOf = [this](int a) {
-      std::int64_t stride = Dimension;
-      for (int b = 0; b < a; ++b)
-      {
-        stride *= this->Map.Within.Cells[b];
-      }
-      return stride;
-    };
-    if constexpr (Dimension == 1)
-    {
-      return integral.Point(first);
-    }
-    else if constexpr (Dimension == 2)
-    {
-      // Anticlockwise: up on the right, to the left at the top.
-      const std::int64_t stride = strideOf(1 - axis);
-      double sum = 0.0;
-      for (std::int64_t i = 0; i < size; ++i)
-      {
-        sum += integral.Edge(first + i * stride, first + (i + 1) * stride);
-      }
-      return axis == 0 ? sum : -sum;
-    }
-    else
-    {
-      const std::int64_t alongU = strideOf((axis + 1) % Dimension);
-      const std::int64_t alongV = strideOf((axis + 2) % Dimension);
-      double sum = 0.0;
-      for (std::int64_t j = 0; j < size; ++j)
-      {
-        for (std::int64_t i = 0; i < size; ++i)
+    const LatticePart<Dimension>& faces = this->Faces[axis];
+    this->Work.For(
+      count, grain,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
         {
-          const double* low = first + i * alongU + j * alongV;
-          const double* across = low + alongU + alongV;
-          sum += integral.Triangle({ low, low + alongU, across }) +
-            integral.Triangle({ low, across, low + alongV });
+          const std::int64_t face = numberOf(i);
+          this->Through[axis][static_cast<std::size_t>(face)] +=
+            this->Images.Across(axis, faces.CellOf(face), integral);
         }
-      }
-      return sum;
-    }
+      },
+      64 * grain);
   }
 
-  template <class Integral>
-  void AddThrough(const Integral& integral)
+  // `samplesOf` gives the samples of an item. In one batch all lie in all layers, and in 1D mass
+  // below a layer counts, too.
+  template <class SamplesOf>
+  ItemsByLayer ByLayer(
+    std::int64_t count, const LatticePart<Dimension>& cells, const SamplesOf& samplesOf)
   {
-    for (int axis = 0; axis<Dimension&& this->Count> 0; ++axis)
+    std::vector<LayerSpan> spans(
+      static_cast<std::size_t>(count), { cells.Low[Last], cells.End(Last) });
+    const std::int64_t each = this->Rows.LayersAtOnce();
+    if (Dimension > 1 && !cells.IsEmpty() && cells.Low[Last] / each != (cells.End(Last) - 1) / each)
     {
-      const LatticePart<Dimension>& faces = this->Faces[axis];
-      this->Work.For(
-        faces.Count(), grain,
-        [&](std::int64_t first, std::int64_t last) {
-          for (std::int64_t i = first; i < last; ++i)
-          {
-            this->Through[axis][static_cast<std::size_t>(i)] +=
-              this->Across(axis, faces.CellOf(i), integral);
-          }
-        },
-        64 * grain);
+      this->Work.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          spans[static_cast<std::size_t>(i)] =
+            this->Images.LayersOf(samplesOf(i), this->Size[Last]);
+        }
+      });
     }
+    return ItemsByLayer(std::move(spans));
+  }
+
+  ItemsByLayer FacesByLayer(int axis, const LatticePart<Dimension>& cells)
+  {
+    const LatticePart<Dimension>& faces = this->Faces[axis];
+    return this->ByLayer(this->Count > 0 ? faces.Count() : 0, cells, [&, axis](std::int64_t i) {
+      LatticePart<Dimension> samples =
+        MapBlocks<Dimension>::SamplesOf({ faces.CellOf(i), oneBlock() });
+      samples.Cells[axis] = 1;
+      return samples;
+    });
+  }
+
+  // The blocks that cover cells of a batch of layers, the first and the end: they are numbered by
+  // layers of blocks.
+  std::array<std::int64_t, 2> BlocksIn(const LayerSpan& batch) const
+  {
+    const auto lies = [&](std::int64_t layer) { return this->Covered(Last, layer); };
+    std::int64_t low = this->Blocks.Low[Last];
+    std::int64_t high = this->Blocks.End(Last);
+    while (low < high && lies(low).End <= batch.First)
+    {
+      ++low;
+    }
+    while (low < high && lies(high - 1).First >= batch.End)
+    {
+      --high;
+    }
+    const std::int64_t inLayer = this->Count / std::max<std::int64_t>(1, this->Blocks.Cells[Last]);
+    return { (low - this->Blocks.Low[Last]) * inLayer, (high - this->Blocks.Low[Last]) * inLayer };
   }
 
   // Fast for all blocks, then exactly for those that seem to have the largest errors.
@@ -190,8 +203,7 @@ private:
     std::vector<double> masses(static_cast<std::size_t>(this->Count), 0.0);
     std::vector<std::int64_t> blocks(masses.size());
     std::iota(blocks.begin(), blocks.end(), std::int64_t{ 0 });
-    this->InLayers(cells, this->Start, middle,
-      [&]() { this->AddInside(blocks, TriangleRule::Centroid, masses); });
+    this->AddInLayers(cells, middle, blocks, TriangleRule::Centroid, masses);
     const auto errorOf = [&](std::int64_t block) {
       return this->MassError(masses[static_cast<std::size_t>(block)]);
     };
@@ -213,8 +225,7 @@ private:
         masses[static_cast<std::size_t>(block)] = 0.0;
       }
     }
-    this->InLayers(
-      cells, middle, this->End, [&]() { this->AddInside(blocks, TriangleRule::Exact, masses); });
+    this->AddInLayers(cells, this->End, blocks, TriangleRule::Exact, masses);
     std::fill(errors.begin(), errors.end(), 0.0);
     for (const std::int64_t block : blocks)
     {
@@ -223,7 +234,25 @@ private:
     return largestErrors(std::move(errors), ranks);
   }
 
-  // Adds the masses in the images of blocks, each with sums that begin in its middle.
+  // Adds the masses in the images of blocks. Progress reaches `end`.
+  void AddInLayers(const LatticePart<Dimension>& cells, double end,
+    const std::vector<std::int64_t>& blocks, TriangleRule rule, std::vector<double>& masses)
+  {
+    const double start = this->Work.StageEnd();
+    ItemsByLayer items =
+      this->ByLayer(static_cast<std::int64_t>(blocks.size()), cells, [&](std::int64_t i) {
+        const std::int64_t number = blocks[static_cast<std::size_t>(i)];
+        return MapBlocks<Dimension>::SamplesOf({ this->Blocks.CellOf(number), oneBlock() });
+      });
+    this->InLayers(cells, start, end, [&](const LayerSpan& batch) {
+      std::vector<std::int64_t> found = items.In(batch);
+      std::transform(found.begin(), found.end(), found.begin(),
+        [&](std::int64_t i) { return blocks[static_cast<std::size_t>(i)]; });
+      this->AddInside(found, rule, masses);
+    });
+  }
+
+  // In the rows that are held, each with sums that begin in the block's middle.
   void AddInside(
     const std::vector<std::int64_t>& blocks, TriangleRule rule, std::vector<double>& masses)
   {
@@ -240,13 +269,13 @@ private:
           {
             sample = size * sample + size / 2;
           }
-          const MassIntegral<Dimension> mass(this->Rows, *this->At(middle), rule);
+          const MassIntegral<Dimension> mass(this->Rows, *this->Images.At(middle), rule);
           for (int axis = 0; axis < Dimension; ++axis)
           {
             GridSize<Dimension> above = block;
             ++above[axis];
             masses[static_cast<std::size_t>(number)] +=
-              this->Across(axis, above, mass) - this->Across(axis, block, mass);
+              this->Images.Across(axis, above, mass) - this->Images.Across(axis, block, mass);
           }
         }
       },
@@ -333,7 +362,7 @@ private:
         for (std::int64_t i = first; i < last; ++i)
         {
           Point<Dimension> x;
-          std::copy_n(this->At(samples.CellOf(i)), Dimension, x.begin());
+          std::copy_n(this->Images.At(samples.CellOf(i)), Dimension, x.begin());
           found = join(found, { x, x });
         }
         return found;
@@ -352,8 +381,8 @@ private:
     return cells;
   }
 
-  // Calls visit() with the rows of one after the other of the layers of the grid that the cells are
-  // in. Where layers begin does not depend on the cells.
+  // Calls visit(batch) with the rows of one batch after the other of the layers of the grid that
+  // the cells are in. Where batches begin does not depend on the cells.
   template <class Visit>
   void InLayers(const LatticePart<Dimension>& cells, double start, double end, const Visit& visit)
   {
@@ -372,7 +401,7 @@ private:
       this->Rows.Read(layers, this->Work);
       if (!layers.IsEmpty())
       {
-        visit();
+        visit(LayerSpan{ layers.Low[Last], layers.End(Last) });
       }
     }
     this->Work.BeginStage(end);
@@ -429,6 +458,7 @@ private:
 
   static constexpr int Last = Dimension - 1;
   const MapSamples<Dimension>& Map;
+  const BlockImages<Dimension> Images;
   Progress& Work;
   const double Start;
   const double End;

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The images of a map's blocks: where they lie, and integrals over their faces.
+#ifndef RectifiedTransport_BlockImages_h
+#define RectifiedTransport_BlockImages_h
+
+#include "Core/Quality/ItemsByLayer.h"
+#include "Core/Quality/MapBlocks.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+class BlockImages
+{
+public:
+  explicit BlockImages(const MapSamples<Dimension>& map)
+    : Map(map)
+  {
+  }
+
+  const double* At(const GridSize<Dimension>& sample) const
+  {
+    return this->Map.Positions[this->Map.Within.NumberOf(sample)];
+  }
+
+  // The integral over a face of blocks across an axis, in the direction of the axis.
+  template <class Integral>
+  double Across(int axis, const GridSize<Dimension>& face, const Integral& integral) const
+  {
+    constexpr std::int64_t size = MapBlocks<Dimension>::Size;
+    GridSize<Dimension> sample;
+    for (int a = 0; a < Dimension; ++a)
+    {
+      sample[a] = size * face[a];
+    }
+    const double* first = this->At(sample);
+    const auto strideOf = [this](int a) {
+      std::int64_t stride = Dimension;
+      for (int b = 0; b < a; ++b)
+      {
+        stride *= this->Map.Within.Cells[b];
+      }
+      return stride;
+    };
+    if constexpr (Dimension == 1)
+    {
+      return integral.Point(first);
+    }
+    else if constexpr (Dimension == 2)
+    {
+      // Anticlockwise: up on the right, to the left at the top.
+      const std::int64_t stride = strideOf(1 - axis);
+      double sum = 0.0;
+      for (std::int64_t i = 0; i < size; ++i)
+      {
+        sum += integral.Edge(first + i * stride, first + (i + 1) * stride);
+      }
+      return axis == 0 ? sum : -sum;
+    }
+    else
+    {
+      const std::int64_t alongU = strideOf((axis + 1) % Dimension);
+      const std::int64_t alongV = strideOf((axis + 2) % Dimension);
+      double sum = 0.0;
+      for (std::int64_t j = 0; j < size; ++j)
+      {
+        for (std::int64_t i = 0; i < size; ++i)
+        {
+          const double* low = first + i * alongU + j * alongV;
+          const double* across = low + alongU + alongV;
+          sum += integral.Triangle({ low, low + alongU, across }) +
+            integral.Triangle({ low, across, low + alongV });
+        }
+      }
+      return sum;
+    }
+  }
+
+  // Which layers of a grid, `size` in all, the images of samples lie in.
+  LayerSpan LayersOf(const LatticePart<Dimension>& samples, std::int64_t size) const
+  {
+    double low = std::numeric_limits<double>::infinity();
+    double high = 0.0;
+    const std::int64_t count = samples.Count();
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      const double place = this->At(samples.CellOf(i))[Dimension - 1];
+      low = std::min(low, place);
+      high = std::max(high, place);
+    }
+    const std::int64_t end = size - 1;
+    return { std::min(static_cast<std::int64_t>(low), end),
+      std::min(static_cast<std::int64_t>(high), end) + 1 };
+  }
+
+private:
+  const MapSamples<Dimension>& Map;
+};
+
+} // namespace RectifiedTransport
+
+#endif
