@@ -47,6 +47,14 @@ TestDensity<2> spike()
   return density;
 }
 
+// Mass in a small part of the domain, which no block meets of those that are spread evenly.
+TestDensity<2> smallDisc(std::int64_t side, double outside)
+{
+  return sampleDensity<2>({ side, side }, [&](const Point<2>& p) {
+    return std::hypot(p[0] - 0.3, p[1] - 0.6) * static_cast<double>(side) < 7.0 ? 1.0 : outside;
+  });
+}
+
 template <int Dimension>
 void expectKept(const TestDensity<Dimension>& density, double tolerance)
 {
@@ -82,11 +90,32 @@ TEST(AutomaticSteps, KeepTheTolerance)
   expectKept<3>(denseBall<3>(24, 100.0), 0.02);
 }
 
+TEST(AutomaticSteps, SmallSupport)
+{
+  EXPECT_GT(choiceOf<2>(smallDisc(300, 0.0), FlowDirection::Backward).AreaError, 0.0);
+  expectKept<2>(smallDisc(300, 1e-6), 0.02);
+}
+
+// Within blocks, where their means are alike.
+TEST(AutomaticSteps, FineContrast)
+{
+  const auto lines = [](double between) {
+    TestDensity<2> density = uniformDensity<2>({ 128, 128 });
+    for (std::size_t i = 0; i < density.Values.size(); ++i)
+    {
+      density.Values[i] = i % 128 % 3 == 0 ? 1.0 : between;
+    }
+    return choiceOf<2>(density, FlowDirection::Forward).NumberOfSteps;
+  };
+  EXPECT_EQ(lines(0.7), 32);
+  EXPECT_GT(lines(0.1), 32);
+}
+
 // Contrasts make steps, scales without contrast do not.
 TEST(AutomaticSteps, Contrast)
 {
   for (const TestDensity<2>& plain :
-    { uniformDensity<2>({ 200, 150 }), randomCells<2>({ 200, 150 }, 0.0) })
+    { uniformDensity<2>({ 200, 150 }), randomCells<2>({ 200, 150 }, 0.3) })
   {
     const StepChoice choice = choiceOf<2>(plain, FlowDirection::Forward);
     EXPECT_EQ(choice.NumberOfSteps, 32);
@@ -259,6 +288,7 @@ TEST(AutomaticSteps, SameOnRanksAndThreads)
 {
   expectSameOnRanks<2>(denseBall<2>(150, 100.0), manyTiles<2>());
   expectSameOnRanks<3>(denseBall<3>(56, 30.0), manyTiles<3>());
+  expectSameOnRanks<2>(smallDisc(300, 0.0), manyTiles<2>());
 }
 
 // Corners of a box that is stretched, turned and sheared have its volume; turned over, the

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace RectifiedTransport
@@ -52,6 +53,10 @@ public:
     , Probes(engine, direction, this->Work)
   {
     this->Options.Maps = FlowMaps::Off;
+    if (this->IsBackward)
+    {
+      this->ProbeMass();
+    }
     for (const ProbeBlock<Dimension>& block : this->Probes.Blocks())
     {
       for (int corner = 0; corner < Corners; ++corner)
@@ -79,6 +84,10 @@ public:
     {
       const Images fine = this->Move(2 * steps);
       const double error = this->ErrorOf(coarse, fine);
+      if (std::isnan(error))
+      {
+        return {};
+      }
       const Integrator integrator = this->Options.Integrator;
       choice.NumberOfSteps = stepsFor(error / this->Options.AreaTolerance, steps, integrator);
       choice.AreaError =
@@ -92,6 +101,29 @@ public:
   }
 
 private:
+  // Where few blocks count, mass is in a small part of the domain: the forward flow leads to it.
+  void ProbeMass()
+  {
+    const std::int64_t wanted = this->Probes.WantedBlocks();
+    if (2 * static_cast<std::int64_t>(this->Probes.Blocks().size()) >= wanted)
+    {
+      return;
+    }
+    Images places;
+    for (std::int64_t number = 1; number <= 2 * wanted; ++number)
+    {
+      places.push_back(evenPlace<Dimension>(number));
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        places.back()[axis] *= static_cast<double>(this->Probes.Grid()[axis]);
+      }
+    }
+    FlowOptions options = this->Options;
+    options.NumberOfSteps = FlowOptions::FewestSteps;
+    this->Move(AdvectionKind::Forward, options, places);
+    this->Probes.AddAbout(places, this->Work);
+  }
+
   static constexpr int Corners = 1 << Dimension;
   using Images = std::vector<Point<Dimension>>; // of the corners of all blocks
 
@@ -102,29 +134,34 @@ private:
     return this->Move(options);
   }
 
-  // Each rank moves a part. Collective.
   Images Move(const FlowOptions& options)
   {
     Images corners = this->Starts;
-    const auto count = static_cast<std::int64_t>(corners.size());
+    this->Move(
+      this->IsBackward ? AdvectionKind::Backward : AdvectionKind::Forward, options, corners);
+    return corners;
+  }
+
+  // Each rank moves a part. Collective.
+  void Move(AdvectionKind kind, const FlowOptions& options, Images& points)
+  {
+    const auto count = static_cast<std::int64_t>(points.size());
     const Ranks& ranks = this->Work.Group();
     const RankShare share(count, ranks);
-    const PointSpan<Dimension> own = PointSpan<Dimension>(corners).Part(share.First, share.Count);
-    const auto kind = this->IsBackward ? AdvectionKind::Backward : AdvectionKind::Forward;
+    const PointSpan<Dimension> own = PointSpan<Dimension>(points).Part(share.First, share.Count);
     this->Work.BeginStage(0.5 * (1.0 + this->Work.StageEnd())); // how many follow is not known
     const FlowReport report =
       this->Engine.Advect(kind, ConstPointSpan<Dimension>(own), own, options, this->Work.Stage());
     this->Velocities = static_cast<double>(sumOverRanks(ranks, report.Evaluations));
-    gatherParts(ranks, shareStarts(count, Dimension, ranks), corners.front().data());
-    return corners;
+    gatherParts(ranks, shareStarts(count, Dimension, ranks), points.front().data());
   }
 
   // The estimated error of 99.9 % of all blocks: the largest that is found, times a factor which
-  // was measured over many densities.
+  // was measured over many densities. NaN if no block counts.
   double ErrorOf(const Images& coarse, const Images& fine) const
   {
     const std::vector<ProbeBlock<Dimension>>& blocks = this->Probes.Blocks();
-    double error = 0.0;
+    double error = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t i = 0; i < blocks.size(); ++i)
     {
       const Point<Dimension>* before = &coarse[i * Corners];
@@ -132,12 +169,12 @@ private:
       if (this->IsBackward)
       {
         const double change = imageMeasure<Dimension>(after) - imageMeasure<Dimension>(before);
-        error = std::max(error, std::abs(change) / blocks[i].Mass);
+        error = std::fmax(error, std::abs(change) / blocks[i].Mass);
       }
       else if (this->Probes.IsDense(before) && this->Probes.IsDense(after))
       {
         const double change = this->MassBetween(before, after);
-        error = std::max(error, std::abs(change) / this->Probes.Volume());
+        error = std::fmax(error, std::abs(change) / this->Probes.Volume());
       }
     }
     return (this->IsBackward ? 2.0 : 1.75) * error;
@@ -231,7 +268,7 @@ private:
   FlowOptions Options;
   const bool IsBackward;
   Progress Work;
-  const ProbeBlocks<Dimension> Probes;
+  ProbeBlocks<Dimension> Probes;
   Images Starts;
   double Velocities = 0.0; // of all corners, of the last move
 };

@@ -5,7 +5,9 @@
 
 #include "Core/Flow/FlowEngine.h"
 #include "Core/Flow/FlowOptions.h"
+#include "Core/Geometry/LowDiscrepancy.h"
 #include "Core/Geometry/Points.h"
+#include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/Progress.h"
 
 #include <cstdint>
@@ -14,6 +16,20 @@
 namespace RectifiedTransport
 {
 
+// Place `number` of an even sequence in the unit box.
+template <int Dimension>
+Point<Dimension> evenPlace(std::int64_t number)
+{
+  constexpr std::uint64_t middle = std::uint64_t{ 1 } << 63;
+  Point<Dimension> place;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    place[axis] =
+      unitReal(middle + static_cast<std::uint64_t>(number) * lowDiscrepancyStep<Dimension>(axis));
+  }
+  return place;
+}
+
 // The part of a block that is measured. Masses are in cells of the mean density.
 template <int Dimension>
 struct ProbeBlock
@@ -21,9 +37,11 @@ struct ProbeBlock
   Point<Dimension> Low{};
   Point<Dimension> High{};
   double Mass = 0.0;
-  // The largest ratio of mean densities in a box about the block and in one of half the width; of
-  // the first blocks, forward, if all cells of the block have mass.
+  // Of the first blocks, forward, if all cells of the block have mass: the largest ratio of mean
+  // densities in a box about the block and in one of half the width, and that of the densest cell
+  // to the block.
   double Contrast = 0.0;
+  double FineContrast = 0.0;
   bool Counts = true; // no cell of it is thin; backward only
 };
 
@@ -33,6 +51,11 @@ class ProbeBlocks
 public:
   // Backward only blocks that count. Collective. Throws Cancelled.
   ProbeBlocks(FlowEngine<Dimension>& engine, FlowDirection direction, Progress& progress);
+
+  // How many blocks there shall be.
+  std::int64_t WantedBlocks() const;
+  // Backward: adds blocks about places that count, until there are as many as wanted. Collective.
+  void AddAbout(const std::vector<Point<Dimension>>& places, Progress& progress);
 
   const std::vector<ProbeBlock<Dimension>>& Blocks() const { return this->Found; }
   const GridSize<Dimension>& Grid() const { return this->Size; }
@@ -71,10 +94,17 @@ private:
     }
   }
 
-  std::int64_t WantedBlocks() const;
-  ProbeBlock<Dimension> Examine(std::int64_t number);
+  // Blocks of numbers [1, count], each rank every so many-th, until as many count as are wanted.
+  template <class MakeBlock>
+  void Draw(std::int64_t count, const MakeBlock& makeBlock, Progress& progress);
+  ProbeBlock<Dimension> BlockOf(std::int64_t number) const;
+  ProbeBlock<Dimension> BlockAt(const Point<Dimension>& low) const;
+  void Examine(std::int64_t number, bool isOfFirst, ProbeBlock<Dimension>& block);
   bool HasMassIn(const ProbeBlock<Dimension>& block) const;
   void ExamineCells(ProbeBlock<Dimension>& block);
+  void PrepareShares(const Point<Dimension>& low, const Point<Dimension>& high) const;
+  bool NearlyAllAreBelow(double most, double ProbeBlock<Dimension>::*contrast) const;
+  double FineContrastOf(const ProbeBlock<Dimension>& block) const;
   double ContrastAbout(const ProbeBlock<Dimension>& block) const;
 
   FlowEngine<Dimension>& Engine;
