@@ -1,0 +1,572 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Cartogram/Cartogram.h"
+
+#include "Bridge/Cartogram/PlaneFrame.h"
+#include "Bridge/Points/PointInput.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/PartText.h"
+#include "Core/Parallel/Progress.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdList.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <sstream>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Of the mean density: what a region without mass gets.
+constexpr double leastDensity = 1e-4;
+constexpr int graticuleLines = 16; // spaces between lines, along each axis
+constexpr std::int64_t graticulePoints = 512;
+
+std::string percent(double part)
+{
+  std::ostringstream text;
+  text.precision(part < 10.0 ? 2 : 3);
+  text << 100.0 * part << " %";
+  return text.str();
+}
+
+class CartogramJob
+{
+public:
+  CartogramJob(const CartogramWorker& worker, RegionCells cells, vtkPointSet* overlay,
+    KeptMap& kept, Progress& progress, const CartogramOutputs& outputs)
+    : Worker(worker)
+    , Cells(std::move(cells))
+    , Overlay(overlay)
+    , Kept(kept)
+    , Work(progress)
+    , Outputs(outputs)
+  {
+  }
+
+  std::vector<std::string> Run()
+  {
+    this->ReadPoints();
+    this->FindFrame();
+    this->MakeMap();
+    this->CheckMasses();
+    this->Box = boxAround(this->Map, this->Worker.Options);
+    this->WarnOfDegrees();
+    for (Point<2>& place : this->Map.Points())
+    {
+      place = this->Box.ToIndex(place);
+    }
+    this->AddFellows();
+    CartogramStart start = this->FindStart();
+    this->Work.BeginStage(0.98);
+    this->Result = runCartogram(this->Map, this->Cells.Masses, this->Box, this->Worker.Options,
+      this->Fellows, start, this->Work.Stage());
+    this->Kept.Start = start;
+    if (!this->Result.Crossing.empty())
+    {
+      fail("The outline of the region ", this->Cells.Names[Index(this->Result.Crossing.front())],
+        " crosses itself, so that its area is not clear; repair it, with QGIS's Fix geometries");
+    }
+    this->Warn();
+    this->WriteRegions();
+    this->WriteGraticule();
+    this->WriteOverlay();
+    return std::move(this->Warnings);
+  }
+
+private:
+  static std::size_t Index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+  void ReadPoints()
+  {
+    vtkPoints* points = this->Cells.Data->GetPoints();
+    this->Places.resize(Index(points->GetNumberOfPoints()));
+    visitPoints(this->Cells.Data, "input", this->Work, [this](std::int64_t i, const double* x) {
+      this->Places[Index(i)] = { x[0], x[1], x[2] };
+    });
+  }
+
+  template <class Visit>
+  void VisitCells(const Visit& visit) const
+  {
+    vtkPolyData* data = this->Cells.Data;
+    vtkNew<vtkIdList> ids;
+    vtkIdType cell = data->GetNumberOfVerts();
+    for (vtkCellArray* cells : { data->GetLines(), data->GetPolys() })
+    {
+      for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i, ++cell)
+      {
+        cells->GetCellAtId(i, ids);
+        // A line ends where it begins.
+        const vtkIdType count = ids->GetNumberOfIds() - (cells == data->GetLines() ? 1 : 0);
+        visit(cell, ids, count);
+      }
+    }
+  }
+
+  // The plane of all rings: across the sum of their area vectors, all turned one way.
+  void FindFrame()
+  {
+    Point<3> low{ HUGE_VAL, HUGE_VAL, HUGE_VAL };
+    Point<3> high{ -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+    Point<3> largest{ 0.0, 0.0, 0.0 };
+    Point<3> normal{ 0.0, 0.0, 0.0 };
+    this->VisitCells([&](vtkIdType, vtkIdList* ids, vtkIdType count) {
+      const Point<3>& origin = this->Places[Index(ids->GetId(0))];
+      Point<3> area{ 0.0, 0.0, 0.0 };
+      for (vtkIdType i = 0; i < count; ++i)
+      {
+        const Point<3>& place = this->Places[Index(ids->GetId(i))];
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          low[a] = std::min(low[a], place[a]);
+          high[a] = std::max(high[a], place[a]);
+        }
+        Point<3> from;
+        Point<3> to;
+        Point<3> cross;
+        vtkMath::Subtract(place.data(), origin.data(), from.data());
+        vtkMath::Subtract(
+          this->Places[Index(ids->GetId((i + 1) % count))].data(), origin.data(), to.data());
+        vtkMath::Cross(from.data(), to.data(), cross.data());
+        vtkMath::Add(area.data(), cross.data(), area.data());
+      }
+      if (vtkMath::Norm(area.data()) > vtkMath::Norm(largest.data()))
+      {
+        largest = area;
+      }
+      const double turn = vtkMath::Dot(area.data(), largest.data()) < 0.0 ? -1.0 : 1.0;
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        normal[a] += turn * area[a];
+      }
+    });
+    if (!(vtkMath::Norm(normal.data()) > 0.0))
+    {
+      fail("The regions have no area; they must be polygons or closed lines in a plane");
+    }
+    Point<3> centre;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      centre[a] = 0.5 * (low[a] + high[a]);
+    }
+    this->Frame.emplace(centre, normal);
+    constexpr double flat = 1e-4;
+    double farthest = 0.0;
+    for (const Point<3>& place : this->Places)
+    {
+      farthest = std::max(farthest, std::abs(this->Frame->Distance(place)));
+    }
+    const double extent = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+    if (farthest > flat * extent)
+    {
+      fail("The regions are not in a plane: points are up to ", farthest, " away from one, of ",
+        extent, " in all; project them first");
+    }
+  }
+
+  void MakeMap()
+  {
+    for (const Point<3>& place : this->Places)
+    {
+      this->Map.AddPoint(this->Frame->ToPlane(place));
+    }
+    this->VisitCells([&](vtkIdType cell, vtkIdList* ids, vtkIdType count) {
+      std::vector<std::int64_t> ring(ids->begin(), ids->begin() + count);
+      this->Map.AddRing(this->Cells.Regions[Index(cell)], ring);
+    });
+    this->Map.FindHoles();
+    this->Before = this->Map.Areas(static_cast<std::int32_t>(this->Cells.Masses.size()));
+    const double land = std::accumulate(this->Before.begin(), this->Before.end(), 0.0);
+    std::int64_t empty = 0;
+    std::string first;
+    for (std::size_t i = 0; i < this->Before.size(); ++i)
+    {
+      if (!(this->Before[i] > 1e-15 * land))
+      {
+        first = empty++ == 0 ? this->Cells.Names[i] : first;
+      }
+    }
+    if (empty > 0)
+    {
+      fail(describePart(empty, static_cast<std::int64_t>(this->Before.size()), "regions"),
+        " have no area (the first is the region ", first, "); remove them, with Threshold");
+    }
+  }
+
+  void CheckMasses()
+  {
+    std::vector<double>& masses = this->Cells.Masses;
+    const double land = std::accumulate(this->Before.begin(), this->Before.end(), 0.0);
+    const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
+    std::int64_t empty = 0;
+    std::string first;
+    for (std::size_t i = 0; i < masses.size(); ++i)
+    {
+      if (!(masses[i] > 0.0))
+      {
+        first = empty++ == 0 ? this->Cells.Names[i] : first;
+        masses[i] = leastDensity * total / land * this->Before[i];
+      }
+    }
+    if (empty > 0)
+    {
+      this->Warnings.push_back(
+        describePart(empty, static_cast<std::int64_t>(masses.size()), "regions") +
+        " have no mass (the first is the region " + first +
+        "); they get a ten-thousandth of the mean density, as no area can be shown");
+    }
+    const double share = this->Worker.LeastShare;
+    if (share > 0.0)
+    {
+      if (!(share * static_cast<double>(masses.size()) < 1.0))
+      {
+        fail("LeastShare is ", share, "; it must be below 1 / ", masses.size(),
+          ", the share of a region if all have the same");
+      }
+      this->Enlarged = raiseMasses(masses, share);
+      if (this->Enlarged > 0)
+      {
+        this->Warnings.push_back(
+          describePart(this->Enlarged, static_cast<std::int64_t>(masses.size()), "regions") +
+          " are enlarged to LeastShare");
+      }
+    }
+  }
+
+  void WarnOfDegrees()
+  {
+    constexpr double wide = 20.0;
+    const double side = this->Box.Cell * static_cast<double>(this->Box.Side) /
+      (1.0 + 2.0 * this->Worker.Options.Margin);
+    bool isOnEarth = true;
+    double farthest = 0.0;
+    for (const Point<3>& place : this->Places)
+    {
+      isOnEarth = isOnEarth && std::abs(place[0]) <= 180.001 && std::abs(place[1]) <= 90.001;
+      farthest = std::max(farthest, std::abs(place[1]));
+    }
+    if (isOnEarth && (side > wide || farthest > wide))
+    {
+      this->Warnings.push_back(
+        "The coordinates look like degrees of longitude and latitude, in which areas are wrong; "
+        "project the map to an equal-area projection first");
+    }
+  }
+
+  void AddFellows()
+  {
+    const auto toIndex = [this](const Point<3>& place) {
+      return this->Box.ToIndex(this->Frame->ToPlane(place));
+    };
+    const auto side = static_cast<double>(this->Box.Side);
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      for (int line = 0; line <= graticuleLines; ++line)
+      {
+        for (std::int64_t i = 0; i <= graticulePoints; ++i)
+        {
+          Point<2> place;
+          place[static_cast<std::size_t>(axis)] = side * line / graticuleLines;
+          place[static_cast<std::size_t>(1 - axis)] =
+            side * static_cast<double>(i) / static_cast<double>(graticulePoints);
+          this->Fellows.push_back(place);
+        }
+      }
+    }
+    if (this->Overlay)
+    {
+      this->OverlayPlaces.resize(Index(this->Overlay->GetNumberOfPoints()));
+      this->Fellows.resize(this->Fellows.size() + this->OverlayPlaces.size());
+      const std::size_t first = this->Fellows.size() - this->OverlayPlaces.size();
+      visitPoints(this->Overlay, "Overlay", this->Work, [&](std::int64_t i, const double* x) {
+        this->OverlayPlaces[Index(i)] = { x[0], x[1], x[2] };
+        this->Fellows[first + Index(i)] = toIndex(this->OverlayPlaces[Index(i)]);
+      });
+    }
+    this->FellowsBefore = this->Fellows;
+  }
+
+  CartogramStart FindStart()
+  {
+    DataContent content;
+    vtkPolyData* data = this->Cells.Data;
+    content.AddArray(data->GetPoints()->GetData());
+    for (vtkCellArray* cells : { data->GetLines(), data->GetPolys() })
+    {
+      content.AddArray(cells->GetConnectivityArray());
+      content.AddArray(cells->GetOffsetsArray());
+    }
+    for (const std::int32_t region : this->Cells.Regions)
+    {
+      content.AddNumber(static_cast<std::uint64_t>(region + 1));
+    }
+    content.AddNumber(static_cast<std::uint64_t>(this->Worker.Options.Resolution));
+    content.AddNumbers(&this->Worker.Options.Margin, 1);
+    this->Work.BeginStage(this->Work.StageEnd());
+    if (content.IsSameAs(this->Kept.Content, this->Work))
+    {
+      return this->Kept.Start;
+    }
+    content.Keep(this->Work);
+    this->Kept.Content = std::move(content);
+    return {};
+  }
+
+  void Warn()
+  {
+    const CartogramResult& result = this->Result;
+    const auto regions = static_cast<std::int64_t>(this->Cells.Masses.size());
+    constexpr double overlap = 1e-4;
+    if (result.Overlap > overlap)
+    {
+      this->Warnings.push_back("Regions overlap by " + percent(result.Overlap) +
+        " of their area (most at the region " + this->Cells.Names[Index(result.Overlapping)] +
+        "), which counts for each of them; their areas there are not what their masses ask");
+    }
+    if (result.Folded > 0)
+    {
+      this->Warnings.push_back("A pass would turn over " +
+        describePart(result.Folded, this->Map.Rings(), "outlines") +
+        " even with 4096 steps and is left out; raise Resolution or LeastShare");
+    }
+    std::int64_t missed = 0;
+    std::size_t worst = 0;
+    for (std::size_t i = 0; i < result.Errors.size(); ++i)
+    {
+      missed += std::abs(result.Errors[i]) > this->Worker.Options.Tolerance ? 1 : 0;
+      worst = std::abs(result.Errors[i]) > std::abs(result.Errors[worst]) ? i : worst;
+    }
+    if (missed == 0)
+    {
+      return;
+    }
+    std::ostringstream text;
+    text << describePart(missed, regions, "regions") << " miss Tolerance";
+    if (!result.OutOfReach.empty())
+    {
+      text << "; the raster cannot hold";
+      constexpr std::size_t most = 5;
+      for (std::size_t i = 0; i < std::min(most, result.OutOfReach.size()); ++i)
+      {
+        const std::size_t region = Index(result.OutOfReach[i]);
+        text << (i == 0 ? " " : ", ") << this->Cells.Names[region] << " (off by "
+             << percent(std::abs(result.Errors[region])) << ")";
+      }
+      text << (result.OutOfReach.size() > most ? ", ..." : "")
+           << ": raise Resolution, or enlarge small regions with LeastShare";
+    }
+    else
+    {
+      text << " (the region " << this->Cells.Names[worst] << " by "
+           << percent(std::abs(result.Errors[worst])) << "); raise MaximumIterations or Resolution";
+    }
+    this->Warnings.push_back(text.str());
+  }
+
+  // Between before and after.
+  Point<3> Blended(const Point<3>& before, const Point<2>& from, const Point<2>& to) const
+  {
+    const double distance = this->Frame->Distance(before);
+    const double blend = this->Worker.Blend;
+    return this->Frame->ToSpace(this->Box.ToPlace({ from[0] + blend * (to[0] - from[0]),
+                                  from[1] + blend * (to[1] - from[1]) }),
+      distance);
+  }
+
+  void WriteRegions()
+  {
+    vtkPolyData* input = this->Cells.Data;
+    vtkPolyData* output = this->Outputs.Regions;
+    const auto points = static_cast<vtkIdType>(this->Map.Points().size());
+    vtkNew<vtkPoints> moved;
+    moved->SetDataTypeToDouble();
+    moved->SetNumberOfPoints(points);
+    output->GetPointData()->InterpolateAllocate(input->GetPointData(), points);
+    std::vector<Point<3>> before = this->Places;
+    const auto old = static_cast<vtkIdType>(before.size());
+    for (vtkIdType i = 0; i < old; ++i)
+    {
+      output->GetPointData()->CopyData(input->GetPointData(), i, i);
+    }
+    for (std::size_t i = 0; i < this->Result.Added.size(); ++i)
+    {
+      const DividingPoint& added = this->Result.Added[i];
+      const Point<3>& a = before[Index(added.First)];
+      const Point<3>& b = before[Index(added.Second)];
+      Point<3> place;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        place[k] = a[k] + added.At * (b[k] - a[k]);
+      }
+      before.push_back(place);
+      output->GetPointData()->InterpolateEdge(output->GetPointData(),
+        old + static_cast<vtkIdType>(i), static_cast<vtkIdType>(added.First),
+        static_cast<vtkIdType>(added.Second), added.At);
+    }
+    for (vtkIdType i = 0; i < points; ++i)
+    {
+      const Point<3> place = this->Worker.Blend > 0.0
+        ? this->Blended(
+            before[Index(i)], this->Result.Before[Index(i)], this->Map.Points()[Index(i)])
+        : before[Index(i)];
+      moved->SetPoint(i, place.data());
+    }
+    output->SetPoints(moved);
+    this->WriteCells(output);
+    addFieldValues(output, "AreaErrors", this->LargestErrors());
+    addFieldValue(output, "EnlargedRegions", this->Enlarged);
+  }
+
+  std::vector<double> LargestErrors() const
+  {
+    std::vector<double> errors;
+    for (const CartogramPass& pass : this->Result.Passes)
+    {
+      errors.push_back(pass.LargestError);
+    }
+    return errors;
+  }
+
+  void WriteCells(vtkPolyData* output)
+  {
+    vtkPolyData* input = this->Cells.Data;
+    output->SetVerts(input->GetVerts());
+    vtkNew<vtkCellArray> lines;
+    vtkNew<vtkCellArray> polygons;
+    std::int64_t ring = 0;
+    vtkNew<vtkIdList> ids;
+    this->VisitCells([&](vtkIdType cell, vtkIdList* given, vtkIdType count) {
+      const bool isLine = cell < input->GetNumberOfVerts() + input->GetNumberOfLines();
+      const std::int64_t corners = this->Map.CountOf(ring);
+      ids->SetNumberOfIds(corners + (isLine ? 1 : 0));
+      for (std::int64_t i = 0; i < corners; ++i)
+      {
+        ids->SetId(i, this->Map.CornerOf(ring, i));
+      }
+      if (isLine)
+      {
+        // The last point may be another one in the same place.
+        const vtkIdType last = given->GetId(count);
+        output->GetPoints()->SetPoint(last, output->GetPoints()->GetPoint(given->GetId(0)));
+        ids->SetId(corners, last);
+      }
+      (isLine ? lines : polygons)->InsertNextCell(ids);
+      ++ring;
+    });
+    output->SetLines(lines);
+    output->SetPolys(polygons);
+    output->GetCellData()->PassData(input->GetCellData());
+    const double land = std::accumulate(this->Before.begin(), this->Before.end(), 0.0);
+    const double total = std::accumulate(this->Cells.Masses.begin(), this->Cells.Masses.end(), 0.0);
+    vtkNew<vtkDoubleArray> errors;
+    vtkNew<vtkDoubleArray> targets;
+    errors->SetName("AreaError");
+    targets->SetName("TargetArea");
+    for (const std::int32_t region : this->Cells.Regions)
+    {
+      const bool isRegion = region >= 0;
+      errors->InsertNextValue(isRegion ? this->Result.Errors[Index(region)] : 0.0);
+      targets->InsertNextValue(isRegion ? this->Cells.Masses[Index(region)] / total * land : 0.0);
+    }
+    output->GetCellData()->AddArray(errors);
+    output->GetCellData()->AddArray(targets);
+  }
+
+  Point<2> FellowAt(std::size_t i) const
+  {
+    const double blend = this->Worker.Blend;
+    Point<2> place;
+    for (std::size_t a = 0; a < 2; ++a)
+    {
+      place[a] =
+        this->FellowsBefore[i][a] + blend * (this->Fellows[i][a] - this->FellowsBefore[i][a]);
+    }
+    return this->Box.ToPlace(place);
+  }
+
+  void WriteGraticule()
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> lines;
+    constexpr std::int64_t count = graticulePoints + 1;
+    for (std::int64_t line = 0; line < 2 * (graticuleLines + 1); ++line)
+    {
+      lines->InsertNextCell(static_cast<int>(count));
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        const Point<3> place = this->Frame->ToSpace(this->FellowAt(Index(line * count + i)), 0.0);
+        lines->InsertCellPoint(points->InsertNextPoint(place.data()));
+      }
+    }
+    this->Outputs.Graticule->SetPoints(points);
+    this->Outputs.Graticule->SetLines(lines);
+  }
+
+  void WriteOverlay()
+  {
+    if (!this->Overlay)
+    {
+      return;
+    }
+    const std::size_t first = this->Fellows.size() - this->OverlayPlaces.size();
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    points->SetNumberOfPoints(static_cast<vtkIdType>(this->OverlayPlaces.size()));
+    for (std::size_t i = 0; i < this->OverlayPlaces.size(); ++i)
+    {
+      const double distance = this->Frame->Distance(this->OverlayPlaces[i]);
+      const Point<3> place = this->Frame->ToSpace(this->FellowAt(first + i), distance);
+      points->SetPoint(static_cast<vtkIdType>(i), place.data());
+    }
+    this->Outputs.Overlay->SetPoints(points);
+  }
+
+  const CartogramWorker& Worker;
+  RegionCells Cells;
+  vtkPointSet* const Overlay;
+  KeptMap& Kept;
+  Progress& Work;
+  const CartogramOutputs& Outputs;
+  std::vector<std::string> Warnings;
+  std::vector<Point<3>> Places; // of the input's points
+  std::optional<PlaneFrame> Frame;
+  RegionMap Map;
+  CartogramBox Box{};
+  std::vector<double> Before; // areas of the regions
+  std::int32_t Enlarged = 0;
+  FellowPoints Fellows; // of the graticule, then of the overlay
+  FellowPoints FellowsBefore;
+  std::vector<Point<3>> OverlayPlaces;
+  CartogramResult Result;
+};
+
+} // namespace
+
+std::vector<std::string> CartogramWorker::Run(const std::vector<DensityBlock>& blocks,
+  bool isComposite, vtkPointSet* overlay, KeptMap& kept, Progress& progress,
+  const CartogramOutputs& outputs) const
+{
+  progress.BeginStage(0.02);
+  RegionCells cells = readRegions(blocks, isComposite, this->Arrays, progress);
+  progress.BeginStage(0.05);
+  return CartogramJob(*this, std::move(cells), overlay, kept, progress, outputs).Run();
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Makes the areas of regions their masses: the worker of vtkCartogram.
+#ifndef RectifiedTransport_CartogramWorker_h
+#define RectifiedTransport_CartogramWorker_h
+
+#include "Bridge/Blocks/DataContent.h"
+#include "Bridge/Cartogram/RegionCells.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Cartogram/Cartogram.h"
+
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPointSet;
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// Kept between runs: what depends on the regions' shapes alone.
+struct KeptMap
+{
+  DataContent Content;
+  CartogramStart Start;
+};
+
+struct CartogramOutputs
+{
+  vtkPolyData* Regions;
+  vtkPolyData* Graticule;
+  vtkPointSet* Overlay; // has the structure and the data of its input; nullptr if there is none
+};
+
+// The members are the properties of that class.
+struct CartogramWorker
+{
+  CartogramOptions Options;
+  RegionArrays Arrays;
+  double LeastShare;
+  double Blend;
+
+  // Returns warnings. Throws Failure, InvalidDensity and Cancelled.
+  std::vector<std::string> Run(const std::vector<DensityBlock>& blocks, bool isComposite,
+    vtkPointSet* overlay, KeptMap& kept, Progress& progress, const CartogramOutputs& outputs) const;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The regions of a map in the vtkCells of a vtkPolyData: polygons and closed lines.
+#ifndef RectifiedTransport_RegionCells_h
+#define RectifiedTransport_RegionCells_h
+
+#include "Bridge/Blocks/DensityBlocks.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/Progress.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// Names of cell arrays; empty: none is chosen.
+struct RegionArrays
+{
+  std::string Mass;
+  std::string Region;
+};
+
+struct RegionCells
+{
+  // All blocks as one, with double points and the arrays that all blocks have. Cells are numbered
+  // as those of a vtkPolyData: vertices, lines, polygons.
+  vtkSmartPointer<vtkPolyData> Data;
+  std::string MassName;
+  std::vector<std::int32_t> Regions; // of cells; -1 of vertices
+  std::vector<std::string> Names;    // of regions, for messages
+  std::vector<double> Masses;        // of regions, at least 0
+};
+
+// Blocks are those of the input, `isComposite` if it is a composite. Without a chosen mass array it
+// is the cells' active scalars, else their only numeric array. Cells with one value of the region
+// array are one region; without one those of a block, if there are several, else each cell. Throws
+// Failure for blocks of other types, no or bad masses, masses that differ in a region, strips, and
+// lines that do not close; and Cancelled.
+RegionCells readRegions(const std::vector<DensityBlock>& blocks, bool isComposite,
+  const RegionArrays& arrays, Progress& progress);
+
+} // namespace RectifiedTransport
+
+#endif

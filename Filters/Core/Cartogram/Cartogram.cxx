@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Cartogram/Cartogram.h"
+
+#include "Core/Cartogram/RegionRaster.h"
+#include "Core/Cartogram/RegionValues.h"
+#include "Core/Flow/RectifiedFlow.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Of the mean density of the regions: what a region may have at least, and the ground in SeaDensity
+// Zero.
+constexpr double leastDensity = 1e-4;
+constexpr double nothing = 1e-7;
+// Where densities span more than this, the first pass takes their roots: borders of strong contrast
+// would cross.
+constexpr double wideSpan = 99.9;
+constexpr double edgesOfSide = 512.0; // the longest edges are this part of the box
+
+double sumOf(const std::vector<double>& values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+class CartogramRun
+{
+public:
+  CartogramRun(RegionMap& map, const std::vector<double>& masses, const CartogramBox& box,
+    const CartogramOptions& options, FellowPoints& fellows, CartogramStart& start,
+    const Context& context)
+    : Map(map)
+    , Masses(masses)
+    , Regions(static_cast<std::int32_t>(masses.size()))
+    , Box(box)
+    , Options(options)
+    , Fellows(fellows)
+    , Start(start)
+    , Work(context)
+  {
+    this->Options.Flow.AreaTolerance = 0.5 * options.Tolerance;
+  }
+
+  CartogramResult Run()
+  {
+    this->Areas = this->Map.Areas(this->Regions);
+    if (!this->Start.Raster)
+    {
+      this->Work.BeginStage(0.1);
+      this->Start.Raster = this->RasterNow();
+    }
+    std::shared_ptr<const RegionRaster> raster = this->Start.Raster;
+    this->Found.Overlap = raster->Overlap(this->Found.Overlapping) / sumOf(this->Areas);
+    this->FindCrossing(raster->Covered());
+    if (!this->Found.Crossing.empty())
+    {
+      return std::move(this->Found);
+    }
+    this->DivideFinely(*raster);
+    double stuckBefore = std::numeric_limits<double>::infinity();
+    for (int pass = 0; pass < this->Options.MaximumPasses; ++pass)
+    {
+      // How many passes follow is not known.
+      const double start = this->Work.StageEnd();
+      const double end = 0.5 * (1.0 + start);
+      if (pass > 0)
+      {
+        this->Work.BeginStage(start + 0.3 * (end - start));
+        raster = this->RasterNow();
+      }
+      const bool isTempered = pass == 0 && this->SpansWidely();
+      const RegionValues values = this->FillPass(*raster, isTempered ? 0.5 : 1.0);
+      if (!this->MoveAll(end, values))
+      {
+        break;
+      }
+      const CartogramPass& done = this->Judge(values);
+      double stuck = 0.0;
+      double others = 0.0;
+      for (std::size_t i = 0; i < this->Found.Errors.size(); ++i)
+      {
+        double& largest = values.Least[i] != 0 ? stuck : others;
+        largest = std::max(largest, std::abs(this->Found.Errors[i]));
+      }
+      const double tolerance = this->Options.Tolerance;
+      if (done.LargestError <= tolerance ||
+        (!isTempered && others <= tolerance && stuck > 0.5 * stuckBefore))
+      {
+        this->NameOutOfReach(values);
+        break;
+      }
+      if (pass + 1 == this->Options.MaximumPasses)
+      {
+        this->NameOutOfReach(values);
+        break;
+      }
+      stuckBefore = stuck > 0.0 ? stuck : std::numeric_limits<double>::infinity();
+      this->Divide([this](const Point<2>&) { return this->LongestEdge(); });
+    }
+    return std::move(this->Found);
+  }
+
+private:
+  // What runs the other way round counts in areas, not in rasters.
+  void FindCrossing(const std::vector<double>& covered)
+  {
+    constexpr double part = 1e-3;
+    for (std::size_t i = 0; i < covered.size(); ++i)
+    {
+      if (!(std::abs(covered[i] - this->Areas[i]) <= part * this->Areas[i]))
+      {
+        this->Found.Crossing.push_back(static_cast<std::int32_t>(i));
+      }
+    }
+  }
+
+  double LongestEdge() const { return static_cast<double>(this->Box.Side) / edgesOfSide; }
+
+  std::shared_ptr<const RegionRaster> RasterNow()
+  {
+    return std::make_shared<const RegionRaster>(
+      this->Map, this->Regions, this->Box.Side, this->Work);
+  }
+
+  // The masses of a pass, whose sum does not matter, and the ground's density, in cells.
+  double MeanDensity() const { return sumOf(this->Masses) / sumOf(this->Areas); }
+
+  bool SpansWidely() const
+  {
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    for (std::size_t i = 0; i < this->Masses.size(); ++i)
+    {
+      const double density = this->Masses[i] / this->Areas[i];
+      least = std::min(least, density);
+      most = std::max(most, density);
+    }
+    return most > wideSpan * std::max(least, leastDensity * this->MeanDensity());
+  }
+
+  double SeaOf(const std::vector<double>& masses) const
+  {
+    const double mean = sumOf(masses) / sumOf(this->Areas);
+    switch (this->Options.Sea)
+    {
+      case SeaDensity::Least:
+      {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < masses.size(); ++i)
+        {
+          least = std::min(least, masses[i] / this->Areas[i]);
+        }
+        return std::max(least, nothing * mean);
+      }
+      case SeaDensity::Value:
+        return std::max(this->Options.SeaValue * this->Box.Cell * this->Box.Cell, nothing * mean);
+      case SeaDensity::Zero:
+        return nothing * mean;
+      default:
+        return mean;
+    }
+  }
+
+  // Edges are short where regions grow, by the density about their middles.
+  void DivideFinely(const RegionRaster& raster)
+  {
+    const double mean = this->MeanDensity();
+    std::vector<double> growth(this->Masses.size());
+    for (std::size_t i = 0; i < growth.size(); ++i)
+    {
+      growth[i] = std::max(1.0, this->Masses[i] / this->Areas[i] / mean);
+    }
+    raster.Fill(growth, 1.0, this->Cells);
+    const std::int64_t side = this->Box.Side;
+    this->Divide([&](const Point<2>& middle) {
+      std::int64_t at[2];
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        at[axis] = std::clamp<std::int64_t>(
+          static_cast<std::int64_t>(std::floor(middle[axis])), 0, side - 1);
+      }
+      double largest = 1.0;
+      for (std::int64_t y = std::max<std::int64_t>(0, at[1] - 1); y < std::min(side, at[1] + 2);
+           ++y)
+      {
+        for (std::int64_t x = std::max<std::int64_t>(0, at[0] - 1); x < std::min(side, at[0] + 2);
+             ++x)
+        {
+          largest = std::max(largest, this->Cells[static_cast<std::size_t>(y * side + x)]);
+        }
+      }
+      return this->LongestEdge() / std::sqrt(largest);
+    });
+  }
+
+  template <class LongestAt>
+  void Divide(const LongestAt& longestAt)
+  {
+    if (this->Found.Before.empty())
+    {
+      this->Found.Before = this->Map.Points();
+    }
+    for (const DividingPoint& point : this->Map.Divide(longestAt))
+    {
+      const Point<2>& a = this->Found.Before[static_cast<std::size_t>(point.First)];
+      const Point<2>& b = this->Found.Before[static_cast<std::size_t>(point.Second)];
+      const Point<2> place{ a[0] + point.At * (b[0] - a[0]), a[1] + point.At * (b[1] - a[1]) };
+      this->Found.Before.push_back(place);
+      this->Found.Added.push_back(point);
+    }
+  }
+
+  RegionValues FillPass(const RegionRaster& raster, double exponent)
+  {
+    const double mean = this->MeanDensity();
+    std::vector<double> masses(this->Masses.size());
+    for (std::size_t i = 0; i < masses.size(); ++i)
+    {
+      const double plain = this->Areas[i] * mean;
+      masses[i] =
+        exponent == 1.0 ? this->Masses[i] : plain * std::pow(this->Masses[i] / plain, exponent);
+    }
+    const double sea = this->SeaOf(masses);
+    const double landMean = sumOf(masses) / sumOf(this->Areas);
+    RegionValues values =
+      findRegionValues(raster, masses, this->Areas, sea, leastDensity * landMean / sea);
+    raster.Fill(values.Densities, sea, this->Cells);
+    return values;
+  }
+
+  // Returns whether the pass was done. Else points are where they were.
+  bool MoveAll(double end, const RegionValues& values)
+  {
+    const std::int64_t side = this->Box.Side;
+    const DensityArray<2, double> array(this->Cells.data(), { side, side });
+    const double start = this->Work.StageEnd();
+    this->Work.BeginStage(start + 0.3 * (end - start));
+    if (this->Flow)
+    {
+      this->Flow.emplace(
+        RectifiedFlow<2>(DensitySource<2>(array), std::move(*this->Flow), this->Work.Stage()));
+    }
+    else
+    {
+      this->Flow.emplace(DensitySource<2>(array), this->Work.Stage());
+    }
+    this->Work.BeginStage(end);
+    FlowOptions options = this->Options.Flow;
+    CartogramPass pass;
+    pass.ForetoldError = 0.0;
+    for (const double error : values.Errors)
+    {
+      pass.ForetoldError = std::max(pass.ForetoldError, std::abs(error));
+    }
+    std::vector<Point<2>>& points = this->Map.Points();
+    const std::vector<Point<2>> before = points;
+    for (;;)
+    {
+      const FlowReport report =
+        this->Flow->Backward(ConstPointSpan<2>(before), points, options, this->Work.Stage());
+      pass.NumberOfSteps = report.NumberOfSteps;
+      this->Found.Folded = this->TurnedRings(before);
+      if (this->Found.Folded == 0)
+      {
+        break;
+      }
+      const int steps = 2 * std::max(report.NumberOfSteps, FlowOptions::FewestSteps);
+      if (steps > FlowOptions::MostSteps || options.Integrator != Integrator::Multistep)
+      {
+        points = before;
+        return false;
+      }
+      options.NumberOfSteps = steps;
+    }
+    this->MoveFellows(options);
+    this->Areas = this->Map.Areas(this->Regions);
+    this->Found.Passes.push_back(pass);
+    return true;
+  }
+
+  // Rings that had an area and have none, or a negative one.
+  std::int64_t TurnedRings(const std::vector<Point<2>>& before)
+  {
+    constexpr double rounding = 1e-9;
+    std::vector<Point<2>>& points = this->Map.Points();
+    std::vector<double> now;
+    for (std::int64_t ring = 0; ring < this->Map.Rings(); ++ring)
+    {
+      now.push_back(this->Map.AreaOf(ring));
+    }
+    std::vector<Point<2>> moved = std::exchange(points, before);
+    std::int64_t turned = 0;
+    for (std::int64_t ring = 0; ring < this->Map.Rings(); ++ring)
+    {
+      turned += this->Map.AreaOf(ring) > rounding && !(now[static_cast<std::size_t>(ring)] > 0.0);
+    }
+    points = std::move(moved);
+    return turned;
+  }
+
+  void MoveFellows(const FlowOptions& options)
+  {
+    if (this->Fellows.empty())
+    {
+      return;
+    }
+    const auto side = static_cast<double>(this->Box.Side);
+    std::vector<Point<2>> clamped = this->Fellows;
+    for (Point<2>& place : clamped)
+    {
+      place = { std::clamp(place[0], 0.0, side), std::clamp(place[1], 0.0, side) };
+    }
+    std::vector<Point<2>> moved = clamped;
+    this->Flow->Backward(ConstPointSpan<2>(clamped), moved, options, this->Work.Stage());
+    for (std::size_t i = 0; i < moved.size(); ++i)
+    {
+      this->Fellows[i][0] += moved[i][0] - clamped[i][0];
+      this->Fellows[i][1] += moved[i][1] - clamped[i][1];
+    }
+  }
+
+  const CartogramPass& Judge(const RegionValues&)
+  {
+    const double perArea = this->MeanDensity();
+    this->Found.Errors.resize(this->Masses.size());
+    CartogramPass& pass = this->Found.Passes.back();
+    for (std::size_t i = 0; i < this->Masses.size(); ++i)
+    {
+      this->Found.Errors[i] = this->Areas[i] * perArea / this->Masses[i] - 1.0;
+      if (std::abs(this->Found.Errors[i]) > pass.LargestError)
+      {
+        pass.LargestError = std::abs(this->Found.Errors[i]);
+        pass.Worst = static_cast<std::int32_t>(i);
+      }
+    }
+    return pass;
+  }
+
+  void NameOutOfReach(const RegionValues& values)
+  {
+    for (std::size_t i = 0; i < this->Found.Errors.size(); ++i)
+    {
+      if (values.Least[i] != 0 && std::abs(this->Found.Errors[i]) > this->Options.Tolerance)
+      {
+        this->Found.OutOfReach.push_back(static_cast<std::int32_t>(i));
+      }
+    }
+  }
+
+  RegionMap& Map;
+  const std::vector<double>& Masses;
+  const std::int32_t Regions;
+  const CartogramBox& Box;
+  CartogramOptions Options;
+  FellowPoints& Fellows;
+  CartogramStart& Start;
+  Progress Work;
+  std::vector<double> Areas; // of the regions, in cells
+  std::vector<double> Cells; // of the raster
+  std::optional<RectifiedFlow<2>> Flow;
+  CartogramResult Found;
+};
+
+} // namespace
+
+CartogramBox boxAround(const RegionMap& map, const CartogramOptions& options)
+{
+  Point<2> low{ HUGE_VAL, HUGE_VAL };
+  Point<2> high{ -HUGE_VAL, -HUGE_VAL };
+  for (const Point<2>& place : map.Points())
+  {
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      low[axis] = std::min(low[axis], place[axis]);
+      high[axis] = std::max(high[axis], place[axis]);
+    }
+  }
+  const double side = std::max(high[0] - low[0], high[1] - low[1]) * (1.0 + 2.0 * options.Margin);
+  return { { 0.5 * (low[0] + high[0] - side), 0.5 * (low[1] + high[1] - side) },
+    side / static_cast<double>(options.Resolution), options.Resolution };
+}
+
+CartogramResult runCartogram(RegionMap& map, const std::vector<double>& masses,
+  const CartogramBox& box, const CartogramOptions& options, FellowPoints& fellows,
+  CartogramStart& start, const Context& context)
+{
+  return CartogramRun(map, masses, box, options, fellows, start, context).Run();
+}
+
+std::int32_t raiseMasses(std::vector<double>& masses, double leastShare)
+{
+  std::vector<unsigned char> isRaised(masses.size(), 0);
+  std::int32_t count = 0;
+  for (bool isDone = false; !isDone;)
+  {
+    isDone = true;
+    double others = 0.0;
+    for (std::size_t i = 0; i < masses.size(); ++i)
+    {
+      others += isRaised[i] != 0 ? 0.0 : masses[i];
+    }
+    // So that raised ones have their share of what all have then.
+    const double least = leastShare * others / (1.0 - leastShare * count);
+    for (std::size_t i = 0; i < masses.size(); ++i)
+    {
+      if (isRaised[i] == 0 && masses[i] < least)
+      {
+        isRaised[i] = 1;
+        ++count;
+        isDone = false;
+      }
+    }
+    if (isDone)
+    {
+      for (std::size_t i = 0; i < masses.size(); ++i)
+      {
+        masses[i] = isRaised[i] != 0 ? least : masses[i];
+      }
+    }
+  }
+  return count;
+}
+
+} // namespace RectifiedTransport

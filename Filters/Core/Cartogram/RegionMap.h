@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Regions of a plane between closed rings of straight edges, whose points move.
+#ifndef RectifiedTransport_RegionMap_h
+#define RectifiedTransport_RegionMap_h
+
+#include "../Geometry/Points.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// A point that divides an edge: (1 - At) * First + At * Second of earlier points, by their numbers.
+struct DividingPoint
+{
+  std::int64_t First;
+  std::int64_t Second;
+  double At;
+};
+
+// Points and regions are numbered from 0. Rings may share points, and a region may have several
+// rings: a ring in an odd number of others of its region is a hole. Rings may run in either
+// direction, touch themselves, and go to a hole and back.
+class RegionMap
+{
+public:
+  RegionMap() = default;
+
+  std::int64_t AddPoint(const Point<2>& place);
+  // The points of a ring in their order, the first one not again at the end.
+  void AddRing(std::int32_t region, const std::vector<std::int64_t>& points);
+  // After all rings: finds the holes.
+  void FindHoles();
+
+  std::vector<Point<2>>& Points() { return this->Places; }
+  const std::vector<Point<2>>& Points() const { return this->Places; }
+  std::int64_t Rings() const { return static_cast<std::int64_t>(this->Regions.size()); }
+  std::int32_t RegionOf(std::int64_t ring) const { return this->Regions[Index(ring)]; }
+  bool IsHole(std::int64_t ring) const { return this->Holes[Index(ring)] != 0; }
+  // Points of a ring.
+  std::int64_t CountOf(std::int64_t ring) const
+  {
+    return this->Begins[Index(ring) + 1] - this->Begins[Index(ring)];
+  }
+  std::int64_t CornerOf(std::int64_t ring, std::int64_t corner) const
+  {
+    return this->Corners[Index(this->Begins[Index(ring)] + corner)];
+  }
+
+  // visit(from, to) of the edges of a ring, with the region on the left as it was in FindHoles.
+  template <class Visit>
+  void VisitEdges(std::int64_t ring, const Visit& visit) const
+  {
+    const std::int64_t begin = this->Begins[Index(ring)];
+    const std::int64_t end = this->Begins[Index(ring) + 1];
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      const std::int64_t from = this->Corners[Index(i)];
+      const std::int64_t to = this->Corners[Index(i + 1 < end ? i + 1 : begin)];
+      this->Turned[Index(ring)] ? visit(to, from) : visit(from, to);
+    }
+  }
+
+  // The area within a ring; negative if it has turned over since FindHoles.
+  double AreaOf(std::int64_t ring) const;
+  // Of regions, without their holes.
+  std::vector<double> Areas(std::int32_t regions) const;
+
+  // Divides edges into equal parts no longer than longestAt(middle of the edge). The new points are
+  // numbered on from the last one. Edges with the same ends get the same points, and edges whose
+  // ends lie in the same places get points in the same places, to the last bit.
+  std::vector<DividingPoint> Divide(const std::function<double(const Point<2>&)>& longestAt);
+
+private:
+  static std::size_t Index(std::int64_t i) { return static_cast<std::size_t>(i); }
+  double WindingArea(std::int64_t ring) const;
+  bool Contains(std::int64_t ring, const Point<2>& place) const;
+
+  std::vector<Point<2>> Places;
+  std::vector<std::int64_t> Corners; // of all rings
+  std::vector<std::int64_t> Begins{ 0 };
+  std::vector<std::int32_t> Regions;
+  std::vector<unsigned char> Holes;
+  std::vector<unsigned char> Turned; // whether a ring has its region on the right
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What regions cover of each cell of a square grid, exactly.
+#ifndef RectifiedTransport_RegionRaster_h
+#define RectifiedTransport_RegionRaster_h
+
+#include "Core/Cartogram/RegionMap.h"
+#include "Core/Geometry/GridSize.h"
+#include "Core/Parallel/Progress.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class RegionRaster
+{
+public:
+  // Points are in index space. Runs as the current stage. Throws std::bad_alloc and Cancelled.
+  RegionRaster(const RegionMap& map, std::int32_t regions, std::int64_t side, Progress& progress);
+
+  struct Share
+  {
+    std::int32_t Region;
+    double Part; // of the cell
+  };
+
+  std::int64_t Side() const { return this->CellsOfSide; }
+  std::int32_t Regions() const { return static_cast<std::int32_t>(this->Whole.size()); }
+  // How many cells a region covers as the only one, and wholly.
+  double WholeCells(std::int32_t region) const
+  {
+    return this->Whole[static_cast<std::size_t>(region)];
+  }
+  // All that regions cover, in cells.
+  std::vector<double> Covered() const;
+  // visit(shares, count) of each of the other cells that regions cover.
+  template <class Visit>
+  void VisitMixed(const Visit& visit) const
+  {
+    for (std::size_t i = 0; i + 1 < this->Begins.size(); ++i)
+    {
+      visit(this->Shares.data() + this->Begins[i], this->Begins[i + 1] - this->Begins[i]);
+    }
+  }
+  // The mean of the regions' values in each cell; the rest of it has the value `around`.
+  void Fill(const std::vector<double>& values, double around, std::vector<double>& cells) const;
+  // What regions cover together beyond whole cells, in cells, and the region with most of it.
+  double Overlap(std::int32_t& region) const;
+
+private:
+  std::int64_t CellsOfSide;
+  std::vector<std::int32_t> Owners; // of cells, or -1
+  std::vector<double> Whole;
+  std::vector<std::int64_t> Mixed; // numbers of the other cells
+  std::vector<std::int64_t> Begins{ 0 };
+  std::vector<Share> Shares;
+};
+
+// The part of a cell that regions leave.
+double restOf(const RegionRaster::Share* shares, std::int64_t count);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkCartogram.h"
+
+#include "Bridge/Blocks/DensityBlocks.h"
+#include "Bridge/Cartogram/Cartogram.h"
+#include "Bridge/Points/CellCheck.h"
+#include "Bridge/Points/PointInput.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/PropertyCheck.h"
+
+#include "vtkCellData.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+
+#include <cmath>
+
+VTK_ABI_NAMESPACE_BEGIN
+vtkStandardNewMacro(vtkCartogram);
+
+using namespace RectifiedTransport;
+
+namespace
+{
+constexpr const char* EmptyCellsTexts[] = { "Mean", "Least", "Value", "Zero" };
+
+std::string arrayName(vtkInformation* choice, const char* title)
+{
+  const char* name = choice->Get(vtkDataObject::FIELD_NAME());
+  // ParaView gives None another association.
+  if (name && std::string(name) != "None" &&
+    choice->Get(vtkDataObject::FIELD_ASSOCIATION()) != vtkDataObject::FIELD_ASSOCIATION_CELLS)
+  {
+    fail(title, " '", name,
+      "' is not chosen among cell arrays; a region's mass is a value of its "
+      "cells");
+  }
+  return name ? name : "";
+}
+} // namespace
+
+struct vtkCartogram::vtkInternals
+{
+  KeptMap Kept;
+};
+
+//------------------------------------------------------------------------------
+vtkCartogram::vtkCartogram()
+  : Resolution(1024)
+  , Margin(0.1)
+  , EmptyCells(EMPTY_CELLS_MEAN)
+  , EmptyValue(0.0)
+  , Tolerance(0.01)
+  , MaximumIterations(10)
+  , LeastShare(0.0)
+  , Blend(1.0)
+  , Internals(new vtkInternals)
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(3);
+  this->SetPortPolicy(0, PORT_GATHERED_DENSITY);
+  this->SetPortPolicy(1, PORT_GATHERED_POINTS);
+}
+
+//------------------------------------------------------------------------------
+vtkCartogram::~vtkCartogram() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkCartogram::GetEmptyCellsAsString()
+{
+  return choiceText(EmptyCellsTexts, this->EmptyCells);
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkCartogram::GetRegions()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkCartogram::GetGraticule()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+vtkPointSet* vtkCartogram::GetOverlay()
+{
+  return vtkPointSet::SafeDownCast(this->GetOutputDataObject(2));
+}
+
+//------------------------------------------------------------------------------
+int vtkCartogram::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return 1;
+  }
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkCartogram::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkPointSet" : "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkCartogram::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkCollectiveAlgorithm::MakeOutputLike(inputVector[1], outputVector, 2);
+  for (int port = 0; port < 2; ++port)
+  {
+    if (!vtkPolyData::GetData(outputVector, port))
+    {
+      vtkNew<vtkPolyData> made;
+      outputVector->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), made);
+    }
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkCartogram::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  requireThat(this->Resolution >= 16 && this->Resolution <= 16384, "Resolution", this->Resolution,
+    "from 16 to 16384");
+  requireThat(this->Margin >= 0.0 && this->Margin <= 10.0, "Margin", this->Margin, "from 0 to 10");
+  requireChoice("EmptyCells", this->EmptyCells, EmptyCellsTexts);
+  requireThat(this->EmptyValue >= 0.0 && std::isfinite(this->EmptyValue), "EmptyValue",
+    this->EmptyValue, "at least 0 and finite");
+  requireThat(this->Tolerance > 0.0 && this->Tolerance <= 1.0, "Tolerance", this->Tolerance,
+    "above 0 and at most 1");
+  requireThat(this->MaximumIterations >= 1 && this->MaximumIterations <= 100, "MaximumIterations",
+    this->MaximumIterations, "from 1 to 100");
+  requireThat(this->LeastShare >= 0.0 && this->LeastShare < 1.0, "LeastShare", this->LeastShare,
+    "at least 0, and below 1 / the number of regions");
+  requireThat(this->Blend >= 0.0 && this->Blend <= 1.0, "Blend", this->Blend, "from 0 to 1");
+  CartogramWorker worker{};
+  worker.Options.Resolution = this->Resolution;
+  worker.Options.Margin = this->Margin;
+  constexpr SeaDensity seas[] = { SeaDensity::Mean, SeaDensity::Least, SeaDensity::Value,
+    SeaDensity::Zero };
+  worker.Options.Sea = seas[this->EmptyCells];
+  worker.Options.SeaValue = this->EmptyValue;
+  worker.Options.Tolerance = this->Tolerance;
+  worker.Options.MaximumPasses = this->MaximumIterations;
+  worker.LeastShare = this->LeastShare;
+  worker.Blend = this->Blend;
+  worker.Arrays.Mass = arrayName(this->GetInputArrayInformation(0), "MassArray");
+  worker.Arrays.Region = arrayName(this->GetInputArrayInformation(1), "RegionArray");
+  AlgorithmProgress progress(this, this->Threading);
+
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  const std::vector<DensityBlock> blocks =
+    input ? densityBlocks(input, nullptr, &progress) : std::vector<DensityBlock>();
+  if (blocks.empty())
+  {
+    return 1;
+  }
+  CartogramOutputs outputs{ vtkPolyData::GetData(outputVector, 0),
+    vtkPolyData::GetData(outputVector, 1), nullptr };
+  vtkPointSet* overlay =
+    inputVector[1]->GetNumberOfInformationObjects() > 0 ? pointSetOf(inputVector[1]) : nullptr;
+  if (overlay)
+  {
+    requireReadableCells(overlay, "Overlay");
+    outputs.Overlay = vtkPointSet::GetData(outputVector, 2);
+    outputs.Overlay->CopyStructure(overlay);
+    outputs.Overlay->GetPointData()->PassData(overlay->GetPointData());
+    outputs.Overlay->GetCellData()->PassData(overlay->GetCellData());
+  }
+  for (const std::string& warning :
+    worker.Run(blocks, vtkCompositeDataSet::SafeDownCast(input) != nullptr, overlay,
+      this->Internals->Kept, progress, outputs))
+  {
+    vtkWarningMacro(<< warning);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkCartogram::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Resolution: " << this->Resolution << "\n";
+  os << indent << "Margin: " << this->Margin << "\n";
+  os << indent << "EmptyCells: " << this->GetEmptyCellsAsString() << "\n";
+  os << indent << "EmptyValue: " << this->EmptyValue << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "LeastShare: " << this->LeastShare << "\n";
+  os << indent << "Blend: " << this->Blend << "\n";
+}
+VTK_ABI_NAMESPACE_END

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cartograms: areas are masses, land keeps its area, outlines do not cross.
+#include "Core/Overlap/RingSweep.h"
+#include "Core/Parallel/Progress.h"
+#include "MapSamples.h"
+#include "ThreadsExecutor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+CartogramOptions coarse()
+{
+  CartogramOptions options;
+  options.Resolution = 128;
+  return options;
+}
+
+struct Made
+{
+  RegionMap Map;
+  CartogramBox Box;
+  std::vector<double> Before;
+  CartogramResult Result;
+};
+
+Made make(RegionMap map, const std::vector<double>& masses, const CartogramOptions& options,
+  FellowPoints* fellows = nullptr, const Context& context = Context())
+{
+  Made made;
+  made.Box = boxAround(map, options);
+  for (Point<2>& place : map.Points())
+  {
+    place = made.Box.ToIndex(place);
+  }
+  made.Map = std::move(map);
+  made.Before = made.Map.Areas(static_cast<std::int32_t>(masses.size()));
+  FellowPoints none;
+  CartogramStart start;
+  made.Result =
+    runCartogram(made.Map, masses, made.Box, options, fellows ? *fellows : none, start, context);
+  return made;
+}
+
+std::vector<double> masses16(double tenth)
+{
+  std::vector<double> masses(16, 1.0);
+  masses[5] = tenth;
+  return masses;
+}
+
+void expectRight(const Made& made, const std::vector<double>& masses, double tolerance)
+{
+  const std::vector<double> areas = made.Map.Areas(static_cast<std::int32_t>(masses.size()));
+  const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
+  const double land = std::accumulate(areas.begin(), areas.end(), 0.0);
+  for (std::size_t i = 0; i < masses.size(); ++i)
+  {
+    const double error = areas[i] / land / (masses[i] / total) - 1.0;
+    EXPECT_LE(std::abs(error), tolerance) << i;
+    EXPECT_NEAR(error, made.Result.Errors[i], 1e-9) << i;
+  }
+  Progress progress{ Context() };
+  progress.BeginStage(1.0);
+  for (std::int64_t ring = 0; ring < made.Map.Rings(); ++ring)
+  {
+    Rings outline;
+    for (std::int64_t i = 0; i < made.Map.CountOf(ring); ++i)
+    {
+      const auto corner = static_cast<std::size_t>(made.Map.CornerOf(ring, i));
+      outline.Add(made.Map.Points()[corner]);
+    }
+    outline.EndRing();
+    EXPECT_FALSE(haveCrossings(outline, progress)) << ring;
+  }
+  EXPECT_EQ(made.Result.Folded, 0);
+}
+
+TEST(Cartogram, Squares)
+{
+  for (const double contrast : { 10.0, 100.0, 1000.0 })
+  {
+    const std::vector<double> masses = masses16(contrast);
+    for (const bool areShared : { false, true })
+    {
+      const Made made = make(squares(4, areShared), masses, coarse());
+      expectRight(made, masses, 0.01);
+      EXPECT_LE(made.Result.Passes.size(), 4U);
+      EXPECT_LE(made.Result.Passes.back().LargestError, 0.01);
+      const std::vector<double> after = made.Map.Areas(16);
+      const double before = std::accumulate(made.Before.begin(), made.Before.end(), 0.0);
+      EXPECT_NEAR(std::accumulate(after.begin(), after.end(), 0.0) / before, 1.0, 0.01);
+    }
+  }
+}
+
+TEST(Cartogram, ExactAsAsked)
+{
+  CartogramOptions options = coarse();
+  options.Tolerance = 1e-3;
+  const std::vector<double> masses = masses16(30.0);
+  expectRight(make(squares(4), masses, options), masses, 1e-3);
+}
+
+TEST(Cartogram, NothingToDo)
+{
+  const std::vector<double> masses(16, 2.5);
+  const Made made = make(squares(4), masses, coarse());
+  EXPECT_EQ(made.Result.Passes.size(), 1U);
+  for (std::size_t i = 0; i < made.Map.Points().size(); ++i)
+  {
+    EXPECT_NEAR(made.Map.Points()[i][0], made.Result.Before[i][0], 0.05);
+    EXPECT_NEAR(made.Map.Points()[i][1], made.Result.Before[i][1], 0.05);
+  }
+}
+
+TEST(Cartogram, OneRegion)
+{
+  const Made made = make(squares(1), { 3.0 }, coarse());
+  EXPECT_NEAR(made.Map.Areas(1)[0] / made.Before[0], 1.0, 1e-3);
+}
+
+// A lake with an island, and a region in two pieces.
+TEST(Cartogram, HolesAndPieces)
+{
+  RegionMap map;
+  addRing(map, 0, rectangle(0, 0, 6, 6));
+  addRing(map, 0, rectangle(2, 2, 4, 4));
+  addRing(map, 1, rectangle(2, 2, 4, 4));
+  addRing(map, 2, rectangle(6, 0, 8, 6));
+  addRing(map, 2, rectangle(9, 0, 10, 3));
+  map.FindHoles();
+  const std::vector<double> masses{ 1.0, 3.0, 2.0 };
+  expectRight(make(std::move(map), masses, coarse()), masses, 0.01);
+}
+
+// The sea is a density as any other.
+TEST(Cartogram, Seas)
+{
+  const std::vector<double> masses = masses16(4.0);
+  double land[4];
+  for (const SeaDensity sea :
+    { SeaDensity::Mean, SeaDensity::Least, SeaDensity::Value, SeaDensity::Zero })
+  {
+    CartogramOptions options = coarse();
+    options.Sea = sea;
+    options.SeaValue = 0.3;
+    options.MaximumPasses = 4;
+    const Made made = make(squares(4), masses, options);
+    expectRight(made, masses, 0.02);
+    const std::vector<double> areas = made.Map.Areas(16);
+    land[static_cast<int>(sea)] = std::accumulate(areas.begin(), areas.end(), 0.0) / 16384.0;
+  }
+  EXPECT_NEAR(land[0], 1.0 / 1.44, 0.01);
+  EXPECT_GT(land[1], land[0]);
+  EXPECT_GT(land[2], land[1]);
+  EXPECT_GT(land[3], 0.97);
+}
+
+// Points move as the map's points in the same places.
+TEST(Cartogram, FellowPoints)
+{
+  const std::vector<double> masses = masses16(50.0);
+  const CartogramOptions options = coarse();
+  RegionMap map = squares(4);
+  const CartogramBox box = boxAround(map, options);
+  FellowPoints fellows;
+  for (const Point<2>& place : map.Points())
+  {
+    fellows.push_back(box.ToIndex(place));
+  }
+  const std::size_t corners = fellows.size();
+  fellows.push_back({ -3.0, 200.0 }); // beyond the corner, which does not move
+  const Made made = make(std::move(map), masses, options, &fellows);
+  for (std::size_t i = 0; i < corners; ++i)
+  {
+    EXPECT_EQ(fellows[i], made.Map.Points()[i]);
+  }
+  EXPECT_NEAR(fellows.back()[0], -3.0, 0.05);
+  EXPECT_NEAR(fellows.back()[1], 200.0, 0.05);
+}
+
+TEST(Cartogram, SameForThreads)
+{
+  const std::vector<double> masses = masses16(100.0);
+  const Made one = make(squares(4), masses, coarse());
+  const ThreadsExecutor threads(3);
+  const Made other = make(squares(4), masses, coarse(), nullptr, threads);
+  EXPECT_EQ(one.Map.Points(), other.Map.Points());
+}
+
+// A region that is smaller than a cell of the raster in a dense neighbourhood.
+TEST(Cartogram, OutOfReach)
+{
+  CartogramOptions options = coarse();
+  options.Resolution = 32;
+  RegionMap map;
+  addRing(map, 0, rectangle(0, 0, 10, 10));
+  addRing(map, 0, rectangle(5, 5, 5.1, 5.1));
+  addRing(map, 1, rectangle(5, 5, 5.1, 5.1));
+  map.FindHoles();
+  const Made made = make(std::move(map), { 1.0, 1e-9 }, options);
+  EXPECT_EQ(made.Result.OutOfReach, std::vector<std::int32_t>{ 1 });
+  EXPECT_GT(made.Result.Errors[1], 0.01);
+  EXPECT_LE(std::abs(made.Result.Errors[0]), 0.01);
+}
+
+TEST(Cartogram, CrossingOutline)
+{
+  RegionMap map;
+  addRing(map, 0, rectangle(5, 0, 8, 3));
+  addRing(map, 1, { { 0, 0 }, { 3, 3 }, { 3, 0 }, { 0, 2 } });
+  map.FindHoles();
+  const Made made = make(std::move(map), { 1.0, 1.0 }, coarse());
+  EXPECT_EQ(made.Result.Crossing, std::vector<std::int32_t>{ 1 });
+  EXPECT_TRUE(made.Result.Passes.empty());
+}
+
+TEST(Cartogram, Cancelled)
+{
+  Context context;
+  context.IsCancelled = []() { return true; };
+  EXPECT_THROW(make(squares(4), masses16(9.0), coarse(), nullptr, context), Cancelled);
+}
+
+TEST(RaiseMasses, ToTheLeastShare)
+{
+  std::vector<double> masses{ 1.0, 2.0, 97.0, 1000.0 };
+  EXPECT_EQ(raiseMasses(masses, 0.1), 3);
+  const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    EXPECT_NEAR(masses[i] / total, 0.1, 1e-12);
+  }
+  EXPECT_EQ(masses[3], 1000.0);
+  std::vector<double> large{ 1.0, 2.0 };
+  EXPECT_EQ(raiseMasses(large, 0.2), 0);
+  EXPECT_EQ(large, (std::vector<double>{ 1.0, 2.0 }));
+}
+
+} // namespace
+} // namespace RectifiedTransport

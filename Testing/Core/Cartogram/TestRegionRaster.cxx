@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What regions cover of cells, and values that put each region's mass into it.
+#include "Core/Cartogram/RegionValues.h"
+#include "MapSamples.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+constexpr std::int64_t side = 40;
+
+RegionRaster rasterOf(const RegionMap& map, std::int32_t regions)
+{
+  Progress progress{ Context() };
+  progress.BeginStage(1.0);
+  return RegionRaster(map, regions, side, progress);
+}
+
+// 9 regions of a map of squares with moved corners.
+RegionMap uneven()
+{
+  RegionMap map = squares(3, true);
+  std::mt19937_64 engine(5);
+  for (Point<2>& place : map.Points())
+  {
+    for (double& coordinate : place)
+    {
+      coordinate = 4.3 + 9.1 * coordinate + 3.0 * static_cast<double>(engine() >> 11) * 0x1p-53;
+    }
+  }
+  return map;
+}
+
+TEST(RegionRaster, CoversAreas)
+{
+  const RegionMap map = uneven();
+  const RegionRaster raster = rasterOf(map, 9);
+  const std::vector<double> areas = map.Areas(9);
+  std::vector<double> covered(9);
+  for (std::int32_t region = 0; region < 9; ++region)
+  {
+    covered[static_cast<std::size_t>(region)] = raster.WholeCells(region);
+    EXPECT_GT(raster.WholeCells(region), 10.0);
+  }
+  raster.VisitMixed([&](const RegionRaster::Share* shares, std::int64_t count) {
+    double sum = restOf(shares, count);
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      covered[static_cast<std::size_t>(shares[i].Region)] += shares[i].Part;
+      sum += shares[i].Part;
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+  });
+  for (std::size_t i = 0; i < areas.size(); ++i)
+  {
+    EXPECT_NEAR(covered[i], areas[i], 1e-10);
+  }
+  std::int32_t region = 0;
+  EXPECT_NEAR(raster.Overlap(region), 0.0, 1e-10);
+  // The sum of the cells.
+  std::vector<double> values{ 1, 2, 3, 4, 5, 6, 7, 8, 9 };
+  std::vector<double> cells;
+  raster.Fill(values, 0.5, cells);
+  const double land = std::accumulate(areas.begin(), areas.end(), 0.0);
+  double expected = 0.5 * (side * side - land);
+  for (std::size_t i = 0; i < areas.size(); ++i)
+  {
+    expected += values[i] * areas[i];
+  }
+  EXPECT_NEAR(std::accumulate(cells.begin(), cells.end(), 0.0), expected, 1e-9);
+}
+
+TEST(RegionRaster, Overlap)
+{
+  RegionMap map;
+  addRing(map, 0, rectangle(5.0, 5.0, 15.0, 15.0));
+  addRing(map, 1, rectangle(12.5, 5.0, 25.0, 15.0));
+  map.FindHoles();
+  std::int32_t region = -1;
+  EXPECT_NEAR(rasterOf(map, 2).Overlap(region), 20.0 + 10.0 * 0.5, 1e-9);
+  EXPECT_GE(region, 0);
+}
+
+// The integral of the raster over each region is its mass.
+TEST(RegionValues, PutMassesIntoRegions)
+{
+  const RegionMap map = uneven();
+  const RegionRaster raster = rasterOf(map, 9);
+  const std::vector<double> masses{ 100, 1, 20, 3, 500, 60, 70, 8, 0.9 };
+  const std::vector<double> areas = map.Areas(9);
+  const double sea = 2.0;
+  const RegionValues values = findRegionValues(raster, masses, areas, sea, 1e-4);
+  std::vector<double> cells;
+  raster.Fill(values.Densities, sea, cells);
+  // Cell by cell, with the parts that each region has.
+  std::vector<double> found(9);
+  for (std::int32_t region = 0; region < 9; ++region)
+  {
+    std::vector<double> only(9, 0.0);
+    only[static_cast<std::size_t>(region)] = 1.0;
+    std::vector<double> parts;
+    raster.Fill(only, 0.0, parts);
+    for (std::size_t cell = 0; cell < parts.size(); ++cell)
+    {
+      found[static_cast<std::size_t>(region)] += parts[cell] * cells[cell];
+    }
+  }
+  for (std::size_t i = 0; i < masses.size(); ++i)
+  {
+    EXPECT_NEAR(found[i] / masses[i] - 1.0, values.Errors[i], 1e-9);
+    const bool isFree = values.Least[i] == 0 && values.Densities[i] < 3.999 * masses[i] / areas[i];
+    if (isFree)
+    {
+      EXPECT_NEAR(values.Errors[i], 0.0, 1e-3) << i;
+    }
+  }
+  // Without it, border cells give regions of little mass much of their neighbours'.
+  double plain = 0.0;
+  for (std::size_t i = 0; i < masses.size(); ++i)
+  {
+    plain = std::max(plain, std::abs(values.Densities[i] / (masses[i] / areas[i]) - 1.0));
+  }
+  EXPECT_GT(plain, 0.2);
+}
+
+} // namespace
+} // namespace RectifiedTransport

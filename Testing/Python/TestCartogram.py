@@ -1,0 +1,358 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Cartograms: areas of regions from polygons, closed lines and map files; what moves along; bad input."""
+import os
+import unittest
+
+import numpy as np
+from rt_testing import SOURCE, Listener, load_plugin, main, positions, producer
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkMultiBlockDataSet, vtkPolyData
+
+simple = load_plugin()
+from rectifiedtransport import vtkCartogram  # noqa: E402
+
+STATES = os.path.join(SOURCE, "Testing", "Data", "us-states.geojson")
+
+
+def square(low, high):
+    return [(low, low), (high, low), (high, high), (low, high)]
+
+
+def rectangle(x0, y0, x1, y1):
+    return [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
+
+
+def map_of(rings, mass=None, lines=False, place=None, **arrays):
+    """Regions of one ring each, each with points of its own."""
+    data, points, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
+    points.SetDataTypeToDouble()
+    for ring in rings:
+        ids = [points.InsertNextPoint(*(place(*x) if place else (*x, 0.0))) for x in ring]
+        ids += ids[:1] if lines else []
+        cells.InsertNextCell(len(ids))
+        for i in ids:
+            cells.InsertCellPoint(i)
+    data.SetPoints(points)
+    (data.SetLines if lines else data.SetPolys)(cells)
+    if mass is not None:
+        arrays = {"Mass": np.array(mass, float), **arrays}
+    for name, values in arrays.items():
+        if isinstance(values[0], str):
+            array = vtkStringArray()
+            for value in values:
+                array.InsertNextValue(value)
+        else:
+            array = numpy_to_vtk(np.asarray(values), deep=1)
+        array.SetName(name)
+        data.GetCellData().AddArray(array)
+    return data
+
+
+def sixteen(heavy=20.0, **options):
+    rings = [rectangle(x, y, x + 1, y + 1) for y in range(4) for x in range(4)]
+    return map_of(rings, [heavy if i == 5 else 1.0 for i in range(16)], **options)
+
+
+def blocks_of(*parts):
+    blocks = vtkMultiBlockDataSet()
+    for i, part in enumerate(parts):
+        blocks.SetBlock(i, part)
+    return blocks
+
+
+def ring_areas(data):
+    """Of lines and polygons, in the order of the cells, signed in the plane of x and y."""
+    places = positions(data)
+    areas = []
+    for cells in (data.GetLines(), data.GetPolys()):
+        offsets = vtk_to_numpy(cells.GetOffsetsArray())
+        ids = vtk_to_numpy(cells.GetConnectivityArray())
+        for first, end in zip(offsets, offsets[1:]):
+            x, y, _ = (places[ids[first:end]] - places[ids[first]]).T
+            areas.append(0.5 * (np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))))
+    return np.array(areas)
+
+
+def cartogram(data, overlay=None, regions=None, mass="Mass", **properties):
+    algorithm = vtkCartogram()
+    algorithm.SetInputDataObject(0, data)
+    if overlay:
+        algorithm.SetOverlayData(overlay)
+    if mass:
+        algorithm.SetInputArrayToProcess(0, 0, 0, 1, mass)
+    if regions:
+        algorithm.SetInputArrayToProcess(1, 0, 0, 1, regions)
+    algorithm.SetResolution(128)
+    for name, value in properties.items():
+        getattr(algorithm, "Set" + name)(value)
+    listener = Listener(algorithm)
+    algorithm.Update()
+    return algorithm, listener
+
+
+def cell_values(data, name):
+    return vtk_to_numpy(data.GetCellData().GetArray(name))
+
+
+class TestCartogram(unittest.TestCase):
+    def check_shares(self, areas, masses, tolerance=0.01):
+        errors = areas / areas.sum() / (np.array(masses) / np.sum(masses)) - 1
+        self.assertLess(abs(errors).max(), tolerance)
+        return errors
+
+    def test_polygons(self):
+        data = sixteen(20.0)
+        algorithm, listener = cartogram(data)
+        self.assertEqual(listener.errors + listener.warnings, [])
+        regions = algorithm.GetRegions()
+        areas = ring_areas(regions)
+        errors = self.check_shares(areas, cell_values(data, "Mass"))
+        np.testing.assert_allclose(cell_values(regions, "AreaError"), errors, atol=1e-9)
+        np.testing.assert_allclose(cell_values(regions, "TargetArea"),
+                                   16 * cell_values(data, "Mass") / 35, rtol=1e-12)
+        self.assertAlmostEqual(areas.sum(), 16, delta=0.1)
+        passes = vtk_to_numpy(regions.GetFieldData().GetArray("AreaErrors"))
+        self.assertAlmostEqual(passes[-1], abs(errors).max(), delta=1e-9)
+        np.testing.assert_array_equal(cell_values(regions, "Mass"), cell_values(data, "Mass"))
+        self.assertGreater(regions.GetNumberOfPoints(), data.GetNumberOfPoints())
+
+    def test_lines_and_blocks_are_the_same(self):
+        """And either direction of the rings."""
+        expected = ring_areas(cartogram(sixteen())[0].GetRegions())
+        lines = ring_areas(cartogram(sixteen(lines=True))[0].GetRegions())
+        np.testing.assert_allclose(lines, expected, rtol=1e-9)
+        turned = [rectangle(x, y, x + 1, y + 1)[::-1] for y in range(4) for x in range(4)]
+        back = cartogram(map_of(turned, cell_values(sixteen(), "Mass")))[0].GetRegions()
+        np.testing.assert_allclose(ring_areas(back), -expected, rtol=1e-9)
+        single = [map_of([rectangle(i % 4, i // 4, i % 4 + 1, i // 4 + 1)], [20.0 if i == 5 else 1.0],
+                         lines=i % 2 == 1) for i in range(16)]
+        joined = cartogram(blocks_of(*single))[0].GetRegions()
+        self.assertEqual(joined.GetNumberOfCells(), 16)
+        np.testing.assert_allclose(np.sort(ring_areas(joined)), np.sort(expected), rtol=1e-6)
+
+    def test_pieces_and_holes(self):
+        """Cells of one value are a region, whose mass counts once; a ring in it is a hole."""
+        rings = [square(0, 6), square(2, 4), square(2, 4), rectangle(6, 0, 8, 6), rectangle(9, 0, 10, 3)]
+        for key in ([0, 0, 7, 3, 3], ["a", "a", "c", "b", "b"]):
+            data = map_of(rings, [4.0, 4.0, 1.5, 2.0, 2.0], Country=key)
+            for lines in (False, True):
+                data = map_of(rings, [4.0, 4.0, 1.5, 2.0, 2.0], lines=lines, Country=key)
+                algorithm, listener = cartogram(data, regions="Country")
+                self.assertEqual(listener.errors + listener.warnings, [])
+                a = ring_areas(algorithm.GetRegions())
+                self.check_shares(np.array([a[0] - a[1], a[2], a[3] + a[4]]), [4.0, 1.5, 2.0])
+                self.assertAlmostEqual(a[1], a[2], delta=1e-12)
+        # The same as blocks.
+        parts = [map_of(rings[:2], [4.0, 4.0], lines=True), map_of(rings[2:3], [1.5], lines=True),
+                 map_of(rings[3:], [2.0, 2.0], lines=True)]
+        b = ring_areas(cartogram(blocks_of(*parts))[0].GetRegions())
+        np.testing.assert_allclose(b, a, rtol=1e-9)
+
+    def test_planes(self):
+        """Any plane, far from the origin."""
+        expected = ring_areas(cartogram(sixteen())[0].GetRegions())
+        u, v = np.array([2.0, 1.0, 2.0]) / 3, np.array([-2.0, 2.0, 1.0]) / 3
+        algorithm, listener = cartogram(sixteen(place=lambda x, y: 1000 + x * u + y * v))
+        self.assertEqual(listener.errors + listener.warnings, [])
+        regions = algorithm.GetRegions()
+        flat = (positions(regions) - 1000) @ np.array([u, v]).T
+        self.assertLess(abs((positions(regions) - 1000) @ np.cross(u, v)).max(), 1e-9)
+        points = vtkPoints()
+        points.SetDataTypeToDouble()
+        points.SetData(numpy_to_vtk(np.c_[flat, np.zeros(len(flat))], deep=1))
+        regions.SetPoints(points)
+        np.testing.assert_allclose(abs(ring_areas(regions)), expected, rtol=5e-3)
+
+    def test_overlay_and_graticule(self):
+        data = sixteen(30.0)
+        overlay = vtkPolyData()
+        overlay.DeepCopy(data)
+        overlay.GetPointData().AddArray(data.GetPoints().GetData())
+        algorithm, listener = cartogram(data, overlay)
+        self.assertEqual(listener.errors + listener.warnings, [])
+        regions, moved = algorithm.GetRegions(), algorithm.GetOverlay()
+        count = data.GetNumberOfPoints()
+        np.testing.assert_allclose(positions(moved), positions(regions)[:count], atol=1e-12)
+        self.assertEqual(moved.GetPointData().GetNumberOfArrays(), 1)
+        self.assertEqual(moved.GetNumberOfCells(), 16)
+        self.assertGreater(abs(positions(moved) - positions(data)).max(), 0.3)
+        graticule = algorithm.GetGraticule()
+        self.assertEqual(graticule.GetNumberOfLines(), 34)
+        np.testing.assert_allclose(graticule.GetBounds(), (-0.4, 4.4, -0.4, 4.4, 0, 0), atol=1e-9)
+        # Without a change of areas it is the regular grid.
+        plain = positions(cartogram(sixteen(1.0))[0].GetGraticule())
+        regular = 0.009375 * np.round((plain[:, 0] + 0.4) / 0.009375) - 0.4
+        np.testing.assert_allclose(plain[:, 0], regular, atol=1e-3)
+        self.assertGreater(abs(positions(graticule) - plain).max(), 0.3)
+
+    def test_blend(self):
+        data = sixteen()
+        whole = positions(cartogram(data)[0].GetRegions())
+        none = positions(cartogram(data, Blend=0.0)[0].GetRegions())
+        half = positions(cartogram(data, Blend=0.5)[0].GetRegions())
+        np.testing.assert_array_equal(none[:data.GetNumberOfPoints()], positions(data))
+        np.testing.assert_allclose(half, 0.5 * (none + whole), atol=1e-12)
+        self.assertAlmostEqual(ring_areas(cartogram(data, Blend=0.0)[0].GetRegions())[5], 1, delta=1e-12)
+
+    def test_point_data(self):
+        data = sixteen()
+        heights = numpy_to_vtk(positions(data) @ [2.0, 3.0, 0.0], deep=1)
+        heights.SetName("Height")
+        data.GetPointData().AddArray(heights)
+        regions = cartogram(data, Blend=0.0)[0].GetRegions()
+        np.testing.assert_allclose(vtk_to_numpy(regions.GetPointData().GetArray("Height")),
+                                   positions(regions) @ [2.0, 3.0, 0.0], atol=1e-9)
+
+    def test_masses_change(self):
+        """The map is kept; the result is that of a new filter."""
+        data = sixteen(3.0)
+        algorithm, _ = cartogram(data)
+        before = positions(algorithm.GetRegions())
+        changed = sixteen(40.0)
+        algorithm.SetInputDataObject(0, changed)
+        algorithm.Update()
+        after = positions(algorithm.GetRegions())
+        np.testing.assert_array_equal(after, positions(cartogram(changed)[0].GetRegions()))
+        self.assertFalse(np.array_equal(before, after[:len(before)]))
+        for name, value in (("Resolution", 64), ("Margin", 0.3)):
+            getattr(algorithm, "Set" + name)(value)
+            algorithm.Update()
+            fresh = vtkCartogram()
+            for key in ("Resolution", "Margin"):
+                getattr(fresh, "Set" + key)(getattr(algorithm, "Get" + key)())
+            fresh.SetInputDataObject(0, changed)
+            fresh.SetInputArrayToProcess(0, 0, 0, 1, "Mass")
+            fresh.Update()
+            np.testing.assert_array_equal(positions(algorithm.GetRegions()), positions(fresh.GetRegions()))
+
+    def test_default_mass(self):
+        algorithm, listener = cartogram(sixteen(), mass=None)
+        self.assertEqual(listener.errors, [])
+        self.check_shares(ring_areas(algorithm.GetRegions()), cell_values(sixteen(), "Mass"))
+
+    def test_empty_input(self):
+        algorithm, listener = cartogram(vtkPolyData())
+        self.assertEqual(listener.errors + listener.warnings, [])
+        self.assertEqual(algorithm.GetRegions().GetNumberOfPoints(), 0)
+
+    def test_warnings(self):
+        zero = sixteen()
+        zero.GetCellData().GetArray("Mass").SetValue(3, 0.0)
+        _, listener = cartogram(zero)
+        self.assertIn("1 of 16 regions (6.25 %) have no mass", listener.warnings[0])
+        algorithm, listener = cartogram(sixteen(), LeastShare=0.05)
+        self.assertIn("15 of 16 regions (93.8 %) are enlarged to LeastShare", listener.warnings[0])
+        self.check_shares(ring_areas(algorithm.GetRegions()), [0.25 if i == 5 else 0.05 for i in range(16)])
+        self.assertEqual(algorithm.GetRegions().GetFieldData().GetArray("EnlargedRegions").GetValue(0), 15)
+        data = map_of([square(0, 4), rectangle(3, 0, 8, 4)], [1.0, 2.0])
+        self.assertIn("Regions overlap by 11 % of their area", cartogram(data)[1].warnings[0])
+        degrees = sixteen(place=lambda x, y: (10 * x, 40 + 10 * y, 0.0))
+        self.assertIn("degrees of longitude and latitude", cartogram(degrees)[1].warnings[0])
+        _, listener = cartogram(sixteen(), MaximumIterations=1, Tolerance=1e-6)
+        self.assertIn("raise MaximumIterations", listener.warnings[0])
+        lake = map_of([square(0, 10), square(5, 5.1), square(5, 5.1)], [1.0, 1.0, 1e-9],
+                      name=["land", "land", "pond"])
+        _, listener = cartogram(lake, regions="name", Resolution=32)
+        self.assertIn("the raster cannot hold 'pond' (off by", listener.warnings[-1])
+        self.assertIn("LeastShare", listener.warnings[-1])
+
+    def test_errors(self):
+        nan = sixteen()
+        nan.GetCellData().GetArray("Mass").SetValue(7, np.nan)
+        negative = sixteen(-2.0)
+        empty = map_of([square(0, 1)], [0.0])
+        flat = map_of([square(0, 4), [(5, 5), (6, 6), (7, 7)]], [1.0, 1.0])
+        bent = sixteen(place=lambda x, y: (x, y, x * y))
+        twice = map_of([square(0, 1), square(2, 3)], [1.0, 2.0], Land=[3, 3])
+        open_line = map_of([square(0, 4)], [1.0], lines=True)
+        open_line.GetLines().ReplaceCellAtId(0, 5, [0, 1, 2, 3, 1])
+        two = sixteen()
+        two.GetCellData().AddArray(numpy_to_vtk(np.ones(16), deep=1))
+        two.GetCellData().GetArray(1).SetName("Other")
+        bow_tie = map_of([[(0, 0), (3, 3), (3, 0), (0, 2)], rectangle(4, 0, 6, 3)], [1.0, 1.0])
+        points = vtkPolyData()
+        points.SetPoints(sixteen().GetPoints())
+        infinite = sixteen()
+        infinite.GetPoints().SetPoint(3, np.inf, 0, 0)
+        for data, options, text in (
+                (sixteen(), dict(mass="None such"), "MassArray 'None such' is no numeric cell array"),
+                (two, dict(mass=None), "MassArray is not set, and the input has 2 numeric cell arrays"),
+                (nan, {}, "The mass of the region of cell 7 in 'Mass' is nan"),
+                (negative, {}, "The mass of the region of cell 5 in 'Mass' is -2"),
+                (empty, {}, "The masses in 'Mass' sum to 0"),
+                (flat, {}, "1 of 2 regions (50 %) have no area (the first is the region of cell 1)"),
+                (bent, {}, "The regions are not in a plane"),
+                (twice, dict(regions="Land"), "has cells of mass 1 and 2 in 'Mass'"),
+                (open_line, {}, "1 of 1 lines of the input do not close (the first is cell 0)"),
+                (points, {}, "The input has no regions"),
+                (bow_tie, {}, "The outline of the region of cell 0 crosses itself"),
+                (infinite, {}, "The input has 1 point that is NaN or infinite, the first at index 3"),
+                (sixteen(), dict(regions="Nowhere"), "RegionArray 'Nowhere' is no cell array"),
+                (sixteen(), dict(Tolerance=0.0), "Tolerance is 0; it must be above 0 and at most 1"),
+                (sixteen(), dict(Tolerance=1.5), "Tolerance is 1.5"),
+                (sixteen(), dict(Resolution=4), "Resolution is 4; it must be from 16 to 16384"),
+                (sixteen(), dict(Margin=-1.0), "Margin is -1"),
+                (sixteen(), dict(EmptyCells=7), "EmptyCells is 7"),
+                (sixteen(), dict(EmptyValue=-1.0), "EmptyValue is -1"),
+                (sixteen(), dict(MaximumIterations=0), "MaximumIterations is 0"),
+                (sixteen(), dict(LeastShare=0.5), "LeastShare is 0.5; it must be below 1 / 16"),
+                (sixteen(), dict(Blend=2.0), "Blend is 2")):
+            with self.subTest(text=text):
+                algorithm, listener = cartogram(data, **options)
+                self.assertIn(text, "\n".join(listener.errors))
+                self.assertEqual(algorithm.GetRegions().GetNumberOfPoints(), 0)
+                self.assertEqual(algorithm.GetGraticule().GetNumberOfPoints(), 0)
+
+    def test_extremes(self):
+        """All mass in one region; masses and coordinates near the ends of doubles."""
+        one = map_of([rectangle(i, 0, i + 1, 1) for i in range(4)], [0.0, 5.0, 0.0, 0.0])
+        algorithm, listener = cartogram(one)
+        self.assertEqual(listener.errors, [])
+        self.assertGreater(ring_areas(algorithm.GetRegions())[1], 3.9)
+        expected = ring_areas(cartogram(sixteen())[0].GetRegions())
+        for scale in (1e-250, 1e250):
+            data = map_of([rectangle(x, y, x + 1, y + 1) for y in range(4) for x in range(4)],
+                          cell_values(sixteen(), "Mass") * scale)
+            np.testing.assert_allclose(ring_areas(cartogram(data)[0].GetRegions()), expected, rtol=1e-6)
+        for scale in (1e-60, 1e60):
+            data = sixteen(place=lambda x, y, s=scale: (s * x, s * y, 0.0))
+            np.testing.assert_allclose(ring_areas(cartogram(data)[0].GetRegions()) / scale ** 2, expected,
+                                       rtol=1e-6)
+
+    def test_wide_sea(self):
+        data = map_of([square(0, 1), [(x + 300, y) for x, y in square(0, 1)]], [1.0, 3.0])
+        algorithm, listener = cartogram(data)
+        self.assertEqual(listener.errors, [])
+        areas = ring_areas(algorithm.GetRegions())
+        self.assertGreater(areas[1], areas[0])
+
+    @unittest.skipUnless(hasattr(simple, "GDALVectorReader"), "this ParaView has no GDAL Vector Reader")
+    def test_map_file(self):
+        """The United States with the people of 2020, from the file as ParaView reads it."""
+        reader = simple.GDALVectorReader(FileName=STATES)
+        proxy = simple.Cartogram(Input=reader, MassArray=["CELLS", "mass"])
+        listener = Listener(proxy.GetClientSideObject())
+        proxy.UpdatePipeline()
+        self.assertEqual(listener.errors + listener.warnings, [])
+        algorithm = proxy.GetClientSideObject()
+        regions = algorithm.GetOutputDataObject(0)
+        names = regions.GetCellData().GetAbstractArray("name")
+        masses, areas = {}, {}
+        for cell, area in enumerate(ring_areas(regions)):
+            name = names.GetValue(cell)
+            masses[name] = regions.GetCellData().GetArray("mass").GetTuple1(cell)
+            areas[name] = areas.get(name, 0) + area
+        self.assertEqual(len(masses), 49)
+        errors = self.check_shares(np.array(list(areas.values())), list(masses.values()), 0.005)
+        self.assertAlmostEqual(abs(errors).max(), abs(cell_values(regions, "AreaError")).max(), delta=1e-6)
+        self.assertLessEqual(regions.GetFieldData().GetArray("AreaErrors").GetNumberOfTuples(), 4)
+
+    def test_in_the_pipeline(self):
+        proxy = simple.Cartogram(Input=producer(simple, sixteen()), MassArray=["CELLS", "Mass"], Resolution=64)
+        self.assertEqual(proxy.SMProxy.GetNumberOfOutputPorts(), 3)
+        proxy.UpdatePipeline()
+        self.assertLess(proxy.CellData["AreaError"].GetRange()[1], 0.01)
+
+
+main()
