@@ -33,7 +33,7 @@ std::string arrayName(vtkInformation* choice, const char* title)
 {
   const char* name = choice->Get(vtkDataObject::FIELD_NAME());
   // ParaView gives None another association.
-  if (name && std::string(name) != "None" &&
+  if (name && *name != '\0' && std::string(name) != "None" &&
     choice->Get(vtkDataObject::FIELD_ASSOCIATION()) != vtkDataObject::FIELD_ASSOCIATION_CELLS)
   {
     fail(title, " '", name,
@@ -145,8 +145,8 @@ int vtkCartogram::RequestData(
     "above 0 and at most 1");
   requireThat(this->MaximumIterations >= 1 && this->MaximumIterations <= 100, "MaximumIterations",
     this->MaximumIterations, "from 1 to 100");
-  requireThat(this->LeastShare >= 0.0 && this->LeastShare < 1.0, "LeastShare", this->LeastShare,
-    "at least 0, and below 1 / the number of regions");
+  requireThat(this->LeastShare >= 0.0 && this->LeastShare <= 1.0, "LeastShare", this->LeastShare,
+    "from 0 to 1");
   requireThat(this->Blend >= 0.0 && this->Blend <= 1.0, "Blend", this->Blend, "from 0 to 1");
   CartogramWorker worker{};
   worker.Options.Resolution = this->Resolution;

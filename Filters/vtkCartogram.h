@@ -122,8 +122,8 @@ public:
 
   ///@{
   /**
-   * Regions with less than this share of all mass are enlarged to it, from 0 (default: none) to
-   * below 1 / the number of regions.
+   * Regions with less than this share of all mass are enlarged to it, from 0 to 1; from 1 / the
+   * number of regions on, all become equal. Default 0.
    */
   vtkSetMacro(LeastShare, double);
   vtkGetMacro(LeastShare, double);
@@ -131,7 +131,7 @@ public:
 
   ///@{
   /**
-   * The part of the way from the map (0) to the cartogram (1, the default).
+   * The part of the way from the map (0) to the cartogram (1), from 0 to 1. Default 1.
    */
   vtkSetMacro(Blend, double);
   vtkGetMacro(Blend, double);

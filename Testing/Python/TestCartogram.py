@@ -245,6 +245,8 @@ class TestCartogram(unittest.TestCase):
         self.assertIn("15 of 16 regions (93.8 %) are enlarged to LeastShare", listener.warnings[0])
         self.check_shares(ring_areas(algorithm.GetRegions()), [0.25 if i == 5 else 0.05 for i in range(16)])
         self.assertEqual(algorithm.GetRegions().GetFieldData().GetArray("EnlargedRegions").GetValue(0), 15)
+        algorithm, listener = cartogram(sixteen(), LeastShare=0.5)
+        self.check_shares(ring_areas(algorithm.GetRegions()), [1.0] * 16)
         data = map_of([square(0, 4), rectangle(3, 0, 8, 4)], [1.0, 2.0])
         self.assertIn("Regions overlap by 11 % of their area", cartogram(data)[1].warnings[0])
         degrees = sixteen(place=lambda x, y: (10 * x, 40 + 10 * y, 0.0))
@@ -296,7 +298,7 @@ class TestCartogram(unittest.TestCase):
                 (sixteen(), dict(EmptyCells=7), "EmptyCells is 7"),
                 (sixteen(), dict(EmptyValue=-1.0), "EmptyValue is -1"),
                 (sixteen(), dict(MaximumIterations=0), "MaximumIterations is 0"),
-                (sixteen(), dict(LeastShare=0.5), "LeastShare is 0.5; it must be below 1 / 16"),
+                (sixteen(), dict(LeastShare=1.5), "LeastShare is 1.5; it must be from 0 to 1"),
                 (sixteen(), dict(Blend=2.0), "Blend is 2")):
             with self.subTest(text=text):
                 algorithm, listener = cartogram(data, **options)

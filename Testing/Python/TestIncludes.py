@@ -15,6 +15,7 @@ CORE = {
     "Tables": {"Parallel", "Geometry"},
     "Flow": {"Parallel", "Geometry", "Tables"},
     "Equalize": {"Parallel", "Geometry", "Tables", "Flow"},
+    "Cartogram": {"Parallel", "Geometry", "Overlap", "Tables", "Flow"},
     "SiteCells": {"Parallel", "Algebra", "Geometry", "Tables", "Flow", "PowerCells"},
     "Quality": {"Parallel", "Geometry", "Tables", "Flow"},
     "PowerCells": {"Parallel", "Algebra", "Geometry", "Tables"},
@@ -46,7 +47,7 @@ BRIDGE = {
     "Resampling": BLOCKS | {"Blocks", "Meshes", "Lattices"},
     "Inputs": BLOCKS | {"Blocks", "Resampling"},
     "Blend": WORKERS | {"Splat"},
-    "SiteCells": WORKERS | {"Blocks"},
+    **{folder: WORKERS | {"Blocks"} for folder in ("Cartogram", "SiteCells")},
     **{folder: WORKERS for folder in ("Flow", "Quality", "Relaxation", "Seeds", "Splat")},
     **{folder: WORKERS | {"Surface"}
        for folder in ("Solid", "Parameterization", "SurfaceSampling")},

@@ -150,7 +150,8 @@ class Plugin(unittest.TestCase):
         sources = {"image": image, "sphere": sphere, "table": table}
         for source in sources.values():
             source.UpdatePipeline()
-        taken = {"density": {"image", "sphere"}, "densities": {"image", "sphere"}, "image": {"image"}}
+        taken = {"density": {"image", "sphere"}, "densities": {"image", "sphere"}, "image": {"image"},
+                 "map": set()}  # which have no cell array
         for filter_ in FILTERS:
             made = getattr(simple, filter_.name)()
             for name, kind in filter_.ports.items():

@@ -17,7 +17,8 @@ SCRIPT = os.path.join(os.path.dirname(__file__), "ranks_script.py")
 
 # Where inputs lie, by their kinds.
 PLACES = {"points": ("whole", "shared", "gathered"), "mesh": ("whole", "shared", "gathered"),
-          "disk": ("whole", "shared"), "solid": ("whole", "shared")}
+          "disk": ("whole", "shared"), "solid": ("whole", "shared"),
+          "map": ("whole", "shared")}
 
 
 def cases():

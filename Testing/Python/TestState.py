@@ -21,8 +21,9 @@ def sources():
     plane = simple.Plane(XResolution=6, YResolution=5)
     sheet = simple.Calculator(Input=plane, ResultArrayName="Height", Function="2+coordsX")
     sphere = simple.Sphere()
+    regions = simple.Calculator(Input=plane, AttributeType="Cell Data", ResultArrayName="Mass", Function="3")
     return {"density": photograph, "densities": parts, "image": parts[0], "mesh": seeds,
-            "points": particles, "disk": sheet, "solid": sphere}
+            "points": particles, "disk": sheet, "solid": sphere, "map": regions}
 
 
 def pipeline():

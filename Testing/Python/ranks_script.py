@@ -33,11 +33,16 @@ def closed_apart():
                           ContourBy=["POINTS", "RTData"], Isosurfaces=[220.0], ComputeNormals=0)
 
 
+def regions(source=simple.Plane):
+    return simple.Calculator(Input=source(), AttributeType="Cell Data", ResultArrayName="Mass", Function="3")
+
+
 WHOLE = {"density": image, "densities": lambda: [image(), image()], "image": image,
-         "disk": simple.Plane, "solid": simple.Sphere,
+         "disk": simple.Plane, "solid": simple.Sphere, "map": regions,
          "points": lambda: simple.UniformSeeds(NumberOfPoints=500, Dimension=3)}
 SHARED = {"disk": lambda: simple.ExtractSurface(Input=apart(plane())), "solid": closed_apart,
-          "points": lambda: apart(sphere())}
+          "points": lambda: apart(sphere()),
+          "map": lambda: regions(lambda: simple.ExtractSurface(Input=apart(plane())))}
 GATHERED = {"points": lambda: simple.RedistributeDataSet(Input=sphere(), NumberOfPartitions=1)}
 PLACES = {"whole": WHOLE, "shared": SHARED, "gathered": GATHERED}
 

@@ -31,7 +31,8 @@ class Filter(NamedTuple):
     """A filter or source. No version changes the label, the class or the names of inputs and outputs.
 
     Kinds of inputs: density (any data with one), densities (several of these), image (its geometry),
-    points (no cells are read), mesh (points whose cells are passed on), disk and solid (surfaces).
+    points (no cells are read), mesh (points whose cells are passed on), disk and solid (surfaces), map (regions with masses
+    on their cells).
     """
     label: str
     class_name: str
@@ -176,6 +177,15 @@ FILTERS = [
            quick=dict(MaximumIterations=2),
            saved=dict(InvertDensity=1, Method="OptimalTransport", MaximumIterations=3, Tolerance=0.001),
            shown=PARTICLES, always_shown=("Tolerance",)),  # of another meaning than that of flows
+    Filter("Cartogram", "vtkCartogram", {"Input": "map"}, {"Overlay": "mesh"},
+           ["Regions", "Graticule", "Overlay"],
+           panel=["Overlay", "MassArray", "RegionArray", "Tolerance", "LeastShare", "Blend", "Resolution",
+                  "Margin", "EmptyCells", "EmptyValue", "MaximumIterations", "Threading"],
+           refused=("Blend", -0.5, 1), quick=dict(Resolution=64),
+           saved=dict(Resolution=60, Tolerance=0.05, LeastShare=0.001, Blend=0.5, Margin=0.2,
+                      EmptyCells="Value", EmptyValue=0.5, MaximumIterations=3),
+           always_shown=("Tolerance",),  # of another meaning than that of flows
+           slow_at_highest=("Resolution",)),
 ]
 
 
@@ -205,6 +215,8 @@ PROPERTIES = {
     "Threading": Property(["Auto", "VTK", "OpenMP", "Serial"], advanced=True),
     "Direction": Property(["UniformToDensity", "DensityToUniform"]),
     "EqualizeAreas": Property(shown_by=("Direction",), differing=(0, 1)),
+    "EmptyCells": Property(["Mean", "Least", "Value", "Zero"]),
+    "EmptyValue": Property(shown_by=("EmptyCells",), differing=(0.1, 5.0)),
     "MassMode": Property(["Linear", "Geometric", "Source", "Normalize"]),
     "Kernel": Property(["CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian"]),
     "Radius": Property(shown_by=("Kernel",), differing=(1.0, 3.0)),

@@ -79,8 +79,24 @@ def disk_surface():
     return source.GetOutput()
 
 
+def region_map():
+    """16 squares with a cell array Mass: a vtkPolyData of polygons in a plane."""
+    from vtkmodules.vtkFiltersSources import vtkPlaneSource
+    source = vtkPlaneSource()
+    source.SetResolution(4, 4)
+    source.Update()
+    data = source.GetOutput()
+    masses = numpy_to_vtk(1 + np.arange(16.0) % 5, deep=1)
+    masses.SetName("Mass")
+    data.GetCellData().AddArray(masses)
+    return data
+
+
 def surface_for(algorithm):
-    """A surface that an algorithm takes: those with corners map a disk to a square."""
+    """A surface that an algorithm takes: those with corners map a disk to a square, and those of masses of
+    regions need a map."""
+    if hasattr(algorithm, "GetLeastShare"):
+        return region_map()
     return disk_surface() if hasattr(algorithm, "GetNumberOfCorners") else closed_surface()
 
 

@@ -47,7 +47,9 @@ def wavelet():
 
 SOURCES = {"density": wavelet, "densities": lambda: [wavelet(), wavelet()],
            "points": simple.Sphere, "mesh": simple.Sphere, "image": wavelet,
-           "solid": simple.Sphere, "disk": simple.Plane}
+           "solid": simple.Sphere, "disk": simple.Plane,
+           "map": lambda: simple.Calculator(Input=simple.Plane(), AttributeType="Cell Data",
+                                            ResultArrayName="Mass", Function="3")}
 SHORT = dict(NegativeValues="Clamp", NumberOfSteps=2)
 PROPERTIES = {proxy.label: proxy.properties for proxy in proxies()}
 for filter_ in FILTERS:

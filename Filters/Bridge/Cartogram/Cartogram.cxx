@@ -234,11 +234,6 @@ private:
     const double share = this->Worker.LeastShare;
     if (share > 0.0)
     {
-      if (!(share * static_cast<double>(masses.size()) < 1.0))
-      {
-        fail("LeastShare is ", share, "; it must be below 1 / ", masses.size(),
-          ", the share of a region if all have the same");
-      }
       this->Enlarged = raiseMasses(masses, share);
       if (this->Enlarged > 0)
       {

@@ -325,8 +325,10 @@ private:
     this->Flow->Backward(ConstPointSpan<2>(clamped), moved, options, this->Work.Stage());
     for (std::size_t i = 0; i < moved.size(); ++i)
     {
-      this->Fellows[i][0] += moved[i][0] - clamped[i][0];
-      this->Fellows[i][1] += moved[i][1] - clamped[i][1];
+      for (std::size_t axis = 0; axis < 2; ++axis)
+      {
+        this->Fellows[i][axis] = moved[i][axis] + (this->Fellows[i][axis] - clamped[i][axis]);
+      }
     }
   }
 
@@ -400,6 +402,14 @@ CartogramResult runCartogram(RegionMap& map, const std::vector<double>& masses,
 
 std::int32_t raiseMasses(std::vector<double>& masses, double leastShare)
 {
+  const double equal = sumOf(masses) / static_cast<double>(masses.size());
+  if (leastShare * static_cast<double>(masses.size()) >= 1.0)
+  {
+    const auto raised =
+      std::count_if(masses.begin(), masses.end(), [equal](double mass) { return mass < equal; });
+    std::fill(masses.begin(), masses.end(), equal);
+    return static_cast<std::int32_t>(raised);
+  }
   std::vector<unsigned char> isRaised(masses.size(), 0);
   std::int32_t count = 0;
   for (bool isDone = false; !isDone;)

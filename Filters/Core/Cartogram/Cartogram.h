@@ -102,7 +102,8 @@ CartogramResult runCartogram(RegionMap& map, const std::vector<double>& masses,
   const CartogramBox& box, const CartogramOptions& options, FellowPoints& fellows,
   CartogramStart& start, const Context& context = Context());
 
-// Raises masses below a share of their sum to it. Returns how many.
+// Raises masses below a share of their sum to it, or to an equal one if that is less. Returns how
+// many.
 std::int32_t raiseMasses(std::vector<double>& masses, double leastShare);
 
 } // namespace RectifiedTransport
