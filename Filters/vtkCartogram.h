@@ -137,13 +137,15 @@ public:
   vtkGetMacro(Blend, double);
   ///@}
 
-  ///@{
   /**
-   * Set the overlay (input 1), as the output of another filter or as a data object.
+   * Set the overlay (input 1), as the output of another filter.
    */
   void SetOverlayConnection(vtkAlgorithmOutput* overlay) { this->SetInputConnection(1, overlay); }
+
+  /**
+   * The same, as a data object.
+   */
   void SetOverlayData(vtkDataObject* overlay) { this->SetInputData(1, overlay); }
-  ///@}
 
   ///@{
   /**
