@@ -51,23 +51,22 @@ public:
     const std::int64_t rows = this->Lattice.CellRows();
     for (int pass = 0; pass < options.Passes; ++pass)
     {
-      const auto stage = [&](double part, std::int64_t units) {
-        this->Stages.BeginStage((pass + part) / options.Passes, units);
-      };
-      stage(0.15, rows);
+      const auto at = [&](double part) { return (pass + part) / options.Passes; };
+      this->Stages.BeginStage(at(0.1), rows);
       const AreaSums found = this->Measure(pass == 0);
       if (pass == 0)
       {
         report.FoldedBefore = found.Folded;
         report.FoldedAfter = found.Folded;
       }
-      stage(0.6, 3 * cells + FaceSystem<Dimension>::WorkOf(cells, usualIterations));
+      this->Stages.BeginStage(at(0.2), 3 * cells);
       this->Center(found.Missing);
       this->System.Prepare(this->Stages);
-      report.Iterations += this->System.Solve(options.Tolerance, mostIterations, this->Stages);
-      stage(0.7, rows);
+      report.Iterations +=
+        this->System.Solve(options.Tolerance, mostIterations, this->Stages, at(0.7));
+      this->Stages.BeginStage(at(0.75), this->Lattice.CornerRows());
       this->FindMoves();
-      stage(0.95, (2 * sweeps + 3) * rows);
+      this->Stages.BeginStage(at(0.85), (2 * sweeps + 1) * this->Lattice.CornerRows());
       this->Projection.SetTargets(this->Targets.data(), this->Stages);
       for (int sweep = 0; sweep < sweeps; ++sweep)
       {
@@ -76,19 +75,21 @@ public:
       const auto isBetter = [&found](const AreaSums& moved) {
         return moved.Folded <= found.Folded && moved.Error < found.Error;
       };
-      AreaSums moved =
-        this->Limits.Apply(this->Targets.data(), found.Folded, report.Limited, this->Stages);
-      for (int halving = 0; halving < mostHalvings && !isBetter(moved); ++halving)
+      const auto apply = [&](int trial) {
+        return this->Limits.Apply(this->Targets.data(), found.Folded, report.Limited, this->Stages,
+          at(0.95 - 0.1 / (trial + 2)));
+      };
+      AreaSums moved = apply(0);
+      for (int halving = 1; halving <= mostHalvings && !isBetter(moved); ++halving)
       {
         this->Limits.HalveMoves(this->Stages);
-        moved =
-          this->Limits.Apply(this->Targets.data(), found.Folded, report.Limited, this->Stages);
+        moved = apply(halving);
       }
       if (!isBetter(moved))
       {
         break;
       }
-      stage(1.0, rows);
+      this->Stages.BeginStage(at(1.0), this->Lattice.CornerRows());
       this->ForRows(
         this->Lattice.CornerRows(), [&](std::int64_t row) { this->Lattice.Apply(row, moves); });
       report.FoldedAfter = moved.Folded;
@@ -100,8 +101,6 @@ public:
   }
 
 private:
-  static constexpr int usualIterations = 8;
-
   template <class Work>
   void ForRows(std::int64_t rows, const Work& work)
   {

@@ -23,6 +23,9 @@ constexpr double secondFactor = 1.0 / (1.25 + 0.75 * 0.70710678118654752);
 constexpr std::int64_t coarsest = 8; // cells
 constexpr int coarsestSweeps = 8;
 
+constexpr int usualIterations = 8;
+constexpr std::int64_t workOfIteration = 10; // loops over all cells
+
 // Cells between neighbours along the last axis, the farthest ones, all together.
 template <int Dimension>
 std::int64_t marginOf(const GridSize<Dimension>& size)
@@ -354,7 +357,7 @@ void FaceSystem<Dimension>::Cycle(std::size_t at, Progress& progress)
 }
 
 template <int Dimension>
-int FaceSystem<Dimension>::Solve(double tolerance, int maximum, Progress& progress)
+int FaceSystem<Dimension>::Solve(double tolerance, int maximum, Progress& progress, double end)
 {
   Level& finest = this->Levels.front();
   const FaceWeights<Dimension> system = finest.View();
@@ -371,8 +374,10 @@ int FaceSystem<Dimension>::Solve(double tolerance, int maximum, Progress& progre
   const double begin = sum(
     [&](std::int64_t first, std::int64_t last) { return this->Kernels.Dot(r, r, first, last); });
   double before = 0.0;
+  const double start = progress.StageEnd();
   for (int iteration = 0; iteration < maximum; ++iteration)
   {
+    progress.BeginRound(iteration, usualIterations, start, end, workOfIteration * finest.Cells);
     if (!(begin > 0.0))
     {
       return iteration;

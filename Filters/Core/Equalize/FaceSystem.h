@@ -44,11 +44,10 @@ public:
   float* RightHandSide() { return this->Levels.front().Right.data(); }
   // Makes the coarser levels. Units of progress: twice the cells.
   void Prepare(Progress& progress);
-  // Returns the number of iterations. Units of progress: WorkOf(cells, iterations).
-  int Solve(double tolerance, int maximum, Progress& progress);
+  // Returns the number of iterations. Progress is led towards `end`.
+  int Solve(double tolerance, int maximum, Progress& progress, double end);
   const float* Solution() const { return this->Found.data(); }
 
-  static std::int64_t WorkOf(std::int64_t cells, int iterations) { return 10 * cells * iterations; }
   static double Memory(const GridSize<Dimension>& size);
 
 private:

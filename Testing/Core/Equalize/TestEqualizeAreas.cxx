@@ -254,6 +254,29 @@ TEST(EqualizeAreas, ReportsProgressAndStops)
   }
 }
 
+// A progress bar moves all the time, though linear systems and limits of moves take as long as they
+// take: here many iterations, and many rounds.
+TYPED_TEST(EqualizeAreasIn, ProgressDoesNotStandStill)
+{
+  constexpr int D = TypeParam::value;
+  const auto density = sampleDensity<D>(sizeFor<D>({}, { 300, 300 }, { 40, 44, 48 }),
+    [](const Point<D>& p) { return std::hypot(p[0] - 0.5, p[1] - 0.5) < 0.2 ? 1.0 : 0.001; });
+  Points<D> corners = bentLattice<D>(density.Size, 0.3);
+  const SerialExecutor serial;
+  RecordingContext recorder(serial);
+  equalize<D>(density, corners, passes(3), recorder.Context());
+  const std::vector<double> all = recorder.Reported;
+  ASSERT_GT(all.size(), 100u);
+  recorder.ExpectReported(0.0, 1.0);
+  std::size_t stretch = 0;
+  for (std::size_t i = 1, still = 0; i < all.size(); ++i)
+  {
+    still = all[i] > all[i - 1] ? 0 : still + 1;
+    stretch = std::max(stretch, still);
+  }
+  EXPECT_LE(stretch, 3u) << "of " << all.size();
+}
+
 TEST(EqualizeAreas, RefusesWrongArguments)
 {
   const auto density = uniformDensity<2>({ 4, 5 });
