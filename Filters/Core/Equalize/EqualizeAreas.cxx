@@ -22,8 +22,10 @@ constexpr std::int64_t grainCells = 1 << 13;
 constexpr int mostIterations = 50;
 constexpr int sweeps = 2; // of projections after each linear system
 
-// The moves of a pass that makes nothing better are halved so often, at most.
+// The moves of a pass that makes nothing better are halved so often, at most. Then so many sweeps
+// of projections take their place: beside thin cells the equation may move all corners too far.
 constexpr int mostHalvings = 3;
+constexpr int sweepsAlone = 8;
 
 template <int Dimension>
 class Equalization
@@ -68,10 +70,7 @@ public:
       this->FindMoves();
       this->Stages.BeginStage(at(0.85), (2 * sweeps + 1) * this->Lattice.CornerRows());
       this->Projection.SetTargets(this->Targets.data(), this->Stages);
-      for (int sweep = 0; sweep < sweeps; ++sweep)
-      {
-        this->Projection.Sweep(this->Stages);
-      }
+      this->Sweep(sweeps);
       const auto isBetter = [&found](const AreaSums& moved) {
         return moved.Folded <= found.Folded && moved.Error < found.Error;
       };
@@ -84,6 +83,13 @@ public:
       {
         this->Limits.HalveMoves(this->Stages);
         moved = apply(halving);
+      }
+      if (!isBetter(moved))
+      {
+        this->Stages.BeginStage(at(0.93), (2 * sweepsAlone + 1) * this->Lattice.CornerRows());
+        this->ClearMoves();
+        this->Sweep(sweepsAlone);
+        moved = apply(mostHalvings + 1);
       }
       if (!isBetter(moved))
       {
@@ -108,6 +114,25 @@ private:
       for (std::int64_t row = first; row < last; ++row)
       {
         work(row);
+      }
+    });
+  }
+
+  void Sweep(int count)
+  {
+    for (int sweep = 0; sweep < count; ++sweep)
+    {
+      this->Projection.Sweep(this->Stages);
+    }
+  }
+
+  void ClearMoves()
+  {
+    const std::int64_t count = this->Lattice.CornersOfRow();
+    this->ForRows(this->Lattice.CornerRows(), [&](std::int64_t row) {
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        std::fill_n(this->Lattice.Moves(axis) + row * count, count, 0.0F);
       }
     });
   }
