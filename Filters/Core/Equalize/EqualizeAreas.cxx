@@ -64,8 +64,10 @@ public:
       this->Stages.BeginStage(at(0.2), 3 * cells);
       this->Center(found.Missing);
       this->System.Prepare(this->Stages);
-      report.Iterations +=
+      const FaceSolution solution =
         this->System.Solve(options.Tolerance, mostIterations, this->Stages, at(0.7));
+      report.Iterations += solution.Iterations;
+      report.Residual = std::max(report.Residual, solution.Residual);
       this->Stages.BeginStage(at(0.75), this->Lattice.CornerRows());
       this->FindMoves();
       this->Stages.BeginStage(at(0.85), (2 * sweeps + 1) * this->Lattice.CornerRows());
