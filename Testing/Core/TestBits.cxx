@@ -63,7 +63,7 @@ void expectDigest(const std::string& what, const Digest& digest)
     { "3D RungeKutta4", 0xf6297220318b606du },
     { "3D Euler", 0x2770eb9ea33e134du },
     { "3D Adaptive", 0x19618df03942d44bu },
-    { "3D equalized", 0xa4420a0c58a2facbu },
+    { "3D equalized", 0x1c72c60a50be483au },
     { "3D lattice", 0x19d6d67191368a85u },
     { "seeds 0", 0xe0002fd2e6c93e45u },
     { "seeds 2", 0x6a2ae7ea9cf04cbdu },

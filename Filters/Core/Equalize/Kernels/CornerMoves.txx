@@ -149,19 +149,26 @@ RT_INLINE void cornerMove3D(const CornerRow<3>& row, std::int64_t i, bool hasLef
         row.Weights[2][q2 - s2] * static_cast<float>(p[q2] - p[q2 - s2]), sum);
     }
   }
-  const float xx = sum.XX + regular;
-  const float yy = sum.YY + regular;
-  const float zz = sum.ZZ + regular;
-  const float cxx = yy * zz - sum.YZ * sum.YZ;
-  const float cxy = sum.XZ * sum.YZ - sum.XY * zz;
-  const float cxz = sum.XY * sum.YZ - sum.XZ * yy;
-  const float cyy = xx * zz - sum.XZ * sum.XZ;
-  const float cyz = sum.XY * sum.XZ - xx * sum.YZ;
-  const float czz = xx * yy - sum.XY * sum.XY;
-  const float inverse = 1.0F / (xx * cxx + sum.XY * cxy + sum.XZ * cxz);
-  row.Moves[0][i] = (cxx * sum.X + cxy * sum.Y + cxz * sum.Z) * inverse;
-  row.Moves[1][i] = (cxy * sum.X + cyy * sum.Y + cyz * sum.Z) * inverse;
-  row.Moves[2][i] = (cxz * sum.X + cyz * sum.Y + czz * sum.Z) * inverse;
+  // Where the faces are nearly parallel, the determinant is far below its terms: floats lose it.
+  const auto xy = static_cast<double>(sum.XY);
+  const auto xz = static_cast<double>(sum.XZ);
+  const auto yz = static_cast<double>(sum.YZ);
+  const double xx = static_cast<double>(sum.XX + regular);
+  const double yy = static_cast<double>(sum.YY + regular);
+  const double zz = static_cast<double>(sum.ZZ + regular);
+  const double cxx = yy * zz - yz * yz;
+  const double cxy = xz * yz - xy * zz;
+  const double cxz = xy * yz - xz * yy;
+  const double cyy = xx * zz - xz * xz;
+  const double cyz = xy * xz - xx * yz;
+  const double czz = xx * yy - xy * xy;
+  const double inverse = 1.0 / (xx * cxx + xy * cxy + xz * cxz);
+  const auto x = static_cast<double>(sum.X);
+  const auto y = static_cast<double>(sum.Y);
+  const auto z = static_cast<double>(sum.Z);
+  row.Moves[0][i] = static_cast<float>((cxx * x + cxy * y + cxz * z) * inverse);
+  row.Moves[1][i] = static_cast<float>((cxy * x + cyy * y + cyz * z) * inverse);
+  row.Moves[2][i] = static_cast<float>((cxz * x + cyz * y + czz * z) * inverse);
 }
 
 void rowMoves3D(const CornerRow<3>& row)
