@@ -7,6 +7,7 @@
 #include "Core/Equalize/MoveLimits.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -323,6 +324,11 @@ EqualizeReport equalizeAreas(const DensityValues& density, const GridSize<Dimens
     throw std::invalid_argument("there are " + std::to_string(corners.size()) +
       " points; the cells have " +
       std::to_string(static_cast<std::int64_t>(numberOfCorners<Dimension>(size))) + " corners");
+  }
+  if (!(total > 0.0) || !std::isfinite(total))
+  {
+    throw std::invalid_argument(
+      "the total of the density is " + std::to_string(total) + "; it must be positive and finite");
   }
   if constexpr (Dimension == 1)
   {

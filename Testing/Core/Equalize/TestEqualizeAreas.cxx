@@ -302,6 +302,12 @@ TEST(EqualizeAreas, RefusesWrongArguments)
   options.Tolerance = 0.0;
   EXPECT_EQ(refusal([&]() { equalize<2>(density, corners, options); }),
     "Tolerance is 0.000000; it must be between 0 and 1");
+  const DensityArray<2, double> values(density.Values.data(), density.Size);
+  for (const double total : { 0.0, -1.0, std::nan(""), HUGE_VAL })
+  {
+    EXPECT_EQ(refusal([&]() { equalizeAreas<2>(values, density.Size, total, corners); }),
+      "the total of the density is " + std::to_string(total) + "; it must be positive and finite");
+  }
   corners.pop_back();
   EXPECT_EQ(refusal([&]() { equalize<2>(density, corners); }),
     "there are 29 points; the cells have 30 corners");
