@@ -103,9 +103,13 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   if (equalizes)
   {
     progress.BeginStage(ends[2]);
-    const auto correction = shared.Correction<D>(options, progress);
+    const auto correction = cache.Correction<D>(options, progress);
     progress.BeginStage(ends[3], field.Part().Count());
     correct<D>(*correction, latticeStep<D>(lattice, flow.Size()), field, progress);
+  }
+  else
+  {
+    cache.ForgetCorrection();
   }
   if (map.Backward)
   {

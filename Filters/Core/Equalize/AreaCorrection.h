@@ -31,6 +31,12 @@ public:
     return options;
   }
 
+  // Options of the same flow, the same for all that mean the same: what is not used has its
+  // default. Chooses the steps, if they are to be chosen, in the progress of the context. Not
+  // collective. Throws std::invalid_argument, std::bad_alloc and Cancelled.
+  static FlowOptions Resolve(
+    const RectifiedFlow<Dimension>& flow, FlowOptions options, const Context& context = Context());
+
   // `image` is where Backward, with the same options, takes a point of the box: adds the
   // correction.
   void Correct(const double* point, double* image) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Corners of cells are moved until areas are masses.
-#include "Core/Equalize/EqualizeAreas.h"
+#include "Core/Equalize/AreaCorrection.h"
 
 #include "AreaErrors.h"
 #include "RecordingContext.h"
@@ -320,6 +320,50 @@ TYPED_TEST(EqualizeAreasIn, NoPassesChangeNothing)
   Points<D> corners = bentLattice<D>(density.Size, 0.2);
   EXPECT_EQ(equalize<D>(density, corners, passes(0)).Passes, 0);
   EXPECT_EQ(corners, bentLattice<D>(density.Size, 0.2));
+}
+
+// Options that mean the same are the same, and give the same correction.
+TEST(AreaCorrection, ResolvesOptions)
+{
+  const auto density = twoGaussians<2>({ 40, 30 });
+  const RectifiedFlow<2> flow(density.Source());
+  const auto resolve = [&flow](const FlowOptions& options) {
+    return AreaCorrection<2>::Resolve(flow, options);
+  };
+  FlowOptions chosen;
+  chosen.Maps = FlowMaps::Off;
+  FlowOptions fixed = chosen;
+  fixed.NumberOfSteps = flow.ChooseSteps(chosen, FlowDirection::Backward).NumberOfSteps;
+  EXPECT_EQ(resolve(chosen), resolve(fixed));
+  for (const bool isAdaptive : { false, true })
+  {
+    FlowOptions one = fixed;
+    one.Integrator = isAdaptive ? Integrator::Adaptive : Integrator::Multistep;
+    FlowOptions other = one;
+    other.AreaTolerance = 0.5;
+    EXPECT_EQ(resolve(one), resolve(other));
+    other.Tolerance = 0.3;
+    EXPECT_EQ(resolve(one) == resolve(other), !isAdaptive);
+    other = one;
+    other.NumberOfSteps = 77;
+    EXPECT_EQ(resolve(one) == resolve(other), isAdaptive);
+    other = one;
+    other.Maps = FlowMaps::On;
+    EXPECT_EQ(resolve(one) == resolve(other), isAdaptive);
+    other = one;
+    other.Lookup = TableLookup::Nearest;
+    EXPECT_FALSE(resolve(one) == resolve(other));
+  }
+  const AreaCorrection<2> ofChosen(flow, chosen);
+  const AreaCorrection<2> ofFixed(flow, resolve(chosen));
+  for (const Point<2>& point : randomPoints<2>(density.Size, 100))
+  {
+    Point<2> one = point;
+    Point<2> other = point;
+    ofChosen.Correct(point.data(), one.data());
+    ofFixed.Correct(point.data(), other.data());
+    EXPECT_EQ(one, other);
+  }
 }
 
 } // namespace

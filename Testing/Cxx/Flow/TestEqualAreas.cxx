@@ -7,7 +7,9 @@
 #include "ThreadsTest.h"
 #include "WarpTest.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace
 {
@@ -180,6 +182,8 @@ void checkTables(Checks& checks)
     "Tables is Tiled, which does not give equal areas (EqualizeAreas); Tables = Whole does, or "
     "Auto";
   ofWarp.Expect(text, __LINE__);
+  warp->SetBlend(0.0); // no map
+  ofWarp.ExpectNone(__LINE__);
   vtkNew<vtkTransportMap> map;
   ErrorTest ofMap(checks, map);
   map->SetInputData(image);
@@ -220,6 +224,21 @@ void checkKept(Checks& checks)
   map->SetNumberOfSteps(33);
   map->EqualizeAreasOn();
   CHECK(checks, seconds(map) < 0.5 * made);
+  // Options that are not used do not matter, nor do those of another filter; it is kept while
+  // somebody wants it.
+  warp->SetTolerance(0.5);
+  warp->SetAreaTolerance(0.5);
+  CHECK(checks, seconds(warp) < 0.3 * made);
+  map->SetNumberOfSteps(32);
+  map->Update();
+  warp->Modified();
+  CHECK(checks, seconds(warp) < 0.3 * made);
+  map->Modified();
+  CHECK(checks, seconds(map) < 0.3 * made);
+  map->EqualizeAreasOff();
+  map->Update();
+  map->EqualizeAreasOn();
+  CHECK(checks, seconds(map) > 0.5 * made);
 }
 
 void checkThreads(Checks& checks)
