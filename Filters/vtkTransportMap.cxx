@@ -130,6 +130,10 @@ int vtkTransportMap::RequestData(
   announceGrid(result.Grid, outputInformation);
   this->WarnOfSteps(
     result.Flow, map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward);
+  if (result.IsUncorrected)
+  {
+    this->WarnOfAreas();
+  }
   const auto samples = static_cast<std::int64_t>(result.Samples);
   if (isWorthWarning(result.MovedToMass, samples))
   {

@@ -185,15 +185,19 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
     progress.BeginStage(ends[2]);
     report.Flow = points.Flow(flow.Transport<D>(), options);
   }
+  int passes = 0;
   if (equalizes && input->GetNumberOfPoints() > 0)
   {
     progress.BeginStage(ends[3]);
     const auto correction = cache.Correction<D>(options, progress);
     progress.BeginStage(ends[4], input->GetNumberOfPoints());
     points.Correct(*correction);
+    passes = correction->Report().Passes;
   }
   progress.BeginStage(ends[5]);
   points.Write(settings.Blend, output);
+  report.IsUncorrected =
+    equalizes && addEqualAreas(output, progress.Group(), passes, report.Flow) == 0;
   addSteps(output, { report.Flow });
   progress.BeginStage(1.0);
   if (moves)
