@@ -43,7 +43,7 @@ public:
 
   const EqualizeReport& Report() const { return this->Found; }
   std::int64_t MemorySize() const { return this->Moves.bytes(); }
-  // About the most bytes while it is made.
+  // About the most bytes while it is made, besides a flow map, which the flow keeps.
   static double MemoryFor(const GridSize<Dimension>& size);
 
 private:

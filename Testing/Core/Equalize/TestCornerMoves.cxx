@@ -20,6 +20,10 @@ TEST(CornerMoves, OfParallelFaces)
 {
   constexpr std::int64_t cells = 5000;
   constexpr double move = 0.1;
+  // Two directions in the plane, and its normal.
+  constexpr double third = 1.0 / 3.0;
+  const double turned[3][3] = { { 2 * third, 2 * third, -third }, { -third, 2 * third, 2 * third },
+    { 2 * third, -third, 2 * third } };
   std::mt19937 random(1);
   std::normal_distribution<double> bend;
   for (const double height : { 1e-7, 1e-5, 1e-3 })
@@ -30,16 +34,20 @@ TEST(CornerMoves, OfParallelFaces)
     {
       for (int a = -1; a < 2; ++a)
       {
-        for (int axis = 0; axis < 3; ++axis)
+        std::vector<double> x[3];
+        for (std::int64_t i = 0; i <= cells; ++i)
         {
-          std::vector<double> x;
-          for (std::int64_t i = 0; i <= cells; ++i)
+          const double at[3] = { static_cast<double>(i) + 0.5 * b, a + 0.3 * b,
+            height * bend(random) };
+          for (int axis = 0; axis < 3; ++axis)
           {
-            x.push_back(axis == 0 ? static_cast<double>(i) + 0.5 * b
-                : axis == 1       ? a + 0.3 * b
-                                  : height * bend(random));
+            x[axis].push_back(
+              turned[0][axis] * at[0] + turned[1][axis] * at[1] + turned[2][axis] * at[2]);
           }
-          values.push_back(std::move(x));
+        }
+        for (std::vector<double>& of : x)
+        {
+          values.push_back(std::move(of));
         }
       }
     }
@@ -77,11 +85,16 @@ TEST(CornerMoves, OfParallelFaces)
     equalizeKernels<3>().Moves(row);
     for (std::size_t i = 1; i < static_cast<std::size_t>(cells); ++i)
     {
-      const auto x = static_cast<double>(moves[0][i]);
-      const auto y = static_cast<double>(moves[1][i]);
-      const auto z = static_cast<double>(moves[2][i]);
-      EXPECT_NEAR(z, move, 0.01 * move) << i << ", " << height;
-      EXPECT_LT(std::hypot(x, y), move) << i << ", " << height;
+      double along[3] = {};
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        for (int direction = 0; direction < 3; ++direction)
+        {
+          along[direction] += turned[direction][axis] * static_cast<double>(moves[axis][i]);
+        }
+      }
+      EXPECT_NEAR(along[2], move, 0.01 * move) << i << ", " << height;
+      EXPECT_LT(std::hypot(along[0], along[1]), move) << i << ", " << height;
     }
   }
 }
