@@ -115,11 +115,14 @@ int vtkDensityEqualizingWarp::RequestData(
   if (turned > 0)
   {
     this->WarnOnFirstRank(describePart(turned, cells, "cells") +
-      " turned over; more NumberOfSteps turn most of them back, smaller cells do not (where there "
-      "is no "
-      "mass, add a small part of the mean to the density)");
+      " turned over; more NumberOfSteps turn most of them back, an input of smaller cells does not "
+      "(where there is no mass, add a small part of the mean to the density)");
   }
   this->WarnOfSteps(report.Flow, warp.Flow, FlowDirection::Backward);
+  if (report.IsUncorrected)
+  {
+    this->WarnOfAreas();
+  }
   return 1;
 }
 

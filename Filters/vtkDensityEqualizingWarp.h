@@ -77,7 +77,11 @@ public:
    * Whether the map is corrected until the areas (volumes) of the density's cells are their
    * masses. Once for a density and the settings of the flow, the corners of all its cells are moved
    * back and Poisson's equation is solved on their images; points move as the corners do,
-   * interpolated. Needs whole tables. Default off.
+   * interpolated. The field data `EqualAreaPasses` says how many of
+   * two corrections were kept, because they made errors of areas smaller and no more cells of the
+   * density fold. A warning says if it is 0, else `AreaErrorEstimate` is NaN: it would be that of
+   * the flow alone. `FoldedCells` may rise all the same, as it counts cells of input 0. Needs
+   * whole tables. Default off.
    */
   vtkSetMacro(EqualizeAreas, vtkTypeBool);
   vtkGetMacro(EqualizeAreas, vtkTypeBool);

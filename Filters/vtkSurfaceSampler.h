@@ -199,9 +199,9 @@ public:
   /**
    * Where NumberOfSteps is 0: the largest relative error of the masses, or backward of the areas
    * (volumes), of blocks of 4 cells a side, above 0 and at most 1. Counted are blocks all of whose
-   * cells have more than 5 % of the mean density; 99.9 % of them are to keep it. Forward, densities
-   * that hardly differ from scale to scale, as photographs, take 32 steps unmeasured. A warning
-   * says what is reached where 4096 steps are not enough. Default 0.02.
+   * cells have more than 5 % of the mean density; 99.9 % of them are to keep it. Forward,
+   * photographs and noise take 32 steps whatever the tolerance is. A warning says what is reached
+   * where 4096 steps are not enough. Default 0.02.
    */
   vtkSetMacro(AreaTolerance, double);
   vtkGetMacro(AreaTolerance, double);

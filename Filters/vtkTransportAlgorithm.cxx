@@ -66,6 +66,15 @@ void vtkTransportAlgorithm::WarnOfSteps(const FlowReport& flow, const FlowOption
 }
 
 //------------------------------------------------------------------------------
+void vtkTransportAlgorithm::WarnOfAreas()
+{
+  this->WarnOnFirstRank(
+    "EqualizeAreas changed nothing: every pass made errors larger or folds more "
+    "numerous (less contrast helps, for example a part of the mean added with "
+    "Calculator)");
+}
+
+//------------------------------------------------------------------------------
 void vtkTransportAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

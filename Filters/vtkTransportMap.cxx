@@ -130,6 +130,10 @@ int vtkTransportMap::RequestData(
   announceGrid(result.Grid, outputInformation);
   this->WarnOfSteps(
     result.Flow, map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward);
+  if (result.IsUncorrected)
+  {
+    this->WarnOfAreas();
+  }
   const auto samples = static_cast<std::int64_t>(result.Samples);
   if (isWorthWarning(result.MovedToMass, samples))
   {
@@ -140,8 +144,10 @@ int vtkTransportMap::RequestData(
   if (result.Folded > 0)
   {
     this->WarnOnFirstRank(describePart(result.Folded, samples, "samples") +
-      " are folded: JacobianDeterminant is 0 or negative there; more NumberOfSteps unfold them, "
-      "but not beside regions without mass, where the map tears");
+      " are folded: JacobianDeterminant is 0 or negative there; more NumberOfSteps unfold " +
+      (map.Backward
+          ? "most, but not beside regions without mass, where the map tears"
+          : "some, but not at sharp edges of the density, where only a smoother one helps"));
   }
   return 1;
 }

@@ -16,7 +16,7 @@ const SharedFlow& FlowCache::Update(
 {
   if (this->Kept && this->Kept->Tables() != tables)
   {
-    this->Kept.reset();
+    this->Release();
   }
   // Times are local: a rank on which the last run failed may be alone in having to build.
   if (onAllRanks(progress.Group(), !this->IsOutdated(density)))
@@ -30,6 +30,7 @@ const SharedFlow& FlowCache::Update(
   if (!onAllRanks(progress.Group(), this->Kept && this->Hash == hash))
   {
     this->Hash = ContentHash(); // invalid until the tables are built
+    this->ForgetCorrection();
     const auto findOrBuild = dispatchDimension(density.Grid().Dimension(),
       &SharedFlow::FindOrBuild<1>, &SharedFlow::FindOrBuild<2>, &SharedFlow::FindOrBuild<3>);
     this->Kept = findOrBuild(density, hash, tables, std::move(this->Kept), progress, end);

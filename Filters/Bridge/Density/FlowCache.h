@@ -7,6 +7,7 @@
 #include "Bridge/Density/SharedFlow.h"
 
 #include <memory>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -27,14 +28,33 @@ public:
   const SharedFlow& Update(
     InputDensity& density, Progress& progress, double end, FlowTables tables = FlowTables::Whole);
 
-  // Releases this filter's reference to the tables.
-  void Release() { this->Kept.reset(); }
+  // After Update, with whole tables: by what points that go back have to be corrected for equal
+  // areas. Kept until other options, another density or ForgetCorrection, and shared with other
+  // filters. Runs as the current stage; not collective. Throws Failure and Cancelled.
+  template <int D>
+  std::shared_ptr<const AreaCorrection<D>> Correction(
+    const FlowOptions& options, Progress& progress)
+  {
+    const auto found =
+      this->Kept->template Correction<D>(options, std::move(this->KeptCorrection), progress);
+    this->KeptCorrection = found;
+    return found;
+  }
+  void ForgetCorrection() { this->KeptCorrection.reset(); }
+
+  // Releases this filter's references to the tables and the correction.
+  void Release()
+  {
+    this->ForgetCorrection();
+    this->Kept.reset();
+  }
 
   // Grows with each build; 0 before the first.
   vtkMTimeType BuildTime() const { return this->Time; }
 
 private:
   std::shared_ptr<SharedFlow> Kept;
+  std::shared_ptr<const void> KeptCorrection;
   ContentHash Hash;
   vtkMTimeType Time = 0;
 };

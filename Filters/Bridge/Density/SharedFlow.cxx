@@ -8,6 +8,7 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -150,30 +151,40 @@ std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(InputDensity& density,
 
 template <int D>
 std::shared_ptr<const AreaCorrection<D>> SharedFlow::Correction(
-  const FlowOptions& options, Progress& progress) const
+  const FlowOptions& options, std::shared_ptr<const void> previous, Progress& progress) const
 {
   using Made = std::shared_ptr<const AreaCorrection<D>>;
+  using Seen = std::weak_ptr<const AreaCorrection<D>>;
+  const RectifiedFlow<D>& flow = this->Flow<D>();
+  const FlowOptions resolved = AreaCorrection<D>::Resolve(flow, options, progress.Stage());
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    const Made* kept = std::get_if<Made>(&this->KeptCorrection);
-    if (kept && *kept && this->CorrectionOptions == options)
+    for (const auto& [of, seen] : this->Corrections)
     {
-      return *kept;
+      if (of == resolved)
+      {
+        if (Made found = std::get<Seen>(seen).lock())
+        {
+          return found;
+        }
+      }
     }
-    this->KeptCorrection = Made(); // two side by side would double the peak
   }
-  const RectifiedFlow<D>& flow = this->Flow<D>();
+  previous.reset(); // two side by side would double the peak
   const std::string purpose =
     "the areas of " + describeSize<D>(flow.Size()) + " cells (EqualizeAreas Off needs none)";
   const double bytes = AreaCorrection<D>::MemoryFor(flow.Size());
   requireMemory(purpose, bytes);
   Made made = withMemory(purpose, bytes, [&]() {
     return std::make_shared<const AreaCorrection<D>>(
-      flow, options, EqualizeOptions(), progress.Stage());
+      flow, resolved, EqualizeOptions(), progress.Stage());
   });
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  this->CorrectionOptions = options;
-  this->KeptCorrection = made;
+  const auto isGone = [](const auto& entry) { return std::get<Seen>(entry.second).expired(); };
+  this->Corrections.erase(
+    std::remove_if(this->Corrections.begin(), this->Corrections.end(), isGone),
+    this->Corrections.end());
+  this->Corrections.emplace_back(resolved, Seen(made));
   return made;
 }
 
@@ -195,11 +206,11 @@ void SharedFlow::Attach(InputDensity& density, Progress& progress)
 }
 
 template std::shared_ptr<const AreaCorrection<1>> SharedFlow::Correction<1>(
-  const FlowOptions&, Progress&) const;
+  const FlowOptions&, std::shared_ptr<const void>, Progress&) const;
 template std::shared_ptr<const AreaCorrection<2>> SharedFlow::Correction<2>(
-  const FlowOptions&, Progress&) const;
+  const FlowOptions&, std::shared_ptr<const void>, Progress&) const;
 template std::shared_ptr<const AreaCorrection<3>> SharedFlow::Correction<3>(
-  const FlowOptions&, Progress&) const;
+  const FlowOptions&, std::shared_ptr<const void>, Progress&) const;
 template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<1>(
   InputDensity&, const ContentHash&, FlowTables, std::shared_ptr<SharedFlow>, Progress&, double);
 template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<2>(

@@ -11,7 +11,9 @@
 
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <variant>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -38,12 +40,12 @@ public:
   {
     return std::get<RectifiedFlow<D>>(this->Kept);
   }
-  // By what points that go back have to be corrected for equal areas. Kept until other options: it
-  // costs the flow of all corners of cells. Of whole tables; not collective. Runs as the current
-  // stage. Throws Failure and Cancelled.
+  // By what points that go back have to be corrected for equal areas: one that somebody owns, for
+  // options that mean the same, or a new one, for which `previous` is reset first. Of whole tables;
+  // not collective. Runs as the current stage. Throws Failure and Cancelled.
   template <int D>
   std::shared_ptr<const AreaCorrection<D>> Correction(
-    const FlowOptions& options, Progress& progress) const;
+    const FlowOptions& options, std::shared_ptr<const void> previous, Progress& progress) const;
   // Density times cell measure, summed.
   double TotalMass() const { return this->Mass; }
   const UnusualValues& Unusual() const { return this->Values; }
@@ -65,13 +67,13 @@ private:
   using AnyFlow =
     std::variant<std::monostate, RectifiedFlow<1>, RectifiedFlow<2>, RectifiedFlow<3>>;
 
-  using AnyCorrection = std::variant<std::shared_ptr<const AreaCorrection<1>>,
-    std::shared_ptr<const AreaCorrection<2>>, std::shared_ptr<const AreaCorrection<3>>>;
+  using AnyCorrection = std::variant<std::weak_ptr<const AreaCorrection<1>>,
+    std::weak_ptr<const AreaCorrection<2>>, std::weak_ptr<const AreaCorrection<3>>>;
 
   AnyFlow Kept;
-  mutable std::mutex Mutex; // of the next two: several filters may share this
-  mutable FlowOptions CorrectionOptions;
-  mutable AnyCorrection KeptCorrection;
+  mutable std::mutex Mutex; // of the next: several filters may share this
+  // By their options, resolved.
+  mutable std::vector<std::pair<FlowOptions, AnyCorrection>> Corrections;
   FlowTables Kind;
   double Mass;
   UnusualValues Values;

@@ -385,11 +385,13 @@ void TransportVectorWriter::Run(
   const std::vector<DrawnData>& data, Drawing& drawing, Progress& progress) const
 {
   std::int64_t shapes = 0;
+  std::int64_t points = 0; // where there are radii twice
   vtkSmartPointer<vtkScalarsToColors> table = this->LookupTable;
   for (const DrawnData& drawn : data)
   {
     shapes += drawn.Shapes.Count();
     vtkPolyData* own = drawn.Shapes.Data();
+    points += own->GetNumberOfPoints() * (drawn.Radii ? 2 : 1);
     if (drawn.Colours)
     {
       requireTuples(drawn.Colours, "ColorArray",
@@ -406,7 +408,7 @@ void TransportVectorWriter::Run(
 
   std::vector<Layer> layers;
   layers.reserve(data.size());
-  progress.BeginStage(0.1, 2 * shapes);
+  progress.BeginStage(0.1, points);
   for (const DrawnData& drawn : data)
   {
     layers.emplace_back(drawn, table, progress);

@@ -171,8 +171,12 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
     equalizes ? Cost::Seed * count : 0.0, Cost::Seed * count, Cost::TurnedCell * inputCells });
   WarpedPoints<D> points(density.Grid(), input, progress);
   const FlowTables tables = chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
-    { options, FlowDirection::Backward, count, false, settings.EqualizeAreas ? EqualAreas : "" });
+    { options, FlowDirection::Backward, count, false, equalizes ? EqualAreas : "" });
   const SharedFlow& flow = cache.Update(density, progress, ends[0], tables);
+  if (!equalizes)
+  {
+    cache.ForgetCorrection();
+  }
   progress.BeginStage(ends[1]);
   DensityEqualizingWarp::Report report;
   report.Outside = points.Read();
@@ -181,15 +185,19 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
     progress.BeginStage(ends[2]);
     report.Flow = points.Flow(flow.Transport<D>(), options);
   }
+  int passes = 0;
   if (equalizes && input->GetNumberOfPoints() > 0)
   {
     progress.BeginStage(ends[3]);
-    const auto correction = flow.Correction<D>(options, progress);
+    const auto correction = cache.Correction<D>(options, progress);
     progress.BeginStage(ends[4], input->GetNumberOfPoints());
     points.Correct(*correction);
+    passes = correction->Report().Passes;
   }
   progress.BeginStage(ends[5]);
   points.Write(settings.Blend, output);
+  report.IsUncorrected =
+    equalizes && addEqualAreas(output, progress.Group(), passes, report.Flow) == 0;
   addSteps(output, { report.Flow });
   progress.BeginStage(1.0);
   if (moves)

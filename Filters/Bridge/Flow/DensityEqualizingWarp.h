@@ -34,6 +34,7 @@ struct DensityEqualizingWarp
     std::int64_t Outside = 0; // points of this rank outside the domain
     TurnedCells Cells;        // of this rank's input
     FlowReport Flow;
+    bool IsUncorrected = false; // EqualizeAreas has changed nothing
   };
 
   // Sets the points and `Displacement` of an output that already has the rest of the input. Throws

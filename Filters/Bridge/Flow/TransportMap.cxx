@@ -97,15 +97,21 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   progress.BeginStage(ends[1]);
   const auto seeds = FlowSeeds<D>::Lattice(lattice, field.Parts());
   const PointTransport<D>& transport = shared.Transport<D>();
-  const FlowReport report = map.Backward
+  FlowReport report = map.Backward
     ? transport.Backward(seeds, field.Positions(), options, progress.Stage())
     : transport.Forward(seeds, field.Positions(), options, progress.Stage());
+  int passes = 0;
   if (equalizes)
   {
     progress.BeginStage(ends[2]);
-    const auto correction = shared.Correction<D>(options, progress);
+    const auto correction = cache.Correction<D>(options, progress);
     progress.BeginStage(ends[3], field.Part().Count());
     correct<D>(*correction, latticeStep<D>(lattice, flow.Size()), field, progress);
+    passes = correction->Report().Passes;
+  }
+  else
+  {
+    cache.ForgetCorrection();
   }
   if (map.Backward)
   {
@@ -122,8 +128,9 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   addFieldValue(output, "MovedSamples", static_cast<double>(moved));
   addFieldValue(output, "FoldedCells", static_cast<double>(figures.Folded));
   addFieldTuple(output, "LargestBlockError", { figures.Blocks.Quantile, figures.Blocks.Largest });
+  const bool isUncorrected = equalizes && addEqualAreas(output, ranks, passes, report) == 0;
   addSteps(output, { report });
-  return { samples, all, report, moved, figures.Folded };
+  return { samples, all, report, moved, figures.Folded, isUncorrected };
 }
 
 } // namespace

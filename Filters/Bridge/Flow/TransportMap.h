@@ -38,6 +38,7 @@ struct TransportMap
     FlowReport Flow;
     std::int64_t MovedToMass; // from empty cells of the density
     std::int64_t Folded;
+    bool IsUncorrected; // EqualizeAreas has changed nothing
   };
 
   // The grid of the samples on the density's domain. Throws Failure.

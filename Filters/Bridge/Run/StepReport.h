@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What outputs and warnings say of the steps of a flow.
+// What outputs and warnings say of the steps of a flow, and of EqualizeAreas after it.
 #ifndef RectifiedTransport_StepReport_h
 #define RectifiedTransport_StepReport_h
 
 #include "Bridge/Run/FieldValue.h"
 #include "Core/Flow/FlowOptions.h"
+#include "Core/Parallel/RankExchange.h"
 
+#include <algorithm>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -35,16 +38,34 @@ inline std::string stepWarning(
   {
     return {};
   }
+  const double percent = 100.0 * flow.AreaError;
+  std::ostringstream off; // two digits, without an exponent
+  off.setf(std::ios::fixed);
+  off.precision(percent < 1.0 ? 2 : percent < 10.0 ? 1 : 0);
+  off << percent;
   std::ostringstream text;
-  text.precision(2);
   text << "AreaTolerance " << options.AreaTolerance << " is not reached: with "
        << flow.NumberOfSteps << " steps, the most that NumberOfSteps 0 takes, "
        << (direction == FlowDirection::Backward ? "areas" : "masses")
-       << " of blocks of 4 cells a side are off by about " << 100.0 * flow.AreaError
+       << " of blocks of 4 cells a side are off by about " << off.str()
        << (options.Integrator == Integrator::Multistep
               ? " % (less contrast helps, for example a part of the mean added with Calculator)"
               : " % (Integrator Multistep needs fewer)");
   return text.str();
+}
+
+// The passes of EqualizeAreas that were kept, the same on all ranks; `own` is 0 on a rank that has
+// nothing to correct. Collective. The estimate of the flow's error is none of the corrected map.
+inline int addEqualAreas(vtkDataObject* output, const Ranks& ranks, int own, FlowReport& flow)
+{
+  const std::vector<int> all = gatherValues(ranks, own);
+  const int passes = *std::max_element(all.begin(), all.end());
+  addFieldValue(output, "EqualAreaPasses", passes);
+  if (passes > 0)
+  {
+    flow.AreaError = std::numeric_limits<double>::quiet_NaN();
+  }
+  return passes;
 }
 
 } // namespace RectifiedTransport

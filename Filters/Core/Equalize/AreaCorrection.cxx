@@ -2,6 +2,7 @@
 #include "Core/Equalize/AreaCorrection.h"
 
 #include "Core/Equalize/CornerLattice.h"
+#include "Core/Flow/FlowMapShape.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Ranks.h"
 
@@ -93,6 +94,31 @@ AreaCorrection<Dimension>::AreaCorrection(const RectifiedFlow<Dimension>& flow,
   progress.BeginStage(1.0);
   this->Found = equalizeAreas<Dimension>(CellShares<Dimension>(flow), this->Size, 1.0, images,
     equalize, progress.Stage(), this->Moves.data());
+}
+
+template <int Dimension>
+FlowOptions AreaCorrection<Dimension>::Resolve(
+  const RectifiedFlow<Dimension>& flow, FlowOptions options, const Context& context)
+{
+  const FlowOptions usual;
+  if (options.NumberOfSteps == 0 && options.Integrator != Integrator::Adaptive)
+  {
+    Context alone = context;
+    alone.Group = &SoloRanks::Get();
+    options = flow.ChooseSteps(options, FlowDirection::Backward, alone).Of(options);
+  }
+  options.AreaTolerance = usual.AreaTolerance;
+  options.LeastSteps = usual.LeastSteps;
+  if (options.Integrator == Integrator::Adaptive)
+  {
+    options.NumberOfSteps = 1; // no measurement
+  }
+  else
+  {
+    options.Tolerance = usual.Tolerance;
+  }
+  options.Maps = takesFlowMaps(options) ? options.Maps : FlowMaps::Off;
+  return options;
 }
 
 template <int Dimension>

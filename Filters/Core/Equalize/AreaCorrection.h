@@ -31,13 +31,19 @@ public:
     return options;
   }
 
+  // Options of the same flow, the same for all that mean the same: what is not used has its
+  // default. Chooses the steps, if they are to be chosen, in the progress of the context. Not
+  // collective. Throws std::invalid_argument, std::bad_alloc and Cancelled.
+  static FlowOptions Resolve(
+    const RectifiedFlow<Dimension>& flow, FlowOptions options, const Context& context = Context());
+
   // `image` is where Backward, with the same options, takes a point of the box: adds the
   // correction.
   void Correct(const double* point, double* image) const;
 
   const EqualizeReport& Report() const { return this->Found; }
   std::int64_t MemorySize() const { return this->Moves.bytes(); }
-  // About the most bytes while it is made.
+  // About the most bytes while it is made, besides a flow map, which the flow keeps.
   static double MemoryFor(const GridSize<Dimension>& size);
 
 private:

@@ -28,7 +28,8 @@ public:
 
   // To be called before the sweeps: `targets` are the areas that the cells shall have.
   void SetTargets(const float* targets, Progress& progress);
-  // Changes the moves of the lattice. Units of progress: the lattice's rows.
+  // Changes the moves of the lattice. Units of progress: twice the
+  // rows of corners, with states three times.
   void Sweep(Progress& progress);
   // Only of the cells with this bit in their states, which are in active rows.
   void Sweep(

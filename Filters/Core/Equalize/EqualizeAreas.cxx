@@ -7,6 +7,7 @@
 #include "Core/Equalize/MoveLimits.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -22,8 +23,10 @@ constexpr std::int64_t grainCells = 1 << 13;
 constexpr int mostIterations = 50;
 constexpr int sweeps = 2; // of projections after each linear system
 
-// The moves of a pass that makes nothing better are halved so often, at most.
+// The moves of a pass that makes nothing better are halved so often, at most. Then so many sweeps
+// of projections take their place: beside thin cells the equation may move all corners too far.
 constexpr int mostHalvings = 3;
+constexpr int sweepsAlone = 8;
 
 template <int Dimension>
 class Equalization
@@ -51,44 +54,51 @@ public:
     const std::int64_t rows = this->Lattice.CellRows();
     for (int pass = 0; pass < options.Passes; ++pass)
     {
-      const auto stage = [&](double part, std::int64_t units) {
-        this->Stages.BeginStage((pass + part) / options.Passes, units);
-      };
-      stage(0.15, rows);
+      const auto at = [&](double part) { return (pass + part) / options.Passes; };
+      this->Stages.BeginStage(at(0.1), rows);
       const AreaSums found = this->Measure(pass == 0);
       if (pass == 0)
       {
         report.FoldedBefore = found.Folded;
         report.FoldedAfter = found.Folded;
       }
-      stage(0.6, 3 * cells + FaceSystem<Dimension>::WorkOf(cells, usualIterations));
+      this->Stages.BeginStage(at(0.2), 3 * cells);
       this->Center(found.Missing);
       this->System.Prepare(this->Stages);
-      report.Iterations += this->System.Solve(options.Tolerance, mostIterations, this->Stages);
-      stage(0.7, rows);
+      const FaceSolution solution =
+        this->System.Solve(options.Tolerance, mostIterations, this->Stages, at(0.7));
+      report.Iterations += solution.Iterations;
+      report.Residual = std::max(report.Residual, solution.Residual);
+      this->Stages.BeginStage(at(0.75), this->Lattice.CornerRows());
       this->FindMoves();
-      stage(0.95, (2 * sweeps + 3) * rows);
+      this->Stages.BeginStage(at(0.85), (2 * sweeps + 1) * this->Lattice.CornerRows());
       this->Projection.SetTargets(this->Targets.data(), this->Stages);
-      for (int sweep = 0; sweep < sweeps; ++sweep)
-      {
-        this->Projection.Sweep(this->Stages);
-      }
+      this->Sweep(sweeps);
       const auto isBetter = [&found](const AreaSums& moved) {
         return moved.Folded <= found.Folded && moved.Error < found.Error;
       };
-      AreaSums moved =
-        this->Limits.Apply(this->Targets.data(), found.Folded, report.Limited, this->Stages);
-      for (int halving = 0; halving < mostHalvings && !isBetter(moved); ++halving)
+      const auto apply = [&](int trial) {
+        return this->Limits.Apply(this->Targets.data(), found.Folded, report.Limited, this->Stages,
+          at(0.95 - 0.1 / (trial + 2)));
+      };
+      AreaSums moved = apply(0);
+      for (int halving = 1; halving <= mostHalvings && !isBetter(moved); ++halving)
       {
         this->Limits.HalveMoves(this->Stages);
-        moved =
-          this->Limits.Apply(this->Targets.data(), found.Folded, report.Limited, this->Stages);
+        moved = apply(halving);
+      }
+      if (!isBetter(moved))
+      {
+        this->Stages.BeginStage(at(0.93), (2 * sweepsAlone + 1) * this->Lattice.CornerRows());
+        this->ClearMoves();
+        this->Sweep(sweepsAlone);
+        moved = apply(mostHalvings + 1);
       }
       if (!isBetter(moved))
       {
         break;
       }
-      stage(1.0, rows);
+      this->Stages.BeginStage(at(1.0), this->Lattice.CornerRows());
       this->ForRows(
         this->Lattice.CornerRows(), [&](std::int64_t row) { this->Lattice.Apply(row, moves); });
       report.FoldedAfter = moved.Folded;
@@ -100,8 +110,6 @@ public:
   }
 
 private:
-  static constexpr int usualIterations = 8;
-
   template <class Work>
   void ForRows(std::int64_t rows, const Work& work)
   {
@@ -109,6 +117,25 @@ private:
       for (std::int64_t row = first; row < last; ++row)
       {
         work(row);
+      }
+    });
+  }
+
+  void Sweep(int count)
+  {
+    for (int sweep = 0; sweep < count; ++sweep)
+    {
+      this->Projection.Sweep(this->Stages);
+    }
+  }
+
+  void ClearMoves()
+  {
+    const std::int64_t count = this->Lattice.CornersOfRow();
+    this->ForRows(this->Lattice.CornerRows(), [&](std::int64_t row) {
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        std::fill_n(this->Lattice.Moves(axis) + row * count, count, 0.0F);
       }
     });
   }
@@ -297,6 +324,11 @@ EqualizeReport equalizeAreas(const DensityValues& density, const GridSize<Dimens
     throw std::invalid_argument("there are " + std::to_string(corners.size()) +
       " points; the cells have " +
       std::to_string(static_cast<std::int64_t>(numberOfCorners<Dimension>(size))) + " corners");
+  }
+  if (!(total > 0.0) || !std::isfinite(total))
+  {
+    throw std::invalid_argument(
+      "the total of the density is " + std::to_string(total) + "; it must be positive and finite");
   }
   if constexpr (Dimension == 1)
   {

@@ -24,8 +24,9 @@ struct EqualizeOptions
 
 struct EqualizeReport
 {
-  int Passes = 0;     // those that made the errors smaller; no further one was tried
-  int Iterations = 0; // of all passes' linear systems
+  int Passes = 0;        // those that made the errors smaller; no further one was tried
+  int Iterations = 0;    // of all passes' linear systems
+  double Residual = 0.0; // the largest of them, relative; may be above the Tolerance
   // Cells with mass whose images have no positive area: they never become more.
   std::int64_t FoldedBefore = 0;
   std::int64_t FoldedAfter = 0;
@@ -36,8 +37,8 @@ struct EqualizeReport
 // `corners` are the images of the corners of the density's cells, axis 0 fastest, in index space;
 // `total` is the sum of the density's cells. Corners on a side of the box stay on it. In 1D the
 // result is exact. What the corners are moved by is added to `moves`, interleaved, if it is not
-// null. Every result has the same bits on any number of threads. Throws
-// std::invalid_argument, std::bad_alloc and Cancelled.
+// null: the caller sets them to zero first. Every result has the same bits on any number of
+// threads. Throws std::invalid_argument, std::bad_alloc and Cancelled.
 template <int Dimension>
 EqualizeReport equalizeAreas(const DensityValues& density, const GridSize<Dimension>& size,
   double total, PointSpan<Dimension> corners, const EqualizeOptions& options = {},

@@ -18,18 +18,24 @@ namespace RectifiedTransport
 
 // Values of the cells of a grid. The largest distance of neighbours, and one, may be read before
 // and after them: zeros.
-template <int Dimension>
+template <int Dimension, class Value = float>
 class CellArray
 {
 public:
   CellArray() = default;
   explicit CellArray(const GridSize<Dimension>& size);
-  float* data() { return this->Values.data() + this->Margin; }
-  const float* data() const { return this->Values.data() + this->Margin; }
+  Value* data() { return this->Values.data() + this->Margin; }
+  const Value* data() const { return this->Values.data() + this->Margin; }
 
 private:
   std::int64_t Margin = 0;
-  LargeBuffer<float> Values;
+  LargeBuffer<Value> Values;
+};
+
+struct FaceSolution
+{
+  int Iterations = 0;
+  double Residual = 0.0; // relative to the right-hand side
 };
 
 template <int Dimension>
@@ -44,11 +50,11 @@ public:
   float* RightHandSide() { return this->Levels.front().Right.data(); }
   // Makes the coarser levels. Units of progress: twice the cells.
   void Prepare(Progress& progress);
-  // Returns the number of iterations. Units of progress: WorkOf(cells, iterations).
-  int Solve(double tolerance, int maximum, Progress& progress);
-  const float* Solution() const { return this->Found.data(); }
+  // Until the residual is within the tolerance, or the solution hardly changes any more. Progress
+  // is led towards `end`.
+  FaceSolution Solve(double tolerance, int maximum, Progress& progress, double end);
+  const double* Solution() const { return this->Found.data(); }
 
-  static std::int64_t WorkOf(std::int64_t cells, int iterations) { return 10 * cells * iterations; }
   static double Memory(const GridSize<Dimension>& size);
 
 private:
@@ -75,11 +81,14 @@ private:
   void Restrict(const Level& fine, Level& coarse, Progress& progress);
   void Prolong(const Level& coarse, Level& fine, Progress& progress);
   void Cycle(std::size_t at, Progress& progress);
-  void Relax(Level& level, bool fromZero, double factor, Progress& progress);
+  void RelaxOnce(Level& level, bool fromZero, double factor, Progress& progress);
+  void Relax(Level& level, bool fromZero, Progress& progress);
+  void RelaxBack(Level& level, Progress& progress);
 
   EqualizeKernels<Dimension> Kernels;
   std::vector<Level> Levels;
-  CellArray<Dimension> Found;
+  CellArray<Dimension> Given;         // the right-hand side
+  CellArray<Dimension, double> Found; // differences of neighbours are far smaller than values
   CellArray<Dimension> Search;
 };
 

@@ -18,6 +18,7 @@ constexpr double leastPart = 0.1;
 constexpr int projections = 10;
 constexpr int halvings = 6;
 constexpr int mostRounds = 30;
+constexpr int usualRounds = 3;
 
 enum CellState : unsigned char
 {
@@ -95,12 +96,15 @@ AreaSums MoveLimits<Dimension>::SumOfRows() const
 
 template <int Dimension>
 AreaSums MoveLimits<Dimension>::Apply(
-  const float* targets, std::int64_t folded, std::int64_t& limited, Progress& progress)
+  const float* targets, std::int64_t folded, std::int64_t& limited, Progress& progress, double end)
 {
+  const double start = progress.StageEnd();
   std::fill(
     this->Active.OfCells.begin(), this->Active.OfCells.end(), static_cast<unsigned char>(1));
   for (int round = 0;; ++round)
   {
+    // It measures, and it sweeps.
+    progress.BeginRound(round, usualRounds, start, end, 4 * this->Lattice.CornerRows());
     this->Measure(targets, progress);
     const AreaSums moved = this->SumOfRows();
     limited = std::max(limited, moved.Failed);

@@ -17,10 +17,17 @@ void Progress::BeginStage(double end, std::int64_t units)
   this->Begin = this->End;
   this->End = end;
   this->Units = std::max<std::int64_t>(units, 1);
+  this->HasUnits = units > 0;
   this->Done = 0;
   this->SliceUnits = 0;
   this->Pending = 0;
   this->SliceStart = Clock::now();
+}
+
+void Progress::BeginRound(int round, int usual, double begin, double end, std::int64_t units)
+{
+  const double left = usual / (round + 1.0 + usual);
+  this->BeginStage(end - left * (end - begin), units);
 }
 
 Context Progress::Stage()
@@ -46,8 +53,11 @@ void Progress::ForInOrder(
 void Progress::Run(const Executor& executor, std::int64_t count, std::int64_t grain,
   const RangeKernel& kernel, std::int64_t units)
 {
-  this->Units = std::max<std::int64_t>(count, 1);
-  this->Done = 0;
+  if (!this->HasUnits)
+  {
+    this->Units = std::max<std::int64_t>(count, 1);
+    this->Done = 0;
+  }
   this->SliceUnits = 0;
   // Ranges for all threads, however few units of work there are.
   const std::int64_t ranges =

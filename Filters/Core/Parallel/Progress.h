@@ -26,15 +26,20 @@ public:
   const Ranks& Group() const { return *this->Parent.Group; }
 
   // Begins a stage: its `units` of work take the progress from the end of the last stage to `end`.
-  void BeginStage(double end, std::int64_t units = 1);
+  // All its loops count as a part of them; with 0 units each loop is the whole stage.
+  void BeginStage(double end, std::int64_t units = 0);
+  // Begins a stage for a round, from 0 on, of which nobody knows how many there will be. All rounds
+  // lead from `begin` towards `end`, the first `usual` ones half of the way.
+  void BeginRound(int round, int usual, double begin, double end, std::int64_t units);
   double StageEnd() const { return this->End; }
   // The context of a computation that is the work of the current stage and reports its own progress
   // in [0,1]. Must not outlive this object.
   Context Stage();
 
-  // Runs a kernel over [0, count), in ranges of `grain`, as the work of the current stage. The
-  // first slice has `units`, which should take a few milliseconds (the default is for memory-bound
-  // work), and a range for every thread. Throws Cancelled, and what the kernel throws.
+  // Runs a kernel over [0, count), in ranges of `grain`, as the work of the current stage, or as
+  // `count` of its units. The first slice has `units`, which should take a few milliseconds (the
+  // default is for memory-bound work), and a range for every thread. Throws Cancelled, and what the
+  // kernel throws.
   void For(
     std::int64_t count, std::int64_t grain, RangeKernel kernel, std::int64_t units = usualUnits);
   // The same on this thread, in order.
@@ -74,6 +79,7 @@ private:
   double Begin = 0.0;
   double End = 0.0;
   std::int64_t Units = 1;
+  bool HasUnits = false; // else each loop sets them
   std::int64_t Done = 0;
   std::int64_t SliceUnits = 0;
   std::int64_t Pending = 0; // of Add

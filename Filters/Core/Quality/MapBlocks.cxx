@@ -396,9 +396,13 @@ private:
       layers.Cells[Last] = low < cells.End(Last) ? std::min(each, this->Size[Last] - low) : 0;
       low += each;
       const auto done = static_cast<double>(std::min(all, low - cells.Low[Last]));
-      this->Work.BeginStage(
-        start + (end - start) * done / static_cast<double>(std::max<std::int64_t>(1, all)));
+      const double before = this->Work.StageEnd();
+      const double after =
+        start + (end - start) * done / static_cast<double>(std::max<std::int64_t>(1, all));
+      constexpr double reading = 0.2;
+      this->Work.BeginStage(before + reading * (after - before));
       this->Rows.Read(layers, this->Work);
+      this->Work.BeginStage(after);
       if (!layers.IsEmpty())
       {
         visit(LayerSpan{ layers.Low[Last], layers.End(Last) });

@@ -59,7 +59,7 @@ public:
   // Throws Cancelled.
   void Run()
   {
-    this->Work.BeginStage(0.2, this->Rows);
+    this->Work.BeginStage(0.2, this->Masses.NumberOfPixels());
     this->SumMasses();
     double least = 2.0 * static_cast<double>(this->Masses.Total());
     int stuck = 0;

@@ -35,12 +35,13 @@ TriangleLayers::TriangleLayers(const TriangleSurface& surface, std::int64_t laye
   this->Triangles = LargeBuffer<std::int64_t>(sum);
   LargeBuffer<std::int64_t> next(layers);
   std::copy_n(first, layers, next.data());
-  progress.BeginStage(listed, sum);
-  this->ForTriangles(progress, [this, &next](std::int64_t triangle, const Range& range) {
+  progress.BeginStage(listed, surface.NumberOfTriangles + sum);
+  this->ForTriangles(progress, [&, this](std::int64_t triangle, const Range& range) {
     for (std::int64_t k = range.First; k < range.End; ++k)
     {
       this->Triangles.data()[next.data()[k]++] = triangle;
     }
+    progress.Add(range.End - range.First);
   });
 }
 
@@ -67,7 +68,7 @@ void TriangleLayers::ForTriangles(Progress& progress, const Visit& visit)
     {
       visit(i, range);
     }
-    progress.Add(1 + std::max<std::int64_t>(0, range.End - range.First));
+    progress.Add(1);
   }
 }
 

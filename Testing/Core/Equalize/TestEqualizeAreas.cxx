@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Corners of cells are moved until areas are masses.
-#include "Core/Equalize/EqualizeAreas.h"
+#include "Core/Equalize/AreaCorrection.h"
 
 #include "AreaErrors.h"
 #include "RecordingContext.h"
@@ -143,6 +143,21 @@ TEST(EqualizeAreas, NoFoldsAtASharpRim)
   EXPECT_EQ(measureAreas<2>(density, corners).Folded, 0);
 }
 
+// Beside a rim of 1000 the equation moves corners of thin cells too far at any length: what sweeps
+// of projections do alone is kept.
+TEST(EqualizeAreas, KeepsPassesAtAHighRim)
+{
+  const auto density = sampleDensity<2>({ 128, 128 },
+    [](const Point<2>& p) { return std::hypot(p[0] - 0.5, p[1] - 0.5) < 0.2 ? 1000.0 : 1.0; });
+  Points<2> corners = cornersAfter<2>(density, 256);
+  const AreaErrors before = measureAreas<2>(density, corners);
+  const EqualizeReport report = equalize<2>(density, corners);
+  const AreaErrors after = measureAreas<2>(density, corners);
+  EXPECT_EQ(report.Passes, 2);
+  EXPECT_LT(after.Quantile999, 0.8 * before.Quantile999);
+  EXPECT_LT(after.Folded, before.Folded);
+}
+
 // Images that are far off: no pass may make them worse.
 TYPED_TEST(EqualizeAreasIn, FarFromTheMap)
 {
@@ -254,6 +269,29 @@ TEST(EqualizeAreas, ReportsProgressAndStops)
   }
 }
 
+// A progress bar moves all the time, though linear systems and limits of moves take as long as they
+// take: here many iterations, and many rounds.
+TYPED_TEST(EqualizeAreasIn, ProgressDoesNotStandStill)
+{
+  constexpr int D = TypeParam::value;
+  const auto density = sampleDensity<D>(sizeFor<D>({}, { 300, 300 }, { 40, 44, 48 }),
+    [](const Point<D>& p) { return std::hypot(p[0] - 0.5, p[1] - 0.5) < 0.2 ? 1.0 : 0.001; });
+  Points<D> corners = bentLattice<D>(density.Size, 0.3);
+  const SerialExecutor serial;
+  RecordingContext recorder(serial);
+  equalize<D>(density, corners, passes(3), recorder.Context());
+  const std::vector<double> all = recorder.Reported;
+  ASSERT_GT(all.size(), 100u);
+  recorder.ExpectReported(0.0, 1.0);
+  std::size_t stretch = 0;
+  for (std::size_t i = 1, still = 0; i < all.size(); ++i)
+  {
+    still = all[i] > all[i - 1] ? 0 : still + 1;
+    stretch = std::max(stretch, still);
+  }
+  EXPECT_LE(stretch, 3u) << "of " << all.size();
+}
+
 TEST(EqualizeAreas, RefusesWrongArguments)
 {
   const auto density = uniformDensity<2>({ 4, 5 });
@@ -264,6 +302,12 @@ TEST(EqualizeAreas, RefusesWrongArguments)
   options.Tolerance = 0.0;
   EXPECT_EQ(refusal([&]() { equalize<2>(density, corners, options); }),
     "Tolerance is 0.000000; it must be between 0 and 1");
+  const DensityArray<2, double> values(density.Values.data(), density.Size);
+  for (const double total : { 0.0, -1.0, std::nan(""), HUGE_VAL })
+  {
+    EXPECT_EQ(refusal([&]() { equalizeAreas<2>(values, density.Size, total, corners); }),
+      "the total of the density is " + std::to_string(total) + "; it must be positive and finite");
+  }
   corners.pop_back();
   EXPECT_EQ(refusal([&]() { equalize<2>(density, corners); }),
     "there are 29 points; the cells have 30 corners");
@@ -276,6 +320,50 @@ TYPED_TEST(EqualizeAreasIn, NoPassesChangeNothing)
   Points<D> corners = bentLattice<D>(density.Size, 0.2);
   EXPECT_EQ(equalize<D>(density, corners, passes(0)).Passes, 0);
   EXPECT_EQ(corners, bentLattice<D>(density.Size, 0.2));
+}
+
+// Options that mean the same are the same, and give the same correction.
+TEST(AreaCorrection, ResolvesOptions)
+{
+  const auto density = twoGaussians<2>({ 40, 30 });
+  const RectifiedFlow<2> flow(density.Source());
+  const auto resolve = [&flow](const FlowOptions& options) {
+    return AreaCorrection<2>::Resolve(flow, options);
+  };
+  FlowOptions chosen;
+  chosen.Maps = FlowMaps::Off;
+  FlowOptions fixed = chosen;
+  fixed.NumberOfSteps = flow.ChooseSteps(chosen, FlowDirection::Backward).NumberOfSteps;
+  EXPECT_EQ(resolve(chosen), resolve(fixed));
+  for (const bool isAdaptive : { false, true })
+  {
+    FlowOptions one = fixed;
+    one.Integrator = isAdaptive ? Integrator::Adaptive : Integrator::Multistep;
+    FlowOptions other = one;
+    other.AreaTolerance = 0.5;
+    EXPECT_EQ(resolve(one), resolve(other));
+    other.Tolerance = 0.3;
+    EXPECT_EQ(resolve(one) == resolve(other), !isAdaptive);
+    other = one;
+    other.NumberOfSteps = 77;
+    EXPECT_EQ(resolve(one) == resolve(other), isAdaptive);
+    other = one;
+    other.Maps = FlowMaps::On;
+    EXPECT_EQ(resolve(one) == resolve(other), isAdaptive);
+    other = one;
+    other.Lookup = TableLookup::Nearest;
+    EXPECT_FALSE(resolve(one) == resolve(other));
+  }
+  const AreaCorrection<2> ofChosen(flow, chosen);
+  const AreaCorrection<2> ofFixed(flow, resolve(chosen));
+  for (const Point<2>& point : randomPoints<2>(density.Size, 100))
+  {
+    Point<2> one = point;
+    Point<2> other = point;
+    ofChosen.Correct(point.data(), one.data());
+    ofFixed.Correct(point.data(), other.data());
+    EXPECT_EQ(one, other);
+  }
 }
 
 } // namespace

@@ -100,6 +100,48 @@ TEST(Progress, StagesNest)
   EXPECT_THROW(outer.Check(), Cancelled);
 }
 
+// Loops of a stage whose units are declared are parts of it, whatever else reports units.
+TEST(Progress, LoopsAddToDeclaredUnits)
+{
+  RecordingContext recorder(serial);
+  Progress progress(recorder.Context());
+  progress.BeginStage(0.5, 4 * count);
+  progress.For(count, 1, nothing, 1);
+  EXPECT_GT(recorder.Reported.size(), 2u);
+  recorder.ExpectReported(0.0, 0.125);
+  progress.EndSlice(count);
+  recorder.ExpectReported(0.125, 0.25);
+  progress.ForInOrder(2 * count, 1, nothing, 1);
+  recorder.ExpectReported(0.25, 0.5);
+  progress.For(count, 1, nothing, 1); // more than was said
+  recorder.ExpectReported(0.5, 0.5);
+  progress.BeginStage(1.0);
+  progress.For(count, 1, nothing, 1);
+  recorder.ExpectReported(0.5, 1.0);
+}
+
+// However many rounds there are, each goes on.
+TEST(Progress, RoundsLeadTowardsTheirEnd)
+{
+  RecordingContext recorder(serial);
+  Progress progress(recorder.Context());
+  progress.BeginStage(0.2);
+  double last = 0.2;
+  for (int round = 0; round < 100; ++round)
+  {
+    progress.BeginRound(round, 4, 0.2, 0.6, count);
+    progress.For(count, 1, nothing, 1);
+    EXPECT_EQ(recorder.Reported.back(), progress.StageEnd());
+    EXPECT_GT(progress.StageEnd(), last + 1e-4);
+    EXPECT_LT(progress.StageEnd(), 0.6);
+    last = progress.StageEnd();
+    if (round == 3)
+    {
+      EXPECT_NEAR(last, 0.4, 1e-15);
+    }
+  }
+}
+
 // Several loops may be the work of one stage, or repeat it.
 TEST(Progress, IsNeverTakenBack)
 {

@@ -7,7 +7,9 @@
 #include "ThreadsTest.h"
 #include "WarpTest.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace
 {
@@ -180,6 +182,8 @@ void checkTables(Checks& checks)
     "Tables is Tiled, which does not give equal areas (EqualizeAreas); Tables = Whole does, or "
     "Auto";
   ofWarp.Expect(text, __LINE__);
+  warp->SetBlend(0.0); // no map
+  ofWarp.ExpectNone(__LINE__);
   vtkNew<vtkTransportMap> map;
   ErrorTest ofMap(checks, map);
   map->SetInputData(image);
@@ -220,6 +224,100 @@ void checkKept(Checks& checks)
   map->SetNumberOfSteps(33);
   map->EqualizeAreasOn();
   CHECK(checks, seconds(map) < 0.5 * made);
+  // Options that are not used do not matter, nor do those of another filter; it is kept while
+  // somebody wants it.
+  warp->SetTolerance(0.5);
+  warp->SetAreaTolerance(0.5);
+  CHECK(checks, seconds(warp) < 0.3 * made);
+  map->SetNumberOfSteps(32);
+  map->Update();
+  warp->Modified();
+  CHECK(checks, seconds(warp) < 0.3 * made);
+  map->Modified();
+  CHECK(checks, seconds(map) < 0.3 * made);
+  map->EqualizeAreasOff();
+  map->Update();
+  map->EqualizeAreasOn();
+  CHECK(checks, seconds(map) > 0.5 * made);
+}
+
+// 1, and a square of `contrast` off the middle.
+vtkSmartPointer<vtkImageData> squareOf(double contrast, double added)
+{
+  return makeImage(129, 129, 1, true, [=](vtkIdType i) {
+    const double x = (static_cast<double>(i % 128) + 0.5) / 128 - 0.4;
+    const double y = (static_cast<double>(i / 128) + 0.5) / 128 - 0.6;
+    return added + (std::max(std::abs(x), std::abs(y)) < 0.15 ? contrast : 1.0);
+  });
+}
+
+std::size_t countWarnings(const Messages& messages, const char* part)
+{
+  return static_cast<std::size_t>(std::count_if(messages.Warnings.begin(), messages.Warnings.end(),
+    [part](const std::string& text) { return contains(text, part); }));
+}
+
+// How many passes were kept, a warning if none was, and that its advice helps.
+void checkPasses(Checks& checks)
+{
+  vtkNew<vtkTransportMap> map;
+  vtkNew<vtkDensityEqualizingWarp> warp;
+  Messages ofMap(map);
+  Messages ofWarp(warp);
+  map->SetNumberOfSteps(1024);
+  warp->SetNumberOfSteps(1024);
+  warp->SetInputData(makePoints({ 30, 40, 0, 60, 70, 0 }));
+  const auto run = [&](double contrast, double added) {
+    auto image = squareOf(contrast, added);
+    map->SetInputData(image);
+    warp->SetDensityData(image);
+    ofMap.Warnings.clear();
+    ofWarp.Warnings.clear();
+    map->Update();
+    warp->Update();
+  };
+  const auto passesOf = [](vtkDataObject* output) { return fieldValue(output, "EqualAreaPasses"); };
+  map->EqualizeAreasOn();
+  run(1000.0, 0.0); // UniformToDensity, and the warp without
+  CHECK(checks, std::isnan(passesOf(map->GetOutput())) && std::isnan(passesOf(warp->GetOutput())));
+  map->SetDirectionToDensityToUniform();
+  warp->EqualizeAreasOn();
+  const char* text = "EqualizeAreas changed nothing: every pass made errors larger or folds more "
+                     "numerous (less contrast helps, for example a part of the mean added with "
+                     "Calculator)";
+  run(1000.0, 0.0);
+  CHECK(checks, passesOf(map->GetOutput()) == 0.0 && passesOf(warp->GetOutput()) == 0.0);
+  CHECK(checks, countWarnings(ofMap, text) == 1 && countWarnings(ofWarp, text) == 1);
+  run(1000.0, 10.0); // a ninth of the mean
+  CHECK(checks, passesOf(map->GetOutput()) == 2.0 && passesOf(warp->GetOutput()) == 2.0);
+  CHECK(checks, countWarnings(ofMap, "EqualizeAreas") == 0);
+  CHECK(checks, countWarnings(ofWarp, "EqualizeAreas") == 0);
+  CHECK(checks, ofMap.Errors.empty() && ofWarp.Errors.empty());
+}
+
+// Of the corrected map there is no estimate, and no warning: those of the flow alone are none.
+void checkEstimate(Checks& checks)
+{
+  auto image =
+    makeImage(65, 65, 1, true, [](vtkIdType i) { return i == 64 * 32 + 21 ? 1e4 : 1.0; });
+  vtkNew<vtkTransportMap> map;
+  Messages messages(map);
+  map->SetInputData(image);
+  map->SetDirectionToDensityToUniform();
+  map->SetIntegratorToEuler();
+  map->SetAreaTolerance(0.0125);
+  map->Update();
+  const char* text = "AreaTolerance 0.0125 is not reached: with 4096 steps";
+  CHECK(checks, fieldValue(map->GetOutput(), "AreaErrorEstimate") > 0.0125);
+  CHECK(checks, countWarnings(messages, text) == 1);
+  CHECK(checks, countWarnings(messages, "e+") == 0);
+  messages.Warnings.clear();
+  map->EqualizeAreasOn();
+  map->Update();
+  CHECK(checks, fieldValue(map->GetOutput(), "EqualAreaPasses") > 0.0);
+  CHECK(checks, fieldValue(map->GetOutput(), "StepsTaken") == 4096.0);
+  CHECK(checks, std::isnan(fieldValue(map->GetOutput(), "AreaErrorEstimate")));
+  CHECK(checks, countWarnings(messages, "AreaTolerance") == 0);
 }
 
 void checkThreads(Checks& checks)
@@ -266,6 +364,6 @@ void checkAbort(Checks& checks)
 
 int TestEqualAreas(int, char*[])
 {
-  return runChecks(
-    { checkWarp, checkMap, checkLine, checkTables, checkKept, checkThreads, checkAbort });
+  return runChecks({ checkWarp, checkMap, checkLine, checkTables, checkKept, checkPasses,
+    checkEstimate, checkThreads, checkAbort });
 }

@@ -88,7 +88,9 @@ void checkFolds(Checks& checks, const std::array<int, 3>& n, bool cells, double 
           expected << static_cast<int>(folded) << " of " << all << " samples ("
                    << 100.0 * folded / all
                    << " %) are folded: JacobianDeterminant is 0 or negative there; more "
-                      "NumberOfSteps unfold them, but not beside regions without mass";
+                      "NumberOfSteps unfold "
+                   << (direction == 1 ? "most, but not beside regions without mass"
+                                      : "some, but not at sharp edges of the density");
           checks.That(contains(said[0], expected.str().c_str()), "the text", __LINE__, said[0]);
         }
       }

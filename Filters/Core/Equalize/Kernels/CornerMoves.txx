@@ -36,24 +36,24 @@ RT_INLINE void cornerMove2D(const CornerRow<2>& row, std::int64_t i, bool hasLef
   const double* ya = row.Corners[2].X[1];
   const float* w0 = row.Weights[0];
   const float* w1 = row.Weights[1];
-  const float* p = row.Potential;
+  const double* p = row.Potential;
   const std::int64_t s = row.Stride[1];
   Normal2 sum;
   // Upright edges, whose normal is to the right; left and right of them cells i - 1 and i.
   addEdge(static_cast<float>(y[i] - yb[i]), static_cast<float>(xb[i] - x[i]),
-    w0[i - 1 - s] * (p[i - s] - p[i - 1 - s]), sum);
+    w0[i - 1 - s] * static_cast<float>(p[i - s] - p[i - 1 - s]), sum);
   addEdge(static_cast<float>(ya[i] - y[i]), static_cast<float>(x[i] - xa[i]),
-    w0[i - 1] * (p[i] - p[i - 1]), sum);
+    w0[i - 1] * static_cast<float>(p[i] - p[i - 1]), sum);
   // Level edges, whose normal is upwards.
   if (hasLeft)
   {
     addEdge(static_cast<float>(y[i - 1] - y[i]), static_cast<float>(x[i] - x[i - 1]),
-      w1[i - 1 - s] * (p[i - 1] - p[i - 1 - s]), sum);
+      w1[i - 1 - s] * static_cast<float>(p[i - 1] - p[i - 1 - s]), sum);
   }
   if (hasRight)
   {
     addEdge(static_cast<float>(y[i] - y[i + 1]), static_cast<float>(x[i + 1] - x[i]),
-      w1[i - s] * (p[i] - p[i - s]), sum);
+      w1[i - s] * static_cast<float>(p[i] - p[i - s]), sum);
   }
   const float xx = sum.XX + regular;
   const float yy = sum.YY + regular;
@@ -105,7 +105,7 @@ RT_INLINE void addFace(const Vector3& n, float flux, Normal3& sum)
 RT_INLINE void cornerMove3D(const CornerRow<3>& row, std::int64_t i, bool hasLeft, bool hasRight)
 {
   const PointRow<3>* r = row.Corners;
-  const float* p = row.Potential;
+  const double* p = row.Potential;
   const std::int64_t s1 = row.Stride[1];
   const std::int64_t s2 = row.Stride[2];
   Normal3 sum;
@@ -119,7 +119,7 @@ RT_INLINE void cornerMove3D(const CornerRow<3>& row, std::int64_t i, bool hasLef
       const std::int64_t q = i - (1 - a) * s1 - (1 - b) * s2;
       const int at = a + 3 * b; // the row of the face's low corner
       addFace(halfCross(difference(r[at + 4], i, r[at], i), difference(r[at + 3], i, r[at + 1], i)),
-        row.Weights[0][q - 1] * (p[q] - p[q - 1]), sum);
+        row.Weights[0][q - 1] * static_cast<float>(p[q] - p[q - 1]), sum);
     }
   }
 #pragma GCC unroll 2
@@ -139,29 +139,36 @@ RT_INLINE void cornerMove3D(const CornerRow<3>& row, std::int64_t i, bool hasLef
       const PointRow<3>& far1 = r[4 + 3 * a];
       addFace(
         halfCross(difference(far1, low + 1, near1, low), difference(near1, low + 1, far1, low)),
-        row.Weights[1][q1 - s1] * (p[q1] - p[q1 - s1]), sum);
+        row.Weights[1][q1 - s1] * static_cast<float>(p[q1] - p[q1 - s1]), sum);
       // Across axis 2, rows (a - 1, 0) and (a, 0).
       const std::int64_t q2 = low - (1 - a) * s1;
       const PointRow<3>& near2 = r[3 + a];
       const PointRow<3>& far2 = r[4 + a];
       addFace(
         halfCross(difference(far2, low + 1, near2, low), difference(far2, low, near2, low + 1)),
-        row.Weights[2][q2 - s2] * (p[q2] - p[q2 - s2]), sum);
+        row.Weights[2][q2 - s2] * static_cast<float>(p[q2] - p[q2 - s2]), sum);
     }
   }
-  const float xx = sum.XX + regular;
-  const float yy = sum.YY + regular;
-  const float zz = sum.ZZ + regular;
-  const float cxx = yy * zz - sum.YZ * sum.YZ;
-  const float cxy = sum.XZ * sum.YZ - sum.XY * zz;
-  const float cxz = sum.XY * sum.YZ - sum.XZ * yy;
-  const float cyy = xx * zz - sum.XZ * sum.XZ;
-  const float cyz = sum.XY * sum.XZ - xx * sum.YZ;
-  const float czz = xx * yy - sum.XY * sum.XY;
-  const float inverse = 1.0F / (xx * cxx + sum.XY * cxy + sum.XZ * cxz);
-  row.Moves[0][i] = (cxx * sum.X + cxy * sum.Y + cxz * sum.Z) * inverse;
-  row.Moves[1][i] = (cxy * sum.X + cyy * sum.Y + cyz * sum.Z) * inverse;
-  row.Moves[2][i] = (cxz * sum.X + cyz * sum.Y + czz * sum.Z) * inverse;
+  // Where the faces are nearly parallel, the determinant is far below its terms: floats lose it.
+  const auto xy = static_cast<double>(sum.XY);
+  const auto xz = static_cast<double>(sum.XZ);
+  const auto yz = static_cast<double>(sum.YZ);
+  const double xx = static_cast<double>(sum.XX + regular);
+  const double yy = static_cast<double>(sum.YY + regular);
+  const double zz = static_cast<double>(sum.ZZ + regular);
+  const double cxx = yy * zz - yz * yz;
+  const double cxy = xz * yz - xy * zz;
+  const double cxz = xy * yz - xz * yy;
+  const double cyy = xx * zz - xz * xz;
+  const double cyz = xy * xz - xx * yz;
+  const double czz = xx * yy - xy * xy;
+  const double inverse = 1.0 / (xx * cxx + xy * cxy + xz * cxz);
+  const auto x = static_cast<double>(sum.X);
+  const auto y = static_cast<double>(sum.Y);
+  const auto z = static_cast<double>(sum.Z);
+  row.Moves[0][i] = static_cast<float>((cxx * x + cxy * y + cxz * z) * inverse);
+  row.Moves[1][i] = static_cast<float>((cxy * x + cyy * y + cyz * z) * inverse);
+  row.Moves[2][i] = static_cast<float>((cxz * x + cyz * y + czz * z) * inverse);
 }
 
 void rowMoves3D(const CornerRow<3>& row)

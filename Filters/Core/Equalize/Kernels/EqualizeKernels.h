@@ -34,10 +34,10 @@ struct CornerRow
 {
   PointRow<Dimension> Corners[Dimension == 2 ? 3 : 9];
   std::int64_t Cells; // along axis 0
-  // The fluxes of the cells' upper faces along each axis, of the cell at the low corner's place of
-  // each row: [axis][row], as the corners' rows.
+  // At the cell of which this row's corners are the low ones: the weights of the cells' upper faces
+  // along each axis, and the potential. A flux is a weight times a difference of the potential.
   const float* Weights[Dimension];
-  const float* Potential;
+  const double* Potential;
   std::int64_t Stride[Dimension]; // of cells
   float* Moves[Dimension];        // output, a corner each
 };
@@ -93,11 +93,14 @@ struct EqualizeKernels
   // output = A x; returns the sum of x * output.
   double (*Apply)(const FaceWeights<Dimension>& system, const float* x, std::int64_t first,
     std::int64_t last, float* output);
+  // r = b - A x; returns the sum of r^2.
+  double (*Rest)(const FaceWeights<Dimension>& system, const double* x, const float* b,
+    std::int64_t first, std::int64_t last, float* r);
   // Returns the sum of a * b.
   double (*Dot)(const float* a, const float* b, std::int64_t first, std::int64_t last);
   // x += factor * p, r -= factor * q; returns the sum of r^2.
   double (*Advance)(float factor, const float* p, const float* q, std::int64_t first,
-    std::int64_t last, float* x, float* r);
+    std::int64_t last, double* x, float* r);
   // p = z + factor * p
   void (*Turn)(float factor, const float* z, std::int64_t first, std::int64_t last, float* p);
 };

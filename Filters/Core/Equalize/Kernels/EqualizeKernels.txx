@@ -52,14 +52,14 @@ template <>
 EqualizeKernels<2> RECTIFIEDTRANSPORT_KERNELS<2>()
 {
   return { &rowAreas2D, &rowWeights2D, &rowMoves2D, &rowMultipliers2D, &rowProject2D, &residual<2>,
-    &relax<2>, &apply<2>, &dot, &advance, &turn };
+    &relax<2>, &apply<2>, &rest<2>, &dot, &advance, &turn };
 }
 
 template <>
 EqualizeKernels<3> RECTIFIEDTRANSPORT_KERNELS<3>()
 {
   return { &rowAreas3D, &rowWeights3D, &rowMoves3D, &rowMultipliers3D, &rowProject3D, &residual<3>,
-    &relax<3>, &apply<3>, &dot, &advance, &turn };
+    &relax<3>, &apply<3>, &rest<3>, &dot, &advance, &turn };
 }
 
 } // namespace RectifiedTransport

@@ -36,8 +36,8 @@ RT_INLINE double sumOf(std::int64_t first, std::int64_t last, const Term& term)
 }
 
 // Minus (A x)_q.
-template <int Dimension>
-RT_INLINE float inflow(const FaceWeights<Dimension>& system, const float* x, std::int64_t q)
+template <int Dimension, class Value>
+RT_INLINE float inflow(const FaceWeights<Dimension>& system, const Value* x, std::int64_t q)
 {
   float sum = 0.0F;
 #pragma GCC unroll 3
@@ -45,7 +45,8 @@ RT_INLINE float inflow(const FaceWeights<Dimension>& system, const float* x, std
   {
     const float* w = system.Weights[axis];
     const std::int64_t s = system.Stride[axis];
-    sum += w[q] * (x[q + s] - x[q]) + w[q - s] * (x[q - s] - x[q]);
+    sum +=
+      w[q] * static_cast<float>(x[q + s] - x[q]) + w[q - s] * static_cast<float>(x[q - s] - x[q]);
   }
   return sum;
 }
@@ -95,16 +96,28 @@ double apply(const FaceWeights<Dimension>& given, const float* x, std::int64_t f
   });
 }
 
+template <int Dimension>
+double rest(const FaceWeights<Dimension>& given, const double* x, const float* b,
+  std::int64_t first, std::int64_t last, float* __restrict r)
+{
+  const FaceWeights<Dimension> system = given;
+  return sumOf(first, last, [&](std::int64_t q) {
+    const float value = b[q] + inflow<Dimension>(system, x, q);
+    r[q] = value;
+    return value * value;
+  });
+}
+
 double dot(const float* a, const float* b, std::int64_t first, std::int64_t last)
 {
   return sumOf(first, last, [&](std::int64_t q) { return a[q] * b[q]; });
 }
 
 double advance(float factor, const float* p, const float* q, std::int64_t first, std::int64_t last,
-  float* __restrict x, float* __restrict r)
+  double* __restrict x, float* __restrict r)
 {
   return sumOf(first, last, [&](std::int64_t i) {
-    x[i] += factor * p[i];
+    x[i] += static_cast<double>(factor) * static_cast<double>(p[i]);
     const float value = r[i] - factor * q[i];
     r[i] = value;
     return value * value;
