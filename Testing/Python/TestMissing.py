@@ -192,15 +192,18 @@ def mapped(data, **properties):
     return bits(rt.vtkTransportMap(), data, ["Displacement", "JacobianDeterminant"], **properties)
 
 
-def warper(data):
+def warper(box):
+    """A warp of points in the box of a data set."""
     warp = rt.vtkDensityEqualizingWarp()
-    box = data if data.IsA("vtkDataSet") else density_image((12, 10))
     warp.SetInputData(0, points_in(box, 60))
     return warp
 
 
-def warped(data, **properties):
-    return bits(warper(data), data, ["Displacement"], **properties)
+def warped_in(box):
+    """What makes the bits of such a warp."""
+    def warped(data, **properties):
+        return bits(warper(box), data, ["Displacement"], **properties)
+    return warped
 
 
 class OneThing(unittest.TestCase):
@@ -233,20 +236,16 @@ class OneThing(unittest.TestCase):
     def test_warps(self):
         for values, ways in self.each_values():
             for rule in ({}, *RULES) if values.dtype == np.float64 else ({},):
-                points = points_in(image_of(values), 60)
-
-                def of_same_points(data, points=points, **properties):
-                    warp = rt.vtkDensityEqualizingWarp()
-                    warp.SetInputData(0, points)
-                    return bits(warp, data, ["Displacement"], **properties)
-                self.assert_same(ways, values, of_same_points, **rule)
-                self.assert_same(ways, values, of_same_points, Margin=0.2, **rule)
+                of_points = warped_in(image_of(values))
+                self.assert_same(ways, values, of_points, **rule)
+                self.assert_same(ways, values, of_points, Margin=0.2, **rule)
 
     def test_tiles(self):
         values = values_of((60, 50))
         for rule in RULES:
             self.assert_same(WAYS, values, mapped, Tables=2, NumberOfSteps=32, **rule)
-        self.assert_same(WAYS, values, warped, Tables=2, NumberOfSteps=32, Margin=0.1)
+        self.assert_same(WAYS, values, warped_in(image_of(values)), Tables=2, NumberOfSteps=32,
+                         Margin=0.1)
 
     def test_inverted(self):
         """White is found among valid values."""
@@ -364,16 +363,20 @@ class Empty(unittest.TestCase):
         array = numpy_to_vtk(np.array([3.0]), deep=1)
         array.SetName("Density")
         data.GetCellData().SetScalars(array)
-        moves = {}
-        for rule in (0, 1, 2):
-            _, output = run(warper(data), data, EmptyCells=rule, DensityResolution=50)
-            moves[rule] = np.abs(vtk_to_numpy(output.GetPointData().GetArray("Displacement"))).max()
-        self.assertLess(moves[1], 1e-9)
-        self.assertLess(moves[2], 1e-9)
-        self.assertGreater(moves[0], 0.1)
+        _, output = run(rt.vtkTransportMap(), data, DensityResolution=50)
+        uniform = density_image([n - 1 for n in output.GetDimensions()[:2]], values=np.full(
+            output.GetNumberOfCells(), 3.0))
+        uniform.SetOrigin(output.GetOrigin())
+        uniform.SetSpacing(output.GetSpacing())
+        moves = [vtk_to_numpy(run(warper(data), density, EmptyCells=rule, DensityResolution=50)[1]
+                              .GetPointData().GetArray("Displacement"))
+                 for density, rule in ((uniform, 0), (data, 0), (data, 1), (data, 2))]
+        self.assertGreater(np.abs(moves[1] - moves[0]).max(), 0.1)
+        for found in moves[2:]:
+            self.assertLess(np.abs(found - moves[0]).max(), 1e-9)
         mass = {rule: run(rt.vtkTransportMap(), data, EmptyCells=rule, DensityResolution=50)[1]
                 .GetFieldData().GetArray("TotalMass").GetValue(0) for rule in (0, 1)}
-        self.assertAlmostEqual(mass[0], 3 * 20 * 6 * math.sin(2 * math.pi / 40), 9)
+        self.assertAlmostEqual(mass[0], 3 * 20 * 6 * math.sin(2 * math.pi / 40), 5)
         self.assertAlmostEqual(mass[1], 3 * 6 * 4, 1)
 
     def test_margin(self):
@@ -395,22 +398,20 @@ class Empty(unittest.TestCase):
                 extent[2 * axis] -= cells
                 extent[2 * axis + 1] -= cells
             larger.SetExtent(extent)
-            points = points_in(larger, 60)
             for rule in RULES:
                 for tables in (1, 2) if len(shape) > 1 else (1,):
                     with self.subTest(shape=shape, tables=tables, **rule):
                         found = []
                         for density, own in ((data, dict(Margin=0.25)), (larger, dict(NaNValues=1))):
-                            warp = rt.vtkDensityEqualizingWarp()
-                            warp.SetInputData(0, points)
-                            found.append(bits(warp, density, ["Displacement"], Tables=tables,
-                                              NumberOfSteps=32, **own, **rule))
+                            found.append(warped_in(larger)(density, Tables=tables, NumberOfSteps=32,
+                                                           **own, **rule))
                         self.assertEqual(*found)
 
     def test_defaults(self):
         """The warp takes the mean, the map nothing."""
         values = values_of((12, 10))
         data, _ = blanked(values)
+        warped = warped_in(data)
         self.assertEqual(warped(data), warped(data, EmptyCells=1))
         self.assertNotEqual(warped(data), warped(data, EmptyCells=0))
         self.assertEqual(mapped(data), mapped(data, EmptyCells=0))
@@ -448,8 +449,8 @@ class Empty(unittest.TestCase):
             morph.SetInputData(0, first)
             morph.SetInputData(1, second)
             mean = rt.vtkTransportBarycenter()
-            mean.AddInputData(first)
-            mean.AddInputData(second)
+            mean.AddInputDataObject(0, first)
+            mean.AddInputDataObject(0, second)
             quality = rt.vtkTransportQuality()
             relaxed = rt.vtkBlueNoiseRelaxation()
             cells = rt.vtkEqualMassCells()
@@ -478,7 +479,7 @@ class Errors(unittest.TestCase):
     def assert_error(self, text, data=None, **properties):
         data = data or image_of(values_of((12, 10)))
         reported, output = run(warper(data), data, **properties)
-        self.assertEqual(len(reported.errors), 1, reported.errors)
+        self.assertTrue(reported.errors)  # of the filter, and of VTK's executive
         self.assertIn(text, reported.errors[0])
         self.assertEqual(size_of(output), 0)
 
