@@ -4,8 +4,8 @@
  * @brief   a warp that old state files give what they gave
  *
  * The XML element TransportWarpProxy. A state file that was written before there was the property
- * EmptyCells means Zero, which is not the default: ParaView gives properties that a state lacks their
- * defaults.
+ * EmptyCells means Zero, which is not the default: ParaView gives properties that a state lacks
+ * their defaults.
  */
 #ifndef vtkSMTransportWarpProxy_h
 #define vtkSMTransportWarpProxy_h

@@ -134,13 +134,11 @@ class State(unittest.TestCase):
             simple.SaveState(path)
             state = ElementTree.parse(path)
             for then, kept in ((rule, True), ("Zero", False)):
-                proxy = next(proxy for proxy in state.iter("Proxy")
-                             if proxy.get("type") == "DensityEqualizingWarp"
-                             and any(p.get("name") == "EmptyCells" for p in proxy))
-                for new in [] if kept else list(proxy):
-                    if new.get("name") in ("EmptyCells", "EmptyValue", "Margin", "NaNValues",
-                                           "ValidRange"):
-                        proxy.remove(new)
+                for proxy in [] if kept else state.iter("Proxy"):
+                    for new in list(proxy) if proxy.get("type") == "DensityEqualizingWarp" else []:
+                        if new.get("name") in ("EmptyCells", "EmptyValue", "Margin", "NaNValues",
+                                               "ValidRange"):
+                            proxy.remove(new)
                 state.write(path)
                 simple.ResetSession()
                 simple.LoadState(path)
