@@ -17,9 +17,9 @@ def island(columns=240, rows=160):
     coast = 1 + 0.16 * np.cos(3 * angle + 0.7) + 0.1 * np.sin(5 * angle) + 0.05 * np.cos(11 * angle)
     land = np.hypot(x / 1.45, y) < 0.32 * coast
     land &= np.hypot((x - 0.08) / 1.5, y - 0.1) > 0.045  # a lake
-    people = 30 + 25 * x
-    for (at_x, at_y), width, most in (((-0.22, -0.06), 0.05, 900), ((0.3, -0.02), 0.035, 600),
-                                      ((0.02, -0.17), 0.03, 400)):
+    people = 40 + 50 * x
+    for (at_x, at_y), width, most in (((-0.22, -0.06), 0.08, 320), ((0.3, -0.02), 0.06, 250),
+                                      ((0.02, -0.17), 0.05, 200)):
         people += most * np.exp(-((x - at_x) ** 2 + (y - at_y) ** 2) / (2 * width ** 2))
     return np.where(land, people, NODATA)
 

@@ -67,8 +67,7 @@ void throwInvalidDensity(const std::string& name, const DensitySummary& summary,
   if (summary.Negative > 0)
   {
     fail(has, summary.Negative, summary.Negative == 1 ? " negative value" : " negative values",
-      "; NegativeValues = Clamp takes them as 0, for a density must not be negative (the first at "
-      "index ",
+      "; NegativeValues = Clamp takes them as 0, ValidRange as missing (the first at index ",
       summary.FirstNegative, ")");
   }
   if (std::isinf(summary.Total))
