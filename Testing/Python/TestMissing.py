@@ -438,6 +438,16 @@ class Empty(unittest.TestCase):
         warp.Update()
         self.assertEqual(warp.GetTableBuildTime(), built)
 
+    def test_tables_are_shared(self):
+        """Without empty cells, a warp and a map read one density, whatever empty cells count as."""
+        data = image_of(values_of((12, 10)))
+        warp, transport = warper(data), rt.vtkTransportMap()
+        run(warp, data, EmptyCells=1)
+        run(transport, data, EmptyCells=0)
+        self.assertEqual(transport.GetTableBuildTime(), warp.GetTableBuildTime())
+        run(warp, data, Margin=0.1)
+        self.assertGreater(warp.GetTableBuildTime(), transport.GetTableBuildTime())
+
     def test_several_densities(self):
         """Of each input of a morph and a barycenter, and of the other filters' densities."""
         one, own = below_range(values_of((12, 10)))

@@ -80,6 +80,7 @@ public:
     , Inner(std::move(inner))
     , Margin(margin)
   {
+    this->Inner->FindEmptyDensity();
   }
 
   void Prepare(FlowTables tables, Progress& progress) override

@@ -58,6 +58,10 @@ InputDensity::~InputDensity() = default;
 void InputDensity::SetForm(const ArrayForm& form)
 {
   const GridSize<3> size = this->Geometry.Size<3>();
+  this->MayBeEmpty = this->Rules.Missing.Are() || form.HasPointGhosts ||
+    (form.HasCellGhosts && !this->Geometry.IsOnPoints());
+  // Without empty cells what they count as is part of no density.
+  const EmptyRule rule = this->MayBeEmpty ? this->Rules.Empty : EmptyRule();
   this->Reading = { 0, number(form.Type), number(form.Components),
     number(this->Geometry.Dimension()), number(size[0]), number(size[1]), number(size[2]),
     number(this->Rules.Component + 2),
@@ -66,10 +70,7 @@ void InputDensity::SetForm(const ArrayForm& form)
     number(this->Geometry.IsOnPoints()),
     number(form.HasPointGhosts) + 2 * number(form.HasCellGhosts),
     bitsOf(this->Geometry.CellMeasure()), bitsOf(this->Rules.Missing.Low),
-    bitsOf(this->Rules.Missing.High), number(this->Rules.Empty.Cells),
-    bitsOf(this->Rules.Empty.Value), 0 };
-  this->MayBeEmpty = this->Rules.Missing.Are() || form.HasPointGhosts ||
-    (form.HasCellGhosts && !this->Geometry.IsOnPoints());
+    bitsOf(this->Rules.Missing.High), number(rule.Cells), bitsOf(rule.Value), 0 };
 }
 
 const InputDensity::Content& InputDensity::GetContent(Progress& progress)

@@ -79,6 +79,8 @@ public:
   virtual void SampleArrays(const Extent& extent, ConstPointSpan<3> particles, Progress& progress,
     vtkPointData* output) const = 0;
 
+  // Makes Prepare find what empty cells count as even if this density has none.
+  void FindEmptyDensity() { this->MustFindEmpty = true; }
   // What empty cells count as, from Prepare on.
   double EmptyDensity() const { return this->Empty; }
   // What Prepare found about the values, without the summary of the densities.
@@ -117,7 +119,10 @@ protected:
   int Components() const { return static_cast<int>(this->Reading[2]); }
   bool NeedsWhite() const;
   bool Clamps() const { return this->Rules.ClampNegative && !this->Rules.Invert; }
-  bool FillsEmpty() const { return this->Rules.Empty.Cells != EmptyCells::Zero; }
+  bool FillsEmpty() const
+  {
+    return this->Rules.Empty.Cells != EmptyCells::Zero && (this->MayBeEmpty || this->MustFindEmpty);
+  }
   // The value read as white, as soon as Known has it.
   double White() const;
   // The findings about values, one line each.
@@ -138,6 +143,7 @@ private:
   std::string InputName;
   Listener Tell;
   bool MayBeEmpty = false; // some cells
+  bool MustFindEmpty = false;
   Content Reading{};
   Content Hashed{}; // all 0 before GetContent
 };

@@ -145,6 +145,10 @@ void PiecesDensity::Prepare(FlowTables tables, Progress& progress)
     return;
   }
   this->Gathered = this->Gather(this->Distribution->Whole());
+  if (this->FillsEmpty())
+  {
+    this->Gathered->FindEmptyDensity();
+  }
   this->Gathered->Prepare(tables, progress);
   this->Known = this->Gathered->Unusual();
   this->Empty = this->Gathered->EmptyDensity();
