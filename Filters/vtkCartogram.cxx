@@ -7,6 +7,7 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Settings/MissingData.h"
 
 #include "vtkCellData.h"
 #include "vtkCompositeDataSet.h"
@@ -27,8 +28,6 @@ using namespace RectifiedTransport;
 
 namespace
 {
-constexpr const char* EmptyCellsTexts[] = { "Mean", "Least", "Value", "Zero" };
-
 std::string arrayName(vtkInformation* choice, const char* title)
 {
   const char* name = choice->Get(vtkDataObject::FIELD_NAME());
@@ -151,8 +150,8 @@ int vtkCartogram::RequestData(
   CartogramWorker worker{};
   worker.Options.Resolution = this->Resolution;
   worker.Options.Margin = this->Margin;
-  constexpr SeaDensity seas[] = { SeaDensity::Mean, SeaDensity::Least, SeaDensity::Value,
-    SeaDensity::Zero };
+  constexpr SeaDensity seas[] = { SeaDensity::Zero, SeaDensity::Mean, SeaDensity::Least,
+    SeaDensity::Value };
   worker.Options.Sea = seas[this->EmptyCells];
   worker.Options.SeaValue = this->EmptyValue;
   worker.Options.Tolerance = this->Tolerance;

@@ -57,10 +57,10 @@ public:
    */
   enum EmptyCellsType
   {
-    EMPTY_CELLS_MEAN = 0,
-    EMPTY_CELLS_LEAST = 1,
-    EMPTY_CELLS_VALUE = 2,
-    EMPTY_CELLS_ZERO = 3
+    EMPTY_CELLS_ZERO = 0,
+    EMPTY_CELLS_MEAN = 1,
+    EMPTY_CELLS_LEAST = 2,
+    EMPTY_CELLS_VALUE = 3
   };
 
   ///@{

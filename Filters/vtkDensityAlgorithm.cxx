@@ -8,6 +8,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/InputExtents.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Settings/MissingData.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkDataArray.h"
@@ -41,7 +42,11 @@ vtkDensityAlgorithm::vtkDensityAlgorithm(int densityPort)
   : Component(-1)
   , InvertDensity(false)
   , NegativeValues(NEGATIVE_VALUES_ERROR)
+  , NaNValues(NAN_VALUES_ERROR)
+  , ValidRange{ -Unbounded, Unbounded }
   , DensityResolution(256)
+  , EmptyCells(EMPTY_CELLS_ZERO)
+  , EmptyValue(0.0)
   , DensityPort(densityPort)
   , Internals(new vtkInternals)
 {
@@ -56,6 +61,12 @@ vtkDensityAlgorithm::~vtkDensityAlgorithm() = default;
 const char* vtkDensityAlgorithm::GetNegativeValuesAsString()
 {
   return choiceText(NegativeValuesTexts, this->NegativeValues);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkDensityAlgorithm::GetNaNValuesAsString()
+{
+  return choiceText(NaNValuesTexts, this->NaNValues);
 }
 
 //------------------------------------------------------------------------------
@@ -105,6 +116,8 @@ DensityChoice vtkDensityAlgorithm::GetDensityChoice(int arrayIndex)
   choice.Rules.Component = this->Component;
   choice.Rules.Invert = this->InvertDensity != 0;
   choice.Rules.ClampNegative = this->NegativeValues == NEGATIVE_VALUES_CLAMP;
+  choice.Rules.Missing = missingValues(this->NaNValues, this->ValidRange);
+  choice.Rules.Empty = emptyRule(this->EmptyCells, this->EmptyValue);
   choice.Resolution = this->DensityResolution;
   choice.Association = array->Get(vtkDataObject::FIELD_ASSOCIATION());
   choice.ArrayName = name ? name : "";
@@ -185,6 +198,10 @@ void vtkDensityAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Component: " << this->Component << "\n";
   os << indent << "InvertDensity: " << (this->InvertDensity ? "On" : "Off") << "\n";
   os << indent << "NegativeValues: " << this->GetNegativeValuesAsString() << "\n";
+  os << indent << "NaNValues: " << this->GetNaNValuesAsString() << "\n";
+  os << indent << "ValidRange: " << this->ValidRange[0] << " " << this->ValidRange[1] << "\n";
+  os << indent << "EmptyCells: " << choiceText(EmptyCellsTexts, this->EmptyCells) << "\n";
+  os << indent << "EmptyValue: " << this->EmptyValue << "\n";
   os << indent << "DensityResolution: " << this->DensityResolution << "\n";
   os << indent << "DensityPort: " << this->DensityPort << "\n";
   os << indent << "TableBuildTime: " << this->GetTableBuildTime() << "\n";

@@ -34,10 +34,13 @@
  * Mass is physical: density times cell measure. The measure is the length, area or volume that the
  * image's axes of more than one point span.
  *
- * These are errors: an array that is missing or has the wrong length; values that are NaN, infinite
- * or, unless NegativeValues is Clamp, negative; a total mass of zero or beyond the largest double.
- * The message gives the name of the array, the number of wrong values and the index of the first
- * one. The output is then empty. An input without points gives an empty output and no error.
+ * NaNValues and ValidRange say which values mark missing data. The cells of such values are empty
+ * and carry no mass, as blanked ones.
+ *
+ * These are errors: an array that is missing or has the wrong length; other values that are NaN,
+ * infinite or, unless NegativeValues is Clamp, negative; a total mass of zero or beyond the largest
+ * double. The message gives the name of the array, the number of wrong values and the index of the
+ * first one. The output is then empty. An input without points gives an empty output and no error.
  *
  * The summed-area tables of a density are built when they are needed. They are kept until the
  * density changes: its values, ghost arrays, grid or the properties below. They take O(cells) time
@@ -119,6 +122,50 @@ public:
   const char* GetNegativeValuesAsString();
   ///@}
 
+  /**
+   * What NaNValues may be.
+   */
+  enum NaNValuesType
+  {
+    NAN_VALUES_ERROR = 0,
+    NAN_VALUES_EMPTY = 1
+  };
+
+  ///@{
+  /**
+   * What NaN is. Error (default): stop with a message that counts them. Empty: it marks missing
+   * data; the cell is empty, as a blanked one is. Of a colour, NaN in any component counts. In
+   * other data than images, so are the cells of a point whose value is missing.
+   */
+  vtkSetMacro(NaNValues, int);
+  vtkGetMacro(NaNValues, int);
+  void SetNaNValuesToError() { this->SetNaNValues(NAN_VALUES_ERROR); }
+  void SetNaNValuesToEmpty() { this->SetNaNValues(NAN_VALUES_EMPTY); }
+  const char* GetNaNValuesAsString();
+  ///@}
+
+  ///@{
+  /**
+   * The smallest and the largest valid value of the array. Values outside mark missing data: their
+   * cells are empty. Values are compared as they are in the array, before InvertDensity; of a
+   * colour, each component but alpha. An end of 1e299 or more, of either sign, is no bound;
+   * infinite values are then errors. Default -1e+299 1e+299.
+   */
+  vtkSetVector2Macro(ValidRange, double);
+  vtkGetVector2Macro(ValidRange, double);
+  ///@}
+
+  /**
+   * What EmptyCells may be, in the filters that have this property.
+   */
+  enum EmptyCellsType
+  {
+    EMPTY_CELLS_ZERO = 0,
+    EMPTY_CELLS_MEAN = 1,
+    EMPTY_CELLS_LEAST = 2,
+    EMPTY_CELLS_VALUE = 3
+  };
+
   ///@{
   /**
    * For inputs other than images: the number of cells along the longest axis of the image that the
@@ -185,7 +232,16 @@ protected:
   int Component;
   vtkTypeBool InvertDensity;
   int NegativeValues;
+  int NaNValues;
+  double ValidRange[2];
   int DensityResolution;
+
+  /**
+   * What cells that hold no data count as: blanked cells, missing values, what data other than
+   * images do not cover. Of filters that have these properties; others leave them Zero.
+   */
+  int EmptyCells;
+  double EmptyValue;
 
 private:
   vtkAbstractArray* FindDensityArray(vtkDataSet* data, int arrayIndex, int& association);

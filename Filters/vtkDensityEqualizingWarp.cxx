@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDensityEqualizingWarp.h"
 
+#include "Bridge/Density/GrownDensity.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Flow/DensityEqualizingWarp.h"
 #include "Bridge/Points/CellCheck.h"
@@ -31,8 +32,10 @@ using namespace RectifiedTransport;
 vtkDensityEqualizingWarp::vtkDensityEqualizingWarp()
   : vtkTransportAlgorithm(1)
   , Blend(1.0)
+  , Margin(0.0)
   , EqualizeAreas(false)
 {
+  this->EmptyCells = EMPTY_CELLS_MEAN;
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
   this->SetPortPolicy(0, PORT_PIECES); // each point is moved independently of the others
@@ -41,6 +44,12 @@ vtkDensityEqualizingWarp::vtkDensityEqualizingWarp()
 
 //------------------------------------------------------------------------------
 vtkDensityEqualizingWarp::~vtkDensityEqualizingWarp() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkDensityEqualizingWarp::GetEmptyCellsAsString()
+{
+  return choiceText(EmptyCellsTexts, this->EmptyCells);
+}
 
 //------------------------------------------------------------------------------
 vtkPointSet* vtkDensityEqualizingWarp::GetOutput()
@@ -80,6 +89,8 @@ int vtkDensityEqualizingWarp::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireThat(this->Blend >= 0.0 && this->Blend <= 1.0, "Blend", this->Blend, "from 0 to 1");
+  requireThat(this->Margin >= 0.0 && this->Margin <= LargestMargin, "Margin", this->Margin,
+    "from 0 to 10 (times the longest axis)");
   DensityEqualizingWarp warp{};
   warp.Tables = tableSetting(this->Tables);
   warp.Flow = this->GetFlowOptions();
@@ -88,7 +99,8 @@ int vtkDensityEqualizingWarp::RequestData(
   const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
   vtkPointSet* input = pointSetOf(inputVector[0]);
-  const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
+  const std::unique_ptr<InputDensity> density = withMargin(this->ReadDensity(inputVector, progress),
+    this->Margin, emptyRule(this->EmptyCells, this->EmptyValue));
   // A rank without points takes part in what is collective.
   if (!density || !input || (input->GetNumberOfPoints() == 0 && !ranks.AreSeveral()))
   {
@@ -131,6 +143,7 @@ void vtkDensityEqualizingWarp::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Blend: " << this->Blend << "\n";
+  os << indent << "Margin: " << this->Margin << "\n";
   os << indent << "EqualizeAreas: " << (this->EqualizeAreas ? "On" : "Off") << "\n";
 }
 VTK_ABI_NAMESPACE_END

@@ -74,6 +74,40 @@ public:
 
   ///@{
   /**
+   * What empty cells count as: cells that are blanked or without a valid value, and ground that
+   * data other than images do not cover. Mean (default): the mean of the other cells, so that empty
+   * ground keeps its size. Least: the least of the other cells. Zero: nothing, which shrinks empty
+   * ground to nothing. Value: EmptyValue.
+   */
+  vtkSetMacro(EmptyCells, int);
+  vtkGetMacro(EmptyCells, int);
+  void SetEmptyCellsToZero() { this->SetEmptyCells(EMPTY_CELLS_ZERO); }
+  void SetEmptyCellsToMean() { this->SetEmptyCells(EMPTY_CELLS_MEAN); }
+  void SetEmptyCellsToLeast() { this->SetEmptyCells(EMPTY_CELLS_LEAST); }
+  void SetEmptyCellsToValue() { this->SetEmptyCells(EMPTY_CELLS_VALUE); }
+  const char* GetEmptyCellsAsString();
+  ///@}
+
+  ///@{
+  /**
+   * The density of empty cells with EmptyCells Value, finite and at least 0. Default 0.
+   */
+  vtkSetMacro(EmptyValue, double);
+  vtkGetMacro(EmptyValue, double);
+  ///@}
+
+  ///@{
+  /**
+   * Empty cells around the density: its box grows by this share of its longest axis on every side
+   * of every axis, rounded up to whole cells. From 0 (default) to 10. Empty ground around a map
+   * lets its border move. With EmptyCells Zero it contracts to nothing.
+   */
+  vtkSetMacro(Margin, double);
+  vtkGetMacro(Margin, double);
+  ///@}
+
+  ///@{
+  /**
    * Whether the map is corrected until the areas (volumes) of the density's cells are their
    * masses. Once for a density and the settings of the flow, the corners of all its cells are moved
    * back and Poisson's equation is solved on their images; points move as the corners do,
@@ -115,6 +149,7 @@ protected:
     vtkInformationVector* outputVector) override;
 
   double Blend;
+  double Margin;
   vtkTypeBool EqualizeAreas;
 
 private:

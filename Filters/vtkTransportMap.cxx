@@ -9,6 +9,7 @@
 #include "Bridge/Run/PartText.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/WarningLimit.h"
+#include "Bridge/Settings/MissingData.h"
 #include "Bridge/Settings/TableSettings.h"
 
 #include "vtkImageData.h"
@@ -47,6 +48,12 @@ vtkTransportMap::~vtkTransportMap() = default;
 const char* vtkTransportMap::GetDirectionAsString()
 {
   return choiceText(DirectionTexts, this->Direction);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkTransportMap::GetEmptyCellsAsString()
+{
+  return choiceText(EmptyCellsTexts, this->EmptyCells);
 }
 
 //------------------------------------------------------------------------------

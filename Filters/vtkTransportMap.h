@@ -120,6 +120,29 @@ public:
 
   ///@{
   /**
+   * What empty cells count as: cells that are blanked or without a valid value, and ground that
+   * data other than images do not cover. Zero (default): nothing. Mean: the mean of the other
+   * cells. Least: the least of the other cells. Value: EmptyValue.
+   */
+  vtkSetMacro(EmptyCells, int);
+  vtkGetMacro(EmptyCells, int);
+  void SetEmptyCellsToZero() { this->SetEmptyCells(EMPTY_CELLS_ZERO); }
+  void SetEmptyCellsToMean() { this->SetEmptyCells(EMPTY_CELLS_MEAN); }
+  void SetEmptyCellsToLeast() { this->SetEmptyCells(EMPTY_CELLS_LEAST); }
+  void SetEmptyCellsToValue() { this->SetEmptyCells(EMPTY_CELLS_VALUE); }
+  const char* GetEmptyCellsAsString();
+  ///@}
+
+  ///@{
+  /**
+   * The density of empty cells with EmptyCells Value, finite and at least 0. Default 0.
+   */
+  vtkSetMacro(EmptyValue, double);
+  vtkGetMacro(EmptyValue, double);
+  ///@}
+
+  ///@{
+  /**
    * Whether the map of DensityToUniform is corrected until the areas (volumes) of the density's
    * cells are their masses. Once for a density and the settings of the flow, the corners of all its
    * cells are moved back and Poisson's equation is solved on their images; samples move as the

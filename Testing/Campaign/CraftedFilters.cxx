@@ -70,6 +70,8 @@ void chooseDensity(RandomSource& random, vtkDensityAlgorithm* filter)
   filter->SetDensityResolution(random.Of({ 1, 9, 9, 16 }));
   filter->SetNegativeValues(random.Of({ 0, 0, 1 }));
   filter->SetInvertDensity(random.Chance(0.1) ? 1 : 0);
+  filter->SetNaNValues(random.Of({ 0, 0, 1 }));
+  filter->SetValidRange(random.Of({ -1e299, -1e299, 0.0, 0.5 }), random.Of({ 1e299, 1e299, 1e9 }));
 }
 
 } // namespace

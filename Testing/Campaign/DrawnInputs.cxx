@@ -3,6 +3,8 @@
 
 #include "vtkDataSetAttributes.h"
 
+#include <array>
+
 namespace Campaign
 {
 
@@ -12,8 +14,31 @@ void drawDensitySettings(Settings& settings)
   settings.Draw<T, int>("Component", &T::SetComponent, { -1, 0, 0, 1, 3, 4, -2, 100 }, {}, 0.2);
   settings.Draw<T, vtkTypeBool>("InvertDensity", &T::SetInvertDensity, { 0, 1 }, {}, 0.2);
   settings.Draw<T, int>("NegativeValues", &T::SetNegativeValues, { 0, 1 }, { -1, 2 }, 0.3);
+  settings.Draw<T, int>("NaNValues", &T::SetNaNValues, { 0, 1 }, { -1, 2 }, 0.2);
+  drawValidRange(settings, true);
   settings.Draw<T, int>(
     "DensityResolution", &T::SetDensityResolution, { 1, 9, 16, 40 }, { 0, -1 }, 0.2);
+}
+
+void drawValidRange(Settings& settings, bool mayBeOut)
+{
+  RandomSource& random = settings.GetRandom();
+  using Range = std::array<double, 2>;
+  constexpr double all = 1e299;
+  if (!random.Chance(0.2))
+  {
+    return;
+  }
+  const bool inRange = !mayBeOut || !random.Chance(0.03);
+  const Range range = inRange
+    ? random.Of({ Range{ -all, all }, Range{ 0.0, all }, Range{ -all, 1.0 }, Range{ -3.0, 1e20 } })
+    : random.Of({ Range{ 2.0, 1.0 }, Range{ NaN, 1.0 }, Range{ 0.0, NaN } });
+  settings.Add(
+    "ValidRange", std::to_string(range[0]) + " " + std::to_string(range[1]),
+    [range](vtkAlgorithm* filter) {
+      vtkDensityAlgorithm::SafeDownCast(filter)->SetValidRange(range[0], range[1]);
+    },
+    inRange);
 }
 
 void drawChoice(RandomSource& random, Settings& settings, int port, int index, Input& input)

@@ -44,6 +44,16 @@ void drawTables(Settings& settings)
 }
 
 void drawDensitySettings(Settings& settings);
+void drawValidRange(Settings& settings, bool mayBeOut);
+
+// What empty cells count as.
+template <class T>
+void drawEmptySettings(Settings& settings)
+{
+  settings.Draw<T, int>("EmptyCells", &T::SetEmptyCells, { 0, 1, 2, 3 }, { -1, 4 }, 0.4);
+  settings.Draw<T, double>(
+    "EmptyValue", &T::SetEmptyValue, { 0.0, 0.5, 3.0 }, { -1.0, NaN, Infinity }, 0.3);
+}
 
 // Large cases have enough cells for the work to be cut in parts.
 inline ImageRules rulesOf(const Settings& settings)

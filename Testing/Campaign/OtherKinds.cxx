@@ -53,6 +53,8 @@ void drawCells(Settings& settings)
   settings.Draw<Cells, int>("Component", &Cells::SetComponent, { -1, 0 }, {}, 0.2);
   settings.Draw<Cells, vtkTypeBool>("InvertDensity", &Cells::SetInvertDensity, { 0, 1 }, {}, 0.2);
   settings.Draw<Cells, int>("NegativeValues", &Cells::SetNegativeValues, { 0, 1 }, {}, 0.2);
+  settings.Draw<Cells, int>("NaNValues", &Cells::SetNaNValues, { 0, 1 }, {}, 0.2);
+  drawValidRange(settings, false);
   settings.Draw<Cells, int>(
     "DensityResolution", &Cells::SetDensityResolution, { 1, 9, 16, 40 }, {}, 0.2);
   settings.Draw<Cells, int>("Tables", &Cells::SetTables, { 0, 1, 2 }, {}, 0.2);

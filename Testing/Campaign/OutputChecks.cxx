@@ -39,9 +39,15 @@ State densityState(vtkAlgorithm* filter, const Input& input)
   }
   double sum = 0.0;
   double largest = 0.0;
+  const double* valid = reader->GetValidRange();
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
     const double value = array->GetComponent(i, 0);
+    if ((std::isnan(value) && reader->GetNaNValues() != vtkDensityAlgorithm::NAN_VALUES_ERROR) ||
+      value < valid[0] || value > valid[1])
+    {
+      return State::Odd; // nothing may be left
+    }
     if (!std::isfinite(value) ||
       (value < 0.0 && reader->GetNegativeValues() == vtkDensityAlgorithm::NEGATIVE_VALUES_ERROR))
     {

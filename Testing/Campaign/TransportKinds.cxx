@@ -171,6 +171,7 @@ void drawMap(Settings& settings)
 {
   settings.Draw<Map, int>("Direction", &Map::SetDirection, { 0, 1 }, { -1, 2 });
   settings.Draw<Map, vtkTypeBool>("EqualizeAreas", &Map::SetEqualizeAreas, { 0, 1 }, {}, 0.3);
+  drawEmptySettings<Map>(settings);
   RandomSource& random = settings.GetRandom();
   if (random.Chance(0.3))
   {
@@ -253,6 +254,9 @@ void drawWarp(Settings& settings)
 {
   settings.Draw<Warp, double>("Blend", &Warp::SetBlend, { 0.0, 0.3, 1.0 }, { -0.1, 1.5, NaN });
   settings.Draw<Warp, vtkTypeBool>("EqualizeAreas", &Warp::SetEqualizeAreas, { 0, 1 }, {}, 0.3);
+  drawEmptySettings<Warp>(settings);
+  settings.Draw<Warp, double>(
+    "Margin", &Warp::SetMargin, { 0.0, 0.05, 0.3 }, { -0.1, 10.5, NaN }, 0.3);
   drawFlowSettings<vtkTransportAlgorithm>(settings);
   drawTables<Warp>(settings);
   drawDensitySettings(settings);

@@ -8,11 +8,15 @@ import importlib.util
 import os
 import re
 import shutil
+import sys
 import tempfile
 import unittest
 
 from rt_scripts import run_script
 from rt_testing import OUTPUT, SOURCE, main, need_display
+
+sys.path.insert(0, os.path.join(SOURCE, "Examples"))
+from rectified_raster import island, write_geotiff
 
 
 def blocks():
@@ -109,6 +113,7 @@ class Documentation(unittest.TestCase):
             os.symlink(os.path.join(SOURCE, name), os.path.join(self.folder, name))
         os.symlink(os.path.join(SOURCE, "Testing", "Data", "raccoon.png"),
                    os.path.join(self.folder, "photograph.png"))
+        write_geotiff(os.path.join(self.folder, "people.tif"), island())
 
     def test_blocks(self):
         self.assertGreater(len(list(blocks())), 2)

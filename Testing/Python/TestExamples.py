@@ -121,6 +121,14 @@ class Examples(ExampleTest):
         self.ran("Cartogram")
         self.check_picture("cartogram-raccoon.png")
 
+    def test_raster_with_gaps(self):
+        """With the sea at the mean, the island keeps about its size; without, it fills the raster."""
+        mean, zero = ([first(number) for number in re.findall(r"\d+\.?\d*", line)] for line in
+                      self.ran("RasterWithGaps").splitlines()[:2])
+        self.assertTrue(mean[0] < 5 and 30 < mean[1] < 70, mean)
+        self.assertGreater(zero[1], 95)
+        self.check_picture("gaps.png")
+
     def test_area_errors(self):
         """With as many steps as needed, hardly a block is off and no cell folds."""
         few, enough = self.ran("AreaErrors").splitlines()[-3:-1]

@@ -12,11 +12,11 @@ from rt_proxies import instance, page_rows, proxies
 from rt_testing import Listener, connect_inputs, density_image, main, points_in, size_of
 
 # A text on bounds or on a choice of several numbers states no range of one number.
-WITHOUT = {"Bounds"}
+WITHOUT = {"Bounds", "ValidRange"}
 # A slider of 100 pixels has steps of a hundredth of this.
 LONGEST_SLIDER = 100000
 # What counts for Equal-Mass Cells with Measure Density only.
-DENSITY = {"Component", "DensityResolution", "NegativeValues"}
+DENSITY = {"Component", "DensityResolution", "NegativeValues", "NaNValues"}
 
 
 class Range(NamedTuple):
@@ -166,7 +166,7 @@ class Ranges(unittest.TestCase):
             for prop in proxy.properties.values():
                 if prop.texts:
                     with self.subTest(proxy=proxy.label, property=prop.name):
-                        named = ["%d (%s)" % (i, text) for i, text in enumerate(prop.texts.values())]
+                        named = ["%d (%s)" % (i, prop.texts[str(i)]) for i in range(len(prop.texts))]
                         for value in (-1, len(named)):
                             reported, output = run(proxy, prop, value)
                             self.assertIn("%s is %d; it must be %s or %s" % (

@@ -26,8 +26,8 @@ MESSAGES = {
                    "rank 1; it must be the same array on all",
     "type": "The density array 'Density' has not the same type and number of components on all "
             "ranks; it must have",
-    "not a number": "has 1 value that is NaN or infinite, the first at index 128",
-    "negative": "for a density must not be negative (the first at index 128)",
+    "not a number": "cells (the first at index 128)",
+    "negative": "ValidRange as missing (the first at index 128)",
     "no mass": "has a total mass of zero",
     "gap": "The images of the ranks do not fill their common extent: none has the points "
            "[0, 6] x [0, 5] x [5, 7]",

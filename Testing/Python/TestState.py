@@ -3,6 +3,7 @@
 import os
 import subprocess
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 from rt_filters import FILTERS
 from rt_testing import OUTPUT, SOURCE, digest, load_plugin, main, output_of, size_of
@@ -111,6 +112,42 @@ class State(unittest.TestCase):
         arrays = particles.GetPointData()
         self.assertEqual([arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays())],
                          ["SeedId", "SeedPosition", "Displacement", "Mass", "PNGImage"])
+
+    def test_state_before_empty_cells(self):
+        """A warp of a state without EmptyCells counts empty cells as nothing, as then; any other state
+        keeps what it has."""
+        plane = simple.Plane(XResolution=9, YResolution=9)
+        wavelet = simple.Wavelet(WholeExtent=[-9, 9, -9, 9, 0, 0])
+        gaps = simple.Threshold(Input=wavelet, Scalars=["POINTS", "RTData"], LowerThreshold=150,
+                                UpperThreshold=1000)
+        points = simple.Transform(Input=plane)
+        points.Transform.Scale = [16, 16, 1]
+        warp = simple.DensityEqualizingWarp(points, Density=gaps, registrationName="Warp")
+        expected = {}
+        for rule in ("Zero", "Least", "Mean"):
+            warp.EmptyCells = rule
+            expected[rule] = digest(output_of(warp))
+        self.assertEqual(len(set(expected.values())), 3)
+        self.assertEqual(simple.DensityEqualizingWarp(points, Density=gaps).EmptyCells, "Mean")
+        for rule in ("Least", "Mean"):
+            warp.EmptyCells = rule
+            path = os.path.join(OUTPUT, "empty-cells.pvsm")
+            simple.SaveState(path)
+            state = ElementTree.parse(path)
+            for then, kept in ((rule, True), ("Zero", False)):
+                for proxy in [] if kept else state.iter("Proxy"):
+                    for new in list(proxy) if proxy.get("type") == "DensityEqualizingWarp" else []:
+                        if new.get("name") in ("EmptyCells", "EmptyValue", "Margin", "NaNValues",
+                                               "ValidRange"):
+                            proxy.remove(new)
+                state.write(path)
+                simple.ResetSession()
+                simple.LoadState(path)
+                found = simple.FindSource("Warp")
+                with self.subTest(rule, kept=kept):
+                    self.assertEqual(found.EmptyCells, then)
+                    self.assertEqual(digest(output_of(found)), expected[then])
+            warp = simple.FindSource("Warp")
 
     def test_python_state(self):
         from paraview import smstate

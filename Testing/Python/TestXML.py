@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Inputs, outputs, choices, hints and the visibility of properties in the XML agree with the public
 names and with the classes."""
+import math
 import os
 import unittest
 import xml.etree.ElementTree as ElementTree
@@ -20,6 +21,8 @@ OF_MEASURE = {
     "Component": ((-1, 0), "colours"),
     "InvertDensity": ((0, 1), "colours"),
     "NegativeValues": ((0, 1), "negative"),
+    "NaNValues": ((0, 1), "missing"),
+    "ValidRange": (((-1e299, 1e299), (0.3, 1e299)), "colours"),
     "DensityResolution": ((256, 3), "mesh"),
     "AreaTolerance": None,  # see test_tolerance_is_shown_where_it_sets_steps
 }
@@ -61,6 +64,8 @@ def domain_of(kind, shape):
     image = density_image(shape)
     if kind == "negative":
         image.GetCellData().GetScalars().SetValue(3, -0.5)
+    if kind == "missing":
+        image.GetCellData().GetScalars().SetValue(3, math.nan)
     if kind == "mesh":
         grid = vtkRectilinearGrid()
         grid.SetDimensions(image.GetDimensions())
@@ -88,6 +93,10 @@ def result(proxy, values, domain=None):
         filter_.SetTargetData(density_image(shape, seed=5))
     if domain:
         filter_.SetDomainData(domain_of(domain, shape))
+    if "EmptyCells" in values:
+        port = 1 if filter_.GetNumberOfInputPorts() > 1 else 0
+        filter_.SetInputData(port, domain_of("missing", shape))
+        filter_.SetNaNValuesToEmpty()
     for name, value in values.items():
         getattr(filter_, proxy.properties[name].command)(value)
     filter_.UpdateInformation()
@@ -166,6 +175,8 @@ class XML(unittest.TestCase):
                     self.assertEqual(prop.texts, expected)
                     self.assertEqual(prop.texts[prop.default], by_label(proxy.label).defaults.get(
                         prop.name, prop.texts["0"]))
+                    if prop.name == "EmptyCells":  # the default is listed first
+                        self.assertEqual(next(iter(prop.texts)), prop.default)
 
     def test_commands(self):
         for case, proxy, prop in self.each_property():

@@ -9,6 +9,7 @@ from ranks_rows import (RANK, gathered, give, give_row, redistributed, refined, 
                         with_ghosts)
 from ranks_table_blends import give_blends
 from ranks_table_counted import give_counted
+from ranks_table_missing import give_missing
 from ranks_table_points import give_qualities, give_splats
 from rt_testing import load_plugin, producer
 from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
@@ -210,6 +211,7 @@ def main(path):
     give_splats(image, flat, ghosts)
     give_qualities(inputs)
     give_data()
+    give_missing(image, cells, hidden)
     give_counted(image)
     give_blends()
     with open("%s.%d" % (path, RANK), "wb") as file:

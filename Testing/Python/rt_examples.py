@@ -25,6 +25,7 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
                          "480"],
          "Cartogram": ["--pixels", "480"],
          "People": ["--pixels", "480"],
+         "RasterWithGaps": ["--pixels", "600"],
          "AreaErrors": ["--cells", "128", "--pixels", "480"],
          "StippleSurface": ["--dots", "3000", "--panel", "300"],
          "SampleVolume": ["--particles", "50000", "--pixels", "400"],
@@ -56,7 +57,7 @@ SHAPES = {"Morph2D": 2, "Morph3D": 2, "MorphAnimation": 2, "Barycenters2D": 4, "
 need_meshes = unittest.skipUnless(
     os.path.isfile(os.path.join(SOURCE, "build-meshes", "complete")),
     "needs the meshes that Testing/run.sh fetches")
-OWN = {"AreaErrors", "Figure2Paths", "Figure5Cells", "PowerCells", "InSitu"}  # examples that make their input
+OWN = {"AreaErrors", "RasterWithGaps", "Figure2Paths", "Figure5Cells", "PowerCells", "InSitu"}  # examples that make their input
 
 
 def command(example, *arguments):

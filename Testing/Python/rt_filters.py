@@ -20,7 +20,7 @@ HALF_MORPH, HALF_MEAN = (
     for inputs in ("Input DensityArray Target TargetArray", "Input DensityArray"))
 SMOOTH = {"Kernel": "TriangularShapedCloud"}
 # Properties as they stand on panels, from top to bottom.
-RULES = ["Component", "InvertDensity", "NegativeValues", "DensityResolution"]
+RULES = ["Component", "InvertDensity", "NegativeValues", "NaNValues", "ValidRange", "DensityResolution"]
 DENSITY_PANEL = ["DensityArray", *RULES]
 FLOW_PANEL = ["Integrator", "NumberOfSteps", "AreaTolerance", "Tolerance", "TableLookup", "FlowMaps"]
 BLEND_PANEL = ["ParticlesPerCell", "MassMode", "Dimensions", "Kernel", "Radius",
@@ -81,16 +81,17 @@ FILTERS = [
                   *DENSITY_PANEL, "OutputPaths", "SampleArrays", *FLOW_PANEL, "Tables", "Threading"],
            refused=("NumberOfSteps", -1, 2), quick=dict(NumberOfParticles=50),
            variants={"paths": dict(NumberOfParticles=5, OutputPaths=1, NumberOfSteps=4)},
-           saved=dict(InvertDensity=1, FlowTime=0.75, Integrator="RungeKutta4", NumberOfSteps=12),
+           saved=dict(InvertDensity=1, FlowTime=0.75, Integrator="RungeKutta4", NumberOfSteps=12,
+                      NaNValues="Empty", ValidRange=[0, 200]),
            shown=[PARTICLES[0],
                   ("FirstDisplay", {"property": "OutputPaths", "value": "1", "type": "Wireframe",
                                     "array": "Time"}),
                   ("FirstDisplay", {"property": "OutputPaths", "value": "0", **DOTS})]),
     Filter("Transport Map", "vtkTransportMap", {"Input": "density"},
-           panel=["Direction", "EqualizeAreas", *DENSITY_PANEL, "SampleDimensions", *FLOW_PANEL, "Tables",
+           panel=["Direction", "EqualizeAreas", *DENSITY_PANEL, "EmptyCells", "EmptyValue", "SampleDimensions", *FLOW_PANEL, "Tables",
                   "Threading"],
            refused=("NumberOfSteps", -1, 2),
-           saved=dict(InvertDensity=1, Direction="DensityToUniform", EqualizeAreas=1,
+           saved=dict(InvertDensity=1, Direction="DensityToUniform", EqualizeAreas=1, EmptyCells="Least",
                       SampleDimensions=[20, 30, 1], Integrator="Adaptive", Tolerance=0.5),
            shown=[("FirstDisplay", {"dimension": "3", "type": "Surface", "array": "Displacement"}),
                   ("FirstDisplay", {"array": "Displacement"})]),
@@ -160,10 +161,11 @@ FILTERS = [
            shown=PARTICLES),
     Filter("Density-Equalizing Warp", "vtkDensityEqualizingWarp",
            {"Input": "mesh", "Density": "density"},
-           panel=["Blend", "EqualizeAreas", *DENSITY_PANEL, *FLOW_PANEL, "Tables", "Threading"],
+           panel=["Blend", "EqualizeAreas", *DENSITY_PANEL, "EmptyCells", "EmptyValue", "Margin", *FLOW_PANEL, "Tables", "Threading"],
            refused=("Blend", -0.5, 1),
-           saved=dict(InvertDensity=1, Blend=0.25, EqualizeAreas=1, NumberOfSteps=9),
-           always_shown=("EqualizeAreas",)),
+           saved=dict(InvertDensity=1, Blend=0.25, EqualizeAreas=1, NumberOfSteps=9, EmptyCells="Value",
+                      EmptyValue=80, Margin=0.05),
+           always_shown=("EqualizeAreas",), defaults={"EmptyCells": "Mean"}),
     Filter("Transport Quality", "vtkTransportQuality",
            {"Input": "points", "Density": "density"},
            panel=["BlockSize", *DENSITY_PANEL, "Tables", "Threading"],
@@ -185,7 +187,7 @@ FILTERS = [
            saved=dict(Resolution=60, Tolerance=0.05, LeastShare=0.001, Blend=0.5, Margin=0.2,
                       EmptyCells="Value", EmptyValue=0.5, MaximumIterations=3),
            always_shown=("Tolerance",),  # of another meaning than that of flows
-           slow_at_highest=("Resolution",)),
+           defaults={"EmptyCells": "Mean"}, slow_at_highest=("Resolution",)),
 ]
 
 
@@ -204,6 +206,11 @@ PROPERTIES = {
     "SeedPattern": Property(PATTERNS),
     "Pattern": Property(PATTERNS),
     "NegativeValues": Property(["Error", "Clamp"]),
+    "NaNValues": Property(["Error", "Empty"], advanced=True),
+    "ValidRange": Property(advanced=True),
+    "EmptyCells": Property(["Zero", "Mean", "Least", "Value"], advanced=True),
+    "EmptyValue": Property(advanced=True, shown_by=("EmptyCells",), differing=(0.0, 2.0)),
+    "Margin": Property(advanced=True),
     "Integrator": Property(["Multistep", "RungeKutta4", "Euler", "Adaptive"], advanced=True),
     "NumberOfSteps": Property(advanced=True, shown_by=("Integrator",), differing=(32, 1)),
     "AreaTolerance": Property(advanced=True, shown_by=("Integrator", "NumberOfSteps"), differing=(0.5, 1e-5)),
@@ -215,8 +222,6 @@ PROPERTIES = {
     "Threading": Property(["Auto", "VTK", "OpenMP", "Serial"], advanced=True),
     "Direction": Property(["UniformToDensity", "DensityToUniform"]),
     "EqualizeAreas": Property(shown_by=("Direction",), differing=(0, 1)),
-    "EmptyCells": Property(["Mean", "Least", "Value", "Zero"]),
-    "EmptyValue": Property(shown_by=("EmptyCells",), differing=(0.1, 5.0)),
     "MassMode": Property(["Linear", "Geometric", "Source", "Normalize"]),
     "Kernel": Property(["CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian"]),
     "Radius": Property(shown_by=("Kernel",), differing=(1.0, 3.0)),

@@ -32,22 +32,37 @@ constexpr unsigned char unused = 1; // of values that are not read
 
 } // namespace
 
-BlockValues BlockValues::Only(double value) const
+template <class Change>
+BlockValues BlockValues::Changed(const Change& change) const
 {
-  BlockValues only;
-  only.Set = this->Set;
-  only.OnPoints = this->OnPoints;
-  only.Cells = this->Cells;
-  only.Open = this->Open;
+  BlockValues changed;
+  changed.Set = this->Set;
+  changed.OnPoints = this->OnPoints;
+  changed.Cells = this->Cells;
+  changed.Open = this->Open;
   const std::int64_t count = this->Density.size();
   withMemory("the values of the " + this->ArrayName,
     static_cast<double>(count) * sizeof(double) + static_cast<double>(this->Roles.size()), [&]() {
-      only.Density = LargeBuffer<double>(count);
-      only.Roles = this->Roles;
+      changed.Density = LargeBuffer<double>(count);
+      changed.Roles = this->Roles;
     });
-  std::transform(this->Density.data(), this->Density.data() + count, only.Density.data(),
-    [value](double density) { return density == value ? density : 0.0; });
-  return only;
+  std::transform(
+    this->Density.data(), this->Density.data() + count, changed.Density.data(), change);
+  return changed;
+}
+
+BlockValues BlockValues::Only(double value) const
+{
+  return this->Changed([value](double density) { return density == value ? density : 0.0; });
+}
+
+BlockValues BlockValues::Ground() const
+{
+  // Closed lines are told apart by their values.
+  const bool areLines = this->AreClosedLines();
+  BlockValues ground = this->Changed([=](double density) { return areLines ? density : 1.0; });
+  ground.IsGround = true;
+  return ground;
 }
 
 // A block between the steps of reading it.
@@ -58,6 +73,7 @@ public:
     const DensityRules& rules, Progress& progress)
     : Array(block.Array)
     , Clamps(rules.ClampNegative && !rules.Invert)
+    , Missing(rules.Missing)
     , Reader(makeDensityReader(block.Array, rules))
   {
     this->Read.Set = block.Data;
@@ -99,9 +115,16 @@ public:
     const DensitySummary found = summarize(values, count, 0);
     if (found.NotFinite > 0 || found.Negative > 0)
     {
-      throwInvalidDensity(this->Read.Name(), found);
+      throwInvalidDensity(this->Read.Name(), found, this->Missing);
     }
     this->Read.Known.Found = found;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      if (this->Flags[static_cast<std::size_t>(i)] == 0)
+      {
+        this->Read.LeastCounted = std::min(this->Read.LeastCounted, values[i]);
+      }
+    }
     if (this->Clamps)
     {
       this->Read.Known.Clamped = findLowest(this->Array, *this->Reader, count, progress);
@@ -110,6 +133,21 @@ public:
   }
 
 private:
+  // Which values are missing; none if none can be.
+  std::vector<unsigned char> FindMissing(Progress& progress) const
+  {
+    std::vector<unsigned char> missing;
+    if (this->Missing.Are())
+    {
+      missing.resize(static_cast<std::size_t>(this->Array->GetNumberOfTuples()));
+      progress.For(static_cast<std::int64_t>(missing.size()), grain,
+        [&](std::int64_t first, std::int64_t last) {
+          this->Reader->FindEmpty(first, last - first, missing.data() + first);
+        });
+    }
+    return missing;
+  }
+
   void FindCounted(const DensityBlock& block, Progress& progress)
   {
     vtkDataSet* data = block.Data;
@@ -120,6 +158,10 @@ private:
     this->Read.Roles.assign(static_cast<std::size_t>(cells), BlockValues::NotCounted);
     this->Flags.assign(
       static_cast<std::size_t>(onPoints ? data->GetNumberOfPoints() : cells), unused);
+    const std::vector<unsigned char> missing = this->FindMissing(progress);
+    const auto isMissing = [&missing](vtkIdType value) {
+      return !missing.empty() && missing[static_cast<std::size_t>(value)] != 0;
+    };
     vtkNew<vtkIdList> points;
     for (vtkIdType cell = 0; cell < cells; ++cell)
     {
@@ -127,7 +169,7 @@ private:
       {
         progress.Check();
       }
-      if (!mass.HasDimension(data, cell) || blanked.Has(cell))
+      if (!mass.HasDimension(data, cell) || blanked.Has(cell) || (!onPoints && isMissing(cell)))
       {
         continue;
       }
@@ -139,7 +181,9 @@ private:
       if (blanked.MayHavePoints() || onPoints)
       {
         data->GetCellPoints(cell, points);
-        if (blanked.HasPointOf(points))
+        const vtkIdType* first = points->GetPointer(0);
+        const vtkIdType* last = first + points->GetNumberOfIds();
+        if (blanked.HasPointOf(points) || (onPoints && std::any_of(first, last, isMissing)))
         {
           continue;
         }
@@ -159,6 +203,7 @@ private:
 
   vtkDataArray* Array;
   const bool Clamps;
+  const MissingValues Missing;
   std::unique_ptr<DensityReader> Reader;
   std::vector<unsigned char> Flags; // of the values
   BlockValues Read;

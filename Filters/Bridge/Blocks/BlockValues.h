@@ -11,6 +11,7 @@
 #include "vtkDataSet.h"
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,12 @@ public:
   const UnusualValues& Unusual() const { return this->Known; }
   // The same cells with the density only where it is `value`. Throws Failure if memory is short.
   BlockValues Only(double value) const;
+  // The same cells with the density 1, which measures what they cover. Throws as Only.
+  BlockValues Ground() const;
+  // The density of a region: the one that was found by its values, or 1 of ground.
+  double OfRegion(double density) const { return this->IsGround ? 1.0 : density; }
+  // The least value of counted cells; infinite if there is none.
+  double Least() const { return this->LeastCounted; }
   bool IsCounted(vtkIdType cell) const { return this->RoleOf(cell) != NotCounted; }
   // Counted cells are regions within their outlines, or are divided into simplices and boxes.
   bool IsRegion(vtkIdType cell) const { return this->RoleOf(cell) >= Region; }
@@ -52,6 +59,9 @@ public:
 private:
   friend class BlockReading;
 
+  template <class Change>
+  BlockValues Changed(const Change& change) const;
+
   enum Role : unsigned char
   {
     NotCounted,
@@ -65,14 +75,16 @@ private:
   bool OnPoints = false;
   std::string ArrayName;
   UnusualValues Known;
+  double LeastCounted = std::numeric_limits<double>::infinity();
+  bool IsGround = false;
   LargeBuffer<double> Density;
   mutable std::vector<Role> Roles; // of the cells
   MassCells Cells;
   vtkIdType Open = 0;
 };
 
-// Cells count if they carry mass and neither they nor their points are blanked. Throws Failure for
-// values of counted cells that are no density, and Cancelled.
+// Cells count if they carry mass and neither they nor their points are blanked or without a valid
+// value. Throws Failure for values of counted cells that are no density, and Cancelled.
 std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, bool onPoints,
   const MassCells& cells, const DensityRules& rules, Progress& progress);
 

@@ -41,34 +41,40 @@ void requireComponent(const std::string& name, int component, int count)
     count <= mostColours ? "-1 (luminance) or " : "", indices);
 }
 
+bool isColour(const DensityRules& rules, int components)
+{
+  return rules.Component < 0 && components > 1;
+}
+
 bool needsWhite(const DensityRules& rules, int components)
 {
   const bool alpha = rules.Component < 0 && (components == 2 || components == 4);
   return rules.Invert || alpha;
 }
 
-void throwInvalidDensity(const std::string& name, const DensitySummary& summary, bool hasBlanks)
+void throwInvalidDensity(const std::string& name, const DensitySummary& summary,
+  const MissingValues& missing, bool hasEmpty)
 {
   const std::string has = "The " + name + " has ";
+  // The remedy first: ParaView's list of messages shows about 90 characters of a line.
   if (summary.NotFinite > 0)
   {
     fail(has, summary.NotFinite, summary.NotFinite == 1 ? " value that is" : " values that are",
-      " NaN or infinite, the first at index ", summary.FirstNotFinite,
-      "; every value must be finite");
+      missing.AreNaN ? " infinite; finite ends of ValidRange take them as empty"
+                     : " NaN or infinite; NaNValues = Empty takes NaN as empty",
+      " cells (the first at index ", summary.FirstNotFinite, ")");
   }
   if (summary.Negative > 0)
   {
-    // The remedy first: ParaView's list of messages shows about 90 characters of a line.
     fail(has, summary.Negative, summary.Negative == 1 ? " negative value" : " negative values",
-      "; NegativeValues = Clamp takes them as 0, for a density must not be negative (the first at "
-      "index ",
+      "; NegativeValues = Clamp takes them as 0, ValidRange as missing (the first at index ",
       summary.FirstNegative, ")");
   }
   if (std::isinf(summary.Total))
   {
     fail(has, "a total mass past the largest double; its values must be smaller");
   }
-  fail(has, "a total mass of zero", hasBlanks ? " (duplicate and blanked ghosts carry none)" : "",
+  fail(has, "a total mass of zero", hasEmpty ? " (empty cells carry none)" : "",
     "; at least one value must be positive");
 }
 

@@ -17,6 +17,7 @@ namespace RectifiedTransport
 {
 
 struct DensityRules;
+struct MissingValues;
 
 // "density array 'Mass'".
 std::string describeArray(vtkDataArray* array);
@@ -27,12 +28,15 @@ void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const s
 // Throws Failure if an array of `count` components does not have this Component.
 void requireComponent(const std::string& name, int component, int count);
 
+// Whether the density is the luminance of several components.
+bool isColour(const DensityRules& rules, int components);
+
 // Whether the largest displayed value is needed.
 bool needsWhite(const DensityRules& rules, int components);
 
-// Throws the Failure for values that are no density; `hasBlanks` is part of the reason.
-[[noreturn]] void throwInvalidDensity(
-  const std::string& name, const DensitySummary& summary, bool hasBlanks = false);
+// Throws the Failure for values that are no density; `hasEmpty` is part of the reason.
+[[noreturn]] void throwInvalidDensity(const std::string& name, const DensitySummary& summary,
+  const MissingValues& missing, bool hasEmpty = false);
 
 } // namespace RectifiedTransport
 

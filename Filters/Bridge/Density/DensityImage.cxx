@@ -58,6 +58,7 @@ DensityImage::DensityImage(
   requireCells(this->Geometry);
   this->Reader = makeDensityReader(array, rules);
   this->FindBlanks(image);
+  this->FillValues = fillValuesOf(image->GetFieldData());
 
   const auto time = [](vtkObject* object) {
     return object ? static_cast<std::uint64_t>(object->GetMTime()) : std::uint64_t{ 0 };
@@ -97,6 +98,17 @@ void DensityImage::Prepare(FlowTables /*tables*/, Progress& progress)
   this->Known.White = this->FindWhite(progress);
   this->SetWhite(this->White(), progress);
   this->Known.Clamped = this->FindClamped(progress);
+  if (this->FillsEmpty())
+  {
+    this->SetEmpty(
+      densityOfEmptyCells(this->Rules.Empty, this->FindFilled({ this->AllTuples() }, progress)));
+  }
+}
+
+void DensityImage::SetEmpty(double density)
+{
+  this->Empty = density;
+  this->Reader->SetEmpty(density);
 }
 
 void DensityImage::SetWhite(double white, Progress& progress)
@@ -124,7 +136,7 @@ void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
   this->Reader->SetBlanks(this->CombinedFlags.data(), ghostCell);
 }
 
-// Values of blanked cells are none that white is found among.
+// Values of empty cells are none that white is found among.
 LargestValue DensityImage::FindWhite(Progress& progress)
 {
   this->BlankCellsOfHiddenPoints(progress);
@@ -155,6 +167,39 @@ LowestValue DensityImage::FindClamped(Progress& progress) const
   return this->Clamps()
     ? findLowest(this->Array, *this->Reader, this->Geometry.NumberOfCells(), progress)
     : LowestValue();
+}
+
+TupleBox DensityImage::AllTuples() const
+{
+  const Extent& extent = this->Geometry.Extent();
+  return tuplesOf(
+    extent, this->Geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL, extent);
+}
+
+FilledCells DensityImage::FindFilled(const std::vector<TupleBox>& boxes, Progress& progress) const
+{
+  const TupleBox all = this->AllTuples();
+  FilledCells filled;
+  for (const TupleBox& box : boxes)
+  {
+    filled.Add(sumExactly<FilledCells>(
+      progress, box.Count(), grain, [&](std::int64_t first, std::int64_t last, FilledCells& part) {
+        std::vector<double> values(static_cast<std::size_t>(last - first));
+        std::vector<unsigned char> empty(values.size());
+        // Runs of cells that follow each other in both.
+        const std::int64_t row = box.Count() == all.Count() ? all.Count() : box.Cells[0];
+        for (std::int64_t i = first; i < last;)
+        {
+          const std::int64_t count = std::min(last, (i / row + 1) * row) - i;
+          const std::int64_t cell = all.NumberOf(box.CellOf(i));
+          this->Reader->Read(cell, count, values.data());
+          this->Reader->FindEmpty(cell, count, empty.data());
+          part.Add(values.data(), empty.data(), count);
+          i += count;
+        }
+      }));
+  }
+  return filled;
 }
 
 vtkSmartPointer<vtkImageData> DensityImage::ImageIn(const Extent& extent) const

@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_DensityImage_h
 #define RectifiedTransport_DensityImage_h
 
+#include "Bridge/Density/FilledCells.h"
 #include "Bridge/Density/InputDensity.h"
 
 #include <memory>
@@ -30,13 +31,16 @@ public:
 
   // For a part of a whole image, instead of Prepare: find the largest and the clamped values, by
   // their numbers in the part; set the white of the whole image, with which values are read from
-  // then on.
+  // then on; find the cells of boxes that are not empty, and set what the others count as.
   LargestValue FindWhite(Progress& progress);
   void SetWhite(double white, Progress& progress);
   LowestValue FindClamped(Progress& progress) const;
+  FilledCells FindFilled(const std::vector<TupleBox>& boxes, Progress& progress) const;
+  void SetEmpty(double density);
 
 private:
   std::uint64_t Fingerprint(Progress& progress) const override;
+  TupleBox AllTuples() const;
   void FindBlanks(vtkImageData* image);
   void BlankCellsOfHiddenPoints(Progress& progress);
 

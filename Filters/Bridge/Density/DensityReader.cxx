@@ -7,6 +7,7 @@
 #include "vtkDataArrayRange.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
@@ -103,6 +104,26 @@ void readTuples(const Tuples& begin, int components, std::int64_t count, const D
   }
 }
 
+// Whether a tuple has no valid value of the component, or of the colour. Alpha is no value, but NaN
+// would make the density NaN.
+template <class Tuples>
+bool isMissing(
+  const Tuples& begin, int components, std::int64_t i, int component, const MissingValues& missing)
+{
+  if (component >= 0)
+  {
+    return missing.Has(static_cast<double>(begin(i, component)));
+  }
+  const int colours = components >= 3 ? 3 : 1;
+  bool is = false;
+  for (int c = 0; c < colours; ++c)
+  {
+    is = is || missing.Has(static_cast<double>(begin(i, c)));
+  }
+  const bool hasAlpha = components == colours + 1;
+  return is || (hasAlpha && missing.AreNaN && std::isnan(static_cast<double>(begin(i, colours))));
+}
+
 // A reader of arrays whose tuples `Tuples` visits in runs, see BlockOfTuples.
 template <class Tuples>
 class TupleReader final : public DensityReader
@@ -119,8 +140,32 @@ public:
   {
     this->Run.VisitTuples(first, count, [&](const auto& begin, int components) {
       readTuples(begin, components, count, this->Rules, this->White, values);
+      for (std::int64_t i = 0; this->Rules.Missing.Are() && i < count; ++i)
+      {
+        const bool is = isMissing(begin, components, i, this->Rules.Component, this->Rules.Missing);
+        values[i] = is ? this->Empty : values[i];
+      }
     });
     this->Finish(first, count, values);
+  }
+
+  void FindEmpty(std::int64_t first, std::int64_t count, unsigned char* empty) const override
+  {
+    const MissingValues& missing = this->Rules.Missing;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      empty[i] = this->IsBlank(first + i) ? 1 : 0;
+    }
+    if (missing.Are())
+    {
+      this->Run.VisitTuples(first, count, [&](const auto& begin, int components) {
+        for (std::int64_t i = 0; i < count; ++i)
+        {
+          const bool is = isMissing(begin, components, i, this->Rules.Component, missing);
+          empty[i] = is ? 1 : empty[i];
+        }
+      });
+    }
   }
 
   LargestValue Largest(std::int64_t first, std::int64_t count) const override
@@ -132,7 +177,9 @@ public:
       LargestValue largest;
       for (std::int64_t i = 0; i < count; ++i)
       {
-        if (this->Flags && (this->Flags[first + i] & this->Mask))
+        if (this->IsBlank(first + i) ||
+          (this->Rules.Missing.Are() &&
+            isMissing(begin, components, i, component, this->Rules.Missing)))
         {
           continue;
         }
@@ -270,7 +317,7 @@ void DensityReader::Finish(std::int64_t first, std::int64_t count, double* value
     const unsigned char mask = this->Mask;
     for (std::int64_t i = 0; i < count; ++i)
     {
-      values[i] = (flags[i] & mask) ? 0.0 : values[i];
+      values[i] = (flags[i] & mask) ? this->Empty : values[i];
     }
   }
 }

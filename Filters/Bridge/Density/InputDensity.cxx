@@ -4,11 +4,30 @@
 #include "Bridge/Density/DensityFailure.h"
 #include "Core/Parallel/Progress.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
 namespace RectifiedTransport
 {
+
+namespace
+{
+
+std::uint64_t bitsOf(double value)
+{
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(value));
+  return bits;
+}
+
+template <class T>
+std::uint64_t number(T value)
+{
+  return static_cast<std::uint64_t>(value);
+}
+
+} // namespace
 
 InputDensity::InputDensity(const std::string& name, const DensityRules& rules)
   : Rules(rules)
@@ -16,22 +35,42 @@ InputDensity::InputDensity(const std::string& name, const DensityRules& rules)
 {
 }
 
+InputDensity::InputDensity(const InputDensity& inner, const ImageGrid& grown,
+  const std::array<std::int64_t, 3>& margin, const EmptyRule& rule)
+  : Geometry(grown)
+  , Rules(inner.Rules)
+  , Changed(inner.Changed)
+  , Name(inner.Name)
+  , MayBeEmpty(true)
+  , Reading(inner.Reading)
+{
+  const GridSize<3> size = grown.Size<3>();
+  std::copy(size.begin(), size.end(), this->Reading.begin() + 4);
+  this->Reading[14] = number(rule.Cells);
+  this->Reading[15] = bitsOf(rule.Value);
+  constexpr int shift = 21;
+  this->Reading[16] =
+    number(margin[0]) + (number(margin[1]) << shift) + (number(margin[2]) << (2 * shift));
+}
+
 InputDensity::~InputDensity() = default;
 
 void InputDensity::SetForm(const ArrayForm& form)
 {
-  const double measure = this->Geometry.CellMeasure();
-  std::uint64_t measureBits = 0;
-  std::memcpy(&measureBits, &measure, sizeof(measure));
   const GridSize<3> size = this->Geometry.Size<3>();
-  const auto number = [](auto value) { return static_cast<std::uint64_t>(value); };
+  this->MayBeEmpty = this->Rules.Missing.Are() || form.HasPointGhosts ||
+    (form.HasCellGhosts && !this->Geometry.IsOnPoints());
+  // Without empty cells what they count as is part of no density.
+  const EmptyRule rule = this->MayBeEmpty ? this->Rules.Empty : EmptyRule();
   this->Reading = { 0, number(form.Type), number(form.Components),
     number(this->Geometry.Dimension()), number(size[0]), number(size[1]), number(size[2]),
     number(this->Rules.Component + 2),
-    number(this->Rules.Invert) + 2 * number(this->Rules.ClampNegative),
+    number(this->Rules.Invert) + 2 * number(this->Rules.ClampNegative) +
+      4 * number(this->Rules.Missing.AreNaN),
     number(this->Geometry.IsOnPoints()),
-    number(form.HasPointGhosts) + 2 * number(form.HasCellGhosts), measureBits };
-  this->MayBeBlank = form.HasPointGhosts || (form.HasCellGhosts && !this->Geometry.IsOnPoints());
+    number(form.HasPointGhosts) + 2 * number(form.HasCellGhosts),
+    bitsOf(this->Geometry.CellMeasure()), bitsOf(this->Rules.Missing.Low),
+    bitsOf(this->Rules.Missing.High), number(rule.Cells), bitsOf(rule.Value), 0 };
 }
 
 const InputDensity::Content& InputDensity::GetContent(Progress& progress)
@@ -56,14 +95,15 @@ double InputDensity::White() const
 
 std::vector<std::string> InputDensity::Describe(const UnusualValues& values) const
 {
-  // Of several components it is the luminance.
-  const bool isInverted =
-    this->Rules.Invert && (this->Rules.Component >= 0 || this->Components() == 1);
-  const double largest = values.Found.Maximum;
+  // The largest density may be what empty cells count as.
+  if (this->Rules.Empty.Cells == EmptyCells::Value && this->Empty >= values.Found.Maximum)
+  {
+    return {};
+  }
   return describeUnusual(values,
     { this->Name, this->Name, this->Name, this->Geometry.IsOnPoints() ? "points" : "cells",
-      this->Geometry.NumberOfCells() },
-    isInverted ? values.White.Value - largest : largest, this->Rules.Invert);
+      this->Geometry.NumberOfCells(), this->Rules.Invert, isColour(this->Rules, this->Components()),
+      this->FillValues });
 }
 
 void InputDensity::TellUnusual(const UnusualValues& values, Progress& progress)
@@ -83,7 +123,7 @@ void InputDensity::TellUnusual(const UnusualValues& values, Progress& progress)
 
 void InputDensity::ThrowInvalid(const DensitySummary& summary) const
 {
-  throwInvalidDensity(this->Name, summary, this->MayBeBlank);
+  throwInvalidDensity(this->Name, summary, this->Rules.Missing, this->MayBeEmpty);
 }
 
 } // namespace RectifiedTransport

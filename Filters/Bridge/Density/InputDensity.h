@@ -40,7 +40,7 @@ public:
   using Times = std::array<std::uint64_t, 4>;
   // All that the tables of a density depend on: a hash of the values and the ghost arrays, and the
   // parameters of reading them. The hash is 0 if an array is not contiguous in memory.
-  using Content = std::array<std::uint64_t, 12>;
+  using Content = std::array<std::uint64_t, 17>;
 
   virtual ~InputDensity();
   InputDensity(const InputDensity&) = delete;
@@ -79,6 +79,10 @@ public:
   virtual void SampleArrays(const Extent& extent, ConstPointSpan<3> particles, Progress& progress,
     vtkPointData* output) const = 0;
 
+  // Makes Prepare find what empty cells count as even if this density has none.
+  void FindEmptyDensity() { this->MustFindEmpty = true; }
+  // What empty cells count as, from Prepare on.
+  double EmptyDensity() const { return this->Empty; }
   // What Prepare found about the values, without the summary of the densities.
   const UnusualValues& Unusual() const { return this->Known; }
   // Precedes each line if a filter has several inputs.
@@ -89,10 +93,10 @@ public:
     std::function<void(const std::vector<std::string>& lines, const Content& content)>;
   void SetListener(const Listener& listener) { this->Tell = listener; }
   // Call it when the values have been read, by this filter or another one. Collective.
-  void TellUnusual(const UnusualValues& values, Progress& progress);
+  virtual void TellUnusual(const UnusualValues& values, Progress& progress);
 
   // Throws the Failure for values that are no density.
-  [[noreturn]] void ThrowInvalid(const DensitySummary& summary) const;
+  [[noreturn]] virtual void ThrowInvalid(const DensitySummary& summary) const;
 
 protected:
   // What may differ between arrays of one name.
@@ -107,11 +111,18 @@ protected:
     const DistributedDensity<3>*>;
 
   InputDensity(const std::string& name, const DensityRules& rules);
+  // For another density on its grid grown by `margin` cells, which this rule fills.
+  InputDensity(const InputDensity& inner, const ImageGrid& grown,
+    const std::array<std::int64_t, 3>& margin, const EmptyRule& rule);
   // Once, with the grid.
   void SetForm(const ArrayForm& form);
   int Components() const { return static_cast<int>(this->Reading[2]); }
   bool NeedsWhite() const;
   bool Clamps() const { return this->Rules.ClampNegative && !this->Rules.Invert; }
+  bool FillsEmpty() const
+  {
+    return this->Rules.Empty.Cells != EmptyCells::Zero && (this->MayBeEmpty || this->MustFindEmpty);
+  }
   // The value read as white, as soon as Known has it.
   double White() const;
   // The findings about values, one line each.
@@ -121,6 +132,8 @@ protected:
   const DensityRules Rules;
   Times Changed{};
   UnusualValues Known;
+  double Empty = 0.0;
+  std::vector<FillValue> FillValues; // of the input's field data
 
 private:
   virtual std::uint64_t Fingerprint(Progress& progress) const = 0;
@@ -129,7 +142,8 @@ private:
   const std::string Name;
   std::string InputName;
   Listener Tell;
-  bool MayBeBlank = false; // by ghost arrays
+  bool MayBeEmpty = false; // some cells
+  bool MustFindEmpty = false;
   Content Reading{};
   Content Hashed{}; // all 0 before GetContent
 };

@@ -120,6 +120,7 @@ PiecesDensity::PiecesDensity(std::unique_ptr<const ImagePieces> pieces, const st
   static std::atomic<std::uint64_t> count{ 0 };
   this->Changed = { ++count, 0, 0, 0 };
   this->SetForm(form);
+  this->FillValues = fillValuesOf(this->Distribution->OwnImage()->GetFieldData());
 }
 
 PiecesDensity::~PiecesDensity() = default;
@@ -144,8 +145,13 @@ void PiecesDensity::Prepare(FlowTables tables, Progress& progress)
     return;
   }
   this->Gathered = this->Gather(this->Distribution->Whole());
+  if (this->FillsEmpty())
+  {
+    this->Gathered->FindEmptyDensity();
+  }
   this->Gathered->Prepare(tables, progress);
   this->Known = this->Gathered->Unusual();
+  this->Empty = this->Gathered->EmptyDensity();
 }
 
 const DensityValues* PiecesDensity::Values() const
@@ -163,7 +169,7 @@ const Extent& PiecesDensity::OwnExtent() const
 void PiecesDensity::PreparePieces(Progress& progress)
 {
   this->Known = {};
-  if (!this->NeedsWhite() && !this->Clamps())
+  if (!this->NeedsWhite() && !this->Clamps() && !this->FillsEmpty())
   {
     return;
   }
@@ -183,6 +189,30 @@ void PiecesDensity::PreparePieces(Progress& progress)
     piece->SetWhite(this->White(), progress);
   }
   join(piece ? piece->FindClamped(progress) : LowestValue(), this->Known.Clamped);
+  if (this->FillsEmpty())
+  {
+    const FilledCells own = piece ? piece->FindFilled(this->OwnTuples(), progress) : FilledCells();
+    this->Empty = densityOfEmptyCells(this->Rules.Empty, sumOverRanks(ranks, own));
+  }
+}
+
+// Those that no rank below has, as points at common faces are in several pieces.
+std::vector<TupleBox> PiecesDensity::OwnTuples() const
+{
+  const bool onPoints = this->Geometry.IsOnPoints();
+  const int owner = onPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
+  const Extent& whole = this->Distribution->Whole();
+  const auto& extents = onPoints ? this->Distribution->Points() : this->Distribution->Cells();
+  std::vector<TupleBox> own = { tuplesOf(this->OwnExtent(), owner, whole) };
+  for (int rank = 0; rank < this->Distribution->Group().Own(); ++rank)
+  {
+    const Extent& below = extents[static_cast<std::size_t>(rank)];
+    if (!isEmpty(below))
+    {
+      subtract(tuplesOf(below, owner, whole), own);
+    }
+  }
+  return own;
 }
 
 // The part in an extent; nullptr for an empty one. Each rank may want another one.
@@ -231,6 +261,7 @@ std::shared_ptr<const DensityValues> PiecesDensity::Boxes<D>::Gather(
   const SerialExecutor serial;
   Progress progress{ Context(serial) };
   box->SetWhite(this->Density.White(), progress);
+  box->SetEmpty(this->Density.Empty);
   return std::make_shared<BoxOfDensity<D>>(std::move(box), grid.Size<D>(), part);
 }
 

@@ -53,6 +53,7 @@ private:
     return { &this->Line, &this->Plane, &this->Space };
   }
   const Extent& OwnExtent() const;
+  std::vector<TupleBox> OwnTuples() const;
   std::unique_ptr<DensityImage> Gather(const Extent& extent) const;
   void PreparePieces(Progress& progress);
 

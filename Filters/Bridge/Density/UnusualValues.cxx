@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/UnusualValues.h"
 
+#include "Bridge/Run/PropertyCheck.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
+
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,25 +97,63 @@ std::string countOf(std::int64_t count, std::int64_t first, const ValuePlaces& p
   return text.str();
 }
 
-std::string describeLargest(
-  const ValuePlaces& places, const DensitySummary& found, double raw, double share)
+// The array's value of a density; of a colour, its luminance.
+double rawValue(const UnusualValues& values, const ValuePlaces& places, double density)
 {
+  return places.IsInverted && !places.IsColour ? values.White.Value - density : density;
+}
+
+// The name of a fill value of the field data; empty if it is none. Files round it to floats.
+std::string nameOfFillValue(const ValuePlaces& places, double value)
+{
+  for (const FillValue& fill : places.FillValues)
+  {
+    if (fill.Value == value || static_cast<double>(static_cast<float>(fill.Value)) == value)
+    {
+      return fill.Name;
+    }
+  }
+  return {};
+}
+
+// "; if it marks missing data, ValidRange = 0 5 leaves it out".
+std::string advice(const std::string& fillName, const std::string& range)
+{
+  return (fillName.empty() ? "; if it marks missing data, "
+                           : "; it is the " + fillName + " of the field data: ") +
+    "ValidRange" + (range.empty() ? "" : " = " + range) + " leaves it out";
+}
+
+std::string upTo(double value)
+{
+  return textOf(-Unbounded) + " " + textOf(value);
+}
+
+// The range of all values but the one of the largest density.
+std::string rangeWithout(const UnusualValues& values, const ValuePlaces& places)
+{
+  const double next = rawValue(values, places, values.Found.BelowMaximum);
+  return places.IsColour ? ""
+    : places.IsInverted  ? textOf(next) + " " + textOf(Unbounded)
+                         : upTo(next);
+}
+
+std::string describeLargest(const ValuePlaces& places, const UnusualValues& values, double share)
+{
+  const DensitySummary& found = values.Found;
+  const double raw = rawValue(values, places, found.Maximum);
+  const std::string fillName = nameOfFillValue(places, raw);
   std::ostringstream text;
   text << "The value " << raw << " of the " << places.Largest << ", in "
        << countOf(found.Maxima, found.FirstMaximum, places) << ", carries ";
   text.precision(3);
   text << 100.0 * share << " % of the mass";
   text.precision(6);
-  if (isFillValue(raw))
+  if (!isFillValue(raw) && fillName.empty())
   {
-    text << "; if it marks missing data, leave these " << places.Of << " out (Threshold does) or "
-         << "blank them";
+    text << ", the next largest is " << found.BelowMaximum << " as a density";
   }
-  else
-  {
-    text << ", the next largest is " << found.BelowMaximum << " as a density; is it meant?";
-  }
-  return text.str();
+  return text.str() + advice(fillName, rangeWithout(values, places));
 }
 
 std::string describeWhite(const ValuePlaces& places, const LargestValue& white)
@@ -119,10 +161,9 @@ std::string describeWhite(const ValuePlaces& places, const LargestValue& white)
   std::ostringstream text;
   text << "InvertDensity takes the value " << white.Value << " of the " << places.White << ", in "
        << countOf(white.Count, white.First, places) << ", for white, and the next largest is "
-       << white.Next
-       << ": all others carry about equal mass; if it marks missing data, leave these " << places.Of
-       << " out (Threshold does) or blank them";
-  return text.str();
+       << white.Next << ": all others carry about equal mass";
+  return text.str() +
+    advice(nameOfFillValue(places, white.Value), places.IsColour ? "" : upTo(white.Next));
 }
 
 std::string describeLowest(const ValuePlaces& places, const LowestValue& lowest)
@@ -132,9 +173,8 @@ std::string describeLowest(const ValuePlaces& places, const LowestValue& lowest)
        << countOf(lowest.Count, lowest.First, places) << ", is ";
   text.precision(3);
   text << 100.0 * static_cast<double>(lowest.Count) * (lowest.Value / lowest.Negative)
-       << " % of what NegativeValues = Clamp takes as 0; if it marks missing data, they carry no "
-          "mass, as they should";
-  return text.str();
+       << " % of what NegativeValues = Clamp takes as 0";
+  return text.str() + advice(nameOfFillValue(places, lowest.Value), "0 " + textOf(Unbounded));
 }
 
 } // namespace
@@ -206,19 +246,34 @@ LowestValue findLowest(
   return reduceChunks(progress, count, grain, LowestValue(), ofChunk, join);
 }
 
+std::vector<FillValue> fillValuesOf(vtkFieldData* fields)
+{
+  std::vector<FillValue> found;
+  for (const char* name : { "_FillValue", "missing_value", "NO_DATA_VALUE" })
+  {
+    vtkDataArray* array = fields ? fields->GetArray(name) : nullptr;
+    for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+    {
+      found.push_back({ name, array->GetComponent(i, 0) });
+    }
+  }
+  return found;
+}
+
 std::vector<std::string> describeUnusual(const UnusualValues& values, const ValuePlaces& places,
-  double raw, bool isInverted, const std::function<double()>& shareOfLargest)
+  const std::function<double()>& shareOfLargest)
 {
   std::vector<std::string> lines;
+  const double raw = rawValue(values, places, values.Found.Maximum);
   if (isUnusualLargest(values.Found, raw, places.All))
   {
     const double share = shareOfLargest ? shareOfLargest() : shareByValues(values.Found);
     if (share > mostOfMass)
     {
-      lines.push_back(describeLargest(places, values.Found, raw, share));
+      lines.push_back(describeLargest(places, values, share));
     }
   }
-  else if (isInverted && isUnusualWhite(values.White))
+  else if (places.IsInverted && isUnusualWhite(values.White))
   {
     lines.push_back(describeWhite(places, values.White));
   }

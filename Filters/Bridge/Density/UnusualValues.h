@@ -5,12 +5,18 @@
 #define RectifiedTransport_UnusualValues_h
 
 #include "Bridge/Density/DensityReader.h"
+#include "Bridge/VTKCompatibility.h"
 #include "Core/Tables/Density.h"
 
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataArray;
+class vtkFieldData;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
@@ -44,6 +50,15 @@ void merge(const LowestValue& part, LowestValue& all);
 LowestValue findLowest(
   vtkDataArray* array, const DensityReader& reader, std::int64_t count, Progress& progress);
 
+// A number that marks missing data, as the field data of the input say.
+struct FillValue
+{
+  std::string Name;
+  double Value;
+};
+// Of netCDF and GDAL: _FillValue, missing_value, NO_DATA_VALUE. `fields` may be nullptr.
+std::vector<FillValue> fillValuesOf(vtkFieldData* fields);
+
 // How messages name the values of a density.
 struct ValuePlaces
 {
@@ -53,13 +68,15 @@ struct ValuePlaces
   std::string Lowest;
   const char* Of; // "cells"
   std::int64_t All;
+  bool IsInverted; // the densities are white minus the values
+  bool IsColour;   // of several components
+  std::vector<FillValue> FillValues;
 };
 
-// A line for each finding. `raw` is the array's value for the largest density. `shareOfLargest`
-// gives the part of the mass that the largest density carries; without it, all values are of cells
-// of one size.
+// A line for each finding. `shareOfLargest` gives the part of the mass that the largest density
+// carries; without it, all values are of cells of one size.
 std::vector<std::string> describeUnusual(const UnusualValues& values, const ValuePlaces& places,
-  double raw, bool isInverted, const std::function<double()>& shareOfLargest = nullptr);
+  const std::function<double()>& shareOfLargest = nullptr);
 
 } // namespace RectifiedTransport
 

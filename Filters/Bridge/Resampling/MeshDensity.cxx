@@ -66,7 +66,8 @@ void addSizes(const RegionBatch& batch, CellSize& all)
 }
 
 // Adds what the regions of a batch cover of a slab.
-void addEdges(const RegionBatch& batch, std::int64_t number, const GridSlab<2>& slab)
+void addEdges(const std::vector<BlockValues>& blocks, const RegionBatch& batch, std::int64_t number,
+  const GridSlab<2>& slab)
 {
   const auto edges = batch.Slabs[static_cast<std::size_t>(number)];
   if (edges.Size() == 0)
@@ -80,7 +81,9 @@ void addEdges(const RegionBatch& batch, std::int64_t number, const GridSlab<2>& 
     coverage.Add(piece.From, piece.To);
     if (edge + 1 == edges.Last || !batch.IsSame(*edge, *(edge + 1)))
     {
-      coverage.Finish(batch.ShapeOf(*edge).Values[static_cast<std::size_t>(piece.Ring)]);
+      const RegionShape& shape = batch.ShapeOf(*edge);
+      coverage.Finish(blocks[static_cast<std::size_t>(shape.Block)].OfRegion(
+        shape.Values[static_cast<std::size_t>(piece.Ring)]));
     }
   }
 }
@@ -127,7 +130,7 @@ void addRegions(const std::vector<BlockValues>& blocks, const MeshSlabs<2>& slab
       [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t s = first; s < last && !progress.ShouldStop(); ++s)
         {
-          addEdges(batch, s, slabs.Slab(s, sums));
+          addEdges(blocks, batch, s, slabs.Slab(s, sums));
         }
       },
       1);

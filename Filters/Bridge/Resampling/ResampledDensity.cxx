@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Resampling/ResampledDensity.h"
 
+#include "Bridge/Density/DensityFailure.h"
 #include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/FilledCells.h"
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Lattices/JoinedImages.h"
@@ -12,6 +14,8 @@
 #include "Bridge/Resampling/MeshDensity.h"
 #include "Bridge/Resampling/PlacesInMeshes.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Parallel/ExactSum.h"
+#include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/DensityInspection.h"
 
@@ -58,10 +62,13 @@ DataContent contentOf(const DensityBlocks& blocks, int resolution, const Density
     }
   }
   for (const int number : { blocks.OnPoints ? 1 : 0, blocks.Dimension, resolution, rules.Component,
-         rules.Invert ? 1 : 0, rules.ClampNegative ? 1 : 0 })
+         rules.Invert ? 1 : 0, rules.ClampNegative ? 1 : 0, rules.Missing.AreNaN ? 1 : 0,
+         static_cast<int>(rules.Empty.Cells) })
   {
     content.AddNumber(static_cast<std::uint64_t>(number));
   }
+  const double numbers[] = { rules.Missing.Low, rules.Missing.High, rules.Empty.Value };
+  content.AddNumbers(numbers, 3);
   return content;
 }
 
@@ -82,10 +89,11 @@ void addBlock(const BlockValues& block, const Found& part, std::int64_t Found::*
 }
 
 std::vector<std::string> describeBlocks(const std::vector<BlockValues>& blocks,
-  const ImageGrid& grid, bool isInverted, Progress& progress)
+  const ImageGrid& grid, const DensityRules& rules, int components, Progress& progress)
 {
   UnusualValues all;
-  ValuePlaces places{ {}, {}, {}, blocks.front().IsOnPoints() ? "points" : "cells", 0 };
+  ValuePlaces places{ {}, {}, {}, blocks.front().IsOnPoints() ? "points" : "cells", 0, rules.Invert,
+    isColour(rules, components), fillValuesOf(blocks.front().Data()->GetFieldData()) };
   for (const BlockValues& block : blocks)
   {
     const UnusualValues& known = block.Unusual();
@@ -98,16 +106,15 @@ std::vector<std::string> describeBlocks(const std::vector<BlockValues>& blocks,
     places.All += block.NumberOfValues();
   }
   const double largest = all.Found.Maximum;
-  return describeUnusual(
-    all, places, isInverted ? all.White.Value - largest : largest, isInverted, [&]() {
-      std::vector<BlockValues> only;
-      only.reserve(blocks.size());
-      for (const BlockValues& block : blocks)
-      {
-        only.push_back(block.Only(largest));
-      }
-      return integralOf(only, grid, progress) / integralOf(blocks, grid, progress);
-    });
+  return describeUnusual(all, places, [&]() {
+    std::vector<BlockValues> only;
+    only.reserve(blocks.size());
+    for (const BlockValues& block : blocks)
+    {
+      only.push_back(block.Only(largest));
+    }
+    return integralOf(only, grid, progress) / integralOf(blocks, grid, progress);
+  });
 }
 
 } // namespace
@@ -121,6 +128,7 @@ public:
     : DensityImage(made.Image, made.Image->GetCellData()->GetScalars(), false, DensityRules())
     , Made(made)
   {
+    this->Empty = made.Empty;
   }
 
   void SampleArrays(const Extent& /*extent*/, ConstPointSpan<3> particles, Progress& progress,
@@ -222,20 +230,69 @@ void ResampledDensity::Resample(
   const char* name = read.front().Array->GetName();
   const auto density = newArray<vtkDoubleArray>(
     name ? name : "Density", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
-  if (isLatticeImage)
+  this->Lost = this->ValuesOn(grid, this->Meshes, progress, density->GetPointer(0));
+  if (rules.Empty.Cells != EmptyCells::Zero)
   {
-    this->Lattice->CopyValues(this->Meshes, density->GetPointer(0), progress);
-  }
-  else
-  {
-    this->Lost = resampleCells(this->Meshes, grid, progress, density->GetPointer(0));
-  }
-  if (this->Lattice && blocks.OnPoints)
-  {
-    this->Lattice->ClearAround(this->Meshes, grid, density->GetPointer(0), progress);
+    this->FillEmpty(grid, rules.Empty, progress, density->GetPointer(0));
   }
   this->Image->GetCellData()->SetScalars(density);
-  this->Unusual = describeBlocks(this->Meshes, grid, rules.Invert, progress);
+  this->Unusual = describeBlocks(
+    this->Meshes, grid, rules, read.front().Array->GetNumberOfComponents(), progress);
+}
+
+// The mean of the blocks' densities over each cell of the grid.
+std::vector<std::string> ResampledDensity::ValuesOn(const ImageGrid& grid,
+  const std::vector<BlockValues>& blocks, Progress& progress, double* values) const
+{
+  if (this->Lattice && !blocks.front().IsOnPoints())
+  {
+    this->Lattice->CopyValues(blocks, values, progress);
+    return {};
+  }
+  std::vector<std::string> warnings = resampleCells(blocks, grid, progress, values);
+  if (this->Lattice)
+  {
+    this->Lattice->ClearAround(blocks, grid, values, progress);
+  }
+  return warnings;
+}
+
+// Adds the density of the part of each cell that no counted cell covers.
+void ResampledDensity::FillEmpty(
+  const ImageGrid& grid, const EmptyRule& rule, Progress& progress, double* values)
+{
+  std::vector<BlockValues> ground;
+  FilledCells filled;
+  for (const BlockValues& block : this->Meshes)
+  {
+    ground.push_back(block.Ground());
+    filled.Least = std::min(filled.Least, block.Least());
+  }
+  LargeBuffer<double> covered;
+  withMemory("what the input's cells cover", numberOfValues(grid) * sizeof(double),
+    [&]() { covered = LargeBuffer<double>(grid.NumberOfCells()); });
+  this->ValuesOn(grid, ground, progress, covered.data());
+  constexpr double rounding = 1e-9;
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+  const auto shareOf = [&covered](std::int64_t cell) {
+    const double share = covered.data()[cell]; // more than 1 where cells overlap
+    return share > 1.0 - rounding ? 1.0 : share;
+  };
+  filled.Add(sumExactly<FilledCells>(progress, grid.NumberOfCells(), grain,
+    [&](std::int64_t first, std::int64_t last, FilledCells& part) {
+      for (std::int64_t cell = first; cell < last; ++cell)
+      {
+        part.Mass.Add(values[cell]);
+        part.Cells.Add(shareOf(cell));
+      }
+    }));
+  this->Empty = densityOfEmptyCells(rule, filled);
+  progress.For(grid.NumberOfCells(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t cell = first; cell < last; ++cell)
+    {
+      values[cell] += (1.0 - shareOf(cell)) * this->Empty;
+    }
+  });
 }
 
 } // namespace RectifiedTransport

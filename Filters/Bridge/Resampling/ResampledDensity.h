@@ -42,6 +42,9 @@ private:
 
   void Resample(
     const DensityBlocks& blocks, int resolution, const DensityRules& rules, Progress& progress);
+  std::vector<std::string> ValuesOn(const ImageGrid& grid, const std::vector<BlockValues>& blocks,
+    Progress& progress, double* values) const;
+  void FillEmpty(const ImageGrid& grid, const EmptyRule& rule, Progress& progress, double* values);
 
   DataContent Content; // of the last Read
   vtkSmartPointer<vtkImageData> Image;
@@ -51,6 +54,7 @@ private:
   std::optional<CellLattice> Lattice;
   std::vector<std::string> Unusual;
   std::vector<std::string> Lost;
+  double Empty = 0.0; // the density of what their cells do not cover
 };
 
 } // namespace RectifiedTransport

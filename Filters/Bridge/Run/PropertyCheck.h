@@ -41,6 +41,23 @@ void requireChoice(const char* property, int value, const char* const (&texts)[C
   throw Failure(message.str());
 }
 
+// All digits of a number if 6 digits round it to another one, possibly one in range.
+template <class T>
+std::string textOf(T value)
+{
+  std::ostringstream text;
+  text << value;
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    if (std::strtod(text.str().c_str(), nullptr) != value && value == value)
+    {
+      text.str("");
+      text << std::setprecision(std::numeric_limits<T>::max_digits10) << value;
+    }
+  }
+  return text.str();
+}
+
 // `rule` completes "it must be ...".
 template <class T>
 void requireThat(bool holds, const char* property, T value, const char* rule)
@@ -49,18 +66,7 @@ void requireThat(bool holds, const char* property, T value, const char* rule)
   {
     return;
   }
-  std::ostringstream message;
-  message << property << " is ";
-  if constexpr (std::is_floating_point_v<T>)
-  {
-    // All digits if 6 digits round it to another number, possibly one in range.
-    std::ostringstream text;
-    text << value;
-    constexpr int all = std::numeric_limits<T>::max_digits10;
-    message << std::setprecision(std::strtod(text.str().c_str(), nullptr) == value ? 6 : all);
-  }
-  message << value << "; it must be " << rule;
-  throw Failure(message.str());
+  throw Failure(property + (" is " + textOf(value)) + "; it must be " + rule);
 }
 
 // A number of cells along an axis.

@@ -121,6 +121,20 @@ ImageGrid ImageGrid::WithValues(const std::array<int, 3>& wanted) const
   return grid;
 }
 
+ImageGrid ImageGrid::Grown(const std::array<std::int64_t, 3>& cells) const
+{
+  ImageGrid grid = *this;
+  for (int a = 0; a < this->AxisCount; ++a)
+  {
+    const auto image = static_cast<std::size_t>(this->Axis[static_cast<std::size_t>(a)]);
+    const int more = static_cast<int>(cells[static_cast<std::size_t>(a)]);
+    grid.PointExtent[2 * image] -= more;
+    grid.PointExtent[2 * image + 1] += more;
+  }
+  grid.FindCells();
+  return grid;
+}
+
 ImageGrid ImageGrid::AtCellCentres() const
 {
   ImageGrid grid = *this;

@@ -53,6 +53,8 @@ public:
   // Another image on the domain that the grid cells cover, with other numbers of values along its
   // axes; 0 keeps the number. Only cells may have one value along an axis.
   ImageGrid WithValues(const std::array<int, 3>& values) const;
+  // The image with more cells on each side of its axes; `cells` are along the axes of index space.
+  ImageGrid Grown(const std::array<std::int64_t, 3>& cells) const;
   // The image with its points at the centres of this one's cells, and values on points.
   ImageGrid AtCellCentres() const;
   // The image whose cells are the dual cells of this one's points.

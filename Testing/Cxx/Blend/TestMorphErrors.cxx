@@ -222,14 +222,14 @@ void checkDensities(Checks& checks)
   auto morph = makeMorph(good, bad(-1.0));
   BlendErrorTest test(checks, morph);
   test.Expect("Target: The density array 'Density' has 1 negative value; NegativeValues = Clamp "
-              "takes them as 0, for a density must not be negative (the first at index 3)",
+              "takes them as 0, ValidRange as missing (the first at index 3)",
     __LINE__);
   morph->SetNegativeValuesToClamp();
   test.ExpectNone(30, __LINE__);
   morph->SetInputData(bad(nan));
   test.Expect(
-    "Source: The density array 'Density' has 1 value that is NaN or infinite, the first at "
-    "index 3",
+    "Source: The density array 'Density' has 1 value that is NaN or infinite; NaNValues = Empty "
+    "takes NaN as empty cells (the first at index 3)",
     __LINE__);
   morph->SetInputData(good);
   morph->SetTargetData(makeDensity(values, true, [](vtkIdType) { return 0.0; }));

@@ -7,7 +7,9 @@
 
 #include "vtkBlueNoiseRelaxation.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
 #include "vtkEqualMassCells.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageDataToPointSet.h"
 #include "vtkShortArray.h"
@@ -18,6 +20,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace
 {
@@ -62,6 +65,14 @@ vtkSmartPointer<vtkImageData> floats(const Value& value, bool cells = true)
   return makeImage<vtkFloatArray>(cells ? 25 : 24, cells ? 19 : 18, 1, cells, value);
 }
 
+vtkSmartPointer<vtkDataObject> meshOf(const Value& value, bool cells)
+{
+  vtkNew<vtkImageDataToPointSet> grid;
+  grid->SetInputData(floats(value, cells));
+  grid->Update();
+  return grid->GetOutput();
+}
+
 void clamp(vtkTransportSampler* sampler)
 {
   sampler->SetNegativeValuesToClamp();
@@ -79,7 +90,7 @@ void checkLargest(Checks& checks)
     const std::string of = cells ? "cells" : "points";
     expect(checks, warningsOf(floats(withFill(1e20, 42, 1), cells)),
       { "The value 1e+20 of the density array 'Density', in 1 of 432 " + of + " (index 42)",
-        "carries 100 % of the mass", "leave these " + of + " out" },
+        "carries 100 % of the mass; if it marks missing data, ValidRange = -1e+299 " },
       __LINE__);
     expect(checks, warningsOf(floats(withFill(9.96921e36, 42, 130), cells)),
       { "The value 9.96921e+36", "in 130 of 432 " + of + " (the first at index 42)",
@@ -92,7 +103,8 @@ void checkLargest(Checks& checks)
   expect(checks,
     warningsOf(makeImage(25, 19, 1, true, [](vtkIdType i) { return i == 7 ? 2160.0 : 5.0; })),
     { "The value 2160 ", "in 1 of 432 cells (index 7)", "carries 50.1 % of the mass",
-      "the next largest is 5 as a density; is it meant?" },
+      "the next largest is 5 as a density; if it marks missing data, ValidRange = -1e+299 5 leaves "
+      "it out" },
     __LINE__);
   // What is largest in the first slices is not so in all.
   expect(checks,
@@ -186,14 +198,6 @@ void checkBlocks(Checks& checks)
     { "The value 1e+20 of the density array 'Density', in 30 of 432 cells (the first at index "
       "42)" },
     __LINE__);
-  vtkNew<vtkImageDataToPointSet> grid;
-  const auto meshOf = [&](const Value& value, bool cells) {
-    grid->SetInputData(floats(value, cells));
-    grid->Update();
-    auto mesh = vtkSmartPointer<vtkDataObject>::Take(grid->GetOutput()->NewInstance());
-    mesh->ShallowCopy(grid->GetOutput());
-    return mesh;
-  };
   for (const bool cells : { true, false })
   {
     const std::string of = cells ? "cells" : "points";
@@ -216,9 +220,57 @@ void checkBlocks(Checks& checks)
     __LINE__);
 }
 
-// What the warning says helps.
+// What the warning says helps: the two numbers after "ValidRange = ".
 void checkAdvice(Checks& checks)
 {
+  const auto follow = [&](vtkDataObject* data, const std::string& name,
+                        const std::function<void(vtkTransportSampler*)>& set, int line) {
+    const std::vector<std::string> before = warningsOf(data, set);
+    const std::string text = before.empty() ? "no warning" : before[0];
+    const std::string advice = (name.empty() ? "; if it marks missing data, "
+                                             : "; it is the " + name + " of the field data: ") +
+      std::string("ValidRange = ");
+    const auto at = text.find(advice);
+    checks.That(at != std::string::npos, "advice", line, text);
+    double range[2] = { 0.0, 0.0 };
+    if (at != std::string::npos)
+    {
+      std::istringstream(text.substr(at + advice.size())) >> range[0] >> range[1];
+    }
+    const auto found = warningsOf(data, [&](vtkTransportSampler* sampler) {
+      if (set)
+      {
+        set(sampler);
+      }
+      sampler->SetValidRange(range);
+    });
+    checks.That(found.empty(), "no warning", line, found.empty() ? "" : found[0]);
+  };
+  for (const bool cells : { true, false })
+  {
+    follow(floats(withFill(1e20, 42, 30), cells), "", {}, __LINE__);
+    follow(floats(withFill(9999.0, 42, 30), cells), "", {}, __LINE__);
+    follow(floats(withFill(-9999.0, 42, 130), cells), "", clamp, __LINE__);
+    follow(floats(withFill(-9999.0, 42, 130), cells), "", invert, __LINE__);
+    follow(floats(withFill(1e20, 42, 130), cells), "", invert, __LINE__);
+    follow(meshOf(withFill(1e20, 42, 30), cells), "", {}, __LINE__);
+  }
+  // One that is no usual number, and needs all of its digits.
+  const auto single = [](vtkIdType i) { return i == 7 ? 2300.0 : 5.123456789012345; };
+  follow(makeImage(25, 19, 1, true, single), "", {}, __LINE__);
+  for (const char* name : { "_FillValue", "missing_value", "NO_DATA_VALUE" })
+  {
+    const auto image = floats(withFill(1e20, 42, 30));
+    vtkNew<vtkDoubleArray> fill;
+    fill->SetName(name);
+    fill->InsertNextValue(1e20);
+    image->GetFieldData()->AddArray(fill);
+    follow(image, name, {}, __LINE__);
+    follow(image, name, invert, __LINE__);
+    fill->SetValue(0, 1.0); // of another array
+    follow(image, "", {}, __LINE__);
+  }
+  // Threshold leaves them out, too.
   vtkNew<vtkThreshold> threshold;
   threshold->SetInputData(floats(withFill(1e20, 42, 30)));
   threshold->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Density");

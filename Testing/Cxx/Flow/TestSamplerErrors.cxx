@@ -163,7 +163,7 @@ void checkValues(Checks& checks)
     return i == 4 ? notANumber : i == 9 ? infinity : i == 7 ? -infinity : 1.0;
   });
   test.Expect(
-    { "'Density' has 3 values that are NaN or infinite", "first at index 4", "must be finite" },
+    { "'Density' has 3 values that are NaN or infinite", "first at index 4", "NaNValues = Empty" },
     __LINE__);
   sampler->SetNegativeValuesToClamp(); // minus infinity is not negative, it is wrong
   test.Expect({ "has 3 values that are NaN or infinite" }, __LINE__);

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Density/FilledCells.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace RectifiedTransport
+{
+
+void FilledCells::Add(const double* values, const unsigned char* empty, std::int64_t count)
+{
+  std::int64_t filled = 0;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    if ((!empty || empty[i] == 0) && values[i] >= 0.0 && std::isfinite(values[i]))
+    {
+      this->Mass.Add(values[i]);
+      this->Least = std::min(this->Least, values[i]);
+      ++filled;
+    }
+  }
+  this->Cells.Add(static_cast<double>(filled));
+}
+
+void FilledCells::Add(const FilledCells& other)
+{
+  this->Mass.Add(other.Mass);
+  this->Cells.Add(other.Cells);
+  this->Least = std::min(this->Least, other.Least);
+}
+
+double densityOfEmptyCells(const EmptyRule& rule, const FilledCells& filled)
+{
+  const double cells = filled.Cells.Value();
+  if (rule.Cells == EmptyCells::Zero || !(cells > 0.0))
+  {
+    return 0.0;
+  }
+  if (rule.Cells == EmptyCells::Value)
+  {
+    return rule.Value;
+  }
+  if (rule.Cells == EmptyCells::Least)
+  {
+    return std::isfinite(filled.Least) ? filled.Least : 0.0;
+  }
+  const double mean = filled.Mass.Value() / cells;
+  return std::isfinite(mean) ? mean : 0.0; // too much mass is an error of the tables
+}
+
+} // namespace RectifiedTransport

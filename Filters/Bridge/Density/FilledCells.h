@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cells of a density that are not empty, and the density that empty ones count as.
+#ifndef RectifiedTransport_FilledCells_h
+#define RectifiedTransport_FilledCells_h
+
+#include "Bridge/Settings/MissingData.h"
+#include "Core/Parallel/ExactSum.h"
+
+#include <cstdint>
+#include <limits>
+
+namespace RectifiedTransport
+{
+
+// The same bits however cells are divided among threads and ranks. Trivially copyable.
+struct FilledCells
+{
+  ExactSum Mass;  // the sum of their densities, in cells
+  ExactSum Cells; // their number; a cell that data cover in part counts in part
+  double Least = std::numeric_limits<double>::infinity();
+
+  // Adds values, except those that are no density and those that `empty`, unless nullptr, marks.
+  void Add(const double* values, const unsigned char* empty, std::int64_t count);
+  void Add(const FilledCells& other);
+};
+
+// 0 if all cells are empty.
+double densityOfEmptyCells(const EmptyRule& rule, const FilledCells& filled);
+
+} // namespace RectifiedTransport
+
+#endif
