@@ -19,8 +19,6 @@
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
-#include <cmath>
-
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkCartogram);
 
@@ -137,9 +135,7 @@ int vtkCartogram::RequestData(
   requireThat(this->Resolution >= 16 && this->Resolution <= 16384, "Resolution", this->Resolution,
     "from 16 to 16384");
   requireThat(this->Margin >= 0.0 && this->Margin <= 10.0, "Margin", this->Margin, "from 0 to 10");
-  requireChoice("EmptyCells", this->EmptyCells, EmptyCellsTexts);
-  requireThat(this->EmptyValue >= 0.0 && std::isfinite(this->EmptyValue), "EmptyValue",
-    this->EmptyValue, "at least 0 and finite");
+  const EmptyRule sea = emptyRule(this->EmptyCells, this->EmptyValue);
   requireThat(this->Tolerance > 0.0 && this->Tolerance <= 1.0, "Tolerance", this->Tolerance,
     "above 0 and at most 1");
   requireThat(this->MaximumIterations >= 1 && this->MaximumIterations <= 100, "MaximumIterations",
@@ -151,9 +147,9 @@ int vtkCartogram::RequestData(
   worker.Options.Resolution = this->Resolution;
   worker.Options.Margin = this->Margin;
   constexpr SeaDensity seas[] = { SeaDensity::Zero, SeaDensity::Mean, SeaDensity::Least,
-    SeaDensity::Value };
-  worker.Options.Sea = seas[this->EmptyCells];
-  worker.Options.SeaValue = this->EmptyValue;
+    SeaDensity::Value }; // as EmptyCells
+  worker.Options.Sea = seas[static_cast<int>(sea.Cells)];
+  worker.Options.SeaValue = sea.Value;
   worker.Options.Tolerance = this->Tolerance;
   worker.Options.MaximumPasses = this->MaximumIterations;
   worker.LeastShare = this->LeastShare;
