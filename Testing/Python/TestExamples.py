@@ -129,6 +129,13 @@ class Examples(ExampleTest):
         self.assertGreater(zero[1], 95)
         self.check_picture("gaps.png")
 
+    def test_people(self):
+        """Every state has the area of its people."""
+        line = self.ran("People").splitlines()[0]
+        self.assertTrue(line.startswith("49 regions"), line)
+        self.assertLess(float(line.split()[-1]), 0.005)
+        self.check_picture("people.png")
+
     def test_area_errors(self):
         """With as many steps as needed, hardly a block is off and no cell folds."""
         few, enough = self.ran("AreaErrors").splitlines()[-3:-1]
