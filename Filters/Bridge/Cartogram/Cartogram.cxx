@@ -32,8 +32,6 @@ namespace RectifiedTransport
 namespace
 {
 
-// Of the mean density: what a region without mass gets.
-constexpr double leastDensity = 1e-4;
 constexpr int graticuleLines = 16; // spaces between lines, along each axis
 constexpr std::int64_t graticulePoints = 512;
 
@@ -221,7 +219,7 @@ private:
       if (!(masses[i] > 0.0))
       {
         first = empty++ == 0 ? this->Cells.Names[i] : first;
-        masses[i] = leastDensity * total / land * this->Before[i];
+        masses[i] = leastRegionDensity * total / land * this->Before[i];
       }
     }
     if (empty > 0)

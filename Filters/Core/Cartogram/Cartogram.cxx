@@ -20,10 +20,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Of the mean density of the regions: what a region may have at least, and the ground in SeaDensity
-// Zero.
-constexpr double leastDensity = 1e-4;
-constexpr double nothing = 1e-7;
+constexpr double nothing = 1e-7; // of the mean density: the ground in SeaDensity Zero
 // Where densities span more than this, the first pass takes their roots: borders of strong contrast
 // would cross.
 constexpr double wideSpan = 99.9;
@@ -85,7 +82,7 @@ public:
       {
         break;
       }
-      const CartogramPass& done = this->Judge(values);
+      const CartogramPass& done = this->Judge();
       double stuck = 0.0;
       double others = 0.0;
       for (std::size_t i = 0; i < this->Found.Errors.size(); ++i)
@@ -93,14 +90,11 @@ public:
         double& largest = values.Least[i] != 0 ? stuck : others;
         largest = std::max(largest, std::abs(this->Found.Errors[i]));
       }
+      // What is stuck, at its least density, gets better by its neighbours' parts of border cells.
       const double tolerance = this->Options.Tolerance;
-      if (done.LargestError <= tolerance ||
-        (!isTempered && others <= tolerance && stuck > 0.5 * stuckBefore))
-      {
-        this->NameOutOfReach(values);
-        break;
-      }
-      if (pass + 1 == this->Options.MaximumPasses)
+      const bool isDone = done.LargestError <= tolerance ||
+        (!isTempered && others <= tolerance && stuck > 0.5 * stuckBefore);
+      if (isDone || pass + 1 == this->Options.MaximumPasses)
       {
         this->NameOutOfReach(values);
         break;
@@ -133,7 +127,7 @@ private:
       this->Map, this->Regions, this->Box.Side, this->Work);
   }
 
-  // The masses of a pass, whose sum does not matter, and the ground's density, in cells.
+  // Of the regions, as mass per cell.
   double MeanDensity() const { return sumOf(this->Masses) / sumOf(this->Areas); }
 
   bool SpansWidely() const
@@ -146,7 +140,7 @@ private:
       least = std::min(least, density);
       most = std::max(most, density);
     }
-    return most > wideSpan * std::max(least, leastDensity * this->MeanDensity());
+    return most > wideSpan * std::max(least, leastRegionDensity * this->MeanDensity());
   }
 
   double SeaOf(const std::vector<double>& masses) const
@@ -234,7 +228,7 @@ private:
     const double sea = this->SeaOf(masses);
     const double landMean = sumOf(masses) / sumOf(this->Areas);
     RegionValues values =
-      findRegionValues(raster, masses, this->Areas, sea, leastDensity * landMean / sea);
+      findRegionValues(raster, masses, this->Areas, sea, leastRegionDensity * landMean / sea);
     raster.Fill(values.Densities, sea, this->Cells);
     return values;
   }
@@ -332,7 +326,7 @@ private:
     }
   }
 
-  const CartogramPass& Judge(const RegionValues&)
+  const CartogramPass& Judge()
   {
     const double perArea = this->MeanDensity();
     this->Found.Errors.resize(this->Masses.size());

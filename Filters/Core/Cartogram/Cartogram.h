@@ -20,6 +20,9 @@ namespace RectifiedTransport
 
 class RegionRaster;
 
+// What a region has at least, of the mean density of all regions.
+constexpr double leastRegionDensity = 1e-4;
+
 // The density of the ground around the regions.
 enum class SeaDensity
 {
