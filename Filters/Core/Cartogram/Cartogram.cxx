@@ -52,6 +52,7 @@ public:
   CartogramResult Run()
   {
     this->Areas = this->Map.Areas(this->Regions);
+    this->FindErrors();
     if (!this->Start.Raster)
     {
       this->Work.BeginStage(0.1);
@@ -326,20 +327,26 @@ private:
     }
   }
 
-  const CartogramPass& Judge()
+  // Of the areas as they are.
+  void FindErrors()
   {
     const double perArea = this->MeanDensity();
     this->Found.Errors.resize(this->Masses.size());
-    CartogramPass& pass = this->Found.Passes.back();
     for (std::size_t i = 0; i < this->Masses.size(); ++i)
     {
       this->Found.Errors[i] = this->Areas[i] * perArea / this->Masses[i] - 1.0;
-      if (std::abs(this->Found.Errors[i]) > pass.LargestError)
-      {
-        pass.LargestError = std::abs(this->Found.Errors[i]);
-        pass.Worst = static_cast<std::int32_t>(i);
-      }
     }
+  }
+
+  const CartogramPass& Judge()
+  {
+    this->FindErrors();
+    CartogramPass& pass = this->Found.Passes.back();
+    const std::vector<double>& errors = this->Found.Errors;
+    const auto worst = std::max_element(
+      errors.begin(), errors.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    pass.LargestError = std::abs(*worst);
+    pass.Worst = static_cast<std::int32_t>(worst - errors.begin());
     return pass;
   }
 
