@@ -369,7 +369,7 @@ OTHERS = [
     E(CORE + "Quality/MapFolds.cxx", "«!this->IsCorner(sample)» && this", "true"),
     E(CORE + "Quality/MapFolds.cxx", "«this->HasMass(sample)»)", "true"),
     E(CORE + "Quality/MapBlocks.cxx", "least[at] > «leastOfMean * mean»", "0.0"),
-    E(CORE + "Quality/MapBlocks.cxx", "return axis == 0 ? sum : «-sum»", "sum"),
+    E(CORE + "Quality/BlockImages.h", "return axis == 0 ? sum : «-sum»", "sum"),
     E(BRIDGE + "Flow/TurnedCells.cxx", "const vtkIdType odd = «i % 2»", "0"),
     E(BRIDGE + "Flow/TurnedCells.cxx", "«std::copysign(1.0, old.Value)» * moved.Value", "1.0"),
     E(CORE + "Equalize/AreaCorrection.cxx", "move[axis] += «weight» *", "(corner == 0 ? 1.0 : 0.0)"),
