@@ -352,17 +352,25 @@ class Empty(unittest.TestCase):
 
     def test_outside_of_a_mesh(self):
         """A uniform density on a part of its box, no lattice: the mean makes it uniform everywhere."""
-        data = vtkPolyData()
-        points, polygons = vtkPoints(), vtkCellArray()
-        polygons.InsertNextCell(40)
-        for i in range(40):
-            angle = 2 * math.pi * i / 40
-            polygons.InsertCellPoint(points.InsertNextPoint(3 * math.cos(angle), 2 * math.sin(angle), 0))
-        data.SetPoints(points)
-        data.SetPolys(polygons)
-        array = numpy_to_vtk(np.array([3.0]), deep=1)
-        array.SetName("Density")
-        data.GetCellData().SetScalars(array)
+        for is_line in (False, True):
+            data = vtkPolyData()
+            points, cells = vtkPoints(), vtkCellArray()
+            cells.InsertNextCell(41 if is_line else 40)
+            for i in range(40):
+                angle = 2 * math.pi * i / 40
+                cells.InsertCellPoint(points.InsertNextPoint(3 * math.cos(angle), 2 * math.sin(angle), 0))
+            if is_line:
+                cells.InsertCellPoint(0)
+            data.SetPoints(points)
+            (data.SetLines if is_line else data.SetPolys)(cells)
+            array = numpy_to_vtk(np.array([3.0]), deep=1)
+            array.SetName("Density")
+            data.GetCellData().SetScalars(array)
+            with self.subTest(is_line=is_line):
+                self.check_outside(data)
+
+    def check_outside(self, data):
+        """Of an ellipse of 40 points, with a density of 3."""
         _, output = run(rt.vtkTransportMap(), data, DensityResolution=50)
         uniform = density_image([n - 1 for n in output.GetDimensions()[:2]], values=np.full(
             output.GetNumberOfCells(), 3.0))
