@@ -200,8 +200,6 @@ void vtkDensityAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NegativeValues: " << this->GetNegativeValuesAsString() << "\n";
   os << indent << "NaNValues: " << this->GetNaNValuesAsString() << "\n";
   os << indent << "ValidRange: " << this->ValidRange[0] << " " << this->ValidRange[1] << "\n";
-  os << indent << "EmptyCells: " << choiceText(EmptyCellsTexts, this->EmptyCells) << "\n";
-  os << indent << "EmptyValue: " << this->EmptyValue << "\n";
   os << indent << "DensityResolution: " << this->DensityResolution << "\n";
   os << indent << "DensityPort: " << this->DensityPort << "\n";
   os << indent << "TableBuildTime: " << this->GetTableBuildTime() << "\n";

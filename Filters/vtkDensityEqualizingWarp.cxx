@@ -143,6 +143,8 @@ void vtkDensityEqualizingWarp::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Blend: " << this->Blend << "\n";
+  os << indent << "EmptyCells: " << this->GetEmptyCellsAsString() << "\n";
+  os << indent << "EmptyValue: " << this->EmptyValue << "\n";
   os << indent << "Margin: " << this->Margin << "\n";
   os << indent << "EqualizeAreas: " << (this->EqualizeAreas ? "On" : "Off") << "\n";
 }

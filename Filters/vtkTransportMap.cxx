@@ -166,6 +166,8 @@ void vtkTransportMap::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Direction: " << this->GetDirectionAsString() << "\n";
   os << indent << "SampleDimensions: " << this->SampleDimensions[0] << " "
      << this->SampleDimensions[1] << " " << this->SampleDimensions[2] << "\n";
+  os << indent << "EmptyCells: " << this->GetEmptyCellsAsString() << "\n";
+  os << indent << "EmptyValue: " << this->EmptyValue << "\n";
   os << indent << "EqualizeAreas: " << (this->EqualizeAreas ? "On" : "Off") << "\n";
 }
 VTK_ABI_NAMESPACE_END

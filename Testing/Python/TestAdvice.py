@@ -56,6 +56,18 @@ def curved_triangle():
     return producer(simple, grid)
 
 
+def with_gap(mark):
+    """A density with a mark in two cells."""
+    values = 1 + np.arange(120.0) % 7
+    values[40:42] = mark
+    return producer(simple, density_image((12, 10), values=values))
+
+
+def set_on(made, **properties):
+    for name, value in properties.items():
+        setattr(made, name, value)
+
+
 def grid_in_block():
     blocks = vtkMultiBlockDataSet()
     image = vtkImageData()
@@ -156,6 +168,16 @@ TABLE = [
            "closed ones in a plane, around regions (Triangle Strips joins the segments of a slice)",
            lambda source, _: simple.TriangleStrips(Input=source),
            DensityArray=["POINTS", "Elevation"]),
+    Advice(("SampleDensity", "TransportMap"), lambda: with_gap(np.nan),
+           "NaN or infinite; NaNValues = Empty takes NaN as empty cells",
+           lambda _, made: set_on(made, NaNValues="Empty"), DensityArray=["CELLS", "Density"]),
+    Advice(("SampleDensity", "TransportMap"), lambda: with_gap(-np.inf),
+           "NaN or infinite; NaNValues = Empty takes NaN as empty cells",
+           lambda _, made: set_on(made, NaNValues="Empty", ValidRange=[0, 1e9]),
+           DensityArray=["CELLS", "Density"]),
+    Advice(("SampleDensity", "TransportMap"), lambda: with_gap(-9999),
+           "NegativeValues = Clamp takes them as 0, ValidRange as missing",
+           lambda _, made: set_on(made, ValidRange=[0, 1e299]), DensityArray=["CELLS", "Density"]),
 ]
 
 

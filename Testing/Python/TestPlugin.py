@@ -51,9 +51,10 @@ class Plugin(unittest.TestCase):
                 self.assertEqual(label.replace(" ", ""), name)
 
     def test_integration_is_advanced(self):
-        sampler = simple.SampleDensity(Input=producer(simple, density_image()))
+        warp = simple.DensityEqualizingWarp(  # it has all of them
+            simple.Plane(), Density=producer(simple, density_image()))
         for name in (name for name, prop in PROPERTIES.items() if prop.advanced):
-            self.assertEqual(sampler.GetProperty(name).GetPanelVisibility(), "advanced")
+            self.assertEqual(warp.GetProperty(name).GetPanelVisibility(), "advanced")
 
     def test_array_is_chosen_from_points_and_cells(self):
         for cells in (True, False):
