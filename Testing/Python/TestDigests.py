@@ -22,6 +22,7 @@ from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkDataObject, vtkImage
                                            vtkMultiBlockDataSet, vtkPolyData)
 import rectifiedtransport as rt
 from rt_filters import FILTERS
+from rt_testing import region_map
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PATTERNS = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
@@ -318,6 +319,7 @@ def other_runs():
     yield "cells of least cost", cells, [points_in(image(), 60), image(direction=TURN)], dict(
         Resolution=90, Shape=1)
     yield from mass_cells_runs()
+    yield "cartogram", rt.vtkCartogram, [region_map(), points_in(image())], dict(Resolution=64)
     yield "solid", solid, [box_of_triangles()], dict(Resolution=24)
     yield "solid turned", solid, [box_of_triangles(True)], dict(Resolution=17, Supersampling=5,
                                                                 Association=1)

@@ -78,7 +78,7 @@ public:
         raster = this->RasterNow();
       }
       const bool isTempered = pass == 0 && this->SpansWidely();
-      const RegionValues values = this->FillPass(*raster, isTempered ? 0.5 : 1.0);
+      const RegionValues values = this->FillPass(*raster, isTempered);
       if (!this->MoveAll(end, values))
       {
         break;
@@ -216,15 +216,14 @@ private:
     }
   }
 
-  RegionValues FillPass(const RegionRaster& raster, double exponent)
+  RegionValues FillPass(const RegionRaster& raster, bool takesRoots)
   {
     const double mean = this->MeanDensity();
     std::vector<double> masses(this->Masses.size());
     for (std::size_t i = 0; i < masses.size(); ++i)
     {
       const double plain = this->Areas[i] * mean;
-      masses[i] =
-        exponent == 1.0 ? this->Masses[i] : plain * std::pow(this->Masses[i] / plain, exponent);
+      masses[i] = takesRoots ? plain * std::sqrt(this->Masses[i] / plain) : this->Masses[i];
     }
     const double sea = this->SeaOf(masses);
     const double landMean = sumOf(masses) / sumOf(this->Areas);
