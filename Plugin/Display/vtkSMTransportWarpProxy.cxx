@@ -34,7 +34,7 @@ int vtkSMTransportWarpProxy::LoadXMLState(vtkPVXMLElement* element, vtkSMProxyLo
 {
   const int isLoaded = this->Superclass::LoadXMLState(element, locator);
   // States have all properties, but for those of an undone change.
-  if (isLoaded && hasProperty(element, "Blend") && hasProperty(element, "DensityResolution") &&
+  if (isLoaded && hasProperty(element, "Blend") && hasProperty(element, "DensityArray") &&
     !hasProperty(element, "EmptyCells"))
   {
     vtkSMPropertyHelper(this, "EmptyCells").Set(0);

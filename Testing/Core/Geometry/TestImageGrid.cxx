@@ -181,6 +181,22 @@ TEST(ImageGrid, OtherValuesOnTheSameDomain)
   EXPECT_EQ(points.WithDualCells().NumberOfValues(), points.NumberOfValues());
 }
 
+TEST(ImageGrid, MoreCellsAround)
+{
+  for (const bool onPoints : { true, false })
+  {
+    const ImageGrid grid({ 2, 5, 1, 1, 0, 7 }, origin, spacing, oblique(), onPoints);
+    const ImageGrid grown = grid.Grown({ 3, 2, 0 });
+    EXPECT_EQ(grown.Extent(), (std::array<int, 6>{ -1, 8, 1, 1, -2, 9 }));
+    EXPECT_EQ(grown.CellMeasure(), grid.CellMeasure());
+    EXPECT_EQ(grown.Size<2>()[0], grid.Size<2>()[0] + 6);
+    EXPECT_EQ(grown.Size<2>()[1], grid.Size<2>()[1] + 4);
+    // The same places, to the last bit.
+    EXPECT_EQ(physical<2>(grown, { 3.5, 4.0 }), physical<2>(grid, { 0.5, 2.0 }));
+    EXPECT_EQ(grid.Grown({ 0, 0, 0 }), grid);
+  }
+}
+
 TEST(ImageGrid, MirroredVolumes)
 {
   Matrix mirror = oblique();
