@@ -93,7 +93,7 @@ def result(proxy, values, domain=None):
         filter_.SetTargetData(density_image(shape, seed=5))
     if domain:
         filter_.SetDomainData(domain_of(domain, shape))
-    if "EmptyCells" in values:
+    if "EmptyCells" in values and hasattr(filter_, "SetNaNValuesToEmpty"):
         port = 1 if filter_.GetNumberOfInputPorts() > 1 else 0
         filter_.SetInputData(port, domain_of("missing", shape))
         filter_.SetNaNValuesToEmpty()
