@@ -37,6 +37,8 @@ def main():
     example.load_plugin()
     if not hasattr(simple, "GDALVectorReader"):
         sys.exit("This ParaView has no GDAL Vector Reader")
+    if not os.path.isfile(arguments.map):
+        sys.exit("There is no file " + arguments.map)
     states = simple.GDALVectorReader(FileName=arguments.map)
     cartogram = simple.Cartogram(Input=states, MassArray=["CELLS", arguments.mass])
     after = example.result(cartogram)
