@@ -135,12 +135,11 @@ public:
     inner.Found.FirstMaximum = this->IndexInInner(values.Found.FirstMaximum);
     this->Inner->TellUnusual(inner, progress);
   }
-  [[noreturn]] void ThrowInvalid(const DensitySummary& summary) const override
+  const InputDensity& SourceOf(DensitySummary& summary) const override
   {
-    DensitySummary inner = summary;
-    inner.FirstNotFinite = this->IndexInInner(summary.FirstNotFinite);
-    inner.FirstNegative = this->IndexInInner(summary.FirstNegative);
-    this->Inner->ThrowInvalid(inner);
+    summary.FirstNotFinite = this->IndexInInner(summary.FirstNotFinite);
+    summary.FirstNegative = this->IndexInInner(summary.FirstNegative);
+    return this->Inner->SourceOf(summary);
   }
 
 private:

@@ -123,7 +123,9 @@ void InputDensity::TellUnusual(const UnusualValues& values, Progress& progress)
 
 void InputDensity::ThrowInvalid(const DensitySummary& summary) const
 {
-  throwInvalidDensity(this->Name, summary, this->Rules.Missing, this->MayBeEmpty);
+  DensitySummary own = summary;
+  const InputDensity& source = this->SourceOf(own);
+  throwInvalidDensity(source.Name, own, source.Rules.Missing, source.MayBeEmpty);
 }
 
 } // namespace RectifiedTransport

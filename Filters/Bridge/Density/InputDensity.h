@@ -96,7 +96,9 @@ public:
   virtual void TellUnusual(const UnusualValues& values, Progress& progress);
 
   // Throws the Failure for values that are no density.
-  [[noreturn]] virtual void ThrowInvalid(const DensitySummary& summary) const;
+  [[noreturn]] void ThrowInvalid(const DensitySummary& summary) const;
+  // The density whose array the values are from; the summary then has its indices.
+  virtual const InputDensity& SourceOf(DensitySummary& /*summary*/) const { return *this; }
 
 protected:
   // What may differ between arrays of one name.
