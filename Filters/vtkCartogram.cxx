@@ -117,14 +117,6 @@ int vtkCartogram::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkCollectiveAlgorithm::MakeOutputLike(inputVector[1], outputVector, 2);
-  for (int port = 0; port < 2; ++port)
-  {
-    if (!vtkPolyData::GetData(outputVector, port))
-    {
-      vtkNew<vtkPolyData> made;
-      outputVector->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), made);
-    }
-  }
   return 1;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Cartogram/Cartogram.h"
 
-#include "Bridge/Cartogram/PlaneFrame.h"
+#include "Bridge/Cartogram/MapFellows.h"
+#include "Bridge/Cartogram/MapPlace.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
@@ -32,17 +33,6 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr int graticuleLines = 16; // spaces between lines, along each axis
-constexpr std::int64_t graticulePoints = 512;
-
-std::string percent(double part)
-{
-  std::ostringstream text;
-  text.precision(part < 10.0 ? 2 : 3);
-  text << 100.0 * part << " %";
-  return text.str();
-}
-
 class CartogramJob
 {
 public:
@@ -69,11 +59,12 @@ public:
     {
       place = this->Box.ToIndex(place);
     }
-    this->AddFellows();
+    const MapPlace place{ *this->Frame, this->Box, this->Worker.Blend };
+    MapFellows fellows(place, this->Overlay, this->Work);
     CartogramStart start = this->FindStart();
     this->Work.BeginStage(0.98);
     this->Result = runCartogram(this->Map, this->Cells.Masses, this->Box, this->Worker.Options,
-      this->Fellows, start, this->Work.Stage());
+      fellows.Points(), start, this->Work.Stage());
     this->Kept.Start = start;
     if (!this->Result.Crossing.empty())
     {
@@ -81,9 +72,12 @@ public:
         " crosses itself, so that its area is not clear; repair it, with QGIS's Fix geometries");
     }
     this->Warn();
-    this->WriteRegions();
-    this->WriteGraticule();
-    this->WriteOverlay();
+    this->WriteRegions(place);
+    fellows.WriteGraticule(this->Outputs.Graticule);
+    if (this->Overlay)
+    {
+      fellows.WriteOverlay(this->Outputs.Overlay);
+    }
     return std::move(this->Warnings);
   }
 
@@ -190,12 +184,12 @@ private:
     });
     this->Map.FindHoles();
     this->Before = this->Map.Areas(static_cast<std::int32_t>(this->Cells.Masses.size()));
-    const double land = std::accumulate(this->Before.begin(), this->Before.end(), 0.0);
+    this->Land = std::accumulate(this->Before.begin(), this->Before.end(), 0.0);
     std::int64_t empty = 0;
     std::string first;
     for (std::size_t i = 0; i < this->Before.size(); ++i)
     {
-      if (!(this->Before[i] > 1e-15 * land))
+      if (!(this->Before[i] > 1e-15 * this->Land))
       {
         first = empty++ == 0 ? this->Cells.Names[i] : first;
       }
@@ -210,7 +204,6 @@ private:
   void CheckMasses()
   {
     std::vector<double>& masses = this->Cells.Masses;
-    const double land = std::accumulate(this->Before.begin(), this->Before.end(), 0.0);
     const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
     std::int64_t empty = 0;
     std::string first;
@@ -219,7 +212,7 @@ private:
       if (!(masses[i] > 0.0))
       {
         first = empty++ == 0 ? this->Cells.Names[i] : first;
-        masses[i] = leastRegionDensity * total / land * this->Before[i];
+        masses[i] = leastRegionDensity * total / this->Land * this->Before[i];
       }
     }
     if (empty > 0)
@@ -262,39 +255,6 @@ private:
     }
   }
 
-  void AddFellows()
-  {
-    const auto toIndex = [this](const Point<3>& place) {
-      return this->Box.ToIndex(this->Frame->ToPlane(place));
-    };
-    const auto side = static_cast<double>(this->Box.Side);
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      for (int line = 0; line <= graticuleLines; ++line)
-      {
-        for (std::int64_t i = 0; i <= graticulePoints; ++i)
-        {
-          Point<2> place;
-          place[static_cast<std::size_t>(axis)] = side * line / graticuleLines;
-          place[static_cast<std::size_t>(1 - axis)] =
-            side * static_cast<double>(i) / static_cast<double>(graticulePoints);
-          this->Fellows.push_back(place);
-        }
-      }
-    }
-    if (this->Overlay)
-    {
-      this->OverlayPlaces.resize(Index(this->Overlay->GetNumberOfPoints()));
-      this->Fellows.resize(this->Fellows.size() + this->OverlayPlaces.size());
-      const std::size_t first = this->Fellows.size() - this->OverlayPlaces.size();
-      visitPoints(this->Overlay, "Overlay", this->Work, [&](std::int64_t i, const double* x) {
-        this->OverlayPlaces[Index(i)] = { x[0], x[1], x[2] };
-        this->Fellows[first + Index(i)] = toIndex(this->OverlayPlaces[Index(i)]);
-      });
-    }
-    this->FellowsBefore = this->Fellows;
-  }
-
   CartogramStart FindStart()
   {
     DataContent content;
@@ -328,7 +288,7 @@ private:
     constexpr double overlap = 1e-4;
     if (result.Overlap > overlap)
     {
-      this->Warnings.push_back("Regions overlap by " + percent(result.Overlap) +
+      this->Warnings.push_back("Regions overlap by " + percentText(result.Overlap) +
         " of their area (most at the region " + this->Cells.Names[Index(result.Overlapping)] +
         "), which counts for each of them; their areas there are not what their masses ask");
     }
@@ -359,7 +319,7 @@ private:
       {
         const std::size_t region = Index(result.OutOfReach[i]);
         text << (i == 0 ? " " : ", ") << this->Cells.Names[region] << " (off by "
-             << percent(std::abs(result.Errors[region])) << ")";
+             << percentText(std::abs(result.Errors[region])) << ")";
       }
       text << (result.OutOfReach.size() > most ? ", ..." : "")
            << ": raise Resolution, or enlarge small regions with LeastShare";
@@ -367,22 +327,13 @@ private:
     else
     {
       text << " (the region " << this->Cells.Names[worst] << " by "
-           << percent(std::abs(result.Errors[worst])) << "); raise MaximumIterations or Resolution";
+           << percentText(std::abs(result.Errors[worst]))
+           << "); raise MaximumIterations or Resolution";
     }
     this->Warnings.push_back(text.str());
   }
 
-  // Between before and after.
-  Point<3> Blended(const Point<3>& before, const Point<2>& from, const Point<2>& to) const
-  {
-    const double distance = this->Frame->Distance(before);
-    const double blend = this->Worker.Blend;
-    return this->Frame->ToSpace(this->Box.ToPlace({ from[0] + blend * (to[0] - from[0]),
-                                  from[1] + blend * (to[1] - from[1]) }),
-      distance);
-  }
-
-  void WriteRegions()
+  void WriteRegions(const MapPlace& where)
   {
     vtkPolyData* input = this->Cells.Data;
     vtkPolyData* output = this->Outputs.Regions;
@@ -415,8 +366,8 @@ private:
     for (vtkIdType i = 0; i < points; ++i)
     {
       const Point<3> place = this->Worker.Blend > 0.0
-        ? this->Blended(
-            before[Index(i)], this->Result.Before[Index(i)], this->Map.Points()[Index(i)])
+        ? where.Blended(this->Result.Before[Index(i)], this->Map.Points()[Index(i)],
+            this->Frame->Distance(before[Index(i)]))
         : before[Index(i)];
       moved->SetPoint(i, place.data());
     }
@@ -465,7 +416,6 @@ private:
     output->SetLines(lines);
     output->SetPolys(polygons);
     output->GetCellData()->PassData(input->GetCellData());
-    const double land = std::accumulate(this->Before.begin(), this->Before.end(), 0.0);
     const double total = std::accumulate(this->Cells.Masses.begin(), this->Cells.Masses.end(), 0.0);
     vtkNew<vtkDoubleArray> errors;
     vtkNew<vtkDoubleArray> targets;
@@ -475,60 +425,11 @@ private:
     {
       const bool isRegion = region >= 0;
       errors->InsertNextValue(isRegion ? this->Result.Errors[Index(region)] : 0.0);
-      targets->InsertNextValue(isRegion ? this->Cells.Masses[Index(region)] / total * land : 0.0);
+      targets->InsertNextValue(
+        isRegion ? this->Cells.Masses[Index(region)] / total * this->Land : 0.0);
     }
     output->GetCellData()->AddArray(errors);
     output->GetCellData()->AddArray(targets);
-  }
-
-  Point<2> FellowAt(std::size_t i) const
-  {
-    const double blend = this->Worker.Blend;
-    Point<2> place;
-    for (std::size_t a = 0; a < 2; ++a)
-    {
-      place[a] =
-        this->FellowsBefore[i][a] + blend * (this->Fellows[i][a] - this->FellowsBefore[i][a]);
-    }
-    return this->Box.ToPlace(place);
-  }
-
-  void WriteGraticule()
-  {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    vtkNew<vtkCellArray> lines;
-    constexpr std::int64_t count = graticulePoints + 1;
-    for (std::int64_t line = 0; line < 2 * (graticuleLines + 1); ++line)
-    {
-      lines->InsertNextCell(static_cast<int>(count));
-      for (std::int64_t i = 0; i < count; ++i)
-      {
-        const Point<3> place = this->Frame->ToSpace(this->FellowAt(Index(line * count + i)), 0.0);
-        lines->InsertCellPoint(points->InsertNextPoint(place.data()));
-      }
-    }
-    this->Outputs.Graticule->SetPoints(points);
-    this->Outputs.Graticule->SetLines(lines);
-  }
-
-  void WriteOverlay()
-  {
-    if (!this->Overlay)
-    {
-      return;
-    }
-    const std::size_t first = this->Fellows.size() - this->OverlayPlaces.size();
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(static_cast<vtkIdType>(this->OverlayPlaces.size()));
-    for (std::size_t i = 0; i < this->OverlayPlaces.size(); ++i)
-    {
-      const double distance = this->Frame->Distance(this->OverlayPlaces[i]);
-      const Point<3> place = this->Frame->ToSpace(this->FellowAt(first + i), distance);
-      points->SetPoint(static_cast<vtkIdType>(i), place.data());
-    }
-    this->Outputs.Overlay->SetPoints(points);
   }
 
   const CartogramWorker& Worker;
@@ -543,10 +444,8 @@ private:
   RegionMap Map;
   CartogramBox Box{};
   std::vector<double> Before; // areas of the regions
+  double Land = 0.0;          // their sum
   std::int32_t Enlarged = 0;
-  FellowPoints Fellows; // of the graticule, then of the overlay
-  FellowPoints FellowsBefore;
-  std::vector<Point<3>> OverlayPlaces;
   CartogramResult Result;
 };
 

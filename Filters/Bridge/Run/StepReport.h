@@ -4,6 +4,7 @@
 #define RectifiedTransport_StepReport_h
 
 #include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/PartText.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Parallel/RankExchange.h"
 
@@ -38,19 +39,14 @@ inline std::string stepWarning(
   {
     return {};
   }
-  const double percent = 100.0 * flow.AreaError;
-  std::ostringstream off; // two digits, without an exponent
-  off.setf(std::ios::fixed);
-  off.precision(percent < 1.0 ? 2 : percent < 10.0 ? 1 : 0);
-  off << percent;
   std::ostringstream text;
   text << "AreaTolerance " << options.AreaTolerance << " is not reached: with "
        << flow.NumberOfSteps << " steps, the most that NumberOfSteps 0 takes, "
        << (direction == FlowDirection::Backward ? "areas" : "masses")
-       << " of blocks of 4 cells a side are off by about " << off.str()
+       << " of blocks of 4 cells a side are off by about " << percentText(flow.AreaError)
        << (options.Integrator == Integrator::Multistep
-              ? " % (less contrast helps, for example a part of the mean added with Calculator)"
-              : " % (Integrator Multistep needs fewer)");
+              ? " (less contrast helps, for example a part of the mean added with Calculator)"
+              : " (Integrator Multistep needs fewer)");
   return text.str();
 }
 

@@ -259,12 +259,13 @@ private:
     }
     std::vector<Point<2>>& points = this->Map.Points();
     const std::vector<Point<2>> before = points;
+    const std::vector<double> ringAreas = this->RingAreas();
     for (;;)
     {
       const FlowReport report =
         this->Flow->Backward(ConstPointSpan<2>(before), points, options, this->Work.Stage());
       pass.NumberOfSteps = report.NumberOfSteps;
-      this->Found.Folded = this->TurnedRings(before);
+      this->Found.Folded = this->TurnedRings(ringAreas);
       if (this->Found.Folded == 0)
       {
         break;
@@ -283,23 +284,26 @@ private:
     return true;
   }
 
+  std::vector<double> RingAreas() const
+  {
+    std::vector<double> areas;
+    for (std::int64_t ring = 0; ring < this->Map.Rings(); ++ring)
+    {
+      areas.push_back(this->Map.AreaOf(ring));
+    }
+    return areas;
+  }
+
   // Rings that had an area and have none, or a negative one.
-  std::int64_t TurnedRings(const std::vector<Point<2>>& before)
+  std::int64_t TurnedRings(const std::vector<double>& before) const
   {
     constexpr double rounding = 1e-9;
-    std::vector<Point<2>>& points = this->Map.Points();
-    std::vector<double> now;
-    for (std::int64_t ring = 0; ring < this->Map.Rings(); ++ring)
-    {
-      now.push_back(this->Map.AreaOf(ring));
-    }
-    std::vector<Point<2>> moved = std::exchange(points, before);
+    const std::vector<double> now = this->RingAreas();
     std::int64_t turned = 0;
-    for (std::int64_t ring = 0; ring < this->Map.Rings(); ++ring)
+    for (std::size_t ring = 0; ring < now.size(); ++ring)
     {
-      turned += this->Map.AreaOf(ring) > rounding && !(now[static_cast<std::size_t>(ring)] > 0.0);
+      turned += before[ring] > rounding && !(now[ring] > 0.0) ? 1 : 0;
     }
-    points = std::move(moved);
     return turned;
   }
 

@@ -116,10 +116,20 @@ bool RegionMap::Contains(std::int64_t ring, const Point<2>& place) const
   return isInside;
 }
 
+std::vector<std::vector<std::int64_t>> RegionMap::RingsOfRegions() const
+{
+  std::vector<std::vector<std::int64_t>> rings;
+  for (std::int64_t ring = 0; ring < this->Rings(); ++ring)
+  {
+    rings.resize(std::max(rings.size(), Index(this->RegionOf(ring)) + 1));
+    rings[Index(this->RegionOf(ring))].push_back(ring);
+  }
+  return rings;
+}
+
 void RegionMap::FindHoles()
 {
   std::vector<Box> boxes;
-  std::vector<std::vector<std::int64_t>> ringsOf;
   for (std::int64_t ring = 0; ring < this->Rings(); ++ring)
   {
     Box box{ { HUGE_VAL, HUGE_VAL }, { -HUGE_VAL, -HUGE_VAL } };
@@ -133,8 +143,6 @@ void RegionMap::FindHoles()
       }
     }
     boxes.push_back(box);
-    ringsOf.resize(std::max(ringsOf.size(), Index(this->RegionOf(ring)) + 1));
-    ringsOf[Index(this->RegionOf(ring))].push_back(ring);
   }
   // A ring may touch one around it in a few points, hardly in the middles of most of its edges.
   const auto isIn = [&](std::int64_t inner, std::int64_t outer) {
@@ -151,7 +159,7 @@ void RegionMap::FindHoles()
     }
     return 2 * inside > tries;
   };
-  for (const std::vector<std::int64_t>& rings : ringsOf)
+  for (const std::vector<std::int64_t>& rings : this->RingsOfRegions())
   {
     for (const std::int64_t ring : rings)
     {

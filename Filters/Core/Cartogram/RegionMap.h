@@ -50,6 +50,9 @@ public:
     return this->Corners[Index(this->Begins[Index(ring)] + corner)];
   }
 
+  // The rings of each region.
+  std::vector<std::vector<std::int64_t>> RingsOfRegions() const;
+
   // visit(from, to) of the edges of a ring, with the region on the left as it was in FindHoles.
   template <class Visit>
   void VisitEdges(std::int64_t ring, const Visit& visit) const

@@ -93,11 +93,8 @@ RegionRaster::RegionRaster(
   , Owners(static_cast<std::size_t>(side * side), -1)
   , Whole(static_cast<std::size_t>(regions), 0.0)
 {
-  std::vector<std::vector<std::int64_t>> ringsOf(this->Whole.size());
-  for (std::int64_t ring = 0; ring < map.Rings(); ++ring)
-  {
-    ringsOf[static_cast<std::size_t>(map.RegionOf(ring))].push_back(ring);
-  }
+  std::vector<std::vector<std::int64_t>> ringsOf = map.RingsOfRegions();
+  ringsOf.resize(this->Whole.size());
   std::vector<CellShare> mixed;
   std::vector<CellShare> shares;
   for (std::int32_t region = 0; region < regions; ++region)
