@@ -24,7 +24,8 @@
  * Output 0, "Regions": a vtkPolyData with the cells of the input, all blocks together, lines first,
  * in their order and direction. Long edges are divided; both sides of a border stay the same. Point
  * data are interpolated, cell data kept. Cell data `AreaError` is a region's share of the area
- * divided by its share of the mass, less 1; `TargetArea` its area without error. Field data
+ * divided by its share of the mass, less 1; `TargetArea` its area without error; `MassPerArea` its
+ * mass by its area in the input. Field data
  * `AreaErrors` has the largest absolute error after each pass, `EnlargedRegions` how many regions
  * LeastShare enlarged. Output 1, "Graticule": lines of a regular grid over the box, moved. Output
  * 2, "Overlay": the overlay with all its data, moved.

@@ -56,6 +56,7 @@ vtkTransportVectorWriter::vtkTransportVectorWriter()
   , PageBounds{}
   , PointRadius(0.0)
   , LineWidth(0.25)
+  , FillOutlines(false)
   , LookupTable(nullptr)
 {
   this->SetNumberOfInputPorts(1);
@@ -97,7 +98,7 @@ int vtkTransportVectorWriter::RequestData(
     throw Failure("FileName is empty; it must be the file to write");
   }
   TransportVectorWriter writer{ this->Width, this->PageMargin, {}, this->PointRadius,
-    this->LineWidth, this->LookupTable };
+    this->LineWidth, this->FillOutlines, this->LookupTable };
   std::copy_n(this->PageBounds, writer.PageBounds.size(), writer.PageBounds.begin());
   writer.Check();
   AlgorithmProgress progress(this, this->Threading);
@@ -145,6 +146,7 @@ void vtkTransportVectorWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << "\n";
   os << indent << "PointRadius: " << this->PointRadius << "\n";
   os << indent << "LineWidth: " << this->LineWidth << "\n";
+  os << indent << "FillOutlines: " << (this->FillOutlines ? "on" : "off") << "\n";
   os << indent << "LookupTable: " << (this->LookupTable ? "set" : "(none)") << "\n";
 }
 VTK_ABI_NAMESPACE_END

@@ -109,6 +109,17 @@ public:
 
   ///@{
   /**
+   * Fill the areas within lines that end where they begin, such as countries, with the colors of
+   * the lines, which are black then. Lines with the same cell data are one region, which may have
+   * holes. Only with a ColorArray. Default off.
+   */
+  vtkSetMacro(FillOutlines, bool);
+  vtkGetMacro(FillOutlines, bool);
+  vtkBooleanMacro(FillOutlines, bool);
+  ///@}
+
+  ///@{
+  /**
    * The colors of the values of a ColorArray that is not colors itself. Default: none, VTK's colors
    * from red to blue over the range of the values, or of the vectors' magnitudes.
    */
@@ -141,6 +152,7 @@ protected:
   double PageBounds[6];
   double PointRadius;
   double LineWidth;
+  bool FillOutlines;
   vtkScalarsToColors* LookupTable;
 
 private:

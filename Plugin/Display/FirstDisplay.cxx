@@ -100,6 +100,20 @@ void colourByCategories(vtkSMProxy* representation, int highest)
   table->UpdateVTKObjects();
 }
 
+// Before the colours get their range.
+void colourByLogarithms(vtkSMProxy* representation, double least, const double* range)
+{
+  vtkSMProxy* table = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
+  if (!table || !(range[0] > 0.0) || !(range[1] > least * range[0]))
+  {
+    return;
+  }
+  vtkSMTransferFunctionProxy::RescaleTransferFunction(table, range[0], range[1]);
+  vtkSMTransferFunctionProxy::MapControlPointsToLogSpace(table);
+  vtkSMPropertyHelper(table, "UseLogScale").Set(1);
+  table->UpdateVTKObjects();
+}
+
 void colourBy(
   vtkPVXMLElement* element, vtkPVDataInformation* data, vtkSMPVRepresentationProxy* representation)
 {
@@ -119,6 +133,11 @@ void colourBy(
     {
       representation->SetScalarColoring(array, association);
       int categories = 0;
+      double least = 0.0;
+      if (element->GetScalarAttribute("log", &least))
+      {
+        colourByLogarithms(representation, least, information->GetComponentRange(0));
+      }
       if (isGiven(element, "categories", categories) && categories != 0)
       {
         colourByCategories(representation, static_cast<int>(information->GetComponentRange(0)[1]));

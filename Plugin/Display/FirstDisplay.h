@@ -5,7 +5,8 @@
 //     array="Time" categories="1"> <Set property="LineWidth" values="2"/> </FirstDisplay>
 // port, dimension (of the data) and property with value say when it applies, each if given. type is
 // the type of the representation, or Dots (see DotDisplay.h). array colours it, by categories if
-// they are 1; an empty name colours by none.
+// they are 1, on a logarithmic scale if the highest value is more than `log` times the lowest; an
+// empty name colours by none.
 #ifndef RectifiedTransport_FirstDisplay_h
 #define RectifiedTransport_FirstDisplay_h
 

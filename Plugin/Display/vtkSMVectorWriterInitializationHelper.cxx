@@ -46,6 +46,12 @@ bool showsPlainCircles(vtkSMProxy* representation)
     !vtkSMPropertyHelper(representation, "ScaleByArray", true).GetAsInt();
 }
 
+bool showsFilledOutlines(vtkSMProxy* representation)
+{
+  const char* type = vtkSMPropertyHelper(representation, "Representation", true).GetAsString();
+  return type && std::string(type).rfind("Filled Outlines", 0) == 0;
+}
+
 } // namespace
 
 void vtkSMVectorWriterInitializationHelper::PostInitializeProxy(
@@ -69,6 +75,10 @@ void vtkSMVectorWriterInitializationHelper::PostInitializeProxy(
   {
     vtkSMPropertyHelper(writer, "PointRadius")
       .Set(vtkSMPropertyHelper(shown, "GaussianRadius").GetAsDouble());
+  }
+  if (shown && isFree("FillOutlines") && showsFilledOutlines(shown))
+  {
+    vtkSMPropertyHelper(writer, "FillOutlines").Set(1);
   }
 }
 

@@ -187,7 +187,10 @@ FILTERS = [
            saved=dict(Resolution=60, Tolerance=0.05, LeastShare=0.001, Blend=0.5, Margin=0.2,
                       EmptyCells="Value", EmptyValue=0.5, MaximumIterations=3),
            always_shown=("Tolerance",),  # of another meaning than that of flows
-           defaults={"EmptyCells": "Mean"}, slow_at_highest=("Resolution",)),
+           defaults={"EmptyCells": "Mean"}, slow_at_highest=("Resolution",),
+           shown=[("FirstDisplay", {"port": "0", "type": "Filled Outlines With Edges",
+                                    "array": "MassPerArea", "log": "10"}),
+                  ("FirstDisplay", {"port": "1", "array": ""})]),
 ]
 
 

@@ -13,7 +13,6 @@
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
-#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -52,6 +51,7 @@ public:
     this->ReadPoints();
     this->FindFrame();
     this->MakeMap();
+    this->MassesBefore = this->Cells.Masses;
     this->CheckMasses();
     this->Box = boxAround(this->Map, this->Worker.Options);
     this->WarnOfDegrees();
@@ -111,64 +111,33 @@ private:
     }
   }
 
-  // The plane of all rings: across the sum of their area vectors, all turned one way.
   void FindFrame()
   {
-    Point<3> low{ HUGE_VAL, HUGE_VAL, HUGE_VAL };
-    Point<3> high{ -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-    Point<3> largest{ 0.0, 0.0, 0.0 };
-    Point<3> normal{ 0.0, 0.0, 0.0 };
+    RingPlane plane;
+    std::vector<Point<3>> ring;
     this->VisitCells([&](vtkIdType, vtkIdList* ids, vtkIdType count) {
-      const Point<3>& origin = this->Places[Index(ids->GetId(0))];
-      Point<3> area{ 0.0, 0.0, 0.0 };
+      ring.clear();
       for (vtkIdType i = 0; i < count; ++i)
       {
-        const Point<3>& place = this->Places[Index(ids->GetId(i))];
-        for (std::size_t a = 0; a < 3; ++a)
-        {
-          low[a] = std::min(low[a], place[a]);
-          high[a] = std::max(high[a], place[a]);
-        }
-        Point<3> from;
-        Point<3> to;
-        Point<3> cross;
-        vtkMath::Subtract(place.data(), origin.data(), from.data());
-        vtkMath::Subtract(
-          this->Places[Index(ids->GetId((i + 1) % count))].data(), origin.data(), to.data());
-        vtkMath::Cross(from.data(), to.data(), cross.data());
-        vtkMath::Add(area.data(), cross.data(), area.data());
+        ring.push_back(this->Places[Index(ids->GetId(i))]);
       }
-      if (vtkMath::Norm(area.data()) > vtkMath::Norm(largest.data()))
-      {
-        largest = area;
-      }
-      const double turn = vtkMath::Dot(area.data(), largest.data()) < 0.0 ? -1.0 : 1.0;
-      for (std::size_t a = 0; a < 3; ++a)
-      {
-        normal[a] += turn * area[a];
-      }
+      plane.Add(ring);
     });
-    if (!(vtkMath::Norm(normal.data()) > 0.0))
+    if (!plane.HasArea())
     {
       fail("The regions have no area; they must be polygons or closed lines in a plane");
     }
-    Point<3> centre;
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      centre[a] = 0.5 * (low[a] + high[a]);
-    }
-    this->Frame.emplace(centre, normal);
+    this->Frame.emplace(plane.Frame());
     constexpr double flat = 1e-4;
     double farthest = 0.0;
     for (const Point<3>& place : this->Places)
     {
       farthest = std::max(farthest, std::abs(this->Frame->Distance(place)));
     }
-    const double extent = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-    if (farthest > flat * extent)
+    if (farthest > flat * plane.Extent())
     {
       fail("The regions are not in a plane: points are up to ", farthest, " away from one, of ",
-        extent, " in all; project them first");
+        plane.Extent(), " in all; project them first");
     }
   }
 
@@ -419,17 +388,23 @@ private:
     const double total = std::accumulate(this->Cells.Masses.begin(), this->Cells.Masses.end(), 0.0);
     vtkNew<vtkDoubleArray> errors;
     vtkNew<vtkDoubleArray> targets;
+    vtkNew<vtkDoubleArray> densities;
     errors->SetName("AreaError");
     targets->SetName("TargetArea");
+    densities->SetName("MassPerArea");
     for (const std::int32_t region : this->Cells.Regions)
     {
       const bool isRegion = region >= 0;
       errors->InsertNextValue(isRegion ? this->Result.Errors[Index(region)] : 0.0);
       targets->InsertNextValue(
         isRegion ? this->Cells.Masses[Index(region)] / total * this->Land : 0.0);
+      densities->InsertNextValue(
+        isRegion ? this->MassesBefore[Index(region)] / this->Before[Index(region)] : 0.0);
     }
-    output->GetCellData()->AddArray(errors);
-    output->GetCellData()->AddArray(targets);
+    for (vtkDoubleArray* array : { errors.Get(), targets.Get(), densities.Get() })
+    {
+      output->GetCellData()->AddArray(array);
+    }
   }
 
   const CartogramWorker& Worker;
@@ -443,8 +418,9 @@ private:
   std::optional<PlaneFrame> Frame;
   RegionMap Map;
   CartogramBox Box{};
-  std::vector<double> Before; // areas of the regions
-  double Land = 0.0;          // their sum
+  std::vector<double> MassesBefore; // of the regions
+  std::vector<double> Before;       // areas of the regions
+  double Land = 0.0;                // their sum
   std::int32_t Enlarged = 0;
   CartogramResult Result;
 };

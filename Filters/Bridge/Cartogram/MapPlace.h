@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_MapPlace_h
 #define RectifiedTransport_MapPlace_h
 
-#include "Bridge/Cartogram/PlaneFrame.h"
+#include "Bridge/Points/PlaneFrame.h"
 #include "Core/Cartogram/Cartogram.h"
 
 namespace RectifiedTransport

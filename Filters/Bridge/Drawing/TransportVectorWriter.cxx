@@ -2,10 +2,10 @@
 #include "Bridge/Drawing/TransportVectorWriter.h"
 
 #include "Bridge/Drawing/Drawing.h"
+#include "Bridge/Drawing/DrawnLayer.h"
+#include "Bridge/Drawing/LayerPainter.h"
 #include "Bridge/Drawing/PageLayout.h"
-#include "Bridge/Drawing/ShapeColours.h"
 #include "Bridge/Points/DotRadius.h"
-#include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
@@ -13,13 +13,11 @@
 #include "vtkDataArray.h"
 #include "vtkLookupTable.h"
 #include "vtkNew.h"
-#include "vtkPoints.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
 
 namespace RectifiedTransport
 {
@@ -31,39 +29,6 @@ std::string titleOf(const char* property, vtkAbstractArray* array)
 {
   return std::string(property) + " '" + (array->GetName() ? array->GetName() : "") + "'";
 }
-
-// One of the data sets while it is drawn.
-class Layer
-{
-public:
-  Layer(const DrawnData& data, vtkScalarsToColors* table, Progress& progress)
-    : Shapes(data.Shapes)
-    , Points(data.Shapes.Data()->GetPoints()->GetData(), progress)
-  {
-    if (data.Colours)
-    {
-      this->Colours = ShapeColours(data.Colours, data.HasColoursOnPoints, table);
-    }
-    if (data.Radii)
-    {
-      this->Radii.emplace(data.Radii, progress);
-    }
-  }
-
-  const double* At(vtkIdType point) const { return this->Points.data() + 3 * point; }
-  // In units of the data.
-  double RadiusAt(vtkIdType point) const
-  {
-    return this->Radii ? this->Radii->data()[point] : this->Radius;
-  }
-  bool NeedsRadius() const { return !this->Radii; }
-
-  const PolyDataShapes& Shapes;
-  DoubleTuples Points;
-  ShapeColours Colours;
-  std::optional<DoubleTuples> Radii;
-  double Radius = 0.0;
-};
 
 // Where shapes lie, and of what kind they are.
 struct Extent
@@ -93,20 +58,21 @@ void requireRadius(double radius, vtkIdType number)
   }
 }
 
-bool isStroked(const Layer& layer, const Shape& shape)
+bool isStroked(const DrawnLayer& layer, const Shape& shape)
 {
   return shape.Kind == ShapeKind::Line ||
     (shape.Kind == ShapeKind::Polygon && !layer.Colours.AreGiven());
 }
 
 // Those without a radius of their own.
-LargeBuffer<double> dotsOf(const std::vector<Layer>& layers, std::int64_t count, Progress& progress)
+LargeBuffer<double> dotsOf(
+  const std::vector<DrawnLayer>& layers, std::int64_t count, Progress& progress)
 {
   LargeBuffer<double> dots = withMemory("the places of " + std::to_string(count) + " dots",
     3.0 * sizeof(double) * static_cast<double>(count),
     [&]() { return LargeBuffer<double>(3 * count); });
   double* next = dots.data();
-  for (const Layer& layer : layers)
+  for (const DrawnLayer& layer : layers)
   {
     layer.Shapes.ForEach(progress, [&](const Shape& shape) {
       if (shape.Kind == ShapeKind::Dot && layer.NeedsRadius())
@@ -118,7 +84,7 @@ LargeBuffer<double> dotsOf(const std::vector<Layer>& layers, std::int64_t count,
   return dots;
 }
 
-void include(const Layer& layer, const Shape& shape, Extent& extent)
+void include(const DrawnLayer& layer, const Shape& shape, Extent& extent)
 {
   extent.HasStrokes = extent.HasStrokes || isStroked(layer, shape);
   const bool isDot = shape.Kind == ShapeKind::Dot;
@@ -140,10 +106,10 @@ void include(const Layer& layer, const Shape& shape, Extent& extent)
   }
 }
 
-Extent extentOf(const std::vector<Layer>& layers, Progress& progress)
+Extent extentOf(const std::vector<DrawnLayer>& layers, Progress& progress)
 {
   Extent extent;
-  for (const Layer& layer : layers)
+  for (const DrawnLayer& layer : layers)
   {
     layer.Shapes.ForEach(progress, [&](const Shape& shape) { include(layer, shape, extent); });
   }
@@ -219,116 +185,6 @@ PageLayout layoutOf(const TransportVectorWriter& writer, const Extent& extent)
   return inBounds ? layoutInBounds(writer, extent.Rest)
                   : PageLayout(extent.Points.LongestAxes(), extent.Rest, { writer.Width, margin });
 }
-
-class LayerPainter
-{
-public:
-  LayerPainter(const Layer& layer, const PageLayout& layout, Drawing& drawing)
-    : Painted(layer)
-    , Layout(layout)
-    , Page(drawing)
-  {
-  }
-
-  void Paint(const Shape& shape)
-  {
-    const Colour colour = this->Painted.Colours.Of(shape);
-    const bool isFilled = shape.Kind == ShapeKind::Polygon && this->Painted.Colours.AreGiven();
-    if (!isFilled || !(colour == this->AreaColour) || this->Area.size() == mostPolygons)
-    {
-      this->PaintArea();
-    }
-    if (shape.Kind == ShapeKind::Dot)
-    {
-      const double radius = this->Layout.Scale() * this->Painted.RadiusAt(shape.Points[0]);
-      if (radius > 0.0)
-      {
-        this->Page.FillDisc(this->Place(shape.Points[0]), radius, colour);
-      }
-      return;
-    }
-    this->Path.clear();
-    for (vtkIdType i = 0; i < shape.Count; ++i)
-    {
-      this->Path.push_back(this->Place(shape.Points[i]));
-    }
-    if (shape.Kind == ShapeKind::Line)
-    {
-      this->PaintLine(shape, colour);
-    }
-    else if (isFilled)
-    {
-      this->AddToArea(colour);
-    }
-    else
-    {
-      this->Page.Stroke(this->Path, true, colour);
-    }
-  }
-
-  // Call it after the last shape.
-  void PaintArea()
-  {
-    if (!this->Area.empty())
-    {
-      this->Page.FillPolygons(this->Area, this->AreaColour);
-      this->Area.clear();
-    }
-  }
-
-private:
-  // Of an area, so that programs need not take long to read one.
-  static constexpr std::size_t mostPolygons = 50000;
-
-  // Where transparent polygons overlap, both count.
-  void AddToArea(Colour colour)
-  {
-    double twice = 0.0; // the area
-    for (std::size_t i = 0; i < this->Path.size(); ++i)
-    {
-      const PagePoint& a = this->Path[i];
-      const PagePoint& b = this->Path[(i + 1) % this->Path.size()];
-      twice += a[0] * b[1] - a[1] * b[0];
-    }
-    if (twice < 0.0)
-    {
-      std::reverse(this->Path.begin() + 1, this->Path.end());
-    }
-    this->Area.push_back(this->Path);
-    this->AreaColour = colour;
-    if (colour.Opacity < 255)
-    {
-      this->PaintArea();
-    }
-  }
-
-  PagePoint Place(vtkIdType point) const { return this->Layout.At(this->Painted.At(point)); }
-
-  // With colours on points each segment has its own.
-  void PaintLine(const Shape& line, Colour colour)
-  {
-    if (!this->Painted.Colours.AreOnPoints())
-    {
-      this->Page.Stroke(this->Path, false, colour);
-      return;
-    }
-    for (vtkIdType i = 0; i + 1 < line.Count; ++i)
-    {
-      const Shape segment{ ShapeKind::Line, line.Points + i, 2, line.Cell };
-      const auto first = this->Path.begin() + i;
-      this->Segment.assign(first, first + 2);
-      this->Page.Stroke(this->Segment, false, this->Painted.Colours.Of(segment));
-    }
-  }
-
-  const Layer& Painted;
-  const PageLayout& Layout;
-  Drawing& Page;
-  PagePath Path;
-  PagePath Segment;
-  std::vector<PagePath> Area; // of polygons that follow each other and have this colour
-  Colour AreaColour;
-};
 
 // VTK's own colours over the values of all data sets.
 vtkSmartPointer<vtkScalarsToColors> tableOf(const std::vector<DrawnData>& data)
@@ -406,12 +262,16 @@ void TransportVectorWriter::Run(
     }
   }
 
-  std::vector<Layer> layers;
+  std::vector<DrawnLayer> layers;
   layers.reserve(data.size());
   progress.BeginStage(0.1, points);
   for (const DrawnData& drawn : data)
   {
     layers.emplace_back(drawn, table, progress);
+    if (this->FillOutlines)
+    {
+      layers.back().FillOutlines();
+    }
   }
   progress.BeginStage(0.2, 2 * shapes);
   Extent extent = extentOf(layers, progress);
@@ -425,7 +285,7 @@ void TransportVectorWriter::Run(
       radius = radiusOfDots({ dots.data(), extent.NumberOfDots }, progress.Stage());
       radius = radius > 0.0 ? radius : radiusWithoutNeighbours(extent.Points);
     }
-    for (Layer& layer : layers)
+    for (DrawnLayer& layer : layers)
     {
       layer.Radius = radius;
     }
@@ -447,11 +307,9 @@ void TransportVectorWriter::Run(
   drawing.Begin(
     { layout.Size(), isGiven(this->PageBounds) ? this->PageMargin : 0.0, this->LineWidth });
   progress.BeginStage(1.0, shapes);
-  for (const Layer& layer : layers)
+  for (const DrawnLayer& layer : layers)
   {
-    LayerPainter painter(layer, layout, drawing);
-    layer.Shapes.ForEach(progress, [&](const Shape& shape) { painter.Paint(shape); });
-    painter.PaintArea();
+    paintLayer(layer, layout, drawing, progress);
   }
   drawing.End();
 }

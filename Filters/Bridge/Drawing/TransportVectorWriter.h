@@ -21,9 +21,6 @@ namespace RectifiedTransport
 {
 
 class Drawing;
-class DrawnBounds;
-class PageLayout;
-class ShapeColours;
 
 // One of the data sets on a page. What is later lies on top.
 struct DrawnData
@@ -42,6 +39,7 @@ struct TransportVectorWriter
   std::array<double, 6> PageBounds; // all 0: of what is drawn
   double PointRadius;
   double LineWidth;
+  bool FillOutlines;
   vtkScalarsToColors* LookupTable; // nullptr: VTK's colours over the range of the values
 
   // Throws Failure for values out of range.

@@ -40,6 +40,8 @@ public:
   std::int64_t Rings() const { return static_cast<std::int64_t>(this->Regions.size()); }
   std::int32_t RegionOf(std::int64_t ring) const { return this->Regions[Index(ring)]; }
   bool IsHole(std::int64_t ring) const { return this->Holes[Index(ring)] != 0; }
+  // Whether the points of a ring have its region on the right.
+  bool IsTurned(std::int64_t ring) const { return this->Turned[Index(ring)] != 0; }
   // Points of a ring.
   std::int64_t CountOf(std::int64_t ring) const
   {

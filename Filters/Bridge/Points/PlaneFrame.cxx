@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Cartogram/PlaneFrame.h"
+#include "Bridge/Points/PlaneFrame.h"
 
 #include "vtkMath.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace RectifiedTransport
 {
@@ -60,6 +61,56 @@ Point<3> PlaneFrame::ToSpace(const Point<2>& inPlane, double distance) const
       distance * this->Axes[2][i];
   }
   return place;
+}
+
+void RingPlane::Add(const std::vector<Point<3>>& ring)
+{
+  Point<3> area{ 0.0, 0.0, 0.0 };
+  for (std::size_t i = 0; i < ring.size(); ++i)
+  {
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      this->Low[a] = std::min(this->Low[a], ring[i][a]);
+      this->High[a] = std::max(this->High[a], ring[i][a]);
+    }
+    Point<3> from;
+    Point<3> to;
+    Point<3> cross;
+    vtkMath::Subtract(ring[i].data(), ring.front().data(), from.data());
+    vtkMath::Subtract(ring[(i + 1) % ring.size()].data(), ring.front().data(), to.data());
+    vtkMath::Cross(from.data(), to.data(), cross.data());
+    vtkMath::Add(area.data(), cross.data(), area.data());
+  }
+  if (vtkMath::Norm(area.data()) > vtkMath::Norm(this->Largest.data()))
+  {
+    this->Largest = area;
+  }
+  const double turn = vtkMath::Dot(area.data(), this->Largest.data()) < 0.0 ? -1.0 : 1.0;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    this->Sum[a] += turn * area[a];
+  }
+}
+
+bool RingPlane::HasArea() const
+{
+  return vtkMath::Norm(this->Sum.data()) > 0.0;
+}
+
+PlaneFrame RingPlane::Frame() const
+{
+  Point<3> centre;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    centre[a] = 0.5 * (this->Low[a] + this->High[a]);
+  }
+  return PlaneFrame(centre, this->Sum);
+}
+
+double RingPlane::Extent() const
+{
+  return std::hypot(
+    this->High[0] - this->Low[0], this->High[1] - this->Low[1], this->High[2] - this->Low[2]);
 }
 
 } // namespace RectifiedTransport

@@ -5,6 +5,9 @@
 
 #include "Core/Geometry/Points.h"
 
+#include <cmath>
+#include <vector>
+
 namespace RectifiedTransport
 {
 
@@ -23,6 +26,26 @@ public:
 private:
   Point<3> Origin;
   Point<3> Axes[3]; // the last is the normal
+};
+
+// The plane of rings: across the sum of their area vectors, all turned one way.
+class RingPlane
+{
+public:
+  // The points of a ring in their order.
+  void Add(const std::vector<Point<3>>& ring);
+
+  bool HasArea() const;
+  // Through the middle of the bounds. There must be area.
+  PlaneFrame Frame() const;
+  // The diagonal of the bounds.
+  double Extent() const;
+
+private:
+  Point<3> Low{ HUGE_VAL, HUGE_VAL, HUGE_VAL };
+  Point<3> High{ -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+  Point<3> Largest{ 0.0, 0.0, 0.0 }; // area vector of a ring
+  Point<3> Sum{ 0.0, 0.0, 0.0 };
 };
 
 } // namespace RectifiedTransport

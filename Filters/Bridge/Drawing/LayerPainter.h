@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef RectifiedTransport_LayerPainter_h
+#define RectifiedTransport_LayerPainter_h
+
+#include "Core/Parallel/Progress.h"
+
+namespace RectifiedTransport
+{
+
+class Drawing;
+class DrawnLayer;
+class PageLayout;
+
+// Draws the shapes of a layer as the work of the current stage. Throws Failure and Cancelled.
+void paintLayer(
+  const DrawnLayer& layer, const PageLayout& layout, Drawing& drawing, Progress& progress);
+
+} // namespace RectifiedTransport
+
+#endif
