@@ -8,7 +8,8 @@ namespace RectifiedTransport
 {
 
 // Adds triangles to the closed lines of the data, region by region, as
-// Bridge/Drawing/OutlinedRegions.h says, and closed lines around their polygons. The new cells have
+// Bridge/Drawing/OutlinedRegions.h says, and closed lines around their polygons, which become
+// triangles, too: what views draw of a polygon that is not convex may be wrong. The new cells have
 // the cell data of a line of their region, or of their polygon.
 void fillOutlines(vtkPolyData* data);
 
