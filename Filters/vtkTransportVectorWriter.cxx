@@ -146,7 +146,7 @@ void vtkTransportVectorWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << "\n";
   os << indent << "PointRadius: " << this->PointRadius << "\n";
   os << indent << "LineWidth: " << this->LineWidth << "\n";
-  os << indent << "FillOutlines: " << (this->FillOutlines ? "on" : "off") << "\n";
+  os << indent << "FillOutlines: " << (this->FillOutlines ? "On" : "Off") << "\n";
   os << indent << "LookupTable: " << (this->LookupTable ? "set" : "(none)") << "\n";
 }
 VTK_ABI_NAMESPACE_END

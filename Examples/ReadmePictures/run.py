@@ -131,7 +131,10 @@ def main():
     draw_particles(path("particles"), stipple)
     draw_example(path("volume"), "SampleVolume", "particles-brain-t1.png", "--particles", "100000",
                  "--pixels", str(STRIP[1]))
-    draw_example(path("cartogram"), "Cartogram", "cartogram-raccoon.png", "--pixels", "720")
+    draw_example(path("warped-photograph"), "WarpedPhotograph", "warped-raccoon.png", "--pixels", "720")
+    draw_example(path("cartogram"), "Cartogram", "cartogram.png")
+    draw_example(path("gaps"), "RasterWithGaps", "gaps.png")
+    draw_example(path("districts"), "Districts", "districts.png")
     draw_example(path("area-errors"), "AreaErrors", "area-errors.png", "--pixels", "720")
     draw_example(path("cells"), "Figure5Cells", "figure5-cells.png", "--sites", "256",
                  "--resolution", "512", "--pixels", "1020")
@@ -161,8 +164,8 @@ def main():
     draw_example(path("video"), "VideoStippling", "video-stippling.png", "--panel", "220")
     draw_examples({path("tutorial-" + name): "tutorial-%s.png" % name
                    for name in ("slice", "morph", "compare")}, "Tutorial", "--pixels", "600")
-    print("particles, volume, cartogram, cells, territories, colours, patterns, flow, "
-          "flow-maps, map, paths, morph, morph-3d, barycenters, splats, solid, parameterization, "
+    print("particles, volume, warped-photograph, cartogram, gaps, districts, area-errors, cells, "
+          "territories, colours, patterns, flow, flow-maps, map, paths, morph, morph-3d, barycenters, splats, solid, parameterization, "
           "surface-dots, print, video, tutorial-slice, tutorial-morph, tutorial-compare: "
           + arguments.output)
 

@@ -117,9 +117,9 @@ class Examples(ExampleTest):
         printed, code = self.live(path, "--drive", "5")
         self.assertEqual((printed, code), (path + " holds no picture that can be read\n", 1))
 
-    def test_cartogram(self):
-        self.ran("Cartogram")
-        self.check_picture("cartogram-raccoon.png")
+    def test_warped_photograph(self):
+        self.ran("WarpedPhotograph")
+        self.check_picture("warped-raccoon.png")
 
     def test_raster_with_gaps(self):
         """With the sea at the mean, the island keeps about its size; without, it fills the raster."""
@@ -129,12 +129,19 @@ class Examples(ExampleTest):
         self.assertGreater(zero[1], 95)
         self.check_picture("gaps.png")
 
-    def test_people(self):
+    def test_districts(self):
+        """Power gives everybody as many; Flow nearly."""
+        for line, off in zip(self.ran("Districts").splitlines(), (0, 60)):
+            least, most = (first(number) for number in re.findall(r"\d+", line)[1:3])
+            self.assertTrue(0 <= most - least <= off, line)
+        self.check_picture("districts.png")
+
+    def test_cartogram(self):
         """Every state has the area of its people."""
-        line = self.ran("People").splitlines()[0]
+        line = self.ran("Cartogram").splitlines()[0]
         self.assertTrue(line.startswith("49 regions"), line)
         self.assertLess(float(line.split()[-1]), 0.005)
-        self.check_picture("people.png")
+        self.check_picture("cartogram.png")
 
     def test_area_errors(self):
         """With as many steps as needed, hardly a block is off and no cell folds."""

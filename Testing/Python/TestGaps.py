@@ -7,6 +7,7 @@ import unittest
 
 import numpy as np
 from rt_testing import Listener, OUTPUT, SOURCE, load_plugin, main, output_of, positions
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 simple = load_plugin()
 sys.path.insert(0, os.path.join(SOURCE, "Examples"))
@@ -108,6 +109,30 @@ class Gaps(unittest.TestCase):
             reported = Listener(filter_.GetClientSideObject())
             filter_.UpdatePipeline()
             self.assertIn(text, getattr(reported, kind)[0])
+
+    def test_districts(self):
+        """The five steps of the page on parts of equal population: exact by Power, within a cell of the
+        raster by Flow, whose polygons end at the coast."""
+        parts = 12
+        sites = simple.SampleDensity(self.people, NumberOfParticles=parts)
+        middles = simple.RelaxBlueNoise(sites, Density=self.people, Method="OptimalTransport",
+                                        MaximumIterations=50)
+        land = island()[island() != NODATA]
+        share = land.sum() * CELL ** 2 / parts
+        for shape, off in ("Power", 1e-6 * share), ("Flow", land.max() * CELL ** 2):
+            with self.subTest(shape):
+                cells = simple.EqualMassCells(middles, Domain=self.people, Measure="Density", Shape=shape)
+                output_of(cells)
+                outputs = [cells.GetClientSideObject().GetOutputDataObject(port) for port in (1, 3)]
+                masses = vtk_to_numpy(outputs[0].GetPointData().GetArray("CellMass"))
+                self.assertEqual(len(masses), parts)
+                self.assertLess(abs(masses - share).max(), off)
+                found = vtk_to_numpy(outputs[1].GetCellData().GetArray("SiteId"))
+                self.assertEqual(set(found), set(range(parts)))
+        triangles = simple.Triangulate(simple.OutputPort(cells, 3))
+        sizes = output_of(simple.CellSize(triangles)).GetCellData().GetArray("Area")
+        beyond = vtk_to_numpy(sizes).sum() / (land.size * CELL ** 2) - 1  # pixels that are land in part
+        self.assertTrue(0 <= beyond < 0.02, beyond)
 
     def test_margin(self):
         """Land that touches the border of the raster moves beyond it."""

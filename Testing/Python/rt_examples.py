@@ -23,9 +23,10 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
          "ColourStippling": ["--particles", "3000", "--iterations", "10", "--pixels", "480"],
          "Territories": ["--sites", "40", "--iterations", "10", "--resolution", "342", "--pixels",
                          "480"],
+         "WarpedPhotograph": ["--pixels", "480"],
          "Cartogram": ["--pixels", "480"],
-         "People": ["--pixels", "480"],
          "RasterWithGaps": ["--pixels", "600"],
+         "Districts": ["--pixels", "600"],
          "AreaErrors": ["--cells", "128", "--pixels", "480"],
          "StippleSurface": ["--dots", "3000", "--panel", "300"],
          "SampleVolume": ["--particles", "50000", "--pixels", "400"],
@@ -57,7 +58,7 @@ SHAPES = {"Morph2D": 2, "Morph3D": 2, "MorphAnimation": 2, "Barycenters2D": 4, "
 need_meshes = unittest.skipUnless(
     os.path.isfile(os.path.join(SOURCE, "build-meshes", "complete")),
     "needs the meshes that Testing/run.sh fetches")
-OWN = {"AreaErrors", "RasterWithGaps", "Figure2Paths", "Figure5Cells", "PowerCells", "InSitu"}  # examples that make their input
+OWN = {"AreaErrors", "RasterWithGaps", "Districts", "Figure2Paths", "Figure5Cells", "PowerCells", "InSitu"}  # examples that make their input
 
 
 def command(example, *arguments):
