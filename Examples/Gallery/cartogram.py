@@ -1,32 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A map of Europe whose cells grow with their light at night."""
+"""The United States with areas that are their people."""
 from paraview.simple import *
 
-night = PNGSeriesReader(registrationName="Night", FileNames=["Testing/Data/night-europe.png"])
-dots = SampleDensity(night, registrationName="Dots", NumberOfParticles=30000)
-glow = SplatMass(dots, registrationName="Glow", Kernel="Gaussian")
-glow.Dimensions = [114, 61, 1]
-light = Calculator(glow, registrationName="Light", ResultArrayName="Light")
-light.Function = "Density+1"  # the sea keeps some room
-cells = ExtractSurface(light, registrationName="Cells")
-warped = DensityEqualizingWarp(cells, registrationName="Warped", Density=light)
-warped.DensityArray = ["POINTS", "Light"]
+states = GDALVectorReader(registrationName="States", FileName="Testing/Data/us-states.geojson")
+people = Cartogram(states, registrationName="People", MassArray=["CELLS", "mass"])
 
 view = GetActiveViewOrCreate("RenderView")
-view.UseColorPaletteForBackground = 0
-view.Background = [0, 0, 0]
-shown = Show(warped, view)
-shown.SetRepresentationType("Surface With Edges")
-ColorBy(shown, ("POINTS", "Light"))
+graticule = Show(OutputPort(people, 1), view)
+graticule.AmbientColor = graticule.DiffuseColor = [0.75, 0.8, 0.85]
+shown = Show(people, view)
+shown.SetRepresentationType("Filled Outlines With Edges")
+ColorBy(shown, ("CELLS", "MassPerArea"))
 shown.SetScalarBarVisibility(view, False)
-colours = GetColorTransferFunction("Light")
-colours.ColorSpace = "RGB"
-colours.RGBPoints = [1, 0, 0, 0.1, 1.5, 0.1, 0.3, 0.45, 2.5, 0.4, 0.75, 0.5, 4.5, 1, 1, 0.8]
 shown.Ambient, shown.Diffuse = 1, 0
-shown.EdgeColor = [0.4, 0.35, 0.55]
+shown.EdgeColor = [0.2, 0.25, 0.3]
+colours = GetColorTransferFunction("MassPerArea")
+colours.ColorSpace = "RGB"
+colours.RGBPoints = [2, 0.99, 0.96, 0.82, 20, 0.93, 0.91, 0.66, 50, 0.68, 0.85, 0.62, 90, 0.4, 0.74, 0.6,
+                     150, 0.2, 0.58, 0.6, 400, 0.12, 0.36, 0.55, 4000, 0.1, 0.2, 0.4]
 
 view.InteractionMode = "2D"
 view.CameraParallelProjection = 1
-view.CameraFocalPoint = [135, 91, 0]
-view.CameraPosition = [135, 91, 1000]
-view.CameraParallelScale = 89
+view.CameraFocalPoint = [-50, 110, 0]
+view.CameraPosition = [-50, 110, 10000]
+view.CameraParallelScale = 1800

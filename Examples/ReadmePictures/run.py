@@ -163,10 +163,11 @@ def main():
                  "--panel", "280")
     draw_example(path("video"), "VideoStippling", "video-stippling.png", "--panel", "220")
     draw_examples({path("tutorial-" + name): "tutorial-%s.png" % name
-                   for name in ("slice", "morph", "compare")}, "Tutorial", "--pixels", "600")
+                   for name in ("slice", "morph", "compare", "people")}, "Tutorial", "--pixels", "600")
     print("particles, volume, warped-photograph, cartogram, gaps, districts, area-errors, cells, "
           "territories, colours, patterns, flow, flow-maps, map, paths, morph, morph-3d, barycenters, splats, solid, parameterization, "
-          "surface-dots, print, video, tutorial-slice, tutorial-morph, tutorial-compare: "
+          "surface-dots, print, video, tutorial-slice, tutorial-morph, tutorial-compare, "
+          "tutorial-people: "
           + arguments.output)
 
 

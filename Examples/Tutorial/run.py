@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Remakes the three tasks of Documentation/Tutorial.md: a picture of each, the film of the morph,
+"""Remakes the four tasks of Documentation/Tutorial.md: a picture of each, the film of the morph,
 and, with --states, the state files beside this script."""
 import math
 import os
@@ -127,6 +127,23 @@ def compare_two_fields(pixels):
     return view, math.sqrt(figure(morph, 0, "TransportCost"))
 
 
+def areas_of_people(pixels):
+    """A map whose states have the areas of their people, as it is when it is first shown."""
+    view = example.new_session([pixels, pixels], "Tutorial")
+    states = simple.GDALVectorReader(registrationName="States",
+                                     FileName=os.path.join(example.DATA, "us-states.geojson"))
+    people = simple.Cartogram(states, registrationName="People", MassArray=["CELLS", "mass"])
+    shown = simple.Show(people, view)
+    simple.Show(simple.OutputPort(people, 1), view)
+    shown.SetScalarBarVisibility(view, True)
+    legend = simple.GetScalarBar(simple.GetColorTransferFunction("MassPerArea"), view)
+    legend.Title = "people per square kilometre"
+    legend.TitleColor = legend.LabelColor = [0, 0, 0]
+    look(view, [-50, 110, 0], [0, 0, 10000], [0, 1, 0], 6000)
+    simple.SetActiveSource(people)
+    return view, max(abs(error) for error in people.CellData["AreaError"].GetRange())
+
+
 def main():
     parser = example.parser(
         __doc__, pixels=example.number(900, "side of the pictures", 16),
@@ -162,6 +179,9 @@ def main():
 
     view, distance = compare_two_fields(arguments.pixels)
     print("%s: %.3f m" % (keep("compare", view), distance))
+
+    view, error = areas_of_people(arguments.pixels)
+    print("%s: areas within %.2f %%" % (keep("people", view), 100 * error))
 
 
 if __name__ == "__main__":

@@ -59,7 +59,8 @@ class States(unittest.TestCase):
         place = os.path.join(self.folder, FOLDER)
         simple.LoadState(os.path.join(place, name + ".pvsm"), data_directory=place)
         for source in simple.GetSources().values():
-            for path in getattr(source, "FileName", None) or []:
+            files = getattr(source, "FileName", None) or []
+            for path in [files] if isinstance(files, str) else files:
                 self.assertTrue(path.startswith(self.folder), path)
         view = simple.FindView("View")
         self.assertIsNotNone(simple.GetLayout(view), "the window would not show the view")
@@ -117,6 +118,14 @@ class States(unittest.TestCase):
         self.assertLess(apart, cost ** 0.5)
         self.assertGreater(simple.FindSource("Arrows").GetDataInformation().GetNumberOfPoints(), 999)
 
+    def test_people(self):
+        self.check_picture(self.opened("people"), "tutorial-people.png")
+        people = simple.FindSource("People")
+        errors = vtk_to_numpy(output_of(people).GetCellData().GetArray("AreaError"))
+        self.assertLess(np.abs(errors).max(), 0.0025)
+        shown = simple.GetRepresentation(people, simple.FindView("View"))
+        self.assertEqual(shown.Representation, "Filled Outlines With Edges")
+
 
 class Script(unittest.TestCase):
     def test_script(self):
@@ -131,7 +140,8 @@ class Script(unittest.TestCase):
             data = film.read()
         self.assertEqual(data[:4], b"OggS")
         self.assertGreater(len(data), 4000)
-        for name in ("slice", "compare"):
+        self.assertIn("tutorial-people.png: areas within 0.20 %", printed)
+        for name in ("slice", "compare", "people"):
             shown = picture(os.path.join(SOURCE, "Documentation", "Images",
                                          "tutorial-%s.png" % name))
             drawn = picture(os.path.join(OUTPUT, "tutorial-%s.png" % name))
