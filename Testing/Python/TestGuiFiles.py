@@ -12,6 +12,7 @@ from rt_testing import SOURCE, main, need_display
 from rt_window import (APPLY, choose, first_stippling, load_new, manage_plugins, open_state,
                        write_settings)
 
+DATA = os.path.join(SOURCE, "Testing", "Data")
 WRITER = "WriterSettingsDialog/scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/"
 TRACKS = "animationViewDock/animationView/pqAnimationWidget/"
 MORPH = """
@@ -100,9 +101,25 @@ class GuiFiles(GuiTest):
                 (frames[0], frames[-1])]
         self.assertGreater(wide[1], wide[0])  # from the ball to the long box
 
+    def test_map(self):
+        """A map that ParaView itself opens becomes a cartogram in colours, with outlines and a grid, which
+        is saved as SVG as it is seen."""
+        svg = self.path("people.svg")
+        saved = self.state_after(
+            "gui-map.png", ("menubar/menu_File", "activate", "actionFileOpen"),
+            ("FileOpenDialog", "filesSelected", os.path.join(DATA, "us-states.geojson")), APPLY,
+            choose("Filters", "Cartogram"), APPLY, *save_data(svg))
+        self.assertEqual(values(proxies_of(saved)["Cartogram"], "MassArray")[-1], "mass")
+        styles = [values(proxy, "Representation")[0] for proxy in saved.iter("Proxy")
+                  if proxy.get("type") == "GeometryRepresentation"]
+        self.assertIn("Filled Outlines With Edges", styles)
+        with open(svg, encoding="utf-8") as file:
+            text = file.read()
+        self.assertGreater(len(set(re.findall(r'fill="(#\w+)"', text))), 40)
+
     def test_tutorial(self):
         """Its states open in the window, with their data and their views."""
-        for name in ("slice", "morph", "compare"):
+        for name in ("slice", "morph", "compare", "people"):
             picture = "gui-tutorial-%s.png" % name
             path = os.path.join(SOURCE, "Examples", "Tutorial", name + ".pvsm")
             shutil.rmtree(self.home)
