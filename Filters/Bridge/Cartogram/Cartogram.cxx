@@ -182,7 +182,8 @@ private:
       std::vector<std::int64_t> ring(ids->begin(), ids->begin() + count);
       this->Map.AddRing(this->Cells.Regions[Index(cell)], ring);
     });
-    this->Map.FindHoles();
+    this->Work.BeginStage(0.07);
+    this->Map.FindHoles(this->Work.Stage());
     this->Before = this->Map.Areas(static_cast<std::int32_t>(this->Cells.Masses.size()));
     this->Land = std::accumulate(this->Before.begin(), this->Before.end(), 0.0);
     std::int64_t empty = 0;

@@ -18,9 +18,7 @@ constexpr std::int64_t side = 40;
 
 RegionRaster rasterOf(const RegionMap& map, std::int32_t regions)
 {
-  Progress progress{ Context() };
-  progress.BeginStage(1.0);
-  return RegionRaster(map, regions, side, progress);
+  return RegionRaster(map, regions, side);
 }
 
 // 9 regions of a map of squares with moved corners.
