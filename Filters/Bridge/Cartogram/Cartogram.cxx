@@ -76,6 +76,7 @@ public:
     fellows.WriteGraticule(this->Outputs.Graticule);
     this->Work.BeginStage(1.0);
     fellows.WriteOverlay(this->Work);
+    this->Work.Check();
     return std::move(this->Warnings);
   }
 
