@@ -277,7 +277,7 @@ private:
       return this->Kept.Start;
     }
     content.Keep(this->Work);
-    this->Kept.Content = std::move(content);
+    this->Kept = { std::move(content), {} }; // an abort may follow
     return {};
   }
 

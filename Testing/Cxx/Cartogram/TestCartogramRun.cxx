@@ -40,6 +40,7 @@ void checkAborts(Checks& checks)
   auto map = makeMap(40);
   auto cartogram = makeCartogram(map, 512);
   Messages messages(cartogram);
+  cartogram->Update(); // so that something is kept
   for (const double from : { 0.0, 0.01, 0.05, 0.08, 0.15, 0.3, 0.6, 0.98 })
   {
     for (const int delay : { 0, 7 })
