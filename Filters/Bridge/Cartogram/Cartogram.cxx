@@ -313,7 +313,7 @@ private:
     text << describePart(missed, regions, "regions") << " miss Tolerance";
     if (!result.OutOfReach.empty())
     {
-      text << "; the raster cannot hold";
+      text << "; the raster cannot hold the region" << (result.OutOfReach.size() > 1 ? "s" : "");
       constexpr std::size_t most = 5;
       for (std::size_t i = 0; i < std::min(most, result.OutOfReach.size()); ++i)
       {
