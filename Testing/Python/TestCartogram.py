@@ -132,6 +132,8 @@ class TestCartogram(unittest.TestCase):
         np.testing.assert_allclose(ring_areas(back), -expected, rtol=1e-9)
         single = [map_of([rectangle(i % 4, i // 4, i % 4 + 1, i // 4 + 1)], [20.0 if i == 5 else 1.0],
                          lines=i % 2 == 1) for i in range(16)]
+        alone = ring_areas(cartogram(blocks_of(sixteen()))[0].GetRegions())
+        np.testing.assert_array_equal(alone, expected)
         joined = cartogram(blocks_of(*single))[0].GetRegions()
         self.assertEqual(joined.GetNumberOfCells(), 16)
         np.testing.assert_allclose(np.sort(ring_areas(joined)), np.sort(expected), rtol=1e-6)
@@ -246,6 +248,10 @@ class TestCartogram(unittest.TestCase):
         zero.GetCellData().GetArray("Mass").SetValue(3, 0.0)
         _, listener = cartogram(zero)
         self.assertIn("1 of 16 regions (6.25 %) have no mass", listener.warnings[0])
+        wide = sixteen(place=lambda x, y: (200 * x, y, 0.0))
+        wide.GetCellData().GetArray("Mass").SetValue(3, 0.0)
+        targets = cell_values(cartogram(wide)[0].GetRegions(), "TargetArea")
+        self.assertAlmostEqual(targets[3], 1e-4 * 200, delta=1e-6)
         algorithm, listener = cartogram(sixteen(), LeastShare=0.05)
         self.assertIn("15 of 16 regions (93.8 %) are enlarged to LeastShare", listener.warnings[0])
         self.check_shares(ring_areas(algorithm.GetRegions()), [0.25 if i == 5 else 0.05 for i in range(16)])

@@ -23,7 +23,7 @@ struct Rows
 
   bool AreIn(std::int64_t first, std::int64_t last) const
   {
-    return this->First<last&& this->Last> first;
+    return first < this->Last && last > this->First;
   }
 };
 

@@ -216,6 +216,25 @@ TEST(Cartogram, OutOfReach)
   EXPECT_LE(std::abs(made.Result.Errors[0]), 0.01);
 }
 
+// One step turns outlines over; more do not.
+TEST(Cartogram, MoreStepsWhereOutlinesTurnOver)
+{
+  CartogramOptions options = coarse();
+  options.Flow.NumberOfSteps = 1;
+  options.MaximumPasses = 1;
+  std::vector<double> masses(16, 1.0);
+  masses[5] = 90.0;
+  masses[10] = 90.0;
+  const Made made = make(squares(4), masses, options);
+  ASSERT_EQ(made.Result.Passes.size(), 1U);
+  EXPECT_GE(made.Result.Passes[0].NumberOfSteps, 2 * FlowOptions::FewestSteps);
+  EXPECT_EQ(made.Result.Folded, 0);
+  for (std::int64_t ring = 0; ring < 16; ++ring)
+  {
+    EXPECT_GT(made.Map.AreaOf(ring), 0.0) << ring;
+  }
+}
+
 TEST(Cartogram, CrossingOutline)
 {
   RegionMap map;
