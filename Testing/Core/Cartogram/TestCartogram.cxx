@@ -222,14 +222,21 @@ TEST(Cartogram, MoreStepsWhereOutlinesTurnOver)
   CartogramOptions options = coarse();
   options.Flow.NumberOfSteps = 1;
   options.MaximumPasses = 1;
-  std::vector<double> masses(16, 1.0);
-  masses[5] = 90.0;
-  masses[10] = 90.0;
-  const Made made = make(squares(4), masses, options);
+  std::vector<double> masses = masses16(90.0);
+  masses.push_back(0.01);
+  RegionMap map = squares(4);
+  for (int i = 0; i < 400; ++i) // small islands all over it
+  {
+    const double x = 0.2 * (i % 20) + 0.09;
+    const double y = 0.2 * (i / 20) + 0.09;
+    addRing(map, 16, rectangle(x, y, x + 0.005, y + 0.005));
+  }
+  map.FindHoles();
+  const Made made = make(std::move(map), masses, options);
   ASSERT_EQ(made.Result.Passes.size(), 1U);
   EXPECT_GE(made.Result.Passes[0].NumberOfSteps, 2 * FlowOptions::FewestSteps);
   EXPECT_EQ(made.Result.Folded, 0);
-  for (std::int64_t ring = 0; ring < 16; ++ring)
+  for (std::int64_t ring = 0; ring < made.Map.Rings(); ++ring)
   {
     EXPECT_GT(made.Map.AreaOf(ring), 0.0) << ring;
   }
