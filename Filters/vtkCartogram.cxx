@@ -3,21 +3,18 @@
 
 #include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Cartogram/Cartogram.h"
-#include "Bridge/Points/CellCheck.h"
-#include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/MissingData.h"
 
-#include "vtkCellData.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkInformation.h"
 #include "vtkInformationStringKey.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkCartogram);
@@ -96,7 +93,8 @@ int vtkCartogram::FillInputPortInformation(int port, vtkInformation* info)
 {
   if (port == 1)
   {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
     return 1;
   }
@@ -108,7 +106,7 @@ int vtkCartogram::FillInputPortInformation(int port, vtkInformation* info)
 //------------------------------------------------------------------------------
 int vtkCartogram::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkPointSet" : "vtkPolyData");
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkDataObject" : "vtkPolyData");
   return 1;
 }
 
@@ -116,7 +114,17 @@ int vtkCartogram::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkCartogram::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkCollectiveAlgorithm::MakeOutputLike(inputVector[1], outputVector, 2);
+  auto* const blocks = vtkCompositeDataSet::GetData(inputVector[1]);
+  vtkDataObject* const output = vtkDataObject::GetData(outputVector, 2);
+  if (!blocks)
+  {
+    vtkCollectiveAlgorithm::MakeOutputLike(inputVector[1], outputVector, 2);
+  }
+  else if (!output || output->GetDataObjectType() != blocks->GetDataObjectType())
+  {
+    const auto made = vtkSmartPointer<vtkDataObject>::Take(blocks->NewInstance());
+    outputVector->GetInformationObject(2)->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
   return 1;
 }
 
@@ -158,20 +166,17 @@ int vtkCartogram::RequestData(
     return 1;
   }
   CartogramOutputs outputs{ vtkPolyData::GetData(outputVector, 0),
-    vtkPolyData::GetData(outputVector, 1), nullptr };
-  vtkPointSet* overlay =
-    inputVector[1]->GetNumberOfInformationObjects() > 0 ? pointSetOf(inputVector[1]) : nullptr;
+    vtkPolyData::GetData(outputVector, 1), {} };
+  vtkDataObject* overlay = inputVector[1]->GetNumberOfInformationObjects() > 0
+    ? vtkDataObject::GetData(inputVector[1])
+    : nullptr;
   if (overlay)
   {
-    requireReadableCells(overlay, "Overlay");
-    outputs.Overlay = vtkPointSet::GetData(outputVector, 2);
-    outputs.Overlay->CopyStructure(overlay);
-    outputs.Overlay->GetPointData()->PassData(overlay->GetPointData());
-    outputs.Overlay->GetCellData()->PassData(overlay->GetCellData());
+    outputs.Overlay = overlayParts(overlay, vtkDataObject::GetData(outputVector, 2));
   }
   for (const std::string& warning :
-    worker.Run(blocks, vtkCompositeDataSet::SafeDownCast(input) != nullptr, overlay,
-      this->Internals->Kept, progress, outputs))
+    worker.Run(blocks, vtkCompositeDataSet::SafeDownCast(input) != nullptr, this->Internals->Kept,
+      progress, outputs))
   {
     vtkWarningMacro(<< warning);
   }

@@ -19,7 +19,8 @@
  * ring inside an odd number of rings of its region is a hole. Coordinates must be those of a map
  * projection that keeps areas.
  *
- * Input 1 (optional): the overlay, any vtkPointSet, such as rivers and cities, that moves along.
+ * Input 1 (optional): the overlay, any vtkPointSet, such as rivers and cities, or a composite of
+ * them, that moves along.
  *
  * Output 0, "Regions": a vtkPolyData with the cells of the input, all blocks together, lines first,
  * in their order and direction. Long edges are divided; both sides of a border stay the same. Point
@@ -150,7 +151,7 @@ public:
 
   ///@{
   /**
-   * The outputs.
+   * The outputs; the overlay's is nullptr if it is a composite: GetOutputDataObject(2).
    */
   vtkPolyData* GetRegions();
   vtkPolyData* GetGraticule();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CraftedFilters.h"
 
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkDensityAlgorithm.h"
+#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
@@ -36,6 +39,30 @@ vtkSmartPointer<vtkPolyData> soundPoints()
     points->InsertNextPoint(i % 4 + 0.1 * (i % 5), i % 3 + 0.07 * (i % 7), i % 2 + 0.03 * i);
   }
   data->SetPoints(points);
+  return data;
+}
+
+// Two regions with a mass.
+vtkSmartPointer<vtkPolyData> soundMap()
+{
+  const auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> polygons;
+  vtkNew<vtkDoubleArray> masses;
+  masses->SetName("v");
+  for (int i = 0; i < 2; ++i)
+  {
+    const vtkIdType first = points->InsertNextPoint(i, 0, 0);
+    points->InsertNextPoint(i + 1, 0, 0);
+    points->InsertNextPoint(i + 1, 1, 0);
+    points->InsertNextPoint(i, 1, 0);
+    const vtkIdType ids[4] = { first, first + 1, first + 2, first + 3 };
+    polygons->InsertNextCell(4, ids);
+    masses->InsertNextValue(1.0 + i);
+  }
+  data->SetPoints(points);
+  data->SetPolys(polygons);
+  data->GetCellData()->AddArray(masses);
   return data;
 }
 
@@ -92,7 +119,11 @@ vtkSmartPointer<vtkAlgorithm> newCrafted(
     // Of two densities both may be crafted.
     const bool alike = !ofPoints && !holdsPoints(crafted.Takes) && random.Chance(0.5);
     vtkSmartPointer<vtkDataObject> input = data;
-    if (!isCrafted && ofPoints)
+    if (!isCrafted && takenBy(filter, port) == "vtkPolyData")
+    {
+      input = soundMap();
+    }
+    else if (!isCrafted && ofPoints)
     {
       input = soundPoints();
     }

@@ -12,6 +12,7 @@ const std::vector<FilterKind>& filterKinds()
     addBlendKinds(all);
     addOtherKinds(all);
     addSurfaceKinds(all);
+    addMapKinds(all);
     return all;
   }();
   return kinds;

@@ -71,6 +71,10 @@ Input drawPoints(RandomSource& random, vtkImageData* about, vtkIdType most);
 // Closed surfaces and others.
 Input drawSurface(RandomSource& random);
 
+// Regions with masses: polygons or closed lines, at times in blocks, with the cell arrays "Mass"
+// and "Land".
+Input drawMap(RandomSource& random);
+
 // Disks and others. `boundary` gets the points around it, of a disk.
 Input drawDisk(RandomSource& random, std::vector<vtkIdType>& boundary);
 

@@ -21,6 +21,7 @@ void addTransportKinds(std::vector<FilterKind>& kinds);
 void addBlendKinds(std::vector<FilterKind>& kinds);
 void addOtherKinds(std::vector<FilterKind>& kinds);
 void addSurfaceKinds(std::vector<FilterKind>& kinds);
+void addMapKinds(std::vector<FilterKind>& kinds);
 
 } // namespace Campaign
 

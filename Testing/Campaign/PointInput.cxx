@@ -172,9 +172,11 @@ void changeInPlace(RandomSource& random, Input& input)
     set->GetPoints()->SetPoint(random.Whole(0, set->GetNumberOfPoints() - 1), x);
     set->GetPoints()->Modified();
     auto* surface = vtkPolyData::SafeDownCast(set);
-    if (surface && surface->GetNumberOfPolys() + surface->GetNumberOfStrips() > 0)
+    if (surface &&
+      surface->GetNumberOfLines() + surface->GetNumberOfPolys() + surface->GetNumberOfStrips() > 0)
     {
-      input.Condition = State::Odd; // coinciding points can tear a surface, or close an open one
+      // Coinciding points can tear a surface, close an open one, or make an outline cross itself.
+      input.Condition = State::Odd;
     }
     else if (set->GetNumberOfPoints() < 8)
     {

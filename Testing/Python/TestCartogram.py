@@ -91,6 +91,11 @@ def cartogram(data, overlay=None, regions=None, mass="Mass", **properties):
     return algorithm, listener
 
 
+def line_of(message):
+    """What a filter says, without VTK's place and address."""
+    return message.split("): ", 1)[1].strip()
+
+
 def cell_values(data, name):
     return vtk_to_numpy(data.GetCellData().GetArray(name))
 
@@ -127,6 +132,8 @@ class TestCartogram(unittest.TestCase):
         np.testing.assert_allclose(ring_areas(back), -expected, rtol=1e-9)
         single = [map_of([rectangle(i % 4, i // 4, i % 4 + 1, i // 4 + 1)], [20.0 if i == 5 else 1.0],
                          lines=i % 2 == 1) for i in range(16)]
+        alone = ring_areas(cartogram(blocks_of(sixteen()))[0].GetRegions())
+        np.testing.assert_array_equal(alone, expected)
         joined = cartogram(blocks_of(*single))[0].GetRegions()
         self.assertEqual(joined.GetNumberOfCells(), 16)
         np.testing.assert_allclose(np.sort(ring_areas(joined)), np.sort(expected), rtol=1e-6)
@@ -241,6 +248,10 @@ class TestCartogram(unittest.TestCase):
         zero.GetCellData().GetArray("Mass").SetValue(3, 0.0)
         _, listener = cartogram(zero)
         self.assertIn("1 of 16 regions (6.25 %) have no mass", listener.warnings[0])
+        wide = sixteen(place=lambda x, y: (200 * x, y, 0.0))
+        wide.GetCellData().GetArray("Mass").SetValue(3, 0.0)
+        targets = cell_values(cartogram(wide)[0].GetRegions(), "TargetArea")
+        self.assertAlmostEqual(targets[3], 1e-4 * 200, delta=1e-6)
         algorithm, listener = cartogram(sixteen(), LeastShare=0.05)
         self.assertIn("15 of 16 regions (93.8 %) are enlarged to LeastShare", listener.warnings[0])
         self.check_shares(ring_areas(algorithm.GetRegions()), [0.25 if i == 5 else 0.05 for i in range(16)])
@@ -256,7 +267,7 @@ class TestCartogram(unittest.TestCase):
         lake = map_of([square(0, 10), square(5, 5.1), square(5, 5.1)], [1.0, 1.0, 1e-9],
                       name=["land", "land", "pond"])
         _, listener = cartogram(lake, regions="name", Resolution=32)
-        self.assertIn("the raster cannot hold 'pond' (off by", listener.warnings[-1])
+        self.assertIn("the raster cannot hold the region 'pond' (off by", listener.warnings[-1])
         self.assertIn("LeastShare", listener.warnings[-1])
 
     def test_errors(self):
@@ -305,6 +316,75 @@ class TestCartogram(unittest.TestCase):
                 self.assertIn(text, "\n".join(listener.errors))
                 self.assertEqual(algorithm.GetRegions().GetNumberOfPoints(), 0)
                 self.assertEqual(algorithm.GetGraticule().GetNumberOfPoints(), 0)
+
+    def test_bad_maps(self):
+        """To the letter: what an error or the warnings say, and that it is all."""
+        nan = sixteen()
+        nan.GetCellData().GetArray("Mass").SetValue(7, np.nan)
+        open_line = map_of([square(0, 4)], [1.0], lines=True)
+        open_line.GetLines().ReplaceCellAtId(0, 5, [0, 1, 2, 3, 1])
+        pair = [(0, 0), (3, 3), (3, 0), (0, 2)], rectangle(4, 0, 6, 3)
+        strips = vtkPolyData()
+        strips.DeepCopy(sixteen())
+        cells = vtkCellArray()
+        cells.InsertNextCell(4, [0, 1, 2, 3])
+        strips.SetStrips(cells)
+        for data, options, text in (
+                (sixteen(), dict(Tolerance=0.0), "Tolerance is 0; it must be above 0 and at most 1"),
+                (sixteen(), dict(Tolerance=1.5), "Tolerance is 1.5; it must be above 0 and at most 1"),
+                (sixteen(), dict(Tolerance=np.nan), "Tolerance is nan; it must be above 0 and at most 1"),
+                (map_of([square(0, 4), [(5, 5), (6, 6), (7, 7)]], [1.0, 1.0], name=["a", "b"]), {},
+                 "1 of 2 regions (50 %) have no area (the first is the region 'b'); remove them, with "
+                 "Threshold"),
+                (open_line, {}, "1 of 1 lines of the input do not close (the first is cell 0); the outline of a "
+                                "region must end at the point where it begins"),
+                (map_of(pair, [1.0, 1.0], name=["a", "b"]), {},
+                 "The outline of the region 'a' crosses itself, so that its area is not clear; repair it, with "
+                 "QGIS's Fix geometries"),
+                (map_of([square(0, 4)]), dict(mass=None),
+                 "MassArray is not set, and the input has 0 numeric cell arrays; set it to the one that has the "
+                 "mass of each region"),
+                (sixteen(), dict(mass="None such"),
+                 "MassArray 'None such' is no numeric cell array of the input; choose one that has the mass of "
+                 "each region"),
+                (nan, {}, "The mass of the region of cell 7 in 'Mass' is nan; masses must be at least 0 and finite"),
+                (sixteen(np.inf), {},
+                 "The mass of the region of cell 5 in 'Mass' is inf; masses must be at least 0 and finite"),
+                (map_of([square(0, 1)] * 2, [0.0, 0.0]), {},
+                 "The masses in 'Mass' sum to 0; they must sum to a number above 0"),
+                (map_of([square(0, 1), square(2, 3)], [1.0, 2.0], Land=[3, 3]), dict(regions="Land"),
+                 "The region '3' has cells of mass 1 and 2 in 'Mass'; all cells of a region must have its "
+                 "mass, which counts once"),
+                (strips, {}, "The input has triangle strips; regions must be polygons or closed lines, as "
+                             "Triangulate makes of them")):
+            with self.subTest(text=text):
+                algorithm, listener = cartogram(data, **options)
+                self.assertEqual([line_of(error) for error in listener.errors
+                                  if "returned failure" not in error], [text])
+                self.assertEqual(listener.warnings, [])
+                self.assertEqual(algorithm.GetRegions().GetNumberOfPoints(), 0)
+        no_mass = map_of([rectangle(i, 0, i + 1, 1) for i in range(4)], [0.0, 5.0, 0.0, 1.0])
+        for data, options, texts in (
+                (map_of([square(0, 4)], [3.0]), {}, []),
+                (sixteen(place=lambda x, y: (x, y, 2 * x - y)), {}, []),
+                (map_of([square(0, 1), [(x + 300, y) for x, y in square(0, 1)]], [1.0, 3.0]), {}, []),
+                (map_of([square(0, 4), rectangle(3, 0, 8, 4)], [1.0, 2.0]), {},
+                 ["Regions overlap by 11 % of their area (most at the region of cell 0), which counts for each of "
+                  "them; their areas there are not what their masses ask"]),
+                (sixteen(place=lambda x, y: (10 * x, 40 + 10 * y, 0.0)), {},
+                 ["The coordinates look like degrees of longitude and latitude, in which areas are wrong; project "
+                  "the map to an equal-area projection first"]),
+                (no_mass, dict(Tolerance=1.0, LeastShare=0.01),
+                 ["2 of 4 regions (50 %) have no mass (the first is the region of cell 0); they get a "
+                  "ten-thousandth of the mean density, as no area can be shown",
+                  "2 of 4 regions (50 %) are enlarged to LeastShare"])):
+            with self.subTest(texts=texts):
+                algorithm, listener = cartogram(data, **options)
+                self.assertEqual(listener.errors, [])
+                self.assertEqual([line_of(warning) for warning in listener.warnings], texts)
+                self.assertEqual(algorithm.GetRegions().GetNumberOfPolys(), data.GetNumberOfPolys())
+        one, _ = cartogram(map_of([square(0, 4)], [3.0]))
+        self.assertAlmostEqual(ring_areas(one.GetRegions())[0], 16, delta=0.01)
 
     def test_extremes(self):
         """All mass in one region; masses and coordinates near the ends of doubles."""

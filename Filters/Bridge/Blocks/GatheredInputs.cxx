@@ -5,8 +5,10 @@
 #include "Bridge/Ranks/GatheredData.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Run/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 
+#include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
 #include "vtkImageData.h"
@@ -78,6 +80,11 @@ vtkSmartPointer<vtkDataObject> gatherAny(vtkDataObject* own, GatheredKind kind, 
 {
   if (kind != GatheredKind::Density)
   {
+    if (!onAllRanks(ranks, !vtkCompositeDataSet::SafeDownCast(own)))
+    {
+      throw Failure("A point set that is read as a whole has blocks, which several ranks cannot "
+                    "gather; make one of them, with Merge Blocks");
+    }
     return gatherPoints(vtkPointSet::SafeDownCast(own), ranks, Receivers::First,
       kind == GatheredKind::Surface ? PointSetKind::Surface : PointSetKind::Points);
   }

@@ -15,7 +15,6 @@
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
@@ -35,11 +34,10 @@ namespace
 class CartogramJob
 {
 public:
-  CartogramJob(const CartogramWorker& worker, RegionCells cells, vtkPointSet* overlay,
-    KeptMap& kept, Progress& progress, const CartogramOutputs& outputs)
+  CartogramJob(const CartogramWorker& worker, RegionCells cells, KeptMap& kept, Progress& progress,
+    const CartogramOutputs& outputs)
     : Worker(worker)
     , Cells(std::move(cells))
-    , Overlay(overlay)
     , Kept(kept)
     , Work(progress)
     , Outputs(outputs)
@@ -50,6 +48,7 @@ public:
   {
     this->ReadPoints();
     this->FindFrame();
+    this->Work.Check();
     this->MakeMap();
     this->MassesBefore = this->Cells.Masses;
     this->CheckMasses();
@@ -59,8 +58,9 @@ public:
     {
       place = this->Box.ToIndex(place);
     }
+    this->Work.Check();
     const MapPlace place{ *this->Frame, this->Box, this->Worker.Blend };
-    MapFellows fellows(place, this->Overlay, this->Work);
+    MapFellows fellows(place, this->Outputs.Overlay, this->Work);
     CartogramStart start = this->FindStart();
     this->Work.BeginStage(0.98);
     this->Result = runCartogram(this->Map, this->Cells.Masses, this->Box, this->Worker.Options,
@@ -74,10 +74,9 @@ public:
     this->Warn();
     this->WriteRegions(place);
     fellows.WriteGraticule(this->Outputs.Graticule);
-    if (this->Overlay)
-    {
-      fellows.WriteOverlay(this->Outputs.Overlay);
-    }
+    this->Work.BeginStage(1.0);
+    fellows.WriteOverlay(this->Work);
+    this->Work.Check();
     return std::move(this->Warnings);
   }
 
@@ -151,7 +150,8 @@ private:
       std::vector<std::int64_t> ring(ids->begin(), ids->begin() + count);
       this->Map.AddRing(this->Cells.Regions[Index(cell)], ring);
     });
-    this->Map.FindHoles();
+    this->Work.BeginStage(0.07);
+    this->Map.FindHoles(this->Work.Stage());
     this->Before = this->Map.Areas(static_cast<std::int32_t>(this->Cells.Masses.size()));
     this->Land = std::accumulate(this->Before.begin(), this->Before.end(), 0.0);
     std::int64_t empty = 0;
@@ -246,7 +246,7 @@ private:
       return this->Kept.Start;
     }
     content.Keep(this->Work);
-    this->Kept.Content = std::move(content);
+    this->Kept = { std::move(content), {} }; // an abort may follow
     return {};
   }
 
@@ -282,7 +282,7 @@ private:
     text << describePart(missed, regions, "regions") << " miss Tolerance";
     if (!result.OutOfReach.empty())
     {
-      text << "; the raster cannot hold";
+      text << "; the raster cannot hold the region" << (result.OutOfReach.size() > 1 ? "s" : "");
       constexpr std::size_t most = 5;
       for (std::size_t i = 0; i < std::min(most, result.OutOfReach.size()); ++i)
       {
@@ -313,12 +313,12 @@ private:
     output->GetPointData()->InterpolateAllocate(input->GetPointData(), points);
     std::vector<Point<3>> before = this->Places;
     const auto old = static_cast<vtkIdType>(before.size());
-    for (vtkIdType i = 0; i < old; ++i)
-    {
-      output->GetPointData()->CopyData(input->GetPointData(), i, i);
-    }
+    output->GetPointData()->CopyData(input->GetPointData(), 0, old, 0);
+    constexpr std::int64_t work = 8; // units, of the arrays of a point
+    this->Work.BeginStage(0.99, work * (points - old) + points);
     for (std::size_t i = 0; i < this->Result.Added.size(); ++i)
     {
+      this->Work.Add(work);
       const DividingPoint& added = this->Result.Added[i];
       const Point<3>& a = before[Index(added.First)];
       const Point<3>& b = before[Index(added.Second)];
@@ -334,6 +334,7 @@ private:
     }
     for (vtkIdType i = 0; i < points; ++i)
     {
+      this->Work.Add(1);
       const Point<3> place = this->Worker.Blend > 0.0
         ? where.Blended(this->Result.Before[Index(i)], this->Map.Points()[Index(i)],
             this->Frame->Distance(before[Index(i)]))
@@ -341,6 +342,7 @@ private:
       moved->SetPoint(i, place.data());
     }
     output->SetPoints(moved);
+    this->Work.Check();
     this->WriteCells(output);
     addFieldValues(output, "AreaErrors", this->LargestErrors());
     addFieldValue(output, "EnlargedRegions", this->Enlarged);
@@ -409,7 +411,6 @@ private:
 
   const CartogramWorker& Worker;
   RegionCells Cells;
-  vtkPointSet* const Overlay;
   KeptMap& Kept;
   Progress& Work;
   const CartogramOutputs& Outputs;
@@ -428,13 +429,11 @@ private:
 } // namespace
 
 std::vector<std::string> CartogramWorker::Run(const std::vector<DensityBlock>& blocks,
-  bool isComposite, vtkPointSet* overlay, KeptMap& kept, Progress& progress,
-  const CartogramOutputs& outputs) const
+  bool isComposite, KeptMap& kept, Progress& progress, const CartogramOutputs& outputs) const
 {
-  progress.BeginStage(0.02);
   RegionCells cells = readRegions(blocks, isComposite, this->Arrays, progress);
   progress.BeginStage(0.05);
-  return CartogramJob(*this, std::move(cells), overlay, kept, progress, outputs).Run();
+  return CartogramJob(*this, std::move(cells), kept, progress, outputs).Run();
 }
 
 } // namespace RectifiedTransport

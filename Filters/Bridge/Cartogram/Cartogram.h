@@ -4,6 +4,7 @@
 #define RectifiedTransport_CartogramWorker_h
 
 #include "Bridge/Blocks/DataContent.h"
+#include "Bridge/Cartogram/OverlayParts.h"
 #include "Bridge/Cartogram/RegionCells.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Cartogram/Cartogram.h"
@@ -12,7 +13,6 @@
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkPointSet;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
@@ -32,7 +32,7 @@ struct CartogramOutputs
 {
   vtkPolyData* Regions;
   vtkPolyData* Graticule;
-  vtkPointSet* Overlay; // has the structure and the data of its input; nullptr if there is none
+  std::vector<OverlayPart> Overlay;
 };
 
 // The members are the properties of that class.
@@ -45,7 +45,7 @@ struct CartogramWorker
 
   // Returns warnings. Throws Failure, InvalidDensity and Cancelled.
   std::vector<std::string> Run(const std::vector<DensityBlock>& blocks, bool isComposite,
-    vtkPointSet* overlay, KeptMap& kept, Progress& progress, const CartogramOutputs& outputs) const;
+    KeptMap& kept, Progress& progress, const CartogramOutputs& outputs) const;
 };
 
 } // namespace RectifiedTransport

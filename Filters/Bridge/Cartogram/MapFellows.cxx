@@ -25,8 +25,10 @@ constexpr std::int64_t lineCount = 2 * (spaces + 1);
 
 } // namespace
 
-MapFellows::MapFellows(const MapPlace& place, vtkPointSet* overlay, Progress& progress)
+MapFellows::MapFellows(
+  const MapPlace& place, const std::vector<OverlayPart>& overlay, Progress& progress)
   : Place(place)
+  , Overlay(overlay)
 {
   const auto side = static_cast<double>(place.Box.Side);
   for (std::size_t axis = 0; axis < 2; ++axis)
@@ -42,15 +44,17 @@ MapFellows::MapFellows(const MapPlace& place, vtkPointSet* overlay, Progress& pr
       }
     }
   }
-  if (overlay)
+  for (const OverlayPart& part : overlay)
   {
-    const std::size_t first = this->Moved.size();
-    this->Overlay.resize(static_cast<std::size_t>(overlay->GetNumberOfPoints()));
-    this->Moved.resize(first + this->Overlay.size());
-    visitPoints(overlay, "Overlay", progress, [&](std::int64_t i, const double* x) {
+    const std::size_t moved = this->Moved.size();
+    const std::size_t before = this->OverlayBefore.size();
+    const auto count = static_cast<std::size_t>(part.Input->GetNumberOfPoints());
+    this->Moved.resize(moved + count);
+    this->OverlayBefore.resize(before + count);
+    visitPoints(part.Input, "Overlay", progress, [&](std::int64_t i, const double* x) {
       const auto at = static_cast<std::size_t>(i);
-      this->Overlay[at] = { x[0], x[1], x[2] };
-      this->Moved[first + at] = place.ToIndex(this->Overlay[at]);
+      this->OverlayBefore[before + at] = { x[0], x[1], x[2] };
+      this->Moved[moved + at] = place.ToIndex({ x[0], x[1], x[2] });
     });
   }
   this->Before = this->Moved;
@@ -75,19 +79,29 @@ void MapFellows::WriteGraticule(vtkPolyData* output) const
   output->SetLines(lines);
 }
 
-void MapFellows::WriteOverlay(vtkPointSet* output) const
+void MapFellows::WriteOverlay(Progress& progress) const
 {
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
   constexpr auto first = static_cast<std::size_t>(lineCount * pointsOfLine);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(this->Overlay.size()));
-  for (std::size_t i = 0; i < this->Overlay.size(); ++i)
+  std::size_t before = 0;
+  for (const OverlayPart& part : this->Overlay)
   {
-    const Point<3> place = this->Place.Blended(this->Before[first + i], this->Moved[first + i],
-      this->Place.Frame.Distance(this->Overlay[i]));
-    points->SetPoint(static_cast<vtkIdType>(i), place.data());
+    const std::int64_t count = part.Input->GetNumberOfPoints();
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    points->SetNumberOfPoints(count);
+    progress.For(count, grain, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const std::size_t at = before + static_cast<std::size_t>(i);
+        const Point<3> place = this->Place.Blended(this->Before[first + at],
+          this->Moved[first + at], this->Place.Frame.Distance(this->OverlayBefore[at]));
+        points->SetPoint(i, place.data());
+      }
+    });
+    part.Output->SetPoints(points);
+    before += static_cast<std::size_t>(count);
   }
-  output->SetPoints(points);
 }
 
 } // namespace RectifiedTransport

@@ -4,13 +4,13 @@
 #define RectifiedTransport_MapFellows_h
 
 #include "Bridge/Cartogram/MapPlace.h"
+#include "Bridge/Cartogram/OverlayParts.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Progress.h"
 
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkPointSet;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
@@ -20,20 +20,21 @@ namespace RectifiedTransport
 class MapFellows
 {
 public:
-  // `overlay` may be nullptr. Throws Failure and Cancelled.
-  MapFellows(const MapPlace& place, vtkPointSet* overlay, Progress& progress);
+  // Throws Failure and Cancelled.
+  MapFellows(const MapPlace& place, const std::vector<OverlayPart>& overlay, Progress& progress);
 
   // To be moved: in index space.
   FellowPoints& Points() { return this->Moved; }
   void WriteGraticule(vtkPolyData* output) const;
-  // Sets the points of an output that has the rest of the overlay.
-  void WriteOverlay(vtkPointSet* output) const;
+  // Sets the points of the overlay's outputs. Throws Cancelled.
+  void WriteOverlay(Progress& progress) const;
 
 private:
   const MapPlace& Place;
   FellowPoints Moved; // of the graticule, then of the overlay
   FellowPoints Before;
-  std::vector<Point<3>> Overlay; // the places before
+  const std::vector<OverlayPart>& Overlay;
+  std::vector<Point<3>> OverlayBefore; // of all parts
 };
 
 } // namespace RectifiedTransport

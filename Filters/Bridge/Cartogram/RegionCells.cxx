@@ -18,12 +18,14 @@
 #include "vtkStringArray.h"
 #include "vtkVariant.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -52,25 +54,48 @@ vtkPolyData* polyDataOf(const DensityBlock& block)
   return data;
 }
 
-vtkSmartPointer<vtkPolyData> joinBlocks(const std::vector<DensityBlock>& blocks)
+vtkSmartPointer<vtkPolyData> numberedBlock(const DensityBlock& block, std::size_t i)
 {
-  vtkNew<vtkAppendPolyData> append;
-  append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  vtkPolyData* data = polyDataOf(block);
+  const auto numbered = vtkSmartPointer<vtkPolyData>::New();
+  numbered->ShallowCopy(data);
+  vtkNew<vtkIdTypeArray> number;
+  number->SetName(blockNumbers);
+  number->SetNumberOfTuples(data->GetNumberOfCells());
+  number->FillValue(static_cast<vtkIdType>(i));
+  numbered->GetCellData()->AddArray(number);
+  return numbered;
+}
+
+// Group by group, and these again, as vtkAppendPolyData cannot be aborted.
+vtkSmartPointer<vtkPolyData> joinBlocks(const std::vector<DensityBlock>& blocks, Progress& progress)
+{
+  constexpr std::size_t most = 64;
+  std::vector<vtkSmartPointer<vtkPolyData>> parts;
+  progress.BeginStage(0.015, 2 * static_cast<std::int64_t>(blocks.size()));
   for (std::size_t i = 0; i < blocks.size(); ++i)
   {
-    vtkPolyData* data = polyDataOf(blocks[i]);
-    vtkNew<vtkPolyData> numbered;
-    numbered->ShallowCopy(data);
-    vtkNew<vtkIdTypeArray> number;
-    number->SetName(blockNumbers);
-    number->SetNumberOfTuples(data->GetNumberOfCells());
-    number->FillValue(static_cast<vtkIdType>(i));
-    numbered->GetCellData()->AddArray(number);
-    append->AddInputData(numbered);
+    progress.EndSlice(1);
+    parts.push_back(numberedBlock(blocks[i], i));
   }
-  append->Update();
-  vtkSmartPointer<vtkPolyData> joined = append->GetOutput();
-  return joined;
+  do
+  {
+    std::vector<vtkSmartPointer<vtkPolyData>> joined;
+    for (std::size_t first = 0; first < parts.size(); first += most)
+    {
+      vtkNew<vtkAppendPolyData> append;
+      append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+      for (std::size_t i = first; i < std::min(parts.size(), first + most); ++i)
+      {
+        append->AddInputData(parts[i]);
+      }
+      append->Update();
+      joined.emplace_back(append->GetOutput());
+      progress.EndSlice(append->GetNumberOfInputConnections(0));
+    }
+    parts = std::move(joined);
+  } while (parts.size() > 1);
+  return parts.front();
 }
 
 std::string textOf(vtkAbstractArray* array, vtkIdType cell)
@@ -97,13 +122,14 @@ public:
     , Arrays(arrays)
     , Work(progress)
   {
-    this->Found.Data = joinBlocks(blocks);
+    this->Found.Data = joinBlocks(blocks, progress);
     this->ByBlock = isComposite && blocks.size() > 1;
   }
 
   RegionCells Read()
   {
     this->RequireClosedLines();
+    this->Work.Check();
     this->FindMass();
     this->FindRegions();
     this->Found.Data->GetCellData()->RemoveArray(blockNumbers);
@@ -215,10 +241,11 @@ private:
     std::map<std::string, std::int32_t> numbers;
     const vtkIdType count = data->GetNumberOfCells();
     this->Found.Regions.assign(static_cast<std::size_t>(count), -1);
-    this->Work.BeginStage(this->Work.StageEnd(), count);
+    constexpr std::int64_t work = 8; // units, of a text
+    this->Work.BeginStage(0.02, work * count);
     for (vtkIdType cell = data->GetNumberOfVerts(); cell < count; ++cell)
     {
-      this->Work.Add(1);
+      this->Work.Add(work);
       const auto blockOfCell = static_cast<std::size_t>(block->GetComponent(cell, 0));
       std::string text = key ? textOf(key, cell)
         : this->ByBlock      ? std::to_string(blockOfCell)

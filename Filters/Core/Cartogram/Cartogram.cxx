@@ -65,20 +65,24 @@ public:
     {
       return std::move(this->Found);
     }
-    this->DivideFinely(*raster);
+    this->Work.BeginStage(0.12);
+    this->FillGrowth(*raster);
+    this->Work.BeginStage(0.15);
+    this->DivideFinely();
     double stuckBefore = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < this->Options.MaximumPasses; ++pass)
     {
       // How many passes follow is not known.
-      const double start = this->Work.StageEnd();
-      const double end = 0.5 * (1.0 + start);
+      const double end = 0.5 * (1.0 + this->Work.StageEnd());
       if (pass > 0)
       {
-        this->Work.BeginStage(start + 0.3 * (end - start));
+        this->BeginPart(0.1, end);
+        this->Divide([this](const Point<2>&) { return this->LongestEdge(); });
+        this->BeginPart(0.3, end);
         raster = this->RasterNow();
       }
       const bool isTempered = pass == 0 && this->SpansWidely();
-      const RegionValues values = this->FillPass(*raster, isTempered);
+      const RegionValues values = this->FillPass(*raster, isTempered, end);
       if (!this->MoveAll(end, values))
       {
         break;
@@ -101,7 +105,6 @@ public:
         break;
       }
       stuckBefore = stuck > 0.0 ? stuck : std::numeric_limits<double>::infinity();
-      this->Divide([this](const Point<2>&) { return this->LongestEdge(); });
     }
     return std::move(this->Found);
   }
@@ -120,12 +123,19 @@ private:
     }
   }
 
+  // Begins a stage of a part of what is left until `end`.
+  void BeginPart(double part, double end)
+  {
+    const double start = this->Work.StageEnd();
+    this->Work.BeginStage(start + part * (end - start));
+  }
+
   double LongestEdge() const { return static_cast<double>(this->Box.Side) / edgesOfSide; }
 
   std::shared_ptr<const RegionRaster> RasterNow()
   {
     return std::make_shared<const RegionRaster>(
-      this->Map, this->Regions, this->Box.Side, this->Work);
+      this->Map, this->Regions, this->Box.Side, this->Work.Stage());
   }
 
   // Of the regions, as mass per cell.
@@ -167,8 +177,8 @@ private:
     }
   }
 
-  // Edges are short where regions grow, by the density about their middles.
-  void DivideFinely(const RegionRaster& raster)
+  // How many times as dense as all regions together cells are, at least 1.
+  void FillGrowth(const RegionRaster& raster)
   {
     const double mean = this->MeanDensity();
     std::vector<double> growth(this->Masses.size());
@@ -176,7 +186,12 @@ private:
     {
       growth[i] = std::max(1.0, this->Masses[i] / this->Areas[i] / mean);
     }
-    raster.Fill(growth, 1.0, this->Cells);
+    raster.Fill(growth, 1.0, this->Cells, this->Work.Stage());
+  }
+
+  // Edges are short where regions grow, by the density about their middles.
+  void DivideFinely()
+  {
     const std::int64_t side = this->Box.Side;
     this->Divide([&](const Point<2>& middle) {
       std::int64_t at[2];
@@ -206,7 +221,7 @@ private:
     {
       this->Found.Before = this->Map.Points();
     }
-    for (const DividingPoint& point : this->Map.Divide(longestAt))
+    for (const DividingPoint& point : this->Map.Divide(longestAt, this->Work.Stage()))
     {
       const Point<2>& a = this->Found.Before[static_cast<std::size_t>(point.First)];
       const Point<2>& b = this->Found.Before[static_cast<std::size_t>(point.Second)];
@@ -216,7 +231,7 @@ private:
     }
   }
 
-  RegionValues FillPass(const RegionRaster& raster, bool takesRoots)
+  RegionValues FillPass(const RegionRaster& raster, bool takesRoots, double end)
   {
     const double mean = this->MeanDensity();
     std::vector<double> masses(this->Masses.size());
@@ -227,9 +242,11 @@ private:
     }
     const double sea = this->SeaOf(masses);
     const double landMean = sumOf(masses) / sumOf(this->Areas);
-    RegionValues values =
-      findRegionValues(raster, masses, this->Areas, sea, leastRegionDensity * landMean / sea);
-    raster.Fill(values.Densities, sea, this->Cells);
+    this->BeginPart(0.1, end);
+    RegionValues values = findRegionValues(
+      raster, masses, this->Areas, sea, leastRegionDensity * landMean / sea, this->Work.Stage());
+    this->BeginPart(0.1, end);
+    raster.Fill(values.Densities, sea, this->Cells, this->Work.Stage());
     return values;
   }
 
@@ -238,8 +255,7 @@ private:
   {
     const std::int64_t side = this->Box.Side;
     const DensityArray<2, double> array(this->Cells.data(), { side, side });
-    const double start = this->Work.StageEnd();
-    this->Work.BeginStage(start + 0.3 * (end - start));
+    this->BeginPart(0.3, end);
     if (this->Flow)
     {
       this->Flow.emplace(
@@ -249,7 +265,6 @@ private:
     {
       this->Flow.emplace(DensitySource<2>(array), this->Work.Stage());
     }
-    this->Work.BeginStage(end);
     FlowOptions options = this->Options.Flow;
     CartogramPass pass;
     pass.ForetoldError = 0.0;
@@ -262,6 +277,7 @@ private:
     const std::vector<double> ringAreas = this->RingAreas();
     for (;;)
     {
+      this->BeginPart(0.6, end);
       const FlowReport report =
         this->Flow->Backward(ConstPointSpan<2>(before), points, options, this->Work.Stage());
       pass.NumberOfSteps = report.NumberOfSteps;
@@ -278,6 +294,7 @@ private:
       }
       options.NumberOfSteps = steps;
     }
+    this->Work.BeginStage(end);
     this->MoveFellows(options);
     this->Areas = this->Map.Areas(this->Regions);
     this->Found.Passes.push_back(pass);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Cartogram/RegionMap.h"
 
+#include "Core/Parallel/Progress.h"
+
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
@@ -10,18 +12,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-struct Box
-{
-  Point<2> Low;
-  Point<2> High;
-
-  bool Contains(const Box& other) const
-  {
-    return this->Low[0] <= other.Low[0] && this->Low[1] <= other.Low[1] &&
-      this->High[0] >= other.High[0] && this->High[1] >= other.High[1];
-  }
-};
 
 struct Edge
 {
@@ -98,24 +88,6 @@ std::vector<double> RegionMap::Areas(std::int32_t regions) const
   return areas;
 }
 
-bool RegionMap::Contains(std::int64_t ring, const Point<2>& place) const
-{
-  bool isInside = false;
-  const std::int64_t begin = this->Begins[Index(ring)];
-  const std::int64_t end = this->Begins[Index(ring) + 1];
-  for (std::int64_t i = begin; i < end; ++i)
-  {
-    const Point<2>& a = this->Places[Index(this->Corners[Index(i)])];
-    const Point<2>& b = this->Places[Index(this->Corners[Index(i + 1 < end ? i + 1 : begin)])];
-    if ((a[1] > place[1]) != (b[1] > place[1]))
-    {
-      const double x = a[0] + (place[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
-      isInside = isInside != (x > place[0]);
-    }
-  }
-  return isInside;
-}
-
 std::vector<std::vector<std::int64_t>> RegionMap::RingsOfRegions() const
 {
   std::vector<std::vector<std::int64_t>> rings;
@@ -127,103 +99,162 @@ std::vector<std::vector<std::int64_t>> RegionMap::RingsOfRegions() const
   return rings;
 }
 
-void RegionMap::FindHoles()
+void RegionMap::FindHoles(const Context& context)
 {
-  std::vector<Box> boxes;
+  Progress progress(context);
+  progress.BeginStage(1.0, 2 * this->Edges());
+  std::vector<RingShape> shapes;
   for (std::int64_t ring = 0; ring < this->Rings(); ++ring)
   {
-    Box box{ { HUGE_VAL, HUGE_VAL }, { -HUGE_VAL, -HUGE_VAL } };
-    for (std::int64_t i = 0; i < this->CountOf(ring); ++i)
-    {
-      const Point<2>& place = this->Places[Index(this->CornerOf(ring, i))];
-      for (int axis = 0; axis < 2; ++axis)
-      {
-        box.Low[axis] = std::min(box.Low[axis], place[axis]);
-        box.High[axis] = std::max(box.High[axis], place[axis]);
-      }
-    }
-    boxes.push_back(box);
+    shapes.push_back(this->ShapeOf(ring));
+    progress.Add(this->CountOf(ring));
   }
-  // A ring may touch one around it in a few points, hardly in the middles of most of its edges.
-  const auto isIn = [&](std::int64_t inner, std::int64_t outer) {
-    constexpr std::int64_t most = 5;
-    const std::int64_t count = this->CountOf(inner);
-    const std::int64_t tries = std::min(most, count);
-    std::int64_t inside = 0;
-    for (std::int64_t i = 0; i < tries; ++i)
-    {
-      const std::int64_t corner = i * count / tries;
-      const Point<2>& a = this->Places[Index(this->CornerOf(inner, corner))];
-      const Point<2>& b = this->Places[Index(this->CornerOf(inner, (corner + 1) % count))];
-      inside += this->Contains(outer, { 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]) }) ? 1 : 0;
-    }
-    return 2 * inside > tries;
-  };
-  for (const std::vector<std::int64_t>& rings : this->RingsOfRegions())
+  for (std::vector<std::int64_t>& rings : this->RingsOfRegions())
   {
-    for (const std::int64_t ring : rings)
+    std::sort(rings.begin(), rings.end(), [&](std::int64_t a, std::int64_t b) {
+      return shapes[Index(a)].Low[0] < shapes[Index(b)].Low[0];
+    });
+    std::vector<int> around(rings.size(), 0);
+    for (const std::int64_t outer : rings)
     {
-      int around = 0;
-      for (const std::int64_t other : rings)
-      {
-        around +=
-          other != ring && boxes[Index(other)].Contains(boxes[Index(ring)]) && isIn(ring, other)
-          ? 1
-          : 0;
-      }
-      this->Holes[Index(ring)] = around % 2 == 1;
-      this->Turned[Index(ring)] = (this->WindingArea(ring) < 0.0) != this->IsHole(ring);
+      this->CountAround(outer, rings, shapes, around, progress);
+    }
+    for (std::size_t i = 0; i < rings.size(); ++i)
+    {
+      const std::size_t ring = Index(rings[i]);
+      this->Holes[ring] = around[i] % 2 == 1;
+      this->Turned[ring] = (this->WindingArea(rings[i]) < 0.0) != this->IsHole(rings[i]);
     }
   }
 }
 
-std::vector<DividingPoint> RegionMap::Divide(
-  const std::function<double(const Point<2>&)>& longestAt)
+RegionMap::RingShape RegionMap::ShapeOf(std::int64_t ring) const
 {
-  struct Parts
+  RingShape shape{ { HUGE_VAL, HUGE_VAL }, { -HUGE_VAL, -HUGE_VAL }, {} };
+  const std::int64_t count = this->CountOf(ring);
+  for (std::int64_t i = 0; i < count; ++i)
   {
-    std::int64_t First; // of the new points, from the lower end
-    std::int64_t Count;
+    const Point<2>& place = this->Places[Index(this->CornerOf(ring, i))];
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      shape.Low[axis] = std::min(shape.Low[axis], place[axis]);
+      shape.High[axis] = std::max(shape.High[axis], place[axis]);
+    }
+  }
+  constexpr std::int64_t most = 5;
+  const std::int64_t tries = std::min(most, count);
+  for (std::int64_t i = 0; i < tries; ++i)
+  {
+    const std::int64_t corner = i * count / tries;
+    const Point<2>& a = this->Places[Index(this->CornerOf(ring, corner))];
+    const Point<2>& b = this->Places[Index(this->CornerOf(ring, (corner + 1) % count))];
+    shape.Middles.push_back({ 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]) });
+  }
+  return shape;
+}
+
+// Adds 1 for each of the rings, by their lower ends along x, that lies in a ring. Every edge meets
+// only the middles at its heights.
+void RegionMap::CountAround(std::int64_t outer, const std::vector<std::int64_t>& rings,
+  const std::vector<RingShape>& shapes, std::vector<int>& around, Progress& progress) const
+{
+  struct Middle
+  {
+    Point<2> Place;
+    std::size_t Ring; // among the rings
+    bool IsInside;
   };
-  std::unordered_map<Edge, Parts, EdgeHash> divided;
+  const RingShape& shape = shapes[Index(outer)];
+  std::vector<Middle> middles;
+  const auto first = std::lower_bound(rings.begin(), rings.end(), shape.Low[0],
+    [&](std::int64_t ring, double low) { return shapes[Index(ring)].Low[0] < low; });
+  for (auto ring = first; ring != rings.end() && shapes[Index(*ring)].Low[0] <= shape.High[0];
+       ++ring)
+  {
+    progress.Add(1);
+    const RingShape& inner = shapes[Index(*ring)];
+    for (const Point<2>& middle : inner.Middles)
+    {
+      if (*ring != outer && shape.Contains(inner))
+      {
+        middles.push_back({ middle, static_cast<std::size_t>(ring - rings.begin()), false });
+      }
+    }
+  }
+  if (middles.empty())
+  {
+    return;
+  }
+  std::sort(middles.begin(), middles.end(),
+    [](const Middle& a, const Middle& b) { return a.Place[1] < b.Place[1]; });
+  this->VisitSides(outer, [&](std::int64_t from, std::int64_t to) {
+    const Point<2>& a = this->Places[Index(from)];
+    const Point<2>& b = this->Places[Index(to)];
+    const double low = std::min(a[1], b[1]);
+    const double high = std::max(a[1], b[1]);
+    auto middle = std::lower_bound(middles.begin(), middles.end(), low,
+      [](const Middle& one, double height) { return one.Place[1] < height; });
+    progress.Add(1);
+    for (; middle != middles.end() && middle->Place[1] < high; ++middle)
+    {
+      progress.Add(1);
+      const double x = a[0] + (middle->Place[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+      middle->IsInside = middle->IsInside != (x > middle->Place[0]);
+    }
+  });
+  std::sort(middles.begin(), middles.end(),
+    [](const Middle& a, const Middle& b) { return a.Ring < b.Ring; });
+  for (auto middle = middles.begin(); middle != middles.end();)
+  {
+    const auto end = std::find_if(
+      middle, middles.end(), [&](const Middle& other) { return other.Ring != middle->Ring; });
+    const auto inside = std::count_if(middle, end, [](const Middle& one) { return one.IsInside; });
+    around[middle->Ring] += 2 * inside > end - middle ? 1 : 0;
+    middle = end;
+  }
+}
+
+std::vector<DividingPoint> RegionMap::Divide(
+  const std::function<double(const Point<2>&)>& longestAt, const Context& context)
+{
+  std::unordered_map<Edge, std::int64_t, EdgeHash> firsts; // of the new points, from the lower end
   std::vector<DividingPoint> added;
   std::vector<std::int64_t> corners;
   std::vector<std::int64_t> begins{ 0 };
+  Progress progress(context);
+  progress.BeginStage(1.0, this->Edges());
   for (std::int64_t ring = 0; ring < this->Rings(); ++ring)
   {
-    for (std::int64_t i = 0; i < this->CountOf(ring); ++i)
-    {
-      const std::int64_t from = this->CornerOf(ring, i);
-      const std::int64_t to = this->CornerOf(ring, i + 1 < this->CountOf(ring) ? i + 1 : 0);
+    this->VisitSides(ring, [&](std::int64_t from, std::int64_t to) {
+      progress.Add(1);
       corners.push_back(from);
       const Point<2> a = this->Places[Index(from)];
       const Point<2> b = this->Places[Index(to)];
       const bool isUp = a != b ? a < b : from < to;
+      const Point<2> low = isUp ? a : b;
+      const Point<2> high = isUp ? b : a;
+      const double longest = longestAt({ 0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]) });
+      const auto parts = static_cast<std::int64_t>(
+        std::ceil(std::hypot(high[0] - low[0], high[1] - low[1]) / longest - 1e-9));
+      if (parts <= 1)
+      {
+        return;
+      }
       const Edge edge = isUp ? Edge{ from, to } : Edge{ to, from };
-      const auto [found, isNew] = divided.insert({ edge, {} });
-      if (isNew)
+      const auto [first, isNew] =
+        firsts.insert({ edge, static_cast<std::int64_t>(this->Places.size()) });
+      for (std::int64_t k = 1; isNew && k < parts; ++k)
       {
-        const Point<2> low = isUp ? a : b;
-        const Point<2> high = isUp ? b : a;
-        const double longest = longestAt({ 0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]) });
-        const double parts =
-          std::ceil(std::hypot(high[0] - low[0], high[1] - low[1]) / longest - 1e-9);
-        found->second = { static_cast<std::int64_t>(this->Places.size()),
-          std::max<std::int64_t>(1, static_cast<std::int64_t>(parts)) };
-        for (std::int64_t k = 1; k < found->second.Count; ++k)
-        {
-          const double at = static_cast<double>(k) / static_cast<double>(found->second.Count);
-          added.push_back({ edge.Low, edge.High, at });
-          this->Places.push_back(
-            { low[0] + at * (high[0] - low[0]), low[1] + at * (high[1] - low[1]) });
-        }
+        const double at = static_cast<double>(k) / static_cast<double>(parts);
+        added.push_back({ edge.Low, edge.High, at });
+        this->Places.push_back(
+          { low[0] + at * (high[0] - low[0]), low[1] + at * (high[1] - low[1]) });
       }
-      const Parts& parts = found->second;
-      for (std::int64_t k = 1; k < parts.Count; ++k)
+      for (std::int64_t k = 1; k < parts; ++k)
       {
-        corners.push_back(parts.First + (isUp ? k : parts.Count - k) - 1);
+        corners.push_back(first->second + (isUp ? k : parts - k) - 1);
       }
-    }
+    });
     begins.push_back(static_cast<std::int64_t>(corners.size()));
   }
   this->Corners = std::move(corners);

@@ -2,6 +2,7 @@
 #include "Core/Cartogram/RegionRaster.h"
 
 #include "Core/Overlap/RegionCoverage.h"
+#include "Core/Parallel/Progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,109 +14,113 @@ namespace RectifiedTransport
 namespace
 {
 
-struct CellShare
+// The rows of cells that a region lies in, in the grid.
+struct Rows
 {
-  std::int64_t Cell;
-  RegionRaster::Share Share;
+  std::int64_t First;
+  std::int64_t Last; // one beyond
+  std::int64_t Edges;
+
+  bool AreIn(std::int64_t first, std::int64_t last) const
+  {
+    return first < this->Last && last > this->First;
+  }
 };
 
-struct CellBox
+Rows rowsOf(const RegionMap& map, const std::vector<std::int64_t>& rings, std::int64_t side)
 {
-  GridSize<2> Low;
-  GridSize<2> High;
-};
-
-// The cells that the rings of a region lie in, in the grid.
-CellBox boxOf(const RegionMap& map, const std::vector<std::int64_t>& rings, std::int64_t side)
-{
-  Point<2> low{ HUGE_VAL, HUGE_VAL };
-  Point<2> high{ -HUGE_VAL, -HUGE_VAL };
+  double low = HUGE_VAL;
+  double high = -HUGE_VAL;
+  std::int64_t edges = 0;
   for (const std::int64_t ring : rings)
   {
+    edges += map.CountOf(ring);
     map.VisitEdges(ring, [&](std::int64_t from, std::int64_t) {
-      const Point<2>& place = map.Points()[static_cast<std::size_t>(from)];
-      for (int axis = 0; axis < 2; ++axis)
-      {
-        low[axis] = std::min(low[axis], place[axis]);
-        high[axis] = std::max(high[axis], place[axis]);
-      }
+      const double y = map.Points()[static_cast<std::size_t>(from)][1];
+      low = std::min(low, y);
+      high = std::max(high, y);
     });
   }
-  CellBox box{ { 0, 0 }, { 0, 0 } };
   const auto last = static_cast<double>(side);
-  for (int axis = 0; axis < 2 && low[0] <= high[0]; ++axis)
-  {
-    box.Low[axis] = static_cast<std::int64_t>(std::floor(std::clamp(low[axis], 0.0, last - 1.0)));
-    box.High[axis] = std::max(
-      box.Low[axis] + 1, static_cast<std::int64_t>(std::ceil(std::clamp(high[axis], 0.0, last))));
-  }
-  return box;
-}
-
-// Appends the shares of the cells of a region, by rows.
-void cover(const RegionMap& map, std::int32_t region, const std::vector<std::int64_t>& rings,
-  std::int64_t side, std::vector<CellShare>& shares)
-{
-  const CellBox box = boxOf(map, rings, side);
-  const GridSize<2> size{ box.High[0] - box.Low[0], box.High[1] - box.Low[1] };
-  std::vector<double> parts(static_cast<std::size_t>(size[0] * size[1]), 0.0);
-  RegionCoverage coverage({ size, 0, size[1], parts.data() });
-  const auto placeOf = [&](std::int64_t point) {
-    const Point<2>& place = map.Points()[static_cast<std::size_t>(point)];
-    return Point<2>{ place[0] - static_cast<double>(box.Low[0]),
-      place[1] - static_cast<double>(box.Low[1]) };
-  };
-  for (const std::int64_t ring : rings)
-  {
-    map.VisitEdges(
-      ring, [&](std::int64_t from, std::int64_t to) { coverage.Add(placeOf(from), placeOf(to)); });
-  }
-  coverage.Finish(1.0);
-  for (std::int64_t row = 0; row < size[1]; ++row)
-  {
-    for (std::int64_t i = 0; i < size[0]; ++i)
-    {
-      const double part = parts[static_cast<std::size_t>(row * size[0] + i)];
-      if (part > 0.0)
-      {
-        shares.push_back(
-          { (box.Low[1] + row) * side + box.Low[0] + i, { region, std::min(part, 1.0) } });
-      }
-    }
-  }
+  return { static_cast<std::int64_t>(std::floor(std::clamp(low, 0.0, last))),
+    static_cast<std::int64_t>(std::ceil(std::clamp(high, 0.0, last))), edges };
 }
 
 } // namespace
 
 RegionRaster::RegionRaster(
-  const RegionMap& map, std::int32_t regions, std::int64_t side, Progress& progress)
+  const RegionMap& map, std::int32_t regions, std::int64_t side, const Context& context)
   : CellsOfSide(side)
-  , Owners(static_cast<std::size_t>(side * side), -1)
   , Whole(static_cast<std::size_t>(regions), 0.0)
 {
   std::vector<std::vector<std::int64_t>> ringsOf = map.RingsOfRegions();
   ringsOf.resize(this->Whole.size());
-  std::vector<CellShare> mixed;
-  std::vector<CellShare> shares;
-  for (std::int32_t region = 0; region < regions; ++region)
+  std::vector<Rows> rowsOfRegions;
+  // Bands of rows: what one takes is little.
+  constexpr std::int64_t cellsOfBand = std::int64_t{ 1 } << 19;
+  const std::int64_t band = std::max<std::int64_t>(1, cellsOfBand / side);
+  std::int64_t edges = 0; // to visit, in all bands
+  for (const std::vector<std::int64_t>& rings : ringsOf)
   {
-    progress.Check();
-    shares.clear();
-    cover(map, region, ringsOf[static_cast<std::size_t>(region)], side, shares);
-    for (const CellShare& share : shares)
+    const Rows rows = rowsOf(map, rings, side);
+    rowsOfRegions.push_back(rows);
+    edges +=
+      rows.First < rows.Last ? rows.Edges * ((rows.Last - 1) / band - rows.First / band + 1) : 0;
+  }
+  Progress progress(context);
+  progress.BeginStage(1.0, edges);
+  this->Owners.reserve(static_cast<std::size_t>(side * side));
+  std::vector<CellShare> mixed;
+  for (std::int64_t first = 0; first < side; first += band)
+  {
+    const std::int64_t last = std::min(side, first + band);
+    this->Owners.resize(static_cast<std::size_t>(last * side), -1);
+    RegionCoverage coverage({ { side, side }, first, last, nullptr });
+    mixed.clear();
+    for (std::int32_t region = 0; region < regions; ++region)
     {
-      std::int32_t& owner = this->Owners[static_cast<std::size_t>(share.Cell)];
-      if (share.Share.Part >= 1.0 && owner < 0)
+      const auto at = static_cast<std::size_t>(region);
+      if (!rowsOfRegions[at].AreIn(first, last))
       {
-        owner = region;
+        continue;
       }
-      else
+      for (const std::int64_t ring : ringsOf[at])
       {
-        mixed.push_back(share);
+        map.VisitEdges(ring, [&](std::int64_t from, std::int64_t to) {
+          progress.Add(1);
+          coverage.Add(map.Points()[static_cast<std::size_t>(from)],
+            map.Points()[static_cast<std::size_t>(to)]);
+        });
       }
+      coverage.FinishCells([&](std::int64_t cell, double part) {
+        std::int32_t& owner = this->Owners[static_cast<std::size_t>(cell)];
+        if (part >= 1.0 && owner < 0)
+        {
+          owner = region;
+        }
+        else
+        {
+          mixed.push_back({ cell, { region, part } });
+        }
+      });
+      progress.Check();
+    }
+    this->AddMixed(mixed);
+  }
+  this->Begins.push_back(static_cast<std::int64_t>(this->Shares.size()));
+  progress.Check();
+  for (const std::int32_t owner : this->Owners)
+  {
+    if (owner >= 0)
+    {
+      this->Whole[static_cast<std::size_t>(owner)] += 1.0;
     }
   }
-  // Cells of an owner and others are mixed.
+}
+
+// Of a band. Cells of an owner and others are mixed.
+void RegionRaster::AddMixed(std::vector<CellShare>& mixed)
+{
   const std::size_t parts = mixed.size();
   for (std::size_t i = 0; i < parts; ++i)
   {
@@ -134,18 +139,9 @@ RegionRaster::RegionRaster(
     if (i == 0 || mixed[i].Cell != mixed[i - 1].Cell)
     {
       this->Mixed.push_back(mixed[i].Cell);
-      this->Begins.push_back(static_cast<std::int64_t>(i));
+      this->Begins.push_back(static_cast<std::int64_t>(this->Shares.size()));
     }
     this->Shares.push_back(mixed[i].Share);
-  }
-  this->Begins.erase(this->Begins.begin());
-  this->Begins.push_back(static_cast<std::int64_t>(this->Shares.size()));
-  for (const std::int32_t owner : this->Owners)
-  {
-    if (owner >= 0)
-    {
-      this->Whole[static_cast<std::size_t>(owner)] += 1.0;
-    }
   }
 }
 
@@ -169,21 +165,36 @@ std::vector<double> RegionRaster::Covered() const
   return covered;
 }
 
-void RegionRaster::Fill(
-  const std::vector<double>& values, double around, std::vector<double>& cells) const
+void RegionRaster::Fill(const std::vector<double>& values, double around,
+  std::vector<double>& cells, const Context& context) const
 {
-  cells.resize(this->Owners.size());
-  std::transform(this->Owners.begin(), this->Owners.end(), cells.begin(), [&](std::int32_t owner) {
-    return owner < 0 ? around : values[static_cast<std::size_t>(owner)];
-  });
-  std::size_t at = 0;
-  this->VisitMixed([&](const Share* shares, std::int64_t count) {
-    double value = around * restOf(shares, count);
-    for (std::int64_t i = 0; i < count; ++i)
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+  Progress progress(context);
+  const auto all = static_cast<std::int64_t>(this->Owners.size());
+  const auto mixed = static_cast<std::int64_t>(this->Mixed.size());
+  progress.BeginStage(1.0, all + mixed);
+  cells.clear();
+  cells.reserve(this->Owners.size());
+  progress.ForInOrder(all, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
     {
-      value += shares[i].Part * values[static_cast<std::size_t>(shares[i].Region)];
+      const std::int32_t owner = this->Owners[static_cast<std::size_t>(i)];
+      cells.push_back(owner < 0 ? around : values[static_cast<std::size_t>(owner)]);
     }
-    cells[static_cast<std::size_t>(this->Mixed[at++])] = value;
+  });
+  progress.For(mixed, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      const auto at = static_cast<std::size_t>(i);
+      const Share* const shares = this->Shares.data() + this->Begins[at];
+      const std::int64_t count = this->Begins[at + 1] - this->Begins[at];
+      double value = around * restOf(shares, count);
+      for (std::int64_t k = 0; k < count; ++k)
+      {
+        value += shares[k].Part * values[static_cast<std::size_t>(shares[k].Region)];
+      }
+      cells[static_cast<std::size_t>(this->Mixed[at])] = value;
+    }
   });
 }
 

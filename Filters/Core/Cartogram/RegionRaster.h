@@ -5,7 +5,7 @@
 
 #include "Core/Cartogram/RegionMap.h"
 #include "Core/Geometry/GridSize.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Context.h"
 
 #include <cstdint>
 #include <vector>
@@ -16,8 +16,9 @@ namespace RectifiedTransport
 class RegionRaster
 {
 public:
-  // Points are in index space. Runs as the current stage. Throws std::bad_alloc and Cancelled.
-  RegionRaster(const RegionMap& map, std::int32_t regions, std::int64_t side, Progress& progress);
+  // Points are in index space. Throws std::bad_alloc and Cancelled.
+  RegionRaster(const RegionMap& map, std::int32_t regions, std::int64_t side,
+    const Context& context = Context());
 
   struct Share
   {
@@ -34,6 +35,8 @@ public:
   }
   // All that regions cover, in cells.
   std::vector<double> Covered() const;
+  // Of all regions, in the other cells.
+  std::int64_t NumberOfShares() const { return static_cast<std::int64_t>(this->Shares.size()); }
   // visit(shares, count) of each of the other cells that regions cover.
   template <class Visit>
   void VisitMixed(const Visit& visit) const
@@ -43,17 +46,26 @@ public:
       visit(this->Shares.data() + this->Begins[i], this->Begins[i + 1] - this->Begins[i]);
     }
   }
-  // The mean of the regions' values in each cell; the rest of it has the value `around`.
-  void Fill(const std::vector<double>& values, double around, std::vector<double>& cells) const;
+  // The mean of the regions' values in each cell; the rest of it has the value `around`. Throws
+  // std::bad_alloc and Cancelled.
+  void Fill(const std::vector<double>& values, double around, std::vector<double>& cells,
+    const Context& context = Context()) const;
   // What regions cover together beyond whole cells, in cells, and the region with most of it.
   double Overlap(std::int32_t& region) const;
 
 private:
+  struct CellShare
+  {
+    std::int64_t Cell;
+    RegionRaster::Share Share;
+  };
+  void AddMixed(std::vector<CellShare>& mixed);
+
   std::int64_t CellsOfSide;
   std::vector<std::int32_t> Owners; // of cells, or -1
   std::vector<double> Whole;
   std::vector<std::int64_t> Mixed; // numbers of the other cells
-  std::vector<std::int64_t> Begins{ 0 };
+  std::vector<std::int64_t> Begins;
   std::vector<Share> Shares;
 };
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Cartogram/RegionValues.h"
 
+#include "Core/Parallel/Progress.h"
+
 #include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 
 namespace RectifiedTransport
 {
@@ -22,40 +25,52 @@ struct System
   std::vector<double> Rest; // the area in cells that regions share with the rest
 };
 
-System systemOf(const RegionRaster& raster)
+System systemOf(const RegionRaster& raster, Progress& progress)
 {
   const std::int32_t regions = raster.Regions();
   System system{ Matrix(regions, regions),
     std::vector<double>(static_cast<std::size_t>(regions), 0.0) };
-  std::vector<Eigen::Triplet<double, std::int32_t>> entries;
+  std::unordered_map<std::int64_t, double> entries; // by row * regions + column
+  const auto entry = [&](std::int32_t row, std::int32_t column) -> double& {
+    return entries[static_cast<std::int64_t>(row) * regions + column];
+  };
   for (std::int32_t region = 0; region < regions; ++region)
   {
-    entries.emplace_back(region, region, raster.WholeCells(region));
+    entry(region, region) = raster.WholeCells(region);
   }
   raster.VisitMixed([&](const RegionRaster::Share* shares, std::int64_t count) {
     const double rest = restOf(shares, count);
     for (std::int64_t i = 0; i < count; ++i)
     {
+      progress.Add(count);
       system.Rest[static_cast<std::size_t>(shares[i].Region)] += shares[i].Part * rest;
       for (std::int64_t k = 0; k < count; ++k)
       {
-        entries.emplace_back(shares[i].Region, shares[k].Region, shares[i].Part * shares[k].Part);
+        entry(shares[i].Region, shares[k].Region) += shares[i].Part * shares[k].Part;
       }
     }
   });
-  system.Common.setFromTriplets(entries.begin(), entries.end());
+  std::vector<Eigen::Triplet<double, std::int32_t>> triplets;
+  for (const auto& [place, value] : entries)
+  {
+    triplets.emplace_back(static_cast<std::int32_t>(place / regions),
+      static_cast<std::int32_t>(place % regions), value);
+  }
+  system.Common.setFromTriplets(triplets.begin(), triplets.end());
   return system;
 }
 
 } // namespace
 
 RegionValues findRegionValues(const RegionRaster& raster, const std::vector<double>& masses,
-  const std::vector<double>& areas, double around, double least)
+  const std::vector<double>& areas, double around, double least, const Context& context)
 {
   constexpr int mostSweeps = 200;
   constexpr double smallestChange = 1e-5;
   constexpr double most = 4.0;
-  const System system = systemOf(raster);
+  Progress progress(context);
+  progress.BeginStage(1.0, 2 * raster.NumberOfShares());
+  const System system = systemOf(raster, progress);
   const auto regions = static_cast<std::size_t>(raster.Regions());
   RegionValues found{ std::vector<double>(regions), std::vector<double>(regions),
     std::vector<unsigned char>(regions) };
@@ -80,6 +95,7 @@ RegionValues findRegionValues(const RegionRaster& raster, const std::vector<doub
   double change = 1.0;
   for (int sweep = 0; sweep < mostSweeps && change > smallestChange; ++sweep)
   {
+    progress.Check();
     change = 0.0;
     for (std::size_t i = 0; i < regions; ++i)
     {

@@ -21,9 +21,10 @@ struct RegionValues
 // `masses` and `around`, the density of the rest, in cells; areas in cells, positive. Densities are
 // at least `least` of `around`, or the mass by the area if that is less, and at most 4 times that.
 // Projected Gauss-Seidel on M d = masses - what the rest gives, where M_ij is the sum over cells of
-// the product of the parts that i and j cover.
+// the product of the parts that i and j cover. Throws std::bad_alloc and Cancelled.
 RegionValues findRegionValues(const RegionRaster& raster, const std::vector<double>& masses,
-  const std::vector<double>& areas, double around, double least);
+  const std::vector<double>& areas, double around, double least,
+  const Context& context = Context());
 
 } // namespace RectifiedTransport
 

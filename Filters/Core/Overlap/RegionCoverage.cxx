@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace RectifiedTransport
 {
@@ -108,29 +107,8 @@ void RegionCoverage::AddInRow(std::int64_t row, double from, double to, double h
 
 void RegionCoverage::Finish(double value)
 {
-  constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
-  for (std::int64_t row = this->FirstRow; row <= this->LastRow; ++row)
-  {
-    Row& span = this->Rows[static_cast<std::size_t>(row - this->Slab.First)];
-    Share* shares = this->Shares.data() + (row - this->Slab.First) * this->Slab.Size[0];
-    double* sums = this->Slab.Sums + row * this->Slab.Size[0];
-    // Cells outside must have nothing at all, else particles might be put there.
-    const double tolerance = rounding * span.Heights;
-    double height = 0.0;
-    for (std::int64_t cell = span.First; cell <= span.Last; ++cell)
-    {
-      const double covered = height + shares[cell].Area;
-      height += shares[cell].Height;
-      shares[cell] = { 0.0, 0.0 };
-      if (covered > tolerance)
-      {
-        sums[cell] += value * (covered < 1.0 - tolerance ? covered : 1.0);
-      }
-    }
-    span = { this->Slab.Size[0], -1, 0.0 };
-  }
-  this->FirstRow = this->Slab.Last;
-  this->LastRow = this->Slab.First - 1;
+  double* const sums = this->Slab.Sums;
+  this->FinishCells([&](std::int64_t cell, double area) { sums[cell] += value * area; });
 }
 
 } // namespace RectifiedTransport

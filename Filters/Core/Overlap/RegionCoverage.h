@@ -6,6 +6,7 @@
 #include "Core/Overlap/Overlap.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace RectifiedTransport
@@ -22,6 +23,33 @@ public:
   void Add(const Point<2>& from, const Point<2>& to);
   // Adds to the slab's sums the value times the area that the edges since the last call enclose.
   void Finish(double value);
+  // visit(cell, area) of the cells in which they enclose something, by their numbers in the grid.
+  template <class Visit>
+  void FinishCells(const Visit& visit)
+  {
+    constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+    for (std::int64_t row = this->FirstRow; row <= this->LastRow; ++row)
+    {
+      Row& span = this->Rows[static_cast<std::size_t>(row - this->Slab.First)];
+      Share* shares = this->Shares.data() + (row - this->Slab.First) * this->Slab.Size[0];
+      // Cells outside must have nothing at all, else particles might be put there.
+      const double tolerance = rounding * span.Heights;
+      double height = 0.0;
+      for (std::int64_t cell = span.First; cell <= span.Last; ++cell)
+      {
+        const double covered = height + shares[cell].Area;
+        height += shares[cell].Height;
+        shares[cell] = { 0.0, 0.0 };
+        if (covered > tolerance)
+        {
+          visit(row * this->Slab.Size[0] + cell, covered < 1.0 - tolerance ? covered : 1.0);
+        }
+      }
+      span = { this->Slab.Size[0], -1, 0.0 };
+    }
+    this->FirstRow = this->Slab.Last;
+    this->LastRow = this->Slab.First - 1;
+  }
 
 private:
   struct Share

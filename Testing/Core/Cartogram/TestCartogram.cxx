@@ -216,6 +216,32 @@ TEST(Cartogram, OutOfReach)
   EXPECT_LE(std::abs(made.Result.Errors[0]), 0.01);
 }
 
+// One step turns outlines over; more do not.
+TEST(Cartogram, MoreStepsWhereOutlinesTurnOver)
+{
+  CartogramOptions options = coarse();
+  options.Flow.NumberOfSteps = 1;
+  options.MaximumPasses = 1;
+  std::vector<double> masses = masses16(90.0);
+  masses.push_back(0.01);
+  RegionMap map = squares(4);
+  for (int i = 0; i < 400; ++i) // small islands all over it
+  {
+    const double x = 0.2 * (i % 20) + 0.09;
+    const double y = 0.2 * (i / 20) + 0.09;
+    addRing(map, 16, rectangle(x, y, x + 0.005, y + 0.005));
+  }
+  map.FindHoles();
+  const Made made = make(std::move(map), masses, options);
+  ASSERT_EQ(made.Result.Passes.size(), 1U);
+  EXPECT_GE(made.Result.Passes[0].NumberOfSteps, 2 * FlowOptions::FewestSteps);
+  EXPECT_EQ(made.Result.Folded, 0);
+  for (std::int64_t ring = 0; ring < made.Map.Rings(); ++ring)
+  {
+    EXPECT_GT(made.Map.AreaOf(ring), 0.0) << ring;
+  }
+}
+
 TEST(Cartogram, CrossingOutline)
 {
   RegionMap map;

@@ -18,9 +18,7 @@ constexpr std::int64_t side = 40;
 
 RegionRaster rasterOf(const RegionMap& map, std::int32_t regions)
 {
-  Progress progress{ Context() };
-  progress.BeginStage(1.0);
-  return RegionRaster(map, regions, side, progress);
+  return RegionRaster(map, regions, side);
 }
 
 // 9 regions of a map of squares with moved corners.
@@ -75,6 +73,34 @@ TEST(RegionRaster, CoversAreas)
     expected += values[i] * areas[i];
   }
   EXPECT_NEAR(std::accumulate(cells.begin(), cells.end(), 0.0), expected, 1e-9);
+}
+
+// Of several bands of rows, with regions that end near the bands' ends.
+TEST(RegionRaster, Bands)
+{
+  constexpr std::int64_t largeSide = 1500;
+  RegionMap map;
+  std::int32_t regions = 0;
+  for (int row = 0; row < 1490; row += 10)
+  {
+    for (const double height : { 0.5, 9.75 })
+    {
+      const double x = height > 1.0 ? 700.0 : 3.25;
+      addRing(map, regions++, rectangle(x, row + 0.25, x + 600.5, row + height));
+    }
+    addRing(map, regions++, rectangle(1400.0, 0.5 + row, 1450.0, 1.5 + row));
+  }
+  addRing(map, regions++, rectangle(1460.0, 1.0, 1499.5, 1499.5));
+  map.FindHoles();
+  const RegionRaster raster(map, regions, largeSide);
+  const std::vector<double> areas = map.Areas(regions);
+  const std::vector<double> covered = raster.Covered();
+  for (std::size_t i = 0; i < areas.size(); ++i)
+  {
+    EXPECT_NEAR(covered[i], areas[i], 1e-9 * areas[i]) << i;
+  }
+  std::int32_t region = 0;
+  EXPECT_EQ(raster.Overlap(region), 0.0);
 }
 
 TEST(RegionRaster, Overlap)

@@ -4,6 +4,7 @@
 #include "BlendTest.h"
 #include "CellsTest.h"
 #include "KindTest.h"
+#include "MapRegions.h"
 #include "ParameterizationTest.h"
 #include "SolidTest.h"
 #include "SurfaceSamplerTest.h"
@@ -182,8 +183,8 @@ void checkScales(Checks& checks)
   CHECK(checks, best == filters);
 }
 
-// Every filter of the register, with sheets and plane images, and with closed surfaces and images
-// in space.
+// Every filter of the register, with sheets, maps and plane images, and with closed surfaces and
+// images in space.
 void checkKinds(Checks& checks)
 {
   std::vector<double> scales{ 1.0 };
@@ -201,11 +202,11 @@ void checkKinds(Checks& checks)
         return std::array<double, 3>{ 0.2 * scale * x, 0.2 * scale * y, 0.01 * scale * x * y };
       });
       auto box = makeBox(-scale, scale, 0, scale, 0, 0.5 * scale);
-      for (const bool inSpace : { false, true })
+      for (const vtkSmartPointer<vtkPolyData>& surface : { sheet, box, makeMap(3, scale) })
       {
         const auto filter = kind.New();
-        connectNeeded(filter, makeScaled({ 6, 5, inSpace ? 3 : 1 }, true, scale), points,
-          inSpace ? box : sheet);
+        connectNeeded(
+          filter, makeScaled({ 6, 5, surface == box ? 3 : 1 }, true, scale), points, surface);
         Campaign::RandomSource random(7);
         kind.MakeQuick(random, filter);
         const bool ends = expectFinite(checks, filter, scale, __LINE__);

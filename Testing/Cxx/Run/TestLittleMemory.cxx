@@ -2,6 +2,7 @@
 // Filters whose output grows while it is made, with less and less memory: all of it or one error.
 #include "../../MemoryLimit.h"
 #include "CellsTest.h"
+#include "MapRegions.h"
 #include "ParameterizationTest.h"
 #include "SolidTest.h"
 #include "SurfaceSamplerTest.h"
@@ -92,6 +93,19 @@ void checkSurfaceSampler(Checks& checks)
   sampler->SetNumberOfSteps(4);
   checkSweep(checks, sampler, __LINE__);
 }
+
+void checkCartogram(Checks& checks)
+{
+  auto map = makeMap(60);
+  map->GetPointData()->AddArray(makeNumbers("Number", map->GetNumberOfPoints()));
+  vtkNew<vtkCartogram> cartogram;
+  cartogram->SetInputData(map);
+  cartogram->SetOverlayData(makeMap(50));
+  cartogram->SetResolution(256);
+  cartogram->SetMaximumIterations(1);
+  cartogram->SetTolerance(1.0);
+  checkSweep(checks, cartogram, __LINE__);
+}
 #endif
 
 } // namespace
@@ -104,6 +118,7 @@ int TestLittleMemory(int, char*[])
   checkSolid(checks);
   checkParameterization(checks);
   checkSurfaceSampler(checks);
+  checkCartogram(checks);
 #endif
   return checks.Result();
 }

@@ -4,6 +4,7 @@
 #include "BlendTest.h"
 #include "CellsTest.h"
 #include "KindTest.h"
+#include "MapRegions.h"
 #include "ParameterizationTest.h"
 #include "ProgressTest.h"
 #include "SolidTest.h"
@@ -161,8 +162,9 @@ void checkKinds(Checks& checks)
   for (const Campaign::FilterKind& kind : Campaign::filterKinds())
   {
     int runs = 0;
-    // Some take closed surfaces, others disks.
-    for (const vtkSmartPointer<vtkPolyData>& surface : { makeSphere(0, 0, 0, 1), makeHill(true) })
+    // Some take closed surfaces, others disks or maps.
+    for (const vtkSmartPointer<vtkPolyData>& surface :
+      { makeSphere(0, 0, 0, 1), makeHill(true), makeMap(3) })
     {
       const auto filter = kind.New();
       connectNeeded(filter, image, points, surface);
