@@ -25,10 +25,22 @@ constexpr double nothing = 1e-7; // of the mean density: the ground in SeaDensit
 // would cross.
 constexpr double wideSpan = 99.9;
 constexpr double edgesOfSide = 512.0; // the longest edges are this part of the box
+// What the areas of a pass may be off by if another one follows, in the tolerance of the last one.
+constexpr double coarser = 4.0;
 
 double sumOf(const std::vector<double>& values)
 {
   return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+double largestOf(const std::vector<double>& errors)
+{
+  double largest = 0.0;
+  for (const double error : errors)
+  {
+    largest = std::max(largest, std::abs(error));
+  }
+  return largest;
 }
 
 class CartogramRun
@@ -79,7 +91,18 @@ public:
       }
       const bool isTempered = pass == 0 && this->SpansWidely();
       const RegionValues values = this->FillPass(*raster, isTempered);
-      if (!this->MoveAll(end, values))
+      const bool mayFollow = pass + 1 < this->Options.MaximumPasses;
+      CartogramPass found;
+      found.ForetoldError = largestOf(values.Errors);
+      FlowOptions options = this->Options.Flow;
+      const bool doesFollow = isTempered ||
+        (found.ForetoldError > this->Options.Tolerance &&
+          found.ForetoldError < 0.5 * largestOf(this->Found.Errors));
+      if (mayFollow && doesFollow)
+      {
+        options.AreaTolerance = std::min(1.0, coarser * options.AreaTolerance);
+      }
+      if (!this->MoveAll(end, options, found))
       {
         break;
       }
@@ -95,7 +118,7 @@ public:
       const double tolerance = this->Options.Tolerance;
       const bool isDone = done.LargestError <= tolerance ||
         (!isTempered && others <= tolerance && stuck > 0.5 * stuckBefore);
-      if (isDone || pass + 1 == this->Options.MaximumPasses)
+      if (isDone || !mayFollow)
       {
         this->NameOutOfReach(values);
         break;
@@ -234,7 +257,7 @@ private:
   }
 
   // Returns whether the pass was done. Else points are where they were.
-  bool MoveAll(double end, const RegionValues& values)
+  bool MoveAll(double end, FlowOptions options, CartogramPass pass)
   {
     const std::int64_t side = this->Box.Side;
     const DensityArray<2, double> array(this->Cells.data(), { side, side });
@@ -250,13 +273,6 @@ private:
       this->Flow.emplace(DensitySource<2>(array), this->Work.Stage());
     }
     this->Work.BeginStage(end);
-    FlowOptions options = this->Options.Flow;
-    CartogramPass pass;
-    pass.ForetoldError = 0.0;
-    for (const double error : values.Errors)
-    {
-      pass.ForetoldError = std::max(pass.ForetoldError, std::abs(error));
-    }
     std::vector<Point<2>>& points = this->Map.Points();
     const std::vector<Point<2>> before = points;
     const std::vector<double> ringAreas = this->RingAreas();
