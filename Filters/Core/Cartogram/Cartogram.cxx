@@ -25,7 +25,7 @@ constexpr double nothing = 1e-7; // of the mean density: the ground in SeaDensit
 // would cross.
 constexpr double wideSpan = 99.9;
 constexpr double edgesOfSide = 512.0; // the longest edges are this part of the box
-// What the areas of a pass may be off by if another one follows, in the tolerance of the last one.
+// What areas may be off by in a pass that another one follows, in the tolerance of the last one.
 constexpr double coarser = 4.0;
 
 double sumOf(const std::vector<double>& values)
@@ -95,10 +95,7 @@ public:
       CartogramPass found;
       found.ForetoldError = largestOf(values.Errors);
       FlowOptions options = this->Options.Flow;
-      const bool doesFollow = isTempered ||
-        (found.ForetoldError > this->Options.Tolerance &&
-          found.ForetoldError < 0.5 * largestOf(this->Found.Errors));
-      if (mayFollow && doesFollow)
+      if (mayFollow && (isTempered || (!values.Exponents.empty() && this->AreFarFromDone())))
       {
         options.AreaTolerance = std::min(1.0, coarser * options.AreaTolerance);
       }
@@ -239,6 +236,16 @@ private:
     }
   }
 
+  // Whether errors are large and have fallen by half or more.
+  bool AreFarFromDone() const
+  {
+    constexpr double far = 10.0; // in tolerances
+    const std::vector<CartogramPass>& passes = this->Found.Passes;
+    const double largest = passes.empty() ? HUGE_VAL : passes.back().LargestError;
+    return largest > far * this->Options.Tolerance &&
+      (passes.size() < 2 || largest < 0.5 * passes[passes.size() - 2].LargestError);
+  }
+
   RegionValues FillPass(const RegionRaster& raster, bool takesRoots)
   {
     const double mean = this->MeanDensity();
@@ -249,10 +256,14 @@ private:
       masses[i] = takesRoots ? plain * std::sqrt(this->Masses[i] / plain) : this->Masses[i];
     }
     const double sea = this->SeaOf(masses);
-    const double landMean = sumOf(masses) / sumOf(this->Areas);
+    const double least = leastRegionDensity * sumOf(masses) / sumOf(this->Areas);
     RegionValues values =
-      findRegionValues(raster, masses, this->Areas, sea, leastRegionDensity * landMean / sea);
+      findRegionValues(raster, { masses, this->Areas, sea, least, this->Options.Tolerance });
     raster.Fill(values.Densities, sea, this->Cells);
+    if (!values.Exponents.empty())
+    {
+      raster.Scale(values.Exponents, least, this->Cells);
+    }
     return values;
   }
 

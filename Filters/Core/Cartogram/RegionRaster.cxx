@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Cartogram/RegionRaster.h"
 
+#include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Overlap/RegionCoverage.h"
 
 #include <algorithm>
@@ -70,16 +71,16 @@ void cover(const RegionMap& map, std::int32_t region, const std::vector<std::int
     map.VisitEdges(
       ring, [&](std::int64_t from, std::int64_t to) { coverage.Add(placeOf(from), placeOf(to)); });
   }
-  coverage.Finish(1.0);
+  coverage.FinishSigned(1.0);
   for (std::int64_t row = 0; row < size[1]; ++row)
   {
     for (std::int64_t i = 0; i < size[0]; ++i)
     {
       const double part = parts[static_cast<std::size_t>(row * size[0] + i)];
-      if (part > 0.0)
+      if (part != 0.0)
       {
-        shares.push_back(
-          { (box.Low[1] + row) * side + box.Low[0] + i, { region, std::min(part, 1.0) } });
+        shares.push_back({ (box.Low[1] + row) * side + box.Low[0] + i,
+          { region, std::clamp(part, 0.0, 1.0), part } });
       }
     }
   }
@@ -105,7 +106,7 @@ RegionRaster::RegionRaster(
     for (const CellShare& share : shares)
     {
       std::int32_t& owner = this->Owners[static_cast<std::size_t>(share.Cell)];
-      if (share.Share.Part >= 1.0 && owner < 0)
+      if (share.Share.Signed == 1.0 && owner < 0)
       {
         owner = region;
       }
@@ -122,7 +123,7 @@ RegionRaster::RegionRaster(
     std::int32_t& owner = this->Owners[static_cast<std::size_t>(mixed[i].Cell)];
     if (owner >= 0)
     {
-      mixed.push_back({ mixed[i].Cell, { owner, 1.0 } });
+      mixed.push_back({ mixed[i].Cell, { owner, 1.0, 1.0 } });
       owner = -1;
     }
   }
@@ -184,6 +185,34 @@ void RegionRaster::Fill(
       value += shares[i].Part * values[static_cast<std::size_t>(shares[i].Region)];
     }
     cells[static_cast<std::size_t>(this->Mixed[at++])] = value;
+  });
+}
+
+void RegionRaster::Scale(
+  const std::vector<double>& exponents, double least, std::vector<double>& cells) const
+{
+  std::vector<double> factors(exponents.size());
+  std::transform(exponents.begin(), exponents.end(), factors.begin(),
+    [](double exponent) { return exponential(exponent); });
+  const auto scale = [least](double factor, double& cell) {
+    cell = std::max(std::min(least, cell), factor * cell);
+  };
+  for (std::size_t cell = 0; cell < cells.size(); ++cell)
+  {
+    const std::int32_t owner = this->Owners[cell];
+    if (owner >= 0)
+    {
+      scale(factors[static_cast<std::size_t>(owner)], cells[cell]);
+    }
+  }
+  std::size_t at = 0;
+  this->VisitMixed([&](const Share* shares, std::int64_t count) {
+    double exponent = 0.0;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      exponent += shares[i].Part * exponents[static_cast<std::size_t>(shares[i].Region)];
+    }
+    scale(exponential(exponent), cells[static_cast<std::size_t>(this->Mixed[at++])]);
   });
 }
 

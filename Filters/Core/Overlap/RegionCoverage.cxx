@@ -108,6 +108,23 @@ void RegionCoverage::AddInRow(std::int64_t row, double from, double to, double h
 
 void RegionCoverage::Finish(double value)
 {
+  this->FinishRows([value](double covered, double tolerance) {
+    return covered > tolerance ? value * (covered < 1.0 - tolerance ? covered : 1.0) : 0.0;
+  });
+}
+
+void RegionCoverage::FinishSigned(double value)
+{
+  this->FinishRows([value](double covered, double tolerance) {
+    const double whole = std::round(covered);
+    return value * (std::abs(covered - whole) > tolerance ? covered : whole);
+  });
+}
+
+// partOf(covered, rounding) of each cell.
+template <class PartOf>
+void RegionCoverage::FinishRows(const PartOf& partOf)
+{
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
   for (std::int64_t row = this->FirstRow; row <= this->LastRow; ++row)
   {
@@ -122,10 +139,7 @@ void RegionCoverage::Finish(double value)
       const double covered = height + shares[cell].Area;
       height += shares[cell].Height;
       shares[cell] = { 0.0, 0.0 };
-      if (covered > tolerance)
-      {
-        sums[cell] += value * (covered < 1.0 - tolerance ? covered : 1.0);
-      }
+      sums[cell] += partOf(covered, tolerance);
     }
     span = { this->Slab.Size[0], -1, 0.0 };
   }

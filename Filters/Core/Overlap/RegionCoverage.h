@@ -22,6 +22,9 @@ public:
   void Add(const Point<2>& from, const Point<2>& to);
   // Adds to the slab's sums the value times the area that the edges since the last call enclose.
   void Finish(double value);
+  // The same where edges may run the other way round: there areas are negative, and they are
+  // multiples where edges run around several times.
+  void FinishSigned(double value);
 
 private:
   struct Share
@@ -36,6 +39,8 @@ private:
     double Heights; // of all edges
   };
 
+  template <class PartOf>
+  void FinishRows(const PartOf& partOf);
   void AddInRow(std::int64_t row, double from, double to, double height);
 
   const GridSlab<2> Slab;

@@ -16,7 +16,7 @@ PARTS = 16
 
 
 def square(x, y, side):
-    corners = [(x, y), (x + side, y), (x + side, y + side), (x, y + side), (x, y)]
+    corners = [(x, y), (x, y + side), (x + side, y + side), (x + side, y), (x, y)]
     ring = [corners[0]]
     for (ax, ay), (bx, by) in zip(corners, corners[1:]):
         # From the lower end, so that both neighbours have the same points.

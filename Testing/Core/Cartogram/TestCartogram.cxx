@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <random>
 
 namespace RectifiedTransport
 {
@@ -198,6 +199,31 @@ TEST(Cartogram, SameForThreads)
   const ThreadsExecutor threads(3);
   const Made other = make(squares(4), masses, coarse(), nullptr, threads);
   EXPECT_EQ(one.Map.Points(), other.Map.Points());
+}
+
+// Many regions of masses that span a factor of 1000, on few cells each: thin ones have most of the
+// raster's mass from their neighbours.
+TEST(Cartogram, ManyRegions)
+{
+  constexpr int side = 24;
+  std::mt19937_64 engine(3);
+  std::vector<double> masses;
+  for (int i = 0; i < side * side; ++i)
+  {
+    double sum = -6.0; // of 12 even numbers: nearly normal
+    for (int k = 0; k < 12; ++k)
+    {
+      sum += static_cast<double>(engine() >> 11) * 0x1p-53;
+    }
+    masses.push_back(std::exp(1.2 * sum));
+  }
+  CartogramOptions options = coarse();
+  options.Resolution = 256;
+  options.Tolerance = 0.02;
+  const Made made = make(squares(side), masses, options);
+  expectRight(made, masses, 0.02, true);
+  EXPECT_LE(made.Result.Passes.size(), 6U);
+  EXPECT_TRUE(made.Result.OutOfReach.empty());
 }
 
 // A region that is smaller than a cell of the raster in a dense neighbourhood.
