@@ -11,7 +11,6 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -20,8 +19,8 @@ namespace RectifiedTransport
 
 struct MapFile
 {
-  RegionMap Map; // a region a feature
-  std::vector<double> Masses;
+  RegionMap Map;              // a region a feature
+  std::vector<double> Masses; // none if the file has not one for each feature
   // What another program needed to make the map, where it says so.
   double Seconds = 0.0;
   double Megabytes = 0.0;
@@ -50,9 +49,9 @@ public:
     {
       read.Masses.push_back(this->NumberAfter(at));
     }
-    if (regions == 0 || read.Masses.size() != static_cast<std::size_t>(regions))
+    if (read.Masses.size() != static_cast<std::size_t>(regions))
     {
-      throw std::runtime_error("a map needs features with polygons and a \"mass\" each");
+      read.Masses.clear();
     }
     read.Seconds = this->NumberAfter(this->Text.find("\"seconds\""));
     read.Megabytes = this->NumberAfter(this->Text.find("\"megabytes\""));
@@ -70,7 +69,8 @@ private:
   // Of a list of lists; its innermost ones are points, theirs are rings.
   std::size_t ReadRings(std::size_t at, std::int32_t region, RegionMap& map) const
   {
-    std::vector<std::int64_t> ring;
+    std::vector<Point<2>> places;
+    std::size_t lastEnd = std::string::npos; // of a list
     int depth = 0;
     do
     {
@@ -82,12 +82,18 @@ private:
       else if (next == ']')
       {
         --depth;
-        if (!ring.empty() && this->Text[at - 1] == ']')
+        if (!places.empty() && this->Text.find_last_not_of(" \n", at - 1) == lastEnd)
         {
-          ring.pop_back(); // where it begins
+          places.pop_back(); // where it begins
+          std::vector<std::int64_t> ring;
+          for (const Point<2>& place : places)
+          {
+            ring.push_back(map.AddPoint(place));
+          }
           map.AddRing(region, ring);
-          ring.clear();
+          places.clear();
         }
+        lastEnd = at;
       }
       else if (next == '-' || (next >= '0' && next <= '9'))
       {
@@ -97,7 +103,7 @@ private:
         const std::size_t comma =
           this->Text.find(',', static_cast<std::size_t>(end - this->Text.c_str()));
         place[1] = std::strtod(this->Text.c_str() + comma + 1, &end);
-        ring.push_back(map.AddPoint(place));
+        places.push_back(place);
         at = static_cast<std::size_t>(end - this->Text.c_str());
         continue;
       }

@@ -25,6 +25,7 @@ constexpr double nothing = 1e-7; // of the mean density: the ground in SeaDensit
 // would cross.
 constexpr double wideSpan = 99.9;
 constexpr double edgesOfSide = 512.0; // the longest edges are this part of the box
+constexpr double mostParts = 8.0;     // of a longest edge, where densities differ
 // What areas may be off by in a pass that another one follows, in the tolerance of the last one.
 constexpr double coarser = 4.0;
 
@@ -91,6 +92,10 @@ public:
       }
       const bool isTempered = pass == 0 && this->SpansWidely();
       const RegionValues values = this->FillPass(*raster, isTempered);
+      if (pass > 0)
+      {
+        this->DivideByContrast();
+      }
       const bool mayFollow = pass + 1 < this->Options.MaximumPasses;
       CartogramPass found;
       found.ForetoldError = largestOf(values.Errors);
@@ -121,7 +126,6 @@ public:
         break;
       }
       stuckBefore = stuck > 0.0 ? stuck : std::numeric_limits<double>::infinity();
-      this->Divide([this](const Point<2>&) { return this->LongestEdge(); });
     }
     return std::move(this->Found);
   }
@@ -197,26 +201,49 @@ private:
       growth[i] = std::max(1.0, this->Masses[i] / this->Areas[i] / mean);
     }
     raster.Fill(growth, 1.0, this->Cells);
-    const std::int64_t side = this->Box.Side;
-    this->Divide([&](const Point<2>& middle) {
-      std::int64_t at[2];
-      for (int axis = 0; axis < 2; ++axis)
-      {
-        at[axis] = std::clamp<std::int64_t>(
-          static_cast<std::int64_t>(std::floor(middle[axis])), 0, side - 1);
-      }
-      double largest = 1.0;
-      for (std::int64_t y = std::max<std::int64_t>(0, at[1] - 1); y < std::min(side, at[1] + 2);
-           ++y)
-      {
-        for (std::int64_t x = std::max<std::int64_t>(0, at[0] - 1); x < std::min(side, at[0] + 2);
-             ++x)
-        {
-          largest = std::max(largest, this->Cells[static_cast<std::size_t>(y * side + x)]);
-        }
-      }
-      return this->LongestEdge() / std::sqrt(largest);
+    this->Divide([this](const Point<2>& middle) {
+      return this->LongestEdge() / std::sqrt(std::max(1.0, this->CellsAbout(middle).Largest));
     });
+  }
+
+  // Edges are short where densities differ from cell to cell, as points beside each other then move
+  // differently.
+  void DivideByContrast()
+  {
+    this->Divide([this](const Point<2>& middle) {
+      const Range densities = this->CellsAbout(middle);
+      return this->LongestEdge() /
+        std::clamp(std::sqrt(densities.Largest / densities.Least), 1.0, mostParts);
+    });
+  }
+
+  struct Range
+  {
+    double Least;
+    double Largest;
+  };
+
+  // Of the 3 x 3 cells about a place.
+  Range CellsAbout(const Point<2>& place) const
+  {
+    const std::int64_t side = this->Box.Side;
+    std::int64_t at[2];
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      at[axis] =
+        std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(place[axis])), 0, side - 1);
+    }
+    Range range{ HUGE_VAL, 0.0 };
+    for (std::int64_t y = std::max<std::int64_t>(0, at[1] - 1); y < std::min(side, at[1] + 2); ++y)
+    {
+      for (std::int64_t x = std::max<std::int64_t>(0, at[0] - 1); x < std::min(side, at[0] + 2);
+           ++x)
+      {
+        const double cell = this->Cells[static_cast<std::size_t>(y * side + x)];
+        range = { std::min(range.Least, cell), std::max(range.Largest, cell) };
+      }
+    }
+    return range;
   }
 
   template <class LongestAt>
