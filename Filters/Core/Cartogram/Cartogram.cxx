@@ -79,6 +79,8 @@ public:
       return std::move(this->Found);
     }
     this->DivideFinely(*raster);
+    constexpr double finest = 1.0 / 64.0;
+    double finer = 1.0;
     double stuckBefore = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < this->Options.MaximumPasses; ++pass)
     {
@@ -99,11 +101,10 @@ public:
       const bool mayFollow = pass + 1 < this->Options.MaximumPasses;
       CartogramPass found;
       found.ForetoldError = largestOf(values.Errors);
+      const bool isCoarse =
+        mayFollow && (isTempered || (!values.Exponents.empty() && this->AreFarFromDone()));
       FlowOptions options = this->Options.Flow;
-      if (mayFollow && (isTempered || (!values.Exponents.empty() && this->AreFarFromDone())))
-      {
-        options.AreaTolerance = std::min(1.0, coarser * options.AreaTolerance);
-      }
+      options.AreaTolerance = std::min(1.0, (isCoarse ? coarser : finer) * options.AreaTolerance);
       if (!this->MoveAll(end, options, found))
       {
         break;
@@ -115,6 +116,11 @@ public:
       {
         double& largest = values.Least[i] != 0 ? stuck : others;
         largest = std::max(largest, std::abs(this->Found.Errors[i]));
+      }
+      // What the raster does not foretell is the flow's.
+      if (!isCoarse && found.ForetoldError < 0.5 * this->Options.Tolerance)
+      {
+        finer = std::max(finest, finer / coarser);
       }
       // What is stuck, at its least density, gets better by its neighbours' parts of border cells.
       const double tolerance = this->Options.Tolerance;

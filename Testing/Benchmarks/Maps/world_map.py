@@ -4,7 +4,8 @@
 domain): countries without Antarctica in Behrmann's equal-area projection, in km, with populations of
 about 2020 (populations.csv, after the United Nations' World Population Prospects 2022, rounded).
 With --least-masses small ones are raised as the program go_cart of Gastner, Seguy and More does: to
-2.5 % of the country's share of all perimeters, and to 0.025 % of all people.
+2.5 % of the country's share of all perimeters, and to 0.025 % of all people; `people` are those
+before.
 
 usage: world_map.py [--least-masses] countries-110m.json out.geojson
 """
@@ -46,6 +47,7 @@ def raise_masses(countries):
     others = sum(mass for mass, is_small in zip(masses, small) if not is_small)
     raised = sum(share for share, is_small in zip(least, small) if is_small)
     for country, share, is_small in zip(countries, least, small):
+        country["properties"]["people"] = country["properties"]["mass"]
         if is_small:
             country["properties"]["mass"] = share * others / (1 - raised)
     print(f"{sum(small)} of {len(countries)} masses are raised")
