@@ -2,6 +2,7 @@
 """Runs the benchmarks and prints the tables of Documentation/Speed.md.
 
 usage: python3 run.py [--help] [--repetitions N] [--quality | --steps | ...] PROGRAM
+       python3 run.py --cartograms [--maps FOLDER] PROGRAM
 
 Every figure is the median of the repetitions, which are interleaved at random. One thread is
 measured in processor time, two in wall-clock time.
@@ -14,6 +15,8 @@ import subprocess
 import sys
 import tempfile
 import textwrap
+
+SQUARES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "Maps", "square_maps.py")
 
 
 class Results:
@@ -367,6 +370,32 @@ def tiles(r):
                  "memory beyond input and output"], rows)
 
 
+MAPS = {"us-states": "United States", "world": "world, least masses",
+        "16-squares": "16 squares, one 100×", "144-squares": "144 squares, one a thousandfold",
+        "counties": "counties of the United States"}
+
+
+def cartograms(r):
+    rows = []
+    for name, text in MAPS.items():
+        for kind, program in (("", "Cartogram"), ("/go-cart", "go-cart-wasm")):
+            one = f"Cartogram/{name}{kind}"
+            if one not in r.runs:
+                continue
+            regions, before, after, overlap, largest, mean = (r.median(one, what) for what in (
+                "regions", "crossing_before", "crossing", "overlap", "largest_error", "mean_error"))
+            rows.append([
+                "" if kind else f"{text}: {regions:,.0f} regions, "
+                                f"{r.median(one, 'vertices'):,.0f} points",
+                program, f"{100 * largest:.2g} %", f"{100 * mean:.2g} %",
+                "" if kind else f"{r.median(one, 'passes'):.0f}", f"{before:.0f} → {after:.0f}",
+                f"{overlap:.0e}" if overlap > 1e-12 else "0", f"{r.median(one, 'shape'):.3f}",
+                f"{r.median(one, 'turn'):.1f}°", r.time(one),
+                f"{r.median(one, 'megabytes'):.0f} MB"])
+    print_table(["map", "program", "largest error", "mean", "passes", "crossing rings", "overlap",
+                 "shape", "turn", "time", "memory"], rows)
+
+
 # What prints the figures without an option; of each option its help, benchmarks and what prints.
 ALL = (jobs, memory, core, flows, tables, breakdown, bandwidths, splats, errors)
 OPTIONS = {"quality": ("how good the particles are", "Quality", quality),
@@ -374,6 +403,7 @@ OPTIONS = {"quality": ("how good the particles are", "Quality", quality),
            "parameterization": ("maps of disks", "Parameterization", parameterization),
            "relaxation": ("blue noise", "Relaxation", relaxation),
            "steps": ("how exactly areas are kept", "Steps", steps),
+           "cartograms": ("cartograms of maps", "Cartogram/", cartograms),
            "tiles": ("large grids: 7 GB of memory, 8 minutes a repetition", "Tiles", tiles)}
 
 
@@ -400,14 +430,20 @@ def main():
     for option, (text, _, _) in OPTIONS.items():
         parser.add_argument(f"--{option}", action="store_const", const=option, dest="option",
                             help=f"only {text}")
+    parser.add_argument("--maps", help="a folder that Maps/make.sh has made, for --cartograms")
     arguments = parser.parse_args()
 
     if arguments.option:
         _, names, show = OPTIONS[arguments.option]
-        return show(Results(run(arguments, names)))
+        with tempfile.TemporaryDirectory() as folder:
+            if arguments.option == "cartograms" and not arguments.maps:
+                subprocess.run([sys.executable, SQUARES, folder], check=True)
+            os.environ["RECTIFIEDTRANSPORT_MAPS"] = arguments.maps or folder
+            return show(Results(run(arguments, names)))
     # A process that has ever kept freed memory reuses it: those benchmarks run on their own.
     results = Results(run(
-        arguments, "-_reused|Lattice|Tiles|Quality|_fresh|Parameterization|Relaxation|Areas|Steps"))
+        arguments, "-_reused|Lattice|Tiles|Quality|_fresh|Parameterization|Relaxation|Areas|Steps|"
+        "Cartogram"))
     results.add(run(arguments, "_reused"))
 
     print_text("Whole updates of filters with a new density, on one thread of an "

@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr int spaces = 16;          // between the lines along each axis
-constexpr std::int64_t parts = 512; // of a line
+constexpr std::int64_t parts = 256; // of a line
 constexpr std::int64_t pointsOfLine = parts + 1;
 constexpr std::int64_t lineCount = 2 * (spaces + 1);
 

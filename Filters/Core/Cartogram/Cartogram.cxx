@@ -25,10 +25,23 @@ constexpr double nothing = 1e-7; // of the mean density: the ground in SeaDensit
 // would cross.
 constexpr double wideSpan = 99.9;
 constexpr double edgesOfSide = 512.0; // the longest edges are this part of the box
+constexpr double mostParts = 8.0;     // of a longest edge, where densities differ
+// What areas may be off by in a pass that another one follows, in the tolerance of the last one.
+constexpr double coarser = 4.0;
 
 double sumOf(const std::vector<double>& values)
 {
   return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+double largestOf(const std::vector<double>& errors)
+{
+  double largest = 0.0;
+  for (const double error : errors)
+  {
+    largest = std::max(largest, std::abs(error));
+  }
+  return largest;
 }
 
 class CartogramRun
@@ -69,6 +82,8 @@ public:
     this->FillGrowth(*raster);
     this->Work.BeginStage(0.15);
     this->DivideFinely();
+    constexpr double finest = 1.0 / 64.0;
+    double finer = 1.0;
     double stuckBefore = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < this->Options.MaximumPasses; ++pass)
     {
@@ -83,7 +98,19 @@ public:
       }
       const bool isTempered = pass == 0 && this->SpansWidely();
       const RegionValues values = this->FillPass(*raster, isTempered, end);
-      if (!this->MoveAll(end, values))
+      if (pass > 0)
+      {
+        this->BeginPart(0.05, end);
+        this->DivideByContrast();
+      }
+      const bool mayFollow = pass + 1 < this->Options.MaximumPasses;
+      CartogramPass found;
+      found.ForetoldError = largestOf(values.Errors);
+      const bool isCoarse =
+        mayFollow && (isTempered || (!values.Exponents.empty() && this->AreFarFromDone()));
+      FlowOptions options = this->Options.Flow;
+      options.AreaTolerance = std::min(1.0, (isCoarse ? coarser : finer) * options.AreaTolerance);
+      if (!this->MoveAll(end, options, found))
       {
         break;
       }
@@ -95,11 +122,16 @@ public:
         double& largest = values.Least[i] != 0 ? stuck : others;
         largest = std::max(largest, std::abs(this->Found.Errors[i]));
       }
+      // What the raster does not foretell is the flow's.
+      if (!isCoarse && found.ForetoldError < 0.5 * this->Options.Tolerance)
+      {
+        finer = std::max(finest, finer / coarser);
+      }
       // What is stuck, at its least density, gets better by its neighbours' parts of border cells.
       const double tolerance = this->Options.Tolerance;
       const bool isDone = done.LargestError <= tolerance ||
         (!isTempered && others <= tolerance && stuck > 0.5 * stuckBefore);
-      if (isDone || pass + 1 == this->Options.MaximumPasses)
+      if (isDone || !mayFollow)
       {
         this->NameOutOfReach(values);
         break;
@@ -189,29 +221,52 @@ private:
     raster.Fill(growth, 1.0, this->Cells, this->Work.Stage());
   }
 
-  // Edges are short where regions grow, by the density about their middles.
+  // Edges are short where regions grow.
   void DivideFinely()
   {
-    const std::int64_t side = this->Box.Side;
-    this->Divide([&](const Point<2>& middle) {
-      std::int64_t at[2];
-      for (int axis = 0; axis < 2; ++axis)
-      {
-        at[axis] = std::clamp<std::int64_t>(
-          static_cast<std::int64_t>(std::floor(middle[axis])), 0, side - 1);
-      }
-      double largest = 1.0;
-      for (std::int64_t y = std::max<std::int64_t>(0, at[1] - 1); y < std::min(side, at[1] + 2);
-           ++y)
-      {
-        for (std::int64_t x = std::max<std::int64_t>(0, at[0] - 1); x < std::min(side, at[0] + 2);
-             ++x)
-        {
-          largest = std::max(largest, this->Cells[static_cast<std::size_t>(y * side + x)]);
-        }
-      }
-      return this->LongestEdge() / std::sqrt(largest);
+    this->Divide([this](const Point<2>& middle) {
+      return this->LongestEdge() / std::sqrt(std::max(1.0, this->CellsAbout(middle).Largest));
     });
+  }
+
+  // Edges are short where densities differ from cell to cell, as points beside each other then move
+  // differently.
+  void DivideByContrast()
+  {
+    this->Divide([this](const Point<2>& middle) {
+      const Range densities = this->CellsAbout(middle);
+      return this->LongestEdge() /
+        std::clamp(std::sqrt(densities.Largest / densities.Least), 1.0, mostParts);
+    });
+  }
+
+  struct Range
+  {
+    double Least;
+    double Largest;
+  };
+
+  // Of the 3 x 3 cells about a place.
+  Range CellsAbout(const Point<2>& place) const
+  {
+    const std::int64_t side = this->Box.Side;
+    std::int64_t at[2];
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      at[axis] =
+        std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(place[axis])), 0, side - 1);
+    }
+    Range range{ HUGE_VAL, 0.0 };
+    for (std::int64_t y = std::max<std::int64_t>(0, at[1] - 1); y < std::min(side, at[1] + 2); ++y)
+    {
+      for (std::int64_t x = std::max<std::int64_t>(0, at[0] - 1); x < std::min(side, at[0] + 2);
+           ++x)
+      {
+        const double cell = this->Cells[static_cast<std::size_t>(y * side + x)];
+        range = { std::min(range.Least, cell), std::max(range.Largest, cell) };
+      }
+    }
+    return range;
   }
 
   template <class LongestAt>
@@ -231,6 +286,16 @@ private:
     }
   }
 
+  // Whether errors are large and have fallen by half or more.
+  bool AreFarFromDone() const
+  {
+    constexpr double far = 10.0; // in tolerances
+    const std::vector<CartogramPass>& passes = this->Found.Passes;
+    const double largest = passes.empty() ? HUGE_VAL : passes.back().LargestError;
+    return largest > far * this->Options.Tolerance &&
+      (passes.size() < 2 || largest < 0.5 * passes[passes.size() - 2].LargestError);
+  }
+
   RegionValues FillPass(const RegionRaster& raster, bool takesRoots, double end)
   {
     const double mean = this->MeanDensity();
@@ -241,17 +306,22 @@ private:
       masses[i] = takesRoots ? plain * std::sqrt(this->Masses[i] / plain) : this->Masses[i];
     }
     const double sea = this->SeaOf(masses);
-    const double landMean = sumOf(masses) / sumOf(this->Areas);
+    const double least = leastRegionDensity * sumOf(masses) / sumOf(this->Areas);
     this->BeginPart(0.1, end);
     RegionValues values = findRegionValues(
-      raster, masses, this->Areas, sea, leastRegionDensity * landMean / sea, this->Work.Stage());
+      raster, { masses, this->Areas, sea, least, this->Options.Tolerance }, this->Work.Stage());
     this->BeginPart(0.1, end);
     raster.Fill(values.Densities, sea, this->Cells, this->Work.Stage());
+    if (!values.Exponents.empty())
+    {
+      this->BeginPart(0.1, end);
+      raster.Scale(values.Exponents, least, this->Cells, this->Work.Stage());
+    }
     return values;
   }
 
   // Returns whether the pass was done. Else points are where they were.
-  bool MoveAll(double end, const RegionValues& values)
+  bool MoveAll(double end, FlowOptions options, CartogramPass pass)
   {
     const std::int64_t side = this->Box.Side;
     const DensityArray<2, double> array(this->Cells.data(), { side, side });
@@ -264,13 +334,6 @@ private:
     else
     {
       this->Flow.emplace(DensitySource<2>(array), this->Work.Stage());
-    }
-    FlowOptions options = this->Options.Flow;
-    CartogramPass pass;
-    pass.ForetoldError = 0.0;
-    for (const double error : values.Errors)
-    {
-      pass.ForetoldError = std::max(pass.ForetoldError, std::abs(error));
     }
     std::vector<Point<2>>& points = this->Map.Points();
     const std::vector<Point<2>> before = points;

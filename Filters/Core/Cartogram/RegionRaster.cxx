@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Cartogram/RegionRaster.h"
 
+#include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Overlap/RegionCoverage.h"
 #include "Core/Parallel/Progress.h"
 
@@ -92,15 +93,15 @@ RegionRaster::RegionRaster(
             map.Points()[static_cast<std::size_t>(to)]);
         });
       }
-      coverage.FinishCells([&](std::int64_t cell, double part) {
+      coverage.FinishSigned([&](std::int64_t cell, double area) {
         std::int32_t& owner = this->Owners[static_cast<std::size_t>(cell)];
-        if (part >= 1.0 && owner < 0)
+        if (area == 1.0 && owner < 0)
         {
           owner = region;
         }
         else
         {
-          mixed.push_back({ cell, { region, part } });
+          mixed.push_back({ cell, { region, std::clamp(area, 0.0, 1.0), area } });
         }
       });
       progress.Check();
@@ -127,7 +128,7 @@ void RegionRaster::AddMixed(std::vector<CellShare>& mixed)
     std::int32_t& owner = this->Owners[static_cast<std::size_t>(mixed[i].Cell)];
     if (owner >= 0)
     {
-      mixed.push_back({ mixed[i].Cell, { owner, 1.0 } });
+      mixed.push_back({ mixed[i].Cell, { owner, 1.0, 1.0 } });
       owner = -1;
     }
   }
@@ -194,6 +195,45 @@ void RegionRaster::Fill(const std::vector<double>& values, double around,
         value += shares[k].Part * values[static_cast<std::size_t>(shares[k].Region)];
       }
       cells[static_cast<std::size_t>(this->Mixed[at])] = value;
+    }
+  });
+}
+
+void RegionRaster::Scale(const std::vector<double>& exponents, double least,
+  std::vector<double>& cells, const Context& context) const
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+  Progress progress(context);
+  const auto all = static_cast<std::int64_t>(this->Owners.size());
+  const auto mixed = static_cast<std::int64_t>(this->Mixed.size());
+  progress.BeginStage(1.0, all + mixed);
+  std::vector<double> factors(exponents.size());
+  std::transform(exponents.begin(), exponents.end(), factors.begin(),
+    [](double exponent) { return exponential(exponent); });
+  const auto scale = [least](double factor, double& cell) {
+    cell = std::max(std::min(least, cell), factor * cell);
+  };
+  progress.For(all, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      const std::int32_t owner = this->Owners[static_cast<std::size_t>(i)];
+      if (owner >= 0)
+      {
+        scale(factors[static_cast<std::size_t>(owner)], cells[static_cast<std::size_t>(i)]);
+      }
+    }
+  });
+  progress.For(mixed, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      const auto at = static_cast<std::size_t>(i);
+      double exponent = 0.0;
+      for (std::int64_t k = this->Begins[at]; k < this->Begins[at + 1]; ++k)
+      {
+        const Share& share = this->Shares[static_cast<std::size_t>(k)];
+        exponent += share.Part * exponents[static_cast<std::size_t>(share.Region)];
+      }
+      scale(exponential(exponent), cells[static_cast<std::size_t>(this->Mixed[at])]);
     }
   });
 }

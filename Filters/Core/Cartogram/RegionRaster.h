@@ -24,6 +24,9 @@ public:
   {
     std::int32_t Region;
     double Part; // of the cell
+    // The same by how often outlines run around it, which is negative where they cross and run the
+    // other way round: what counts in the region's area.
+    double Signed;
   };
 
   std::int64_t Side() const { return this->CellsOfSide; }
@@ -49,6 +52,10 @@ public:
   // The mean of the regions' values in each cell; the rest of it has the value `around`. Throws
   // std::bad_alloc and Cancelled.
   void Fill(const std::vector<double>& values, double around, std::vector<double>& cells,
+    const Context& context = Context()) const;
+  // Multiplies each cell by e to the sum of parts times exponents of the regions, where that leaves
+  // `least`, or the cell as it is if that is less. Throws as Fill.
+  void Scale(const std::vector<double>& exponents, double least, std::vector<double>& cells,
     const Context& context = Context()) const;
   // What regions cover together beyond whole cells, in cells, and the region with most of it.
   double Overlap(std::int32_t& region) const;

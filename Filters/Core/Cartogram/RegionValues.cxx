@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Cartogram/RegionValues.h"
 
+#include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/Progress.h"
 
 #include <Eigen/SparseCore>
@@ -43,10 +44,10 @@ System systemOf(const RegionRaster& raster, Progress& progress)
     for (std::int64_t i = 0; i < count; ++i)
     {
       progress.Add(count);
-      system.Rest[static_cast<std::size_t>(shares[i].Region)] += shares[i].Part * rest;
+      system.Rest[static_cast<std::size_t>(shares[i].Region)] += shares[i].Signed * rest;
       for (std::int64_t k = 0; k < count; ++k)
       {
-        entry(shares[i].Region, shares[k].Region) += shares[i].Part * shares[k].Part;
+        entry(shares[i].Region, shares[k].Region) += shares[i].Signed * shares[k].Part;
       }
     }
   });
@@ -60,10 +61,120 @@ System systemOf(const RegionRaster& raster, Progress& progress)
   return system;
 }
 
+// The exponents, by coordinate descent on the dual problem: in turn each region gets the one with
+// which its mass is right.
+class FactorSearch
+{
+public:
+  FactorSearch(const RegionRaster& raster, const RegionTargets& targets, RegionValues& values)
+    : Raster(raster)
+    , Targets(targets)
+    , Values(values)
+    , Parts(targets.Masses.size())
+  {
+    raster.VisitMixed([&](const RegionRaster::Share* shares, std::int64_t count) {
+      double density = targets.Around * restOf(shares, count);
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        const auto region = static_cast<std::size_t>(shares[i].Region);
+        density += shares[i].Part * values.Densities[region];
+        this->Parts[region].push_back({ this->Cells.size(), shares[i].Part, shares[i].Signed });
+      }
+      this->Cells.push_back({ density, std::min(density, targets.Least) });
+    });
+    values.Exponents.assign(targets.Masses.size(), 0.0);
+  }
+
+  void Run(Progress& progress)
+  {
+    constexpr int mostSweeps = 50;
+    double worst = 1.0;
+    for (int sweep = 0; sweep < mostSweeps && worst > this->Targets.Tolerance; ++sweep)
+    {
+      worst = 0.0;
+      for (std::size_t region = 0; region < this->Parts.size(); ++region)
+      {
+        progress.Check();
+        worst = std::max(worst, this->Step(region));
+      }
+    }
+    for (std::size_t region = 0; region < this->Parts.size(); ++region)
+    {
+      double& error = this->Values.Errors[region];
+      error = this->MassOf(region).Now / this->Targets.Masses[region] - 1.0;
+      this->Values.Least[region] = error > this->Targets.Tolerance ? 1 : 0;
+    }
+  }
+
+private:
+  struct Cell
+  {
+    double Density;
+    double Least;
+  };
+  struct CellPart
+  {
+    std::size_t Cell;
+    double Part;
+    double Signed;
+  };
+  struct Mass
+  {
+    double Now;
+    double Slope; // by the exponent
+  };
+
+  Mass MassOf(std::size_t region) const
+  {
+    const double density = this->Values.Densities[region];
+    const double scaled = density * exponential(this->Values.Exponents[region]);
+    const double least = std::min(this->Targets.Least, density);
+    const double whole = this->Raster.WholeCells(static_cast<std::int32_t>(region));
+    Mass mass{ whole * std::max(scaled, least), scaled > least ? whole * scaled : 0.0 };
+    for (const CellPart& part : this->Parts[region])
+    {
+      const Cell& cell = this->Cells[part.Cell];
+      mass.Now += part.Signed * std::max(cell.Density, cell.Least);
+      mass.Slope += cell.Density > cell.Least ? part.Signed * part.Part * cell.Density : 0.0;
+    }
+    return mass;
+  }
+
+  // Newton's method on the mass's logarithm, which is convex; returns the error before.
+  double Step(std::size_t region)
+  {
+    constexpr double longest = 2.0;
+    constexpr double farthest = 40.0;
+    const Mass mass = this->MassOf(region);
+    const double wanted = this->Targets.Masses[region];
+    const double error = std::abs(mass.Now / wanted - 1.0);
+    if (error <= 0.5 * this->Targets.Tolerance || !(mass.Now > 0.0) || !(mass.Slope > 0.0))
+    {
+      return error;
+    }
+    double& exponent = this->Values.Exponents[region];
+    const double step = naturalLogarithm(wanted / mass.Now) * mass.Now / mass.Slope;
+    const double next =
+      std::clamp(exponent + std::clamp(step, -longest, longest), -farthest, farthest);
+    for (const CellPart& part : this->Parts[region])
+    {
+      this->Cells[part.Cell].Density *= exponential(part.Part * (next - exponent));
+    }
+    exponent = next;
+    return error;
+  }
+
+  const RegionRaster& Raster;
+  const RegionTargets& Targets;
+  RegionValues& Values;
+  std::vector<Cell> Cells; // that are mixed
+  std::vector<std::vector<CellPart>> Parts;
+};
+
 } // namespace
 
-RegionValues findRegionValues(const RegionRaster& raster, const std::vector<double>& masses,
-  const std::vector<double>& areas, double around, double least, const Context& context)
+RegionValues findRegionValues(
+  const RegionRaster& raster, const RegionTargets& targets, const Context& context)
 {
   constexpr int mostSweeps = 200;
   constexpr double smallestChange = 1e-5;
@@ -72,19 +183,19 @@ RegionValues findRegionValues(const RegionRaster& raster, const std::vector<doub
   progress.BeginStage(1.0, 2 * raster.NumberOfShares());
   const System system = systemOf(raster, progress);
   const auto regions = static_cast<std::size_t>(raster.Regions());
-  RegionValues found{ std::vector<double>(regions), std::vector<double>(regions),
+  RegionValues found{ std::vector<double>(regions), {}, std::vector<double>(regions),
     std::vector<unsigned char>(regions) };
   std::vector<double> lowest(regions);
   std::vector<double> highest(regions);
   for (std::size_t i = 0; i < regions; ++i)
   {
-    const double plain = masses[i] / areas[i];
-    lowest[i] = std::min(least * around, plain);
+    const double plain = targets.Masses[i] / targets.Areas[i];
+    lowest[i] = std::min(targets.Least, plain);
     highest[i] = std::max(most * plain, lowest[i]);
     found.Densities[i] = std::max(plain, lowest[i]);
   }
   const auto massOf = [&](std::size_t region) {
-    double mass = around * system.Rest[region];
+    double mass = targets.Around * system.Rest[region];
     for (Matrix::InnerIterator entry(system.Common, static_cast<Eigen::Index>(region)); entry;
          ++entry)
     {
@@ -107,16 +218,22 @@ RegionValues findRegionValues(const RegionRaster& raster, const std::vector<doub
       }
       double& density = found.Densities[i];
       const double next =
-        std::clamp(density + (masses[i] - massOf(i)) / own, lowest[i], highest[i]);
+        std::clamp(density + (targets.Masses[i] - massOf(i)) / own, lowest[i], highest[i]);
       change = std::max(change, std::abs(next - density) / density);
       density = next;
     }
   }
+  double worst = 0.0;
   for (std::size_t i = 0; i < regions; ++i)
   {
     constexpr double rounding = 1e-9;
-    found.Errors[i] = massOf(i) / masses[i] - 1.0;
+    found.Errors[i] = massOf(i) / targets.Masses[i] - 1.0;
     found.Least[i] = found.Densities[i] <= lowest[i] * (1.0 + rounding);
+    worst = std::max(worst, std::abs(found.Errors[i]));
+  }
+  if (worst > targets.Tolerance)
+  {
+    FactorSearch(raster, targets, found).Run(progress);
   }
   return found;
 }

@@ -13,18 +13,30 @@ namespace RectifiedTransport
 
 struct RegionValues
 {
-  std::vector<double> Densities;    // of the regions
+  std::vector<double> Densities; // of the regions
+  // Of the factors that RegionRaster::Scale takes; empty if densities alone do.
+  std::vector<double> Exponents;
   std::vector<double> Errors;       // relative, of the masses that regions have in the raster
-  std::vector<unsigned char> Least; // whether a region has the least density and still too much
+  std::vector<unsigned char> Least; // whether a region has as little as it can and still too much
 };
 
-// `masses` and `around`, the density of the rest, in cells; areas in cells, positive. Densities are
-// at least `least` of `around`, or the mass by the area if that is less, and at most 4 times that.
-// Projected Gauss-Seidel on M d = masses - what the rest gives, where M_ij is the sum over cells of
-// the product of the parts that i and j cover. Throws std::bad_alloc and Cancelled.
-RegionValues findRegionValues(const RegionRaster& raster, const std::vector<double>& masses,
-  const std::vector<double>& areas, double around, double least,
-  const Context& context = Context());
+struct RegionTargets
+{
+  const std::vector<double>& Masses; // in cells, as are densities
+  const std::vector<double>& Areas;  // in cells, positive
+  double Around;                     // the density of the rest
+  double Least;                      // the least density of a cell
+  double Tolerance;                  // of the masses, relative
+};
+
+// Densities are at least `Least`, or the mass by the area if that is less, and at most 4 times the
+// mass by the area: projected Gauss-Seidel on M d = masses - what the rest gives, where M_ij is the
+// sum over cells of the product of the parts that i and j cover. A thin region may have more than
+// its mass from its neighbours' parts of border cells. Where errors exceed the tolerance, cells get
+// the factors closest to 1, by relative entropy, with which they do not. Throws std::bad_alloc and
+// Cancelled.
+RegionValues findRegionValues(
+  const RegionRaster& raster, const RegionTargets& targets, const Context& context = Context());
 
 } // namespace RectifiedTransport
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers and roots with the same bits on every machine and in every standard library.
+// Random numbers, roots and exponentials with the same bits on every machine and in every standard
+// library.
 #ifndef RectifiedTransport_ReproducibleMath_h
 #define RectifiedTransport_ReproducibleMath_h
 
@@ -48,6 +49,37 @@ inline double cubeRoot(double x)
     y = (2.0 * y + mantissa / (y * y)) / 3.0;
   }
   return std::ldexp(y, exponent / 3);
+}
+
+// e^x to rounding, for |x| up to 700.
+inline double exponential(double x)
+{
+  constexpr double logOfTwo = 0x1.62e42fefap-1; // its first bits, whose multiples are exact
+  constexpr double more = 0x1.cf79abc9e3b3ap-40;
+  constexpr int terms = 14;
+  const double power = std::round(x / logOfTwo);
+  const double rest = (x - power * logOfTwo) - power * more;
+  double sum = 1.0;
+  for (int term = terms; term > 0; --term)
+  {
+    sum = 1.0 + rest / term * sum;
+  }
+  return std::ldexp(sum, static_cast<int>(power));
+}
+
+// Of a positive number.
+inline double naturalLogarithm(double x)
+{
+  constexpr double logOfTwo = 0.693147180559945309417;
+  int power = 0;
+  const double mantissa = std::frexp(x, &power);
+  double y = 0.0; // of the mantissa, by Halley's method
+  for (int iteration = 0; iteration < 4; ++iteration)
+  {
+    const double found = exponential(y);
+    y += 2.0 * (mantissa - found) / (mantissa + found);
+  }
+  return power * logOfTwo + y;
 }
 
 template <int Degree>

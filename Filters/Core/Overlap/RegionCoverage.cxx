@@ -108,7 +108,12 @@ void RegionCoverage::AddInRow(std::int64_t row, double from, double to, double h
 void RegionCoverage::Finish(double value)
 {
   double* const sums = this->Slab.Sums;
-  this->FinishCells([&](std::int64_t cell, double area) { sums[cell] += value * area; });
+  this->FinishRows([sums, value](std::int64_t cell, double covered, double tolerance) {
+    if (covered > tolerance)
+    {
+      sums[cell] += value * (covered < 1.0 - tolerance ? covered : 1.0);
+    }
+  });
 }
 
 } // namespace RectifiedTransport

@@ -5,6 +5,8 @@
 
 #include "Core/Overlap/Overlap.h"
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -23,32 +25,19 @@ public:
   void Add(const Point<2>& from, const Point<2>& to);
   // Adds to the slab's sums the value times the area that the edges since the last call enclose.
   void Finish(double value);
-  // visit(cell, area) of the cells in which they enclose something, by their numbers in the grid.
+  // The same where edges may run the other way round: visit(cell, area) of the cells of the grid with
+  // an area, which is negative there, and a multiple where edges run around several times.
   template <class Visit>
-  void FinishCells(const Visit& visit)
+  void FinishSigned(const Visit& visit)
   {
-    constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
-    for (std::int64_t row = this->FirstRow; row <= this->LastRow; ++row)
-    {
-      Row& span = this->Rows[static_cast<std::size_t>(row - this->Slab.First)];
-      Share* shares = this->Shares.data() + (row - this->Slab.First) * this->Slab.Size[0];
-      // Cells outside must have nothing at all, else particles might be put there.
-      const double tolerance = rounding * span.Heights;
-      double height = 0.0;
-      for (std::int64_t cell = span.First; cell <= span.Last; ++cell)
+    this->FinishRows([&visit](std::int64_t cell, double covered, double tolerance) {
+      const double whole = std::round(covered);
+      const double area = std::abs(covered - whole) > tolerance ? covered : whole;
+      if (area != 0.0)
       {
-        const double covered = height + shares[cell].Area;
-        height += shares[cell].Height;
-        shares[cell] = { 0.0, 0.0 };
-        if (covered > tolerance)
-        {
-          visit(row * this->Slab.Size[0] + cell, covered < 1.0 - tolerance ? covered : 1.0);
-        }
+        visit(cell, area);
       }
-      span = { this->Slab.Size[0], -1, 0.0 };
-    }
-    this->FirstRow = this->Slab.Last;
-    this->LastRow = this->Slab.First - 1;
+    });
   }
 
 private:
@@ -64,6 +53,30 @@ private:
     double Heights; // of all edges
   };
 
+  // visit(cell, covered, rounding) of the cells that edges have come by.
+  template <class Visit>
+  void FinishRows(const Visit& visit)
+  {
+    constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+    for (std::int64_t row = this->FirstRow; row <= this->LastRow; ++row)
+    {
+      Row& span = this->Rows[static_cast<std::size_t>(row - this->Slab.First)];
+      Share* shares = this->Shares.data() + (row - this->Slab.First) * this->Slab.Size[0];
+      // Cells outside must have nothing at all, else particles might be put there.
+      const double tolerance = rounding * span.Heights;
+      double height = 0.0;
+      for (std::int64_t cell = span.First; cell <= span.Last; ++cell)
+      {
+        const double covered = height + shares[cell].Area;
+        height += shares[cell].Height;
+        shares[cell] = { 0.0, 0.0 };
+        visit(row * this->Slab.Size[0] + cell, covered, tolerance);
+      }
+      span = { this->Slab.Size[0], -1, 0.0 };
+    }
+    this->FirstRow = this->Slab.Last;
+    this->LastRow = this->Slab.First - 1;
+  }
   void AddInRow(std::int64_t row, double from, double to, double height);
 
   const GridSlab<2> Slab;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <random>
 
 namespace RectifiedTransport
 {
@@ -198,6 +199,39 @@ TEST(Cartogram, SameForThreads)
   const ThreadsExecutor threads(3);
   const Made other = make(squares(4), masses, coarse(), nullptr, threads);
   EXPECT_EQ(one.Map.Points(), other.Map.Points());
+}
+
+// Many regions of masses that span a factor of 1000, on few cells each: thin ones have most of the
+// raster's mass from their neighbours, and small ones need more steps than blocks of cells.
+TEST(Cartogram, ManyRegions)
+{
+  struct Case
+  {
+    int Side;
+    std::int64_t Resolution;
+    double Tolerance;
+  };
+  for (const Case& sample : { Case{ 24, 256, 0.02 }, Case{ 16, 128, 0.01 } })
+  {
+    std::mt19937_64 engine(3);
+    std::vector<double> masses;
+    for (int i = 0; i < sample.Side * sample.Side; ++i)
+    {
+      double sum = -6.0; // of 12 even numbers: nearly normal
+      for (int k = 0; k < 12; ++k)
+      {
+        sum += static_cast<double>(engine() >> 11) * 0x1p-53;
+      }
+      masses.push_back(std::exp(1.2 * sum));
+    }
+    CartogramOptions options;
+    options.Resolution = sample.Resolution;
+    options.Tolerance = sample.Tolerance;
+    const Made made = make(squares(sample.Side), masses, options);
+    expectRight(made, masses, sample.Tolerance, true);
+    EXPECT_LE(made.Result.Passes.size(), 6U);
+    EXPECT_TRUE(made.Result.OutOfReach.empty());
+  }
 }
 
 // A region that is smaller than a cell of the raster in a dense neighbourhood.

@@ -128,8 +128,9 @@ TEST(CartogramAbort, RastersAndTheirValues)
   const std::vector<double> values(20, 1.0);
   expectToEnd([&](const Context& context) { raster.Fill(values, 1.0, cells, context); });
   const std::vector<double> areas = map.Areas(20);
-  expectToEnd(
-    [&](const Context& context) { findRegionValues(raster, areas, areas, 1.0, 1e-4, context); });
+  expectToEnd([&](const Context& context) {
+    findRegionValues(raster, { areas, areas, 1.0, 1e-4, 1.0 }, context);
+  });
 }
 
 // The whole run: progress rises, and stands still for no more than a part of the polls,

@@ -114,6 +114,84 @@ TEST(RegionRaster, Overlap)
   EXPECT_GE(region, 0);
 }
 
+// The integral of the raster over each region: cell by cell, with the parts that each region has.
+std::vector<double> massesIn(
+  const RegionRaster& raster, const RegionValues& values, double sea, double least = 0.0)
+{
+  std::vector<double> cells;
+  raster.Fill(values.Densities, sea, cells);
+  if (!values.Exponents.empty())
+  {
+    raster.Scale(values.Exponents, least, cells);
+  }
+  const std::size_t regions = values.Densities.size();
+  std::vector<double> masses(regions);
+  for (std::size_t region = 0; region < regions; ++region)
+  {
+    std::vector<double> only(regions, 0.0);
+    only[region] = 1.0;
+    std::vector<double> parts;
+    raster.Fill(only, 0.0, parts);
+    for (std::size_t cell = 0; cell < parts.size(); ++cell)
+    {
+      masses[region] += parts[cell] * cells[cell];
+    }
+  }
+  return masses;
+}
+
+// A ring that crosses itself: one part of it counts as negative.
+TEST(RegionRaster, CountsWhatIsTurnedOver)
+{
+  RegionMap map;
+  addRing(map, 0, { { 5, 5 }, { 30, 20 }, { 30, 5 }, { 5, 15 } });
+  map.FindHoles();
+  const RegionRaster raster = rasterOf(map, 1);
+  double sum = raster.WholeCells(0);
+  double least = 0.0;
+  raster.VisitMixed([&](const RegionRaster::Share* shares, std::int64_t) {
+    sum += shares->Signed;
+    least = std::min(least, shares->Signed);
+    EXPECT_GE(shares->Part, 0.0);
+  });
+  EXPECT_NEAR(sum, map.Areas(1)[0], 1e-9);
+  EXPECT_NEAR(least, -1.0, 1e-12);
+  EXPECT_GT(raster.Covered()[0], sum + 10.0);
+}
+
+// A thin strip between dense regions, a quarter of a cell wide: even with no density of its own it
+// has too much of its neighbours'.
+TEST(RegionValues, FactorsForThinRegions)
+{
+  RegionMap map;
+  addRing(map, 0, rectangle(5, 5, 20.4, 30));
+  addRing(map, 1, rectangle(20.4, 5, 20.65, 30));
+  addRing(map, 2, rectangle(20.65, 5, 33, 30));
+  map.FindHoles();
+  const RegionRaster raster = rasterOf(map, 3);
+  const std::vector<double> areas = map.Areas(3);
+  const std::vector<double> masses{ 2.0 * areas[0], 0.05 * areas[1], 3.0 * areas[2] };
+  const double least = 1e-4;
+  const RegionValues plain = findRegionValues(raster, { masses, areas, 1.0, least, 1e9 });
+  EXPECT_TRUE(plain.Exponents.empty());
+  EXPECT_GT(plain.Errors[1], 10.0);
+  EXPECT_EQ(plain.Least[1], 1);
+  const RegionValues values = findRegionValues(raster, { masses, areas, 1.0, least, 1e-3 });
+  const std::vector<double> found = massesIn(raster, values, 1.0, least);
+  for (std::size_t i = 0; i < masses.size(); ++i)
+  {
+    EXPECT_NEAR(values.Errors[i], 0.0, 1e-3) << i;
+    EXPECT_NEAR(found[i] / masses[i] - 1.0, values.Errors[i], 1e-9) << i;
+    EXPECT_EQ(values.Least[i], 0);
+  }
+  // Less than the least density gives.
+  const std::vector<double> hopeless{ masses[0], 1e-5 * areas[1], masses[2] };
+  const RegionValues most = findRegionValues(raster, { hopeless, areas, 1.0, least, 1e-3 });
+  EXPECT_EQ(most.Least[1], 1);
+  EXPECT_EQ(most.Least[0], 0);
+  EXPECT_GT(most.Errors[1], 1.0);
+}
+
 // The integral of the raster over each region is its mass.
 TEST(RegionValues, PutMassesIntoRegions)
 {
@@ -122,22 +200,8 @@ TEST(RegionValues, PutMassesIntoRegions)
   const std::vector<double> masses{ 100, 1, 20, 3, 500, 60, 70, 8, 0.9 };
   const std::vector<double> areas = map.Areas(9);
   const double sea = 2.0;
-  const RegionValues values = findRegionValues(raster, masses, areas, sea, 1e-4);
-  std::vector<double> cells;
-  raster.Fill(values.Densities, sea, cells);
-  // Cell by cell, with the parts that each region has.
-  std::vector<double> found(9);
-  for (std::int32_t region = 0; region < 9; ++region)
-  {
-    std::vector<double> only(9, 0.0);
-    only[static_cast<std::size_t>(region)] = 1.0;
-    std::vector<double> parts;
-    raster.Fill(only, 0.0, parts);
-    for (std::size_t cell = 0; cell < parts.size(); ++cell)
-    {
-      found[static_cast<std::size_t>(region)] += parts[cell] * cells[cell];
-    }
-  }
+  const RegionValues values = findRegionValues(raster, { masses, areas, sea, 1e-4 * sea, 1.0 });
+  const std::vector<double> found = massesIn(raster, values, sea);
   for (std::size_t i = 0; i < masses.size(); ++i)
   {
     EXPECT_NEAR(found[i] / masses[i] - 1.0, values.Errors[i], 1e-9);
