@@ -91,8 +91,6 @@ public:
       const double end = 0.5 * (1.0 + this->Work.StageEnd());
       if (pass > 0)
       {
-        this->BeginPart(0.1, end);
-        this->Divide([this](const Point<2>&) { return this->LongestEdge(); });
         this->BeginPart(0.3, end);
         raster = this->RasterNow();
       }
