@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Cartogram/Cartogram.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+namespace RectifiedTransport
+{
+
+std::int32_t raiseMasses(std::vector<double>& masses, double leastShare)
+{
+  const double equal =
+    std::accumulate(masses.begin(), masses.end(), 0.0) / static_cast<double>(masses.size());
+  if (leastShare * static_cast<double>(masses.size()) >= 1.0)
+  {
+    const auto raised =
+      std::count_if(masses.begin(), masses.end(), [equal](double mass) { return mass < equal; });
+    std::fill(masses.begin(), masses.end(), equal);
+    return static_cast<std::int32_t>(raised);
+  }
+  std::vector<unsigned char> isRaised(masses.size(), 0);
+  std::int32_t count = 0;
+  for (bool isDone = false; !isDone;)
+  {
+    isDone = true;
+    double others = 0.0;
+    for (std::size_t i = 0; i < masses.size(); ++i)
+    {
+      others += isRaised[i] != 0 ? 0.0 : masses[i];
+    }
+    // So that raised ones have their share of what all have then.
+    const double least = leastShare * others / (1.0 - leastShare * count);
+    for (std::size_t i = 0; i < masses.size(); ++i)
+    {
+      if (isRaised[i] == 0 && masses[i] < least)
+      {
+        isRaised[i] = 1;
+        ++count;
+        isDone = false;
+      }
+    }
+    if (isDone)
+    {
+      for (std::size_t i = 0; i < masses.size(); ++i)
+      {
+        masses[i] = isRaised[i] != 0 ? least : masses[i];
+      }
+    }
+  }
+  return count;
+}
+
+} // namespace RectifiedTransport
