@@ -28,7 +28,7 @@
  * divided by its share of the mass, less 1; `TargetArea` its area without error; `MassPerArea` its
  * mass by its area in the input. Field data
  * `AreaErrors` has the largest absolute error after each pass, `EnlargedRegions` how many regions
- * LeastShare enlarged. Output 1, "Graticule": lines of a regular grid over the box, moved. Output
+ * LeastShare enlarged. Output 1, "Graticule": lines of a regular grid over the map, moved. Output
  * 2, "Overlay": the overlay with all its data, moved.
  *
  * Cost: O(Resolution^2 + points * steps) a pass. Memory: about 80 bytes a cell of the raster.

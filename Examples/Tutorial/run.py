@@ -139,7 +139,9 @@ def areas_of_people(pixels):
     legend = simple.GetScalarBar(simple.GetColorTransferFunction("MassPerArea"), view)
     legend.Title = "people per square kilometre"
     legend.TitleColor = legend.LabelColor = [0, 0, 0]
-    look(view, [-50, 110, 0], [0, 0, 10000], [0, 1, 0], 6000)
+    legend.Orientation, legend.WindowLocation = "Horizontal", "Lower Center"
+    legend.UseCustomLabels, legend.CustomLabels, legend.AddRangeLabels = 1, [10, 100, 1000], 0
+    look(view, [-50, -200, 0], [0, 0, 10000], [0, 1, 0], 5800)
     simple.SetActiveSource(people)
     return view, max(abs(error) for error in people.CellData["AreaError"].GetRange())
 

@@ -187,6 +187,10 @@ class TestCartogram(unittest.TestCase):
         graticule = algorithm.GetGraticule()
         self.assertEqual(graticule.GetNumberOfLines(), 34)
         np.testing.assert_allclose(graticule.GetBounds(), (-0.4, 4.4, -0.4, 4.4, 0, 0), atol=1e-9)
+        wide = map_of([rectangle(0, 0, 4, 4), rectangle(4, 0, 8, 4)], [1.0, 2.0])
+        bounds = np.array(cartogram(wide)[0].GetGraticule().GetBounds())
+        np.testing.assert_allclose(bounds[:2], (-0.8, 8.8), atol=1e-9)  # with the margin
+        self.assertTrue((abs(bounds[2:4] - (-1, 5)) < 0.5).all(), bounds)  # not the whole square
         # Without a change of areas it is the regular grid.
         plain = positions(cartogram(sixteen(1.0))[0].GetGraticule())
         regular = 0.009375 * np.round((plain[:, 0] + 0.4) / 0.009375) - 0.4

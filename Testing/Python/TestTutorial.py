@@ -140,7 +140,7 @@ class Script(unittest.TestCase):
             data = film.read()
         self.assertEqual(data[:4], b"OggS")
         self.assertGreater(len(data), 4000)
-        self.assertIn("tutorial-people.png: areas within 0.20 %", printed)
+        self.assertIn("tutorial-people.png: areas within 0.18 %", printed)
         for name in ("slice", "compare", "people"):
             shown = picture(os.path.join(SOURCE, "Documentation", "Images",
                                          "tutorial-%s.png" % name))

@@ -60,7 +60,7 @@ public:
     }
     this->Work.Check();
     const MapPlace place{ *this->Frame, this->Box, this->Worker.Blend };
-    MapFellows fellows(place, this->Outputs.Overlay, this->Work);
+    MapFellows fellows(place, this->Map, this->Outputs.Overlay, this->Work);
     CartogramStart start = this->FindStart();
     this->Work.BeginStage(0.98);
     this->Result = runCartogram(this->Map, this->Cells.Masses, this->Box, this->Worker.Options,

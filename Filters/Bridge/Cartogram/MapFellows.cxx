@@ -9,6 +9,9 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -18,30 +21,65 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr int spaces = 16;          // between the lines along each axis
-constexpr std::int64_t parts = 256; // of a line
-constexpr std::int64_t pointsOfLine = parts + 1;
-constexpr std::int64_t lineCount = 2 * (spaces + 1);
+constexpr int squares = 16; // along each side of the raster
+constexpr int parts = 16;   // of a square's side
+
+// The squares that a map reaches along an axis, with the raster's margin around it.
+struct Reach
+{
+  int First;
+  int Last; // one beyond
+};
+
+std::array<Reach, 2> reachOf(const RegionMap& map, double side)
+{
+  Point<2> low{ HUGE_VAL, HUGE_VAL };
+  Point<2> high{ -HUGE_VAL, -HUGE_VAL };
+  for (const Point<2>& place : map.Points())
+  {
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      low[axis] = std::min(low[axis], place[axis]);
+      high[axis] = std::max(high[axis], place[axis]);
+    }
+  }
+  const double margin = 0.5 * (side - std::max(high[0] - low[0], high[1] - low[1]));
+  constexpr double rounding = 1e-6;
+  std::array<Reach, 2> reach;
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    reach[axis] = {
+      std::max(0, static_cast<int>(std::floor((low[axis] - margin) / side * squares + rounding))),
+      std::min(
+        squares, static_cast<int>(std::ceil((high[axis] + margin) / side * squares - rounding)))
+    };
+  }
+  return reach;
+}
 
 } // namespace
 
-MapFellows::MapFellows(
-  const MapPlace& place, const std::vector<OverlayPart>& overlay, Progress& progress)
+MapFellows::MapFellows(const MapPlace& place, const RegionMap& map,
+  const std::vector<OverlayPart>& overlay, Progress& progress)
   : Place(place)
   , Overlay(overlay)
 {
   const auto side = static_cast<double>(place.Box.Side);
+  const std::array<Reach, 2> reach = reachOf(map, side);
   for (std::size_t axis = 0; axis < 2; ++axis)
   {
-    for (int line = 0; line <= spaces; ++line)
+    const Reach across = reach[axis];
+    const Reach along = reach[1 - axis];
+    for (int line = across.First; line <= across.Last; ++line)
     {
-      for (std::int64_t i = 0; i <= parts; ++i)
+      for (int i = parts * along.First; i <= parts * along.Last; ++i)
       {
         Point<2> point;
-        point[axis] = side * line / spaces;
-        point[1 - axis] = side * static_cast<double>(i) / static_cast<double>(parts);
+        point[axis] = side * line / squares;
+        point[1 - axis] = side * i / (squares * parts);
         this->Moved.push_back(point);
       }
+      this->LineEnds.push_back(this->Moved.size());
     }
   }
   for (const OverlayPart& part : overlay)
@@ -65,12 +103,12 @@ void MapFellows::WriteGraticule(vtkPolyData* output) const
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> lines;
-  for (std::int64_t line = 0; line < lineCount; ++line)
+  std::size_t at = 0;
+  for (const std::size_t end : this->LineEnds)
   {
-    lines->InsertNextCell(static_cast<int>(pointsOfLine));
-    for (std::int64_t i = 0; i < pointsOfLine; ++i)
+    lines->InsertNextCell(static_cast<int>(end - at));
+    for (; at < end; ++at)
     {
-      const auto at = static_cast<std::size_t>(line * pointsOfLine + i);
       const Point<3> place = this->Place.Blended(this->Before[at], this->Moved[at], 0.0);
       lines->InsertCellPoint(points->InsertNextPoint(place.data()));
     }
@@ -82,7 +120,7 @@ void MapFellows::WriteGraticule(vtkPolyData* output) const
 void MapFellows::WriteOverlay(Progress& progress) const
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
-  constexpr auto first = static_cast<std::size_t>(lineCount * pointsOfLine);
+  const std::size_t first = this->LineEnds.back();
   std::size_t before = 0;
   for (const OverlayPart& part : this->Overlay)
   {

@@ -8,6 +8,7 @@
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Progress.h"
 
+#include <cstddef>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -20,8 +21,9 @@ namespace RectifiedTransport
 class MapFellows
 {
 public:
-  // Throws Failure and Cancelled.
-  MapFellows(const MapPlace& place, const std::vector<OverlayPart>& overlay, Progress& progress);
+  // `map` is in index space. Throws Failure and Cancelled.
+  MapFellows(const MapPlace& place, const RegionMap& map, const std::vector<OverlayPart>& overlay,
+    Progress& progress);
 
   // To be moved: in index space.
   FellowPoints& Points() { return this->Moved; }
@@ -33,6 +35,7 @@ private:
   const MapPlace& Place;
   FellowPoints Moved; // of the graticule, then of the overlay
   FellowPoints Before;
+  std::vector<std::size_t> LineEnds; // of the graticule, one beyond
   const std::vector<OverlayPart>& Overlay;
   std::vector<Point<3>> OverlayBefore; // of all parts
 };
