@@ -21,12 +21,11 @@ def main():
     counties = []
     for county, polygons in geometries(sys.argv[1], "counties"):
         state = county["id"][:2]
-        outlines = [polygon for polygon in polygons if len(polygon[0]) > 3]
-        if outlines and state not in APART and state <= LAST_STATE:
-            counties.append((f"{county['properties']['name']} {county['id']}", outlines))
+        if polygons and state not in APART and state <= LAST_STATE:
+            counties.append((f"{county['properties']['name']} {county['id']}", polygons))
     masses = np.random.default_rng(7).lognormal(0, 1.2, len(counties))
-    write(sys.argv[2], [feature(name, float(mass), outlines)
-                        for (name, outlines), mass in zip(counties, masses)])
+    write(sys.argv[2], [feature(name, float(mass), polygons)
+                        for (name, polygons), mass in zip(counties, masses)])
     print(f"{len(counties)} counties")
 
 

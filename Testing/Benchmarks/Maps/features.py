@@ -5,7 +5,8 @@ import json
 
 
 def geometries(path, name):
-    """Geometries of a TopoJSON file, each with its polygons; shared borders have the same points."""
+    """Geometries of a TopoJSON file, each with its polygons; shared borders have the same points.
+    Rings without area are left out."""
     with open(path, encoding="utf-8") as file:
         topology = json.load(file)
     scale, shift = topology["transform"]["scale"], topology["transform"]["translate"]
@@ -19,7 +20,9 @@ def geometries(path, name):
         arcs.append(points)
     for geometry in topology["objects"][name]["geometries"]:
         polygons = geometry["arcs"] if geometry["type"] == "MultiPolygon" else [geometry["arcs"]]
-        yield geometry, [[ring_of(ring, arcs) for ring in polygon] for polygon in polygons]
+        polygons = [[ring_of(ring, arcs) for ring in polygon] for polygon in polygons]
+        yield geometry, [[ring for ring in polygon if len(ring) > 3] for polygon in polygons
+                         if len(polygon[0]) > 3]
 
 
 def ring_of(numbers, arcs):

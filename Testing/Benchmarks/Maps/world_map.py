@@ -64,7 +64,6 @@ def main():
             continue
         rings = [[[project(p) for p in unwrapped(ring)] for ring in polygon]
                  for polygon in polygons]
-        rings = [polygon for polygon in rings if len(polygon[0]) > 3]
         countries.append(feature(name, round(1e6 * people[name]), rings))
     if "--least-masses" in options:
         raise_masses(countries)
