@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Cartogram/MapFellows.h"
 
+#include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Points/PointInput.h"
+#include "Bridge/Run/Memory.h"
 
-#include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkNew.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
@@ -60,23 +62,16 @@ MapFellows::MapFellows(
   this->Before = this->Moved;
 }
 
-void MapFellows::WriteGraticule(vtkPolyData* output) const
+void MapFellows::WriteGraticule(vtkPolyData* output, Progress& progress) const
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkCellArray> lines;
-  for (std::int64_t line = 0; line < lineCount; ++line)
+  constexpr std::int64_t count = lineCount * pointsOfLine;
+  const auto points = newArray<vtkDoubleArray>("Points", 3, count);
+  for (std::int64_t i = 0; i < count; ++i)
   {
-    lines->InsertNextCell(static_cast<int>(pointsOfLine));
-    for (std::int64_t i = 0; i < pointsOfLine; ++i)
-    {
-      const auto at = static_cast<std::size_t>(line * pointsOfLine + i);
-      const Point<3> place = this->Place.Blended(this->Before[at], this->Moved[at], 0.0);
-      lines->InsertCellPoint(points->InsertNextPoint(place.data()));
-    }
+    const auto at = static_cast<std::size_t>(i);
+    points->SetTypedTuple(i, this->Place.Blended(this->Before[at], this->Moved[at], 0.0).data());
   }
-  output->SetPoints(points);
-  output->SetLines(lines);
+  setParticles(output, points, pointsOfLine, progress);
 }
 
 void MapFellows::WriteOverlay(Progress& progress) const
@@ -87,18 +82,18 @@ void MapFellows::WriteOverlay(Progress& progress) const
   for (const OverlayPart& part : this->Overlay)
   {
     const std::int64_t count = part.Input->GetNumberOfPoints();
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(count);
+    const auto places = newArray<vtkDoubleArray>("Points", 3, count);
     progress.For(count, grain, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i)
       {
         const std::size_t at = before + static_cast<std::size_t>(i);
         const Point<3> place = this->Place.Blended(this->Before[first + at],
           this->Moved[first + at], this->Place.Frame.Distance(this->OverlayBefore[at]));
-        points->SetPoint(i, place.data());
+        places->SetTypedTuple(i, place.data());
       }
     });
+    vtkNew<vtkPoints> points;
+    points->SetData(places);
     part.Output->SetPoints(points);
     before += static_cast<std::size_t>(count);
   }

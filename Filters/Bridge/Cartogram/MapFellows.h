@@ -25,8 +25,9 @@ public:
 
   // To be moved: in index space.
   FellowPoints& Points() { return this->Moved; }
-  void WriteGraticule(vtkPolyData* output) const;
-  // Sets the points of the overlay's outputs. Throws Cancelled.
+  // They throw Failure and Cancelled.
+  void WriteGraticule(vtkPolyData* output, Progress& progress) const;
+  // Sets the points of the overlay's outputs.
   void WriteOverlay(Progress& progress) const;
 
 private:
