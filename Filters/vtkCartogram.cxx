@@ -36,6 +36,11 @@ std::string arrayName(vtkInformation* choice, const char* title)
   }
   return name ? name : "";
 }
+
+vtkDataObject* overlayOf(vtkInformationVector* port)
+{
+  return port->GetNumberOfInformationObjects() > 0 ? vtkDataObject::GetData(port) : nullptr;
+}
 } // namespace
 
 struct vtkCartogram::vtkInternals
@@ -114,15 +119,15 @@ int vtkCartogram::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkCartogram::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  auto* const blocks = vtkCompositeDataSet::GetData(inputVector[1]);
+  // As the overlay; without one, or before the executive turns it down, some type is needed.
+  vtkDataObject* const overlay = overlayOf(inputVector[1]);
+  const bool isAny =
+    overlay && (overlay->IsA("vtkPointSet") || overlay->IsA("vtkCompositeDataSet"));
+  const auto made = vtkSmartPointer<vtkDataObject>::Take(
+    isAny ? overlay->NewInstance() : static_cast<vtkDataObject*>(vtkPolyData::New()));
   vtkDataObject* const output = vtkDataObject::GetData(outputVector, 2);
-  if (!blocks)
+  if (!output || output->GetDataObjectType() != made->GetDataObjectType())
   {
-    vtkCollectiveAlgorithm::MakeOutputLike(inputVector[1], outputVector, 2);
-  }
-  else if (!output || output->GetDataObjectType() != blocks->GetDataObjectType())
-  {
-    const auto made = vtkSmartPointer<vtkDataObject>::Take(blocks->NewInstance());
     outputVector->GetInformationObject(2)->Set(vtkDataObject::DATA_OBJECT(), made);
   }
   return 1;
@@ -167,10 +172,7 @@ int vtkCartogram::RequestData(
   }
   CartogramOutputs outputs{ vtkPolyData::GetData(outputVector, 0),
     vtkPolyData::GetData(outputVector, 1), {} };
-  vtkDataObject* overlay = inputVector[1]->GetNumberOfInformationObjects() > 0
-    ? vtkDataObject::GetData(inputVector[1])
-    : nullptr;
-  if (overlay)
+  if (vtkDataObject* overlay = overlayOf(inputVector[1]))
   {
     outputs.Overlay = overlayParts(overlay, vtkDataObject::GetData(outputVector, 2));
   }

@@ -409,7 +409,7 @@ OTHERS = [
     S(BRIDGE + "Cartogram/Cartogram.cxx", "this->Kept = { std::move(content), {} };",
       "this->Kept.Content = std::move(content);"),
     S(BRIDGE + "Cartogram/Cartogram.cxx", "content.AddNumbers(&this->Worker.Options.Margin, 1);", ";"),
-    E(BRIDGE + "Cartogram/Cartogram.cxx", "total / this->Land * «this->Before[i]»;", "1.0"),
+    E(BRIDGE + "Cartogram/Cartogram.cxx", "leastRegionDensity * total * «area»;", "0.05"),
     E(BRIDGE + "Cartogram/RegionCells.cxx", "isComposite && «blocks.size() > 1»;", "true"),
     S(BRIDGE + "Cartogram/MapFellows.cxx", "before += static_cast<std::size_t>(count);", ";"),
     S(BRIDGE + "Cartogram/OverlayParts.cxx", "made->GetPointData()->PassData(input->GetPointData());", ";"),

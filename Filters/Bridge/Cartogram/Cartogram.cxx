@@ -6,6 +6,7 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PartText.h"
 #include "Core/Parallel/Progress.h"
 
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <new>
 #include <numeric>
 #include <optional>
 #include <sstream>
@@ -30,6 +32,15 @@ namespace RectifiedTransport
 
 namespace
 {
+
+// VTK ends the program where cells that grow find no memory.
+void reserveCells(vtkCellArray* cells, vtkIdType count, vtkIdType ids)
+{
+  if (count > 0 && !cells->AllocateExact(count, ids))
+  {
+    throw std::bad_alloc();
+  }
+}
 
 class CartogramJob
 {
@@ -73,8 +84,8 @@ public:
     }
     this->Warn();
     this->WriteRegions(place);
-    fellows.WriteGraticule(this->Outputs.Graticule);
     this->Work.BeginStage(1.0);
+    fellows.WriteGraticule(this->Outputs.Graticule);
     fellows.WriteOverlay(this->Work);
     this->Work.Check();
     return std::move(this->Warnings);
@@ -174,14 +185,16 @@ private:
   {
     std::vector<double>& masses = this->Cells.Masses;
     const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
+    constexpr double nothing = 1e-100; // of the mean density: less has errors that are no numbers
     std::int64_t empty = 0;
     std::string first;
     for (std::size_t i = 0; i < masses.size(); ++i)
     {
-      if (!(masses[i] > 0.0))
+      const double area = this->Before[i] / this->Land;
+      if (!(masses[i] / total > nothing * area))
       {
         first = empty++ == 0 ? this->Cells.Names[i] : first;
-        masses[i] = leastRegionDensity * total / this->Land * this->Before[i];
+        masses[i] = leastRegionDensity * total * area;
       }
     }
     if (empty > 0)
@@ -307,9 +320,7 @@ private:
     vtkPolyData* input = this->Cells.Data;
     vtkPolyData* output = this->Outputs.Regions;
     const auto points = static_cast<vtkIdType>(this->Map.Points().size());
-    vtkNew<vtkPoints> moved;
-    moved->SetDataTypeToDouble();
-    moved->SetNumberOfPoints(points);
+    const auto moved = newArray<vtkDoubleArray>("Points", 3, points);
     output->GetPointData()->InterpolateAllocate(input->GetPointData(), points);
     std::vector<Point<3>> before = this->Places;
     const auto old = static_cast<vtkIdType>(before.size());
@@ -339,9 +350,11 @@ private:
         ? where.Blended(this->Result.Before[Index(i)], this->Map.Points()[Index(i)],
             this->Frame->Distance(before[Index(i)]))
         : before[Index(i)];
-      moved->SetPoint(i, place.data());
+      moved->SetTypedTuple(i, place.data());
     }
-    output->SetPoints(moved);
+    vtkNew<vtkPoints> outputPoints;
+    outputPoints->SetData(moved);
+    output->SetPoints(outputPoints);
     this->Work.Check();
     this->WriteCells(output);
     addFieldValues(output, "AreaErrors", this->LargestErrors());
@@ -364,6 +377,8 @@ private:
     output->SetVerts(input->GetVerts());
     vtkNew<vtkCellArray> lines;
     vtkNew<vtkCellArray> polygons;
+    reserveCells(lines, input->GetNumberOfLines(), this->Map.Edges() + input->GetNumberOfLines());
+    reserveCells(polygons, input->GetNumberOfPolys(), this->Map.Edges());
     std::int64_t ring = 0;
     vtkNew<vtkIdList> ids;
     this->VisitCells([&](vtkIdType cell, vtkIdList* given, vtkIdType count) {
@@ -394,18 +409,21 @@ private:
     errors->SetName("AreaError");
     targets->SetName("TargetArea");
     densities->SetName("MassPerArea");
-    for (const std::int32_t region : this->Cells.Regions)
-    {
-      const bool isRegion = region >= 0;
-      errors->InsertNextValue(isRegion ? this->Result.Errors[Index(region)] : 0.0);
-      targets->InsertNextValue(
-        isRegion ? this->Cells.Masses[Index(region)] / total * this->Land : 0.0);
-      densities->InsertNextValue(
-        isRegion ? this->MassesBefore[Index(region)] / this->Before[Index(region)] : 0.0);
-    }
+    const auto cells = static_cast<vtkIdType>(this->Cells.Regions.size());
     for (vtkDoubleArray* array : { errors.Get(), targets.Get(), densities.Get() })
     {
+      array->SetNumberOfTuples(cells);
       output->GetCellData()->AddArray(array);
+    }
+    for (vtkIdType cell = 0; cell < cells; ++cell)
+    {
+      const std::int32_t region = this->Cells.Regions[Index(cell)];
+      const bool isRegion = region >= 0;
+      errors->SetValue(cell, isRegion ? this->Result.Errors[Index(region)] : 0.0);
+      targets->SetValue(
+        cell, isRegion ? this->Cells.Masses[Index(region)] / total * this->Land : 0.0);
+      densities->SetValue(
+        cell, isRegion ? this->MassesBefore[Index(region)] / this->Before[Index(region)] : 0.0);
     }
   }
 

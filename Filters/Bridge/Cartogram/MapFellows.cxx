@@ -2,8 +2,11 @@
 #include "Bridge/Cartogram/MapFellows.h"
 
 #include "Bridge/Points/PointInput.h"
+#include "Bridge/Run/Memory.h"
 
 #include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
@@ -100,19 +103,26 @@ MapFellows::MapFellows(const MapPlace& place, const RegionMap& map,
 
 void MapFellows::WriteGraticule(vtkPolyData* output) const
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkCellArray> lines;
-  std::size_t at = 0;
-  for (const std::size_t end : this->LineEnds)
+  const std::size_t count = this->LineEnds.back();
+  const auto number = [](std::size_t i) { return static_cast<vtkIdType>(i); };
+  const auto coordinates = newArray<vtkDoubleArray>("Points", 3, number(count));
+  const auto ids = newArray<vtkIdTypeArray>("Ids", 1, number(count));
+  const auto offsets = newArray<vtkIdTypeArray>("Offsets", 1, number(this->LineEnds.size() + 1));
+  for (std::size_t i = 0; i < count; ++i)
   {
-    lines->InsertNextCell(static_cast<int>(end - at));
-    for (; at < end; ++at)
-    {
-      const Point<3> place = this->Place.Blended(this->Before[at], this->Moved[at], 0.0);
-      lines->InsertCellPoint(points->InsertNextPoint(place.data()));
-    }
+    ids->SetValue(number(i), number(i));
+    coordinates->SetTypedTuple(
+      number(i), this->Place.Blended(this->Before[i], this->Moved[i], 0.0).data());
   }
+  offsets->SetValue(0, 0);
+  for (std::size_t line = 0; line < this->LineEnds.size(); ++line)
+  {
+    offsets->SetValue(number(line + 1), number(this->LineEnds[line]));
+  }
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+  vtkNew<vtkCellArray> lines;
+  lines->SetData(offsets, ids);
   output->SetPoints(points);
   output->SetLines(lines);
 }
@@ -125,18 +135,18 @@ void MapFellows::WriteOverlay(Progress& progress) const
   for (const OverlayPart& part : this->Overlay)
   {
     const std::int64_t count = part.Input->GetNumberOfPoints();
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(count);
+    const auto places = newArray<vtkDoubleArray>("Points", 3, count);
     progress.For(count, grain, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i)
       {
         const std::size_t at = before + static_cast<std::size_t>(i);
         const Point<3> place = this->Place.Blended(this->Before[first + at],
           this->Moved[first + at], this->Place.Frame.Distance(this->OverlayBefore[at]));
-        points->SetPoint(i, place.data());
+        places->SetTypedTuple(i, place.data());
       }
     });
+    vtkNew<vtkPoints> points;
+    points->SetData(places);
     part.Output->SetPoints(points);
     before += static_cast<std::size_t>(count);
   }

@@ -27,8 +27,9 @@ public:
 
   // To be moved: in index space.
   FellowPoints& Points() { return this->Moved; }
+  // They throw Failure and Cancelled.
   void WriteGraticule(vtkPolyData* output) const;
-  // Sets the points of the overlay's outputs. Throws Cancelled.
+  // Sets the points of the overlay's outputs.
   void WriteOverlay(Progress& progress) const;
 
 private:

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <utility>
 
 namespace RectifiedTransport
@@ -89,23 +88,11 @@ public:
     this->Known = this->Inner->Unusual();
     this->Empty = this->Inner->EmptyDensity();
     this->Made.reset();
-    if (const DensityValues* values = this->Inner->Values())
+    if (this->Inner->Values())
     {
-      const auto make = [&](auto dimension) {
-        constexpr int D = decltype(dimension)::value;
-        this->Made = std::make_unique<GrownValues<D>>(
-          std::shared_ptr<const DensityValues>(std::shared_ptr<void>(), values), this->Box<D>(),
-          this->Geometry.Size<D>(), this->Empty);
-      };
-      switch (this->Geometry.Dimension())
-      {
-        case 1:
-          return make(std::integral_constant<int, 1>());
-        case 2:
-          return make(std::integral_constant<int, 2>());
-        default:
-          return make(std::integral_constant<int, 3>());
-      }
+      using Self = GrownDensity;
+      (this
+          ->*dispatchDimension(this->Geometry.Dimension(), &Self::Make<1>, &Self::Make<2>, &Self::Make<3>))();
     }
   }
   const DensityValues* Values() const override { return this->Made.get(); }
@@ -186,6 +173,14 @@ private:
     return { &this->Line, &this->Plane, &this->Space };
   }
 
+  template <int D>
+  void Make()
+  {
+    this->Made = std::make_unique<GrownValues<D>>(
+      std::shared_ptr<const DensityValues>(std::shared_ptr<void>(), this->Inner->Values()),
+      this->Box<D>(), this->Geometry.Size<D>(), this->Empty);
+  }
+
   // The cells of the inner density.
   template <int D>
   LatticePart<D> Box() const
@@ -195,18 +190,19 @@ private:
     return box;
   }
 
+  // Of a cell that is not of the inner density: -1.
+  template <int D>
+  std::int64_t NumberInInner(std::int64_t index) const
+  {
+    const GridSize<D> cell = LatticePart<D>::WholeOf(this->Geometry.Size<D>()).CellOf(index);
+    return this->Box<D>().Contains(cell) ? this->Box<D>().NumberOf(cell) : -1;
+  }
   std::int64_t IndexInInner(std::int64_t index) const
   {
-    const auto convert = [&](auto dimension) {
-      constexpr int D = decltype(dimension)::value;
-      const GridSize<D> cell = LatticePart<D>::WholeOf(this->Geometry.Size<D>()).CellOf(index);
-      return this->Box<D>().Contains(cell) ? this->Box<D>().NumberOf(cell) : -1;
-    };
-    const int dimension = this->Geometry.Dimension();
-    return index < 0   ? index
-      : dimension == 1 ? convert(std::integral_constant<int, 1>())
-      : dimension == 2 ? convert(std::integral_constant<int, 2>())
-                       : convert(std::integral_constant<int, 3>());
+    using Self = GrownDensity;
+    const auto number = dispatchDimension(this->Geometry.Dimension(), &Self::NumberInInner<1>,
+      &Self::NumberInInner<2>, &Self::NumberInInner<3>);
+    return index < 0 ? index : (this->*number)(index);
   }
 
   const std::unique_ptr<InputDensity> Inner;

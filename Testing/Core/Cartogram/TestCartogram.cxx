@@ -114,6 +114,26 @@ TEST(Cartogram, ExactAsAsked)
   expectRight(make(squares(4), masses, options), masses, 1e-3);
 }
 
+TEST(Cartogram, ShortEdgesWhereRegionsGrow)
+{
+  CartogramOptions options = coarse();
+  options.MaximumPasses = 1;
+  const Made made = make(squares(4), masses16(90.0), options);
+  const auto longest = [&](std::int64_t ring) {
+    double length = 0.0;
+    made.Map.VisitEdges(ring, [&](std::int64_t from, std::int64_t to) {
+      const Point<2>& a = made.Result.Before[static_cast<std::size_t>(from)];
+      const Point<2>& b = made.Result.Before[static_cast<std::size_t>(to)];
+      length = std::max(length, std::hypot(b[0] - a[0], b[1] - a[1]));
+    });
+    return length;
+  };
+  const double usual = 128.0 / 512.0;
+  EXPECT_NEAR(longest(15), usual, 0.01);
+  // 13.7 times as dense as all together.
+  EXPECT_NEAR(longest(5), usual / std::sqrt(13.7), 0.01);
+}
+
 TEST(Cartogram, NothingToDo)
 {
   const std::vector<double> masses(16, 2.5);
@@ -253,14 +273,9 @@ TEST(Cartogram, OutOfReach)
   EXPECT_LE(std::abs(made.Result.Errors[0]), 0.01);
 }
 
-// One step turns outlines over; more do not.
+// Few steps turn outlines over; more do not, or the pass is left out.
 TEST(Cartogram, MoreStepsWhereOutlinesTurnOver)
 {
-  CartogramOptions options = coarse();
-  options.Flow.NumberOfSteps = 2; // a single one is a linear map
-  options.MaximumPasses = 1;
-  std::vector<double> masses = masses16(90.0);
-  masses.push_back(0.01);
   RegionMap map = squares(4);
   for (int i = 0; i < 400; ++i) // small islands all over it
   {
@@ -269,13 +284,23 @@ TEST(Cartogram, MoreStepsWhereOutlinesTurnOver)
     addRing(map, 16, rectangle(x, y, x + 0.005, y + 0.005));
   }
   map.FindHoles();
-  const Made made = make(std::move(map), masses, options);
-  ASSERT_EQ(made.Result.Passes.size(), 1U);
-  EXPECT_GE(made.Result.Passes[0].NumberOfSteps, 2 * FlowOptions::FewestSteps);
-  EXPECT_EQ(made.Result.Folded, 0);
-  for (std::int64_t ring = 0; ring < made.Map.Rings(); ++ring)
+  CartogramOptions options = coarse();
+  options.Flow.NumberOfSteps = 4;
+  options.MaximumPasses = 1;
+  for (const double heavy : { 1e4, 1e8 })
   {
-    EXPECT_GT(made.Map.AreaOf(ring), 0.0) << ring;
+    std::vector<double> masses = masses16(heavy);
+    masses.push_back(0.01);
+    const Made made = make(map, masses, options);
+    const bool isLeftOut = heavy > 1e6;
+    EXPECT_EQ(made.Result.Folded > 0, isLeftOut);
+    ASSERT_EQ(made.Result.Passes.size(), isLeftOut ? 0U : 1U);
+    EXPECT_TRUE(isLeftOut || made.Result.Passes[0].NumberOfSteps >= 2 * FlowOptions::FewestSteps);
+    EXPECT_EQ(made.Map.Points() == made.Result.Before, isLeftOut);
+    for (std::int64_t ring = 0; ring < made.Map.Rings(); ++ring)
+    {
+      EXPECT_GT(made.Map.AreaOf(ring), 0.0) << ring;
+    }
   }
 }
 
