@@ -15,6 +15,8 @@ namespace RectifiedTransport
 namespace
 {
 
+constexpr std::int64_t grain = std::int64_t{ 1 } << 12; // of cells, in loops
+
 // The rows of cells that a region lies in, in the grid.
 struct Rows
 {
@@ -166,10 +168,23 @@ std::vector<double> RegionRaster::Covered() const
   return covered;
 }
 
+template <class Visit>
+void RegionRaster::ForMixed(Progress& progress, const Visit& visit) const
+{
+  const auto mixed = static_cast<std::int64_t>(this->Mixed.size());
+  progress.For(mixed, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      const auto at = static_cast<std::size_t>(i);
+      visit(this->Mixed[at], this->Shares.data() + this->Begins[at],
+        this->Begins[at + 1] - this->Begins[at]);
+    }
+  });
+}
+
 void RegionRaster::Fill(const std::vector<double>& values, double around,
   std::vector<double>& cells, const Context& context) const
 {
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
   Progress progress(context);
   const auto all = static_cast<std::int64_t>(this->Owners.size());
   const auto mixed = static_cast<std::int64_t>(this->Mixed.size());
@@ -183,26 +198,19 @@ void RegionRaster::Fill(const std::vector<double>& values, double around,
       cells.push_back(owner < 0 ? around : values[static_cast<std::size_t>(owner)]);
     }
   });
-  progress.For(mixed, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
+  this->ForMixed(progress, [&](std::int64_t cell, const Share* shares, std::int64_t count) {
+    double value = around * restOf(shares, count);
+    for (std::int64_t k = 0; k < count; ++k)
     {
-      const auto at = static_cast<std::size_t>(i);
-      const Share* const shares = this->Shares.data() + this->Begins[at];
-      const std::int64_t count = this->Begins[at + 1] - this->Begins[at];
-      double value = around * restOf(shares, count);
-      for (std::int64_t k = 0; k < count; ++k)
-      {
-        value += shares[k].Part * values[static_cast<std::size_t>(shares[k].Region)];
-      }
-      cells[static_cast<std::size_t>(this->Mixed[at])] = value;
+      value += shares[k].Part * values[static_cast<std::size_t>(shares[k].Region)];
     }
+    cells[static_cast<std::size_t>(cell)] = value;
   });
 }
 
 void RegionRaster::Scale(const std::vector<double>& exponents, double least,
   std::vector<double>& cells, const Context& context) const
 {
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
   Progress progress(context);
   const auto all = static_cast<std::int64_t>(this->Owners.size());
   const auto mixed = static_cast<std::int64_t>(this->Mixed.size());
@@ -223,18 +231,13 @@ void RegionRaster::Scale(const std::vector<double>& exponents, double least,
       }
     }
   });
-  progress.For(mixed, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
+  this->ForMixed(progress, [&](std::int64_t cell, const Share* shares, std::int64_t count) {
+    double exponent = 0.0;
+    for (std::int64_t k = 0; k < count; ++k)
     {
-      const auto at = static_cast<std::size_t>(i);
-      double exponent = 0.0;
-      for (std::int64_t k = this->Begins[at]; k < this->Begins[at + 1]; ++k)
-      {
-        const Share& share = this->Shares[static_cast<std::size_t>(k)];
-        exponent += share.Part * exponents[static_cast<std::size_t>(share.Region)];
-      }
-      scale(exponential(exponent), cells[static_cast<std::size_t>(this->Mixed[at])]);
+      exponent += shares[k].Part * exponents[static_cast<std::size_t>(shares[k].Region)];
     }
+    scale(exponential(exponent), cells[static_cast<std::size_t>(cell)]);
   });
 }
 

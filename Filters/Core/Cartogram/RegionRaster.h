@@ -13,6 +13,8 @@
 namespace RectifiedTransport
 {
 
+class Progress;
+
 class RegionRaster
 {
 public:
@@ -67,6 +69,9 @@ private:
     RegionRaster::Share Share;
   };
   void AddMixed(std::vector<CellShare>& mixed);
+  // visit(cell, shares, count), in parallel.
+  template <class Visit>
+  void ForMixed(Progress& progress, const Visit& visit) const;
 
   std::int64_t CellsOfSide;
   std::vector<std::int32_t> Owners; // of cells, or -1
