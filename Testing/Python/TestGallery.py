@@ -69,6 +69,11 @@ class Gallery(unittest.TestCase):
             with self.subTest(name):
                 self.check(self.opened(place, folder, name), name)
 
+    @staticmethod
+    def listed(files):
+        """The files of a property, which is a text if it takes one alone."""
+        return [files] if isinstance(files, str) else files or []
+
     def opened(self, place, folder, name):
         """The picture of a state whose data are those of a copy."""
         simple.ResetSession()
@@ -78,7 +83,7 @@ class Gallery(unittest.TestCase):
         simple.LoadState(path, data_directory=place)
         read_files = [path for source in simple.GetSources().values()
                       for files in ("FileName", "FileNames")
-                      for path in getattr(source, files, None) or []]
+                      for path in self.listed(getattr(source, files, None))]
         self.assertGreater(len(read_files), 0)
         for file in read_files:
             self.assertTrue(file.startswith(folder), file)

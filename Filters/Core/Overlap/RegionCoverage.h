@@ -25,8 +25,8 @@ public:
   void Add(const Point<2>& from, const Point<2>& to);
   // Adds to the slab's sums the value times the area that the edges since the last call enclose.
   void Finish(double value);
-  // The same where edges may run the other way round: visit(cell, area) of the cells of the grid with
-  // an area, which is negative there, and a multiple where edges run around several times.
+  // The same where edges may run the other way round: visit(cell, area) of the cells of the grid
+  // with an area, which is negative there, and a multiple where edges run around several times.
   template <class Visit>
   void FinishSigned(const Visit& visit)
   {
