@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cartograms: areas of regions from polygons, closed lines and map files; what moves along; bad input."""
+import json
 import os
+import re
 import unittest
 
 import numpy as np
-from rt_testing import SOURCE, Listener, load_plugin, main, positions, producer
+from rt_testing import OUTPUT, SOURCE, Listener, load_plugin, main, positions, producer
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkMultiBlockDataSet, vtkPolyData
@@ -274,6 +276,29 @@ class TestCartogram(unittest.TestCase):
         self.assertIn("the raster cannot hold the region 'pond' (off by", listener.warnings[-1])
         self.assertIn("LeastShare", listener.warnings[-1])
 
+    def test_map_in_degrees(self):
+        """The page's expression gives a map of a reader the areas of the sphere, and no warning is left."""
+        with open(os.path.join(SOURCE, "Documentation", "Cartogram.md"), encoding="utf-8") as file:
+            expression = re.search(r"```\n(.*coordsX.*)\n```", file.read())[1]
+        rows = [(0, 30), (30, 60)]
+        features = [{"type": "Feature", "properties": {"people": 1 + i}, "geometry": {
+            "type": "Polygon", "coordinates": [[[x, y] for x, y in (
+                (0, low), (40, low), (40, high), (0, high), (0, low))]]}} for i, (low, high) in enumerate(rows)]
+        path = os.path.join(OUTPUT, "degrees.geojson")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump({"type": "FeatureCollection", "features": features}, file)
+        projected = simple.Calculator(simple.GDALVectorReader(FileName=path), CoordinateResults=1,
+                                      Function=expression)
+        proxy = simple.Cartogram(projected, MassArray=["CELLS", "people"])
+        algorithm = proxy.GetClientSideObject()
+        listener = Listener(algorithm)
+        proxy.UpdatePipeline()
+        self.assertEqual(listener.errors + listener.warnings, [])
+        found = vtk_to_numpy(algorithm.GetRegions().GetCellData().GetArray("MassPerArea"))
+        sines = np.sin(np.radians(rows))
+        areas = 6371 ** 2 * np.radians(40) * (sines[:, 1] - sines[:, 0])
+        np.testing.assert_allclose(found, [1, 2] / areas, rtol=1e-5)
+
     def test_errors(self):
         nan = sixteen()
         nan.GetCellData().GetArray("Mass").SetValue(7, np.nan)
@@ -377,7 +402,7 @@ class TestCartogram(unittest.TestCase):
                   "them; their areas there are not what their masses ask"]),
                 (sixteen(place=lambda x, y: (10 * x, 40 + 10 * y, 0.0)), {},
                  ["The coordinates look like degrees of longitude and latitude, in which areas are wrong; project "
-                  "the map to an equal-area projection first"]),
+                  "the map to an equal-area projection first, with the Calculator or QGIS"]),
                 (no_mass, dict(Tolerance=1.0, LeastShare=0.01),
                  ["2 of 4 regions (50 %) have no mass (the first is the region of cell 0); they get a "
                   "ten-thousandth of the mean density, as no area can be shown",

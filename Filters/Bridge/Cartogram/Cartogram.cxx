@@ -233,7 +233,7 @@ private:
     {
       this->Warnings.push_back(
         "The coordinates look like degrees of longitude and latitude, in which areas are wrong; "
-        "project the map to an equal-area projection first");
+        "project the map to an equal-area projection first, with the Calculator or QGIS");
     }
   }
 
