@@ -21,7 +21,7 @@ void checkThreads(Checks& checks)
 {
   auto map = makeMap(8);
   const double bounds[6] = { -1, 9, -1, 9, 0, 0 };
-  auto overlay = makePoints(randomCoordinates(bounds, 20000));
+  auto overlay = makePoints(randomCoordinates(bounds, 3000));
   const auto run = [&](int threading) {
     auto cartogram = makeCartogram(map);
     cartogram->SetOverlayData(overlay);
@@ -32,7 +32,7 @@ void checkThreads(Checks& checks)
       arrayValues(cartogram->GetRegions()->GetCellData()->GetArray("AreaError")));
   };
   const auto serial = expectSameBits(checks, run, __LINE__);
-  CHECK(checks, std::get<0>(serial).size() > 3 * 1000 && std::get<2>(serial).size() == 60000);
+  CHECK(checks, std::get<0>(serial).size() > 3 * 1000 && std::get<2>(serial).size() == 9000);
 }
 
 void checkAborts(Checks& checks)
@@ -78,7 +78,7 @@ void checkPasses(Checks& checks)
   auto cartogram = makeCartogram(makeMap(6));
   cartogram->SetTolerance(1e-9);
   double before = 0.0;
-  for (const int passes : { 1, 2, 4 })
+  for (const int passes : { 1, 2 })
   {
     cartogram->SetMaximumIterations(passes);
     ProgressTest test(cartogram);
