@@ -24,8 +24,8 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr int squares = 16; // along each side of the raster
-constexpr int parts = 16;   // of a square's side
+constexpr int squares = 16;   // along each side of the raster
+constexpr int mostParts = 16; // of a square's side
 
 // The squares that a map reaches along an axis, with the raster's margin around it.
 struct Reach
@@ -68,6 +68,8 @@ MapFellows::MapFellows(const MapPlace& place, const RegionMap& map,
   , Overlay(overlay)
 {
   const auto side = static_cast<double>(place.Box.Side);
+  // Not shorter than cells.
+  const int parts = std::clamp(static_cast<int>(place.Box.Side / squares), 1, mostParts);
   const std::array<Reach, 2> reach = reachOf(map, side);
   for (std::size_t axis = 0; axis < 2; ++axis)
   {
