@@ -9,7 +9,8 @@ packages_build="cmake ninja-build g++ libeigen3-dev paraview-dev python3-paravie
 packages_help="qhelpgenerator-qt5 python3-markdown python3-pil"
 packages_render="xvfb xauth"
 packages_examples="python3-scipy python-matplotlib-data openmpi-bin python3-mpi4py"
-packages_test="libgtest-dev libbenchmark-dev librsvg2-bin poppler-utils clang-format $packages_examples"
+packages_test="libgtest-dev libbenchmark-dev librsvg2-bin poppler-utils clang-format pocl-opencl-icd
+  ocl-icd-libopencl1 opencl-c-headers $packages_examples"
 packages_gui="libqt5svg5 imagemagick xdotool"
 packages_vtk="libtbb-dev"
 

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Device/Device.h"
+
+#include "Core/Device/DeviceCheck.h"
+#include "Core/Device/InfoText.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+std::string lowerCase(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+std::string namesOf(const std::vector<FoundDevice>& devices)
+{
+  std::string names;
+  for (const FoundDevice& device : devices)
+  {
+    names += (names.empty() ? "'" : ", '") + device.Description.Name + "'";
+  }
+  return names;
+}
+
+} // namespace
+
+std::shared_ptr<Device> openDevice(const std::string& name)
+{
+  if (!OpenCL::Loaded())
+  {
+    throw DeviceError("There is no OpenCL on this machine (libOpenCL.so.1, of a driver's package)");
+  }
+  const std::vector<FoundDevice> devices = findDevices();
+  if (devices.empty())
+  {
+    throw DeviceError("OpenCL has no device on this machine; its driver may be missing");
+  }
+  std::string reason;
+  for (const FoundDevice& found : devices)
+  {
+    const DeviceDescription& description = found.Description;
+    if (lowerCase(description.Name).find(lowerCase(name)) == std::string::npos)
+    {
+      continue;
+    }
+    try
+    {
+      if (!description.Lacks.empty())
+      {
+        throw DeviceError("The device '" + description.Name + "' " + description.Lacks);
+      }
+      auto device = std::make_shared<Device>(found);
+      checkDevice(*device);
+      return device;
+    }
+    catch (const DeviceError& error)
+    {
+      reason = reason.empty() ? error.what() : reason;
+      if (!name.empty())
+      {
+        break; // the one that is meant
+      }
+    }
+  }
+  throw DeviceError(reason.empty()
+      ? "No OpenCL device is named '" + name + "'; there are " + namesOf(devices)
+      : reason);
+}
+
+DeviceBuffer::~DeviceBuffer()
+{
+  if (this->Memory)
+  {
+    this->Owner->Cl.clReleaseMemObject(this->Memory);
+    this->Owner->Taken -= this->Bytes;
+  }
+}
+
+DeviceKernel::~DeviceKernel()
+{
+  if (this->Kernel)
+  {
+    this->Owner->Cl.clReleaseKernel(this->Kernel);
+  }
+}
+
+void DeviceKernel::Set(cl_uint number, const DeviceBuffer& buffer)
+{
+  this->SetBytes(number, sizeof(cl_mem), &buffer.Memory);
+}
+
+void DeviceKernel::SetBytes(cl_uint number, std::size_t bytes, const void* value)
+{
+  this->Owner->Require(this->Owner->Cl.clSetKernelArg(this->Kernel, number, bytes, value),
+    "takes no argument " + std::to_string(number) + " of the kernel " + this->Name);
+}
+
+DeviceProgram::~DeviceProgram()
+{
+  if (this->Program)
+  {
+    this->Owner->Cl.clReleaseProgram(this->Program);
+  }
+}
+
+DeviceKernel DeviceProgram::NewKernel(const std::string& name) const
+{
+  cl_int code = CL_SUCCESS;
+  cl_kernel kernel = this->Owner->Cl.clCreateKernel(this->Program, name.c_str(), &code);
+  this->Owner->Require(code, "does not make the kernel " + name);
+  return DeviceKernel(*this->Owner, kernel, name);
+}
+
+Device::Device(const FoundDevice& found)
+  : Cl(*OpenCL::Loaded())
+  , Found(found)
+{
+  this->Cl.clGetDeviceInfo(found.Id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof(this->LargestBuffer),
+    &this->LargestBuffer, nullptr);
+  const cl_context_properties ofPlatform[] = { CL_CONTEXT_PLATFORM,
+    reinterpret_cast<cl_context_properties>(found.Platform), 0 };
+  cl_int code = CL_SUCCESS;
+  this->Context = this->Cl.clCreateContext(ofPlatform, 1, &found.Id, nullptr, nullptr, &code);
+  this->Require(code, "cannot be opened");
+  this->Queue = this->Cl.clCreateCommandQueue(this->Context, found.Id, 0, &code);
+  if (code != CL_SUCCESS)
+  {
+    this->Cl.clReleaseContext(this->Context);
+  }
+  this->Require(code, "gives no queue");
+}
+
+Device::~Device()
+{
+  this->Cl.clReleaseCommandQueue(this->Queue);
+  this->Cl.clReleaseContext(this->Context);
+}
+
+void Device::Require(cl_int code, const std::string& what) const
+{
+  if (code != CL_SUCCESS)
+  {
+    throw DeviceError("The device '" + this->Description().Name + "' " + what +
+      " (OpenCL's error " + std::to_string(code) + ")");
+  }
+}
+
+DeviceProgram Device::Build(const std::vector<std::string>& sources, const std::string& options)
+{
+  std::vector<const char*> texts;
+  for (const std::string& source : sources)
+  {
+    texts.push_back(source.c_str());
+  }
+  cl_int code = CL_SUCCESS;
+  cl_program made = this->Cl.clCreateProgramWithSource(
+    this->Context, static_cast<cl_uint>(texts.size()), texts.data(), nullptr, &code);
+  this->Require(code, "takes no program");
+  DeviceProgram program(*this, made);
+  code = this->Cl.clBuildProgram(made, 1, &this->Found.Id, options.c_str(), nullptr, nullptr);
+  if (code != CL_SUCCESS)
+  {
+    const std::string log = infoText([&](std::size_t size, void* text, std::size_t* needed) {
+      return this->Cl.clGetProgramBuildInfo(
+        made, this->Found.Id, CL_PROGRAM_BUILD_LOG, size, text, needed);
+    });
+    this->Require(code, "does not compile a program: " + log.substr(0, log.find('\n')));
+  }
+  return program;
+}
+
+// Drivers promise more than they have, and fail later: what is asked for is counted first.
+DeviceBuffer Device::Allocate(std::size_t bytes, const std::string& what)
+{
+  const std::uint64_t most = std::min(this->LargestBuffer, this->MemoryLeft());
+  if (bytes > most)
+  {
+    throw DeviceError("The device '" + this->Description().Name + "' has too little memory for " +
+      what + ": " + std::to_string(bytes) + " bytes, of " + std::to_string(most) + " left");
+  }
+  DeviceBuffer buffer;
+  cl_int code = CL_SUCCESS;
+  buffer.Memory = this->Cl.clCreateBuffer(
+    this->Context, CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 1), nullptr, &code);
+  this->Require(code, "has too little memory for " + what);
+  buffer.Owner = this;
+  buffer.Bytes = bytes;
+  this->Taken += bytes;
+  return buffer;
+}
+
+void Device::Write(const DeviceBuffer& to, const void* from, std::size_t bytes, std::size_t offset)
+{
+  if (bytes > 0)
+  {
+    this->Require(this->Cl.clEnqueueWriteBuffer(
+                    this->Queue, to.Memory, CL_TRUE, offset, bytes, from, 0, nullptr, nullptr),
+      "takes no data");
+  }
+}
+
+void Device::Read(const DeviceBuffer& from, void* to, std::size_t bytes, std::size_t offset)
+{
+  if (bytes > 0)
+  {
+    this->Require(this->Cl.clEnqueueReadBuffer(
+                    this->Queue, from.Memory, CL_TRUE, offset, bytes, to, 0, nullptr, nullptr),
+      "gives no data back");
+  }
+}
+
+void Device::Run(const DeviceKernel& kernel, std::size_t items, std::size_t group)
+{
+  const std::size_t all = (items + group - 1) / group * group;
+  if (all > 0)
+  {
+    this->Require(this->Cl.clEnqueueNDRangeKernel(
+                    this->Queue, kernel.Kernel, 1, nullptr, &all, &group, 0, nullptr, nullptr),
+      "does not start the kernel " + kernel.Name);
+  }
+}
+
+void Device::Finish()
+{
+  this->Require(this->Cl.clFinish(this->Queue), "did not finish its work");
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The OpenCL devices of this machine. Their driver is found when it is first asked for: programs
+// are not linked to it, and it need not be there.
+#ifndef RectifiedTransport_DeviceList_h
+#define RectifiedTransport_DeviceList_h
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Device;
+
+struct DeviceDescription
+{
+  std::string Name;
+  std::string Driver;       // the versions of the platform and of the driver
+  std::uint64_t Memory = 0; // bytes
+  std::string Lacks;        // what it cannot do that is needed; empty if nothing is known to be
+};
+
+// In the order of the driver; empty if there is no driver, or if this library was built without
+// OpenCL. Does not throw anything but std::bad_alloc.
+std::vector<DeviceDescription> listDevices();
+
+// The first device whose name contains a text, in any case of letters, and without a text the first
+// one that can be used. It has passed the self-test of DeviceCheck.h. Throws DeviceError: no
+// driver, no such device, one that lacks something or computes other bits than processors.
+std::shared_ptr<Device> openDevice(const std::string& name);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The functions of OpenCL 1.2 that are used, from the loader's library as it is at run time.
+#ifndef RectifiedTransport_OpenCL_h
+#define RectifiedTransport_OpenCL_h
+
+#define CL_TARGET_OPENCL_VERSION 120
+#define CL_USE_DEPRECATED_OPENCL_1_2_APIS
+#include <CL/cl.h>
+
+namespace RectifiedTransport
+{
+
+struct OpenCL
+{
+#define RectifiedTransport_FUNCTIONS(each)                                                         \
+  each(clGetPlatformIDs);                                                                          \
+  each(clGetPlatformInfo);                                                                         \
+  each(clGetDeviceIDs);                                                                            \
+  each(clGetDeviceInfo);                                                                           \
+  each(clCreateContext);                                                                           \
+  each(clReleaseContext);                                                                          \
+  each(clCreateCommandQueue);                                                                      \
+  each(clReleaseCommandQueue);                                                                     \
+  each(clCreateBuffer);                                                                            \
+  each(clReleaseMemObject);                                                                        \
+  each(clEnqueueWriteBuffer);                                                                      \
+  each(clEnqueueReadBuffer);                                                                       \
+  each(clCreateProgramWithSource);                                                                 \
+  each(clBuildProgram);                                                                            \
+  each(clGetProgramBuildInfo);                                                                     \
+  each(clReleaseProgram);                                                                          \
+  each(clCreateKernel);                                                                            \
+  each(clReleaseKernel);                                                                           \
+  each(clSetKernelArg);                                                                            \
+  each(clEnqueueNDRangeKernel);                                                                    \
+  each(clFinish)
+
+#define RectifiedTransport_DECLARE(name) decltype(&::name) name = nullptr
+  RectifiedTransport_FUNCTIONS(RectifiedTransport_DECLARE);
+#undef RectifiedTransport_DECLARE
+
+  // nullptr if there is no loader, or one that lacks a function.
+  static const OpenCL* Loaded();
+};
+
+} // namespace RectifiedTransport
+
+#endif
