@@ -195,6 +195,9 @@ if [ ${#suites[@]} -gt 0 ]; then
   exit
 fi
 need_to_build $packages_render $packages_test
+if [ "$(dpkg-query -W -f '${db:Status-Status}' pocl-opencl-icd 2> /dev/null)" = installed ]; then
+  export RT_OPENCL=1 # there is a device: no test may be skipped for want of one
+fi
 need_meshes
 if [ $long = 0 ]; then
   skipped="$skipped|long"
