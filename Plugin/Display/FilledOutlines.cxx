@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <vector>
 
 namespace RectifiedTransport
@@ -36,12 +35,12 @@ void addLoop(vtkIdList* polygon, vtkCellArray* lines)
   lines->InsertCellPoint(polygon->GetId(0));
 }
 
-// Twice, about the normal; relative to a point, so that places far from the origin lose no digits.
-double areaOf(vtkPoints* points, vtkIdList* ring, const Point<3>& normal)
+// Twice, as a vector; relative to a point, so that places far from the origin lose no digits.
+Point<3> areaVectorOf(vtkPoints* points, vtkIdList* ring)
 {
   double origin[3];
   double before[3];
-  double sum[3] = { 0.0, 0.0, 0.0 };
+  Point<3> sum{ 0.0, 0.0, 0.0 };
   points->GetPoint(ring->GetId(0), origin);
   for (vtkIdType i = 1; i <= ring->GetNumberOfIds(); ++i)
   {
@@ -52,11 +51,17 @@ double areaOf(vtkPoints* points, vtkIdList* ring, const Point<3>& normal)
     {
       double cross[3];
       vtkMath::Cross(before, place, cross);
-      vtkMath::Add(sum, cross, sum);
+      vtkMath::Add(sum.data(), cross, sum.data());
     }
     std::copy_n(place, 3, before);
   }
-  return vtkMath::Dot(sum, normal.data());
+  return sum;
+}
+
+// Twice, about the normal.
+double areaOf(vtkPoints* points, vtkIdList* ring, const Point<3>& normal)
+{
+  return vtkMath::Dot(areaVectorOf(points, ring).data(), normal.data());
 }
 
 using Rings = std::vector<vtkSmartPointer<vtkIdList>>;
@@ -161,13 +166,7 @@ vtkIdType fillRegion(vtkPolyData* data, const std::vector<Outline>& region, cons
 vtkIdType fillPolygon(vtkPolyData* data, vtkIdList* polygon, vtkCellArray* areas)
 {
   constexpr vtkIdType few = 4;
-  Point<3> normal{ 0.0, 0.0, 0.0 };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    Point<3> along{ 0.0, 0.0, 0.0 };
-    along[axis] = 1.0;
-    normal[axis] = areaOf(data->GetPoints(), polygon, along);
-  }
+  Point<3> normal = areaVectorOf(data->GetPoints(), polygon);
   if (polygon->GetNumberOfIds() <= few || !(vtkMath::Normalize(normal.data()) > 0.0))
   {
     areas->InsertNextCell(polygon);

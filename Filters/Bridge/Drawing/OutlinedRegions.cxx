@@ -71,14 +71,9 @@ public:
     {
       return found;
     }
-    this->MakeMap();
     const PlaneFrame frame = this->Plane.Frame();
-    const Point<3> above = frame.ToSpace({ 0.0, 0.0 }, 1.0);
-    const Point<3> on = frame.ToSpace({ 0.0, 0.0 }, 0.0);
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      found.Normal[a] = above[a] - on[a];
-    }
+    found.Normal = frame.Normal();
+    this->MakeMap(frame);
     for (const std::vector<std::int64_t>& rings : this->Map.RingsOfRegions())
     {
       std::vector<Outline> region;
@@ -132,9 +127,8 @@ private:
     }
   }
 
-  void MakeMap()
+  void MakeMap(const PlaneFrame& frame)
   {
-    const PlaneFrame frame = this->Plane.Frame();
     std::map<std::string, std::int32_t> regions;
     std::vector<std::int64_t> numbers;
     for (const Outline& ring : this->Rings)

@@ -19,6 +19,7 @@ public:
   PlaneFrame(const Point<3>& origin, const Point<3>& normal);
 
   Point<2> ToPlane(const Point<3>& place) const;
+  const Point<3>& Normal() const { return this->Axes[2]; } // of length 1, upwards
   // Of a place, signed.
   double Distance(const Point<3>& place) const;
   Point<3> ToSpace(const Point<2>& inPlane, double distance) const;
