@@ -18,6 +18,39 @@
 namespace RectifiedTransport
 {
 
+// Those of the nodes of a level with this hand-over that start from the level `parent` of the map,
+// or from scratch (-1); empty where they take the steps of particles.
+template <int Dimension>
+std::vector<StepWeights> nodeWeights(
+  const FlowMapView<Dimension>& map, bool backward, int handOver, int parent)
+{
+  std::vector<StepWeights> weights;
+  if (backward)
+  {
+    const std::int64_t to = parent < 0 ? map.Steps : map.Levels[parent].HandOver;
+    const std::int64_t count = nodeSteps(handOver, to);
+    // Short steps at first, as no velocities are behind, and before time 0.
+    const std::int64_t steps = parent < 0 ? count : 2 * count;
+    const double begin = grading(handOver, map.Steps); // what is left until time 1
+    const double length = grading(to, map.Steps) - begin;
+    for (std::int64_t step = 0; step < count; ++step)
+    {
+      const double part = grading(step + 1, steps) / grading(count, steps);
+      weights.push_back(stretchedWeights(
+        step, count, steps, predictorFor(FlowDirection::Backward, begin + part * length)));
+    }
+  }
+  else if (parent < 0)
+  {
+    const std::int64_t count = startSteps(map.Steps, handOver);
+    for (std::int64_t step = 0; step < count; ++step)
+    {
+      weights.push_back(stretchedWeights(step, count, latticeSteps * map.Steps));
+    }
+  }
+  return weights;
+}
+
 template <int Dimension>
 class NodeAdvance
 {
@@ -59,7 +92,8 @@ private:
   {
     const AdvanceNodes<Dimension> advance = flowKernels().Advance<Dimension>();
     std::vector<unsigned char> deferred(left.size());
-    const std::vector<StepWeights> weights = this->WeightsFrom(parent);
+    const std::vector<StepWeights> weights =
+      nodeWeights<Dimension>(*this->Job.Map, this->Job.Backward, this->Level.HandOver, parent);
     std::atomic<std::int64_t> evaluations{ 0 };
     this->Work.For(
       static_cast<std::int64_t>(left.size()), blocks * BlockSize,
@@ -79,36 +113,6 @@ private:
       left.size(), [&](std::size_t i) { return deferred[i] != 0; },
       [&](std::size_t i, std::size_t place) { left[place] = left[i]; }));
     return evaluations;
-  }
-
-  std::vector<StepWeights> WeightsFrom(int parent) const
-  {
-    std::vector<StepWeights> weights;
-    const std::int64_t all = this->Job.Map->Steps;
-    if (this->Job.Backward)
-    {
-      const std::int64_t to = parent < 0 ? all : this->Job.Map->Levels[parent].HandOver;
-      const std::int64_t count = nodeSteps(this->Level.HandOver, to);
-      // Short steps at first, as no velocities are behind, and before time 0.
-      const std::int64_t steps = parent < 0 ? count : 2 * count;
-      const double begin = grading(this->Level.HandOver, all); // what is left until time 1
-      const double length = grading(to, all) - begin;
-      for (std::int64_t step = 0; step < count; ++step)
-      {
-        const double part = grading(step + 1, steps) / grading(count, steps);
-        weights.push_back(stretchedWeights(
-          step, count, steps, predictorFor(FlowDirection::Backward, begin + part * length)));
-      }
-    }
-    else if (parent < 0)
-    {
-      const std::int64_t count = startSteps(all, this->Level.HandOver);
-      for (std::int64_t step = 0; step < count; ++step)
-      {
-        weights.push_back(stretchedWeights(step, count, latticeSteps * all));
-      }
-    }
-    return weights;
   }
 
   const FlowJob<Dimension>& Job;

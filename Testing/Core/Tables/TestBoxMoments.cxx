@@ -28,6 +28,10 @@ constexpr int BlockSize = 64;
 
 #include "Core/Flow/Kernels/Vectors.txx"
 
+#include "Core/Flow/Kernels/Shared/Language.h"
+
+#include "Core/Flow/Kernels/Shared/BoxMoments.h"
+
 #include "Core/Flow/Kernels/BoxMoments.txx"
 
 #ifdef __linux__
@@ -61,7 +65,7 @@ TEST(BoxMoments, FarAlongALine)
   BoxLanes<3> boxes{};
   const double places[2] = { 1.25, 3.5 };
   boxes.Faces[0] =
-    onBothFaces << facesShift(1) | static_cast<std::int64_t>(onBothFaces) << facesShift(2);
+    RT_BOTH_FACES << facesShift(1) | static_cast<std::int64_t>(RT_BOTH_FACES) << facesShift(2);
   for (int side = 0; side < 2; ++side)
   {
     const auto whole = static_cast<std::int32_t>(places[side]);

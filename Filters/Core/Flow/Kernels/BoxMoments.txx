@@ -16,12 +16,6 @@
 
 using Lanes = double[BlockSize];
 
-// Which sides of a box lie on the faces of the domain, along one axis.
-constexpr int insideBoth = 0;
-constexpr int onLowFace = 1;
-constexpr int onHighFace = 2;
-constexpr int onBothFaces = 3;
-
 // The bit of an axis in BoxLanes::Faces. In 2D and 3D only the low face of axis 0 has one.
 constexpr int facesShift(int axis)
 {
@@ -58,33 +52,24 @@ RT_INLINE void dispatchFaces(std::int64_t faces, const Function& function)
   constexpr int low = 1;
   switch (faces & 7)
   {
-    case insideBoth << 1:
-      return function(Number<insideBoth>{}, Number<0>{});
-    case (insideBoth << 1) | low:
-      return function(Number<insideBoth>{}, Number<1>{});
-    case onLowFace << 1:
-      return function(Number<onLowFace>{}, Number<0>{});
-    case (onLowFace << 1) | low:
-      return function(Number<onLowFace>{}, Number<1>{});
-    case onHighFace << 1:
-      return function(Number<onHighFace>{}, Number<0>{});
-    case (onHighFace << 1) | low:
-      return function(Number<onHighFace>{}, Number<1>{});
-    case onBothFaces << 1:
-      return function(Number<onBothFaces>{}, Number<0>{});
+    case RT_NO_FACE << 1:
+      return function(Number<RT_NO_FACE>{}, Number<0>{});
+    case (RT_NO_FACE << 1) | low:
+      return function(Number<RT_NO_FACE>{}, Number<1>{});
+    case RT_LOW_FACE << 1:
+      return function(Number<RT_LOW_FACE>{}, Number<0>{});
+    case (RT_LOW_FACE << 1) | low:
+      return function(Number<RT_LOW_FACE>{}, Number<1>{});
+    case RT_HIGH_FACE << 1:
+      return function(Number<RT_HIGH_FACE>{}, Number<0>{});
+    case (RT_HIGH_FACE << 1) | low:
+      return function(Number<RT_HIGH_FACE>{}, Number<1>{});
+    case RT_BOTH_FACES << 1:
+      return function(Number<RT_BOTH_FACES>{}, Number<0>{});
     default:
-      return function(Number<onBothFaces>{}, Number<1>{});
+      return function(Number<RT_BOTH_FACES>{}, Number<1>{});
   }
 }
-
-// One axis of a box. [0] is the low side, [1] the high side.
-struct BoxAxis
-{
-  double Place[2];           // r
-  double QuadraticWeight[2]; // b
-  std::int64_t Offset[2];    // of the node below each side, in doubles
-  std::int64_t Stride;       // from a node to the next, in doubles
-};
 
 template <int Dimension>
 RT_INLINE BoxAxis boxAxis(const BoxLanes<Dimension>& boxes, int axis, int lane, std::int64_t stride)
@@ -108,7 +93,7 @@ template <int Faces, int N, class Value>
 RT_INLINE AxisSums<N> sumAxis(const BoxAxis& axis, const Value& value)
 {
   AxisSums<N> sums;
-  if constexpr (Faces == insideBoth || Faces == onLowFace)
+  if constexpr (Faces == RT_NO_FACE || Faces == RT_LOW_FACE)
   {
     const Vector<N> high = value(axis.Offset[1]);
     const Vector<N> step = value(axis.Offset[1] + axis.Stride) - high;
@@ -120,7 +105,7 @@ RT_INLINE AxisSums<N> sumAxis(const BoxAxis& axis, const Value& value)
     sums.Linear = value(axis.Offset[1] + axis.Stride);
     sums.Quadratic = {};
   }
-  if constexpr (Faces == insideBoth || Faces == onHighFace)
+  if constexpr (Faces == RT_NO_FACE || Faces == RT_HIGH_FACE)
   {
     const Vector<N> low = value(axis.Offset[0]);
     const Vector<N> step = value(axis.Offset[0] + axis.Stride) - low;
@@ -140,13 +125,13 @@ RT_INLINE void sumBox(const TableView<1>& tables, BoxLanes<1>& boxes, int lane)
   const double* high = nodes + axis.Offset[1];
   double mass = high[2];
   double moment = high[3];
-  if (!(faces & onHighFace))
+  if (!(faces & RT_HIGH_FACE))
   {
     const double step = high[2] - high[0];
     mass = high[0] + step * axis.Place[1];
     moment = (high[1] + (high[3] - high[1]) * axis.Place[1]) + step * axis.QuadraticWeight[1];
   }
-  if (!(faces & onLowFace))
+  if (!(faces & RT_LOW_FACE))
   {
     const double* low = nodes + axis.Offset[0];
     const double step = low[2] - low[0];
@@ -157,60 +142,21 @@ RT_INLINE void sumBox(const TableView<1>& tables, BoxLanes<1>& boxes, int lane)
   boxes.Moment[0][lane] = moment;
 }
 
-// The sums of a box at one row of nodes along axis 0, from the pairs of nodes around its two sides,
-// or around the high one alone.
-template <bool FromLowFace>
-RT_INLINE Vector4 sumRow(
-  const double* low, const double* high, const Vector8& lowWeights, const Vector8& highWeights)
-{
-  const Vector8 sum = loadVector<8>(high) * highWeights;
-  if constexpr (FromLowFace)
-  {
-    return addHalves(sum);
-  }
-  return addHalves(sum - loadVector<8>(low) * lowWeights);
-}
-
-// In 2D the fourth entry of a record repeats the mass, so that one product with the weights of a
-// pair of neighbouring nodes along axis 0 gives the linear sums and the quadratic one of that axis.
-template <int Faces1, bool FromLowFace>
-RT_INLINE void sumBox2D(const TableView<2>::Level& level, BoxLanes<2>& boxes, int lane)
-{
-  const BoxAxis axis0 = boxAxis<2>(boxes, 0, lane, TableView<2>::Record);
-  const BoxAxis axis1 = boxAxis<2>(boxes, 1, lane, level.Stride[1]);
-  const double* low = level.Nodes + axis0.Offset[0];
-  const double* high = level.Nodes + axis0.Offset[1];
-
-  // Weights of the nodes {below, above} a side: {1 - r, r} of the entries E, E_0 and E_1, and {-b,
-  // b} of the repeated E, which gives Q_0[E] = b (E_i+1 - E_i) in the same product.
-  alignas(32) static constexpr double ones[4] = { 1.0, 1.0, 1.0, 0.0 };
-  const Vector4 one = loadVector<4>(ones);
-  const auto weights = [&](int side) __attribute__((always_inline))
-  {
-    const Vector4 second = fillVector<3>(axis0.Place[side], axis0.QuadraticWeight[side]);
-    return joinVectors(one - second, second);
-  };
-  const Vector8 highWeights = weights(1);
-  const Vector8 lowWeights = FromLowFace ? Vector8{} : weights(0);
-  const AxisSums<4> sums = sumAxis<Faces1, 4>(
-    axis1, [&](std::int64_t row) __attribute__((always_inline)) {
-      return sumRow<FromLowFace>(low + row, high + row, lowWeights, highWeights);
-    });
-  // m_0 = L_0 L_1 E_0 + Q_0 L_1 E and m_1 = L_0 L_1 E_1 + L_0 Q_1 E.
-  boxes.Mass[lane] = sums.Linear[0];
-  boxes.Moment[0][lane] = sums.Linear[1] + sums.Linear[3];
-  boxes.Moment[1][lane] = sums.Linear[2] + sums.Quadratic[0];
-}
-
 // All levels alike: with the Q of both axes.
 RT_INLINE void sumBox(const TableView<2>& tables, BoxLanes<2>& boxes, int lane)
 {
   const auto& level = tables.Levels[boxes.Level[lane]];
   dispatchFaces(
     boxes.Faces[lane], [&](auto faces1, auto fromLowFace) __attribute__((always_inline)) {
-      sumBox2D<faces1.Value, fromLowFace.Value != 0>(level, boxes, lane);
+      const BoxAxis axis0 = boxAxis<2>(boxes, 0, lane, TableView<2>::Record);
+      const BoxAxis axis1 = boxAxis<2>(boxes, 1, lane, level.Stride[1]);
+      sumBox2D(level.Nodes, &axis0, &axis1, fromLowFace.Value, faces1.Value, &boxes.Mass[lane],
+        &boxes.Moment[0][lane], &boxes.Moment[1][lane]);
     });
 }
+
+// In 3D processors have a text of their own: in that of devices (Shared/BoxMoments3D.h), GCC keeps
+// more values alive than there are registers.
 
 // One axis other than 0 of a box on the finest level. There is no Q: each entry of a record has a
 // linear weight of its own, q for the moment along this axis and r for the others.
@@ -247,8 +193,8 @@ template <class Value>
 RT_INLINE Vector4 sumFineAxis(const FineAxis& axis, std::int64_t faces, const Value& value)
 {
   const Vector4 high =
-    faces & onHighFace ? value(axis.Offset[1] + axis.Stride) : interpolate(axis, 1, value);
-  return faces & onLowFace ? high : high - interpolate(axis, 0, value);
+    faces & RT_HIGH_FACE ? value(axis.Offset[1] + axis.Stride) : interpolate(axis, 1, value);
+  return faces & RT_LOW_FACE ? high : high - interpolate(axis, 0, value);
 }
 
 // The sums in 3D on the finest level. A box reads 4 rows of nodes for each side of axes 1 and 2,
@@ -273,8 +219,8 @@ RT_INLINE void sumFineBox(const TableView<3>::Level& level, BoxLanes<3>& boxes, 
     boxes.Faces[lane] >> facesShift(2), [&](std::int64_t plane) __attribute__((always_inline)) {
       return sumFineAxis(
         axis1, Faces1, [&](std::int64_t row) __attribute__((always_inline)) {
-          return sumRow<FromLowFace>(
-            low + plane + row, high + plane + row, lowWeights, highWeights);
+          return sumRow(
+            low + plane + row, high + plane + row, FromLowFace, &lowWeights, &highWeights);
         });
     });
   // Each entry has been summed with its own weights: E, E_0, E_1, E_2.
@@ -321,7 +267,7 @@ RT_INLINE PairSums sumPair(
   const double* nodes, const BoxAxis& axis1, const BoxAxis& axis2, std::int64_t faces2)
 {
   PairSums sums;
-  if (faces2 & onHighFace)
+  if (faces2 & RT_HIGH_FACE)
   {
     const AxisSums<8> total = sumAxis<Faces1, 8>(
       axis1, [&](std::int64_t row) __attribute__((always_inline)) {
@@ -333,7 +279,7 @@ RT_INLINE PairSums sumPair(
   {
     sums = sumSide<Faces1>(nodes, axis1, axis2, 1);
   }
-  if (!(faces2 & onLowFace))
+  if (!(faces2 & RT_LOW_FACE))
   {
     const PairSums low = sumSide<Faces1>(nodes, axis1, axis2, 0);
     sums = { sums.Linear - low.Linear, sums.Quadratic1 - low.Quadratic1,

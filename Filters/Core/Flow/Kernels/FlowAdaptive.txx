@@ -125,7 +125,7 @@ struct AdaptiveLanes
   bool Active[BlockSize];                       // not finished
 };
 
-// Predictor positions at Time + Step, by the weights of AdamsWeights.txx for each lane's own ratios
+// Predictor positions at Time + Step, by the weights of AdamsWeights.h for each lane's own ratios
 // of times: of order 3 with two velocities before the newest one, 2 with one (Adams-Bashforth 2), 1
 // with none (Euler). Times that are not there yet are replaced by those of even steps, to divide
 // by.
@@ -145,9 +145,10 @@ RT_INLINE void predictAdaptive(
       const double h = direction * lanes.Step[i];
       const double alpha = lanes.History[i] > 0.0 ? (lanes.Back[0][i] - lanes.Time[i]) / h : -1.0;
       const double beta = lanes.History[i] > 1.0 ? (lanes.Back[1][i] - lanes.Time[i]) / h : -2.0;
-      const double third0 = (1.0 / 3.0 - (alpha + beta) / 2.0 + alpha * beta) / (alpha * beta);
-      const double third1 = (1.0 / 3.0 - beta / 2.0) / (alpha * (alpha - beta));
-      const double third2 = (1.0 / 3.0 - alpha / 2.0) / (beta * (beta - alpha));
+      double third0;
+      double third1;
+      double third2;
+      predictorWeights(alpha, beta, &third0, &third1, &third2);
       // Adams-Bashforth 2: the weight of v_k-1; that of v_k is 1 - second.
       const double second = 0.5 / alpha;
       const double third = third0 * v0[i] + third1 * v1[i] + third2 * v2[i];
@@ -182,9 +183,10 @@ RT_INLINE void correctAdaptive(
     {
       const double h = direction * lanes.Step[i];
       const double alpha = lanes.History[i] > 0.0 ? (lanes.Back[0][i] - lanes.Time[i]) / h : -1.0;
-      const double c0 = (1.0 / 3.0 - alpha / 2.0) / (1.0 - alpha);
-      const double c1 = (1.0 / 3.0 - (1.0 + alpha) / 2.0 + alpha) / alpha;
-      const double c2 = -1.0 / (6.0 * alpha * (alpha - 1.0));
+      double c0;
+      double c1;
+      double c2;
+      correctorWeights(alpha, &c0, &c1, &c2);
       const double third = c0 * newest[i] + c1 * v0[i] + c2 * v1[i];
       const double slope = lanes.History[i] > 0.0 ? third : 0.5 * (newest[i] + v0[i]);
       const double place = clampToDomain(lanes.Steps.Position[axis][i] + h * slope, size);

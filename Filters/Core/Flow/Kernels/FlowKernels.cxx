@@ -9,7 +9,9 @@ namespace RectifiedTransport
 namespace
 {
 
-#include "Core/Flow/Kernels/AdamsWeights.txx"
+#define RT_FUNCTION inline
+#include "Core/Flow/Kernels/Shared/AdamsWeights.h"
+#undef RT_FUNCTION
 
 } // namespace
 

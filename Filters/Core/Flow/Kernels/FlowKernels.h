@@ -76,11 +76,12 @@ struct FlowJob
   // Backwards, particles stop at the finest level of the map: those that it gives no seed (none
   // does without records) are unresolved, and their output is where they are at the hand-over.
   bool StopsAtMap = false;
-  double* Output = nullptr;             // [particle][TimeCount][Dimension], in cells
-  const double* Times = nullptr;        // dense output, ascending; null for the end point alone
-  std::int64_t TimeCount = 1;           // 1 with the end point alone
-  bool (*ShouldStop)(void* clientData); // polled every few steps, on any thread; null: never
-  void* ClientData;
+  double* Output = nullptr;      // [particle][TimeCount][Dimension], in cells
+  const double* Times = nullptr; // dense output, ascending; null for the end point alone
+  std::int64_t TimeCount = 1;    // 1 with the end point alone
+  // Polled every few steps, on any thread; null: never.
+  bool (*ShouldStop)(void* clientData) = nullptr;
+  void* ClientData = nullptr;
 };
 
 // Advects `count` <= BlockSize particles from `seeds` (interleaved) to the places `index` of the

@@ -32,12 +32,22 @@ namespace
 
 #include "Core/Flow/Kernels/Vectors.txx"
 
+// The arithmetic of one lane, which devices share. The files below loop over the lanes.
+#include "Core/Flow/Kernels/Shared/Language.h"
+
+#include "Core/Flow/Kernels/Shared/AdamsWeights.h"
+#include "Core/Flow/Kernels/Shared/BoxMoments.h"
+#include "Core/Flow/Kernels/Shared/Velocity.h"
+
+#include "Core/Flow/Kernels/Shared/Multistep.h"
+
+#include "Core/Flow/Kernels/Shared/MapRead.h"
+
 #include "Core/Flow/Kernels/BoxMoments.txx"
 #include "Core/Flow/Kernels/FlowVelocity.txx"
 
 #include "Core/Flow/Kernels/FlowLanes.txx"
 
-#include "Core/Flow/Kernels/AdamsWeights.txx"
 #include "Core/Flow/Kernels/MultistepLanes.txx"
 
 #include "Core/Flow/Kernels/FlowMapLanes.txx"

@@ -2,12 +2,6 @@
 // Steps common to all integrators: load a block, advance it along its exact straight start, write
 // positions at the requested times, check the end points. Included by FlowKernels.txx.
 
-// Away from the faces, where boxes have no volume.
-RT_INLINE double clampToDomain(double x, double size)
-{
-  return smaller(larger(x, faceDistance), size - faceDistance);
-}
-
 // Polls for cancellation before `step`, every 64 steps.
 template <int Dimension>
 RT_INLINE bool shouldStop(const FlowJob<Dimension>& job, std::int64_t step)
@@ -31,11 +25,9 @@ RT_INLINE void loadPositions(
   }
 }
 
-// While a particle's box is the whole domain, the mean of Eq. (11) is the centroid M, and the path
-// is the straight line x0 + t (M - x0). That ends when a face of the box reaches one of the domain:
-// b = x/t comes down to S, or a = S - (S - x)/t up to 0, at
-//   t* = min over the axes of min(x0 / (S - M + x0), (S - x0) / (S - x0 + M)).
-// `time` is t*; the particle is moved there, and `velocity` is M - x0. Exact.
+// While a particle's box is the whole domain, its path is the straight line x0 + t (M - x0), M the
+// centroid, until t* (endOfStraightStart). `time` is t*; the particle is moved there, and
+// `velocity` is M - x0. Exact.
 template <int Dimension>
 RT_INLINE void startStraight(const FlowJob<Dimension>& job, LaneVectors<Dimension>& x,
   LaneVectors<Dimension>& velocity, Lanes& time)
@@ -52,9 +44,7 @@ RT_INLINE void startStraight(const FlowJob<Dimension>& job, LaneVectors<Dimensio
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
-      const double low = x[axis][i] / (size - centroid + x[axis][i]);
-      const double high = (size - x[axis][i]) / (size - x[axis][i] + centroid);
-      time[i] = smaller(time[i], smaller(low, high));
+      time[i] = smaller(time[i], endOfStraightStart(x[axis][i], size, centroid));
       velocity[axis][i] = centroid - x[axis][i];
     }
   }

@@ -29,28 +29,8 @@ RT_INLINE void findStencils(const FlowMapLevel<Dimension>& level,
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
-      // u(x) of LatticeAxis, in which the nodes are evenly spaced.
-      const double fromEnd = nodes.Size - position[i];
-      const double inLayer = 2.0 * __builtin_sqrt(nodes.Layer * smaller(position[i], fromEnd));
-      const double inside = position[i] + nodes.Layer;
-      const double belowEnd = fromEnd < nodes.Layer ? nodes.Length - inLayer : inside;
-      const double u = position[i] < nodes.Layer ? inLayer : belowEnd;
-      // The particle lies between the second and the third of its nodes, if its cell is not at an
-      // end.
-      const double place = u * nodes.InverseSpacing;
-      const double cell = smaller(truncated(place), last);
-      const double first = smaller(larger(cell - 1.0, 0.0), last - 2.0);
-      // The Lagrange weights of the nodes 0, 1, 2, 3 at the place a.
-      const double a = place - first;
-      const double b = a - 1.0;
-      const double c = a - 2.0;
-      const double d = a - 3.0;
-      cells[i] = static_cast<std::int32_t>(cell);
-      firsts[i] = static_cast<std::int32_t>(first);
-      weights[0][i] = static_cast<float>(b * c * d * (-1.0 / 6.0));
-      weights[1][i] = static_cast<float>(a * c * d * 0.5);
-      weights[2][i] = static_cast<float>(a * b * d * -0.5);
-      weights[3][i] = static_cast<float>(a * b * c * (1.0 / 6.0));
+      findStencil(position[i], nodes.Size, nodes.Layer, nodes.Length, nodes.InverseSpacing, last,
+        &cells[i], &firsts[i], &weights[0][i], &weights[1][i], &weights[2][i], &weights[3][i]);
     }
   }
 }

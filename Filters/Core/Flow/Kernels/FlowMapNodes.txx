@@ -39,9 +39,8 @@ RT_INLINE void advanceByLane(const FlowJob<Dimension>& job, const double (&a)[3]
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
-      const double sum =
-        a[0][i] * first[axis][i] + a[1][i] * second[axis][i] + a[2][i] * third[axis][i];
-      result[axis][i] = clampToDomain(position[axis][i] + length * sum, size);
+      result[axis][i] = advance(position[axis][i], 1.0, length, a[0][i], a[1][i], a[2][i],
+        first[axis][i], second[axis][i], third[axis][i], size);
     }
   }
 }

@@ -8,11 +8,11 @@
 namespace RectifiedTransport
 {
 
+#include "Core/Flow/Kernels/Shared/FlowTypes.h"
+
 struct StepWeights;
 
-// Forwards, from a hand-over on all particles have these times in common after step k of N:
-// commonStart + (1 - commonStart) sin^2(pi k / 2N).
-constexpr double commonStart = 0.25;
+constexpr double commonStart = RT_COMMON_START;
 
 // Steps of a lattice for each of its particles' steps: a lattice has few nodes, and its errors are
 // those of all particles.

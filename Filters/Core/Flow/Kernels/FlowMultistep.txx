@@ -4,7 +4,7 @@
 //   t_k = t* + (1 - t*) G_k,   G_k = sin^2(pi k / 2N),
 // t* the end of a particle's straight start (FlowLanes.txx). Steps are short at both ends: after
 // t*, where the velocity has a kink, and before 1, where boxes shrink to grid cells. One evaluation
-// a step; weights are those of variable steps (AdamsWeights.txx), which t* does not change, so that
+// a step; weights are those of variable steps (AdamsWeights.h), which t* does not change, so that
 // all particles share them. Included by FlowKernels.txx.
 
 // v(x, 1) = x - S/2, the limit of Eq. (12): the box shrinks to x, along straight lines through c.
@@ -139,13 +139,11 @@ template <int Dimension>
 RT_INLINE void markUnresolved(const FlowJob<Dimension>& job, const PlateauLanes<Dimension>& plateau,
   MultistepLanes<Dimension>& lanes)
 {
-  constexpr double leastPart = 1e-3; // of the largest value that others may have
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
-    // A box so small that it may count as empty though it is not is no sign of a void; where it
-    // is in one, the particle ends in an empty cell.
-    double mostMass = leastPart * job.Tables.Largest;
+    // The mass of small boxes that are no sign of a void.
+    double mostMass = RT_LEAST_PART * job.Tables.Largest;
     for (int axis = 0; axis < Dimension; ++axis)
     {
       mostMass *= lanes.Field.To[axis][i] - lanes.Field.From[axis][i];
@@ -200,10 +198,8 @@ RT_INLINE void endOnPlateaus(const FlowJob<Dimension>& job, int count,
   }
 }
 
-// The last step, to time 1. As v(x, 1) = x - S/2, the corrector is a linear equation for x(1), and
-// is solved in closed form rather than by a prediction:
-//   x(1) = (x + lambda (C1 v_k + C2 v_k-1 - C0 S/2)) / (1 - lambda C0),   lambda = Span * Length.
-// Lanes that are done have their end already. Leaves x(1) in Trial and v(x(1), 1) in V[3].
+// The last step, to time 1, in closed form (closedEnd). Lanes that are done have their end already.
+// Leaves x(1) in Trial and v(x(1), 1) in V[3].
 template <int Dimension>
 RT_INLINE void closeLastStep(const FlowJob<Dimension>& job, const StepWeights& last,
   const PlateauLanes<Dimension>& plateau, MultistepLanes<Dimension>& lanes)
@@ -216,10 +212,8 @@ RT_INLINE void closeLastStep(const FlowJob<Dimension>& job, const StepWeights& l
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
-      const double lambda = lanes.Span[i] * last.Length;
-      const double known =
-        c[1] * (*lanes.V[0])[axis][i] + c[2] * (*lanes.V[1])[axis][i] - c[0] * half;
-      const double end = (lanes.Position[axis][i] + lambda * known) / (1.0 - lambda * c[0]);
+      const double end = closedEnd(lanes.Position[axis][i], lanes.Span[i], last.Length, c[0], c[1],
+        c[2], (*lanes.V[0])[axis][i], (*lanes.V[1])[axis][i], half);
       lanes.Trial[axis][i] = plateau.Done[i] > 0.0 ? plateau.End[axis][i] : end;
       final[axis][i] = lanes.Trial[axis][i] - half;
     }

@@ -4,16 +4,14 @@
 // not known before, so that all particles have these times. A path ends where its box has become
 // the whole domain: its seed follows in closed form. Included by FlowKernels.txx.
 
-// Whether a lane's box is the whole domain: a <= 0 and b >= S, before clipping. x then lies on a
-// straight path from its seed.
+// Whether a lane's box is the whole domain.
 template <int Dimension>
 RT_INLINE bool isBoxWhole(
   const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x, int lane, double t)
 {
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    const double size = job.Tables.Size[axis];
-    if (size - x[axis][lane] < t * size || x[axis][lane] < t * size)
+    if (!isWhole(x[axis][lane], t, job.Tables.Size[axis]))
     {
       return false;
     }
@@ -21,14 +19,12 @@ RT_INLINE bool isBoxWhole(
   return true;
 }
 
-// A coordinate of the seed of a particle whose box is the whole domain at time t: x0 of
-// x = x0 + t (M - x0).
+// A coordinate of the seed of a particle whose box is the whole domain at time t.
 template <int Dimension>
 RT_INLINE double seedOf(
   const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x, int lane, double t, int axis)
 {
-  const double seed = (x[axis][lane] - t * job.Tables.Centroid[axis]) / (1.0 - t);
-  return smaller(larger(seed, 0.0), job.Tables.Size[axis]);
+  return seedBefore(x[axis][lane], t, job.Tables.Size[axis], job.Tables.Centroid[axis]);
 }
 
 // Writes the seed of a lane to the place `index` of the output.

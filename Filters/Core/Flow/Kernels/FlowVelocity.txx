@@ -3,10 +3,6 @@
 // boxes, then their nodes in the tables, then their sums (BoxMoments.txx), then v. Each of these
 // steps loops over the lanes of a block, axis by axis. Included by FlowKernels.txx.
 
-// Least distance of positions from the domain's faces, in grid cells: the box of a particle on a
-// face has no volume; close to it the velocity is that of the limit.
-constexpr double faceDistance = 1.0 / (1 << 20);
-
 // A vector of each lane.
 template <int Dimension>
 using LaneVectors = double[Dimension][BlockSize];
@@ -26,44 +22,8 @@ struct VelocityLanes
   alignas(64) Lanes Outside; // 1 where the box leaves the part of the domain with nodes, else 0
 };
 
-RT_INLINE double smaller(double a, double b)
-{
-  return a < b ? a : b;
-}
-
-RT_INLINE double larger(double a, double b)
-{
-  return a > b ? a : b;
-}
-
-// Of values from 0 to 2^31.
-RT_INLINE double truncated(double value)
-{
-#if defined(__SSE4_1__)
-  return __builtin_floor(value);
-#else
-  return static_cast<double>(static_cast<std::int32_t>(value));
-#endif
-}
-
-RT_INLINE std::uint64_t bitsOf(double value)
-{
-  std::uint64_t bits;
-  std::memcpy(&bits, &value, sizeof(bits));
-  return bits;
-}
-
-RT_INLINE double fromBits(std::uint64_t bits)
-{
-  double value;
-  std::memcpy(&value, &bits, sizeof(value));
-  return value;
-}
-
-// B' = [a, b] of every lane, clipped to the domain (paper, Eq. (10) and "Integration bounds"):
-//   a = max(0, S - (S - x) / t),   b = min(S, x / t),
-// and the centre c of the box before clipping, whose sides are S (1 - t) / t. Nearest rounds both
-// corners to nodes (Section 4.3): its boxes may have no volume.
+// B' = [a, b] of every lane, clipped to the domain (paper, Eq. (10) and "Integration bounds").
+// Nearest rounds both corners to nodes (Section 4.3): its boxes may have no volume.
 template <int Dimension>
 RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes,
   const LaneVectors<Dimension>& x, const Lanes& t)
@@ -71,11 +31,7 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
-    // One division for both: 1 / t and 1 / (1 - t) from 1 / (t (1 - t)).
-    const double rest = 1.0 - t[i];
-    const double inverse = 1.0 / (t[i] * rest);
-    lanes.InverseTime[i] = rest * inverse;
-    lanes.InverseRest[i] = t[i] * inverse;
+    invertTimes(t[i], &lanes.InverseTime[i], &lanes.InverseRest[i]);
     lanes.Narrowest[i] = 1e300;
   }
   for (int axis = 0; axis < Dimension; ++axis)
@@ -90,12 +46,9 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
 #pragma omp simd
       for (int i = 0; i < BlockSize; ++i)
       {
-        const double inverse = lanes.InverseTime[i];
-        const double a = size - (size - position[i]) * inverse;
-        const double b = position[i] * inverse;
-        centre[i] = 0.5 * (a + b);
-        from[i] = truncated(smaller(larger(a, 0.0), size) + 0.5);
-        to[i] = truncated(smaller(larger(b, 0.0), size) + 0.5);
+        findSides(position[i], size, lanes.InverseTime[i], &from[i], &to[i], &centre[i]);
+        from[i] = truncated(smaller(from[i], size) + 0.5);
+        to[i] = truncated(larger(to[i], 0.0) + 0.5);
         // Whole cells need nodes of the finest level.
         lanes.Narrowest[i] = 0.0;
       }
@@ -105,12 +58,7 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
 #pragma omp simd
       for (int i = 0; i < BlockSize; ++i)
       {
-        const double inverse = lanes.InverseTime[i];
-        const double a = size - (size - position[i]) * inverse;
-        const double b = position[i] * inverse;
-        centre[i] = 0.5 * (a + b);
-        from[i] = larger(a, 0.0);
-        to[i] = smaller(b, size);
+        findSides(position[i], size, lanes.InverseTime[i], &from[i], &to[i], &centre[i]);
         lanes.Narrowest[i] = smaller(lanes.Narrowest[i], to[i] - from[i]);
       }
     }
@@ -153,8 +101,9 @@ RT_INLINE void findUnevenNodes(
   {
     const double from = lanes.From[axis][i];
     const double to = lanes.To[axis][i];
-    const std::int64_t low = from <= 0.0 ? onLowFace : insideBoth;
-    const std::int64_t high = (Dimension == 1 || axis > 0) && to >= size ? onHighFace : insideBoth;
+    const std::int64_t low = from <= 0.0 ? RT_LOW_FACE : RT_NO_FACE;
+    const std::int64_t high =
+      (Dimension == 1 || axis > 0) && to >= size ? RT_HIGH_FACE : RT_NO_FACE;
     const std::int64_t faces = (low | high) << facesShift(axis);
     boxes.Faces[i] = axis > 0 ? boxes.Faces[i] | faces : faces;
     for (int side = 0; side < 2; ++side)
@@ -166,14 +115,13 @@ RT_INLINE void findUnevenNodes(
       const double width = nodes.Places[node + 1] - below;
       const double place = (plane - below) / width;
       boxes.Place[axis][side][i] = place;
-      boxes.QuadraticWeight[axis][side][i] = (-0.5 * width) * (place * (1.0 - place));
+      boxes.QuadraticWeight[axis][side][i] = quadraticWeightAt(place, width);
       boxes.Node[axis][side][i] = node;
     }
   }
 }
 
-// Nodes and weights along one axis. Where the widths of all levels divide the size (EvenLevels) no
-// last cell is narrower; the general form gives the same bits.
+// Nodes and weights along one axis. Even: EvenLevels of the axis.
 template <int Dimension, bool Even>
 RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes,
   int axis, const Lanes& width, const Lanes& inverseWidth)
@@ -188,50 +136,36 @@ RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimens
   {
     // Sides on the faces of what the tables cover need fewer nodes (BoxMoments.txx). The high face
     // of axis 0 has no case of its own in 2D and 3D.
-    const std::int64_t low = from[i] <= lowest ? onLowFace : insideBoth;
+    const std::int64_t low = from[i] <= lowest ? RT_LOW_FACE : RT_NO_FACE;
     const std::int64_t high =
-      (Dimension == 1 || axis > 0) && to[i] >= size ? onHighFace : insideBoth;
+      (Dimension == 1 || axis > 0) && to[i] >= size ? RT_HIGH_FACE : RT_NO_FACE;
     const std::int64_t faces = (low | high) << facesShift(axis);
     boxes.Faces[i] = axis > 0 ? boxes.Faces[i] | faces : faces;
-    // The number and the width of the last cell of the lane's level.
-    const double last = truncated((size - 1.0) * inverseWidth[i]);
-    const double lastWidth = Even ? width[i] : size - last * width[i];
-    const double inverseLastWidth = Even ? inverseWidth[i] : 1.0 / lastWidth;
+    double last;
+    double lastWidth;
+    double inverseLastWidth;
+    findLastCell(size, width[i], inverseWidth[i], Even, &last, &lastWidth, &inverseLastWidth);
     double nodes[2];
     double places[2];
 #pragma GCC unroll 2
     for (int side = 0; side < 2; ++side)
     {
-      const double plane = side == 0 ? from[i] : to[i];
-      const double node = smaller(truncated(plane * inverseWidth[i]), last);
-      const double inverse = node == last ? inverseLastWidth : inverseWidth[i];
-      const double cell = node == last ? lastWidth : width[i];
-      const double inCell = (plane - node * width[i]) * inverse;
-      // The reciprocal of a width that is no power of 2 is rounded: r might exceed 1.
-      const double place = Even ? inCell : smaller(inCell, 1.0);
-      boxes.Place[axis][side][i] = place;
-      boxes.QuadraticWeight[axis][side][i] = (-0.5 * cell) * (place * (1.0 - place));
-      boxes.Node[axis][side][i] = static_cast<std::int32_t>(node);
-      nodes[side] = node;
-      places[side] = place;
+      findNode(side == 0 ? from[i] : to[i], width[i], inverseWidth[i], last, lastWidth,
+        inverseLastWidth, Even, &nodes[side], &places[side], &boxes.QuadraticWeight[axis][side][i]);
+      boxes.Place[axis][side][i] = places[side];
+      boxes.Node[axis][side][i] = static_cast<std::int32_t>(nodes[side]);
     }
-    // q = r (i + r/2) / (i + 1/2) of BoxMoments.txx. On coarse levels it is computed, but not used.
+    // On coarse levels they are computed, but not used.
     if constexpr (Dimension == 3)
     {
-      // One division for both sides.
-      const double centre[2] = { nodes[0] + 0.5, nodes[1] + 0.5 };
-      const double inverse = 1.0 / (centre[0] * centre[1]);
-      boxes.MomentWeight[axis][0][i] =
-        places[0] * (nodes[0] + 0.5 * places[0]) * (centre[1] * inverse);
-      boxes.MomentWeight[axis][1][i] =
-        places[1] * (nodes[1] + 0.5 * places[1]) * (centre[0] * inverse);
+      findMomentWeights(nodes[0], places[0], nodes[1], places[1], &boxes.MomentWeight[axis][0][i],
+        &boxes.MomentWeight[axis][1][i]);
     }
   }
 }
 
-// Level, nodes and weights of every lane's box. Each lane has its own level: the coarsest whose
-// cells are no wider than the box's narrowest side over CoarseRatio. So the result of a lane does
-// not depend on its block.
+// Level, nodes and weights of every lane's box. Each lane has its own level, so that its result
+// does not depend on its block.
 template <int Dimension>
 RT_INLINE void findNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes)
 {
@@ -251,19 +185,14 @@ RT_INLINE void findNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
   const double inverseRatio = 1.0 / job.CoarseRatio;
   const double widest =
     static_cast<double>(std::int64_t{ 1 } << ((job.Tables.LevelCount - 1) * levelShift));
-  static_assert(levelShift == 2, "the exponent is rounded down to an even one");
+  static_assert(levelShift == 2, "findLevel takes powers of 4");
   alignas(64) Lanes width;
   alignas(64) Lanes inverseWidth;
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
-    const double ratio = smaller(larger(lanes.Narrowest[i] * inverseRatio, 1.0), widest);
-    // The greatest power of 4 that is not above the ratio, by its exponent of 2 alone. The biased
-    // exponent is odd where the exponent is even.
-    const std::uint64_t exponent = ((bitsOf(ratio) >> 52) - 1) | 1;
-    width[i] = fromBits(exponent << 52);
-    inverseWidth[i] = fromBits((2046 - exponent) << 52);
-    boxes.Level[i] = (static_cast<std::int32_t>(exponent) - 1023) >> 1;
+    findLevel(
+      lanes.Narrowest[i], inverseRatio, widest, &width[i], &inverseWidth[i], &boxes.Level[i]);
   }
   for (int axis = 0; axis < Dimension; ++axis)
   {
@@ -278,10 +207,8 @@ RT_INLINE void findNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
   }
 }
 
-// v = (c - S/2) + (m - c) / (1 - t) with m the box's centre of mass, clamped to the box, and c the
-// centre of the unclipped box; for t < 1/2, where c grows without bound, (m - x) / (1 - t). Lanes
-// whose box is empty get `held`, and Void is set; going backward they keep their place in the box
-// (m = c). Lanes that are not active are not computed. Needs 0 < t < 1.
+// v(x, t). Lanes whose box is empty get `held`, and Void is set; going backward they keep their
+// place in the box. Lanes that are not active are not computed. Needs 0 < t < 1.
 template <int Dimension>
 __attribute__((noinline)) void evaluateVelocity(const FlowJob<Dimension>& job,
   VelocityLanes<Dimension>& lanes, int count, const LaneVectors<Dimension>& x, const Lanes& t,
@@ -317,18 +244,9 @@ __attribute__((noinline)) void evaluateVelocity(const FlowJob<Dimension>& job,
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
-      // The mean of Eq. (11). In exact arithmetic it lies in the box. A nearly empty box magnifies
-      // the rounding of the sums: the clamp bounds that, and with it the velocity.
-      const double mean = boxes.Moment[axis][i] * boxes.Mass[i];
-      const double clamped = smaller(larger(mean, lanes.From[axis][i]), lanes.To[axis][i]);
-      const double rest = lanes.InverseRest[i];
-      const double c = lanes.Centre[axis][i];
-      const double m = lanes.Void[i] > 0.0 ? c : clamped;
-      // Eq. (12), and the same with x = t c + (1 - t) S/2 put in. The late form tends to x - S/2 at
-      // t = 1, where the early one is 0/0.
-      const double early = (m - x[axis][i]) * rest;
-      const double late = (c - half) + (m - c) * rest;
-      const double value = t[i] < 0.5 ? early : late;
+      const double value = velocityInBox(x[axis][i], t[i], half, lanes.From[axis][i],
+        lanes.To[axis][i], lanes.Centre[axis][i], boxes.Moment[axis][i], boxes.Mass[i],
+        lanes.Void[i], lanes.InverseRest[i]);
       v[axis][i] = lanes.Void[i] > hold ? held[axis][i] : value;
     }
   }

@@ -53,18 +53,15 @@ struct MultistepLanes
 #pragma omp simd
       for (int i = 0; i < BlockSize; ++i)
       {
-        const double sum = a[0] * first[axis][i] + a[1] * second[axis][i] + a[2] * third[axis][i];
-        result[axis][i] =
-          clampToDomain(this->Position[axis][i] + this->Span[i] * length * sum, size);
+        result[axis][i] = advance(this->Position[axis][i], this->Span[i], length, a[0], a[1], a[2],
+          first[axis][i], second[axis][i], third[axis][i], size);
       }
     }
   }
 };
 
-// Where the density has its maximum in all of a particle's box, and the box is not clipped, the
-// mean of Eq. (11) is the box's centre c. The box then shrinks about c, so that x(1) = c: exact.
-// Densities with empty cells are most often shapes of one value, where nearly all boxes become
-// such.
+// Particles whose box lies in a plateau (isFull): their end is known, and exact. Densities with
+// empty cells are most often shapes of one value, where nearly all boxes become such.
 template <int Dimension>
 struct PlateauLanes
 {
@@ -96,7 +93,6 @@ struct PlateauLanes
   RT_INLINE bool Find(const FlowJob<Dimension>& job, const VelocityLanes<Dimension>& field,
     const LaneVectors<Dimension>& x, Lanes& found)
   {
-    constexpr double rounding = 1e-9;
     alignas(64) Lanes mass; // the largest that the box could hold: maximum times volume
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
@@ -109,19 +105,16 @@ struct PlateauLanes
 #pragma omp simd
       for (int i = 0; i < BlockSize; ++i)
       {
-        const double from = field.From[axis][i];
-        const double to = field.To[axis][i];
-        mass[i] = from > 0.0 && to < size ? mass[i] * (to - from) : 1e300;
+        mass[i] = withSide(mass[i], field.From[axis][i], field.To[axis][i], size);
       }
     }
-    // The box is full if that is its mass, up to rounding. A sum of 0s and 1s is exact in any
-    // order.
+    // A sum of 0s and 1s is exact in any order.
     double sum = 0.0;
 #pragma omp simd reduction(+ : sum)
     for (int i = 0; i < BlockSize; ++i)
     {
-      const double missing = mass[i] * field.Boxes.Mass[i] - 1.0; // Mass is 1 / mass here
-      found[i] = missing <= rounding && field.Void[i] == 0.0 && this->Done[i] == 0.0 ? 1.0 : 0.0;
+      const bool full = isFull(mass[i], field.Boxes.Mass[i]); // Mass is 1 / mass here
+      found[i] = full && field.Void[i] == 0.0 && this->Done[i] == 0.0 ? 1.0 : 0.0;
       this->Done[i] += found[i];
       sum += found[i];
     }
@@ -135,12 +128,11 @@ struct PlateauLanes
     }
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      // c = (x - (1 - t) S/2) / t, after the corrector has moved x.
       const double half = 0.5 * job.Tables.Size[axis];
 #pragma omp simd
       for (int i = 0; i < BlockSize; ++i)
       {
-        const double centre = half + (x[axis][i] - half) * field.InverseTime[i];
+        const double centre = centreOfBox(x[axis][i], half, field.InverseTime[i]);
         this->End[axis][i] = found[i] > 0.0 ? centre : this->End[axis][i];
       }
     }

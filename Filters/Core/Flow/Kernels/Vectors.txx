@@ -139,6 +139,17 @@ RT_INLINE Vector4 fillVector(double value)
   return vector;
 }
 
+// A constant: compilers do not make one of a blend of constants.
+RT_INLINE Vector4 makeVector(double a, double b, double c, double d)
+{
+  using Register = Vector4::Register;
+#if defined(__AVX__)
+  return { { Register{ a, b, c, d } } };
+#else
+  return { { Register{ a, b }, Register{ c, d } } };
+#endif
+}
+
 // Four times `value`, but `other` in lane Lane.
 template <int Lane>
 RT_INLINE Vector4 fillVector(double value, double other)
