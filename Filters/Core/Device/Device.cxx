@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 
 namespace RectifiedTransport
 {
@@ -30,10 +31,25 @@ std::string namesOf(const std::vector<FoundDevice>& devices)
   return names;
 }
 
+// Compilers of drivers end the program when memory runs out.
+bool hasMemoryToCompile()
+{
+  constexpr std::size_t enough = std::size_t{ 1 } << 28;
+  void* volatile block = std::malloc(enough); // volatile, or it would be optimized away
+  const bool fits = block != nullptr;
+  std::free(block);
+  return fits;
+}
+
 } // namespace
 
-std::shared_ptr<Device> openDevice(const std::string& name)
+std::shared_ptr<Device> openDevice(
+  const std::string& name, int number, const std::vector<std::shared_ptr<Device>>& open)
 {
+  if (!hasMemoryToCompile())
+  {
+    throw DeviceError("There is too little memory to open an OpenCL device");
+  }
   if (!OpenCL::Loaded())
   {
     throw DeviceError("There is no OpenCL on this machine (libOpenCL.so.1, of a driver's package)");
@@ -44,6 +60,7 @@ std::shared_ptr<Device> openDevice(const std::string& name)
     throw DeviceError("OpenCL has no device on this machine; its driver may be missing");
   }
   std::string reason;
+  std::vector<FoundDevice> complete;
   for (const FoundDevice& found : devices)
   {
     const DeviceDescription& description = found.Description;
@@ -51,12 +68,26 @@ std::shared_ptr<Device> openDevice(const std::string& name)
     {
       continue;
     }
+    if (description.Lacks.empty())
+    {
+      complete.push_back(found);
+    }
+    else if (reason.empty())
+    {
+      reason = "The device '" + description.Name + "' " + description.Lacks;
+    }
+  }
+  for (std::size_t i = 0; i < complete.size(); ++i)
+  {
+    const FoundDevice& found = complete[(static_cast<std::size_t>(number) + i) % complete.size()];
+    const auto known = std::find_if(open.begin(), open.end(),
+      [&found](const std::shared_ptr<Device>& device) { return device->Is(found); });
+    if (known != open.end())
+    {
+      return *known;
+    }
     try
     {
-      if (!description.Lacks.empty())
-      {
-        throw DeviceError("The device '" + description.Name + "' " + description.Lacks);
-      }
       auto device = std::make_shared<Device>(found);
       checkDevice(*device);
       return device;
@@ -64,10 +95,6 @@ std::shared_ptr<Device> openDevice(const std::string& name)
     catch (const DeviceError& error)
     {
       reason = reason.empty() ? error.what() : reason;
-      if (!name.empty())
-      {
-        break; // the one that is meant
-      }
     }
   }
   throw DeviceError(reason.empty()
@@ -81,6 +108,32 @@ DeviceBuffer::~DeviceBuffer()
   {
     this->Owner->Cl.clReleaseMemObject(this->Memory);
     this->Owner->Taken -= this->Bytes;
+  }
+}
+
+DeviceTransfer::~DeviceTransfer()
+{
+  this->End();
+}
+
+cl_int DeviceTransfer::End()
+{
+  cl_int code = CL_SUCCESS;
+  if (this->Event)
+  {
+    code = this->Owner->Cl.clWaitForEvents(1, &this->Event);
+    this->Owner->Cl.clReleaseEvent(this->Event);
+    this->Event = nullptr;
+  }
+  return code;
+}
+
+void DeviceTransfer::Wait()
+{
+  const cl_int code = this->End();
+  if (code != CL_SUCCESS)
+  {
+    this->Owner->Require(code, "did not finish a transfer");
   }
 }
 
@@ -125,22 +178,39 @@ Device::Device(const FoundDevice& found)
 {
   this->Cl.clGetDeviceInfo(found.Id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof(this->LargestBuffer),
     &this->LargestBuffer, nullptr);
+  this->Cl.clGetDeviceInfo(found.Id, CL_DEVICE_TYPE, sizeof(this->Type), &this->Type, nullptr);
   const cl_context_properties ofPlatform[] = { CL_CONTEXT_PLATFORM,
     reinterpret_cast<cl_context_properties>(found.Platform), 0 };
   cl_int code = CL_SUCCESS;
   this->Context = this->Cl.clCreateContext(ofPlatform, 1, &found.Id, nullptr, nullptr, &code);
   this->Require(code, "cannot be opened");
-  this->Queue = this->Cl.clCreateCommandQueue(this->Context, found.Id, 0, &code);
-  if (code != CL_SUCCESS)
+  for (cl_command_queue* queue : { &this->Queue, &this->Transfers })
   {
-    this->Cl.clReleaseContext(this->Context);
+    *queue = this->Cl.clCreateCommandQueue(this->Context, found.Id, 0, &code);
+    if (code != CL_SUCCESS)
+    {
+      this->Close();
+    }
+    this->Require(code, "gives no queue");
   }
-  this->Require(code, "gives no queue");
 }
 
 Device::~Device()
 {
-  this->Cl.clReleaseCommandQueue(this->Queue);
+  this->Kept.clear();
+  this->Programs.clear();
+  this->Close();
+}
+
+void Device::Close()
+{
+  for (cl_command_queue queue : { this->Queue, this->Transfers })
+  {
+    if (queue)
+    {
+      this->Cl.clReleaseCommandQueue(queue);
+    }
+  }
   this->Cl.clReleaseContext(this->Context);
 }
 
@@ -153,8 +223,18 @@ void Device::Require(cl_int code, const std::string& what) const
   }
 }
 
+void Device::RequireMemoryToCompile() const
+{
+  if (!hasMemoryToCompile())
+  {
+    throw DeviceError(
+      "There is too little memory to compile for the device '" + this->Description().Name + "'");
+  }
+}
+
 DeviceProgram Device::Build(const std::vector<std::string>& sources, const std::string& options)
 {
+  this->RequireMemoryToCompile();
   std::vector<const char*> texts;
   for (const std::string& source : sources)
   {
@@ -175,6 +255,17 @@ DeviceProgram Device::Build(const std::vector<std::string>& sources, const std::
     this->Require(code, "does not compile a program: " + log.substr(0, log.find('\n')));
   }
   return program;
+}
+
+const DeviceProgram& Device::Program(
+  const std::string& name, const std::function<DeviceProgram()>& make)
+{
+  auto found = this->Programs.find(name);
+  if (found == this->Programs.end())
+  {
+    found = this->Programs.emplace(name, make()).first;
+  }
+  return found->second;
 }
 
 // Drivers promise more than they have, and fail later: what is asked for is counted first.
@@ -204,6 +295,7 @@ void Device::Write(const DeviceBuffer& to, const void* from, std::size_t bytes, 
     this->Require(this->Cl.clEnqueueWriteBuffer(
                     this->Queue, to.Memory, CL_TRUE, offset, bytes, from, 0, nullptr, nullptr),
       "takes no data");
+    this->Done.BytesTo += bytes;
   }
 }
 
@@ -214,18 +306,63 @@ void Device::Read(const DeviceBuffer& from, void* to, std::size_t bytes, std::si
     this->Require(this->Cl.clEnqueueReadBuffer(
                     this->Queue, from.Memory, CL_TRUE, offset, bytes, to, 0, nullptr, nullptr),
       "gives no data back");
+    this->Done.BytesFrom += bytes;
   }
+}
+
+DeviceTransfer Device::StartWrite(const DeviceBuffer& to, const void* from, std::size_t bytes)
+{
+  cl_event event = nullptr;
+  this->Require(this->Cl.clEnqueueWriteBuffer(
+                  this->Transfers, to.Memory, CL_FALSE, 0, bytes, from, 0, nullptr, &event),
+    "takes no data");
+  DeviceTransfer transfer(*this, event);
+  this->Require(this->Cl.clFlush(this->Transfers), "starts no transfer");
+  this->Done.BytesTo += bytes;
+  return transfer;
+}
+
+DeviceTransfer Device::StartRead(const DeviceBuffer& from, void* to, std::size_t bytes)
+{
+  cl_event event = nullptr;
+  this->Require(this->Cl.clEnqueueReadBuffer(
+                  this->Transfers, from.Memory, CL_FALSE, 0, bytes, to, 0, nullptr, &event),
+    "gives no data back");
+  DeviceTransfer transfer(*this, event);
+  this->Require(this->Cl.clFlush(this->Transfers), "starts no transfer");
+  this->Done.BytesFrom += bytes;
+  return transfer;
+}
+
+void Device::Start()
+{
+  this->Require(this->Cl.clFlush(this->Queue), "does not start its work");
 }
 
 void Device::Run(const DeviceKernel& kernel, std::size_t items, std::size_t group)
 {
-  const std::size_t all = (items + group - 1) / group * group;
-  if (all > 0)
+  this->RunGrid(kernel, { items, 1, 1 }, group);
+}
+
+void Device::RunGrid(
+  const DeviceKernel& kernel, std::array<std::size_t, 3> items, std::size_t group)
+{
+  items[0] = (items[0] + group - 1) / group * group;
+  if (items[0] * items[1] * items[2] == 0)
   {
-    this->Require(this->Cl.clEnqueueNDRangeKernel(
-                    this->Queue, kernel.Kernel, 1, nullptr, &all, &group, 0, nullptr, nullptr),
-      "does not start the kernel " + kernel.Name);
+    return;
   }
+  // Drivers compile kernels when they run for the first time, too.
+  if (this->Started.count(kernel.Name) == 0)
+  {
+    this->RequireMemoryToCompile();
+    this->Started.insert(kernel.Name);
+  }
+  const std::size_t groups[3] = { group, 1, 1 };
+  this->Require(this->Cl.clEnqueueNDRangeKernel(this->Queue, kernel.Kernel, 3, nullptr,
+                  items.data(), groups, 0, nullptr, nullptr),
+    "does not start the kernel " + kernel.Name);
+  ++this->Done.Kernels;
 }
 
 void Device::Finish()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An open device: its memory, its programs and its queue, in which work is done in order. One
-// thread at a time.
+// An open device: its memory, its programs and its queues: kernels are done in order, and so are
+// transfers beside them. One thread at a time.
 #ifndef RectifiedTransport_Device_h
 #define RectifiedTransport_Device_h
 
@@ -8,8 +8,14 @@
 #include "Core/Device/DeviceList.h"
 #include "Core/Device/OpenCL.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,6 +65,42 @@ private:
   std::size_t Bytes = 0;
 };
 
+// A transfer that is under way, beside the kernels: the memory must not be used before its end. It
+// ends before this object does. Movable.
+class DeviceTransfer
+{
+public:
+  DeviceTransfer() = default; // none
+  DeviceTransfer(DeviceTransfer&& other) noexcept { this->Swap(other); }
+  DeviceTransfer& operator=(DeviceTransfer&& other) noexcept
+  {
+    DeviceTransfer old(std::move(*this));
+    this->Swap(other);
+    return *this;
+  }
+  ~DeviceTransfer();
+
+  // Until its end. Throws DeviceError.
+  void Wait();
+
+private:
+  friend class Device;
+  DeviceTransfer(Device& owner, cl_event event)
+    : Owner(&owner)
+    , Event(event)
+  {
+  }
+  void Swap(DeviceTransfer& other) noexcept
+  {
+    std::swap(this->Owner, other.Owner);
+    std::swap(this->Event, other.Event);
+  }
+  cl_int End();
+
+  Device* Owner = nullptr;
+  cl_event Event = nullptr;
+};
+
 // A kernel with its arguments, of one thread. The program may go before it.
 class DeviceKernel
 {
@@ -103,6 +145,14 @@ private:
   std::string Name;
 };
 
+// What a device has done.
+struct DeviceWork
+{
+  std::uint64_t Kernels = 0; // runs of them
+  std::uint64_t BytesTo = 0; // transferred
+  std::uint64_t BytesFrom = 0;
+};
+
 class DeviceProgram
 {
 public:
@@ -129,7 +179,7 @@ private:
 };
 
 // All functions throw DeviceError.
-class Device
+class Device : public std::enable_shared_from_this<Device>
 {
 public:
   explicit Device(const FoundDevice& found);
@@ -138,33 +188,62 @@ public:
   Device& operator=(const Device&) = delete;
 
   const DeviceDescription& Description() const { return this->Found.Description; }
+  bool Is(const FoundDevice& found) const { return found.Id == this->Found.Id; }
+  // To be locked by whoever uses it.
+  std::mutex& Mutex() { return this->InUse; }
+  bool IsGpu() const { return (this->Type & CL_DEVICE_TYPE_GPU) != 0; }
+  const DeviceWork& Work() const { return this->Done; }
+  std::uint64_t LargestAllocation() const { return this->LargestBuffer; } // bytes
   // What buffers of this object may still take.
   std::uint64_t MemoryLeft() const { return this->Found.Description.Memory - this->Taken; }
 
   // One after the other. Drivers keep what they compile in files of their own.
   DeviceProgram Build(const std::vector<std::string>& sources, const std::string& options = "");
+  // The program of a name, which make() builds when it is first asked for.
+  const DeviceProgram& Program(const std::string& name, const std::function<DeviceProgram()>& make);
+  // What others keep here, each under its own address, until they forget it or the device goes: a
+  // reference to it that owns nothing does not keep the device open.
+  void Keep(const void* owner, std::shared_ptr<void> kept) { this->Kept[owner] = std::move(kept); }
+  void Forget(const void* owner) { this->Kept.erase(owner); }
   // `what` is for messages. The memory is not set.
   DeviceBuffer Allocate(std::size_t bytes, const std::string& what);
 
   // They wait until it is done.
   void Write(const DeviceBuffer& to, const void* from, std::size_t bytes, std::size_t offset = 0);
   void Read(const DeviceBuffer& from, void* to, std::size_t bytes, std::size_t offset = 0);
+  // The same, begun: beside the kernels, but one after the other.
+  DeviceTransfer StartWrite(const DeviceBuffer& to, const void* from, std::size_t bytes);
+  DeviceTransfer StartRead(const DeviceBuffer& from, void* to, std::size_t bytes);
   // Whole groups of a number of items, at least as many as `items`; does not wait.
   void Run(const DeviceKernel& kernel, std::size_t items, std::size_t group = 64);
+  // The same for a grid of items: whole groups along its first axis.
+  void RunGrid(
+    const DeviceKernel& kernel, std::array<std::size_t, 3> items, std::size_t group = 64);
+  void Start(); // what waits to be run
   void Finish();
 
 private:
   friend class DeviceBuffer;
   friend class DeviceKernel;
   friend class DeviceProgram;
+  friend class DeviceTransfer;
   void Require(cl_int code, const std::string& what) const;
+  void Close();
+  void RequireMemoryToCompile() const;
 
   const OpenCL& Cl;
   const FoundDevice Found;
   std::uint64_t LargestBuffer = 0;
+  cl_device_type Type = 0;
   std::uint64_t Taken = 0;
+  DeviceWork Done;
   cl_context Context = nullptr;
   cl_command_queue Queue = nullptr;
+  cl_command_queue Transfers = nullptr;
+  std::mutex InUse;
+  std::map<std::string, DeviceProgram> Programs;
+  std::map<const void*, std::shared_ptr<void>> Kept;
+  std::set<std::string> Started; // names of kernels
 };
 
 } // namespace RectifiedTransport

@@ -26,10 +26,12 @@ struct DeviceDescription
 // OpenCL. Does not throw anything but std::bad_alloc.
 std::vector<DeviceDescription> listDevices();
 
-// The first device whose name contains a text, in any case of letters, and without a text the first
-// one that can be used. It has passed the self-test of DeviceCheck.h. Throws DeviceError: no
-// driver, no such device, one that lacks something or computes other bits than processors.
-std::shared_ptr<Device> openDevice(const std::string& name);
+// Of the devices whose names contain a text, in any case of letters, and that lack nothing: number
+// `number` from 0 modulo their count, or the next one that passes the self-test of DeviceCheck.h.
+// One of those that are `open` already is returned as it is. Throws DeviceError: no driver, no such
+// device, one that lacks something or computes other bits than processors.
+std::shared_ptr<Device> openDevice(
+  const std::string& name, int number = 0, const std::vector<std::shared_ptr<Device>>& open = {});
 
 } // namespace RectifiedTransport
 

@@ -33,6 +33,9 @@ struct OpenCL
   each(clReleaseKernel);                                                                           \
   each(clSetKernelArg);                                                                            \
   each(clEnqueueNDRangeKernel);                                                                    \
+  each(clWaitForEvents);                                                                           \
+  each(clReleaseEvent);                                                                            \
+  each(clFlush);                                                                                   \
   each(clFinish)
 
 #define RectifiedTransport_DECLARE(name) decltype(&::name) name = nullptr

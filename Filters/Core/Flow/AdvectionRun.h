@@ -4,15 +4,16 @@
 #ifndef RectifiedTransport_AdvectionRun_h
 #define RectifiedTransport_AdvectionRun_h
 
+#include "Core/Flow/AdvectionCounters.h"
 #include "Core/Flow/AdvectionJob.h"
 #include "Core/Flow/Compaction.h"
+#include "Core/Flow/Devices/DeviceAdvection.h"
 #include "Core/Flow/FlowMap.h"
 #include "Core/Flow/ParticleSource.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/NearestMass.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -24,23 +25,6 @@ namespace RectifiedTransport
 {
 
 constexpr int rangeBlocks = 16;
-
-// Counted over the ranges of one advection. Sums of integers do not depend on their order.
-struct Counters
-{
-  std::atomic<std::int64_t> Redone{ 0 };
-  std::atomic<std::int64_t> MovedToMass{ 0 };
-  std::atomic<std::int64_t> Evaluations{ 0 };
-
-  FlowReport Report() const
-  {
-    FlowReport report;
-    report.Redone = this->Redone;
-    report.MovedToMass = this->MovedToMass;
-    report.Evaluations = this->Evaluations;
-    return report;
-  }
-};
 
 // Particles that wait for a pass: after the first one, those that met an empty box or ended in an
 // empty cell. Their seeds are copies, because the output may be the array of the seeds.
@@ -74,23 +58,6 @@ struct WaitingParticles
     this->Seeds.resize(this->Index.size() * Dimension);
   }
 };
-
-// Moves a particle that ends in an empty cell even with the smallest steps to the nearest mass.
-template <int Dimension>
-void moveToMass(const FlowJob<Dimension>& job, std::int64_t particle, Counters& counters)
-{
-  const std::int64_t last = (particle + 1) * job.TimeCount - 1;
-  const bool atEnd = !job.Times || job.Times[job.TimeCount - 1] >= 1.0;
-  double* position = job.Output + last * Dimension;
-  Point<Dimension> point;
-  std::copy_n(position, Dimension, point.begin());
-  if (atEnd && !hasMass<Dimension>(job.Tables, point))
-  {
-    point = nearestMass<Dimension>(job.Tables, point);
-    std::copy_n(point.begin(), Dimension, position);
-    ++counters.MovedToMass;
-  }
-}
 
 // The end points of the particles of one range, in local memory, and the grid cells that they are
 // in.
@@ -202,6 +169,21 @@ public:
     this->First = hasLevels ? -this->Job.Map->LevelCount : 0;
   }
 
+  // The device that makes the nodes of a map for this advection, or null.
+  std::unique_ptr<DeviceNodes<Dimension>> BeginNodes(DeviceFlow<Dimension>& kept) const
+  {
+    return this->Work.Device() ? kept.BeginNodes(*this->Work.Device(), this->Shared) : nullptr;
+  }
+
+  // The device that does what Advect without times asks for, as long as it serves.
+  void UseDevice(DeviceFlow<Dimension>& kept)
+  {
+    if (this->Work.Device())
+    {
+      this->OnDevice = kept.Begin(*this->Work.Device(), this->Shared, this->Map);
+    }
+  }
+
   // Advects the particles of a source chunk by chunk. Writes the positions at the ascending times,
   // all times of a particle together; without times, at the end. Throws Cancelled.
   FlowReport Advect(ParticleSource<Dimension>& source, PointSpan<Dimension> positions,
@@ -214,6 +196,7 @@ public:
     const Executor& threads = this->Work.Threads();
     this->Work.BeginStage(1.0, source.Count());
     WaitingParticles<Dimension> unresolved;
+    FlowReport ofDevice;
     std::int64_t chunkEnd = 0;
     for (std::int64_t chunk = 0, begin = 0; begin < source.Count();)
     {
@@ -222,8 +205,27 @@ public:
         chunk = begin;
         chunkEnd += source.Prepare(begin);
       }
-      const std::int64_t slice =
-        std::min(chunkEnd - begin, this->Work.NextSlice(this->Grain * threads.Concurrency()));
+      const std::int64_t slice = std::min(chunkEnd - begin,
+        this->Work.NextSlice(this->OnDevice ? this->OnDevice->FewestParticles()
+                                            : this->Grain * threads.Concurrency()));
+      if (this->OnDevice)
+      {
+        if (this->OnDevice->Run(
+              source, begin - chunk, slice, this->Job.Output, ofDevice, this->Work))
+        {
+          begin += slice;
+          this->Work.EndSlice(slice);
+          continue;
+        }
+        this->OnDevice.reset();
+        if (source.WholeLattice())
+        {
+          // The device took it in another order.
+          begin = chunkEnd = 0;
+          ofDevice = {};
+        }
+        continue;
+      }
       // A list of each range, so that their order does not depend on threads.
       std::vector<WaitingParticles<Dimension>> left(
         static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
@@ -261,6 +263,7 @@ public:
       }
       this->Work.EndSlice(slice);
     }
+    this->Count.Add(ofDevice);
     return this->Count.Report();
   }
 
@@ -330,9 +333,13 @@ private:
       particles.Keep(isUnresolved);
     }
     threads.For(particles.Count(), BlockSize, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last && !this->Work.ShouldStop(); ++i)
+      // Only ends may have to have mass.
+      const bool atEnd = !job.Times || job.Times[job.TimeCount - 1] >= 1.0;
+      for (std::int64_t i = first; i < last && atEnd && !this->Work.ShouldStop(); ++i)
       {
-        moveToMass<Dimension>(job, particles.Index[static_cast<std::size_t>(i)], this->Count);
+        const std::int64_t end =
+          (particles.Index[static_cast<std::size_t>(i)] + 1) * job.TimeCount - 1;
+        moveToMass<Dimension>(job.Tables, job.Output + end * Dimension, this->Count);
       }
     });
   }
@@ -341,7 +348,8 @@ private:
   FlowJob<Dimension> Job;
   const AdvectBlock<Dimension> Kernel = flowKernels().Advect<Dimension>();
   std::shared_ptr<const FlowMap<Dimension>> Map;
-  int First = 0; // pass
+  std::unique_ptr<DeviceAdvection<Dimension>> OnDevice; // null: the processor does it
+  int First = 0;                                        // pass
   Counters Count;
   Progress Work;
   std::int64_t Grain = BlockSize;

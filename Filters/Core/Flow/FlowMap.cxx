@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/FlowMap.h"
 
+#include "Core/Flow/Devices/DeviceAdvection.h"
+#include "Core/Flow/LatticePlaces.h"
 #include "Core/Flow/NodeAdvance.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
@@ -24,24 +26,6 @@ constexpr int isBent(int axis)
   return 2 << axis;
 }
 
-// The place of a node, the inverse of u(x) of LatticeAxis: x = u^2 / (4 Layer) in the layer. The
-// ends are exact.
-double placeOf(const LatticeAxis& axis, std::int64_t node)
-{
-  if (node <= 0 || node >= axis.Cells)
-  {
-    return node <= 0 ? 0.0 : axis.Size;
-  }
-  const double u = static_cast<double>(node) * (axis.Length / static_cast<double>(axis.Cells));
-  const double fromEnd = axis.Length - u;
-  if (u < 2.0 * axis.Layer)
-  {
-    return u * u / (4.0 * axis.Layer);
-  }
-  return fromEnd < 2.0 * axis.Layer ? axis.Size - fromEnd * fromEnd / (4.0 * axis.Layer)
-                                    : u - axis.Layer;
-}
-
 // One lattice while it is made: first the records of its nodes, then which of its cells are good.
 template <int Dimension>
 class LatticeBuild
@@ -49,9 +33,10 @@ class LatticeBuild
 public:
   // Edges may deviate from cubics by `deviation` along each axis.
   LatticeBuild(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level,
-    const Point<Dimension>& deviation, Progress& progress)
+    const Point<Dimension>& deviation, DeviceNodes<Dimension>* onDevice, Progress& progress)
     : Job(job)
     , Level(level)
+    , OnDevice(onDevice)
     , Work(progress)
   {
     std::int64_t stride = 1;
@@ -61,10 +46,7 @@ public:
       this->Stride[axis] = stride;
       stride *= this->Nodes[axis];
       this->InverseDeviation[axis] = static_cast<float>(1.0 / deviation[axis]);
-      for (std::int64_t node = 0; node < this->Nodes[axis]; ++node)
-      {
-        this->Places[axis].push_back(placeOf(level.Axes[axis], node));
-      }
+      this->Places[axis] = placesOf(level.Axes[axis]);
     }
     this->Marks.resize(static_cast<std::size_t>(stride));
   }
@@ -91,9 +73,16 @@ public:
     // coarser levels alone.
     const Ranks& ranks = this->Work.Group();
     const RankShare share(nodes, ranks);
-    const std::int64_t evaluations =
-      NodeAdvance<Dimension>(this->Job, this->Level, this->Work)
-        .Run(share.First, share.Count, this->Job.Map->LevelCount, this->Marks.data(), fill);
+    std::int64_t evaluations = this->OnDevice
+      ? this->OnDevice->Run(
+          *this->Job.Map, this->Level, share.First, share.Count, this->Marks.data(), this->Work)
+      : -1;
+    if (evaluations < 0)
+    {
+      evaluations =
+        NodeAdvance<Dimension>(this->Job, this->Level, this->Work)
+          .Run(share.First, share.Count, this->Job.Map->LevelCount, this->Marks.data(), fill);
+    }
     gatherParts(ranks, shareStarts(nodes, this->RecordSize(), ranks), this->Level.Records);
     gatherParts(ranks, shareStarts(nodes, 1, ranks), this->Marks.data());
     return evaluations;
@@ -256,6 +245,7 @@ private:
 
   const FlowJob<Dimension>& Job;
   const FlowMapLevel<Dimension>& Level;
+  DeviceNodes<Dimension>* const OnDevice; // may be null
   Progress& Work;
   GridSize<Dimension> Nodes;             // along each axis
   GridSize<Dimension> Stride;            // in nodes
@@ -269,8 +259,8 @@ private:
 // Makes the coarsest level first: nodes of each level start from those before it, if these are good
 // there.
 template <int Dimension>
-FlowMap<Dimension>::FlowMap(
-  const FlowMapShape<Dimension>& shape, const FlowJob<Dimension>& job, const Context& context)
+FlowMap<Dimension>::FlowMap(const FlowMapShape<Dimension>& shape, const FlowJob<Dimension>& job,
+  const Context& context, DeviceNodes<Dimension>* onDevice)
 {
   Progress progress(context);
   this->Weights = multistepWeightsOf(shape.Steps, shape.Direction);
@@ -311,7 +301,7 @@ FlowMap<Dimension>::FlowMap(
     level.Bad = lattice.Bad.data();
 
     constexpr double partOfAdvance = 0.9;
-    LatticeBuild<Dimension> build(nodes, level, shape.Deviation, progress);
+    LatticeBuild<Dimension> build(nodes, level, shape.Deviation, onDevice, progress);
     progress.BeginStage(progress.StageEnd() + partOfAdvance * (done - progress.StageEnd()));
     this->Evaluated += build.Advance();
     progress.BeginStage(done);

@@ -17,15 +17,18 @@ namespace RectifiedTransport
 {
 
 template <int Dimension>
+class DeviceNodes;
+
+template <int Dimension>
 class FlowMap
 {
 public:
-  // Makes all levels of a shape. Forward, it stops at the first level whose share of bad cells is
-  // larger than the share of the steps that it saves. The job gives the tables, the direction, the
-  // steps and their weights. Collective on the ranks of the context. Throws std::bad_alloc and
-  // Cancelled.
-  FlowMap(
-    const FlowMapShape<Dimension>& shape, const FlowJob<Dimension>& job, const Context& context);
+  // Makes all levels of a shape, on a device if `nodes` is given and serves. Forward, it stops at
+  // the first level whose share of bad cells is larger than the share of the steps that it saves.
+  // The job gives the tables, the direction, the steps and their weights. Collective on the ranks
+  // of the context. Throws std::bad_alloc and Cancelled.
+  FlowMap(const FlowMapShape<Dimension>& shape, const FlowJob<Dimension>& job,
+    const Context& context, DeviceNodes<Dimension>* nodes = nullptr);
   FlowMap(const FlowMap&) = delete;
   FlowMap& operator=(const FlowMap&) = delete;
 

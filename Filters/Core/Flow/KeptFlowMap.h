@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_KeptFlowMap_h
 #define RectifiedTransport_KeptFlowMap_h
 
+#include "Core/Flow/Devices/DeviceAdvection.h"
 #include "Core/Flow/FlowMap.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Flow/NoMemoryForFlowMap.h"
@@ -22,12 +23,12 @@ class KeptFlowMap
 {
 public:
   // Returns the map of a shape if all ranks have kept it; else makes it, with the context that
-  // begin() returns, and keeps it. Several runs may call it concurrently. Throws NoMemoryForFlowMap
-  // and Cancelled.
+  // begin() returns and on the device that it may have set, and keeps it. Several runs may call it
+  // concurrently. Throws NoMemoryForFlowMap and Cancelled.
   template <class Begin>
   std::shared_ptr<const FlowMap<Dimension>> FindOrMake(const FlowMapShape<Dimension>& shape,
     int refinement, const FlowJob<Dimension>& job, const Ranks& ranks, const Begin& begin,
-    bool& isNew)
+    bool& isNew, const std::unique_ptr<DeviceNodes<Dimension>>& onDevice = nullptr)
   {
     const Steps steps{ shape.NumberOfSteps, refinement };
     std::shared_ptr<const FlowMap<Dimension>> map = this->Get(steps);
@@ -40,7 +41,7 @@ public:
       const Context context = begin();
       try
       {
-        map = std::make_shared<const FlowMap<Dimension>>(shape, job, context);
+        map = std::make_shared<const FlowMap<Dimension>>(shape, job, context, onDevice.get());
       }
       catch (const std::bad_alloc&)
       {

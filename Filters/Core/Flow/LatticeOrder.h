@@ -50,6 +50,10 @@ public:
   // The number of samples from `first` on. No preparation is needed.
   std::int64_t Prepare(std::int64_t first) const { return this->Count() - first; }
 
+  const GridSize<Dimension>& Cells() const { return this->Lattice; }
+  const GridSize<Dimension>& Box() const { return this->Size; }
+  const Point<Dimension>& PlaceInCell() const { return this->Place; }
+
   // Samples [first, first + count) in this order: the indices of their results, and their
   // coordinates.
   void Fill(std::int64_t first, int count, std::int64_t* index, double* points) const;

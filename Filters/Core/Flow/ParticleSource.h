@@ -26,6 +26,7 @@ public:
   ParticleSource(const FlowSeeds<Dimension>& seeds, const GridSize<Dimension>& size,
     std::int64_t positions, std::int64_t chunk = SortedPoints<Dimension>::UsualChunk)
     : Order(SortedPoints<Dimension>(seeds.Points(), chunk))
+    , IsWhole(seeds.IsWholeLattice())
   {
     if (seeds.IsLattice())
     {
@@ -38,6 +39,11 @@ public:
   std::int64_t Count() const
   {
     return std::visit([](const auto& order) { return order.Count(); }, this->Order);
+  }
+  // The lattice, if the particles are all of its points: the results are in the order of its cells.
+  const LatticeOrder<Dimension>* WholeLattice() const
+  {
+    return this->IsWhole ? std::get_if<LatticeOrder<Dimension>>(&this->Order) : nullptr;
   }
   // The number of particles of all ranks. Collective.
   double CountOfAll(const Ranks& ranks) const
@@ -63,6 +69,7 @@ public:
 
 private:
   std::variant<SortedPoints<Dimension>, LatticeOrder<Dimension>> Order;
+  bool IsWhole;
 };
 
 } // namespace RectifiedTransport

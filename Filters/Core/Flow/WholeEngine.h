@@ -4,6 +4,7 @@
 #define RectifiedTransport_WholeEngine_h
 
 #include "Core/Flow/AdvectionRun.h"
+#include "Core/Flow/Devices/DeviceAdvection.h"
 #include "Core/Flow/FlowEngine.h"
 #include "Core/Flow/KeptFlowMap.h"
 #include "Core/Flow/ParticleSource.h"
@@ -27,6 +28,10 @@ public:
     : Size(density.Size)
     , Tables(density, progress, std::move(memory))
   {
+    if (progress.Device())
+    {
+      this->OnDevice.MakeTables(*progress.Device(), density, this->Tables, progress);
+    }
   }
 
   const TableView<Dimension>& View() const override { return this->Tables.View(); }
@@ -41,6 +46,10 @@ public:
     ParticleSource<Dimension> source(seeds, this->Size, positions.size());
     AdvectionRun<Dimension> run(this->View(), kind, options, context);
     this->Prepare(run, options, source.CountOfAll(*context.Group));
+    if (DeviceFlow<Dimension>::Serves(kind, options))
+    {
+      run.UseDevice(this->OnDevice);
+    }
     return run.Advect(source, positions);
   }
 
@@ -115,15 +124,21 @@ private:
     }
     const double particlesCost = particles * shape.Levels.back().HandOver;
     bool isNew = false;
+    std::unique_ptr<DeviceNodes<Dimension>> onDevice;
     auto map = this->Maps.At(direction).FindOrMake(
       shape, shared.Refinement, shared.Job, run.Group(),
-      [&]() { return run.BeginPreparation(shape.Cost / (shape.Cost + particlesCost)); }, isNew);
+      [&]() {
+        onDevice = run.BeginNodes(this->OnDevice);
+        return run.BeginPreparation(shape.Cost / (shape.Cost + particlesCost));
+      },
+      isNew, onDevice);
     run.UseMap(std::move(map), isNew);
   }
 
   const GridSize<Dimension> Size;
   SummedAreaTables<Dimension> Tables;
   KeptFlowMaps<Dimension> Maps;
+  DeviceFlow<Dimension> OnDevice;
 };
 
 } // namespace RectifiedTransport

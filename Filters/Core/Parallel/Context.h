@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The executor of a computation, the ranks that run it, and callbacks for its progress and
-// cancellation.
+// The executor of a computation, the ranks and the device that run it, and callbacks for its
+// progress and cancellation.
 #ifndef RectifiedTransport_Context_h
 #define RectifiedTransport_Context_h
 
@@ -11,6 +11,7 @@
 namespace RectifiedTransport
 {
 
+class DeviceUse;
 class Ranks;
 
 // Thrown by a computation that was cancelled; its results are then undefined. Not an error, hence
@@ -30,6 +31,9 @@ struct Context
   const Executor* Threads;
   // The ranks that run the computation together, never null. By default only this process.
   const Ranks* Group;
+  // A device that may do the work of advections with the same bits, and must outlive its use
+  // (DeviceUse.h); null, the default, if there is none.
+  DeviceUse* Device = nullptr;
   // Called with the progress, in [0,1], only on the thread that called the library.
   std::function<void(double)> Report;
   // Returns whether to stop. Called on any thread, one at a time.

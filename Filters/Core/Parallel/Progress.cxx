@@ -36,6 +36,7 @@ Context Progress::Stage()
     *this->Parent.Threads, [this](double fraction) { this->Report(fraction); },
     this->Parent.IsCancelled);
   stage.Group = this->Parent.Group;
+  stage.Device = this->Parent.Device;
   return stage;
 }
 

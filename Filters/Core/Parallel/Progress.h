@@ -24,6 +24,7 @@ public:
 
   const Executor& Threads() const { return *this->Parent.Threads; }
   const Ranks& Group() const { return *this->Parent.Group; }
+  DeviceUse* Device() const { return this->Parent.Device; } // may be null
 
   // Begins a stage: its `units` of work take the progress from the end of the last stage to `end`.
   // All its loops count as a part of them; with 0 units each loop is the whole stage.

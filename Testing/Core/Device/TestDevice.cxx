@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Devices: their list, their self-test, memory, programs, and what they say when something fails.
-// On machines without a device nothing is tested but that, unless RT_OPENCL says that there is one.
-#include "Core/Device/Device.h"
+#include "Device/OfADevice.h"
+
 #include "Core/Device/DeviceCheck.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <functional>
 #include <numeric>
 #include <string>
 #include <thread>
@@ -17,41 +15,6 @@ namespace RectifiedTransport
 {
 namespace
 {
-
-std::string errorOf(const std::function<void()>& function)
-{
-  try
-  {
-    function();
-  }
-  catch (const DeviceError& error)
-  {
-    return error.what();
-  }
-  return "";
-}
-
-bool contains(const std::string& text, const std::string& part)
-{
-  return text.find(part) != std::string::npos;
-}
-
-// Each as a test of its own.
-class OfADevice : public ::testing::Test
-{
-protected:
-  void SetUp() override
-  {
-    const std::string reason = errorOf([this]() { this->Opened = openDevice(""); });
-    if (!this->Opened)
-    {
-      ASSERT_EQ(std::getenv("RT_OPENCL"), nullptr) << reason;
-      GTEST_SKIP() << reason;
-    }
-  }
-
-  std::shared_ptr<Device> Opened;
-};
 
 TEST(DeviceList, NamesWhatThereIs)
 {
@@ -70,6 +33,29 @@ TEST_F(OfADevice, ByAPartOfItsName)
   const std::string text = errorOf([]() { openDevice("no such thing"); });
   EXPECT_TRUE(contains(text, "No OpenCL device is named 'no such thing'; there are '")) << text;
   EXPECT_TRUE(contains(text, name)) << text;
+}
+
+// Numbers go on from the first after the last; what is open already is not opened again.
+TEST_F(OfADevice, ByItsNumber)
+{
+  std::vector<std::string> complete;
+  for (const DeviceDescription& device : listDevices())
+  {
+    if (device.Lacks.empty())
+    {
+      complete.push_back(device.Name);
+    }
+  }
+  const int count = static_cast<int>(complete.size());
+  for (int number = 0; number < 2 * count + 1; ++number)
+  {
+    EXPECT_EQ(openDevice("", number)->Description().Name,
+      complete[static_cast<std::size_t>(number % count)]);
+  }
+  EXPECT_NE(openDevice(""), this->Opened);
+  EXPECT_EQ(openDevice("", 0, { this->Opened }), this->Opened);
+  EXPECT_EQ(openDevice("", count, { this->Opened }), this->Opened);
+  EXPECT_EQ(openDevice(this->Opened->Description().Name, 0, { this->Opened }), this->Opened);
 }
 
 TEST_F(OfADevice, WithContractionIsRefused)

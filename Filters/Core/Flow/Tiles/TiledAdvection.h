@@ -425,8 +425,6 @@ private:
   void MoveToMass(const ParticleSource<Dimension>& source, const ParticleMask& left,
     PointSpan<Dimension> positions)
   {
-    FlowJob<Dimension> job = this->Wide;
-    job.Output = positions.data();
     this->Work.Threads().For(left.Blocks(), 1, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t block = first; block < last && !this->Work.ShouldStop(); ++block)
       {
@@ -435,7 +433,7 @@ private:
           std::int64_t index = 0;
           double seed[Dimension];
           source.Fill(block * BlockSize + __builtin_ctzll(word), 1, &index, seed);
-          moveToMass<Dimension>(job, index, this->Count);
+          moveToMass<Dimension>(this->Wide.Tables, positions[index], this->Count);
         }
       }
     });

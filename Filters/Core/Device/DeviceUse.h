@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The device that a run may use, and why it did not serve.
+#ifndef RectifiedTransport_DeviceUse_h
+#define RectifiedTransport_DeviceUse_h
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+class Device;
+
+// Of one run, on one thread; a device may be used by many. What it does not do the processor does,
+// with the same bits.
+class DeviceUse
+{
+public:
+  // An open device (DeviceList.h).
+  explicit DeviceUse(std::shared_ptr<Device> device)
+    : Opened(std::move(device))
+  {
+  }
+  // There is none, for a reason.
+  explicit DeviceUse(std::string fault)
+    : Reason(std::move(fault))
+  {
+  }
+  // The device that openDevice finds, or none.
+  static DeviceUse Open(const std::string& name);
+
+  // Whether there is a device that has not failed in this run.
+  bool Serves() const { return this->Opened && this->Reason.empty(); }
+  // Why it does not serve, or not any more: names the device. Empty if nothing went wrong.
+  const std::string& Fault() const { return this->Reason; }
+
+  // function(device), when no other thread uses the device. Returns whether it was done: a
+  // DeviceError becomes the fault. Throws what else the function throws.
+  bool Run(const std::function<void(Device&)>& function);
+
+private:
+  std::shared_ptr<Device> Opened;
+  std::string Reason;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Advections of particles that a device does.
+#ifndef RectifiedTransport_DeviceAdvection_h
+#define RectifiedTransport_DeviceAdvection_h
+
+#include "Core/Flow/AdvectionJob.h"
+#include "Core/Flow/FlowMap.h"
+#include "Core/Flow/FlowOptions.h"
+#include "Core/Flow/ParticleSource.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Tables/Density.h"
+#include "Core/Tables/SummedAreaTables.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace RectifiedTransport
+{
+
+class DeviceUse;
+
+// One advection, on the tables of one density.
+template <int Dimension>
+class DeviceAdvection
+{
+public:
+  DeviceAdvection() = default;
+  virtual ~DeviceAdvection() = default;
+  DeviceAdvection(const DeviceAdvection&) = delete;
+  DeviceAdvection& operator=(const DeviceAdvection&) = delete;
+
+  // The fewest particles that are worth a run of kernels.
+  virtual std::int64_t FewestParticles() const = 0;
+  // Advects the particles [first, first + count) of the source's chunk, or the points of a whole
+  // lattice in the order of its cells, and writes their positions; adds to the counts. Returns
+  // false where the device does not serve, or not any more: nothing of an array is written then,
+  // those of a lattice are undefined, and no further call does more. Once the progress is to stop,
+  // positions are undefined.
+  virtual bool Run(const ParticleSource<Dimension>& source, std::int64_t first, std::int64_t count,
+    double* positions, FlowReport& counts, Progress& progress) = 0;
+};
+
+// The records of a flow map's nodes, on the tables of one density.
+template <int Dimension>
+class DeviceNodes
+{
+public:
+  DeviceNodes() = default;
+  virtual ~DeviceNodes() = default;
+  DeviceNodes(const DeviceNodes&) = delete;
+  DeviceNodes& operator=(const DeviceNodes&) = delete;
+
+  // Makes the records of the nodes [first, first + count) of a level from the levels that the map
+  // has so far, and their marks (NodeAdvance::Run); returns the number of velocity evaluations, or
+  // -1 where the device does not serve, or not any more. Throws Cancelled.
+  virtual std::int64_t Run(const FlowMapView<Dimension>& map, const FlowMapLevel<Dimension>& level,
+    std::int64_t first, std::int64_t count, unsigned char* marks, Progress& progress) = 0;
+};
+
+// What a device keeps of a flow: its tables, and the map of the last run in either direction.
+template <int Dimension>
+class DeviceFlow
+{
+public:
+  DeviceFlow();
+  ~DeviceFlow();
+  DeviceFlow(const DeviceFlow&) = delete;
+  DeviceFlow& operator=(const DeviceFlow&) = delete;
+
+  // Whether devices do such advections, to time 1 or back to 0.
+  static bool Serves(AdvectionKind kind, const FlowOptions& options);
+
+  // Makes the tables of a density on the device of `use`, if it serves: less is transferred than
+  // from those of the processor, which are given. Throws Cancelled.
+  void MakeTables(DeviceUse& use, const DensitySource<Dimension>& density,
+    const SummedAreaTables<Dimension>& tables, Progress& progress);
+
+  // An advection with a map, or none, on the device of `use`. All must outlive it. Advections of
+  // several threads may be under way.
+  std::unique_ptr<DeviceAdvection<Dimension>> Begin(DeviceUse& use,
+    const AdvectionJob<Dimension>& job, std::shared_ptr<const FlowMap<Dimension>> map);
+
+  // The nodes of maps of such an advection.
+  std::unique_ptr<DeviceNodes<Dimension>> BeginNodes(
+    DeviceUse& use, const AdvectionJob<Dimension>& job);
+
+private:
+  class Implementation;
+  const std::unique_ptr<Implementation> Kept;
+};
+
+} // namespace RectifiedTransport
+
+#endif

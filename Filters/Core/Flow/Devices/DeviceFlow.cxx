@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Flow/Devices/DeviceAdvection.h"
+
+#include "Core/Device/Device.h"
+#include "Core/Device/DeviceUse.h"
+#include "Core/Flow/AdvectionCounters.h"
+#include "Core/Flow/Devices/FlowPrograms.h"
+#include "Core/Flow/Devices/KernelRun.h"
+#include "Core/Flow/Devices/NodeRun.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Tables/ScaledDensity.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// What a device has of one flow.
+template <int Dimension>
+struct KeptOnDevice
+{
+  struct Map
+  {
+    std::shared_ptr<const FlowMap<Dimension>> Of;
+    std::shared_ptr<const DeviceMap<Dimension>> Copy;
+  };
+  std::shared_ptr<const DeviceTables<Dimension>> Tables;
+  Map Maps[2]; // forward and backward
+
+  std::shared_ptr<const DeviceTables<Dimension>> TablesOn(
+    Device& device, const TableView<Dimension>& tables)
+  {
+    if (!this->Tables)
+    {
+      this->Tables = std::make_shared<const DeviceTables<Dimension>>(device, tables);
+    }
+    return this->Tables;
+  }
+
+  std::shared_ptr<const DeviceMap<Dimension>> MapOn(
+    Device& device, const std::shared_ptr<const FlowMap<Dimension>>& map, bool backward)
+  {
+    Map& kept = this->Maps[backward ? 1 : 0];
+    if (map && kept.Of != map)
+    {
+      kept = {}; // two side by side would double the peak
+      kept.Copy = std::make_shared<const DeviceMap<Dimension>>(device, map->View(), backward);
+      kept.Of = map;
+    }
+    return map ? kept.Copy : nullptr;
+  }
+};
+
+template <int Dimension>
+class Advection final : public DeviceAdvection<Dimension>
+{
+public:
+  Advection(DeviceUse& use, const AdvectionJob<Dimension>& job,
+    std::unique_ptr<KernelRun<Dimension>> kernels, bool isGpu)
+    : Use(use)
+    , Job(job)
+    , Kernels(std::move(kernels))
+    , IsGpu(isGpu)
+  {
+  }
+
+  // GPUs take many in the time of few.
+  std::int64_t FewestParticles() const override
+  {
+    return std::int64_t{ 1 } << (this->IsGpu ? 17 : 14);
+  }
+
+  bool Run(const ParticleSource<Dimension>& source, std::int64_t first, std::int64_t count,
+    double* positions, FlowReport& counts, Progress& progress) override
+  {
+    return source.WholeLattice()
+      ? this->RunLattice(*source.WholeLattice(), first, count, positions, counts, progress)
+      : this->RunParticles(source, first, count, positions, counts, progress);
+  }
+
+private:
+  static constexpr std::int64_t grain = 32 * BlockSize;
+
+  // Neither are seeds transferred, nor positions put in order.
+  bool RunLattice(const LatticeOrder<Dimension>& lattice, std::int64_t first, std::int64_t count,
+    double* positions, FlowReport& counts, Progress& progress)
+  {
+    KernelReport report;
+    double* own = positions + first * Dimension;
+    if (!this->Use.Run([&](Device& device) {
+          report = this->Kernels->Run(
+            device, count, this->Kernels->FromLattice(device, lattice, first), own, progress);
+        }))
+    {
+      return false;
+    }
+    this->Finish(report, counts, progress, [&](std::uint32_t i) { return own + i * Dimension; });
+    return true;
+  }
+
+  bool RunParticles(const ParticleSource<Dimension>& source, std::int64_t first, std::int64_t count,
+    double* positions, FlowReport& counts, Progress& progress)
+  {
+    const Executor& threads = progress.Threads();
+    this->Index.resize(static_cast<std::size_t>(count));
+    this->Points.resize(static_cast<std::size_t>(count * Dimension));
+    double* const points = this->Points.data();
+    // Read when a part of them is needed: the device works meanwhile.
+    const auto fill = [&](std::int64_t begin, std::int64_t length) {
+      threads.For(length, grain, [&](std::int64_t from, std::int64_t to) {
+        for (; from < to; from += BlockSize)
+        {
+          const auto number = static_cast<int>(std::min<std::int64_t>(BlockSize, to - from));
+          const std::int64_t at = begin + from;
+          source.Fill(first + at, number, this->Index.data() + at, points + at * Dimension);
+        }
+      });
+    };
+    KernelReport report;
+    if (!this->Use.Run([&](Device& device) {
+          const auto transfer = this->Kernels->FromPoints(device, points);
+          const auto prepare = [&](std::int64_t begin, std::int64_t length,
+                                 const DeviceBuffer& seeds) {
+            fill(begin, length);
+            return transfer(begin, length, seeds);
+          };
+          report = this->Kernels->Run(device, count, prepare, points, progress);
+        }))
+    {
+      return false;
+    }
+    threads.For(count, grain, [&](std::int64_t from, std::int64_t to) {
+      for (; from < to; ++from)
+      {
+        std::copy_n(this->Points.data() + from * Dimension, Dimension,
+          positions + this->Index[static_cast<std::size_t>(from)] * Dimension);
+      }
+    });
+    this->Finish(report, counts, progress,
+      [&](std::uint32_t i) { return positions + this->Index[i] * Dimension; });
+    return true;
+  }
+
+  // Moves those to the nearest mass that no pass has resolved; place(i) is the position of one.
+  template <class Place>
+  void Finish(
+    const KernelReport& report, FlowReport& counts, Progress& progress, const Place& place)
+  {
+    Counters moved;
+    progress.Threads().For(static_cast<std::int64_t>(report.Unresolved.size()), BlockSize,
+      [&](std::int64_t from, std::int64_t to) {
+        for (; from < to && !progress.ShouldStop(); ++from)
+        {
+          moveToMass<Dimension>(
+            this->Job.Job.Tables, place(report.Unresolved[static_cast<std::size_t>(from)]), moved);
+        }
+      });
+    counts.MovedToMass += moved.MovedToMass;
+    counts.Evaluations += report.Evaluations;
+    counts.Redone += report.Redone;
+  }
+
+  DeviceUse& Use;
+  const AdvectionJob<Dimension>& Job;
+  const std::unique_ptr<KernelRun<Dimension>> Kernels;
+  const bool IsGpu;
+  // Of the particles of one call: the places of their results, and their seeds, then positions.
+  std::vector<std::int64_t> Index;
+  std::vector<double> Points;
+};
+
+template <int Dimension>
+class Nodes final : public DeviceNodes<Dimension>
+{
+public:
+  Nodes(DeviceUse& use, std::unique_ptr<NodeRun<Dimension>> kernel)
+    : Use(use)
+    , Kernel(std::move(kernel))
+  {
+  }
+
+  std::int64_t Run(const FlowMapView<Dimension>& map, const FlowMapLevel<Dimension>& level,
+    std::int64_t first, std::int64_t count, unsigned char* marks, Progress& progress) override
+  {
+    std::int64_t evaluations = 0;
+    const bool served = this->Use.Run([&](Device& device) {
+      evaluations = this->Kernel->Run(device, map, level, first, count, marks, progress);
+    });
+    return served ? evaluations : -1;
+  }
+
+private:
+  DeviceUse& Use;
+  const std::unique_ptr<NodeRun<Dimension>> Kernel;
+};
+
+} // namespace
+
+// The device owns what it keeps: a flow that nobody runs on it any more does not hold it open.
+template <int Dimension>
+class DeviceFlow<Dimension>::Implementation
+{
+public:
+  Implementation() = default;
+  ~Implementation() { this->Leave(); }
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  // To be called by the user of the device, who has locked it.
+  std::shared_ptr<KeptOnDevice<Dimension>> On(Device& device)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    std::shared_ptr<KeptOnDevice<Dimension>> kept = this->Kept.lock();
+    if (!kept || this->Where.lock().get() != &device)
+    {
+      this->Leave();
+      kept = std::make_shared<KeptOnDevice<Dimension>>();
+      device.Keep(this, kept);
+      this->Kept = kept;
+      this->Where = device.weak_from_this();
+    }
+    return kept;
+  }
+
+private:
+  void Leave()
+  {
+    if (const std::shared_ptr<Device> device = this->Where.lock())
+    {
+      const std::lock_guard<std::mutex> lock(device->Mutex());
+      device->Forget(this);
+    }
+  }
+
+  std::mutex Mutex; // of the next: flows run on several threads
+  std::weak_ptr<Device> Where;
+  std::weak_ptr<KeptOnDevice<Dimension>> Kept;
+};
+
+template <int Dimension>
+DeviceFlow<Dimension>::DeviceFlow()
+  : Kept(std::make_unique<Implementation>())
+{
+}
+
+template <int Dimension>
+DeviceFlow<Dimension>::~DeviceFlow() = default;
+
+template <int Dimension>
+void DeviceFlow<Dimension>::MakeTables(DeviceUse& use, const DensitySource<Dimension>& density,
+  const SummedAreaTables<Dimension>& tables, Progress& progress)
+{
+  if constexpr (Dimension > 1)
+  {
+    if (!use.Serves())
+    {
+      return;
+    }
+    progress.BeginStage(1.0);
+    const auto cells = static_cast<std::int64_t>(numberOfCells<Dimension>(density.Size));
+    LargeBuffer<double> values(cells);
+    const std::shared_ptr<const DensityValues> source = density.Whole();
+    const int exponent = scalingOf(tables.Summary().Maximum);
+    const ScaledDensity scaled(*source, exponent);
+    const DensityValues& given = exponent != 0 ? scaled : *source;
+    progress.For(cells, std::int64_t{ 1 } << 14, [&](std::int64_t first, std::int64_t last) {
+      given.Read(first, last - first, values.data() + first);
+    });
+    use.Run([&](Device& device) {
+      this->Kept->On(device)->Tables = std::make_shared<const DeviceTables<Dimension>>(
+        device, flowProgram(device, Dimension), tables.View(), values.data());
+    });
+  }
+}
+
+template <int Dimension>
+bool DeviceFlow<Dimension>::Serves(AdvectionKind kind, const FlowOptions& options)
+{
+  return Dimension > 1 && kind != AdvectionKind::ForwardToCells && takesFlowMaps(options);
+}
+
+template <int Dimension>
+std::unique_ptr<DeviceAdvection<Dimension>> DeviceFlow<Dimension>::Begin(
+  DeviceUse& use, const AdvectionJob<Dimension>& job, std::shared_ptr<const FlowMap<Dimension>> map)
+{
+  std::unique_ptr<DeviceAdvection<Dimension>> advection;
+  if constexpr (Dimension > 1)
+  {
+    use.Run([&](Device& device) {
+      const auto kept = this->Kept->On(device);
+      auto tables = kept->TablesOn(device, job.Job.Tables);
+      advection = std::make_unique<Advection<Dimension>>(use, job,
+        std::make_unique<KernelRun<Dimension>>(device, flowProgram(device, Dimension), job,
+          std::move(tables), kept->MapOn(device, map, job.Job.Backward)),
+        device.IsGpu());
+    });
+  }
+  return advection;
+}
+
+template <int Dimension>
+std::unique_ptr<DeviceNodes<Dimension>> DeviceFlow<Dimension>::BeginNodes(
+  DeviceUse& use, const AdvectionJob<Dimension>& job)
+{
+  std::unique_ptr<DeviceNodes<Dimension>> nodes;
+  if constexpr (Dimension > 1)
+  {
+    use.Run([&](Device& device) {
+      nodes = std::make_unique<Nodes<Dimension>>(use,
+        std::make_unique<NodeRun<Dimension>>(device, flowProgram(device, Dimension), job.Job,
+          this->Kept->On(device)->TablesOn(device, job.Job.Tables)));
+    });
+  }
+  return nodes;
+}
+
+template class DeviceFlow<1>;
+template class DeviceFlow<2>;
+template class DeviceFlow<3>;
+
+} // namespace RectifiedTransport

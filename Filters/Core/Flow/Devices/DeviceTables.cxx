@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Flow/Devices/DeviceTables.h"
+
+#include <array>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr const char* what = "the tables";
+constexpr std::int64_t stripCells = 256; // RT_STRIP_CELLS and RT_STRIP_ROWS of the kernels
+constexpr std::int64_t stripRows = 32;
+
+// TableShape of the kernels.
+struct TableShape
+{
+  std::int64_t Cells[3];
+  std::int64_t Strips;
+  std::int64_t Stride1;
+  std::int64_t Stride2;
+};
+
+std::size_t bytesOf(std::int64_t doubles)
+{
+  return static_cast<std::size_t>(std::max<std::int64_t>(doubles, 1)) * sizeof(double);
+}
+
+template <int Dimension>
+std::int64_t nodesAlong(const TableView<Dimension>& tables, int level, int axis)
+{
+  return ((tables.Cells[axis] - 1) >> (level * levelShift)) + 2;
+}
+
+template <int Dimension>
+DeviceBuffer uploadOccupied(Device& device, const TableView<Dimension>& tables)
+{
+  std::int64_t words = tables.Occupied ? tables.WordsPerRow : 0;
+  for (int axis = 1; axis < Dimension; ++axis)
+  {
+    words *= tables.Cells[axis];
+  }
+  return upload(device, tables.Occupied, words, what);
+}
+
+// Where the coarse levels begin.
+template <int Dimension>
+const double* coarseNodes(const TableView<Dimension>& tables)
+{
+  return tables.LevelCount > 1 ? tables.Levels[1].Nodes : endOfNodes<Dimension>(tables);
+}
+
+} // namespace
+
+template <int Dimension>
+const double* endOfNodes(const TableView<Dimension>& tables)
+{
+  constexpr int last = Dimension - 1;
+  const int level = tables.LevelCount - 1;
+  return tables.Levels[level].Nodes +
+    tables.Levels[level].Stride[last] * nodesAlong<Dimension>(tables, level, last);
+}
+
+template <int Dimension>
+DeviceTables<Dimension>::DeviceTables(Device& device, const TableView<Dimension>& tables)
+{
+  const double* fine = tables.Levels[0].Nodes;
+  const double* coarse = coarseNodes<Dimension>(tables);
+  this->Fine = upload(device, fine, coarse - fine, what);
+  this->Coarse = upload(device, coarse, endOfNodes<Dimension>(tables) - coarse, what);
+  this->Occupied = uploadOccupied<Dimension>(device, tables);
+}
+
+template <int Dimension>
+DeviceTables<Dimension>::DeviceTables(Device& device, const DeviceProgram& program,
+  const TableView<Dimension>& tables, const double* values)
+{
+  const double* coarse = coarseNodes<Dimension>(tables);
+  this->Fine = device.Allocate(bytesOf(coarse - tables.Levels[0].Nodes), what);
+  this->Coarse = device.Allocate(bytesOf(endOfNodes<Dimension>(tables) - coarse), what);
+  this->Occupied = uploadOccupied<Dimension>(device, tables);
+  std::int64_t cells = 1;
+  for (const std::int64_t along : tables.Cells)
+  {
+    cells *= along;
+  }
+  this->Sum(device, program, tables, upload(device, values, cells, what));
+}
+
+template <int Dimension>
+void DeviceTables<Dimension>::Sum(Device& device, const DeviceProgram& program,
+  const TableView<Dimension>& tables, const DeviceBuffer& values)
+{
+  TableShape shape{};
+  std::copy_n(tables.Cells, Dimension, shape.Cells);
+  shape.Stride1 = tables.Levels[0].Stride[1];
+  shape.Stride2 = Dimension == 3 ? tables.Levels[0].Stride[Dimension - 1] : 0;
+  shape.Strips = Dimension == 2 ? (shape.Cells[0] + stripCells - 1) / stripCells
+                                : (shape.Cells[1] + stripRows - 1) / stripRows;
+  const auto columns = static_cast<std::size_t>(shape.Cells[0]);
+  const auto rows = static_cast<std::size_t>(shape.Cells[1]);
+  const auto slices = static_cast<std::size_t>(shape.Cells[2]);
+  const auto strips = static_cast<std::size_t>(shape.Strips);
+  const auto run = [&](const char* name, std::array<std::size_t, 3> items, const auto&... buffers) {
+    DeviceKernel kernel = program.NewKernel(name);
+    device.RunGrid(kernel.With(shape, buffers...), items);
+  };
+  if constexpr (Dimension == 2)
+  {
+    const DeviceBuffer sums = device.Allocate(rows * strips * 2 * sizeof(double), what);
+    run("sumStrips", { rows, strips, 1 }, values, sums);
+    run("sumBefore", { rows, 1, 1 }, sums);
+    run("sumRows", { rows, strips, 1 }, values, sums, this->Fine);
+    run("sumColumns", { columns + 1, 1, 1 }, this->Fine);
+    device.Finish(); // before its buffers go
+  }
+  else
+  {
+    const DeviceBuffer before =
+      device.Allocate(slices * strips * columns * 4 * sizeof(double), what);
+    run("sumStrips", { columns, strips, slices }, values, before);
+    run("sumAlong", { slices, strips, 1 }, before);
+    run("sumBefore", { columns, slices, 1 }, before);
+    run("sumRows", { rows, slices, 1 }, values, this->Fine);
+    run("sumColumns", { columns, strips, slices }, before, this->Fine);
+    run("sumSlices", { columns + 1, rows + 1, 1 }, this->Fine);
+    device.Finish();
+  }
+  DeviceKernel copy = program.NewKernel("copyLevel");
+  for (int level = 1; level < tables.LevelCount; ++level)
+  {
+    std::array<std::size_t, 3> nodes = { 1, 1, 1 };
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      nodes[static_cast<std::size_t>(axis)] =
+        static_cast<std::size_t>(nodesAlong<Dimension>(tables, level, axis));
+    }
+    const auto& at = tables.Levels[level];
+    device.RunGrid(
+      copy.With(shape, this->Fine, this->Coarse, std::int64_t{ at.Nodes - tables.Levels[1].Nodes },
+        at.Stride[1], Dimension == 3 ? at.Stride[Dimension - 1] : std::int64_t{ 0 },
+        cl_int{ level * levelShift }),
+      nodes);
+  }
+  device.Finish();
+}
+
+template class DeviceTables<2>;
+template class DeviceTables<3>;
+template const double* endOfNodes<2>(const TableView<2>&);
+template const double* endOfNodes<3>(const TableView<3>&);
+
+} // namespace RectifiedTransport

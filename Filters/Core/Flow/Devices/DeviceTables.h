@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The summed-area tables of a density on a device.
+#ifndef RectifiedTransport_DeviceTables_h
+#define RectifiedTransport_DeviceTables_h
+
+#include "Core/Device/Device.h"
+#include "Core/Tables/TableView.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// A buffer of `count` values, at least one, with those of `values`.
+template <class T>
+DeviceBuffer upload(Device& device, const T* values, std::int64_t count, const char* what)
+{
+  DeviceBuffer buffer =
+    device.Allocate(static_cast<std::size_t>(std::max<std::int64_t>(count, 1)) * sizeof(T), what);
+  device.Write(buffer, values, static_cast<std::size_t>(count) * sizeof(T));
+  return buffer;
+}
+
+template <int Dimension>
+class DeviceTables
+{
+public:
+  // Copies those of the processor. Throws DeviceError.
+  DeviceTables(Device& device, const TableView<Dimension>& tables);
+  // Makes them of the values of the cells, axis 0 fastest, with the same bits. Of `tables` all is
+  // read but the nodes. Throws DeviceError.
+  DeviceTables(Device& device, const DeviceProgram& program, const TableView<Dimension>& tables,
+    const double* values);
+
+  DeviceBuffer Fine;
+  DeviceBuffer Coarse;   // the other levels
+  DeviceBuffer Occupied; // the bits of cells
+
+private:
+  void Sum(Device& device, const DeviceProgram& program, const TableView<Dimension>& tables,
+    const DeviceBuffer& values);
+};
+
+// The end of the nodes of all levels, which lie one after the other.
+template <int Dimension>
+const double* endOfNodes(const TableView<Dimension>& tables);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Flow/Devices/KernelRun.h"
+
+#include "Core/Flow/Kernels/SharedInputs.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::uint32_t groupSize = 256; // RT_GROUP of the kernels
+// A kernel takes at most so many steps: more would keep an abort, or a watchdog, waiting.
+constexpr std::int64_t stepsAtOnce = 512;
+
+// PassCounts of the kernels.
+struct PassCounts
+{
+  std::uint64_t Evaluations;
+  std::uint64_t Unresolved;
+};
+
+// Of the kernels: the points of a lattice.
+struct LatticeShape
+{
+  std::int64_t Cells[3];
+  double Place[3]; // in a cell
+  double Size[3];  // of the box
+};
+
+// ParticleState of the kernels, in numbers of 8 bytes: three of them are shared by two of its own.
+constexpr std::size_t stateSize(int dimension)
+{
+  return static_cast<std::size_t>(5 * dimension + 1 + 2) * sizeof(double);
+}
+
+} // namespace
+
+template <int Dimension>
+DeviceMap<Dimension>::DeviceMap(Device& device, const FlowMapView<Dimension>& map, bool backward)
+  : Steps(map.Steps)
+  , LevelCount(map.LevelCount)
+{
+  const std::int64_t record =
+    backward ? FlowMapLevel<Dimension>::BackwardRecord : FlowMapLevel<Dimension>::ForwardRecord;
+  std::vector<MapLevelInput> levels;
+  std::int64_t records = 0;
+  std::int64_t marks = 0;
+  const auto forLevels = [&](const auto& function) {
+    records = marks = 0;
+    for (int level = 0; level < map.LevelCount; ++level)
+    {
+      std::int64_t nodes = 1;
+      std::int64_t cells = 1;
+      for (const LatticeAxis& axis : map.Levels[level].Axes)
+      {
+        nodes *= axis.Cells + 1;
+        cells *= axis.Cells;
+      }
+      function(map.Levels[level], nodes * record, cells);
+      records += nodes * record;
+      marks += cells;
+    }
+  };
+  forLevels([&](const FlowMapLevel<Dimension>& level, std::int64_t, std::int64_t) {
+    levels.push_back(mapLevelInput<Dimension>(level, records, marks));
+  });
+  this->Levels =
+    upload(device, levels.data(), static_cast<std::int64_t>(levels.size()), "a flow map");
+  this->Records = device.Allocate(static_cast<std::size_t>(records) * sizeof(float), "a flow map");
+  this->Bad = device.Allocate(static_cast<std::size_t>(marks), "a flow map");
+  forLevels([&](const FlowMapLevel<Dimension>& level, std::int64_t ofRecords, std::int64_t cells) {
+    device.Write(this->Records, level.Records, static_cast<std::size_t>(ofRecords) * sizeof(float),
+      static_cast<std::size_t>(records) * sizeof(float));
+    device.Write(
+      this->Bad, level.Bad, static_cast<std::size_t>(cells), static_cast<std::size_t>(marks));
+  });
+}
+
+template <int Dimension>
+KernelRun<Dimension>::KernelRun(Device& device, const DeviceProgram& program,
+  const AdvectionJob<Dimension>& job, std::shared_ptr<const DeviceTables<Dimension>> tables,
+  std::shared_ptr<const DeviceMap<Dimension>> map, std::int64_t mostOfPart)
+  : Job(job)
+  , Tables(std::move(tables))
+  , Map(std::move(map))
+  , Place(program.NewKernel("placeLattice"))
+  , Advect(program.NewKernel(job.Job.Backward ? "advectBackward" : "advectForward"))
+  , Count(program.NewKernel("countUnresolved"))
+  , Sum(program.NewKernel("sumCounts"))
+  , Keep(program.NewKernel("keepUnresolved"))
+  , MostOfPart(mostOfPart)
+{
+  const FlowInput input = flowInput<Dimension>(job.Job);
+  this->Input = upload(device, &input, 1, "an advection");
+  this->Total = device.Allocate(sizeof(PassCounts), "an advection");
+  this->States = device.Allocate(sizeof(double), "an advection");
+}
+
+template <int Dimension>
+typename KernelRun<Dimension>::Weights KernelRun<Dimension>::WeightsOf(
+  Device& device, std::int64_t steps)
+{
+  Weights& kept = this->OfSteps[steps];
+  if (!kept)
+  {
+    const std::vector<StepWeights> weights = multistepWeightsOf(
+      steps, this->Job.Job.Backward ? FlowDirection::Backward : FlowDirection::Forward);
+    kept = std::make_shared<const DeviceBuffer>(upload(
+      device, weights.data(), static_cast<std::int64_t>(weights.size()), "weights of steps"));
+  }
+  return kept;
+}
+
+template <int Dimension>
+void KernelRun<Dimension>::MakeRoom(Device& device, std::int64_t count, bool hasTwoSets)
+{
+  if (count <= this->Room && (this->HasTwoSets || !hasTwoSets))
+  {
+    return;
+  }
+  const auto particles = static_cast<std::size_t>(count);
+  const auto allocate = [&](DeviceBuffer& buffer, std::size_t bytes) {
+    buffer = {}; // before the new one
+    buffer = device.Allocate(bytes, "particles");
+  };
+  for (int set = 0; set < (hasTwoSets ? 2 : 1); ++set)
+  {
+    allocate(this->Seeds[set], particles * Dimension * sizeof(double));
+    allocate(this->Positions[set], particles * Dimension * sizeof(double));
+  }
+  allocate(this->Status, particles * sizeof(std::uint32_t));
+  allocate(this->Lists[0], particles * sizeof(std::uint32_t));
+  allocate(this->Lists[1], particles * sizeof(std::uint32_t));
+  allocate(this->Counts, (particles / groupSize + 1) * sizeof(PassCounts));
+  this->Room = count;
+  this->HasTwoSets = hasTwoSets;
+}
+
+template <int Dimension>
+typename KernelRun<Dimension>::Prepare KernelRun<Dimension>::FromPoints(
+  Device& device, const double* points)
+{
+  return [&device, points](std::int64_t first, std::int64_t count, const DeviceBuffer& seeds) {
+    return device.StartWrite(seeds, points + first * Dimension,
+      static_cast<std::size_t>(count) * Dimension * sizeof(double));
+  };
+}
+
+template <int Dimension>
+typename KernelRun<Dimension>::Prepare KernelRun<Dimension>::FromLattice(
+  Device& device, const LatticeOrder<Dimension>& lattice, std::int64_t begin)
+{
+  LatticeShape shape{};
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    shape.Cells[axis] = lattice.Cells()[axis];
+    shape.Size[axis] = static_cast<double>(lattice.Box()[axis]);
+    shape.Place[axis] = lattice.PlaceInCell()[axis];
+  }
+  return [this, &device, shape, begin](
+           std::int64_t first, std::int64_t count, const DeviceBuffer& seeds) {
+    device.Run(this->Place.With(shape, begin + first, static_cast<cl_uint>(count), seeds),
+      static_cast<std::size_t>(count));
+    return DeviceTransfer();
+  };
+}
+
+template <int Dimension>
+KernelReport KernelRun<Dimension>::Run(
+  Device& device, std::int64_t count, const Prepare& prepare, double* positions, Progress& progress)
+{
+  const std::int64_t most = std::min(count, this->MostOfPart);
+  this->MakeRoom(device, most, count > most);
+  const auto lengthAt = [&](std::int64_t first) { return std::min(most, count - first); };
+  KernelReport report;
+  DeviceTransfer toDevice[2];
+  DeviceTransfer fromDevice[2];
+  if (count > 0)
+  {
+    toDevice[0] = prepare(0, lengthAt(0), this->Seeds[0]);
+  }
+  this->Set = 0;
+  for (std::int64_t first = 0; first < count && !progress.ShouldStop(); first += most)
+  {
+    const int set = this->Set;
+    toDevice[set].Wait();
+    fromDevice[set].Wait();
+    const std::int64_t next = first + most;
+    const auto meanwhile = [&]() {
+      if (next < count)
+      {
+        device.Start();
+        toDevice[1 - set] = prepare(next, lengthAt(next), this->Seeds[1 - set]);
+      }
+    };
+    const auto particles = static_cast<std::uint32_t>(lengthAt(first));
+    const KernelReport part = this->Job.Job.Backward
+      ? this->RunBackward(device, particles, meanwhile, progress)
+      : this->RunForward(device, particles, meanwhile, progress);
+    fromDevice[set] = device.StartRead(this->Positions[set], positions + first * Dimension,
+      std::size_t{ particles } * Dimension * sizeof(double));
+    report.Evaluations += part.Evaluations;
+    report.Redone += part.Redone;
+    for (const std::uint32_t particle : part.Unresolved)
+    {
+      report.Unresolved.push_back(static_cast<std::uint32_t>(first) + particle);
+    }
+    this->Set = 1 - set;
+  }
+  for (DeviceTransfer& transfer : fromDevice)
+  {
+    transfer.Wait();
+  }
+  return report;
+}
+
+template <int Dimension>
+template <class RunPiece>
+void KernelRun<Dimension>::ForPieces(
+  Device& device, std::int64_t steps, std::uint32_t count, Progress& progress, const RunPiece& run)
+{
+  if (steps > stepsAtOnce && this->States.Size() < count * stateSize(Dimension))
+  {
+    this->States = {};
+    this->States = device.Allocate(count * stateSize(Dimension), "particles");
+  }
+  for (std::int64_t first = 0; first < steps && !progress.ShouldStop(); first += stepsAtOnce)
+  {
+    run(first, std::min(first + stepsAtOnce, steps));
+    if (first + stepsAtOnce < steps)
+    {
+      device.Finish();
+    }
+  }
+}
+
+template <int Dimension>
+void KernelRun<Dimension>::RunPass(
+  Device& device, int pass, int lastPass, std::uint32_t count, Progress& progress)
+{
+  const DeviceMap<Dimension>* map = this->Map.get();
+  const std::int64_t steps = this->Job.Job.Steps << std::max(lastPass, 0);
+  const Weights weights = this->WeightsOf(device, steps);
+  const Weights ofMap = map ? this->WeightsOf(device, map->Steps) : weights;
+  const DeviceBuffer& none = this->Total; // in place of what is not read
+  const auto run = [&](std::int64_t first, std::int64_t last) {
+    this->Advect.With(this->Input, this->Tables->Fine, this->Tables->Coarse, this->Tables->Occupied,
+      cl_long{ map ? map->Steps : 0 }, cl_long{ map ? map->LevelCount : 0 },
+      map ? map->Levels : none, map ? map->Records : none, map ? map->Bad : none, *ofMap, *weights,
+      cl_long{ steps }, cl_long{ first }, cl_long{ last }, cl_int{ pass }, cl_int{ lastPass },
+      cl_int{ lastPass < this->Job.LastPass() ? 1 : 0 }, this->Seeds[this->Set],
+      cl_int{ this->IsListed ? 1 : 0 }, this->Lists[0], cl_uint{ count }, this->States,
+      this->Positions[this->Set], this->Status);
+    device.Run(this->Advect, count);
+  };
+  if (lastPass < 0)
+  {
+    run(0, steps);
+    return;
+  }
+  this->ForPieces(device, steps, count, progress, run);
+}
+
+// Counts the unresolved, which become the list of the next pass.
+template <int Dimension>
+std::uint32_t KernelRun<Dimension>::CountPass(
+  Device& device, std::uint32_t count, KernelReport& report)
+{
+  const std::uint32_t groups = (count + groupSize - 1) / groupSize;
+  device.Run(this->Count.With(this->Status, cl_uint{ count }, this->Counts), count, groupSize);
+  device.Run(this->Sum.With(this->Counts, cl_uint{ groups }, this->Total), groupSize, groupSize);
+  PassCounts total{};
+  device.Read(this->Total, &total, sizeof(total));
+  report.Evaluations += static_cast<std::int64_t>(total.Evaluations);
+  const auto left = static_cast<std::uint32_t>(total.Unresolved);
+  if (left > 0)
+  {
+    device.Run(this->Keep.With(this->Status, cl_uint{ count }, this->Counts,
+                 cl_int{ this->IsListed ? 1 : 0 }, this->Lists[0], this->Lists[1]),
+      count, groupSize);
+    std::swap(this->Lists[0], this->Lists[1]);
+    this->IsListed = true;
+  }
+  return left;
+}
+
+// Passes from the map and from the seeds in the job's steps in one run of the kernel, where these
+// are few; then those with more steps, of the particles that are left.
+template <int Dimension>
+template <class Meanwhile>
+KernelReport KernelRun<Dimension>::RunForward(
+  Device& device, std::uint32_t count, const Meanwhile& meanwhile, Progress& progress)
+{
+  KernelReport report;
+  this->IsListed = false;
+  const int levels = this->Map ? this->Map->LevelCount : 0;
+  std::uint32_t left = count;
+  for (int pass = -levels; pass <= this->Job.LastPass() && left > 0 && !progress.ShouldStop();)
+  {
+    const int lastPass = pass >= 0 ? pass : this->Job.Job.Steps <= stepsAtOnce ? 0 : -1;
+    this->RunPass(device, pass, lastPass, left, progress);
+    if (pass == -levels)
+    {
+      meanwhile();
+    }
+    left = this->CountPass(device, left, report);
+    report.Redone += lastPass == 0 ? left : 0;
+    pass = lastPass + 1;
+  }
+  if (this->IsListed) // else none is left, or all was stopped
+  {
+    report.Unresolved.resize(left);
+    device.Read(this->Lists[0], report.Unresolved.data(), left * sizeof(std::uint32_t));
+  }
+  return report;
+}
+
+template <int Dimension>
+template <class Meanwhile>
+KernelReport KernelRun<Dimension>::RunBackward(
+  Device& device, std::uint32_t count, const Meanwhile& meanwhile, Progress& progress)
+{
+  KernelReport report;
+  const DeviceMap<Dimension>* map = this->Map.get();
+  const std::int64_t steps = map ? map->Steps : this->Job.Job.Steps;
+  const Weights weights = this->WeightsOf(device, steps);
+  const DeviceBuffer& none = this->Total;
+  this->ForPieces(device, steps, count, progress, [&](std::int64_t first, std::int64_t last) {
+    this->Advect.With(this->Input, this->Tables->Fine, this->Tables->Coarse, this->Tables->Occupied,
+      cl_long{ steps }, cl_long{ map ? map->LevelCount : 0 }, map ? map->Levels : none,
+      map ? map->Records : none, map ? map->Bad : none, *weights, cl_long{ steps },
+      cl_long{ first }, cl_long{ last }, this->Seeds[this->Set], cl_uint{ count }, this->States,
+      this->Positions[this->Set], this->Status);
+    device.Run(this->Advect, count);
+  });
+  meanwhile();
+  this->IsListed = false;
+  this->CountPass(device, count, report);
+  return report;
+}
+
+template class DeviceMap<2>;
+template class DeviceMap<3>;
+template class KernelRun<2>;
+template class KernelRun<3>;
+
+} // namespace RectifiedTransport

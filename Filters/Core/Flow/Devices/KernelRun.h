@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the kernels of an advection read on a device, and the order in which they run.
+#ifndef RectifiedTransport_KernelRun_h
+#define RectifiedTransport_KernelRun_h
+
+#include "Core/Device/Device.h"
+#include "Core/Flow/AdvectionJob.h"
+#include "Core/Flow/Devices/DeviceTables.h"
+#include "Core/Flow/Kernels/FlowMapView.h"
+#include "Core/Flow/LatticeOrder.h"
+#include "Core/Parallel/Progress.h"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// A flow map.
+template <int Dimension>
+class DeviceMap
+{
+public:
+  // Copies that of the processor. Throws DeviceError.
+  DeviceMap(Device& device, const FlowMapView<Dimension>& map, bool backward);
+
+  const std::int64_t Steps; // of particles that hand over
+  const int LevelCount;
+  DeviceBuffer Levels;
+  DeviceBuffer Records;
+  DeviceBuffer Bad;
+};
+
+struct KernelReport
+{
+  std::int64_t Evaluations = 0;
+  std::int64_t Redone = 0;
+  std::vector<std::uint32_t> Unresolved; // particles after the last pass
+};
+
+// The kernels of one advection with their arguments.
+template <int Dimension>
+class KernelRun
+{
+public:
+  // Particles for which transfers that overlap with kernels pay.
+  static constexpr std::int64_t UsualPart = std::int64_t{ 1 } << 17;
+
+  // The job must outlive it. Without a map all particles take all steps. More particles than
+  // `mostOfPart` are run in parts, one after the other. Throws DeviceError.
+  KernelRun(Device& device, const DeviceProgram& program, const AdvectionJob<Dimension>& job,
+    std::shared_ptr<const DeviceTables<Dimension>> tables,
+    std::shared_ptr<const DeviceMap<Dimension>> map, std::int64_t mostOfPart = UsualPart);
+
+  // Makes the seeds of a part of the particles on the device: from(first, count, seeds), where the
+  // transfer of what is read there may be under way.
+  using Prepare = std::function<DeviceTransfer(
+    std::int64_t first, std::int64_t count, const DeviceBuffer& seeds)>;
+
+  // Writes where `count` particles go, interleaved, after all passes. Stops early, with undefined
+  // positions, where the progress is to stop. Throws DeviceError: positions are undefined.
+  KernelReport Run(Device& device, std::int64_t count, const Prepare& prepare, double* positions,
+    Progress& progress);
+
+  // Seeds in memory, which must not be used before the end of the run.
+  static Prepare FromPoints(Device& device, const double* points);
+  // The points of a lattice, in the order of its cells, from number `begin` on.
+  Prepare FromLattice(Device& device, const LatticeOrder<Dimension>& lattice, std::int64_t begin);
+
+private:
+  using Weights = std::shared_ptr<const DeviceBuffer>;
+  Weights WeightsOf(Device& device, std::int64_t steps);
+  void MakeRoom(Device& device, std::int64_t count, bool hasTwoSets);
+  template <class Meanwhile>
+  KernelReport RunForward(
+    Device& device, std::uint32_t count, const Meanwhile& meanwhile, Progress& progress);
+  template <class Meanwhile>
+  KernelReport RunBackward(
+    Device& device, std::uint32_t count, const Meanwhile& meanwhile, Progress& progress);
+  void RunPass(Device& device, int pass, int lastPass, std::uint32_t count, Progress& progress);
+  std::uint32_t CountPass(Device& device, std::uint32_t count, KernelReport& report);
+  // Calls run(first, last) for pieces of the steps, until the progress is to stop.
+  template <class RunPiece>
+  void ForPieces(Device& device, std::int64_t steps, std::uint32_t count, Progress& progress,
+    const RunPiece& run);
+
+  const AdvectionJob<Dimension>& Job;
+  const std::shared_ptr<const DeviceTables<Dimension>> Tables;
+  const std::shared_ptr<const DeviceMap<Dimension>> Map;
+  DeviceBuffer Input;
+  DeviceKernel Place;
+  DeviceKernel Advect;
+  DeviceKernel Count;
+  DeviceKernel Sum;
+  DeviceKernel Keep;
+  std::map<std::int64_t, Weights> OfSteps;
+  const std::int64_t MostOfPart; // particles
+  // Of as many particles as there were in any part. While kernels run on a set of seeds and
+  // positions, others are transferred.
+  std::int64_t Room = 0;
+  bool HasTwoSets = false;
+  DeviceBuffer Seeds[2];
+  DeviceBuffer Positions[2];
+  int Set = 0; // of the part that runs
+  DeviceBuffer Status;
+  DeviceBuffer Lists[2];
+  DeviceBuffer Counts; // of groups
+  DeviceBuffer Total;
+  DeviceBuffer States; // of particles whose steps are cut
+  bool IsListed = false;
+};
+
+} // namespace RectifiedTransport
+
+#endif
