@@ -12,6 +12,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/TableSettings.h"
+#include "Core/Device/DeviceUse.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkCellData.h"
@@ -97,7 +98,8 @@ int vtkDensityEqualizingWarp::RequestData(
   warp.Blend = this->Blend;
   warp.EqualizeAreas = this->EqualizeAreas != 0;
   const Ranks& ranks = this->GetRanks();
-  AlgorithmProgress progress(this, this->Threading, ranks);
+  DeviceUse device = this->BeginDevice();
+  AlgorithmProgress progress(this, this->Threading, ranks, &device);
   vtkPointSet* input = pointSetOf(inputVector[0]);
   const std::unique_ptr<InputDensity> density = withMargin(this->ReadDensity(inputVector, progress),
     this->Margin, emptyRule(this->EmptyCells, this->EmptyValue));
@@ -113,6 +115,7 @@ int vtkDensityEqualizingWarp::RequestData(
   output->GetCellData()->PassData(input->GetCellData());
   const DensityEqualizingWarp::Report report =
     warp.Run(*density, input, this->GetFlowCache(), progress, output);
+  this->EndDevice(device);
   const std::int64_t outside = sumOverRanks(ranks, report.Outside);
   const std::int64_t points = sumOverRanks<std::int64_t>(ranks, input->GetNumberOfPoints());
   addFieldValue(output, "OutsidePoints", static_cast<double>(outside));

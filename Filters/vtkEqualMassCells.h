@@ -74,6 +74,8 @@
  * sites are distributed very differently from the density, cells of equal mass may not be found;
  * this is an error.
  *
+ * The processor does the work, whatever Device is.
+ *
  * With several MPI ranks, rank 0 gathers all sites and the domain and does the work. Each rank gets
  * the extent of Labels that is requested of it. The other outputs are on rank 0.
  *

@@ -1,12 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportAlgorithm.h"
 
+#include "Bridge/Ranks/PlaceOnMachine.h"
+#include "Bridge/Run/MpiController.h"
+#include "Bridge/Run/SharedDevices.h"
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 
+#include "vtkNew.h"
+#include "vtkStringArray.h"
+
+#include <algorithm>
+#include <vector>
+
 VTK_ABI_NAMESPACE_BEGIN
 using namespace RectifiedTransport;
+
+namespace
+{
+const char* const DeviceTexts[] = { "CPU", "OpenCL" };
+} // namespace
+
+struct vtkTransportAlgorithm::vtkDevice
+{
+  std::string Name;
+  KeptDevice Kept;
+  vtkNew<vtkStringArray> Names; // that were asked for last
+};
 
 //------------------------------------------------------------------------------
 vtkTransportAlgorithm::vtkTransportAlgorithm(int densityPort)
@@ -18,6 +39,8 @@ vtkTransportAlgorithm::vtkTransportAlgorithm(int densityPort)
   , Tolerance(0.01)
   , TableLookup(INTERPOLATED)
   , FlowMaps(FLOW_MAPS_AUTO)
+  , Device(DEVICE_CPU)
+  , OwnDevice(new vtkDevice)
 {
 }
 
@@ -49,8 +72,84 @@ const char* vtkTransportAlgorithm::GetFlowMapsAsString()
 }
 
 //------------------------------------------------------------------------------
+const char* vtkTransportAlgorithm::GetDeviceAsString()
+{
+  return choiceText(DeviceTexts, this->Device);
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportAlgorithm::SetDeviceName(const char* name)
+{
+  const std::string given = name ? name : "";
+  if (given != this->OwnDevice->Name)
+  {
+    this->OwnDevice->Name = given;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+const char* vtkTransportAlgorithm::GetDeviceName()
+{
+  return this->OwnDevice->Name.c_str();
+}
+
+//------------------------------------------------------------------------------
+vtkStringArray* vtkTransportAlgorithm::GetDeviceNames()
+{
+  vtkStringArray* names = this->OwnDevice->Names;
+  names->Reset();
+  names->InsertNextValue("");
+  if (this->Device == DEVICE_OPENCL)
+  {
+    for (const std::string& name : deviceNames())
+    {
+      names->InsertNextValue(name);
+    }
+  }
+  return names;
+}
+
+//------------------------------------------------------------------------------
+DeviceUse vtkTransportAlgorithm::BeginDevice()
+{
+  if (this->Device != DEVICE_OPENCL)
+  {
+    this->OwnDevice->Kept.Release();
+    return DeviceUse(std::shared_ptr<RectifiedTransport::Device>());
+  }
+  // Ranks that run by themselves cannot ask each other for their machines.
+  const Ranks& ranks = this->GetRanks();
+  const int number =
+    ranks.AreSeveral() ? placeOnMachine(ranks, machineOfRank()) : pieceOfRank().Number;
+  return this->OwnDevice->Kept.Begin(this->OwnDevice->Name, number);
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportAlgorithm::EndDevice(const DeviceUse& device)
+{
+  if (this->Device != DEVICE_OPENCL)
+  {
+    return;
+  }
+  this->OwnDevice->Kept.End(device);
+  const std::string& fault = device.Fault();
+  const std::vector<Bytes> all = this->GetRanks().Gather(Bytes(fault.begin(), fault.end()));
+  const auto first =
+    std::find_if(all.begin(), all.end(), [](const Bytes& there) { return !there.empty(); });
+  if (first != all.end())
+  {
+    const auto rank = first - all.begin();
+    this->WarnOnFirstRank((rank > 0 ? "Rank " + std::to_string(rank) + ": " : "") +
+      std::string(first->begin(), first->end()) +
+      "; the processor did the work, with the same result");
+  }
+}
+
+//------------------------------------------------------------------------------
 FlowOptions vtkTransportAlgorithm::GetFlowOptions()
 {
+  requireChoice("Device", this->Device, DeviceTexts);
   return flowOptionsOf(*this);
 }
 
@@ -80,5 +179,7 @@ void vtkTransportAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Tables: " << this->GetTablesAsString() << "\n";
   printFlowOptions(*this, os, indent);
+  os << indent << "Device: " << this->GetDeviceAsString() << "\n";
+  os << indent << "DeviceName: " << this->OwnDevice->Name << "\n";
 }
 VTK_ABI_NAMESPACE_END

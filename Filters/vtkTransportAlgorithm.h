@@ -8,7 +8,7 @@
  * time 0 follow the velocity field of equation 12. The velocity needs the mass and the centroid of
  * the density in a box (equations 10 and 11). Both come from summed-area tables (Section 3.3).
  *
- * This class holds the properties of the tables and of the integration.
+ * This class holds the properties of the tables, of the integration and of the device.
  *
  * @sa vtkDensityAlgorithm vtkTransportSampler vtkTransportMap
  */
@@ -17,14 +17,19 @@
 
 #include "vtkDensityAlgorithm.h"
 
+#include <memory> // for std::unique_ptr
+#include <string> // for texts
+
 namespace RectifiedTransport
 {
+class DeviceUse;
 enum class FlowDirection;
 struct FlowOptions;
 struct FlowReport;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkStringArray;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportAlgorithm : public vtkDensityAlgorithm
 {
@@ -70,6 +75,15 @@ public:
   {
     INTERPOLATED = 0,
     NEAREST = 1
+  };
+
+  /**
+   * What Device may be.
+   */
+  enum DeviceType
+  {
+    DEVICE_CPU = 0,
+    DEVICE_OPENCL = 1
   };
 
   ///@{
@@ -165,6 +179,39 @@ public:
   const char* GetFlowMapsAsString();
   ///@}
 
+  ///@{
+  /**
+   * Where the flow is computed: CPU (default), or OpenCL: on a device, usually a graphics card,
+   * with the same bits. What a device does not support the processor does. If there is no device,
+   * or it fails, a warning says why, and the processor does all. A device needs double precision
+   * and has to pass a test of its arithmetic when it is opened, which takes about a second. It
+   * stays open, for all filters of the program, until the last filter that uses it is deleted or
+   * set to CPU. Devices with slow double precision, as most graphics cards for games, may be slower
+   * than a processor of many cores. With several MPI ranks on a machine, each takes the next
+   * device.
+   */
+  vtkSetMacro(Device, int);
+  vtkGetMacro(Device, int);
+  void SetDeviceToCPU() { this->SetDevice(DEVICE_CPU); }
+  void SetDeviceToOpenCL() { this->SetDevice(DEVICE_OPENCL); }
+  const char* GetDeviceAsString();
+  ///@}
+
+  ///@{
+  /**
+   * With OpenCL: the name of the device, or a part of it, in any case of letters. Of several such
+   * devices the first that can be used is taken. Empty (default): any device.
+   */
+  void SetDeviceName(const char* name);
+  const char* GetDeviceName();
+  ///@}
+
+  /**
+   * With Device OpenCL: the empty text, and the names of the devices of this machine that have what
+   * is needed. With CPU only the empty text: no driver is loaded to find devices that nobody uses.
+   */
+  vtkStringArray* GetDeviceNames();
+
 protected:
   /**
    * The density is on input port `densityPort`.
@@ -173,9 +220,19 @@ protected:
   ~vtkTransportAlgorithm() override;
 
   /**
-   * The properties of the integration, checked. Throws what RequestData may throw.
+   * The properties of the integration, checked; so is Device. Throws what RequestData may throw.
    */
   RectifiedTransport::FlowOptions GetFlowOptions();
+
+  /**
+   * The device of a run, opened. Collective.
+   */
+  RectifiedTransport::DeviceUse BeginDevice();
+
+  /**
+   * Call it after the run. Warns once for all ranks if the device of one did not serve. Collective.
+   */
+  void EndDevice(const RectifiedTransport::DeviceUse& device);
 
   /**
    * Warns on the first rank if a flow does not keep AreaTolerance. `name` precedes the text.
@@ -196,8 +253,12 @@ protected:
   double Tolerance;
   int TableLookup;
   int FlowMaps;
+  int Device;
 
 private:
+  struct vtkDevice;
+  std::unique_ptr<vtkDevice> OwnDevice;
+
   vtkTransportAlgorithm(const vtkTransportAlgorithm&) = delete;
   void operator=(const vtkTransportAlgorithm&) = delete;
 };

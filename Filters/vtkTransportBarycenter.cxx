@@ -4,6 +4,7 @@
 #include "Bridge/Blend/DensityBlend.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
+#include "Core/Device/DeviceUse.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -149,7 +150,8 @@ int vtkTransportBarycenter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const BlendSettings settings = this->GetBlendSettings();
-  AlgorithmProgress progress(this, this->Threading, this->GetRanks());
+  DeviceUse device = this->BeginDevice();
+  AlgorithmProgress progress(this, this->Threading, this->GetRanks(), &device);
 
   std::vector<BlendInput> inputs = this->ReadInputs(inputVector, nullptr, progress);
   if (inputs.empty())
@@ -163,6 +165,7 @@ int vtkTransportBarycenter::RequestData(
   }
   const BlendReport report =
     this->Blend->Run(inputs, settings, this->GetFlowCache(), progress, BlendOutput(outputVector));
+  this->EndDevice(device);
   this->WarnOfMaps(report);
   return 1;
 }

@@ -5,6 +5,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/SeparateInputs.h"
+#include "Core/Device/DeviceUse.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -165,7 +166,8 @@ int vtkTransportInterpolator::RequestData(
   const double parameter = this->FindParameter(request, outputVector);
   BlendSettings settings = this->GetBlendSettings();
   settings.ComparesEnds = true;
-  AlgorithmProgress progress(this, this->Threading, this->GetRanks());
+  DeviceUse device = this->BeginDevice();
+  AlgorithmProgress progress(this, this->Threading, this->GetRanks(), &device);
   static const char* const names[] = { "Source", "Target" };
   std::vector<BlendInput> inputs = this->ReadInputs(inputVector, names, progress);
   if (!inputs.empty())
@@ -174,6 +176,7 @@ int vtkTransportInterpolator::RequestData(
     inputs[1].Weight = parameter;
     const BlendReport report =
       this->Blend->Run(inputs, settings, this->GetFlowCache(), progress, BlendOutput(outputVector));
+    this->EndDevice(device);
     this->WarnOfMaps(report);
   }
   for (int i = 0; this->PublishTime && i < outputVector->GetNumberOfInformationObjects(); ++i)

@@ -11,6 +11,7 @@
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/MissingData.h"
 #include "Bridge/Settings/TableSettings.h"
+#include "Core/Device/DeviceUse.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -121,7 +122,8 @@ int vtkTransportMap::RequestData(
   map.EqualizeAreas = this->EqualizeAreas != 0;
   std::copy_n(this->SampleDimensions, 3, map.SampleDimensions.begin());
   const Ranks& ranks = this->GetRanks();
-  AlgorithmProgress progress(this, this->Threading, ranks);
+  DeviceUse device = this->BeginDevice();
+  AlgorithmProgress progress(this, this->Threading, ranks, &device);
 
   const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
   if (!density)
@@ -133,6 +135,7 @@ int vtkTransportMap::RequestData(
   const Extent wanted = extentToGive(map.SampleGrid(*density).Extent(), outputInformation, ranks);
   const TransportMap::Report result =
     map.Run(*density, wanted, this->GetFlowCache(), progress, output);
+  this->EndDevice(device);
   // The association of the density may not be known before the data.
   announceGrid(result.Grid, outputInformation);
   this->WarnOfSteps(

@@ -10,6 +10,7 @@
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/SeedSettings.h"
 #include "Bridge/Settings/TableSettings.h"
+#include "Core/Device/DeviceUse.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -98,7 +99,8 @@ int vtkTransportSampler::RequestData(
   requireThat(
     this->FlowTime >= 0.0 && this->FlowTime <= 1.0, "FlowTime", this->FlowTime, "from 0 to 1");
   const Ranks& ranks = this->GetRanks();
-  AlgorithmProgress progress(this, this->Threading, ranks);
+  DeviceUse device = this->BeginDevice();
+  AlgorithmProgress progress(this, this->Threading, ranks, &device);
 
   const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
   if (!density)
@@ -114,6 +116,7 @@ int vtkTransportSampler::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const TransportSampler::Report report =
     sampler.Run(*density, seeds, this->GetFlowCache(), progress, output);
+  this->EndDevice(device);
   this->WarnOfSteps(report.Flow, sampler.Flow, FlowDirection::Forward);
   const std::string ofAll = " of " + std::to_string(report.Particles);
   if (report.SeedsMoved > 0)

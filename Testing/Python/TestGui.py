@@ -6,6 +6,7 @@ import shutil
 import unittest
 from unittest import mock
 
+import rectifiedtransport
 from PIL import Image
 from rt_filters import FILTERS, by_label
 from rt_gui import PHOTOGRAPH, GuiTest, numbers, proxies_of, values
@@ -244,6 +245,34 @@ class Gui(GuiTest):
         given = [next(prop for prop in proxies_of(state)["EqualMassCells"].iter("Property")
                       if prop.get("name") == "Domain") for state in saved]
         self.assertEqual([len(prop.findall("Proxy")) for prop in given], [1, 0])
+
+    def test_devices(self):
+        """Those of the machine are listed once OpenCL is applied. A name that is not in the list, given
+        by a script, stays."""
+        asked = rectifiedtransport.vtkTransportSampler()
+        asked.SetDeviceToOpenCL()
+        names = asked.GetDeviceNames()
+        names = [names.GetValue(i) for i in range(names.GetNumberOfValues())]
+        device, name = (PANEL + widget + "/ComboBox" for widget in ("Device", "DeviceName"))
+        listed = (ADVANCED, choose("Filters", "TransportSampler"), (device, "set_string", "OpenCL"),
+                  (name, "is visible", "true"), (name, "is currentText", ""), APPLY,
+                  (name, "is count", str(len(names))))
+        cpu = ((device, "set_string", "CPU"), (name, "is visible", "false"), APPLY)
+        saved = self.states_after("gui-device.png", listed,
+                                  ((name, "set_string", names[-1]), APPLY), cpu)
+        for state, expected in zip(saved, (("1", ""), ("1", names[-1]), ("0", names[-1]))):
+            sampler = proxies_of(state)["TransportSampler"]
+            self.assertEqual((*values(sampler, "Device"), *values(sampler, "DeviceName")), expected)
+        given = """
+sampler = SampleDensity(Input=photograph, NumberOfParticles=50, Device='OpenCL', DeviceName='Another')
+Show(sampler)
+SetActiveSource(sampler)
+"""
+        number = PANEL + "NumberOfParticles/IntRangeWidget/LineEdit"
+        saved = self.state_after("gui-another-device.png", (number, "set_string", "60"), APPLY,
+                                 script_text=OPEN + given)
+        self.assertEqual(values(proxies_of(saved)["TransportSampler"], "DeviceName"), ["Another"])
+        self.assertEqual(numbers(saved, "TransportSampler", "NumberOfParticles"), [60])
 
     def test_numbers_beyond_a_slider_are_typed(self):
         number = PANEL + "NumberOfParticles/IntRangeWidget/LineEdit"

@@ -23,8 +23,8 @@ SMOOTH = {"Kernel": "TriangularShapedCloud"}
 RULES = ["Component", "InvertDensity", "NegativeValues", "NaNValues", "ValidRange", "DensityResolution"]
 DENSITY_PANEL = ["DensityArray", *RULES]
 FLOW_PANEL = ["Integrator", "NumberOfSteps", "AreaTolerance", "Tolerance", "TableLookup", "FlowMaps"]
-BLEND_PANEL = ["ParticlesPerCell", "MassMode", "Dimensions", "Kernel", "Radius",
-               *FLOW_PANEL, "Tables", "Threading"]
+TILED_PANEL = [*FLOW_PANEL, "Tables", "Device", "DeviceName", "Threading"]
+BLEND_PANEL = ["ParticlesPerCell", "MassMode", "Dimensions", "Kernel", "Radius", *TILED_PANEL]
 
 
 class Filter(NamedTuple):
@@ -78,7 +78,7 @@ FILTERS = [
     Filter("Sample Density", "vtkTransportSampler",
            {"Input": "density"}, {"Seeds": "points"},
            panel=["Seeds", "NumberOfParticles", "SeedPattern", "RandomSeed", "SamplesPerCell", "FlowTime",
-                  *DENSITY_PANEL, "OutputPaths", "SampleArrays", *FLOW_PANEL, "Tables", "Threading"],
+                  *DENSITY_PANEL, "OutputPaths", "SampleArrays", *TILED_PANEL],
            refused=("NumberOfSteps", -1, 2), quick=dict(NumberOfParticles=50),
            variants={"paths": dict(NumberOfParticles=5, OutputPaths=1, NumberOfSteps=4)},
            saved=dict(InvertDensity=1, FlowTime=0.75, Integrator="RungeKutta4", NumberOfSteps=12,
@@ -88,8 +88,8 @@ FILTERS = [
                                     "array": "Time"}),
                   ("FirstDisplay", {"property": "OutputPaths", "value": "0", **DOTS})]),
     Filter("Transport Map", "vtkTransportMap", {"Input": "density"},
-           panel=["Direction", "EqualizeAreas", *DENSITY_PANEL, "EmptyCells", "EmptyValue", "SampleDimensions", *FLOW_PANEL, "Tables",
-                  "Threading"],
+           panel=["Direction", "EqualizeAreas", *DENSITY_PANEL, "EmptyCells", "EmptyValue", "SampleDimensions",
+                  *TILED_PANEL],
            refused=("NumberOfSteps", -1, 2),
            saved=dict(InvertDensity=1, Direction="DensityToUniform", EqualizeAreas=1, EmptyCells="Least",
                       SampleDimensions=[20, 30, 1], Integrator="Adaptive", Tolerance=0.5),
@@ -162,7 +162,7 @@ FILTERS = [
            shown=PARTICLES),
     Filter("Density-Equalizing Warp", "vtkDensityEqualizingWarp",
            {"Input": "mesh", "Density": "density"},
-           panel=["Blend", "EqualizeAreas", *DENSITY_PANEL, "EmptyCells", "EmptyValue", "Margin", *FLOW_PANEL, "Tables", "Threading"],
+           panel=["Blend", "EqualizeAreas", *DENSITY_PANEL, "EmptyCells", "EmptyValue", "Margin", *TILED_PANEL],
            refused=("Blend", -0.5, 1),
            saved=dict(InvertDensity=1, Blend=0.25, EqualizeAreas=1, NumberOfSteps=9, EmptyCells="Value",
                       EmptyValue=80, Margin=0.05),
@@ -223,6 +223,8 @@ PROPERTIES = {
     "FlowMaps": Property(["Auto", "On", "Off"], advanced=True, shown_by=("Integrator",), differing=(1, 2),
                          needs_large=True),
     "Tables": Property(["Auto", "Whole", "Tiled"], advanced=True),
+    "Device": Property(["CPU", "OpenCL"], advanced=True),
+    "DeviceName": Property(advanced=True, shown_by=("Device",)),  # both change the time alone
     "Threading": Property(["Auto", "VTK", "OpenMP", "Serial"], advanced=True),
     "Direction": Property(["UniformToDensity", "DensityToUniform"]),
     "EqualizeAreas": Property(shown_by=("Direction",), differing=(0, 1)),

@@ -14,7 +14,8 @@ namespace RectifiedTransport
 namespace
 {
 
-Context contextOf(vtkAlgorithm* algorithm, const Executor& threads, const Ranks& group)
+Context contextOf(
+  vtkAlgorithm* algorithm, const Executor& threads, const Ranks& group, DeviceUse* device)
 {
   Context context(
     threads, [algorithm](double fraction) { algorithm->UpdateProgress(fraction); },
@@ -30,19 +31,21 @@ Context contextOf(vtkAlgorithm* algorithm, const Executor& threads, const Ranks&
       return algorithm->GetAbortExecute() != 0;
     });
   context.Group = &group;
+  context.Device = device;
   return context;
 }
 
 } // namespace
 
-AlgorithmProgress::AlgorithmProgress(vtkAlgorithm* algorithm, int threading, const Ranks& group)
-  : AlgorithmProgress(algorithm, makeExecutor(threading), group)
+AlgorithmProgress::AlgorithmProgress(
+  vtkAlgorithm* algorithm, int threading, const Ranks& group, DeviceUse* device)
+  : AlgorithmProgress(algorithm, makeExecutor(threading), group, device)
 {
 }
 
 AlgorithmProgress::AlgorithmProgress(
-  vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads, const Ranks& group)
-  : Progress(contextOf(algorithm, *threads, group))
+  vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads, const Ranks& group, DeviceUse* device)
+  : Progress(contextOf(algorithm, *threads, group, device))
   , OwnThreads(std::move(threads))
 {
 }

@@ -17,16 +17,21 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
+class DeviceUse;
+
 // Construct it on the thread that executes the algorithm.
 class AlgorithmProgress final : public Progress
 {
 public:
   // `threading` is a value of vtkCollectiveAlgorithm::ThreadingType; others throw Failure. `group`:
-  // the ranks that run the algorithm together.
-  AlgorithmProgress(vtkAlgorithm* algorithm, int threading, const Ranks& group = SoloRanks::Get());
+  // the ranks that run the algorithm together. `device`: what may do its advections, and must
+  // outlive this; none if null.
+  AlgorithmProgress(vtkAlgorithm* algorithm, int threading, const Ranks& group = SoloRanks::Get(),
+    DeviceUse* device = nullptr);
 
 private:
-  AlgorithmProgress(vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads, const Ranks& group);
+  AlgorithmProgress(vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads, const Ranks& group,
+    DeviceUse* device);
 
   const std::unique_ptr<Executor> OwnThreads;
 };

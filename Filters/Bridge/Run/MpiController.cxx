@@ -36,6 +36,11 @@ DataPiece pieceOfRank()
   return { mpiController()->GetLocalProcessId(), mpiController()->GetNumberOfProcesses() };
 }
 
+std::string machineOfRank()
+{
+  return haveSeveralRanks() ? vtkMPIController::GetProcessorName() : "";
+}
+
 #else
 
 bool haveSeveralRanks()
@@ -51,6 +56,11 @@ bool isPieceOfRanks(int, int)
 DataPiece pieceOfRank()
 {
   return { 0, 1 };
+}
+
+std::string machineOfRank()
+{
+  return {};
 }
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "Bridge/VTKCompatibility.h"
 
+#include <string>
+
 VTK_ABI_NAMESPACE_BEGIN
 class vtkMPIController;
 VTK_ABI_NAMESPACE_END
@@ -29,6 +31,9 @@ struct DataPiece
 
 // The piece of this rank: all data if there is one.
 DataPiece pieceOfRank();
+
+// MPI's name of the machine that this rank runs on; empty without MPI.
+std::string machineOfRank();
 
 } // namespace RectifiedTransport
 

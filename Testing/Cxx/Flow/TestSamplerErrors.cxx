@@ -88,6 +88,9 @@ void checkProperties(Checks& checks)
   test.Expect({ "Tables is Tiled", "NumberOfSteps 2" }, __LINE__);
   s->SetNumberOfSteps(32);
   s->SetTablesToAuto();
+  s->SetDevice(2);
+  test.Expect({ "Device is 2", "0 (CPU) or 1 (OpenCL)" }, __LINE__);
+  s->SetDeviceToCPU();
   s->SetThreading(4);
   test.Expect({ "Threading is 4", "0 (Auto)", "3 (Serial)" }, __LINE__);
   s->SetThreading(0);

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef RectifiedTransport_PlaceOnMachine_h
+#define RectifiedTransport_PlaceOnMachine_h
+
+#include "Core/Parallel/Ranks.h"
+
+#include <string>
+
+namespace RectifiedTransport
+{
+
+// How many ranks of a group before this one run on a machine of the same name. Collective.
+int placeOnMachine(const Ranks& ranks, const std::string& machine);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Run/SharedDevices.h"
+
+#include "Core/Device/DeviceError.h"
+#include "Core/Device/DeviceList.h"
+
+#include <algorithm>
+#include <mutex>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+class DeviceRegistry
+{
+public:
+  static DeviceRegistry& Get()
+  {
+    static DeviceRegistry registry;
+    return registry;
+  }
+
+  std::shared_ptr<Device> FindOrOpen(const std::string& name, int number)
+  {
+    // Held while a device is opened: who asks for it meanwhile gets the same one.
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    std::vector<std::shared_ptr<Device>> open;
+    for (const std::weak_ptr<Device>& entry : this->Entries)
+    {
+      if (std::shared_ptr<Device> device = entry.lock())
+      {
+        open.push_back(std::move(device));
+      }
+    }
+    std::shared_ptr<Device> found = openDevice(name, number, open);
+    if (std::find(open.begin(), open.end(), found) == open.end())
+    {
+      open.push_back(found);
+    }
+    this->Entries.assign(open.begin(), open.end());
+    return found;
+  }
+
+private:
+  std::mutex Mutex;
+  std::vector<std::weak_ptr<Device>> Entries;
+};
+
+} // namespace
+
+DeviceUse KeptDevice::Begin(const std::string& name, int number)
+{
+  if (this->Opened && name == this->Name && number == this->Number)
+  {
+    return DeviceUse(this->Opened);
+  }
+  this->Release();
+  try
+  {
+    this->Opened = DeviceRegistry::Get().FindOrOpen(name, number);
+    this->Name = name;
+    this->Number = number;
+    return DeviceUse(this->Opened);
+  }
+  catch (const DeviceError& error)
+  {
+    return DeviceUse(std::string(error.what()));
+  }
+}
+
+void KeptDevice::End(const DeviceUse& use)
+{
+  if (!use.Fault().empty())
+  {
+    this->Release();
+  }
+}
+
+std::vector<std::string> deviceNames()
+{
+  std::vector<std::string> names;
+  for (const DeviceDescription& device : listDevices())
+  {
+    if (device.Lacks.empty() && std::find(names.begin(), names.end(), device.Name) == names.end())
+    {
+      names.push_back(device.Name);
+    }
+  }
+  return names;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The OpenCL devices that are open in this process: all filters use one together.
+#ifndef RectifiedTransport_SharedDevices_h
+#define RectifiedTransport_SharedDevices_h
+
+#include "Core/Device/DeviceUse.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// What a filter keeps of its device between runs: to open one takes about a second, and what the
+// device keeps goes with its last owner.
+class KeptDevice
+{
+public:
+  // The device for a run, by a name and a number as those of openDevice (DeviceList.h): the one of
+  // the last run, else one that another filter has open, else a new one. If there is none, the
+  // result says why, and the next run tries again.
+  DeviceUse Begin(const std::string& name, int number);
+  // After a run: lets go of a device that failed in it, so that the next run opens it anew.
+  void End(const DeviceUse& use);
+  // What is open, if no run needs it any more.
+  void Release() { this->Opened.reset(); }
+
+  std::shared_ptr<const Device> Get() const { return this->Opened; } // may be null
+
+private:
+  std::shared_ptr<Device> Opened;
+  std::string Name;
+  int Number = 0;
+};
+
+// The names of the devices of this machine that lack nothing, each once. Loads the driver.
+std::vector<std::string> deviceNames();
+
+} // namespace RectifiedTransport
+
+#endif
