@@ -32,6 +32,7 @@ void drawBlend(Settings& settings)
     { 0.0, -1.0, 10001.0, NaN, Infinity }, 0.3);
   drawFlowSettings<vtkTransportAlgorithm>(settings);
   drawTables<Blend>(settings);
+  drawDevice<Blend>(settings);
   drawDensitySettings(settings);
 }
 

@@ -4,9 +4,17 @@
 #include "vtkDataSetAttributes.h"
 
 #include <array>
+#include <cstdlib>
+#include <string>
 
 namespace Campaign
 {
+
+bool isOnProcessor()
+{
+  const char* const processor = std::getenv("RT_CAMPAIGN_PROCESSOR");
+  return processor && std::string(processor) == "1";
+}
 
 void drawDensitySettings(Settings& settings)
 {

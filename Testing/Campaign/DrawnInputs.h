@@ -8,6 +8,7 @@
 #include "vtkTransportAlgorithm.h"
 
 #include <limits>
+#include <string>
 
 namespace Campaign
 {
@@ -41,6 +42,30 @@ template <class T>
 void drawTables(Settings& settings)
 {
   settings.Draw<T, int>("Tables", &T::SetTables, { 0, 1, 2 }, { -1, 3 }, 0.5);
+}
+
+// Whether runs take the processor where a device is drawn, as the reference that others have.
+bool isOnProcessor();
+
+// Where the flow is computed, by choices that leave those of other settings as they are; some
+// machines have a device of each name but the last. It must not matter.
+template <class T>
+void drawDevice(Settings& settings)
+{
+  RandomSource before = settings.GetRandom();
+  RandomSource random(before.Next());
+  const bool inRange = !random.Chance(0.015);
+  const int device = inRange ? random.Of({ 0, 1, 1, 1 }) : random.Of({ -1, 2 });
+  const std::string name = random.Of({ "", "", "", "", "pthread", "none" });
+  settings.Add(
+    "Device", std::to_string(device),
+    [device](vtkAlgorithm* filter) {
+      const bool replaces = device == T::DEVICE_OPENCL && isOnProcessor();
+      static_cast<T*>(filter)->SetDevice(replaces ? T::DEVICE_CPU : device);
+    },
+    inRange);
+  settings.Add("DeviceName", name,
+    [name](vtkAlgorithm* filter) { static_cast<T*>(filter)->SetDeviceName(name.c_str()); });
 }
 
 void drawDensitySettings(Settings& settings);

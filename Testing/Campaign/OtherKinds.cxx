@@ -58,6 +58,7 @@ void drawCells(Settings& settings)
   settings.Draw<Cells, int>(
     "DensityResolution", &Cells::SetDensityResolution, { 1, 9, 16, 40 }, {}, 0.2);
   settings.Draw<Cells, int>("Tables", &Cells::SetTables, { 0, 1, 2 }, {}, 0.2);
+  drawDevice<Cells>(settings);
 }
 
 Inputs drawCellsInputs(RandomSource& random, Settings& settings)

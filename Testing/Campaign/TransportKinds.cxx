@@ -52,6 +52,7 @@ void drawSampler(Settings& settings)
   settings.Draw<Sampler, vtkTypeBool>("SampleArrays", &Sampler::SetSampleArrays, { 0, 1 }, {});
   drawFlowSettings<vtkTransportAlgorithm>(settings);
   drawTables<Sampler>(settings);
+  drawDevice<Sampler>(settings);
   drawDensitySettings(settings);
 }
 
@@ -184,6 +185,7 @@ void drawMap(Settings& settings)
   }
   drawFlowSettings<vtkTransportAlgorithm>(settings);
   drawTables<Map>(settings);
+  drawDevice<Map>(settings);
   drawDensitySettings(settings);
 }
 
@@ -259,6 +261,7 @@ void drawWarp(Settings& settings)
     "Margin", &Warp::SetMargin, { 0.0, 0.05, 0.3 }, { -0.1, 10.5, NaN }, 0.3);
   drawFlowSettings<vtkTransportAlgorithm>(settings);
   drawTables<Warp>(settings);
+  drawDevice<Warp>(settings);
   drawDensitySettings(settings);
 }
 

@@ -24,7 +24,8 @@ import sys
 import tempfile
 
 # (name, instruction set, VTK's backend, threads). Auto and OpenMP run on OMP_NUM_THREADS threads,
-# VTK on its backend. Where a machine lacks an instruction set it runs the widest that it has.
+# VTK on its backend. Where a machine lacks an instruction set it runs the widest that it has. The
+# first computes on the processor what the others compute on a device, if there is one.
 SETTINGS = [
     ("SSE2, one thread", "SSE2", "Sequential", 1),
     ("AVX2, two threads of OpenMP", "AVX2", "Sequential", 2),
@@ -49,7 +50,8 @@ def run_cases(program, setting, seed, first, count, limit, crafted):
     """The cases of a block, and the ends of processes: [(case, text)]. Crafted: the folder of files."""
     _, instructions, backend, threads = setting
     environment = dict(os.environ, RECTIFIEDTRANSPORT_ISA=instructions, OMP_NUM_THREADS=str(threads),
-                       OMP_WAIT_POLICY="passive", OMP_DYNAMIC="false")
+                       OMP_WAIT_POLICY="passive", OMP_DYNAMIC="false",
+                       RT_CAMPAIGN_PROCESSOR=str(int(setting == SETTINGS[0])))
     cases, ends = [], []
     end = first + count
     while first < end:

@@ -3,7 +3,7 @@
 """The bits that the filters compute: digests of the outputs of runs which take every filter,
 dimension and family of options.
 
-usage: python3 TestDigests.py [--record | --against FILE]
+usage: python3 TestDigests.py [--record | --against FILE] [--device]
 
 Imports rectifiedtransport, whose folder PYTHONPATH has to name. Without an option the digests are
 compared with Testing/Data/digests.json, which --record writes; --against compares with another such file. A
@@ -172,9 +172,30 @@ def sheet(columns=24, rows=17, quads=False):
     return surface
 
 
+class Devices:
+    """Whether filters that can do their work on a device are to, and what they say if none did it."""
+    asked = False
+    faults = []
+    keeper = None  # of the device between runs: to open it takes long
+
+    @classmethod
+    def ask(cls, algorithm):
+        if cls.asked and hasattr(algorithm, "SetDeviceToOpenCL"):
+            algorithm.SetDeviceToOpenCL()
+            algorithm.AddObserver("WarningEvent", cls.keep)
+            cls.keeper = cls.keeper or algorithm
+
+    @classmethod
+    def keep(cls, _, __, text):
+        if "the processor did the work" in text:
+            cls.faults.append(text)
+    keep.__func__.CallDataType = "string0"
+
+
 def run(filter_class, *inputs, array=None, **properties):
     """The outputs of a filter; inputs are those of its ports, None for none."""
     algorithm = filter_class()
+    Devices.ask(algorithm)
     if filter_class is rt.vtkTransportSampler and "SampleArrays" not in properties:
         algorithm.SampleArraysOff()
     for port, data in enumerate(inputs):
@@ -425,8 +446,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--record", action="store_true")
     parser.add_argument("--against", default=os.path.join(HERE, "..", "Data", "digests.json"))
+    parser.add_argument("--device", action="store_true", help="of work that OpenCL devices do")
     options = parser.parse_args()
+    Devices.asked = options.device
     found = digests()
+    if Devices.faults:
+        print(f"{len(Devices.faults)} runs without a device: {Devices.faults[0]}")
+        return 1 if "RT_OPENCL" in os.environ else 77
     if options.record:
         with open(options.against, "w", encoding="utf-8") as file:
             json.dump(found, file, indent=1)

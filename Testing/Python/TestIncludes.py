@@ -14,7 +14,7 @@ CORE = {
     "Geometry": {"Parallel"},
     "Mesh": {"Parallel", "Geometry"},
     "Tables": {"Parallel", "Geometry"},
-    "Flow": {"Parallel", "Geometry", "Tables"},
+    "Flow": {"Parallel", "Device", "Geometry", "Tables"},
     "Equalize": {"Parallel", "Geometry", "Tables", "Flow"},
     "Cartogram": {"Parallel", "Geometry", "Overlap", "Tables", "Flow"},
     "SiteCells": {"Parallel", "Algebra", "Geometry", "Tables", "Flow", "PowerCells"},

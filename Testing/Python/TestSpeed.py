@@ -97,6 +97,19 @@ class Speed(unittest.TestCase):
                 with self.subTest(text):
                     self.assertIn(without_figures(" ".join(text.split())), page)
 
+    def test_devices(self):
+        """Documentation/Devices.md has the table of --device."""
+        report = ("A device\ncase,tables,processor,processor_least,device,device_least,bytes_to,"
+                  "bytes_from,kernels\n\"one a cell of 1024^2\",kept,2,1,3,2,1000,2000,5\n")
+        with contextlib.redirect_stdout(io.StringIO()) as output:
+            benchmarks.devices(report)
+        with open(os.path.join(SOURCE, "Documentation", "Devices.md"), encoding="utf-8") as file:
+            page = tables(file.read())
+        (head, rows), = tables(output.getvalue()).items()
+        self.assertIn(head, page)
+        self.assertEqual(rows[0], page[head][0])
+        self.assertIn("one a cell of 1024²", [row.split("|")[1].strip() for row in page[head][1:]])
+
 
 if __name__ == "__main__":
     main()
