@@ -11,7 +11,7 @@ usage: bash Testing/run.sh [--long] [--gui] [--core] [--asan] [--tsan] [--vtk]
   Builds Release into build/ and runs its tests. Further legs:
   --long   also the tests that take minutes
   --gui    also the tests that drive ParaView's own window, on a virtual display
-  --core   the core without VTK, its tests and its installation, in build-core/
+  --core   the core without VTK and OpenCL, its tests and its installation, in build-core/
   --asan   the C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer, in build-asan/
   --tsan   the core's parallel tests under ThreadSanitizer, with Clang's OpenMP, in build-tsan/
   --vtk    the tests against the suite's own plain VTK, unpacked into build-vtk-prefix/
@@ -108,7 +108,9 @@ run_tests()
 # The legs below run as conditions, where bash does not stop at errors by itself: hence each &&.
 run_core()
 {
-  configure_and_build "$root/build-core" --preset core && run_tests "$root/build-core"
+  # All other legs have OpenCL, if its header is there.
+  configure_and_build "$root/build-core" --preset core -DRectifiedTransport_OPENCL=OFF &&
+    run_tests "$root/build-core"
 }
 
 run_asan()

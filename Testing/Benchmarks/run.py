@@ -3,11 +3,14 @@
 
 usage: python3 run.py [--help] [--repetitions N] [--quality | --steps | ...] PROGRAM
        python3 run.py --cartograms [--maps FOLDER] PROGRAM
+       python3 run.py --device PROGRAM
 
 Every figure is the median of the repetitions, which are interleaved at random. One thread is
-measured in processor time, two in wall-clock time.
+measured in processor time, two in wall-clock time. --device runs RectifiedTransportDeviceReport,
+which lies beside PROGRAM, for the table of Documentation/Devices.md, in wall-clock time.
 """
 import argparse
+import csv
 import json
 import os
 import statistics
@@ -86,14 +89,18 @@ def grids(group, squares=()):
             [(f"{side}³", f"{group}3D/%s/{side}") for side in (64, 128, 256)])
 
 
-def machine(results):
-    model = "unknown processor"
+def processor():
     if os.path.exists("/proc/cpuinfo"):
         with open("/proc/cpuinfo", encoding="utf-8") as lines:
-            model = next((line.split(":")[1].strip() for line in lines
-                          if line.startswith("model name")), model)
+            for line in lines:
+                if line.startswith("model name"):
+                    return line.split(":")[1].strip()
+    return "unknown processor"
+
+
+def machine(results):
     context = results.context
-    return (f"{model} ({context['num_cpus']} processors, {context['mhz_per_cpu']} MHz, "
+    return (f"{processor()} ({context['num_cpus']} processors, {context['mhz_per_cpu']} MHz, "
             f"{context.get('instruction_set', '?')} kernels, gcc {context.get('compiler', '?')})")
 
 
@@ -396,6 +403,22 @@ def cartograms(r):
                  "shape", "turn", "time", "memory"], rows)
 
 
+def devices(report):
+    """Times of a device, from the comma-separated lines of the report below the device's name."""
+    name, *lines = report.splitlines()
+    print_text(f"Whole flows in 32 steps on {name}, beside all {os.cpu_count()} threads of an "
+               f"{processor()}, median of 5 and the least:")
+    rows = []
+    for run in csv.DictReader(lines):
+        times = (f"{milliseconds(float(run[who]))} ({milliseconds(float(run[who + '_least']))})"
+                 for who in ("processor", "device"))
+        megabytes = (f"{int(run['bytes_' + way]) / 1e6:.3g} MB" for way in ("to", "from"))
+        rows.append([run["case"].replace("^2", "²").replace("^3", "³"), run["tables"], *times,
+                     *megabytes, run["kernels"]])
+    print_table(["flow", "tables and maps", "processor", "device", "to the device",
+                 "from the device", "kernels"], rows)
+
+
 # What prints the figures without an option; of each option its help, benchmarks and what prints.
 ALL = (jobs, memory, core, flows, tables, breakdown, bandwidths, splats, errors)
 OPTIONS = {"quality": ("how good the particles are", "Quality", quality),
@@ -423,6 +446,17 @@ def run(arguments, names):
             return json.load(file)
 
 
+def run_report(program):
+    """What the report on a device says of times."""
+    report = os.path.join(os.path.dirname(os.path.abspath(program)),
+                          "RectifiedTransportDeviceReport")
+    done = subprocess.run([report, "--times", "--csv"], stdout=subprocess.PIPE, text=True,
+                          check=False)
+    if done.returncode != 0:
+        sys.exit(f"{done.stdout}\n{report} ended with {done.returncode}")
+    return done.stdout
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", help="RectifiedTransportBenchmarks")
@@ -430,9 +464,13 @@ def main():
     for option, (text, _, _) in OPTIONS.items():
         parser.add_argument(f"--{option}", action="store_const", const=option, dest="option",
                             help=f"only {text}")
+    parser.add_argument("--device", action="store_true",
+                        help="only times of an OpenCL device, the first that can be used")
     parser.add_argument("--maps", help="a folder that Maps/make.sh has made, for --cartograms")
     arguments = parser.parse_args()
 
+    if arguments.device:
+        return devices(run_report(arguments.program))
     if arguments.option:
         _, names, show = OPTIONS[arguments.option]
         with tempfile.TemporaryDirectory() as folder:
