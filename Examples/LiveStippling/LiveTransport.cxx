@@ -46,21 +46,27 @@ LiveTransport::LiveTransport(Painting& painting, int numberOfPoints)
   this->Sampler->SetSeedsData(this->Seeds);
   // The tables serve one update: a flow map, too, would have to pay for itself at once.
   this->Sampler->SetFlowMapsToOff();
-  vtkNew<vtkCallbackCommand> keep;
-  keep->SetClientData(&this->Error);
-  keep->SetCallback([](vtkObject*, unsigned long, void* error, void* text) {
-    *static_cast<std::string*>(error) = static_cast<const char*>(text);
-  });
-  this->Sampler->AddObserver(vtkCommand::ErrorEvent, keep);
-  // That particles of empty cells went to the nearest ink is no news for one who paints.
-  vtkNew<vtkCallbackCommand> ignore;
-  ignore->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  this->Sampler->AddObserver(vtkCommand::WarningEvent, ignore);
+  const auto keep = [this](unsigned long event, std::string& kept) {
+    vtkNew<vtkCallbackCommand> command;
+    command->SetClientData(&kept);
+    command->SetCallback([](vtkObject*, unsigned long, void* to, void* text) {
+      *static_cast<std::string*>(to) = static_cast<const char*>(text);
+    });
+    this->Sampler->AddObserver(event, command);
+  };
+  keep(vtkCommand::ErrorEvent, this->Error);
+  keep(vtkCommand::WarningEvent, this->Warning);
   this->Targets.resize(static_cast<std::size_t>(std::clamp(numberOfPoints, 1, MostPoints)));
   this->SetPainting(painting);
 }
 
 LiveTransport::~LiveTransport() = default;
+
+void LiveTransport::UseDevice(const std::string& name)
+{
+  this->Sampler->SetDeviceToOpenCL();
+  this->Sampler->SetDeviceName(name.c_str());
+}
 
 void LiveTransport::SetPainting(Painting& painting)
 {
@@ -166,7 +172,14 @@ bool LiveTransport::Update(bool changed)
     this->Density->GetCellData()->GetScalars()->Modified();
   }
   this->Error.clear();
+  this->Warning.clear();
   this->Sampler->Update();
+  // That particles of empty cells went to the nearest ink is no news for one who paints.
+  if (this->Warning.find("the processor did the work") != std::string::npos)
+  {
+    this->Sampler->SetDeviceToCPU();
+    this->Error = this->Warning;
+  }
   return true;
 }
 

@@ -38,6 +38,10 @@ public:
   void SetNumberOfPoints(int count);
   int GetNumberOfPoints() const { return static_cast<int>(this->Targets.size()); }
 
+  // Transports on an OpenCL device whose name contains a text, any if it is empty. Where that does
+  // not serve, the processor goes on, and GetError tells so once.
+  void UseDevice(const std::string& name);
+
   // Transports the points, if that changes them: `changed` is what the painting's Follows returned.
   bool Update(bool changed);
 
@@ -63,6 +67,7 @@ private:
   int Gliding = 0; // updates until the seeds are there
   long long NextId = 0;
   std::string Error;
+  std::string Warning;
 };
 
 #endif

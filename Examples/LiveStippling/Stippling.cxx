@@ -17,6 +17,10 @@ Stippling::Stippling(const Options& options)
   , Canvas(std::make_unique<Painting>(options.Side, options.Side, options.Wash))
   , Transport(std::make_unique<LiveTransport>(*this->Canvas, options.NumberOfPoints))
 {
+  if (!options.Device.empty())
+  {
+    this->Transport->UseDevice(options.Device == "any" ? "" : options.Device);
+  }
 }
 
 bool Stippling::Open(const std::string& path)

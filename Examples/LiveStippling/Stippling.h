@@ -16,8 +16,9 @@ public:
   struct Options
   {
     int NumberOfPoints = 16384;
-    int Side = 1024;   // cells along the longer side
-    float Wash = 0.1f; // ink of a blank sheet
+    int Side = 1024;    // cells along the longer side
+    float Wash = 0.1f;  // ink of a blank sheet
+    std::string Device; // a part of an OpenCL device's name, or "any"; empty: the processor
   };
 
   explicit Stippling(const Options& options);

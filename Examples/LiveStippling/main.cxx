@@ -19,10 +19,12 @@ namespace
 {
 
 const char* const usage =
-  "usage: LiveStippling [IMAGE] [--points N] [--side CELLS] [--drive UPDATES] [--picture FILE]\n"
+  "usage: LiveStippling [IMAGE] [--points N] [--side CELLS] [--device NAME] [--drive UPDATES]\n"
+  "                     [--picture FILE]\n"
   "  IMAGE           any picture that VTK reads; dark ink is mass\n"
   "  --points N      1 to 200000, 16384 by default\n"
   "  --side CELLS    of the density along its longer side: 64 to 4096, 1024 by default\n"
+  "  --device NAME   transport on an OpenCL device whose name contains this, or \"any\"\n"
   "  --drive UPDATES paints by itself, prints figures and ends: 5 or more\n"
   "  --picture FILE  a PNG of the window at the end\n";
 
@@ -74,6 +76,10 @@ Arguments parse(int argc, char* argv[])
     else if (name == "--side")
     {
       arguments.Options.Side = numberOf(name, value(), 64, 4096);
+    }
+    else if (name == "--device")
+    {
+      arguments.Options.Device = value();
     }
     else if (name == "--drive")
     {

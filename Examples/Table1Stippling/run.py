@@ -25,6 +25,11 @@ PAPER = [("8k, 1024\u00b2", "0.042", "152", "173"), ("8k, 1024\u00b2", "0.048", 
          ("16k, 1024\u00b2", "0.080", "852", "5653"), ("16k, 2048\u00b2", "0.12", "2400", "1056")]
 
 
+# And of its column "Ours (GPU)", on an NVIDIA GeForce RTX 2080.
+PAPER_GPU = ["0.012", "0.012", "0.018", "0.030"]
+ANY_DEVICE = "any"
+
+
 def photographs():
     """Two photographs of the project and two of python3-skimage; without it, the former twice."""
     found = importlib.util.find_spec("skimage")
@@ -36,17 +41,35 @@ def photographs():
     return SHIPPED * 2
 
 
-def stipplings(image, number, arguments):
-    """What each kind makes of an image: its points, their quality and the time it takes."""
-    clock = time.process_time if arguments.threading == "Serial" else time.perf_counter
-    direct = relaxing.start(image, number, Threading=arguments.threading)
+def directly(image, number, clock, **options):
+    """Sample Density, its points, and the median of its times with new tables."""
+    direct = relaxing.start(image, number, **options)
     example.result(direct)
     times = []
     for component in 0, -1, 0:  # the same values, but read again, to memory that is in use
         begin = clock()
         data = example.result(direct, Component=component)
         times.append(clock() - begin)
-    yield relaxing.places(data), figures.quality(direct, image, 64), float(np.median(times))
+    return direct, relaxing.places(data), float(np.median(times))
+
+
+def on_device(image, number, arguments):
+    """Seconds by the clock, all threads, without and with the device, and whether points are the
+    same to the last bit."""
+    name = "" if arguments.device == ANY_DEVICE else arguments.device
+    here, points, seconds = directly(image, number, time.perf_counter)
+    there, found, on = directly(image, number, time.perf_counter, Device="OpenCL", DeviceName=name)
+    simple.Delete(here)
+    simple.Delete(there)
+    return ["%.4f" % seconds, "%.4f" % on,
+            "the same" if np.array_equal(points, found) else "OTHERS"]
+
+
+def stipplings(image, number, arguments):
+    """What each kind makes of an image: its points, their quality and the time it takes."""
+    clock = time.process_time if arguments.threading == "Serial" else time.perf_counter
+    direct, points, seconds = directly(image, number, clock, Threading=arguments.threading)
+    yield points, figures.quality(direct, image, 64), seconds
     for method in relaxing.METHODS:
         proxy, data, seconds = relaxing.timed(lambda method=method: relaxing.relaxation(
             direct, image, method, MaximumIterations=arguments.iterations,
@@ -57,7 +80,7 @@ def stipplings(image, number, arguments):
 
 
 def rows_of(place, path, number, arguments):
-    """Rows of the table and pictures of a photograph: the photograph and its stipplings."""
+    """Rows of the tables and pictures of a photograph: the photograph and its stipplings."""
     side = arguments.size
     photograph = figures.grey_square(figures.photograph(path), side)
     values = figures.values_of(photograph)
@@ -65,6 +88,7 @@ def rows_of(place, path, number, arguments):
     image = example.producer(photograph)
     name = "%s, %d" % (example.stem(path), number)
     rows, pictures, direct = [], [(name, figures.grey(values))], None
+    device = [[name] + on_device(image, number, arguments)] if arguments.device else []
     for kind, (points, quality, seconds) in zip(KINDS, stipplings(image, number, arguments)):
         energy = relaxing.pixel_energy(points, ink)
         direct = direct or energy
@@ -78,7 +102,7 @@ def rows_of(place, path, number, arguments):
             place, example.stem(path), kind)), picture)
         pictures.append((kind, picture))
     simple.Delete(image)
-    return rows, pictures
+    return rows, device, pictures
 
 
 def middle(picture, panel):
@@ -102,17 +126,21 @@ def main():
         iterations=example.number(50, "of each of the two methods, at most"),
         threading=dict(choices=["Serial", "Auto"], default="Serial",
                        help="one thread, timed by the processor's time, or all, by the clock "
-                            "(default: %(default)s)"), panel=288).parse_args()
+                            "(default: %(default)s)"), panel=288,
+        device=dict(metavar="NAME",
+                    help="also on an OpenCL device whose name contains this, or \"%s\": the paper's "
+                         "column \"Ours (GPU)\"" % ANY_DEVICE)).parse_args()
     usual = FULL if arguments.full else SMALL
     arguments.size = arguments.size or usual[0]
     samples = arguments.samples or usual[1]
 
     example.load_plugin()
-    rows, pictures = [], []
+    rows, devices, pictures = [], [], []
     for place, (path, number) in enumerate(
             zip(arguments.images or photographs(), itertools.cycle(samples)), 1):
-        found, row = rows_of(place, path, number, arguments)
+        found, device, row = rows_of(place, path, number, arguments)
         rows += found
+        devices += device
         pictures.append(row)
     figures.table(
         "Dots of %d\u00b2 pixels; GBN and BNOT: %d iterations at most, from the direct dots, whose "
@@ -124,6 +152,12 @@ def main():
         rows)
     figures.table("The paper, seconds, on 32 cores, for photographs of its own",
                   ["dots, pixels", *KINDS], [list(row) for row in PAPER])
+    if devices:
+        figures.table("Direct dots with new tables, seconds by the clock, all threads",
+                      ["photograph, dots", "processor", "device", "points"], devices)
+        figures.table("The paper, seconds: \"Ours (CPU)\", \"Ours (GPU)\" on an RTX 2080",
+                      ["dots, pixels", "processor", "GPU"],
+                      [[row[0], row[1], gpu] for row, gpu in zip(PAPER, PAPER_GPU)])
     print("\n" + figures.write_montage(arguments, "table1-stippling.png", pictures))
     print(figures.write_montage(arguments, "table1-middle.png", [
         [(words, middle(picture, arguments.panel)) for words, picture in row]
