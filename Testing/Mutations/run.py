@@ -32,6 +32,9 @@ inline int {SWITCH}_read()
 inline int {SWITCH} = {SWITCH}_read();
 #endif
 """
+# Devices compile texts at run time: they get the switch as an option of their compilers.
+DEVICE_OPTIONS = ("Filters/Core/Flow/Devices/FlowPrograms.cxx", '"-cl-std=CL1.2 -D RT_D="',
+                  f'"-cl-std=CL1.2 -D {SWITCH}=" + std::to_string({SWITCH}) + " -D RT_D="')
 # Which tests come first: whether only those near the change, and how many seconds they may take.
 ORDER = [(True, 2), (True, 20), (False, 2), (True, math.inf), (False, 20), (False, math.inf)]
 LEFT_OUT = "long|gui|install|benchmark|example|campaign"
@@ -75,6 +78,10 @@ def write(target, data):
 def planted(path, name, chosen):
     """A file's bytes with the changes behind their switch."""
     data = path.read_bytes()
+    file, right, wrong = DEVICE_OPTIONS
+    if name == file:
+        assert data.count(right.encode()) == 1, f"{file} has not once: {right}"
+        data = data.replace(right.encode(), wrong.encode())
     here = [(n, m) for n, m in chosen if m.file == name and m.kind != "X"]
     if here:
         text = data.decode()

@@ -157,6 +157,37 @@ TEST_F(FlowOfADevice, OfNoParticles)
   EXPECT_EQ(use.Fault(), "");
 }
 
+// After any number of polls; the device serves again after it.
+TEST_F(FlowOfADevice, CanBeCancelled)
+{
+  const TestDensity<2> density = discWithHole<2>({ 256, 256 });
+  const RectifiedFlow<2> flow = makeFlow<2>(density);
+  const Points<2> seeds = randomPoints<2>(density.Size, 10000);
+  const Points<2> right = runForward<2>(flow, seeds);
+  int cancelled = 0;
+  for (int most = 0; most < 6; ++most)
+  {
+    DeviceUse use(this->Opened);
+    const SerialExecutor serial;
+    int polls = 0;
+    Context context(serial, {}, [&]() { return ++polls > most; });
+    context.Device = &use;
+    Points<2> positions(seeds.size());
+    try
+    {
+      flow.Forward(seeds, positions, {}, context);
+    }
+    catch (const Cancelled&)
+    {
+      ++cancelled;
+    }
+    EXPECT_EQ(use.Fault(), "");
+    context.IsCancelled = {};
+    EXPECT_TRUE(sameBits<2>(runForward<2>(flow, seeds, {}, context), right));
+  }
+  EXPECT_GT(cancelled, 2);
+}
+
 // What devices do not do, the processor does.
 TEST_F(FlowOfADevice, OtherMethodsAreTheProcessors)
 {

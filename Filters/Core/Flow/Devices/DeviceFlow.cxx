@@ -73,7 +73,7 @@ public:
   // GPUs take many in the time of few.
   std::int64_t FewestParticles() const override
   {
-    return std::int64_t{ 1 } << (this->IsGpu ? 17 : 14);
+    return std::int64_t{ 1 } << (this->IsGpu ? 17 : 12);
   }
 
   bool Run(const ParticleSource<Dimension>& source, std::int64_t first, std::int64_t count,

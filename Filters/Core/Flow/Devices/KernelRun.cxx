@@ -14,8 +14,18 @@ namespace
 {
 
 constexpr std::uint32_t groupSize = 256; // RT_GROUP of the kernels
-// A kernel takes at most so many steps: more would keep an abort, or a watchdog, waiting.
-constexpr std::int64_t stepsAtOnce = 512;
+// A kernel takes at most so many steps, and so many of all its particles: more would keep an abort,
+// or a watchdog, waiting. GPUs do that many in some 50 ms, OpenCL on a processor the others.
+constexpr std::int64_t mostSteps = 512;
+constexpr std::int64_t workOfGpu = std::int64_t{ 1 } << 26;
+constexpr std::int64_t workOfOthers = std::int64_t{ 1 } << 18;
+
+std::int64_t stepsAtOnce(const Device& device, std::int64_t particles)
+{
+  constexpr std::int64_t fewest = 8; // states are stored between runs
+  const std::int64_t work = device.IsGpu() ? workOfGpu : workOfOthers;
+  return std::clamp(work / particles, fewest, mostSteps);
+}
 
 // PassCounts of the kernels.
 struct PassCounts
@@ -224,15 +234,16 @@ template <class RunPiece>
 void KernelRun<Dimension>::ForPieces(
   Device& device, std::int64_t steps, std::uint32_t count, Progress& progress, const RunPiece& run)
 {
-  if (steps > stepsAtOnce && this->States.Size() < count * stateSize(Dimension))
+  const std::int64_t atOnce = stepsAtOnce(device, count);
+  if (steps > atOnce && this->States.Size() < count * stateSize(Dimension))
   {
     this->States = {};
     this->States = device.Allocate(count * stateSize(Dimension), "particles");
   }
-  for (std::int64_t first = 0; first < steps && !progress.ShouldStop(); first += stepsAtOnce)
+  for (std::int64_t first = 0; first < steps && !progress.ShouldStop(); first += atOnce)
   {
-    run(first, std::min(first + stepsAtOnce, steps));
-    if (first + stepsAtOnce < steps)
+    run(first, std::min(first + atOnce, steps));
+    if (first + atOnce < steps)
     {
       device.Finish();
     }
@@ -302,7 +313,9 @@ KernelReport KernelRun<Dimension>::RunForward(
   std::uint32_t left = count;
   for (int pass = -levels; pass <= this->Job.LastPass() && left > 0 && !progress.ShouldStop();)
   {
-    const int lastPass = pass >= 0 ? pass : this->Job.Job.Steps <= stepsAtOnce ? 0 : -1;
+    const int lastPass = pass >= 0                        ? pass
+      : this->Job.Job.Steps <= stepsAtOnce(device, count) ? 0
+                                                          : -1;
     this->RunPass(device, pass, lastPass, left, progress);
     if (pass == -levels)
     {
