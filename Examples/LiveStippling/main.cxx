@@ -113,6 +113,10 @@ int run(const Arguments& arguments)
     }
   }
   stippling.Update();
+  if (!arguments.Options.Device.empty() && !stippling.GetMessage().empty())
+  {
+    std::cerr << stippling.GetMessage() << "\n";
+  }
   vtkNew<vtkRenderWindow> window;
   window->SetSize(900, 900);
   window->SetWindowName("Live stippling");
