@@ -102,6 +102,18 @@ class Examples(ExampleTest):
         self.assertGreater(share(0.26, 0.62), 3 * paper)  # of the S
         self.assertLess(share(0.25, 0.25, 15), 0.1 * paper)  # erased
 
+    def test_live_stippling_on_a_device(self):
+        """Points go the same ways with a device, without one, and with one that is not there."""
+        moves = []
+        for device in [], ["--device", "any"], ["--device", "no such thing"]:
+            printed, code = self.live("--side", "64", "--points", "300", "--drive", "10", *device)
+            self.assertEqual(code, 0, printed)
+            if "any" not in device or "RT_OPENCL" in os.environ:
+                self.assertEqual("the processor did the work" in printed,
+                                 "no such thing" in device, printed)
+            moves.append([(row[4], row[5], row[6]) for row in tables(printed)[0]])
+        self.assertEqual(moves[1:], [moves[0]] * 2)
+
     def test_live_stippling_refuses(self):
         for arguments, words in ((["--points", "0"], "--points is 0; it must be from 1 to 200000"),
                                  (["--side", "9x"], "--side is 9x; it must be from 64 to 4096"),

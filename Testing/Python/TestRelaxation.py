@@ -92,6 +92,18 @@ class Table1(ExampleTest):
             self.assertAlmostEqual(drawn.mean() / read(PHOTOGRAPHS[1])[0].mean(), 1, delta=0.15)
         self.check_picture("table1-stippling.png")
 
+    def test_on_a_device(self):
+        """The dots of a device are those of the processor, and where none is, the table says so."""
+        for device in "any", "no such thing":
+            rows, _, found, paper = tables(self.ran("Table1Stippling", PHOTOGRAPHS[0],
+                                                    "--samples", "400", "--device", device))
+            self.assertEqual(len(rows), 3)
+            (name, _, seconds, points), = found
+            self.assertEqual((name, points), ("raccoon, 400", "the same"))
+            if device != "any" or "RT_OPENCL" in os.environ:
+                self.assertEqual(seconds == "none", device != "any")
+            self.assertEqual([row[2] for row in paper], ["0.012", "0.012", "0.018", "0.030"])
+
     def test_without_skimage(self):
         """Four photographs without naming any, whatever is installed."""
         rows = tables(self.ran("Table1Stippling"))[0]
