@@ -113,7 +113,9 @@ vtkStringArray* vtkTransportAlgorithm::GetDeviceNames()
 //------------------------------------------------------------------------------
 DeviceUse vtkTransportAlgorithm::BeginDevice()
 {
-  if (this->Device != DEVICE_OPENCL)
+  // Devices do nothing of other methods.
+  const bool serves = this->Integrator == MULTISTEP && this->TableLookup == INTERPOLATED;
+  if (this->Device != DEVICE_OPENCL || !serves)
   {
     this->OwnDevice->Kept.Release();
     return DeviceUse(std::shared_ptr<RectifiedTransport::Device>());
@@ -132,7 +134,6 @@ void vtkTransportAlgorithm::EndDevice(const DeviceUse& device)
   {
     return;
   }
-  this->OwnDevice->Kept.End(device);
   const std::string& fault = device.Fault();
   const std::vector<Bytes> all = this->GetRanks().Gather(Bytes(fault.begin(), fault.end()));
   const auto first =

@@ -182,11 +182,11 @@ public:
   ///@{
   /**
    * Where the flow is computed: CPU (default), or OpenCL: on a device, usually a graphics card,
-   * with the same bits. What a device does not support the processor does. If there is no device,
-   * or it fails, a warning says why, and the processor does all. A device needs double precision
-   * and has to pass a test of its arithmetic when it is opened, which takes about a second. It
-   * stays open, for all filters of the program, until the last filter that uses it is deleted or
-   * set to CPU. Devices with slow double precision, as most graphics cards for games, may be slower
+   * with the same bits. The processor does what a device does not support. If there is no device,
+   * or it fails, a warning says why, and the processor does the work, or the rest of it. A device
+   * needs double precision and has to pass a test of its arithmetic when it is opened, which takes
+   * about a second. It stays open, for all filters of the program, until the last filter that uses
+   * it is deleted, or runs with CPU. Devices with slow double precision, as most graphics cards for games, may be slower
    * than a processor of many cores. With several MPI ranks on a machine, each takes the next
    * device.
    */

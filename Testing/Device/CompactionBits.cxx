@@ -7,6 +7,7 @@
 #include "Core/Flow/Compaction.h"
 #include "Core/Flow/Devices/DeviceTables.h"
 #include "Core/Flow/Devices/FlowPrograms.h"
+#include "Core/Flow/Kernels/SharedInputs.h"
 
 #include <random>
 #include <vector>
@@ -17,14 +18,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::size_t groupSize = 256; // RT_GROUP of the kernels
-
-// PassCounts of the kernels.
-struct PassCounts
-{
-  std::uint64_t Evaluations;
-  std::uint64_t Unresolved;
-};
+constexpr std::size_t groupSize = RT_GROUP;
 
 struct Compacted
 {

@@ -404,7 +404,8 @@ void compareWrong(const std::shared_ptr<Device>& device)
     const DeviceProgram program = buildFlowProgram(opened, 2, "-D RT_WITH_CONTRACTION");
     const AdvectionJob<2> job(tables.View(), AdvectionKind::Forward, options);
     KernelRun<2> run(opened, program, job,
-      std::make_shared<const DeviceTables<2>>(opened, tables.View()), nullptr);
+      std::make_shared<const DeviceTables<2>>(opened, tables.View()), nullptr,
+      std::make_shared<DeviceWeights>());
     run.Run(opened, static_cast<std::int64_t>(found.size()),
       run.FromPoints(opened, seeds.data()->data()), found.data()->data(), work);
   });

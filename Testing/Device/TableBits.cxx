@@ -64,8 +64,9 @@ void compareTablesOf(const std::shared_ptr<Device>& device, BitsTable& table,
   const std::string what = name + " " + nameOf<Dimension>(density.Size);
   DeviceUse use(device);
   const bool isDone = use.Run([&](Device& opened) {
-    const DeviceTables<Dimension> made(
-      opened, flowProgram(opened, Dimension), view, density.Values.data());
+    const DeviceTables<Dimension> made(opened, flowProgram(opened, Dimension), view,
+      upload(opened, density.Values.data(), static_cast<std::int64_t>(density.Values.size()),
+        "the values"));
     const double* const coarse =
       view.LevelCount > 1 ? view.Levels[1].Nodes : endOfNodes<Dimension>(view);
     const auto fine = static_cast<std::size_t>(coarse - view.Levels[0].Nodes);

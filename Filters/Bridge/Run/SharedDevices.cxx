@@ -52,7 +52,7 @@ private:
 
 DeviceUse KeptDevice::Begin(const std::string& name, int number)
 {
-  if (this->Opened && name == this->Name && number == this->Number)
+  if (this->Opened && name == this->Name && number == this->Number && !isLost(*this->Opened))
   {
     return DeviceUse(this->Opened);
   }
@@ -67,14 +67,6 @@ DeviceUse KeptDevice::Begin(const std::string& name, int number)
   catch (const DeviceError& error)
   {
     return DeviceUse(std::string(error.what()));
-  }
-}
-
-void KeptDevice::End(const DeviceUse& use)
-{
-  if (!use.Fault().empty())
-  {
-    this->Release();
   }
 }
 

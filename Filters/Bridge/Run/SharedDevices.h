@@ -18,12 +18,10 @@ class KeptDevice
 {
 public:
   // The device for a run, by a name and a number as those of openDevice (DeviceList.h): the one of
-  // the last run, else one that another filter has open, else a new one. If there is none, the
-  // result says why, and the next run tries again.
+  // the last run, else one that another filter has open, else a new one; none of them lost. If there
+  // is none, the result says why, and the next run tries again.
   DeviceUse Begin(const std::string& name, int number);
-  // After a run: lets go of a device that failed in it, so that the next run opens it anew.
-  void End(const DeviceUse& use);
-  // What is open, if no run needs it any more.
+  // Lets go of it.
   void Release() { this->Opened.reset(); }
 
   std::shared_ptr<const Device> Get() const { return this->Opened; } // may be null

@@ -77,11 +77,19 @@ std::shared_ptr<Device> openDevice(
       reason = "The device '" + description.Name + "' " + description.Lacks;
     }
   }
+  // Processors come last, and are not counted beside others.
+  const auto processors = std::stable_partition(
+    complete.begin(), complete.end(), [](const FoundDevice& found) { return !found.IsProcessor; });
+  const auto others = static_cast<std::size_t>(processors - complete.begin());
+  const std::size_t counted = others > 0 ? others : complete.size();
   for (std::size_t i = 0; i < complete.size(); ++i)
   {
-    const FoundDevice& found = complete[(static_cast<std::size_t>(number) + i) % complete.size()];
-    const auto known = std::find_if(open.begin(), open.end(),
-      [&found](const std::shared_ptr<Device>& device) { return device->Is(found); });
+    const FoundDevice& found =
+      complete[i < counted ? (static_cast<std::size_t>(number) + i) % counted : i];
+    const auto known =
+      std::find_if(open.begin(), open.end(), [&found](const std::shared_ptr<Device>& device) {
+        return device->Is(found) && !device->IsLost();
+      });
     if (known != open.end())
     {
       return *known;
@@ -133,7 +141,7 @@ void DeviceTransfer::Wait()
   const cl_int code = this->End();
   if (code != CL_SUCCESS)
   {
-    this->Owner->Require(code, "did not finish a transfer");
+    this->Owner->RequireWork(code, "did not finish a transfer");
   }
 }
 
@@ -214,6 +222,35 @@ void Device::Close()
   this->Cl.clReleaseContext(this->Context);
 }
 
+void Device::Keep(const void* owner, std::shared_ptr<void> kept)
+{
+  const std::lock_guard<std::mutex> lock(this->KeptMutex);
+  this->Kept[owner].swap(kept);
+}
+
+void Device::Forget(const void* owner)
+{
+  std::shared_ptr<void> kept; // goes after the lock
+  const std::lock_guard<std::mutex> lock(this->KeptMutex);
+  const auto found = this->Kept.find(owner);
+  if (found != this->Kept.end())
+  {
+    kept = std::move(found->second);
+    this->Kept.erase(found);
+  }
+}
+
+void Device::RequireWork(cl_int code, const std::string& what) const
+{
+  if (code != CL_SUCCESS && code != CL_MEM_OBJECT_ALLOCATION_FAILURE &&
+    code != CL_OUT_OF_HOST_MEMORY)
+  {
+    throw LostDevice("The device '" + this->Description().Name + "' " + what + " (OpenCL's error " +
+      std::to_string(code) + ")");
+  }
+  this->Require(code, what);
+}
+
 void Device::Require(cl_int code, const std::string& what) const
 {
   if (code != CL_SUCCESS)
@@ -292,8 +329,8 @@ void Device::Write(const DeviceBuffer& to, const void* from, std::size_t bytes, 
 {
   if (bytes > 0)
   {
-    this->Require(this->Cl.clEnqueueWriteBuffer(
-                    this->Queue, to.Memory, CL_TRUE, offset, bytes, from, 0, nullptr, nullptr),
+    this->RequireWork(this->Cl.clEnqueueWriteBuffer(
+                        this->Queue, to.Memory, CL_TRUE, offset, bytes, from, 0, nullptr, nullptr),
       "takes no data");
     this->Done.BytesTo += bytes;
   }
@@ -303,8 +340,8 @@ void Device::Read(const DeviceBuffer& from, void* to, std::size_t bytes, std::si
 {
   if (bytes > 0)
   {
-    this->Require(this->Cl.clEnqueueReadBuffer(
-                    this->Queue, from.Memory, CL_TRUE, offset, bytes, to, 0, nullptr, nullptr),
+    this->RequireWork(this->Cl.clEnqueueReadBuffer(
+                        this->Queue, from.Memory, CL_TRUE, offset, bytes, to, 0, nullptr, nullptr),
       "gives no data back");
     this->Done.BytesFrom += bytes;
   }
@@ -313,11 +350,11 @@ void Device::Read(const DeviceBuffer& from, void* to, std::size_t bytes, std::si
 DeviceTransfer Device::StartWrite(const DeviceBuffer& to, const void* from, std::size_t bytes)
 {
   cl_event event = nullptr;
-  this->Require(this->Cl.clEnqueueWriteBuffer(
-                  this->Transfers, to.Memory, CL_FALSE, 0, bytes, from, 0, nullptr, &event),
+  this->RequireWork(this->Cl.clEnqueueWriteBuffer(
+                      this->Transfers, to.Memory, CL_FALSE, 0, bytes, from, 0, nullptr, &event),
     "takes no data");
   DeviceTransfer transfer(*this, event);
-  this->Require(this->Cl.clFlush(this->Transfers), "starts no transfer");
+  this->RequireWork(this->Cl.clFlush(this->Transfers), "starts no transfer");
   this->Done.BytesTo += bytes;
   return transfer;
 }
@@ -325,18 +362,18 @@ DeviceTransfer Device::StartWrite(const DeviceBuffer& to, const void* from, std:
 DeviceTransfer Device::StartRead(const DeviceBuffer& from, void* to, std::size_t bytes)
 {
   cl_event event = nullptr;
-  this->Require(this->Cl.clEnqueueReadBuffer(
-                  this->Transfers, from.Memory, CL_FALSE, 0, bytes, to, 0, nullptr, &event),
+  this->RequireWork(this->Cl.clEnqueueReadBuffer(
+                      this->Transfers, from.Memory, CL_FALSE, 0, bytes, to, 0, nullptr, &event),
     "gives no data back");
   DeviceTransfer transfer(*this, event);
-  this->Require(this->Cl.clFlush(this->Transfers), "starts no transfer");
+  this->RequireWork(this->Cl.clFlush(this->Transfers), "starts no transfer");
   this->Done.BytesFrom += bytes;
   return transfer;
 }
 
 void Device::Start()
 {
-  this->Require(this->Cl.clFlush(this->Queue), "does not start its work");
+  this->RequireWork(this->Cl.clFlush(this->Queue), "does not start its work");
 }
 
 void Device::Run(const DeviceKernel& kernel, std::size_t items, std::size_t group)
@@ -359,15 +396,15 @@ void Device::RunGrid(
     this->Started.insert(kernel.Name);
   }
   const std::size_t groups[3] = { group, 1, 1 };
-  this->Require(this->Cl.clEnqueueNDRangeKernel(this->Queue, kernel.Kernel, 3, nullptr,
-                  items.data(), groups, 0, nullptr, nullptr),
+  this->RequireWork(this->Cl.clEnqueueNDRangeKernel(this->Queue, kernel.Kernel, 3, nullptr,
+                      items.data(), groups, 0, nullptr, nullptr),
     "does not start the kernel " + kernel.Name);
   ++this->Done.Kernels;
 }
 
 void Device::Finish()
 {
-  this->Require(this->Cl.clFinish(this->Queue), "did not finish its work");
+  this->RequireWork(this->Cl.clFinish(this->Queue), "did not finish its work");
 }
 
 } // namespace RectifiedTransport

@@ -9,6 +9,7 @@
 #include "Core/Device/OpenCL.h"
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -27,6 +28,7 @@ struct FoundDevice
 {
   cl_platform_id Platform;
   cl_device_id Id;
+  bool IsProcessor; // which OpenCL can be, too
   DeviceDescription Description;
 };
 // As listDevices.
@@ -189,8 +191,10 @@ public:
 
   const DeviceDescription& Description() const { return this->Found.Description; }
   bool Is(const FoundDevice& found) const { return found.Id == this->Found.Id; }
-  // To be locked by whoever uses it.
-  std::mutex& Mutex() { return this->InUse; }
+  // To be locked by whoever uses it. Buffers may go, and what is kept, without it.
+  std::timed_mutex& Mutex() { return this->InUse; }
+  bool IsLost() const { return this->HasFailed; }
+  void MarkLost() { this->HasFailed = true; }
   bool IsGpu() const { return (this->Type & CL_DEVICE_TYPE_GPU) != 0; }
   const DeviceWork& Work() const { return this->Done; }
   std::uint64_t LargestAllocation() const { return this->LargestBuffer; } // bytes
@@ -203,8 +207,8 @@ public:
   const DeviceProgram& Program(const std::string& name, const std::function<DeviceProgram()>& make);
   // What others keep here, each under its own address, until they forget it or the device goes: a
   // reference to it that owns nothing does not keep the device open.
-  void Keep(const void* owner, std::shared_ptr<void> kept) { this->Kept[owner] = std::move(kept); }
-  void Forget(const void* owner) { this->Kept.erase(owner); }
+  void Keep(const void* owner, std::shared_ptr<void> kept);
+  void Forget(const void* owner);
   // `what` is for messages. The memory is not set.
   DeviceBuffer Allocate(std::size_t bytes, const std::string& what);
 
@@ -228,6 +232,8 @@ private:
   friend class DeviceProgram;
   friend class DeviceTransfer;
   void Require(cl_int code, const std::string& what) const;
+  // Of its work: what fails there is lost, unless it is memory.
+  void RequireWork(cl_int code, const std::string& what) const;
   void Close();
   void RequireMemoryToCompile() const;
 
@@ -235,13 +241,15 @@ private:
   const FoundDevice Found;
   std::uint64_t LargestBuffer = 0;
   cl_device_type Type = 0;
-  std::uint64_t Taken = 0;
+  std::atomic<std::uint64_t> Taken{ 0 };
   DeviceWork Done;
   cl_context Context = nullptr;
   cl_command_queue Queue = nullptr;
   cl_command_queue Transfers = nullptr;
-  std::mutex InUse;
+  std::timed_mutex InUse;
+  std::atomic<bool> HasFailed{ false };
   std::map<std::string, DeviceProgram> Programs;
+  std::mutex KeptMutex; // of the next, no other is locked within
   std::map<const void*, std::shared_ptr<void>> Kept;
   std::set<std::string> Started; // names of kernels
 };

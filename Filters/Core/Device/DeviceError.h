@@ -15,6 +15,13 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+// It failed while it worked, and must be opened anew.
+class LostDevice : public DeviceError
+{
+public:
+  using DeviceError::DeviceError;
+};
+
 } // namespace RectifiedTransport
 
 #endif

@@ -26,10 +26,11 @@ struct DeviceDescription
 // OpenCL. Does not throw anything but std::bad_alloc.
 std::vector<DeviceDescription> listDevices();
 
-// Of the devices whose names contain a text, in any case of letters, and that lack nothing: number
-// `number` from 0 modulo their count, or the next one that passes the self-test of DeviceCheck.h.
-// One of those that are `open` already is returned as it is. Throws DeviceError: no driver, no such
-// device, one that lacks something or computes other bits than processors.
+// Of the devices whose names contain a text, in any case of letters, and that lack nothing, those
+// that are no processors first: number `number` from 0 modulo the count of those, or the next one
+// that passes the self-test of DeviceCheck.h. A device in `open` is returned as it is. Throws
+// DeviceError: no driver, no such device, one that lacks something or computes other bits than
+// processors.
 std::shared_ptr<Device> openDevice(
   const std::string& name, int number = 0, const std::vector<std::shared_ptr<Device>>& open = {});
 

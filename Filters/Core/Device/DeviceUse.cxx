@@ -3,6 +3,7 @@
 
 #include "Core/Device/Device.h"
 
+#include <chrono>
 #include <mutex>
 
 namespace RectifiedTransport
@@ -20,23 +21,46 @@ DeviceUse DeviceUse::Open(const std::string& name)
   }
 }
 
-bool DeviceUse::Run(const std::function<void(Device&)>& function)
+bool DeviceUse::Run(
+  const std::function<void(Device&)>& function, const std::function<bool()>& shouldStop)
 {
   if (!this->Serves())
   {
     return false;
   }
-  const std::lock_guard<std::mutex> lock(this->Opened->Mutex());
+  constexpr std::chrono::milliseconds interval(20);
+  std::unique_lock<std::timed_mutex> lock(this->Opened->Mutex(), std::defer_lock);
+  while (!lock.try_lock_for(interval))
+  {
+    if (shouldStop && shouldStop())
+    {
+      return false;
+    }
+  }
   try
   {
+    if (this->Opened->IsLost())
+    {
+      throw DeviceError("The device '" + this->Opened->Description().Name + "' was lost");
+    }
     function(*this->Opened);
     return true;
+  }
+  catch (const LostDevice& error)
+  {
+    this->Opened->MarkLost();
+    this->Reason = error.what();
   }
   catch (const DeviceError& error)
   {
     this->Reason = error.what();
-    return false;
   }
+  return false;
+}
+
+bool isLost(const Device& device)
+{
+  return device.IsLost();
 }
 
 } // namespace RectifiedTransport

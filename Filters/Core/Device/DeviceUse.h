@@ -13,8 +13,8 @@ namespace RectifiedTransport
 
 class Device;
 
-// Of one run, on one thread; a device may be used by many. What it does not do the processor does,
-// with the same bits.
+// Of one run, on one thread; a device may be used by many. The processor does what the device does
+// not do, with the same bits.
 class DeviceUse
 {
 public:
@@ -36,14 +36,19 @@ public:
   // Why it does not serve, or not any more: names the device. Empty if nothing went wrong.
   const std::string& Fault() const { return this->Reason; }
 
-  // function(device), when no other thread uses the device. Returns whether it was done: a
-  // DeviceError becomes the fault. Throws what else the function throws.
-  bool Run(const std::function<void(Device&)>& function);
+  // function(device), when no other thread uses the device, unless shouldStop(), which is polled
+  // meanwhile, returns true. Returns whether it was done: a DeviceError becomes the fault. Throws
+  // what else the function throws.
+  bool Run(
+    const std::function<void(Device&)>& function, const std::function<bool()>& shouldStop = {});
 
 private:
   std::shared_ptr<Device> Opened;
   std::string Reason;
 };
+
+// Whether a device failed while it worked: it is of no use any more.
+bool isLost(const Device& device);
 
 } // namespace RectifiedTransport
 

@@ -35,7 +35,12 @@ DeviceUse DeviceUse::Open(const std::string&)
   return DeviceUse(std::string(notBuilt));
 }
 
-bool DeviceUse::Run(const std::function<void(Device&)>&)
+bool DeviceUse::Run(const std::function<void(Device&)>&, const std::function<bool()>&)
+{
+  return false;
+}
+
+bool isLost(const Device&)
 {
   return false;
 }

@@ -129,8 +129,8 @@ void expectSameInParts(Device& device, const TestDensity<Dimension>& density)
     KernelReport reports[2];
     for (const int i : { 0, 1 })
     {
-      KernelRun<Dimension> run(
-        device, flowProgram(device, Dimension), job, copied, nullptr, i == 0 ? 1000 : 130);
+      KernelRun<Dimension> run(device, flowProgram(device, Dimension), job, copied, nullptr,
+        std::make_shared<DeviceWeights>(), i == 0 ? 1000 : 130);
       reports[i] = run.Run(device, 1000, run.FromPoints(device, seeds.data()->data()),
         found[i].data()->data(), progress);
     }
@@ -281,8 +281,9 @@ void expectSameTables(Device& device, const TestDensity<Dimension>& density)
   Progress progress{ Context() };
   const SummedAreaTables<Dimension> tables(density.Source(), progress);
   const TableView<Dimension>& view = tables.View();
-  const DeviceTables<Dimension> made(
-    device, flowProgram(device, Dimension), view, density.Values.data());
+  const DeviceTables<Dimension> made(device, flowProgram(device, Dimension), view,
+    upload(
+      device, density.Values.data(), static_cast<std::int64_t>(density.Values.size()), "a test"));
   const double* coarse = view.LevelCount > 1 ? view.Levels[1].Nodes : endOfNodes<Dimension>(view);
   std::vector<double> fine(static_cast<std::size_t>(coarse - view.Levels[0].Nodes));
   std::vector<double> others(static_cast<std::size_t>(endOfNodes<Dimension>(view) - coarse));
@@ -349,7 +350,7 @@ TEST_F(FlowOfADevice, WrongProgramsAreRefused)
       }
     });
   };
-  const std::string otherBits = "moves particles otherwise than a processor does";
+  const std::string otherBits = "moves particles differently from a processor";
   EXPECT_EQ(errorOfProgram("a < b ? a : b", "a < b ? a : b"), "");
   EXPECT_TRUE(contains(errorOfProgram("FP_CONTRACT OFF", "FP_CONTRACT ON"), otherBits));
   EXPECT_TRUE(contains(

@@ -199,19 +199,26 @@ void checkSharing(Checks& checks)
   CHECK(checks, one.Begin("", 0).Serves() && is(one));
   CHECK(checks, other.Begin(deviceNames().front(), 0).Serves() && is(other));
 
-  // Who saw it fail lets go of it; it stays while another one has it.
-  const DeviceUse failed(std::string("The device 'x' is lost"));
-  one.End(failed);
-  CHECK(checks, one.Get() == nullptr && is(other));
+  // What it cannot do once does not close it.
+  DeviceUse small = one.Begin("", 0);
+  CHECK(checks, !small.Run([](Device&) { throw DeviceError("too little memory"); }));
+  CHECK(checks, small.Fault() == "too little memory" && !small.Serves());
   CHECK(checks, one.Begin("", 0).Serves() && is(one));
-  one.End(one.Begin("", 0));
-  CHECK(checks, is(one));
   one.Release();
   CHECK(checks, one.Get() == nullptr && is(other));
+  CHECK(checks, one.Begin("", 0).Serves() && is(one));
+
+  // One that is lost is opened anew, by all who have it.
+  DeviceUse lost = one.Begin("", 0);
+  CHECK(checks, !lost.Run([](Device&) { throw LostDevice("lost"); }) && lost.Fault() == "lost");
+  CHECK(checks, isLost(*opened.lock()));
+  CHECK(checks, one.Begin("", 0).Serves() && !is(one) && is(other));
+  CHECK(checks, other.Begin("", 0).Serves() && other.Get() == one.Get());
+  CHECK(checks, opened.expired());
+  one.Release();
 
   // A name that fits none: not what was open before, and the next run tries again.
   CHECK(checks, contains(other.Begin(nowhere, 0).Fault(), nowhere) && other.Get() == nullptr);
-  CHECK(checks, opened.expired());
   const DeviceUse again = other.Begin("", 0);
   CHECK(checks, again.Serves() && again.Fault().empty() && other.Get() != nullptr);
 }
@@ -330,7 +337,7 @@ protected:
       {
         progress.Stage().Device->Run([this](const RectifiedTransport::Device&) {
           ++this->Runs;
-          throw DeviceError("The device 'x' is lost");
+          throw LostDevice("The device 'x' is lost");
         });
       }
     }

@@ -7,10 +7,10 @@
 #include "Core/Flow/Devices/FlowPrograms.h"
 #include "Core/Flow/Devices/KernelRun.h"
 #include "Core/Flow/Devices/NodeRun.h"
-#include "Core/Parallel/LargeBuffer.h"
 #include "Core/Tables/ScaledDensity.h"
 
 #include <algorithm>
+#include <functional>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -27,11 +27,12 @@ struct KeptOnDevice
 {
   struct Map
   {
-    std::shared_ptr<const FlowMap<Dimension>> Of;
+    std::weak_ptr<const FlowMap<Dimension>> Of;
     std::shared_ptr<const DeviceMap<Dimension>> Copy;
   };
   std::shared_ptr<const DeviceTables<Dimension>> Tables;
   Map Maps[2]; // forward and backward
+  const std::shared_ptr<DeviceWeights> Weights = std::make_shared<DeviceWeights>();
 
   std::shared_ptr<const DeviceTables<Dimension>> TablesOn(
     Device& device, const TableView<Dimension>& tables)
@@ -47,7 +48,7 @@ struct KeptOnDevice
     Device& device, const std::shared_ptr<const FlowMap<Dimension>>& map, bool backward)
   {
     Map& kept = this->Maps[backward ? 1 : 0];
-    if (map && kept.Of != map)
+    if (map && kept.Of.lock() != map)
     {
       kept = {}; // two side by side would double the peak
       kept.Copy = std::make_shared<const DeviceMap<Dimension>>(device, map->View(), backward);
@@ -73,7 +74,7 @@ public:
   // GPUs take many in the time of few.
   std::int64_t FewestParticles() const override
   {
-    return std::int64_t{ 1 } << (this->IsGpu ? 17 : 12);
+    return std::int64_t{ 1 } << (this->IsGpu ? 15 : 12);
   }
 
   bool Run(const ParticleSource<Dimension>& source, std::int64_t first, std::int64_t count,
@@ -93,14 +94,17 @@ private:
   {
     KernelReport report;
     double* own = positions + first * Dimension;
-    if (!this->Use.Run([&](Device& device) {
-          report = this->Kernels->Run(
-            device, count, this->Kernels->FromLattice(device, lattice, first), own, progress);
-        }))
+    if (!this->Use.Run(
+          [&](Device& device) {
+            report = this->Kernels->Run(
+              device, count, this->Kernels->FromLattice(device, lattice, first), own, progress);
+          },
+          [&progress]() { return progress.ShouldStop(); }))
     {
       return false;
     }
-    this->Finish(report, counts, progress, [&](std::uint32_t i) { return own + i * Dimension; });
+    this->Finish(report, counts, progress,
+      [&](std::uint32_t i) { return own + std::int64_t{ i } * Dimension; });
     return true;
   }
 
@@ -123,15 +127,17 @@ private:
       });
     };
     KernelReport report;
-    if (!this->Use.Run([&](Device& device) {
-          const auto transfer = this->Kernels->FromPoints(device, points);
-          const auto prepare = [&](std::int64_t begin, std::int64_t length,
-                                 const DeviceBuffer& seeds) {
-            fill(begin, length);
-            return transfer(begin, length, seeds);
-          };
-          report = this->Kernels->Run(device, count, prepare, points, progress);
-        }))
+    if (!this->Use.Run(
+          [&](Device& device) {
+            const auto transfer = this->Kernels->FromPoints(device, points);
+            const auto prepare = [&](std::int64_t begin, std::int64_t length,
+                                   const DeviceBuffer& seeds) {
+              fill(begin, length);
+              return transfer(begin, length, seeds);
+            };
+            report = this->Kernels->Run(device, count, prepare, points, progress);
+          },
+          [&progress]() { return progress.ShouldStop(); }))
     {
       return false;
     }
@@ -179,25 +185,48 @@ template <int Dimension>
 class Nodes final : public DeviceNodes<Dimension>
 {
 public:
-  Nodes(DeviceUse& use, std::unique_ptr<NodeRun<Dimension>> kernel)
+  using FindTables = std::function<std::shared_ptr<const DeviceTables<Dimension>>(
+    Device& device, const TableView<Dimension>& tables)>;
+
+  Nodes(DeviceUse& use, const FlowJob<Dimension>& job, FindTables tables)
     : Use(use)
-    , Kernel(std::move(kernel))
+    , Job(job)
+    , Tables(std::move(tables))
   {
   }
 
   std::int64_t Run(const FlowMapView<Dimension>& map, const FlowMapLevel<Dimension>& level,
     std::int64_t first, std::int64_t count, unsigned char* marks, Progress& progress) override
   {
+    const auto stops = [&progress]() { return progress.ShouldStop(); };
+    std::unique_ptr<NodeRun<Dimension>> run;
+    this->Use.Run(
+      [&](Device& device) {
+        run = std::make_unique<NodeRun<Dimension>>(device, flowProgram(device, Dimension),
+          this->Job, this->Tables(device, this->Job.Tables), map, level);
+      },
+      stops);
+    Progress work(progress.Stage());
+    work.BeginStage(1.0, count);
     std::int64_t evaluations = 0;
-    const bool served = this->Use.Run([&](Device& device) {
-      evaluations = this->Kernel->Run(device, map, level, first, count, marks, progress);
-    });
-    return served ? evaluations : -1;
+    for (std::int64_t done = 0; done < count && this->Use.Serves();)
+    {
+      // No others wait for the device while progress is reported.
+      const std::int64_t slice =
+        run ? std::min(count - done, work.NextSlice(run->FewestNodes())) : 0;
+      this->Use.Run(
+        [&](Device& device) { evaluations += run->Run(device, first + done, slice, marks); },
+        stops);
+      done += slice;
+      work.EndSlice(slice);
+    }
+    return this->Use.Serves() ? evaluations : -1;
   }
 
 private:
   DeviceUse& Use;
-  const std::unique_ptr<NodeRun<Dimension>> Kernel;
+  const FlowJob<Dimension>& Job;
+  const FindTables Tables;
 };
 
 } // namespace
@@ -233,9 +262,9 @@ private:
   {
     if (const std::shared_ptr<Device> device = this->Where.lock())
     {
-      const std::lock_guard<std::mutex> lock(device->Mutex());
       device->Forget(this);
     }
+    this->Where.reset();
   }
 
   std::mutex Mutex; // of the next: flows run on several threads
@@ -258,24 +287,49 @@ void DeviceFlow<Dimension>::MakeTables(DeviceUse& use, const DensitySource<Dimen
 {
   if constexpr (Dimension > 1)
   {
-    if (!use.Serves())
+    // Not collective: on ranks those of the processor are copied when they are needed.
+    if (!use.Serves() || density.IsDistributed())
     {
       return;
     }
-    progress.BeginStage(1.0);
     const auto cells = static_cast<std::int64_t>(numberOfCells<Dimension>(density.Size));
-    LargeBuffer<double> values(cells);
-    const std::shared_ptr<const DensityValues> source = density.Whole();
     const int exponent = scalingOf(tables.Summary().Maximum);
+    const std::shared_ptr<const DensityValues> source = density.Whole();
     const ScaledDensity scaled(*source, exponent);
     const DensityValues& given = exponent != 0 ? scaled : *source;
-    progress.For(cells, std::int64_t{ 1 } << 14, [&](std::int64_t first, std::int64_t last) {
-      given.Read(first, last - first, values.data() + first);
-    });
-    use.Run([&](Device& device) {
-      this->Kept->On(device)->Tables = std::make_shared<const DeviceTables<Dimension>>(
-        device, flowProgram(device, Dimension), tables.View(), values.data());
-    });
+    const auto stops = [&progress]() { return progress.ShouldStop(); };
+    const std::int64_t most = std::min(cells, std::int64_t{ 1 } << 20);
+    std::vector<double> part(static_cast<std::size_t>(most));
+    DeviceBuffer values;
+    use.Run(
+      [&](Device& device) {
+        values = device.Allocate(static_cast<std::size_t>(cells) * sizeof(double), "the tables");
+      },
+      stops);
+    progress.BeginStage(1.0, cells);
+    for (std::int64_t first = 0; first < cells && use.Serves();)
+    {
+      const std::int64_t count =
+        std::min({ cells - first, most, progress.NextSlice(std::int64_t{ 1 } << 16) });
+      progress.Threads().For(
+        count, std::int64_t{ 1 } << 14, [&](std::int64_t from, std::int64_t to) {
+          given.Read(first + from, to - from, part.data() + from);
+        });
+      use.Run(
+        [&](Device& device) {
+          device.Write(values, part.data(), static_cast<std::size_t>(count) * sizeof(double),
+            static_cast<std::size_t>(first) * sizeof(double));
+        },
+        stops);
+      first += count;
+      progress.EndSlice(count);
+    }
+    use.Run(
+      [&](Device& device) {
+        this->Kept->On(device)->Tables = std::make_shared<const DeviceTables<Dimension>>(
+          device, flowProgram(device, Dimension), tables.View(), values);
+      },
+      stops);
   }
 }
 
@@ -297,7 +351,7 @@ std::unique_ptr<DeviceAdvection<Dimension>> DeviceFlow<Dimension>::Begin(
       auto tables = kept->TablesOn(device, job.Job.Tables);
       advection = std::make_unique<Advection<Dimension>>(use, job,
         std::make_unique<KernelRun<Dimension>>(device, flowProgram(device, Dimension), job,
-          std::move(tables), kept->MapOn(device, map, job.Job.Backward)),
+          std::move(tables), kept->MapOn(device, map, job.Job.Backward), kept->Weights),
         device.IsGpu());
     });
   }
@@ -311,11 +365,10 @@ std::unique_ptr<DeviceNodes<Dimension>> DeviceFlow<Dimension>::BeginNodes(
   std::unique_ptr<DeviceNodes<Dimension>> nodes;
   if constexpr (Dimension > 1)
   {
-    use.Run([&](Device& device) {
-      nodes = std::make_unique<Nodes<Dimension>>(use,
-        std::make_unique<NodeRun<Dimension>>(device, flowProgram(device, Dimension), job.Job,
-          this->Kept->On(device)->TablesOn(device, job.Job.Tables)));
-    });
+    nodes = std::make_unique<Nodes<Dimension>>(
+      use, job.Job, [this](Device& device, const TableView<Dimension>& tables) {
+        return this->Kept->On(device)->TablesOn(device, tables);
+      });
   }
   return nodes;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/Devices/DeviceTables.h"
 
+#include "Core/Flow/Kernels/SharedInputs.h"
+
 #include <array>
 
 namespace RectifiedTransport
@@ -10,17 +12,6 @@ namespace
 {
 
 constexpr const char* what = "the tables";
-constexpr std::int64_t stripCells = 256; // RT_STRIP_CELLS and RT_STRIP_ROWS of the kernels
-constexpr std::int64_t stripRows = 32;
-
-// TableShape of the kernels.
-struct TableShape
-{
-  std::int64_t Cells[3];
-  std::int64_t Strips;
-  std::int64_t Stride1;
-  std::int64_t Stride2;
-};
 
 std::size_t bytesOf(std::int64_t doubles)
 {
@@ -74,18 +65,13 @@ DeviceTables<Dimension>::DeviceTables(Device& device, const TableView<Dimension>
 
 template <int Dimension>
 DeviceTables<Dimension>::DeviceTables(Device& device, const DeviceProgram& program,
-  const TableView<Dimension>& tables, const double* values)
+  const TableView<Dimension>& tables, const DeviceBuffer& values)
 {
   const double* coarse = coarseNodes<Dimension>(tables);
   this->Fine = device.Allocate(bytesOf(coarse - tables.Levels[0].Nodes), what);
   this->Coarse = device.Allocate(bytesOf(endOfNodes<Dimension>(tables) - coarse), what);
   this->Occupied = uploadOccupied<Dimension>(device, tables);
-  std::int64_t cells = 1;
-  for (const std::int64_t along : tables.Cells)
-  {
-    cells *= along;
-  }
-  this->Sum(device, program, tables, upload(device, values, cells, what));
+  this->Sum(device, program, tables, values);
 }
 
 template <int Dimension>
@@ -96,8 +82,8 @@ void DeviceTables<Dimension>::Sum(Device& device, const DeviceProgram& program,
   std::copy_n(tables.Cells, Dimension, shape.Cells);
   shape.Stride1 = tables.Levels[0].Stride[1];
   shape.Stride2 = Dimension == 3 ? tables.Levels[0].Stride[Dimension - 1] : 0;
-  shape.Strips = Dimension == 2 ? (shape.Cells[0] + stripCells - 1) / stripCells
-                                : (shape.Cells[1] + stripRows - 1) / stripRows;
+  shape.Strips = Dimension == 2 ? (shape.Cells[0] + RT_STRIP_CELLS - 1) / RT_STRIP_CELLS
+                                : (shape.Cells[1] + RT_STRIP_ROWS - 1) / RT_STRIP_ROWS;
   const auto columns = static_cast<std::size_t>(shape.Cells[0]);
   const auto rows = static_cast<std::size_t>(shape.Cells[1]);
   const auto slices = static_cast<std::size_t>(shape.Cells[2]);

@@ -29,10 +29,10 @@ class DeviceTables
 public:
   // Copies those of the processor. Throws DeviceError.
   DeviceTables(Device& device, const TableView<Dimension>& tables);
-  // Makes them of the values of the cells, axis 0 fastest, with the same bits. Of `tables` all is
-  // read but the nodes. Throws DeviceError.
+  // Makes them of the values of the cells, doubles with axis 0 fastest, with the same bits. Of
+  // `tables` all is read but the nodes. Throws DeviceError.
   DeviceTables(Device& device, const DeviceProgram& program, const TableView<Dimension>& tables,
-    const double* values);
+    const DeviceBuffer& values);
 
   DeviceBuffer Fine;
   DeviceBuffer Coarse;   // the other levels

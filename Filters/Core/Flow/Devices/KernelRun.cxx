@@ -13,12 +13,14 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::uint32_t groupSize = 256; // RT_GROUP of the kernels
+constexpr std::uint32_t groupSize = RT_GROUP;
 // A kernel takes at most so many steps, and so many of all its particles: more would keep an abort,
-// or a watchdog, waiting. GPUs do that many in some 50 ms, OpenCL on a processor the others.
+// or a watchdog, waiting. Slow GPUs do these in some 100 ms, OpenCL on a processor the others.
 constexpr std::int64_t mostSteps = 512;
-constexpr std::int64_t workOfGpu = std::int64_t{ 1 } << 26;
+constexpr std::int64_t workOfGpu = std::int64_t{ 1 } << 23;
 constexpr std::int64_t workOfOthers = std::int64_t{ 1 } << 18;
+
+} // namespace
 
 std::int64_t stepsAtOnce(const Device& device, std::int64_t particles)
 {
@@ -26,29 +28,6 @@ std::int64_t stepsAtOnce(const Device& device, std::int64_t particles)
   const std::int64_t work = device.IsGpu() ? workOfGpu : workOfOthers;
   return std::clamp(work / particles, fewest, mostSteps);
 }
-
-// PassCounts of the kernels.
-struct PassCounts
-{
-  std::uint64_t Evaluations;
-  std::uint64_t Unresolved;
-};
-
-// Of the kernels: the points of a lattice.
-struct LatticeShape
-{
-  std::int64_t Cells[3];
-  double Place[3]; // in a cell
-  double Size[3];  // of the box
-};
-
-// ParticleState of the kernels, in numbers of 8 bytes: three of them are shared by two of its own.
-constexpr std::size_t stateSize(int dimension)
-{
-  return static_cast<std::size_t>(5 * dimension + 1 + 2) * sizeof(double);
-}
-
-} // namespace
 
 template <int Dimension>
 DeviceMap<Dimension>::DeviceMap(Device& device, const FlowMapView<Dimension>& map, bool backward)
@@ -94,15 +73,17 @@ DeviceMap<Dimension>::DeviceMap(Device& device, const FlowMapView<Dimension>& ma
 template <int Dimension>
 KernelRun<Dimension>::KernelRun(Device& device, const DeviceProgram& program,
   const AdvectionJob<Dimension>& job, std::shared_ptr<const DeviceTables<Dimension>> tables,
-  std::shared_ptr<const DeviceMap<Dimension>> map, std::int64_t mostOfPart)
+  std::shared_ptr<const DeviceMap<Dimension>> map, std::shared_ptr<DeviceWeights> weights,
+  std::int64_t mostOfPart)
   : Job(job)
   , Tables(std::move(tables))
   , Map(std::move(map))
-  , Place(program.NewKernel("placeLattice"))
-  , Advect(program.NewKernel(job.Job.Backward ? "advectBackward" : "advectForward"))
-  , Count(program.NewKernel("countUnresolved"))
-  , Sum(program.NewKernel("sumCounts"))
-  , Keep(program.NewKernel("keepUnresolved"))
+  , OfSteps(std::move(weights))
+  , PlaceKernel(program.NewKernel("placeLattice"))
+  , AdvectKernel(program.NewKernel(job.Job.Backward ? "advectBackward" : "advectForward"))
+  , CountKernel(program.NewKernel("countUnresolved"))
+  , SumKernel(program.NewKernel("sumCounts"))
+  , KeepKernel(program.NewKernel("keepUnresolved"))
   , MostOfPart(mostOfPart)
 {
   const FlowInput input = flowInput<Dimension>(job.Job);
@@ -111,19 +92,31 @@ KernelRun<Dimension>::KernelRun(Device& device, const DeviceProgram& program,
   this->States = device.Allocate(sizeof(double), "an advection");
 }
 
+std::shared_ptr<const DeviceBuffer> DeviceWeights::Of(
+  Device& device, std::int64_t steps, FlowDirection direction)
+{
+  constexpr std::int64_t mostKept = std::int64_t{ 1 } << 14; // 1 MiB
+  const auto found = this->Kept.find({ steps, direction });
+  if (found != this->Kept.end())
+  {
+    return found->second;
+  }
+  const std::vector<StepWeights> weights = multistepWeightsOf(steps, direction);
+  auto made = std::make_shared<const DeviceBuffer>(
+    upload(device, weights.data(), static_cast<std::int64_t>(weights.size()), "weights of steps"));
+  if (steps <= mostKept)
+  {
+    this->Kept.emplace(std::make_pair(steps, direction), made);
+  }
+  return made;
+}
+
 template <int Dimension>
-typename KernelRun<Dimension>::Weights KernelRun<Dimension>::WeightsOf(
+std::shared_ptr<const DeviceBuffer> KernelRun<Dimension>::WeightsOf(
   Device& device, std::int64_t steps)
 {
-  Weights& kept = this->OfSteps[steps];
-  if (!kept)
-  {
-    const std::vector<StepWeights> weights = multistepWeightsOf(
-      steps, this->Job.Job.Backward ? FlowDirection::Backward : FlowDirection::Forward);
-    kept = std::make_shared<const DeviceBuffer>(upload(
-      device, weights.data(), static_cast<std::int64_t>(weights.size()), "weights of steps"));
-  }
-  return kept;
+  return this->OfSteps->Of(
+    device, steps, this->Job.Job.Backward ? FlowDirection::Backward : FlowDirection::Forward);
 }
 
 template <int Dimension>
@@ -165,7 +158,7 @@ template <int Dimension>
 typename KernelRun<Dimension>::Prepare KernelRun<Dimension>::FromLattice(
   Device& device, const LatticeOrder<Dimension>& lattice, std::int64_t begin)
 {
-  LatticeShape shape{};
+  LatticeInput shape{};
   for (int axis = 0; axis < Dimension; ++axis)
   {
     shape.Cells[axis] = lattice.Cells()[axis];
@@ -174,7 +167,7 @@ typename KernelRun<Dimension>::Prepare KernelRun<Dimension>::FromLattice(
   }
   return [this, &device, shape, begin](
            std::int64_t first, std::int64_t count, const DeviceBuffer& seeds) {
-    device.Run(this->Place.With(shape, begin + first, static_cast<cl_uint>(count), seeds),
+    device.Run(this->PlaceKernel.With(shape, begin + first, static_cast<cl_uint>(count), seeds),
       static_cast<std::size_t>(count));
     return DeviceTransfer();
   };
@@ -235,10 +228,10 @@ void KernelRun<Dimension>::ForPieces(
   Device& device, std::int64_t steps, std::uint32_t count, Progress& progress, const RunPiece& run)
 {
   const std::int64_t atOnce = stepsAtOnce(device, count);
-  if (steps > atOnce && this->States.Size() < count * stateSize(Dimension))
+  if (steps > atOnce && this->States.Size() < count * stateSize<Dimension>)
   {
     this->States = {};
-    this->States = device.Allocate(count * stateSize(Dimension), "particles");
+    this->States = device.Allocate(count * stateSize<Dimension>, "particles");
   }
   for (std::int64_t first = 0; first < steps && !progress.ShouldStop(); first += atOnce)
   {
@@ -256,18 +249,18 @@ void KernelRun<Dimension>::RunPass(
 {
   const DeviceMap<Dimension>* map = this->Map.get();
   const std::int64_t steps = this->Job.Job.Steps << std::max(lastPass, 0);
-  const Weights weights = this->WeightsOf(device, steps);
-  const Weights ofMap = map ? this->WeightsOf(device, map->Steps) : weights;
+  const auto weights = this->WeightsOf(device, steps);
+  const auto ofMap = map ? this->WeightsOf(device, map->Steps) : weights;
   const DeviceBuffer& none = this->Total; // in place of what is not read
   const auto run = [&](std::int64_t first, std::int64_t last) {
-    this->Advect.With(this->Input, this->Tables->Fine, this->Tables->Coarse, this->Tables->Occupied,
-      cl_long{ map ? map->Steps : 0 }, cl_long{ map ? map->LevelCount : 0 },
+    this->AdvectKernel.With(this->Input, this->Tables->Fine, this->Tables->Coarse,
+      this->Tables->Occupied, cl_long{ map ? map->Steps : 0 }, cl_long{ map ? map->LevelCount : 0 },
       map ? map->Levels : none, map ? map->Records : none, map ? map->Bad : none, *ofMap, *weights,
       cl_long{ steps }, cl_long{ first }, cl_long{ last }, cl_int{ pass }, cl_int{ lastPass },
       cl_int{ lastPass < this->Job.LastPass() ? 1 : 0 }, this->Seeds[this->Set],
       cl_int{ this->IsListed ? 1 : 0 }, this->Lists[0], cl_uint{ count }, this->States,
       this->Positions[this->Set], this->Status);
-    device.Run(this->Advect, count);
+    device.Run(this->AdvectKernel, count);
   };
   if (lastPass < 0)
   {
@@ -283,15 +276,17 @@ std::uint32_t KernelRun<Dimension>::CountPass(
   Device& device, std::uint32_t count, KernelReport& report)
 {
   const std::uint32_t groups = (count + groupSize - 1) / groupSize;
-  device.Run(this->Count.With(this->Status, cl_uint{ count }, this->Counts), count, groupSize);
-  device.Run(this->Sum.With(this->Counts, cl_uint{ groups }, this->Total), groupSize, groupSize);
+  device.Run(
+    this->CountKernel.With(this->Status, cl_uint{ count }, this->Counts), count, groupSize);
+  device.Run(
+    this->SumKernel.With(this->Counts, cl_uint{ groups }, this->Total), groupSize, groupSize);
   PassCounts total{};
   device.Read(this->Total, &total, sizeof(total));
   report.Evaluations += static_cast<std::int64_t>(total.Evaluations);
   const auto left = static_cast<std::uint32_t>(total.Unresolved);
   if (left > 0)
   {
-    device.Run(this->Keep.With(this->Status, cl_uint{ count }, this->Counts,
+    device.Run(this->KeepKernel.With(this->Status, cl_uint{ count }, this->Counts,
                  cl_int{ this->IsListed ? 1 : 0 }, this->Lists[0], this->Lists[1]),
       count, groupSize);
     std::swap(this->Lists[0], this->Lists[1]);
@@ -341,15 +336,15 @@ KernelReport KernelRun<Dimension>::RunBackward(
   KernelReport report;
   const DeviceMap<Dimension>* map = this->Map.get();
   const std::int64_t steps = map ? map->Steps : this->Job.Job.Steps;
-  const Weights weights = this->WeightsOf(device, steps);
+  const auto weights = this->WeightsOf(device, steps);
   const DeviceBuffer& none = this->Total;
   this->ForPieces(device, steps, count, progress, [&](std::int64_t first, std::int64_t last) {
-    this->Advect.With(this->Input, this->Tables->Fine, this->Tables->Coarse, this->Tables->Occupied,
-      cl_long{ steps }, cl_long{ map ? map->LevelCount : 0 }, map ? map->Levels : none,
-      map ? map->Records : none, map ? map->Bad : none, *weights, cl_long{ steps },
-      cl_long{ first }, cl_long{ last }, this->Seeds[this->Set], cl_uint{ count }, this->States,
-      this->Positions[this->Set], this->Status);
-    device.Run(this->Advect, count);
+    this->AdvectKernel.With(this->Input, this->Tables->Fine, this->Tables->Coarse,
+      this->Tables->Occupied, cl_long{ steps }, cl_long{ map ? map->LevelCount : 0 },
+      map ? map->Levels : none, map ? map->Records : none, map ? map->Bad : none, *weights,
+      cl_long{ steps }, cl_long{ first }, cl_long{ last }, this->Seeds[this->Set], cl_uint{ count },
+      this->States, this->Positions[this->Set], this->Status);
+    device.Run(this->AdvectKernel, count);
   });
   meanwhile();
   this->IsListed = false;

@@ -14,6 +14,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace RectifiedTransport
@@ -34,6 +35,25 @@ public:
   DeviceBuffer Bad;
 };
 
+// The weights of steps, which all runs share.
+class DeviceWeights
+{
+public:
+  // Those of a run of so many steps. Throws DeviceError.
+  std::shared_ptr<const DeviceBuffer> Of(
+    Device& device, std::int64_t steps, FlowDirection direction);
+
+private:
+  std::map<std::pair<std::int64_t, FlowDirection>, std::shared_ptr<const DeviceBuffer>> Kept;
+};
+
+// The most steps that so many particles take in one run of a kernel.
+std::int64_t stepsAtOnce(const Device& device, std::int64_t particles);
+
+// ParticleState of the kernels, in bytes: numbers of 8, and three of 4 with a gap.
+template <int Dimension>
+constexpr std::size_t stateSize = (5 * Dimension + 1 + 2) * sizeof(double);
+
 struct KernelReport
 {
   std::int64_t Evaluations = 0;
@@ -53,7 +73,8 @@ public:
   // `mostOfPart` are run in parts, one after the other. Throws DeviceError.
   KernelRun(Device& device, const DeviceProgram& program, const AdvectionJob<Dimension>& job,
     std::shared_ptr<const DeviceTables<Dimension>> tables,
-    std::shared_ptr<const DeviceMap<Dimension>> map, std::int64_t mostOfPart = UsualPart);
+    std::shared_ptr<const DeviceMap<Dimension>> map, std::shared_ptr<DeviceWeights> weights,
+    std::int64_t mostOfPart = UsualPart);
 
   // Makes the seeds of a part of the particles on the device: from(first, count, seeds), where the
   // transfer of what is read there may be under way.
@@ -71,8 +92,7 @@ public:
   Prepare FromLattice(Device& device, const LatticeOrder<Dimension>& lattice, std::int64_t begin);
 
 private:
-  using Weights = std::shared_ptr<const DeviceBuffer>;
-  Weights WeightsOf(Device& device, std::int64_t steps);
+  std::shared_ptr<const DeviceBuffer> WeightsOf(Device& device, std::int64_t steps);
   void MakeRoom(Device& device, std::int64_t count, bool hasTwoSets);
   template <class Meanwhile>
   KernelReport RunForward(
@@ -90,13 +110,13 @@ private:
   const AdvectionJob<Dimension>& Job;
   const std::shared_ptr<const DeviceTables<Dimension>> Tables;
   const std::shared_ptr<const DeviceMap<Dimension>> Map;
+  const std::shared_ptr<DeviceWeights> OfSteps;
   DeviceBuffer Input;
-  DeviceKernel Place;
-  DeviceKernel Advect;
-  DeviceKernel Count;
-  DeviceKernel Sum;
-  DeviceKernel Keep;
-  std::map<std::int64_t, Weights> OfSteps;
+  DeviceKernel PlaceKernel;
+  DeviceKernel AdvectKernel;
+  DeviceKernel CountKernel;
+  DeviceKernel SumKernel;
+  DeviceKernel KeepKernel;
   const std::int64_t MostOfPart; // particles
   // Of as many particles as there were in any part. While kernels run on a set of seeds and
   // positions, others are transferred.

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 namespace RectifiedTransport
 {
@@ -15,47 +14,41 @@ namespace RectifiedTransport
 namespace
 {
 
-// NodeSteps of the kernel.
-struct NodeSteps
+constexpr const char* what = "a flow map";
+
+template <class T>
+DeviceBuffer uploadAll(Device& device, const std::vector<T>& values)
 {
-  std::int64_t First;
-  std::int64_t Steps;
-  double Begin;
-  double End;
-};
+  return upload(device, values.data(), static_cast<std::int64_t>(values.size()), what);
+}
 
 } // namespace
 
 template <int Dimension>
 NodeRun<Dimension>::NodeRun(Device& device, const DeviceProgram& program,
-  const FlowJob<Dimension>& job, std::shared_ptr<const DeviceTables<Dimension>> tables)
-  : IsBackward(job.Backward)
+  const FlowJob<Dimension>& job, std::shared_ptr<const DeviceTables<Dimension>> tables,
+  const FlowMapView<Dimension>& map, const FlowMapLevel<Dimension>& level)
+  : Level(level)
+  , Steps(map.Steps)
+  , LevelCount(map.LevelCount)
+  , Record(job.Backward ? FlowMapLevel<Dimension>::BackwardRecord
+                        : FlowMapLevel<Dimension>::ForwardRecord)
   , Tables(std::move(tables))
+  , Coarser(device, map, job.Backward)
   , Advance(program.NewKernel("advanceNodes"))
 {
   const FlowInput input = flowInput<Dimension>(job);
-  this->Input = upload(device, &input, 1, "a flow map");
-}
-
-template <int Dimension>
-std::int64_t NodeRun<Dimension>::Run(Device& device, const FlowMapView<Dimension>& map,
-  const FlowMapLevel<Dimension>& level, std::int64_t first, std::int64_t count,
-  unsigned char* marks, Progress& progress)
-{
-  const std::int64_t all = map.Steps;
+  this->Input = upload(device, &input, 1, what);
+  const auto timeOf = [&](std::int64_t step) {
+    return step < map.Steps ? 1.0 - grading(step, map.Steps) : 0.0;
+  };
   std::vector<StepWeights> weights;
   std::vector<NodeSteps> steps;
-  // Backward times by the steps of particles since time 1, forward by those until then.
-  const auto timeOf = [&](
-                        std::int64_t step) { return step < all ? 1.0 - grading(step, all) : 0.0; };
-  const auto timeBefore = [&](std::int64_t left) {
-    return commonStart + (1.0 - commonStart) * grading(all - left, all);
-  };
   for (int parent = -1; parent < map.LevelCount; ++parent)
   {
     const std::vector<StepWeights> own =
-      nodeWeights<Dimension>(map, this->IsBackward, level.HandOver, parent);
-    const std::int64_t to = parent < 0 ? all : map.Levels[parent].HandOver;
+      nodeWeights<Dimension>(map, job.Backward, level.HandOver, parent);
+    const std::int64_t to = parent < 0 ? map.Steps : map.Levels[parent].HandOver;
     steps.push_back({ static_cast<std::int64_t>(weights.size()),
       static_cast<std::int64_t>(own.size()), timeOf(level.HandOver), timeOf(to) });
     weights.insert(weights.end(), own.begin(), own.end());
@@ -66,57 +59,51 @@ std::int64_t NodeRun<Dimension>::Run(Device& device, const FlowMapView<Dimension
     const std::vector<double> own = placesOf(axis);
     places.insert(places.end(), own.begin(), own.end());
   }
-  const char* const what = "a flow map";
-  const auto uploadAll = [&](const auto& values) {
-    return upload(device, values.data(), static_cast<std::int64_t>(values.size()), what);
-  };
-  const DeviceMap<Dimension> coarser(device, map, this->IsBackward);
-  const DeviceBuffer ofParticles = upload(device, map.Weights, all, what);
-  const DeviceBuffer ofNodes = uploadAll(weights);
-  const DeviceBuffer nodeSteps = uploadAll(steps);
-  const DeviceBuffer allPlaces = uploadAll(places);
+  this->OfParticles = upload(device, map.Weights, map.Steps, what);
+  this->OfNodes = uploadAll(device, weights);
+  this->StepsOfNodes = uploadAll(device, steps);
+  this->Places = uploadAll(device, places);
+  // A node takes all steps in one run: so few that they are not too many.
+  constexpr std::int64_t few = 64;
+  constexpr std::int64_t many = 1024;
+  const std::int64_t most = std::max<std::int64_t>(steps.front().Steps, 1);
+  this->Fewest = std::clamp(few * stepsAtOnce(device, few) / most / few * few, few, many);
+}
 
-  // Slices of the nodes.
-  Progress work(progress.Stage());
-  work.BeginStage(1.0, count);
-  constexpr std::int64_t fewest = 1024;
-  const std::int64_t record = this->IsBackward ? FlowMapLevel<Dimension>::BackwardRecord
-                                               : FlowMapLevel<Dimension>::ForwardRecord;
-  std::int64_t room = 0;
-  DeviceBuffer records;
-  DeviceBuffer ofVoids;
-  DeviceBuffer status;
-  std::vector<std::uint32_t> counts;
-  std::int64_t evaluations = 0;
-  for (std::int64_t done = 0; done < count;)
+template <int Dimension>
+std::int64_t NodeRun<Dimension>::Run(
+  Device& device, std::int64_t first, std::int64_t count, unsigned char* marks)
+{
+  const auto nodes = static_cast<std::size_t>(count);
+  const std::size_t floats = nodes * static_cast<std::size_t>(this->Record);
+  if (count > this->Room)
   {
-    const std::int64_t slice = std::min(count - done, work.NextSlice(fewest));
-    const auto nodes = static_cast<std::size_t>(slice);
-    if (slice > room)
-    {
-      records = device.Allocate(nodes * static_cast<std::size_t>(record) * sizeof(float), what);
-      ofVoids = device.Allocate(nodes, what);
-      status = device.Allocate(nodes * sizeof(std::uint32_t), what);
-      counts.resize(nodes);
-      room = slice;
-    }
-    this->Advance.With(this->Input, this->Tables->Fine, this->Tables->Coarse,
-      this->Tables->Occupied, cl_long{ all }, cl_long{ map.LevelCount }, coarser.Levels,
-      coarser.Records, coarser.Bad, ofParticles, ofNodes, nodeSteps, cl_long{ level.HandOver },
-      timeBefore(level.HandOver + 2), timeBefore(level.HandOver + 1), timeBefore(level.HandOver),
-      allPlaces, cl_long{ level.Axes[0].Cells + 1 }, cl_long{ level.Axes[1].Cells + 1 },
-      cl_long{ first + done }, static_cast<cl_uint>(slice), records, ofVoids, status);
-    device.Run(this->Advance, nodes);
-    device.Read(records, level.Records + (first + done) * record,
-      nodes * static_cast<std::size_t>(record) * sizeof(float));
-    device.Read(ofVoids, marks + first + done, nodes);
-    device.Read(status, counts.data(), nodes * sizeof(std::uint32_t));
-    for (std::size_t i = 0; i < nodes; ++i)
-    {
-      evaluations += counts[i] / 2;
-    }
-    done += slice;
-    work.EndSlice(slice);
+    this->Records = device.Allocate(floats * sizeof(float), what);
+    this->Marks = device.Allocate(nodes, what);
+    this->Status = device.Allocate(nodes * sizeof(std::uint32_t), what);
+    this->Counts.resize(nodes);
+    this->Room = count;
+  }
+  // The common times of particles that hand over, by the number of steps that are left.
+  const auto timeBefore = [&](std::int64_t left) {
+    return commonStart + (1.0 - commonStart) * grading(this->Steps - left, this->Steps);
+  };
+  const std::int64_t handOver = this->Level.HandOver;
+  this->Advance.With(this->Input, this->Tables->Fine, this->Tables->Coarse, this->Tables->Occupied,
+    cl_long{ this->Steps }, cl_long{ this->LevelCount }, this->Coarser.Levels,
+    this->Coarser.Records, this->Coarser.Bad, this->OfParticles, this->OfNodes, this->StepsOfNodes,
+    cl_long{ handOver }, timeBefore(handOver + 2), timeBefore(handOver + 1), timeBefore(handOver),
+    this->Places, cl_long{ this->Level.Axes[0].Cells + 1 },
+    cl_long{ this->Level.Axes[1].Cells + 1 }, cl_long{ first }, static_cast<cl_uint>(count),
+    this->Records, this->Marks, this->Status);
+  device.Run(this->Advance, nodes);
+  device.Read(this->Records, this->Level.Records + first * this->Record, floats * sizeof(float));
+  device.Read(this->Marks, marks + first, nodes);
+  device.Read(this->Status, this->Counts.data(), nodes * sizeof(std::uint32_t));
+  std::int64_t evaluations = 0;
+  for (std::size_t i = 0; i < nodes; ++i)
+  {
+    evaluations += this->Counts[i] / 2;
   }
   return evaluations;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Advections of particles on a device: indexing alone, the arithmetic is that of the shared kernels.
+// Advections of particles on a device: indexing alone; the shared kernels have the arithmetic.
 
 #define RT_TABLES                                                                                  \
   __constant FlowInput *input, __global const double *fine, __global const double *coarse,         \
@@ -45,16 +45,9 @@ void writePoint(__global double* points, size_t i, const double* x)
   }
 }
 
-typedef struct
-{
-  long Cells[3];
-  double Place[3]; // in a cell
-  double Size[3];  // of the box
-} LatticeShape;
-
 // `count` points of a lattice from the number `first` on, as LatticeOrder.h places them.
 __kernel __attribute__((reqd_work_group_size(64, 1, 1))) void placeLattice(
-  LatticeShape lattice, long first, uint count, __global double* points)
+  LatticeInput lattice, long first, uint count, __global double* points)
 {
   if (get_global_id(0) >= count)
   {
@@ -175,15 +168,7 @@ __kernel __attribute__((reqd_work_group_size(64, 1, 1))) void advectBackward(RT_
   status[i] = statusOf(&s);
 }
 
-// The unresolved of a list in its order: the numbers in each group of RT_GROUP, their sums, and the
-// new list.
-#define RT_GROUP 256
-
-typedef struct
-{
-  ulong Evaluations;
-  ulong Unresolved;
-} PassCounts;
+// The unresolved of a list in its order: the numbers in each group, their sums, and the new list.
 
 __kernel __attribute__((reqd_work_group_size(RT_GROUP, 1, 1))) void countUnresolved(
   __global const uint* status, uint count, __global PassCounts* counts)
@@ -211,7 +196,8 @@ __kernel __attribute__((reqd_work_group_size(RT_GROUP, 1, 1))) void countUnresol
   }
 }
 
-// Of each group those before it, and the sums of all in `total`. One group of items.
+// Replaces the number of each group by the sum of those before it; the sums of all go to `total`.
+// One group of items.
 __kernel __attribute__((reqd_work_group_size(RT_GROUP, 1, 1))) void sumCounts(
   __global PassCounts* counts, uint groups, __global PassCounts* total)
 {
@@ -273,4 +259,10 @@ __kernel __attribute__((reqd_work_group_size(RT_GROUP, 1, 1))) void keepUnresolv
     }
     kept[place] = isListed ? list[i] : i;
   }
+}
+
+// For the self-test: what the host takes the kernels' state of a particle for.
+__kernel void sizeOfState(__global ulong* size)
+{
+  size[get_global_id(0)] = sizeof(ParticleState);
 }

@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The nodes of a lattice of a flow map on a device: indexing alone, after Advect.cl.
 
-// What the nodes of a level take from each of the coarser ones, and the last from scratch.
-typedef struct
-{
-  long First; // of their weights
-  long Steps;
-  double Begin; // backward: the times between which these lead
-  double End;
-} NodeSteps;
-
 // Makes the records of the nodes [first, first + count) of a lattice with `nodes` nodes an axis, at
 // `places`, those of axis 0 first. Each starts from the finest of `levelCount` levels that may be
 // interpolated there. Forward from scratch to the three common times `time0` to `time2`.
@@ -59,6 +50,6 @@ __kernel __attribute__((reqd_work_group_size(64, 1, 1))) void advanceNodes(RT_TA
   }
   marks[i] = s.IsUnresolved ? 1 : 0;
   status[i] = 2 * (uint)s.Evaluations;
-  __global float* record = result + (size_t)i * (input->Backward ? RT_BACKWARD_RECORD : RT_FORWARD_RECORD);
-  writeRecord(input->Backward, &s, record);
+  const size_t record = input->Backward ? RT_BACKWARD_RECORD : RT_FORWARD_RECORD;
+  writeRecord(input->Backward, &s, result + i * record);
 }

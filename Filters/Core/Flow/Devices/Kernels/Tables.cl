@@ -3,18 +3,6 @@
 // fixed size, sums in order along each of their chains, and chains side by side. An item for each
 // chain, or place.
 
-#define RT_STRIP_CELLS 256 // along axis 0, in 2D
-#define RT_STRIP_ROWS 32   // along axis 1, in 3D
-
-// The cells of the grid, and the strides of the nodes in doubles.
-typedef struct
-{
-  long Cells[3];
-  long Strips;
-  long Stride1;
-  long Stride2;
-} TableShape;
-
 #define RT_GROUP64 __attribute__((reqd_work_group_size(64, 1, 1)))
 
 // A node's record is stored at once.
@@ -31,7 +19,8 @@ double4 loadRecord(__global const double* node)
 #if RT_D == 2
 
 // {f, f x_0} of the cells of a strip of a row, in eight lanes, about the strip's low face.
-__kernel RT_GROUP64 void sumStrips(TableShape s, __global const double* values, __global double2* sums)
+__kernel RT_GROUP64 void sumStrips(
+  TableShape s, __global const double* values, __global double2* sums)
 {
   const long row = get_global_id(0);
   const long strip = get_global_id(1);
@@ -65,7 +54,8 @@ __kernel RT_GROUP64 void sumStrips(TableShape s, __global const double* values, 
 }
 
 // Those of the strips before each, about the grid's low face.
-__kernel RT_GROUP64 void sumBefore(TableShape s, __global double2* sums)
+__kernel RT_GROUP64 void sumBefore(
+  TableShape s, __global double2* sums)
 {
   const long row = get_global_id(0);
   if (row >= s.Cells[1])
@@ -84,8 +74,8 @@ __kernel RT_GROUP64 void sumBefore(TableShape s, __global double2* sums)
 }
 
 // The sums of each row up to each cell.
-__kernel RT_GROUP64 void sumRows(TableShape s, __global const double* values, __global const double2* sums,
-  __global double* nodes)
+__kernel RT_GROUP64 void sumRows(
+  TableShape s, __global const double* values, __global const double2* sums, __global double* nodes)
 {
   const long row = get_global_id(0);
   const long strip = get_global_id(1);
@@ -111,7 +101,8 @@ __kernel RT_GROUP64 void sumRows(TableShape s, __global const double* values, __
 }
 
 // Those of the rows up to each; column 0 and row 0 are zero.
-__kernel RT_GROUP64 void sumColumns(TableShape s, __global double* nodes)
+__kernel RT_GROUP64 void sumColumns(
+  TableShape s, __global double* nodes)
 {
   const long i = get_global_id(0);
   if (i > s.Cells[0])
@@ -131,7 +122,8 @@ __kernel RT_GROUP64 void sumColumns(TableShape s, __global double* nodes)
 #else
 
 // {f, f x_1} of the columns of a strip of rows, in each slice.
-__kernel RT_GROUP64 void sumStrips(TableShape s, __global const double* values, __global double* before)
+__kernel RT_GROUP64 void sumStrips(
+  TableShape s, __global const double* values, __global double* before)
 {
   const long i = get_global_id(0);
   const long strip = get_global_id(1);
@@ -154,7 +146,8 @@ __kernel RT_GROUP64 void sumStrips(TableShape s, __global const double* values, 
 }
 
 // Their sums along axis 0.
-__kernel RT_GROUP64 void sumAlong(TableShape s, __global double* before)
+__kernel RT_GROUP64 void sumAlong(
+  TableShape s, __global double* before)
 {
   const long k = get_global_id(0);
   const long strip = get_global_id(1);
@@ -177,7 +170,8 @@ __kernel RT_GROUP64 void sumAlong(TableShape s, __global double* before)
 }
 
 // Those of the strips before each.
-__kernel RT_GROUP64 void sumBefore(TableShape s, __global double* before)
+__kernel RT_GROUP64 void sumBefore(
+  TableShape s, __global double* before)
 {
   const long i = get_global_id(0);
   const long k = get_global_id(1);
@@ -196,7 +190,8 @@ __kernel RT_GROUP64 void sumBefore(TableShape s, __global double* before)
 }
 
 // The sums of each row up to each cell.
-__kernel RT_GROUP64 void sumRows(TableShape s, __global const double* values, __global double* nodes)
+__kernel RT_GROUP64 void sumRows(
+  TableShape s, __global const double* values, __global double* nodes)
 {
   const long row = get_global_id(0);
   const long k = get_global_id(1);
@@ -221,7 +216,8 @@ __kernel RT_GROUP64 void sumRows(TableShape s, __global const double* values, __
 }
 
 // Those of the rows of a slice up to each.
-__kernel RT_GROUP64 void sumColumns(TableShape s, __global const double* before, __global double* nodes)
+__kernel RT_GROUP64 void sumColumns(
+  TableShape s, __global const double* before, __global double* nodes)
 {
   const long i = get_global_id(0);
   const long strip = get_global_id(1);
@@ -241,7 +237,8 @@ __kernel RT_GROUP64 void sumColumns(TableShape s, __global const double* before,
 }
 
 // Those of the slices up to each; plane 0, row 0 and column 0 are zero.
-__kernel RT_GROUP64 void sumSlices(TableShape s, __global double* nodes)
+__kernel RT_GROUP64 void sumSlices(
+  TableShape s, __global double* nodes)
 {
   const long i = get_global_id(0);
   const long row = get_global_id(1);
@@ -266,8 +263,9 @@ __kernel RT_GROUP64 void sumSlices(TableShape s, __global double* nodes)
 #endif
 
 // The nodes of a coarse level: every 2^shift-th one, and the last of an axis in any case.
-__kernel RT_GROUP64 void copyLevel(TableShape s, __global const double* nodes, __global double* coarse,
-  long offset, long stride1, long stride2, int shift)
+__kernel RT_GROUP64 void copyLevel(
+  TableShape s, __global const double* nodes, __global double* coarse, long offset, long stride1,
+  long stride2, int shift)
 {
   const long i = get_global_id(0);
   const long j = get_global_id(1);

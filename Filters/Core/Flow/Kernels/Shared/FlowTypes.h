@@ -59,4 +59,41 @@ typedef struct
 } StepWeights;
 #endif
 
+// Of a pass over particles, or of a group of RT_GROUP of them.
+#define RT_GROUP 256
+typedef struct
+{
+  Int64 Evaluations;
+  Int64 Unresolved;
+} PassCounts;
+
+// The points of a lattice.
+typedef struct
+{
+  Int64 Cells[3];
+  double Place[3]; // in a cell
+  double Size[3];  // of the box
+} LatticeInput;
+
+// What the nodes of a level of a flow map take from a coarser one, or from scratch.
+typedef struct
+{
+  Int64 First; // of their weights
+  Int64 Steps;
+  double Begin; // backward: the times between which these lead
+  double End;
+} NodeSteps;
+
+// The cells of tables and the strides of their nodes, in doubles. Sums are taken over strips, as in
+// TableBuild.cxx.
+#define RT_STRIP_CELLS 256 // along axis 0, in 2D
+#define RT_STRIP_ROWS 32   // along axis 1, in 3D
+typedef struct
+{
+  Int64 Cells[3];
+  Int64 Strips;
+  Int64 Stride1;
+  Int64 Stride2;
+} TableShape;
+
 #endif

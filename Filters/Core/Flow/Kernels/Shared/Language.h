@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the shared kernels are written in: the part that C++ and OpenCL C 1.2 have in common, and
 // these names for what differs. In C++ it is included by FlowKernels.txx, within its namespaces and
-// after Vectors.txx; for devices it is the first part of the program (SharedKernelText.h).
+// after Vectors.txx; for devices it is the first part of the program (FlowPrograms.h).
 #ifndef RectifiedTransport_Language_h
 #define RectifiedTransport_Language_h
 

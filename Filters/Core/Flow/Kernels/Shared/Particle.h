@@ -333,8 +333,6 @@ RT_FUNCTION void stepForward(const TableInput* tables, RT_GLOBAL const StepWeigh
   {
     ParticleBox box;
     takeGradedStep(tables, weights + step, span, s->Start + span * weights[step].Time, s, &box);
-    // A box so small that it may count as empty though it is not is no sign of a void; where it is
-    // in one, the particle ends in an empty cell.
     double mostMass = RT_LEAST_PART * input->Largest;
     for (int axis = 0; axis < RT_D; ++axis)
     {
