@@ -186,9 +186,9 @@ public:
    * or it fails, a warning says why, and the processor does the work, or the rest of it. A device
    * needs double precision and has to pass a test of its arithmetic when it is opened, which takes
    * about a second. It stays open, for all filters of the program, until the last filter that uses
-   * it is deleted, or runs with CPU. Devices with slow double precision, as most graphics cards for games, may be slower
-   * than a processor of many cores. With several MPI ranks on a machine, each takes the next
-   * device.
+   * it is deleted, or runs with CPU. Devices with slow double precision, as most graphics cards for
+   * games, may be slower than a processor of many cores. With several MPI ranks on a machine, each
+   * takes the next device.
    */
   vtkSetMacro(Device, int);
   vtkGetMacro(Device, int);

@@ -18,8 +18,8 @@ class KeptDevice
 {
 public:
   // The device for a run, by a name and a number as those of openDevice (DeviceList.h): the one of
-  // the last run, else one that another filter has open, else a new one; none of them lost. If there
-  // is none, the result says why, and the next run tries again.
+  // the last run, else one that another filter has open, else a new one; none of them lost. If
+  // there is none, the result says why, and the next run tries again.
   DeviceUse Begin(const std::string& name, int number);
   // Lets go of it.
   void Release() { this->Opened.reset(); }

@@ -200,17 +200,21 @@ void checkSharing(Checks& checks)
   CHECK(checks, other.Begin(deviceNames().front(), 0).Serves() && is(other));
 
   // What it cannot do once does not close it.
-  DeviceUse small = one.Begin("", 0);
-  CHECK(checks, !small.Run([](Device&) { throw DeviceError("too little memory"); }));
-  CHECK(checks, small.Fault() == "too little memory" && !small.Serves());
+  {
+    DeviceUse small = one.Begin("", 0);
+    CHECK(checks, !small.Run([](Device&) { throw DeviceError("too little memory"); }));
+    CHECK(checks, small.Fault() == "too little memory" && !small.Serves());
+  }
   CHECK(checks, one.Begin("", 0).Serves() && is(one));
   one.Release();
   CHECK(checks, one.Get() == nullptr && is(other));
   CHECK(checks, one.Begin("", 0).Serves() && is(one));
 
   // One that is lost is opened anew, by all who have it.
-  DeviceUse lost = one.Begin("", 0);
-  CHECK(checks, !lost.Run([](Device&) { throw LostDevice("lost"); }) && lost.Fault() == "lost");
+  {
+    DeviceUse lost = one.Begin("", 0);
+    CHECK(checks, !lost.Run([](Device&) { throw LostDevice("lost"); }) && lost.Fault() == "lost");
+  }
   CHECK(checks, isLost(*opened.lock()));
   CHECK(checks, one.Begin("", 0).Serves() && !is(one) && is(other));
   CHECK(checks, other.Begin("", 0).Serves() && other.Get() == one.Get());
