@@ -47,16 +47,17 @@ void drawTables(Settings& settings)
 // Whether runs take the processor where a device is drawn, as the reference that others have.
 bool isOnProcessor();
 
-// Where the flow is computed, by choices that leave those of other settings as they are; some
-// machines have a device of each name but the last. It must not matter.
+// The flow is computed on a device, and as reference on the processor: it must not matter. By
+// choices that leave those of other settings as they are; some machines have a device of each name
+// but the last.
 template <class T>
 void drawDevice(Settings& settings)
 {
   RandomSource before = settings.GetRandom();
   RandomSource random(before.Next());
   const bool inRange = !random.Chance(0.015);
-  const int device = inRange ? random.Of({ 0, 1, 1, 1 }) : random.Of({ -1, 2 });
-  const std::string name = random.Of({ "", "", "", "", "pthread", "none" });
+  const int device = inRange ? random.Of({ 0, 1, 1, 1, 1, 1, 1, 1 }) : random.Of({ -1, 2 });
+  const std::string name = random.Of({ "", "", "", "", "", "", "", "", "", "", "pthread", "none" });
   settings.Add(
     "Device", std::to_string(device),
     [device](vtkAlgorithm* filter) {

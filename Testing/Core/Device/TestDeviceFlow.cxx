@@ -81,6 +81,7 @@ TEST_F(FlowOfADevice, OfManyValues)
   this->ExpectSame<2>(randomCells<2>({ 385, 450 }));
   this->ExpectSame<2>(randomCells<2>({ 385, 450 }), steps(64));
   this->ExpectSame<2>(randomCells<2>({ 9, 300 }), steps(128));
+  this->ExpectSame<2>(randomCells<2>({ 2, 70000 })); // a long axis: its tables are copied
   this->ExpectSame<3>(twoGaussians<3>({ 96, 115, 100 }));
   this->ExpectSame<3>(randomCells<3>({ 20, 31, 66 }), steps(48));
 }

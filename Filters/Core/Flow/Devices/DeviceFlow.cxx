@@ -287,8 +287,11 @@ void DeviceFlow<Dimension>::MakeTables(DeviceUse& use, const DensitySource<Dimen
 {
   if constexpr (Dimension > 1)
   {
-    // Not collective: on ranks those of the processor are copied when they are needed.
-    if (!use.Serves() || density.IsDistributed())
+    // Else those of the processor are copied when they are needed: this is not collective, and
+    // devices sum along an axis in one run of a kernel, and have no more groups of items.
+    constexpr std::int64_t longest = 65535;
+    if (!use.Serves() || density.IsDistributed() ||
+      *std::max_element(density.Size.begin(), density.Size.end()) >= longest)
     {
       return;
     }
