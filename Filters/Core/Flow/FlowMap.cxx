@@ -2,7 +2,7 @@
 #include "Core/Flow/FlowMap.h"
 
 #include "Core/Flow/Devices/DeviceAdvection.h"
-#include "Core/Flow/LatticePlaces.h"
+#include "Core/Flow/Kernels/LatticePlaces.h"
 #include "Core/Flow/NodeAdvance.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"

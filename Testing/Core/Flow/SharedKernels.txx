@@ -5,8 +5,8 @@
 
 #include "Core/Flow/AdvectionJob.h"
 #include "Core/Flow/FlowMap.h"
+#include "Core/Flow/Kernels/LatticePlaces.h"
 #include "Core/Flow/Kernels/SharedInputs.h"
-#include "Core/Flow/LatticePlaces.h"
 #include "Core/Flow/NodeAdvance.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/SummedAreaTables.h"

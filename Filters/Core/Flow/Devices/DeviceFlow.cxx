@@ -21,6 +21,12 @@ namespace RectifiedTransport
 namespace
 {
 
+// What ends the wait for a device that another thread uses.
+std::function<bool()> stopsOf(Progress& progress)
+{
+  return [&progress]() { return progress.ShouldStop(); };
+}
+
 // What a device has of one flow.
 template <int Dimension>
 struct KeptOnDevice
@@ -99,7 +105,7 @@ private:
             report = this->Kernels->Run(
               device, count, this->Kernels->FromLattice(device, lattice, first), own, progress);
           },
-          [&progress]() { return progress.ShouldStop(); }))
+          stopsOf(progress)))
     {
       return false;
     }
@@ -137,7 +143,7 @@ private:
             };
             report = this->Kernels->Run(device, count, prepare, points, progress);
           },
-          [&progress]() { return progress.ShouldStop(); }))
+          stopsOf(progress)))
     {
       return false;
     }
@@ -198,22 +204,24 @@ public:
   std::int64_t Run(const FlowMapView<Dimension>& map, const FlowMapLevel<Dimension>& level,
     std::int64_t first, std::int64_t count, unsigned char* marks, Progress& progress) override
   {
-    const auto stops = [&progress]() { return progress.ShouldStop(); };
+    const auto stops = stopsOf(progress);
     std::unique_ptr<NodeRun<Dimension>> run;
-    this->Use.Run(
-      [&](Device& device) {
-        run = std::make_unique<NodeRun<Dimension>>(device, flowProgram(device, Dimension),
-          this->Job, this->Tables(device, this->Job.Tables), map, level);
-      },
-      stops);
+    if (!this->Use.Run(
+          [&](Device& device) {
+            run = std::make_unique<NodeRun<Dimension>>(device, flowProgram(device, Dimension),
+              this->Job, this->Tables(device, this->Job.Tables), map, level);
+          },
+          stops))
+    {
+      return -1;
+    }
     Progress work(progress.Stage());
     work.BeginStage(1.0, count);
     std::int64_t evaluations = 0;
     for (std::int64_t done = 0; done < count && this->Use.Serves();)
     {
       // No others wait for the device while progress is reported.
-      const std::int64_t slice =
-        run ? std::min(count - done, work.NextSlice(run->FewestNodes())) : 0;
+      const std::int64_t slice = std::min(count - done, work.NextSlice(run->FewestNodes()));
       this->Use.Run(
         [&](Device& device) { evaluations += run->Run(device, first + done, slice, marks); },
         stops);
@@ -300,15 +308,19 @@ void DeviceFlow<Dimension>::MakeTables(DeviceUse& use, const DensitySource<Dimen
     const std::shared_ptr<const DensityValues> source = density.Whole();
     const ScaledDensity scaled(*source, exponent);
     const DensityValues& given = exponent != 0 ? scaled : *source;
-    const auto stops = [&progress]() { return progress.ShouldStop(); };
+    const auto stops = stopsOf(progress);
     const std::int64_t most = std::min(cells, std::int64_t{ 1 } << 20);
     std::vector<double> part(static_cast<std::size_t>(most));
     DeviceBuffer values;
-    use.Run(
-      [&](Device& device) {
-        values = device.Allocate(static_cast<std::size_t>(cells) * sizeof(double), "the tables");
-      },
-      stops);
+    if (!use.Run(
+          [&](Device& device) {
+            values =
+              device.Allocate(static_cast<std::size_t>(cells) * sizeof(double), "the tables");
+          },
+          stops))
+    {
+      return;
+    }
     progress.BeginStage(1.0, cells);
     for (std::int64_t first = 0; first < cells && use.Serves();)
     {

@@ -4,7 +4,6 @@
 #include "Core/Flow/Kernels/SharedInputs.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace RectifiedTransport
@@ -282,7 +281,7 @@ std::uint32_t KernelRun<Dimension>::CountPass(
     this->SumKernel.With(this->Counts, cl_uint{ groups }, this->Total), groupSize, groupSize);
   PassCounts total{};
   device.Read(this->Total, &total, sizeof(total));
-  report.Evaluations += static_cast<std::int64_t>(total.Evaluations);
+  report.Evaluations += total.Evaluations;
   const auto left = static_cast<std::uint32_t>(total.Unresolved);
   if (left > 0)
   {

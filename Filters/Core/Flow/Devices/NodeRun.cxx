@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/Devices/NodeRun.h"
 
+#include "Core/Flow/Kernels/LatticePlaces.h"
 #include "Core/Flow/Kernels/SharedInputs.h"
-#include "Core/Flow/LatticePlaces.h"
 #include "Core/Flow/NodeAdvance.h"
 
 #include <algorithm>
