@@ -180,7 +180,7 @@ public:
   {
     if (this->Work.Device())
     {
-      this->OnDevice = kept.Begin(*this->Work.Device(), this->Shared, this->Map);
+      this->OnDevice = kept.Begin(*this->Work.Device(), this->Shared, this->Map, this->Work);
     }
   }
 

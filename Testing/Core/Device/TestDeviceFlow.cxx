@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -187,6 +188,38 @@ TEST_F(FlowOfADevice, CanBeCancelled)
     EXPECT_TRUE(sameBits<2>(runForward<2>(flow, seeds, {}, context), right));
   }
   EXPECT_GT(cancelled, 2);
+}
+
+// Also while another thread has the device, which is not to blame.
+TEST_F(FlowOfADevice, CanBeCancelledWhileItWaits)
+{
+  const TestDensity<2> density = randomCells<2>({ 300, 260 });
+  const RectifiedFlow<2> flow = makeFlow<2>(density);
+  const Points<2> seeds = randomPoints<2>(density.Size, 1000);
+  for (const FlowMaps maps : { FlowMaps::Off, FlowMaps::On })
+  {
+    DeviceUse use(this->Opened);
+    bool isCancelled = false;
+    std::unique_lock<std::timed_mutex> lock(this->Opened->Mutex());
+    std::thread other([&]() {
+      const SerialExecutor serial;
+      Context context(serial, {}, []() { return true; });
+      context.Device = &use;
+      Points<2> positions(seeds.size());
+      try
+      {
+        flow.Forward(seeds, positions, with(maps, steps(32)), context);
+      }
+      catch (const Cancelled&)
+      {
+        isCancelled = true;
+      }
+    });
+    other.join();
+    EXPECT_TRUE(isCancelled);
+    EXPECT_EQ(use.Fault(), "");
+    EXPECT_FALSE(this->Opened->IsLost());
+  }
 }
 
 // What devices do not do, the processor does.

@@ -75,10 +75,12 @@ public:
   void MakeTables(DeviceUse& use, const DensitySource<Dimension>& density,
     const SummedAreaTables<Dimension>& tables, Progress& progress);
 
-  // An advection with a map, or none, on the device of `use`. All must outlive it. Advections of
+  // An advection with a map, or none, on the device of `use`; null where that does not serve, or
+  // the progress is to stop before another thread leaves it. All must outlive it. Advections of
   // several threads may be under way.
   std::unique_ptr<DeviceAdvection<Dimension>> Begin(DeviceUse& use,
-    const AdvectionJob<Dimension>& job, std::shared_ptr<const FlowMap<Dimension>> map);
+    const AdvectionJob<Dimension>& job, std::shared_ptr<const FlowMap<Dimension>> map,
+    Progress& progress);
 
   // The nodes of maps of such an advection.
   std::unique_ptr<DeviceNodes<Dimension>> BeginNodes(

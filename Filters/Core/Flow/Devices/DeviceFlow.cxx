@@ -355,20 +355,23 @@ bool DeviceFlow<Dimension>::Serves(AdvectionKind kind, const FlowOptions& option
 }
 
 template <int Dimension>
-std::unique_ptr<DeviceAdvection<Dimension>> DeviceFlow<Dimension>::Begin(
-  DeviceUse& use, const AdvectionJob<Dimension>& job, std::shared_ptr<const FlowMap<Dimension>> map)
+std::unique_ptr<DeviceAdvection<Dimension>> DeviceFlow<Dimension>::Begin(DeviceUse& use,
+  const AdvectionJob<Dimension>& job, std::shared_ptr<const FlowMap<Dimension>> map,
+  Progress& progress)
 {
   std::unique_ptr<DeviceAdvection<Dimension>> advection;
   if constexpr (Dimension > 1)
   {
-    use.Run([&](Device& device) {
-      const auto kept = this->Kept->On(device);
-      auto tables = kept->TablesOn(device, job.Job.Tables);
-      advection = std::make_unique<Advection<Dimension>>(use, job,
-        std::make_unique<KernelRun<Dimension>>(device, flowProgram(device, Dimension), job,
-          std::move(tables), kept->MapOn(device, map, job.Job.Backward), kept->Weights),
-        device.IsGpu());
-    });
+    use.Run(
+      [&](Device& device) {
+        const auto kept = this->Kept->On(device);
+        auto tables = kept->TablesOn(device, job.Job.Tables);
+        advection = std::make_unique<Advection<Dimension>>(use, job,
+          std::make_unique<KernelRun<Dimension>>(device, flowProgram(device, Dimension), job,
+            std::move(tables), kept->MapOn(device, map, job.Job.Backward), kept->Weights),
+          device.IsGpu());
+      },
+      stopsOf(progress));
   }
   return advection;
 }

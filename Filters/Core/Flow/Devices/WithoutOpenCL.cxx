@@ -30,7 +30,7 @@ bool DeviceFlow<Dimension>::Serves(AdvectionKind, const FlowOptions&)
 
 template <int Dimension>
 std::unique_ptr<DeviceAdvection<Dimension>> DeviceFlow<Dimension>::Begin(
-  DeviceUse&, const AdvectionJob<Dimension>&, std::shared_ptr<const FlowMap<Dimension>>)
+  DeviceUse&, const AdvectionJob<Dimension>&, std::shared_ptr<const FlowMap<Dimension>>, Progress&)
 {
   return nullptr;
 }
