@@ -336,6 +336,38 @@ def parameterization(r):
                 rows)
 
 
+PAIRS = (*((f"2D/{name}", text) for name, text in (
+             ("blobs", "blobs to blobs"), ("star_ring", "star to ring"),
+             ("disks_filaments", "disks to filaments"), ("star_cross", "star to cross"),
+             ("turned_Gaussians", "a turned Gaussian"),
+             ("unequal_disks_moved", "disks of unequal masses, one moves"),
+             ("unequal_disks", "the same, both in place"),
+             ("disk_line_2", "disk to a line of 2 cells"), ("disk_line_4", "of 4 cells"),
+             ("still_void", "a still disk, and one that moves"),
+             ("still_background", "the same over a background of 1 %"),
+             ("still_Gaussians", "the same of Gaussians"), ("uniform_star", "uniform to star"),
+             ("uniform_filaments", "uniform to filaments"), ("ring_star", "ring to star"),
+             ("filaments_disks", "filaments to disks"), ("cross_blobs", "cross to blobs"))),
+         *((f"3D/{name}", text) for name, text in (
+             ("blobs", "3D: blobs to blobs"), ("animal_ring", "animal to ring"),
+             ("ring_animal", "ring to animal"), ("cross_blobs", "cross to blobs"))))
+
+
+def masses(r):
+    rows = []
+    for pair, text in PAIRS:
+        row = [text]
+        for mover in ("flow", "points", "samples"):
+            def median(what, name=f"OptimalMasses{pair}/{mover}"):
+                return r.median(name, what)
+            row.append(" / ".join(f"{median(what):.2g}" for what in ("8", "4", "6", "boxes")) +
+                       f"; {median('cost'):+.2f}")
+        row.append(f"{median('still'):.3f}" if median("still") else "")
+        rows.append(row)
+    print_table(["8 / 4 / 6 / boxes; cost over the bound, %", "flow through the uniform density",
+                 "map of single points", "samples together", "still part moves, cells"], rows)
+
+
 def relaxation(r):
     rows = []
     for points in (2048, 8192, 32768):
@@ -424,6 +456,7 @@ ALL = (jobs, memory, core, flows, tables, breakdown, bandwidths, splats, errors)
 OPTIONS = {"quality": ("how good the particles are", "Quality", quality),
            "morphs": ("morphs, barycenters and splats", "Morph|Barycenters|Splat3D", morphs),
            "parameterization": ("maps of disks", "Parameterization", parameterization),
+           "masses": ("masses of optimal maps", "OptimalMasses", masses),
            "relaxation": ("blue noise", "Relaxation", relaxation),
            "steps": ("how exactly areas are kept", "Steps", steps),
            "cartograms": ("cartograms of maps", "Cartogram/", cartograms),
@@ -481,7 +514,7 @@ def main():
     # A process that has ever kept freed memory reuses it: those benchmarks run on their own.
     results = Results(run(
         arguments, "-_reused|Lattice|Tiles|Quality|_fresh|Parameterization|Relaxation|Areas|Steps|"
-        "Cartogram"))
+        "Cartogram|OptimalMasses"))
     results.add(run(arguments, "_reused"))
 
     print_text("Whole updates of filters with a new density, on one thread of an "

@@ -67,6 +67,14 @@ Point<Dimension> cornerAt(std::int64_t corner, const GridSize<Dimension>& size)
 template <int Dimension>
 AreaCorrection<Dimension>::AreaCorrection(const RectifiedFlow<Dimension>& flow,
   const FlowOptions& options, const EqualizeOptions& equalize, const Context& context)
+  : AreaCorrection(flow, flow, options, equalize, context)
+{
+}
+
+template <int Dimension>
+AreaCorrection<Dimension>::AreaCorrection(const RectifiedFlow<Dimension>& flow,
+  const PointTransport<Dimension>& map, const FlowOptions& options, const EqualizeOptions& equalize,
+  const Context& context)
   : Size(flow.Size())
 {
   Context alone = context;
@@ -84,7 +92,7 @@ AreaCorrection<Dimension>::AreaCorrection(const RectifiedFlow<Dimension>& flow,
     }
   });
   progress.BeginStage(0.6);
-  flow.Backward(images, images, options, progress.Stage());
+  map.Backward(images, images, options, progress.Stage());
 
   progress.BeginStage(0.62, count);
   this->Moves = LargeBuffer<float>(count * Dimension);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A correction of the map from a density to the uniform measure: the corners of the density's cells
-// are moved back along the flow, equalizeAreas moves them further, and other points move as the
+// are moved back along the map, equalizeAreas moves them further, and other points move as the
 // corners of their cell do, interpolated.
 #ifndef RectifiedTransport_AreaCorrection_h
 #define RectifiedTransport_AreaCorrection_h
@@ -22,6 +22,10 @@ public:
   // Throws std::invalid_argument, std::bad_alloc and Cancelled.
   AreaCorrection(const RectifiedFlow<Dimension>& flow, const FlowOptions& options,
     const EqualizeOptions& equalize = {}, const Context& context = Context());
+  // The same of another map of the flow's density.
+  AreaCorrection(const RectifiedFlow<Dimension>& flow, const PointTransport<Dimension>& map,
+    const FlowOptions& options, const EqualizeOptions& equalize = {},
+    const Context& context = Context());
 
   // Options for the correction and for the points: FlowMaps::Auto would choose by the number of
   // points, and the errors of a flow with maps are not those of one without.
@@ -37,7 +41,7 @@ public:
   static FlowOptions Resolve(
     const RectifiedFlow<Dimension>& flow, FlowOptions options, const Context& context = Context());
 
-  // `image` is where Backward, with the same options, takes a point of the box: adds the
+  // `image` is where Backward of the map, with the same options, takes a point of the box: adds the
   // correction.
   void Correct(const double* point, double* image) const;
 

@@ -60,6 +60,16 @@ public:
     return seeds;
   }
 
+  // The same seeds as samples of equal mass, which together have the mass of the density that they
+  // are taken from: a transport may move them together, to keep masses.
+  FlowSeeds AsSamples() const
+  {
+    FlowSeeds seeds = *this;
+    seeds.HaveMass = true;
+    return seeds;
+  }
+  bool AreSamples() const { return this->HaveMass; }
+
   // The number of points of the whole lattice.
   double Count() const
   {
@@ -84,6 +94,7 @@ private:
   std::optional<LatticeParts<Dimension>> Chosen;
   Point<Dimension> PlaceInCell{};
   bool IsWhole = false;
+  bool HaveMass = false;
 };
 
 } // namespace RectifiedTransport

@@ -39,10 +39,13 @@ public:
     return this->SquareInUnits(way);
   }
 
+  // A square in physical units; infinite beyond the largest double.
+  double SquareFromUnits(double square) const { return std::ldexp(square, 2 * this->Exponent); }
+
   // A mean of such squares in physical units. Throws std::overflow_error beyond the largest double.
   double CostFromUnits(double squares) const
   {
-    const double cost = std::ldexp(squares, 2 * this->Exponent);
+    const double cost = this->SquareFromUnits(squares);
     if (!std::isfinite(cost))
     {
       throw std::overflow_error(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers, roots and exponentials with the same bits on every machine and in every standard
-// library.
+// Random numbers, roots, exponentials, cosines and sines with the same bits on every machine and in
+// every standard library.
 #ifndef RectifiedTransport_ReproducibleMath_h
 #define RectifiedTransport_ReproducibleMath_h
 
@@ -80,6 +80,46 @@ inline double naturalLogarithm(double x)
     y += 2.0 * (mantissa - found) / (mantissa + found);
   }
   return power * logOfTwo + y;
+}
+
+struct CosineAndSine
+{
+  double Cosine;
+  double Sine;
+};
+
+// Of a part of a full turn, to rounding; part and whole are at most 2^59, the whole is positive.
+// Angles that differ by symmetry have values that differ by symmetry.
+inline CosineAndSine cosineAndSine(std::int64_t part, std::int64_t whole)
+{
+  constexpr double quarterTurn = 1.57079632679489661923;
+  constexpr int terms = 18;
+  // The nearest number of quarter turns, and the rest, at most half of one, which is exact.
+  std::int64_t rest = 4 * (part % whole);
+  const std::int64_t half = rest < 0 ? -whole / 2 : whole / 2;
+  const std::int64_t quarters = (rest + half) / whole;
+  rest -= quarters * whole;
+  const double angle = quarterTurn * (static_cast<double>(rest) / static_cast<double>(whole));
+  const double square = angle * angle;
+  double cosine = 1.0;
+  double sine = 1.0;
+  for (int term = terms; term > 0; term -= 2)
+  {
+    cosine = 1.0 - square / (term * (term - 1)) * cosine;
+    sine = 1.0 - square / (term * (term + 1)) * sine;
+  }
+  sine *= angle;
+  switch (quarters & 3)
+  {
+    case 0:
+      return { cosine, sine };
+    case 1:
+      return { -sine, cosine };
+    case 2:
+      return { -cosine, -sine };
+    default:
+      return { sine, -cosine };
+  }
 }
 
 template <int Degree>

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/CellDensity.h"
+
+#include "Core/Geometry/LatticePart.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
+#include "Core/Tables/DensityInspection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+constexpr double inside = 0x1p-20; // of a cell: at least so far from its sides
+
+template <int Dimension>
+std::int64_t countOf(const GridSize<Dimension>& size)
+{
+  std::int64_t count = 1;
+  for (const std::int64_t cells : size)
+  {
+    count *= cells;
+  }
+  return count;
+}
+
+} // namespace
+
+template <int Dimension>
+CellDensity<Dimension>::CellDensity(const GridSize<Dimension>& size)
+  : Cells(size)
+  , Count(countOf<Dimension>(size))
+  , UniformShare(1.0 / numberOfCells<Dimension>(size))
+{
+}
+
+template <int Dimension>
+CellDensity<Dimension>::CellDensity(const DensitySource<Dimension>& density, Progress& progress)
+  : CellDensity(density.Size)
+{
+  const auto values = density.Whole();
+  this->Shares = LargeBuffer<double>(this->Count);
+  double* shares = this->Shares.data();
+  const DensitySummary found = reduceChunks(
+    progress, this->Count, grain, DensitySummary(),
+    [&](std::int64_t first, std::int64_t last) {
+      values->Read(first, last - first, shares + first);
+      return summarize(shares + first, last - first, first);
+    },
+    [](DensitySummary all, const DensitySummary& part) {
+      merge(part, all);
+      return all;
+    });
+  requireDensity(found);
+  this->Voids = !(found.Minimum > 0.0);
+  const double total = found.Total;
+  progress.For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
+    std::transform(
+      shares + first, shares + last, shares + first, [=](double value) { return value / total; });
+  });
+  // Shares below the smallest double are voids.
+  this->Voids = this->Voids || found.Minimum / total == 0.0;
+}
+
+template <int Dimension>
+std::int64_t CellDensity<Dimension>::CellOf(const double* point) const
+{
+  std::int64_t cell = 0;
+  for (int axis = Dimension; axis-- > 0;)
+  {
+    const double last = static_cast<double>(this->Cells[axis] - 1);
+    cell = cell * this->Cells[axis] + static_cast<std::int64_t>(std::clamp(point[axis], 0.0, last));
+  }
+  return cell;
+}
+
+template <int Dimension>
+void CellDensity<Dimension>::MoveToMass(double* point, const GridSize<Dimension>& low,
+  const GridSize<Dimension>& high, const Point<Dimension>& sides) const
+{
+  GridSize<Dimension> own;
+  Point<Dimension> place;
+  double shortest = std::numeric_limits<double>::max();
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const auto cell = static_cast<std::int64_t>(std::clamp(std::floor(point[axis]),
+      static_cast<double>(low[axis]), static_cast<double>(high[axis] - 1)));
+    own[axis] = cell;
+    place[axis] = std::clamp(point[axis] - static_cast<double>(cell), inside, 1.0 - inside);
+    shortest = std::min(shortest, sides[axis]);
+  }
+  // Boxes of growing radius about the cell, until no cell beyond one can be nearer.
+  for (double radius = 2.0 * shortest;; radius *= 2.0)
+  {
+    LatticePart<Dimension> part;
+    bool isAll = true;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double reach = std::ceil(radius / sides[axis]);
+      const auto cells =
+        static_cast<std::int64_t>(std::min(reach, static_cast<double>(high[axis] - low[axis])));
+      part.Low[axis] = std::max(low[axis], own[axis] - cells);
+      const std::int64_t end = std::min(high[axis], own[axis] + cells + 1);
+      part.Cells[axis] = end - part.Low[axis];
+      isAll = isAll && part.Low[axis] == low[axis] && end == high[axis];
+    }
+    double least = std::numeric_limits<double>::infinity();
+    GridSize<Dimension> best = own;
+    for (std::int64_t i = 0; i < part.Count(); ++i)
+    {
+      const GridSize<Dimension> cell = part.CellOf(i);
+      double square = 0.0;
+      std::int64_t number = 0;
+      for (int axis = Dimension; axis-- > 0;)
+      {
+        const double way = static_cast<double>(cell[axis] - own[axis]) * sides[axis];
+        square += way * way;
+        number = number * this->Cells[axis] + cell[axis];
+      }
+      if (square<least&& this->Share(number)> 0.0)
+      {
+        least = square;
+        best = cell;
+      }
+    }
+    if (least <= radius * radius || isAll)
+    {
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        point[axis] = static_cast<double>(best[axis]) + place[axis];
+      }
+      return;
+    }
+  }
+}
+
+template class CellDensity<1>;
+template class CellDensity<2>;
+template class CellDensity<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/CorrectedMap.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t blockSide = 8;
+
+// The parts of a source's cells between nodes and their images.
+template <int Dimension>
+struct ImageCloud
+{
+  LargeBuffer<double> Images; // in the index space of the target
+  LargeBuffer<double> Masses; // sum to 1
+
+  PointSpan<Dimension> Points() { return { this->Images.data(), this->Masses.size() }; }
+};
+
+template <int Dimension>
+ImageCloud<Dimension> sampleImages(
+  const PointMap<Dimension>& map, const SolverSide<Dimension>& source, Progress& progress)
+{
+  const NodeMap<Dimension>& nodes = map.AtNodes();
+  const GridSize<Dimension>& cells = nodes.Grid.Cells;
+  const std::int64_t rows = ImageSamples<Dimension>::NumberOfRows(nodes.Grid);
+  std::vector<std::int64_t> begins(static_cast<std::size_t>(rows + 1), 0);
+  const std::int64_t grain = std::max<std::int64_t>(1, 256 / cells[0]);
+  const std::int64_t firstRows = std::max<std::int64_t>(1, (1 << 15) / cells[0]);
+  progress.For(
+    rows, grain,
+    [&](std::int64_t first, std::int64_t last) {
+      ImageSamples<Dimension> samples(nodes);
+      for (std::int64_t row = first; row < last; ++row)
+      {
+        std::int64_t& count = begins[static_cast<std::size_t>(row + 1)];
+        samples.ForRow(row, source.CellsOrNull(),
+          [&](const CellSample<Dimension>&, const Point<Dimension>&) { ++count; });
+      }
+    },
+    firstRows);
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  ImageCloud<Dimension> cloud{ LargeBuffer<double>(begins.back() * Dimension),
+    LargeBuffer<double>(begins.back()) };
+  const double share = 1.0 / static_cast<double>(nodes.Grid.NumberOfCells());
+  progress.For(
+    rows, grain,
+    [&](std::int64_t first, std::int64_t last) {
+      ImageSamples<Dimension> samples(nodes);
+      for (std::int64_t row = first; row < last; ++row)
+      {
+        std::int64_t i = begins[static_cast<std::size_t>(row)];
+        samples.ForRow(row, source.CellsOrNull(),
+          [&](const CellSample<Dimension>& sample, const Point<Dimension>&) {
+            const Point<Dimension> image = map.AtPlace(sample.Place(cells));
+            std::copy(image.begin(), image.end(), cloud.Images.data() + i * Dimension);
+            cloud.Masses.data()[i] = share * sample.Mass;
+            ++i;
+          });
+      }
+    },
+    firstRows / 16 + 1);
+  return cloud;
+}
+
+} // namespace
+
+template <int Dimension>
+CorrectedMap<Dimension>::CorrectedMap(const PotentialSolver<Dimension>& solver, int from,
+  const CellDensity<Dimension>& target, const Point<Dimension>& sides, Progress& progress)
+  : Map(solver, from, target, sides, progress)
+{
+  ImageCloud<Dimension> cloud = sampleImages(this->Map, solver.Side(from), progress);
+  this->Correction.emplace(target, sides, 1, cloud.Points(), cloud.Masses.data(), progress);
+  this->MeasureBlocks(target, cloud.Points(), cloud.Masses.data(), progress);
+}
+
+template <int Dimension>
+void CorrectedMap<Dimension>::MeasureBlocks(const CellDensity<Dimension>& target,
+  ConstPointSpan<Dimension> images, const double* masses, Progress& progress)
+{
+  const GridSize<Dimension>& cells = target.Size();
+  GridSize<Dimension> blocks;
+  std::int64_t count = 1;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    blocks[axis] = (cells[axis] + blockSide - 1) / blockSide;
+    count *= blocks[axis];
+  }
+  const auto blockOf = [&](std::int64_t cell) {
+    std::int64_t block = 0;
+    std::int64_t stride = 1;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      block += cell % cells[axis] / blockSide * stride;
+      cell /= cells[axis];
+      stride *= blocks[axis];
+    }
+    return static_cast<std::size_t>(block);
+  };
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+  std::vector<double> wanted(static_cast<std::size_t>(count), 0.0);
+  std::vector<double> excess(static_cast<std::size_t>(count), 0.0);
+  progress.ForInOrder(target.NumberOfCells(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t cell = first; cell < last; ++cell)
+    {
+      wanted[blockOf(cell)] += target.Share(cell);
+    }
+  });
+  progress.ForInOrder(images.size(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      excess[blockOf(target.CellOf(images[i]))] += masses[i];
+    }
+  });
+  double squares = 0.0;
+  double errors = 0.0;
+  for (std::size_t block = 0; block < wanted.size(); ++block)
+  {
+    const double error = excess[block] - wanted[block];
+    squares += wanted[block] * wanted[block];
+    errors += error * error;
+  }
+  this->Error = std::sqrt(errors / squares);
+}
+
+template class CorrectedMap<1>;
+template class CorrectedMap<2>;
+template class CorrectedMap<3>;
+
+} // namespace RectifiedTransport

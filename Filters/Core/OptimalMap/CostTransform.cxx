@@ -1,0 +1,469 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/CostTransform.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr int blockLines = 8; // lines that are copied together: a cache line of each row of nodes
+constexpr std::int64_t firstSlice = std::int64_t{ 1 } << 19;
+
+// What lines along an axis have in common.
+struct AxisCosts
+{
+  // `largest` is about the largest value.
+  AxisCosts(std::int64_t nodes, double spacing, double largest)
+    : Nodes(static_cast<std::int32_t>(nodes))
+    , Scale(1.0 / (spacing * spacing))
+    , Above(1.0 + std::min(0x1p-51 * largest * this->Scale, 0x1p-3))
+    , Middles(nodes)
+    , Ways(2 * nodes - 1)
+  {
+    double* middle = this->Middles.data();
+    double* way = this->Ways.data() + (nodes - 1);
+    for (std::int32_t i = 0; i < this->Nodes; ++i)
+    {
+      const double length = i;
+      middle[i] = length + (this->Above - 0.5);
+      way[i] = 0.5 * spacing * spacing * (length * length);
+      way[-i] = way[i];
+    }
+  }
+
+  // Of a way of so many nodes.
+  const double* OfWays() const { return this->Ways.data() + (this->Nodes - 1); }
+
+  std::int32_t Nodes;
+  double Scale; // from values to squared cells
+  // Changes (below) that differ by rounding must round alike: where a parabola serves many j, the
+  // transform of the result has all of these changes at the same j.
+  double Above;
+  LargeBuffer<double> Middles; // between each node and the one before, plus Above
+
+private:
+  LargeBuffer<double> Ways;
+};
+
+// Of Count lines, one after the other, with marks (see LineTransform). A function of its own, so
+// that all that the loop needs is in registers.
+template <int Sign, int Count>
+__attribute__((noinline)) void serve(const double* values, const std::int32_t* marks,
+  const double* costs, std::ptrdiff_t nodes, double* result)
+{
+  std::ptrdiff_t serving[Count] = {};
+  for (std::ptrdiff_t j = 0; j < nodes; ++j)
+  {
+    for (int line = 0; line < Count; ++line)
+    {
+      const std::ptrdiff_t mark = marks[line * (nodes + 1) + j];
+      serving[line] = mark > serving[line] ? mark : serving[line];
+      result[line * nodes + j] =
+        costs[j - serving[line]] + Sign * values[line * nodes + serving[line]];
+    }
+  }
+}
+
+// Finds for each j the i of the least a(i) + h^2 (i - j)^2 / 2, for lines of nodes.
+//
+// A node y serves before a node x < y from a certain j on. Of consecutive nodes these changes need
+// to be in order, and then each j takes the last node whose change it has reached. Where a change
+// comes before that of the node before, this node serves nowhere and is dropped. These are the
+// nodes above the lower convex hull of a(i) + h^2 i^2 / 2, except that the hull is only as strict
+// as the whole numbers j need: few lines have nodes to drop.
+class LineTransform
+{
+public:
+  explicit LineTransform(const AxisCosts& costs)
+    : Costs(costs)
+    , Nodes(costs.Nodes)
+    , Changes(costs.Nodes)
+    , Before(costs.Nodes)
+    , Marks(together * (std::int64_t{ costs.Nodes } + 1))
+  {
+  }
+
+  // Of Sign times the finite values of lines, one after the other. `result` is other memory.
+  template <int Sign>
+  void Transform(const double* values, double* result, std::int64_t lines)
+  {
+    const std::ptrdiff_t nodes = this->Nodes;
+    std::int64_t line = 0;
+    for (; line + together <= lines; line += together)
+    {
+      this->TransformTogether<Sign, together>(values + line * nodes, result + line * nodes);
+    }
+    for (; line < lines; ++line)
+    {
+      this->TransformTogether<Sign, 1>(values + line * nodes, result + line * nodes);
+    }
+  }
+
+  // The same for one line where infinite values do not serve; `nodes` receives the node i of each
+  // j, any one if all values are infinite.
+  void Minimize(const double* values, double* result, std::int32_t* nodes)
+  {
+    const std::int32_t count = this->Nodes;
+    std::int32_t* changes = this->Changes.data();
+    std::int32_t before = -1;
+    for (std::int32_t i = 0; i < count; ++i)
+    {
+      changes[i] = before < 0 ? 0 : count;
+      if (values[i] < std::numeric_limits<double>::infinity())
+      {
+        if (before >= 0)
+        {
+          this->Place<1>(values, i, before, this->ChangeBetween<1>(values, before, i));
+        }
+        before = i;
+      }
+    }
+    std::int32_t* marks = this->Marks.data();
+    this->Mark(marks);
+    const double* costs = this->Costs.OfWays();
+    std::int32_t serving = 0;
+    for (std::int32_t j = 0; j < count; ++j)
+    {
+      serving = std::max(serving, marks[j]);
+      nodes[j] = serving;
+      result[j] = values[serving] + costs[j - serving];
+    }
+  }
+
+private:
+  static constexpr int together = 2; // lines at a time: each step waits for the one before
+
+  static std::int32_t Rounded(double change, double most)
+  {
+    change = change > 0.0 ? change : 0.0;
+    return static_cast<std::int32_t>(change < most ? change : most);
+  }
+
+  // The first j at which y serves before x < y.
+  template <int Sign>
+  std::int32_t ChangeBetween(const double* values, std::int32_t x, std::int32_t y) const
+  {
+    const double slope = (values[y] - values[x]) * (Sign * this->Costs.Scale) / (y - x);
+    return Rounded(slope + 0.5 * (static_cast<double>(x) + y) + this->Costs.Above, this->Nodes);
+  }
+
+  // Between all neighbours. Returns whether they are in order.
+  template <int Sign>
+  bool FindChanges(const double* values)
+  {
+    std::int32_t* changes = this->Changes.data();
+    const double* middles = this->Costs.Middles.data();
+    const double scale = Sign * this->Costs.Scale;
+    const double most = this->Nodes;
+    changes[0] = 0; // the first node serves from the first j on
+    std::int32_t i = 1;
+    bool inOrder = true;
+#ifdef __SSE2__
+    // Compilers make no minima and maxima of vectors where numbers could be NaN.
+    const auto changesOfTwo = [=](std::int32_t of) {
+      const __m128d ways = _mm_sub_pd(_mm_loadu_pd(values + of), _mm_loadu_pd(values + of - 1));
+      const __m128d change =
+        _mm_add_pd(_mm_mul_pd(ways, _mm_set1_pd(scale)), _mm_loadu_pd(middles + of));
+      return _mm_cvttpd_epi32(_mm_min_pd(_mm_max_pd(change, _mm_setzero_pd()), _mm_set1_pd(most)));
+    };
+    __m128i falls = _mm_setzero_si128();
+    __m128i last = _mm_setzero_si128();
+    for (; i + 4 <= this->Nodes; i += 4)
+    {
+      const __m128i four = _mm_unpacklo_epi64(changesOfTwo(i), changesOfTwo(i + 2));
+      const __m128i before = _mm_or_si128(_mm_slli_si128(four, 4), _mm_srli_si128(last, 12));
+      falls = _mm_or_si128(falls, _mm_cmplt_epi32(four, before));
+      last = four;
+      _mm_storeu_si128(reinterpret_cast<__m128i*>(changes + i), four);
+    }
+    inOrder = _mm_movemask_epi8(falls) == 0;
+#endif
+    for (; i < this->Nodes; ++i)
+    {
+      changes[i] = Rounded((values[i] - values[i - 1]) * scale + middles[i], most);
+      inOrder = inOrder && changes[i] >= changes[i - 1];
+    }
+    return inOrder;
+  }
+
+  template <int Sign, int Count>
+  void TransformTogether(const double* values, double* result)
+  {
+    const std::ptrdiff_t nodes = this->Nodes;
+    for (int line = 0; line < Count; ++line)
+    {
+      this->MarkLine<Sign>(values + line * nodes, this->Marks.data() + line * (nodes + 1));
+    }
+    serve<Sign, Count>(values, this->Marks.data(), this->Costs.OfWays(), nodes, result);
+  }
+
+  template <int Sign>
+  void MarkLine(const double* values, std::int32_t* marks)
+  {
+    if (!this->FindChanges<Sign>(values))
+    {
+      this->DropNodes<Sign>(values);
+    }
+    this->Mark(marks);
+  }
+
+  template <int Sign>
+  void DropNodes(const double* values)
+  {
+    std::int32_t* before = this->Before.data();
+    const std::int32_t* changes = this->Changes.data();
+    std::iota(before, before + this->Nodes, -1);
+    for (std::int32_t i = 1; i < this->Nodes; ++i)
+    {
+      if (changes[i] < changes[i - 1])
+      {
+        this->Place<Sign>(values, i, i - 1, changes[i]);
+      }
+    }
+  }
+
+  // Lets node i serve from `change` on, after the node before. Drops those that it makes useless.
+  template <int Sign>
+  void Place(const double* values, std::int32_t i, std::int32_t before, std::int32_t change)
+  {
+    std::int32_t* changes = this->Changes.data();
+    while (change < changes[before]) // not for the first one, whose change is 0
+    {
+      changes[before] = this->Nodes;
+      before = this->Before.data()[before];
+      change = this->ChangeBetween<Sign>(values, before, i);
+    }
+    changes[i] = change;
+    this->Before.data()[i] = before;
+  }
+
+  void Mark(std::int32_t* marks) const
+  {
+    const std::int32_t nodes = this->Nodes;
+    const std::int32_t* changes = this->Changes.data();
+    std::fill_n(marks, nodes + 1, 0);
+    for (std::int32_t i = 0; i < nodes; ++i)
+    {
+      marks[changes[i]] = i;
+    }
+  }
+
+  const AxisCosts& Costs;
+  std::int32_t Nodes;
+  // The first j that each node serves; the number of nodes, where there is no j, if it is dropped.
+  LargeBuffer<std::int32_t> Changes;
+  LargeBuffer<std::int32_t> Before; // the node that serves before each
+  LargeBuffer<std::int32_t> Marks;  // the node that serves from j on; 0 for the same as before
+};
+
+template <int Dimension>
+double squaredDiagonal(const NodeGrid<Dimension>& grid)
+{
+  double sum = 0.0;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double side = static_cast<double>(grid.Cells[axis]) * grid.Spacing[axis];
+    sum += side * side;
+  }
+  return sum;
+}
+
+// Ranges of whole lines along an axis, in nodes.
+struct AxisLines
+{
+  template <int Dimension>
+  AxisLines(const NodeGrid<Dimension>& grid, int axis)
+    : Nodes(grid.Cells[axis] + 1)
+    , Stride(grid.Stride(axis))
+    , All(grid.NumberOfNodes())
+  {
+  }
+
+  // kernel(first, last) of lines, which are numbered like the nodes of the grid without the axis.
+  template <class Kernel>
+  void For(Progress& progress, const Kernel& kernel) const
+  {
+    const std::int64_t block = blockLines * this->Nodes;
+    const std::int64_t blocks = std::max<std::int64_t>(1, 4096 / block);
+    progress.For(
+      this->All, blocks * block,
+      [&](
+        std::int64_t first, std::int64_t last) { kernel(first / this->Nodes, last / this->Nodes); },
+      firstSlice);
+  }
+  std::int64_t Begin(std::int64_t line) const
+  {
+    return line / this->Stride * this->Stride * this->Nodes + line % this->Stride;
+  }
+  // From a line on, neighbours in memory.
+  int Together(std::int64_t line, std::int64_t last) const
+  {
+    const std::int64_t rest = this->Stride - line % this->Stride;
+    return static_cast<int>(std::min({ std::int64_t{ blockLines }, last - line, rest }));
+  }
+
+  std::int64_t Nodes; // of a line
+  std::int64_t Stride;
+  std::int64_t All;
+};
+
+// Of neighbouring lines, to and from lines one after the other.
+template <class T>
+void copyFromGrid(const T* grid, std::int64_t stride, int count, std::int64_t nodes, T* lines)
+{
+  if (count == blockLines)
+  {
+    for (std::int64_t j = 0; j < nodes; ++j)
+    {
+      for (int line = 0; line < blockLines; ++line)
+      {
+        lines[line * nodes + j] = grid[j * stride + line];
+      }
+    }
+    return;
+  }
+  for (std::int64_t j = 0; j < nodes; ++j)
+  {
+    for (int line = 0; line < count; ++line)
+    {
+      lines[line * nodes + j] = grid[j * stride + line];
+    }
+  }
+}
+template <class T>
+void copyToGrid(const T* lines, std::int64_t stride, int count, std::int64_t nodes, T* grid)
+{
+  if (count == blockLines)
+  {
+    for (std::int64_t j = 0; j < nodes; ++j)
+    {
+      for (int line = 0; line < blockLines; ++line)
+      {
+        grid[j * stride + line] = lines[line * nodes + j];
+      }
+    }
+    return;
+  }
+  for (std::int64_t j = 0; j < nodes; ++j)
+  {
+    for (int line = 0; line < count; ++line)
+    {
+      grid[j * stride + line] = lines[line * nodes + j];
+    }
+  }
+}
+
+} // namespace
+
+template <int Dimension>
+void costTransform(
+  const NodeGrid<Dimension>& grid, const double* from, double* to, Progress& progress)
+{
+  const double largest = squaredDiagonal(grid);
+  const AxisLines rows(grid, 0);
+  const std::int64_t nodes = rows.Nodes;
+  const AxisCosts rowCosts(nodes, grid.Spacing[0], largest);
+  rows.For(progress, [&](std::int64_t first, std::int64_t last) {
+    LineTransform transform(rowCosts);
+    transform.Transform<-1>(from + first * nodes, to + first * nodes, last - first);
+  });
+  for (int axis = 1; axis < Dimension; ++axis)
+  {
+    const AxisLines lines(grid, axis);
+    const AxisCosts costs(lines.Nodes, grid.Spacing[axis], largest);
+    lines.For(progress, [&](std::int64_t first, std::int64_t last) {
+      LineTransform transform(costs);
+      LargeBuffer<double> scratch(2 * blockLines * lines.Nodes);
+      double* in = scratch.data();
+      double* out = in + blockLines * lines.Nodes;
+      for (std::int64_t line = first; line < last;)
+      {
+        double* begin = to + lines.Begin(line);
+        const int count = lines.Together(line, last);
+        copyFromGrid(begin, lines.Stride, count, lines.Nodes, in);
+        transform.Transform<1>(in, out, count);
+        copyToGrid(out, lines.Stride, count, lines.Nodes, begin);
+        line += count;
+      }
+    });
+  }
+}
+
+template <int Dimension>
+void costMinimizers(
+  const NodeGrid<Dimension>& grid, const double* from, std::int64_t* minimizers, Progress& progress)
+{
+  const double largest = squaredDiagonal(grid);
+  NodeValues values(grid.NumberOfNodes());
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const AxisLines lines(grid, axis);
+    const std::int64_t nodes = lines.Nodes;
+    const AxisCosts costs(nodes, grid.Spacing[axis], largest);
+    lines.For(progress, [&](std::int64_t first, std::int64_t last) {
+      LineTransform transform(costs);
+      const auto size = static_cast<std::size_t>(blockLines * nodes);
+      std::vector<double> in(size);
+      std::vector<double> out(size);
+      std::vector<std::int64_t> before(size);
+      std::vector<std::int64_t> after(size);
+      std::vector<std::int32_t> found(static_cast<std::size_t>(nodes));
+      for (std::int64_t line = first; line < last;)
+      {
+        const std::int64_t begin = lines.Begin(line);
+        const int count = lines.Together(line, last);
+        if (axis == 0)
+        {
+          std::transform(from + begin, from + begin + nodes, in.begin(), std::negate<>());
+          for (std::int64_t j = 0; j < nodes; ++j)
+          {
+            before[static_cast<std::size_t>(j)] = begin + j;
+          }
+        }
+        else
+        {
+          copyFromGrid(values.data() + begin, lines.Stride, count, nodes, in.data());
+          copyFromGrid(minimizers + begin, lines.Stride, count, nodes, before.data());
+        }
+        for (int i = 0; i < count; ++i)
+        {
+          const std::int64_t offset = i * nodes;
+          transform.Minimize(in.data() + offset, out.data() + offset, found.data());
+          for (std::int64_t j = 0; j < nodes; ++j)
+          {
+            after[static_cast<std::size_t>(offset + j)] =
+              before[static_cast<std::size_t>(offset + found[static_cast<std::size_t>(j)])];
+          }
+        }
+        copyToGrid(out.data(), lines.Stride, count, nodes, values.data() + begin);
+        copyToGrid(after.data(), lines.Stride, count, nodes, minimizers + begin);
+        line += count;
+      }
+    });
+  }
+}
+
+template void costTransform<1>(const NodeGrid<1>&, const double*, double*, Progress&);
+template void costTransform<2>(const NodeGrid<2>&, const double*, double*, Progress&);
+template void costTransform<3>(const NodeGrid<3>&, const double*, double*, Progress&);
+template void costMinimizers<1>(const NodeGrid<1>&, const double*, std::int64_t*, Progress&);
+template void costMinimizers<2>(const NodeGrid<2>&, const double*, std::int64_t*, Progress&);
+template void costMinimizers<3>(const NodeGrid<3>&, const double*, std::int64_t*, Progress&);
+
+} // namespace RectifiedTransport

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An upper bound of the optimal cost between two densities on one grid: the cost of a coupling of
+// their cells with exact marginals.
+#ifndef RectifiedTransport_CouplingCost_h
+#define RectifiedTransport_CouplingCost_h
+
+#include "Core/OptimalMap/CellDensity.h"
+#include "Core/OptimalMap/NodeMap.h"
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// Follows the map from the source, whose images are corrected by two Poisson steps and then shared
+// among the target's cells; what a cell gets beyond its share goes on to cells nearby that got too
+// little, then along a space-filling curve. Uniform parts of cells go by translation, so that the
+// cost of the coupling is known exactly; masses are integers, and what their rounding leaves counts
+// as if it had to cross the whole box. In the squared lengths of the map's spacing; the nodes fill
+// the box of the densities. Both densities have the same size.
+//
+// The same bits for every number of threads. Adds to the units of the current stage about 15 a cell
+// on a line, 50 in the plane and 30 in space, and those of two solutions of NodePoisson. Throws
+// std::invalid_argument for different sizes, std::bad_alloc and Cancelled.
+template <int Dimension>
+double couplingCost(const CellDensity<Dimension>& source, const CellDensity<Dimension>& target,
+  const NodeMap<Dimension>& map, Progress& progress);
+
+// Bytes that it takes at most, about.
+template <int Dimension>
+double memoryForCoupling(const GridSize<Dimension>& size, const NodeGrid<Dimension>& grid);
+
+} // namespace RectifiedTransport
+
+#endif

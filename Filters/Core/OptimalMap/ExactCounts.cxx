@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/ExactCounts.h"
+
+#include "Core/OptimalMap/HalvingTree.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t fewest = 5;    // particles of a box that is halved
+constexpr double inside = 0x1p-20;    // of a cell: particles arrive at least so far from its sides
+constexpr double beyondVoid = 6.0;    // cells that a way to an empty cell counts more
+constexpr std::int64_t together = 64; // at least so many boxes are halved on one thread each
+
+template <int Dimension>
+struct Particle
+{
+  Point<Dimension> At;
+  std::int64_t Number;
+};
+
+// Particles [First, Last) are those in a box.
+template <int Dimension>
+struct BoxOfParticles
+{
+  HalvingBox<Dimension> Box;
+  std::int64_t First;
+  std::int64_t Last;
+
+  std::int64_t Count() const { return this->Last - this->First; }
+};
+
+// A particle that may cross a plane, and how far it is from there.
+struct Candidate
+{
+  double Distance;
+  std::int64_t Number; // of the particle
+  std::int64_t Place;  // in the order of the boxes
+
+  bool operator<(const Candidate& other) const
+  {
+    return std::make_pair(this->Distance, this->Number) <
+      std::make_pair(other.Distance, other.Number);
+  }
+};
+
+// Halves boxes; several objects may work on different boxes.
+template <int Dimension>
+class Halving
+{
+public:
+  using Part = BoxOfParticles<Dimension>;
+
+  Halving(const HalvingTree<Dimension>& tree, Particle<Dimension>* particles,
+    PointSpan<Dimension> results, Progress& progress)
+    : Tree(tree)
+    , Particles(particles)
+    , Results(results)
+    , Work(progress)
+  {
+  }
+
+  std::int64_t Moves() const { return this->MovesMade; }
+
+  static bool IsHalved(const Part& part)
+  {
+    return part.Count() >= fewest && part.Box.IsDivisible();
+  }
+
+  // Moves particles between the halves until both have their shares.
+  std::array<Part, 2> Halve(const Part& part)
+  {
+    const auto [low, high, axis] = this->Tree.Halves(part.Box);
+    const auto plane = static_cast<double>(high.Low[axis]);
+    std::int64_t middle = this->Divide(part.First, part.Last, axis, plane);
+    const double lowMass = this->Tree.Mass(low);
+    const double highMass = this->Tree.Mass(high);
+    // Both neighbours of the share will do, so that nothing moves because of rounding.
+    const double share = static_cast<double>(part.Count()) * lowMass / (lowMass + highMass);
+    const auto least = highMass > 0.0 ? static_cast<std::int64_t>(std::floor(share)) : part.Count();
+    const auto most = lowMass > 0.0 ? static_cast<std::int64_t>(std::ceil(share)) : 0;
+    const std::int64_t now = middle - part.First;
+    if (now > most)
+    {
+      this->Cross({ low, part.First, middle }, now - most, axis, plane, high);
+      middle = this->Divide(part.First, middle, axis, plane);
+    }
+    else if (now < least)
+    {
+      this->Cross({ high, middle, part.Last }, least - now, axis, plane, low);
+      middle = this->Divide(middle, part.Last, axis, plane);
+    }
+    return { Part{ low, part.First, middle }, Part{ high, middle, part.Last } };
+  }
+
+  // Halves a box and its halves, to the end.
+  void Finish(const Part& part)
+  {
+    if (!IsHalved(part))
+    {
+      this->LeaveVoids(part);
+      return;
+    }
+    for (const Part& half : this->Halve(part))
+    {
+      this->Finish(half);
+    }
+  }
+
+private:
+  // Particles below the plane before the others. Returns where these begin.
+  std::int64_t Divide(std::int64_t first, std::int64_t last, int axis, double plane)
+  {
+    std::int64_t middle = first;
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      // Without a branch: half of its predictions would fail.
+      const Particle<Dimension> particle = this->Particles[i];
+      this->Particles[i] = this->Particles[middle];
+      this->Particles[middle] = particle;
+      middle += particle.At[axis] < plane ? 1 : 0;
+      this->Poll();
+    }
+    return middle;
+  }
+
+  // Moves so many of the particles of a box to the box on the other side of a plane.
+  void Cross(
+    const Part& from, std::int64_t number, int axis, double plane, const HalvingBox<Dimension>& to)
+  {
+    // Particles are seldom far denser away from the plane.
+    const auto reach = static_cast<double>(from.Box.High[axis] - from.Box.Low[axis]);
+    const double near =
+      reach * 4.0 * static_cast<double>(number + 8) / static_cast<double>(from.Count());
+    if (!this->FindCandidates(from, number, axis, plane, to, std::min(near, reach)))
+    {
+      this->FindCandidates(from, number, axis, plane, to, std::numeric_limits<double>::infinity());
+    }
+    const auto last = this->Candidates.begin() + static_cast<std::ptrdiff_t>(number);
+    if (last != this->Candidates.end())
+    {
+      std::nth_element(this->Candidates.begin(), last, this->Candidates.end(),
+        [&](const Candidate& a, const Candidate& b) {
+          this->Poll();
+          return a < b;
+        });
+    }
+    for (auto candidate = this->Candidates.begin(); candidate != last; ++candidate)
+    {
+      Particle<Dimension>& particle = this->Particles[candidate->Place];
+      particle.At[axis] = Mirrored(particle.At[axis], axis, plane, to);
+      if (!this->Tree.Density().HasMass(particle.At.data()))
+      {
+        this->Tree.MoveToMass(particle.At, to);
+        this->Poll();
+      }
+      this->Keep(particle);
+    }
+  }
+
+  // Those nearer than `near`. Returns whether they include the nearest `number` ones, also after
+  // what is added for voids.
+  bool FindCandidates(const Part& from, std::int64_t number, int axis, double plane,
+    const HalvingBox<Dimension>& to, double near)
+  {
+    this->Candidates.clear();
+    std::int64_t sure = 0;
+    for (std::int64_t i = from.First; i < from.Last; ++i)
+    {
+      const Particle<Dimension>& particle = this->Particles[i];
+      double distance = std::abs(particle.At[axis] - plane);
+      if (distance < near)
+      {
+        Point<Dimension> beyond = particle.At;
+        beyond[axis] = Mirrored(particle.At[axis], axis, plane, to);
+        distance += this->Tree.Density().HasMass(beyond.data()) ? 0.0 : beyondVoid;
+        sure += distance < near ? 1 : 0;
+        this->Candidates.push_back({ distance, particle.Number, i });
+      }
+      this->Poll();
+    }
+    return sure >= number;
+  }
+
+  static double Mirrored(double at, int axis, double plane, const HalvingBox<Dimension>& to)
+  {
+    return std::clamp(2.0 * plane - at, static_cast<double>(to.Low[axis]) + inside,
+      static_cast<double>(to.High[axis]) - inside);
+  }
+
+  void LeaveVoids(const Part& part)
+  {
+    if (!this->Tree.Density().HasVoids())
+    {
+      return;
+    }
+    for (std::int64_t i = part.First; i < part.Last; ++i)
+    {
+      Particle<Dimension>& particle = this->Particles[i];
+      if (!this->Tree.Density().HasMass(particle.At.data()))
+      {
+        this->Tree.MoveToMass(particle.At, part.Box);
+        this->Keep(particle);
+      }
+      this->Poll();
+    }
+  }
+
+  void Keep(const Particle<Dimension>& particle)
+  {
+    std::copy(particle.At.begin(), particle.At.end(), this->Results[particle.Number]);
+    ++this->MovesMade;
+  }
+
+  void Poll()
+  {
+    constexpr int interval = 1 << 16;
+    if (++this->SincePoll == interval)
+    {
+      this->SincePoll = 0;
+      if (this->Work.ShouldStop())
+      {
+        throw Cancelled();
+      }
+    }
+  }
+
+  const HalvingTree<Dimension>& Tree;
+  Particle<Dimension>* Particles;
+  PointSpan<Dimension> Results;
+  Progress& Work;
+  std::vector<Candidate> Candidates;
+  std::int64_t MovesMade = 0;
+  int SincePoll = 0;
+};
+
+} // namespace
+
+template <int Dimension>
+std::int64_t makeCountsExact(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
+  PointSpan<Dimension> particles, Progress& progress)
+{
+  using Part = BoxOfParticles<Dimension>;
+  const std::int64_t number = particles.size();
+  const HalvingTree<Dimension> tree(density, sides, progress);
+  LargeBuffer<Particle<Dimension>> sorted(number);
+  progress.Threads().For(
+    number, std::int64_t{ 1 } << 14, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last && !progress.IsCancelled(); ++i)
+      {
+        Particle<Dimension>& particle = sorted.data()[i];
+        std::copy_n(particles[i], Dimension, particle.At.begin());
+        particle.Number = i;
+      }
+      progress.ShouldStop();
+    });
+  progress.Check();
+
+  // First one level of boxes after the other, until there are enough for all threads.
+  std::atomic<std::int64_t> moves{ 0 };
+  const std::int64_t most = std::max<std::int64_t>(2048, number / (4 * together));
+  std::vector<Part> open;
+  std::vector<Part> closed;
+  const auto sort = [&](const Part& part) {
+    if (part.Count() > 0)
+    {
+      (part.Count() > most && Halving<Dimension>::IsHalved(part) ? open : closed).push_back(part);
+    }
+  };
+  sort({ tree.Whole(), 0, number });
+  while (!open.empty())
+  {
+    std::vector<std::array<Part, 2>> halves(open.size());
+    progress.Threads().For(
+      static_cast<std::int64_t>(open.size()), 1, [&](std::int64_t first, std::int64_t last) {
+        Halving<Dimension> halving(tree, sorted.data(), particles, progress);
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          halves[static_cast<std::size_t>(i)] = halving.Halve(open[static_cast<std::size_t>(i)]);
+        }
+        moves += halving.Moves();
+      });
+    progress.Check();
+    open.clear();
+    for (const std::array<Part, 2>& two : halves)
+    {
+      sort(two[0]);
+      sort(two[1]);
+    }
+  }
+
+  // Each of these is the work of its first particle.
+  std::sort(
+    closed.begin(), closed.end(), [](const Part& a, const Part& b) { return a.First < b.First; });
+  progress.For(number, most, [&](std::int64_t first, std::int64_t last) {
+    Halving<Dimension> halving(tree, sorted.data(), particles, progress);
+    auto part = std::lower_bound(closed.begin(), closed.end(), first,
+      [](const Part& a, std::int64_t begin) { return a.First < begin; });
+    for (; part != closed.end() && part->First < last; ++part)
+    {
+      halving.Finish(*part);
+    }
+    moves += halving.Moves();
+  });
+  return moves;
+}
+
+template <int Dimension>
+double memoryForExactCounts(const GridSize<Dimension>& size, std::int64_t particles)
+{
+  return HalvingTree<Dimension>::MemoryFor(size) +
+    static_cast<double>(particles) * sizeof(Particle<Dimension>) +
+    static_cast<double>(particles) * sizeof(Candidate);
+}
+
+template std::int64_t makeCountsExact<1>(
+  const CellDensity<1>&, const Point<1>&, PointSpan<1>, Progress&);
+template std::int64_t makeCountsExact<2>(
+  const CellDensity<2>&, const Point<2>&, PointSpan<2>, Progress&);
+template std::int64_t makeCountsExact<3>(
+  const CellDensity<3>&, const Point<3>&, PointSpan<3>, Progress&);
+template double memoryForExactCounts<1>(const GridSize<1>&, std::int64_t);
+template double memoryForExactCounts<2>(const GridSize<2>&, std::int64_t);
+template double memoryForExactCounts<3>(const GridSize<3>&, std::int64_t);
+
+} // namespace RectifiedTransport

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/HalvingTree.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t leafCells = 64; // halves of boxes up to this size are not kept
+constexpr double inside = 0x1p-20;     // of a cell: at least so far from its sides
+
+// visit(first, last, cell): the numbers of the cells of each row of a box, and its first cell.
+template <int Dimension, class Visit>
+void forRows(const HalvingBox<Dimension>& box, const GridSize<Dimension>& size, const Visit& visit)
+{
+  GridSize<Dimension> row = box.Low;
+  for (int axis = 0; axis < Dimension;)
+  {
+    std::int64_t first = 0;
+    for (int a = Dimension; a-- > 0;)
+    {
+      first = first * size[a] + row[a];
+    }
+    visit(first, first + box.High[0] - box.Low[0], row);
+    for (axis = 1; axis < Dimension && ++row[axis] == box.High[axis]; ++axis)
+    {
+      row[axis] = box.Low[axis];
+    }
+  }
+}
+
+} // namespace
+
+template <int Dimension>
+struct HalvingTree<Dimension>::Nearest
+{
+  GridSize<Dimension> From; // the cell of the box that holds the point, or is nearest to it
+  GridSize<Dimension> Cell{};
+  double Square = std::numeric_limits<double>::infinity();
+};
+
+template <int Dimension>
+HalvingTree<Dimension>::HalvingTree(
+  const CellDensity<Dimension>& density, const Point<Dimension>& sides, Progress& progress)
+  : Cells(density)
+  , Sides(sides)
+{
+  if (density.IsUniform())
+  {
+    return;
+  }
+  this->Keep({ {}, density.Size() }, progress);
+  const auto nodes = static_cast<std::int64_t>(this->Nodes.size());
+  progress.Threads().For(nodes, 64, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last && !progress.IsCancelled(); ++i)
+    {
+      Node& node = this->Nodes[static_cast<std::size_t>(i)];
+      if (node.High == 0)
+      {
+        node.Mass = this->Sum(node.Box);
+      }
+    }
+    progress.ShouldStop();
+  });
+  progress.Check();
+  for (std::size_t i = this->Nodes.size(); i-- > 0;)
+  {
+    Node& node = this->Nodes[i];
+    if (node.High != 0)
+    {
+      node.Mass = this->Nodes[i + 1].Mass + this->Nodes[static_cast<std::size_t>(node.High)].Mass;
+    }
+  }
+}
+
+template <int Dimension>
+void HalvingTree<Dimension>::Keep(HalvingBox<Dimension> box, Progress& progress)
+{
+  const std::size_t own = this->Nodes.size();
+  box.Node = static_cast<std::int64_t>(own);
+  this->Nodes.push_back({ box });
+  if (box.NumberOfCells() > leafCells)
+  {
+    const Halved halves = this->Halves(box);
+    this->Keep(halves.Low, progress);
+    this->Nodes[own].High = static_cast<std::int64_t>(this->Nodes.size());
+    this->Keep(halves.High, progress);
+  }
+  if (own % 4096 == 0)
+  {
+    progress.Check();
+  }
+}
+
+template <int Dimension>
+HalvingBox<Dimension> HalvingTree<Dimension>::Whole() const
+{
+  return { {}, this->Cells.Size(), this->Nodes.empty() ? -1 : 0 };
+}
+
+template <int Dimension>
+typename HalvingTree<Dimension>::Halved HalvingTree<Dimension>::Halves(
+  const HalvingBox<Dimension>& box) const
+{
+  int axis = 0;
+  double longest = 0.0;
+  for (int a = 0; a < Dimension; ++a)
+  {
+    const std::int64_t cells = box.High[a] - box.Low[a];
+    const double length = static_cast<double>(cells) * this->Sides[a];
+    if (cells > 1 && length > longest)
+    {
+      longest = length;
+      axis = a;
+    }
+  }
+  Halved halves{ box, box, axis };
+  const std::int64_t plane = box.Low[axis] + (box.High[axis] - box.Low[axis] + 1) / 2;
+  halves.Low.High[axis] = plane;
+  halves.High.Low[axis] = plane;
+  const std::int64_t high = box.Node < 0 ? 0 : this->Nodes[static_cast<std::size_t>(box.Node)].High;
+  halves.Low.Node = high > 0 ? box.Node + 1 : -1;
+  halves.High.Node = high > 0 ? high : -1;
+  return halves;
+}
+
+template <int Dimension>
+double HalvingTree<Dimension>::Mass(const HalvingBox<Dimension>& box) const
+{
+  if (this->Cells.IsUniform())
+  {
+    return static_cast<double>(box.NumberOfCells());
+  }
+  return box.Node < 0 ? this->Sum(box) : this->Nodes[static_cast<std::size_t>(box.Node)].Mass;
+}
+
+template <int Dimension>
+double HalvingTree<Dimension>::Sum(const HalvingBox<Dimension>& box) const
+{
+  double sum = 0.0;
+  forRows<Dimension>(
+    box, this->Cells.Size(), [&](std::int64_t first, std::int64_t last, const auto&) {
+      for (std::int64_t cell = first; cell < last; ++cell)
+      {
+        sum += this->Cells.Share(cell);
+      }
+    });
+  return sum;
+}
+
+template <int Dimension>
+void HalvingTree<Dimension>::MoveToMass(
+  Point<Dimension>& point, const HalvingBox<Dimension>& box) const
+{
+  Nearest nearest;
+  Point<Dimension> place;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double cell = std::clamp(std::floor(point[axis]), static_cast<double>(box.Low[axis]),
+      static_cast<double>(box.High[axis] - 1));
+    nearest.From[axis] = static_cast<std::int64_t>(cell);
+    place[axis] = std::clamp(point[axis] - cell, inside, 1.0 - inside);
+  }
+  this->Search(box, nearest);
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    point[axis] = static_cast<double>(nearest.Cell[axis]) + place[axis];
+  }
+}
+
+template <int Dimension>
+void HalvingTree<Dimension>::Search(const HalvingBox<Dimension>& box, Nearest& nearest) const
+{
+  if (box.Node < 0 || this->Nodes[static_cast<std::size_t>(box.Node)].High == 0)
+  {
+    this->SearchCells(box, nearest);
+    return;
+  }
+  const Halved halves = this->Halves(box);
+  const bool isLow = nearest.From[halves.Axis] < halves.High.Low[halves.Axis];
+  for (const HalvingBox<Dimension>& half :
+    { isLow ? halves.Low : halves.High, isLow ? halves.High : halves.Low })
+  {
+    if (this->Mass(half) > 0.0 && this->SquaredDistance(nearest.From, half) < nearest.Square)
+    {
+      this->Search(half, nearest);
+    }
+  }
+}
+
+template <int Dimension>
+void HalvingTree<Dimension>::SearchCells(const HalvingBox<Dimension>& box, Nearest& nearest) const
+{
+  forRows<Dimension>(
+    box, this->Cells.Size(), [&](std::int64_t first, std::int64_t last, GridSize<Dimension> cell) {
+      for (std::int64_t number = first; number < last; ++number, ++cell[0])
+      {
+        if (this->Cells.Share(number) > 0.0)
+        {
+          GridSize<Dimension> end = cell;
+          for (std::int64_t& coordinate : end)
+          {
+            ++coordinate;
+          }
+          const double square = this->SquaredDistance(nearest.From, { cell, end });
+          if (square < nearest.Square)
+          {
+            nearest.Square = square;
+            nearest.Cell = cell;
+          }
+        }
+      }
+    });
+}
+
+// Between the centres of the nearest cells.
+template <int Dimension>
+double HalvingTree<Dimension>::SquaredDistance(
+  const GridSize<Dimension>& cell, const HalvingBox<Dimension>& box) const
+{
+  double square = 0.0;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const std::int64_t cells =
+      std::max<std::int64_t>({ box.Low[axis] - cell[axis], cell[axis] - (box.High[axis] - 1), 0 });
+    const double way = static_cast<double>(cells) * this->Sides[axis];
+    square += way * way;
+  }
+  return square;
+}
+
+template <int Dimension>
+double HalvingTree<Dimension>::MemoryFor(const GridSize<Dimension>& size)
+{
+  return numberOfCells<Dimension>(size) / leafCells * 4.0 * sizeof(Node);
+}
+
+template class HalvingTree<1>;
+template class HalvingTree<2>;
+template class HalvingTree<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The masses of the boxes that halve a density's grid.
+#ifndef RectifiedTransport_HalvingTree_h
+#define RectifiedTransport_HalvingTree_h
+
+#include "Core/OptimalMap/CellDensity.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// The cells [Low, High) of a grid.
+template <int Dimension>
+struct HalvingBox
+{
+  GridSize<Dimension> Low;
+  GridSize<Dimension> High;
+  std::int64_t Node = -1; // of the tree, if it keeps the box
+
+  std::int64_t NumberOfCells() const
+  {
+    std::int64_t count = 1;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      count *= this->High[axis] - this->Low[axis];
+    }
+    return count;
+  }
+  bool IsDivisible() const { return this->NumberOfCells() > 1; }
+};
+
+// Boxes are halved at whole cells across their longest side. The tree keeps the masses of all boxes
+// but small ones and their parts, which it sums anew: masses are sums of shares, never differences,
+// so that those of empty boxes are exactly 0. Of a uniform density it keeps nothing.
+template <int Dimension>
+class HalvingTree
+{
+public:
+  // The density must live as long. Throws std::bad_alloc and Cancelled.
+  HalvingTree(
+    const CellDensity<Dimension>& density, const Point<Dimension>& sides, Progress& progress);
+
+  struct Halved
+  {
+    HalvingBox<Dimension> Low;
+    HalvingBox<Dimension> High;
+    int Axis; // across the plane between them
+  };
+  HalvingBox<Dimension> Whole() const;
+  // Of a box of more than one cell.
+  Halved Halves(const HalvingBox<Dimension>& box) const;
+  // Its share, or that times any constant, the same one for all boxes.
+  double Mass(const HalvingBox<Dimension>& box) const;
+  // Moves a point to the nearest cell with mass of a box that has some, to where it is in its own
+  // cell, which keeps neighbours apart.
+  void MoveToMass(Point<Dimension>& point, const HalvingBox<Dimension>& box) const;
+  const CellDensity<Dimension>& Density() const { return this->Cells; }
+
+  // Bytes, about.
+  static double MemoryFor(const GridSize<Dimension>& size);
+
+private:
+  // Its first half is the next one in the order.
+  struct Node
+  {
+    HalvingBox<Dimension> Box;
+    std::int64_t High = 0; // the other half; 0 if neither is kept
+    double Mass = 0.0;
+  };
+  struct Nearest;
+
+  void Keep(HalvingBox<Dimension> box, Progress& progress);
+  double Sum(const HalvingBox<Dimension>& box) const;
+  double SquaredDistance(const GridSize<Dimension>& cell, const HalvingBox<Dimension>& box) const;
+  void Search(const HalvingBox<Dimension>& box, Nearest& nearest) const;
+  void SearchCells(const HalvingBox<Dimension>& box, Nearest& nearest) const;
+
+  const CellDensity<Dimension>& Cells;
+  Point<Dimension> Sides;
+  std::vector<Node> Nodes;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/MassCorrection.h"
+
+#include "Core/OptimalMap/NodePoisson.h"
+#include "Core/OptimalMap/NodeSums.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// More steps converge slowly. A lower floor needs more iterations and moves what stands still over
+// a faint background; a higher one leaves more error in thin parts.
+constexpr int steps = 2;
+constexpr int iterations = 6;
+constexpr double leastWeight = 0.3; // of the mean density
+
+template <int Dimension>
+NodeGrid<Dimension> nodesFor(
+  const GridSize<Dimension>& size, const Point<Dimension>& sides, int cellsANode)
+{
+  NodeGrid<Dimension> grid;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const std::int64_t cells = (size[axis] + cellsANode - 1) / cellsANode;
+    grid.Cells[axis] = std::max<std::int64_t>(2, cells + cells % 2);
+    grid.Spacing[axis] =
+      sides[axis] * static_cast<double>(size[axis]) / static_cast<double>(grid.Cells[axis]);
+  }
+  return grid;
+}
+
+} // namespace
+
+template <int Dimension>
+MassCorrection<Dimension>::MassCorrection(const CellDensity<Dimension>& target,
+  const Point<Dimension>& sides, int cellsANode, PointSpan<Dimension> images, const double* masses,
+  Progress& progress)
+  : Target(target)
+{
+  const NodeGrid<Dimension> grid = nodesFor<Dimension>(target.Size(), sides, cellsANode);
+  this->Placement = CellPlacement<Dimension>::Filling(target.Size(), grid.Cells);
+  if (images.size() == 0)
+  {
+    return;
+  }
+  const NodeValues wanted = hatMasses<Dimension>(target, this->Placement, grid, progress);
+  const std::int64_t nodes = grid.NumberOfNodes();
+  NodePoisson<Dimension> poisson(grid);
+  NodeValues excess(nodes);
+  NodeValues q(nodes);
+  NodeSums<Dimension> sums(grid, 1.0, images.size(), progress);
+  const double equal = 1.0 / static_cast<double>(images.size());
+  for (int step = 0; step < steps; ++step)
+  {
+    progress.For(
+      images.size(), std::int64_t{ 1 } << 14, [&](std::int64_t first, std::int64_t last) {
+        typename NodeSums<Dimension>::Part part(sums);
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          part.Add(masses ? masses[i] : equal, this->Placement.ToNodes(images[i]).data());
+        }
+      });
+    sums.Write(excess.data(), progress,
+      [&](std::int64_t node, double sum) { return sum - wanted.data()[node]; });
+    poisson.SolveWeighted(
+      excess.data(), wanted.data(), leastWeight, iterations, q.data(), progress);
+    this->Moves.emplace_back(grid, q.data(), progress);
+    const NodeMoves<Dimension>& moves = this->Moves.back();
+    progress.For(
+      images.size(), std::int64_t{ 1 } << 11, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          this->Step(moves, images[i]);
+        }
+      });
+  }
+}
+
+template <int Dimension>
+void MassCorrection<Dimension>::Step(const NodeMoves<Dimension>& moves, double* point) const
+{
+  const Point<Dimension> at = this->Placement.ToNodes(point);
+  const Point<Dimension> move = moves.At(at.data());
+  for (const double part : { 1.0, 0.5, 0.25, 0.125 })
+  {
+    Point<Dimension> to;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      to[axis] = std::clamp(point[axis] + part * move[axis] / this->Placement.Sides[axis], 0.0,
+        static_cast<double>(this->Target.Size()[axis]));
+    }
+    if (this->Target.HasMass(to.data()))
+    {
+      std::copy(to.begin(), to.end(), point);
+      return;
+    }
+  }
+}
+
+template <int Dimension>
+void MassCorrection<Dimension>::Move(double* point) const
+{
+  for (const NodeMoves<Dimension>& moves : this->Moves)
+  {
+    this->Step(moves, point);
+  }
+}
+
+template <int Dimension>
+double MassCorrection<Dimension>::MemoryFor(const GridSize<Dimension>& target, int cellsANode)
+{
+  const NodeGrid<Dimension> grid = nodesFor<Dimension>(target, Point<Dimension>{}, cellsANode);
+  return numberOfCorners<Dimension>(grid.Cells) * sizeof(double) *
+    (3.0 + mostArraysOfSums + steps * Dimension) +
+    NodePoisson<Dimension>::MemoryFor(grid, true);
+}
+
+template class MassCorrection<1>;
+template class MassCorrection<2>;
+template class MassCorrection<3>;
+
+} // namespace RectifiedTransport

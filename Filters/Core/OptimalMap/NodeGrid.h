@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The nodes at the corners of a lattice of equal cells that fills a box: what potentials are given
+// at.
+#ifndef RectifiedTransport_NodeGrid_h
+#define RectifiedTransport_NodeGrid_h
+
+#include "Core/Geometry/GridSize.h"
+#include "Core/Parallel/LargeBuffer.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// One value a node, axis 0 fastest.
+using NodeValues = LargeBuffer<double>;
+
+template <int Dimension>
+struct NodeGrid
+{
+  GridSize<Dimension> Cells;  // along each axis an even number, at least 2
+  Point<Dimension> Spacing{}; // of the nodes; the box is [0, Cells * Spacing]
+
+  std::int64_t NumberOfCells() const
+  {
+    std::int64_t count = 1;
+    for (const std::int64_t cells : this->Cells)
+    {
+      count *= cells;
+    }
+    return count;
+  }
+  std::int64_t NumberOfNodes() const { return this->Stride(Dimension); }
+  // The difference of the numbers of two neighbours along an axis.
+  std::int64_t Stride(int axis) const
+  {
+    std::int64_t stride = 1;
+    for (int a = 0; a < axis; ++a)
+    {
+      stride *= this->Cells[a] + 1;
+    }
+    return stride;
+  }
+};
+
+// The cell that holds a point, whose coordinates are in cells, and the place in it, from 0 to 1.
+template <int Dimension>
+struct CellPlace
+{
+  CellPlace(const double* point, const GridSize<Dimension>& cells)
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const auto last = static_cast<double>(cells[axis] - 1);
+      this->Cell[axis] = static_cast<std::int64_t>(std::clamp(point[axis], 0.0, last));
+      this->Place[axis] = point[axis] - static_cast<double>(this->Cell[axis]);
+    }
+  }
+
+  GridSize<Dimension> Cell;
+  Point<Dimension> Place;
+};
+
+// The multilinear interpolant of values at nodes, at a point in the box in cells of the nodes.
+template <int Dimension>
+double interpolate(const double* values, const GridSize<Dimension>& cells, const double* point)
+{
+  const CellPlace<Dimension> at(point, cells);
+  std::int64_t node = 0;
+  std::int64_t strides[Dimension];
+  std::int64_t stride = 1;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    strides[axis] = stride;
+    node += at.Cell[axis] * stride;
+    stride *= cells[axis] + 1;
+  }
+  double sum = 0.0;
+  for (int corner = 0; corner < (1 << Dimension); ++corner)
+  {
+    double weight = 1.0;
+    std::int64_t of = node;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const bool high = ((corner >> axis) & 1) != 0;
+      weight *= high ? at.Place[axis] : 1.0 - at.Place[axis];
+      of += high ? strides[axis] : 0;
+    }
+    sum += weight * values[of];
+  }
+  return sum;
+}
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/NodeMap.h"
+
+#include "Core/Parallel/Progress.h"
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// One coordinate of the map, of the lines [first, last) along axis 0 of all nodes.
+struct Differences
+{
+  const double* Potential;
+  double* Images;
+  std::int64_t Nodes;  // along axis 0
+  std::int64_t Stride; // of the coordinate's axis
+  std::int64_t Cells;  // along this axis
+  double Scale;        // from a difference of potentials to cells
+
+  // Along axis 0.
+  void WriteAlong(std::int64_t first, std::int64_t last) const
+  {
+    const double half = 0.5 * this->Scale;
+    const std::int64_t n = this->Nodes;
+    for (std::int64_t line = first; line < last; ++line)
+    {
+      const double* p = this->Potential + line * n;
+      double* out = this->Images + line * n;
+      out[0] = -(p[1] - p[0]) * this->Scale;
+      for (std::int64_t i = 1; i + 1 < n; ++i)
+      {
+        out[i] = static_cast<double>(i) - half * (p[i + 1] - p[i - 1]);
+      }
+      out[n - 1] = static_cast<double>(n - 1) - (p[n - 1] - p[n - 2]) * this->Scale;
+      this->Clamp(out);
+    }
+  }
+
+  // Along another axis.
+  void WriteAcross(std::int64_t first, std::int64_t last) const
+  {
+    for (std::int64_t line = first; line < last; ++line)
+    {
+      const std::int64_t node = line * this->Nodes / this->Stride % (this->Cells + 1);
+      const std::int64_t low = node > 0 ? this->Stride : 0;
+      const std::int64_t high = node < this->Cells ? this->Stride : 0;
+      const double scale = low > 0 && high > 0 ? 0.5 * this->Scale : this->Scale;
+      const double at = static_cast<double>(node);
+      const double* p = this->Potential + line * this->Nodes;
+      double* out = this->Images + line * this->Nodes;
+      for (std::int64_t i = 0; i < this->Nodes; ++i)
+      {
+        out[i] = at - scale * (p[i + high] - p[i - low]);
+      }
+      this->Clamp(out);
+    }
+  }
+
+  void Clamp(double* images) const
+  {
+    const double most = static_cast<double>(this->Cells);
+    for (std::int64_t i = 0; i < this->Nodes; ++i)
+    {
+      images[i] = std::clamp(images[i], 0.0, most);
+    }
+  }
+};
+
+} // namespace
+
+template <int Dimension>
+void writeGradientMap(const double* potential, NodeMap<Dimension>& map, Progress& progress)
+{
+  const NodeGrid<Dimension>& grid = map.Grid;
+  const std::int64_t nodes = grid.Cells[0] + 1;
+  const std::int64_t grain = std::max<std::int64_t>(1, 4096 / nodes);
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double spacing = grid.Spacing[axis];
+    const Differences differences{ potential, map.Images[static_cast<std::size_t>(axis)].data(),
+      nodes, grid.Stride(axis), grid.Cells[axis], 1.0 / (spacing * spacing) };
+    progress.For(grid.NumberOfNodes(), grain * nodes, [&](std::int64_t first, std::int64_t last) {
+      if (axis == 0)
+      {
+        differences.WriteAlong(first / nodes, last / nodes);
+      }
+      else
+      {
+        differences.WriteAcross(first / nodes, last / nodes);
+      }
+    });
+  }
+}
+
+template void writeGradientMap<1>(const double*, NodeMap<1>&, Progress&);
+template void writeGradientMap<2>(const double*, NodeMap<2>&, Progress&);
+template void writeGradientMap<3>(const double*, NodeMap<3>&, Progress&);
+
+} // namespace RectifiedTransport

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A map that is given at nodes, and the images of the cells between them.
+#ifndef RectifiedTransport_NodeMap_h
+#define RectifiedTransport_NodeMap_h
+
+#include "Core/OptimalMap/NodeGrid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// Coordinates are in cells of the nodes.
+template <int Dimension>
+struct NodeMap
+{
+  NodeGrid<Dimension> Grid;
+  std::array<NodeValues, Dimension> Images; // a coordinate each, at the nodes
+
+  Point<Dimension> At(const double* point) const
+  {
+    Point<Dimension> image;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      image[axis] = interpolate<Dimension>(this->Images[axis].data(), this->Grid.Cells, point);
+    }
+    return image;
+  }
+};
+
+// x - grad potential(x) at the nodes, by central differences, moved into the box; from and to
+// physical lengths by the grid's spacing. Adds the nodes for each axis to the units of the current
+// stage. Throws Cancelled. The map has memory already.
+template <int Dimension>
+void writeGradientMap(const double* potential, NodeMap<Dimension>& map, Progress& progress);
+
+// One of the equal parts of a cell between nodes.
+template <int Dimension>
+struct CellSample
+{
+  std::int64_t Cell; // axis 0 fastest
+  double Mass;
+  GridSize<Dimension> Part;  // along each axis
+  GridSize<Dimension> Parts; // of the cell
+
+  // The middle of the part, in cells of the nodes.
+  Point<Dimension> Place(const GridSize<Dimension>& cells) const
+  {
+    Point<Dimension> place;
+    std::int64_t rest = this->Cell;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      place[axis] = static_cast<double>(rest % cells[axis]) +
+        (static_cast<double>(this->Part[axis]) + 0.5) / static_cast<double>(this->Parts[axis]);
+      rest /= cells[axis];
+    }
+    return place;
+  }
+};
+
+// The images of the cells of rows along axis 0. Each cell is divided into as many samples along an
+// axis as the map stretches it there, at most 64.
+template <int Dimension>
+class ImageSamples
+{
+public:
+  // `fineness` samples a cell of the nodes, at least one a cell. The map must live as long.
+  explicit ImageSamples(const NodeMap<Dimension>& map, double fineness = 1.0)
+    : Map(map)
+    , Fineness(fineness)
+    , Nodes(static_cast<std::size_t>(map.Grid.Cells[0] + 1))
+    , Scratch(this->Nodes * (2 * Dimension + 1))
+  {
+  }
+
+  static std::int64_t NumberOfRows(const NodeGrid<Dimension>& grid)
+  {
+    return grid.NumberOfCells() / grid.Cells[0];
+  }
+
+  // visit(sample, image) of each sample of the row's cells with mass; `masses` are those of all
+  // cells, null if each has the mass 1.
+  template <class Visit>
+  void ForRow(std::int64_t row, const double* masses, const Visit& visit)
+  {
+    const GridSize<Dimension>& cells = this->Map.Grid.Cells;
+    const std::int64_t first = row * cells[0];
+    if (masses && std::all_of(masses + first, masses + first + cells[0], [](double mass) {
+          return mass == 0.0;
+        }))
+    {
+      return;
+    }
+    this->FindCorners(row);
+    this->TakeMiddles();
+    this->MeasureExtents();
+    for (std::int64_t i = 0; i < cells[0]; ++i)
+    {
+      const double mass = masses ? masses[first + i] : 1.0;
+      if (mass != 0.0)
+      {
+        this->ForCell(i, first + i, mass, visit);
+      }
+    }
+  }
+
+private:
+  static constexpr int Lines = 1 << (Dimension - 1); // of nodes about a row
+  static constexpr int MostSamples = 64;
+
+  double* Middle(int axis) { return this->Scratch.data() + this->Nodes * Index(axis); }
+  double* Extent(int axis) { return this->Middle(Dimension + axis); }
+  double* Across() { return this->Middle(2 * Dimension); }
+  static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+
+  void FindCorners(std::int64_t row)
+  {
+    const GridSize<Dimension>& cells = this->Map.Grid.Cells;
+    for (int line = 0; line < Lines; ++line)
+    {
+      std::int64_t rest = row;
+      std::int64_t node = 0;
+      for (int axis = 1; axis < Dimension; ++axis)
+      {
+        node += (rest % cells[axis] + ((line >> (axis - 1)) & 1)) * this->Map.Grid.Stride(axis);
+        rest /= cells[axis];
+      }
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        this->Corners[Index(axis)][Index(line)] = this->Map.Images[Index(axis)].data() + node;
+      }
+    }
+  }
+
+  void TakeMiddles()
+  {
+    constexpr double share = 1.0 / (1 << Dimension);
+    double* across = this->Across();
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const auto& corners = this->Corners[Index(axis)];
+      for (std::size_t i = 0; i < this->Nodes; ++i)
+      {
+        double sum = 0.0;
+        for (int line = 0; line < Lines; ++line)
+        {
+          sum += corners[Index(line)][i];
+        }
+        across[i] = share * sum;
+      }
+      double* middle = this->Middle(axis);
+      for (std::size_t i = 0; i + 1 < this->Nodes; ++i)
+      {
+        middle[i] = across[i] + across[i + 1];
+      }
+    }
+  }
+
+  // The longest extent of an edge's image, in any coordinate, of the edges along each axis.
+  void MeasureExtents()
+  {
+    double* along = this->Extent(0);
+    std::fill_n(along, this->Nodes, 0.0);
+    for (const auto& corners : this->Corners)
+    {
+      for (const double* x : corners)
+      {
+        for (std::size_t i = 0; i + 1 < this->Nodes; ++i)
+        {
+          along[i] = std::max(along[i], std::abs(x[i + 1] - x[i]));
+        }
+      }
+    }
+    double* across = this->Across();
+    for (int axis = 1; axis < Dimension; ++axis)
+    {
+      const int bit = 1 << (axis - 1);
+      std::fill_n(across, this->Nodes, 0.0);
+      for (const auto& corners : this->Corners)
+      {
+        for (int line = 0; line < Lines; ++line)
+        {
+          if ((line & bit) == 0)
+          {
+            const double* x = corners[Index(line)];
+            const double* y = corners[Index(line | bit)];
+            for (std::size_t i = 0; i < this->Nodes; ++i)
+            {
+              across[i] = std::max(across[i], std::abs(y[i] - x[i]));
+            }
+          }
+        }
+      }
+      double* extent = this->Extent(axis);
+      for (std::size_t i = 0; i + 1 < this->Nodes; ++i)
+      {
+        extent[i] = std::max(across[i], across[i + 1]);
+      }
+    }
+  }
+
+  template <class Visit>
+  void ForCell(std::int64_t i, std::int64_t cell, double mass, const Visit& visit)
+  {
+    constexpr double tolerance = 0.02; // of an extent just above a whole number
+    CellSample<Dimension> sample{ cell, mass, {}, {} };
+    int parts[3] = { 1, 1, 1 };
+    int all = 1;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double wanted = std::ceil(this->Extent(axis)[i] * this->Fineness - tolerance);
+      parts[axis] = static_cast<int>(std::clamp(wanted, 1.0, 1.0 * MostSamples));
+      sample.Parts[Index(axis)] = parts[axis];
+      all *= parts[axis];
+    }
+    Point<Dimension> image;
+    if (all == 1)
+    {
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        image[Index(axis)] = this->Middle(axis)[i];
+      }
+      visit(sample, image);
+      return;
+    }
+    sample.Mass = mass / all;
+    for (int line = 0; line < parts[1] * parts[2]; ++line)
+    {
+      const int b = line % parts[1];
+      const int c = line / parts[1];
+      const double y = (b + 0.5) / parts[1];
+      const double z = (c + 0.5) / parts[2];
+      if constexpr (Dimension > 1)
+      {
+        sample.Part[1] = b;
+      }
+      if constexpr (Dimension > 2)
+      {
+        sample.Part[2] = c;
+      }
+      Point<Dimension> begin;
+      Point<Dimension> step;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        const double low = this->Across(i, axis, y, z);
+        step[Index(axis)] = (this->Across(i + 1, axis, y, z) - low) / parts[0];
+        begin[Index(axis)] = low + 0.5 * step[Index(axis)];
+      }
+      for (int a = 0; a < parts[0]; ++a)
+      {
+        sample.Part[0] = a;
+        for (std::size_t axis = 0; axis < begin.size(); ++axis)
+        {
+          image[axis] = begin[axis] + a * step[axis];
+        }
+        visit(sample, image);
+      }
+    }
+  }
+
+  // A coordinate of the image of a place on the face of cells between nodes i.
+  double Across(std::int64_t i, int axis, double y, double z) const
+  {
+    const auto& corners = this->Corners[Index(axis)];
+    if constexpr (Dimension == 1)
+    {
+      return corners[0][i];
+    }
+    else if constexpr (Dimension == 2)
+    {
+      return corners[0][i] + y * (corners[1][i] - corners[0][i]);
+    }
+    else
+    {
+      const double low = corners[0][i] + z * (corners[2][i] - corners[0][i]);
+      const double high = corners[1][i] + z * (corners[3][i] - corners[1][i]);
+      return low + y * (high - low);
+    }
+  }
+
+  const NodeMap<Dimension>& Map;
+  double Fineness;
+  std::size_t Nodes;
+  std::vector<double> Scratch;
+  std::array<std::array<const double*, Lines>, Dimension> Corners{};
+};
+
+} // namespace RectifiedTransport
+
+#endif

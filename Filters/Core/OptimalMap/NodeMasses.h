@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a density's mass is on a grid of nodes: exact integrals of the nodes' hat functions.
+#ifndef RectifiedTransport_NodeMasses_h
+#define RectifiedTransport_NodeMasses_h
+
+#include "Core/OptimalMap/CellDensity.h"
+#include "Core/OptimalMap/NodeGrid.h"
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// The sums below run as parts of the current stage and throw std::bad_alloc and Cancelled.
+
+// Where the cells of a density are on a grid of nodes, whose box contains them.
+template <int Dimension>
+struct CellPlacement
+{
+  // Cells that fill the whole box.
+  static CellPlacement Filling(
+    const GridSize<Dimension>& cells, const GridSize<Dimension>& nodeCells)
+  {
+    CellPlacement placement;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      placement.Sides[axis] =
+        static_cast<double>(nodeCells[axis]) / static_cast<double>(cells[axis]);
+    }
+    return placement;
+  }
+
+  // From index space to cells of the nodes, and back.
+  Point<Dimension> ToNodes(const double* point) const
+  {
+    Point<Dimension> moved;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      moved[axis] = this->Low[axis] + this->Sides[axis] * point[axis];
+    }
+    return moved;
+  }
+  Point<Dimension> FromNodes(const double* point) const
+  {
+    Point<Dimension> moved;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      moved[axis] = (point[axis] - this->Low[axis]) / this->Sides[axis];
+    }
+    return moved;
+  }
+
+  Point<Dimension> Low{};   // of the first cell, in cells of the nodes
+  Point<Dimension> Sides{}; // of each cell
+};
+
+// The masses of the nodes' hat functions, which sum to 1.
+template <int Dimension>
+NodeValues hatMasses(const CellDensity<Dimension>& density,
+  const CellPlacement<Dimension>& placement, const NodeGrid<Dimension>& grid, Progress& progress);
+
+// The masses of the cells between the nodes, times the number of these cells: 1 is the mean
+// density.
+template <int Dimension>
+NodeValues cellMasses(const CellDensity<Dimension>& density,
+  const CellPlacement<Dimension>& placement, const NodeGrid<Dimension>& grid, Progress& progress);
+
+// The same of a density of these masses of the cells of a grid of this size, of mean 1, which fills
+// the box; null: all 1.
+template <int Dimension>
+NodeValues hatMasses(const double* cells, const GridSize<Dimension>& size,
+  const NodeGrid<Dimension>& grid, Progress& progress);
+
+// From such masses on a grid of this size to those between fewer nodes.
+template <int Dimension>
+NodeValues coarserCells(const double* cells, const GridSize<Dimension>& size,
+  const NodeGrid<Dimension>& coarser, Progress& progress);
+
+// The second moment of the hats' masses less that of the density, in squared lengths.
+template <int Dimension>
+double lumpingExcess(const CellDensity<Dimension>& density,
+  const CellPlacement<Dimension>& placement, const NodeGrid<Dimension>& grid, Progress& progress);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,579 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/NodePoisson.h"
+
+#include "Core/Geometry/ReproducibleMath.h"
+#include "Core/OptimalMap/CosineTransform.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <thread>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr int lanes = CosineLines::Count;
+constexpr std::int64_t firstSlice = std::int64_t{ 1 } << 19;
+
+// Of the cells, the share that a node stands for along an axis.
+double shareOf(std::int64_t node, std::int64_t cells)
+{
+  return node == 0 || node == cells ? 0.5 : 1.0;
+}
+
+// Lines of nodes along an axis, which are numbered like the nodes of the grid without the axis.
+struct PoissonLines
+{
+  template <int Dimension>
+  PoissonLines(const NodeGrid<Dimension>& grid, int axis)
+    : Nodes(grid.Cells[axis] + 1)
+    , Stride(grid.Stride(axis))
+    , Count(grid.NumberOfNodes() / this->Nodes)
+  {
+  }
+
+  // kernel(first) for all blocks of lines. Adds `transforms` units a node.
+  template <class Kernel>
+  void ForBlocks(Progress& progress, int transforms, const Kernel& kernel) const
+  {
+    const std::int64_t line = this->Nodes * transforms;
+    const std::int64_t block = lanes * line;
+    progress.For(
+      this->Count * line, std::max<std::int64_t>(1, 8192 / block) * block,
+      [&](std::int64_t first, std::int64_t last) {
+        for (; first < last; first += block)
+        {
+          kernel(first / line);
+        }
+      },
+      firstSlice);
+  }
+
+  std::int64_t Begin(std::int64_t line) const
+  {
+    return line / this->Stride * this->Stride * this->Nodes + line % this->Stride;
+  }
+
+  std::int64_t Nodes; // of a line
+  std::int64_t Stride;
+  std::int64_t Count;
+};
+
+// Where the lines of a block begin. In the last block the last line stands for those that lack.
+struct PoissonBlock
+{
+  PoissonBlock(const PoissonLines& lines, std::int64_t first)
+    : Nodes(lines.Nodes)
+    , Stride(lines.Stride)
+    , Count(static_cast<int>(std::min<std::int64_t>(lanes, lines.Count - first)))
+  {
+    for (int i = 0; i < lanes; ++i)
+    {
+      this->Begin[i] = lines.Begin(first + std::min(i, this->Count - 1));
+    }
+    this->Together = this->Begin[lanes - 1] == this->Begin[0] + lanes - 1 && this->Count == lanes;
+  }
+
+  void Load(const double* grid, double* values) const
+  {
+    for (std::int64_t j = 0; j < this->Nodes; ++j, values += lanes)
+    {
+      const double* node = grid + j * this->Stride;
+      if (this->Together)
+      {
+        std::memcpy(values, node + this->Begin[0], lanes * sizeof(double));
+      }
+      else
+      {
+        for (int i = 0; i < lanes; ++i)
+        {
+          values[i] = node[this->Begin[i]];
+        }
+      }
+    }
+  }
+  // Times a factor for each line.
+  void LoadScaled(const double* grid, const double* factors, double* values) const
+  {
+    for (std::int64_t j = 0; j < this->Nodes; ++j, values += lanes)
+    {
+      const double* node = grid + j * this->Stride;
+      for (int i = 0; i < lanes; ++i)
+      {
+        values[i] = factors[i] * node[this->Begin[i]];
+      }
+    }
+  }
+  void Store(const double* values, double* grid) const
+  {
+    for (std::int64_t j = 0; j < this->Nodes; ++j, values += lanes)
+    {
+      double* node = grid + j * this->Stride;
+      if (this->Together)
+      {
+        std::memcpy(node + this->Begin[0], values, lanes * sizeof(double));
+      }
+      else
+      {
+        for (int i = 0; i < this->Count; ++i)
+        {
+          node[this->Begin[i]] = values[i];
+        }
+      }
+    }
+  }
+
+  std::int64_t Nodes;
+  std::int64_t Stride;
+  int Count;
+  bool Together; // neighbours in memory
+  std::int64_t Begin[lanes];
+};
+
+} // namespace
+
+template <int Dimension>
+struct NodePoisson<Dimension>::Implementation
+{
+  static constexpr int Last = Dimension - 1;
+  static constexpr int TransformedAxes = Dimension > 1 ? Dimension : 0; // see SolveLine
+
+  explicit Implementation(const NodeGrid<Dimension>& grid)
+    : Grid(grid)
+    , Nodes(grid.NumberOfNodes())
+    , Chunk(std::max<std::int64_t>(1, 8192 / (grid.Cells[0] + 1)) * (grid.Cells[0] + 1))
+  {
+    for (int axis = 0; axis < TransformedAxes; ++axis)
+    {
+      const std::int64_t cells = grid.Cells[axis];
+      for (int other = 0; other < axis; ++other)
+      {
+        if (grid.Cells[other] == cells)
+        {
+          this->Pools[axis] = this->Pools[other];
+        }
+      }
+      if (!this->Pools[axis])
+      {
+        this->Pools[axis] = std::make_shared<CosineLinesPool>(cells);
+      }
+      this->Eigenvalues[axis].resize(static_cast<std::size_t>(cells + 1));
+      for (std::int64_t k = 0; k <= cells; ++k)
+      {
+        const double root = 2.0 * cosineAndSine(k, 4 * cells).Sine / grid.Spacing[axis];
+        this->Eigenvalues[axis][static_cast<std::size_t>(k)] = root * root;
+      }
+    }
+  }
+
+  void Solve(const double* masses, double* p, Progress& progress)
+  {
+    if constexpr (Dimension == 1)
+    {
+      this->SolveLine(masses, p, progress);
+    }
+    else
+    {
+      this->SolveByTransforms(masses, p, progress);
+    }
+  }
+
+  // In one dimension the masses up to an edge are what flows through it: fewer operations, and less
+  // rounding, than transforms.
+  void SolveLine(const double* masses, double* p, Progress& progress)
+  {
+    const std::int64_t cells = this->Grid.Cells[0];
+    const double number = static_cast<double>(cells);
+    const double spacing = this->Grid.Spacing[0];
+    const double conductance = 1.0 / (number * spacing * spacing);
+    const auto sumOf = [&](const auto& term) {
+      return reduceChunks(
+        progress, this->Nodes, this->Chunk, 0.0,
+        [&](std::int64_t first, std::int64_t last) {
+          double sum = 0.0;
+          for (std::int64_t i = first; i < last; ++i)
+          {
+            sum += term(i);
+          }
+          return sum;
+        },
+        std::plus<>());
+    };
+    const double all = sumOf([=](std::int64_t i) { return masses[i]; });
+    double flux = 0.0;
+    double value = 0.0;
+    progress.ForInOrder(this->Nodes, this->Chunk, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        p[i] = value;
+        flux += masses[i] - all * (shareOf(i, cells) / number);
+        value -= flux / conductance;
+      }
+    });
+    const double mean = sumOf([=](std::int64_t i) { return p[i] * (shareOf(i, cells) / number); });
+    progress.For(this->Nodes, this->Chunk, [=](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        p[i] -= mean;
+      }
+    });
+  }
+
+  void SolveByTransforms(const double* masses, double* p, Progress& progress)
+  {
+    this->Along(
+      0, 1, progress, [&](std::int64_t first, const PoissonBlock& block, CosineLines& lines) {
+        this->LoadDensity(masses, first, block, lines);
+        lines.Transform();
+        block.Store(lines.Values(), p);
+      });
+    const auto inPlace = [p](std::int64_t, const PoissonBlock& block, CosineLines& lines) {
+      block.Load(p, lines.Values());
+      lines.Transform();
+      block.Store(lines.Values(), p);
+    };
+    for (int axis = 1; axis < Last; ++axis)
+    {
+      this->Along(axis, 1, progress, inPlace);
+    }
+    // There and back while the lines are in the cache.
+    this->Along(
+      Last, 2, progress, [&](std::int64_t first, const PoissonBlock& block, CosineLines& lines) {
+        block.Load(p, lines.Values());
+        this->TransformAndDivide(first, block, lines);
+        block.Store(lines.Values(), p);
+      });
+    for (int axis = Last; axis-- > 0;)
+    {
+      this->Along(axis, 1, progress, inPlace);
+    }
+  }
+
+  // kernel(first, block, lines) for blocks of lines along an axis.
+  template <class Kernel>
+  void Along(int axis, int transforms, Progress& progress, const Kernel& kernel)
+  {
+    const PoissonLines all(this->Grid, axis);
+    all.ForBlocks(progress, transforms, [&](std::int64_t first) {
+      const PoissonBlock block(all, first);
+      this->Pools[axis]->With([&](CosineLines& lines) { kernel(first, block, lines); });
+    });
+  }
+
+  // Lines along axis 0 of masses over the nodes' shares of a cell.
+  void LoadDensity(
+    const double* masses, std::int64_t first, const PoissonBlock& block, CosineLines& lines) const
+  {
+    double factors[lanes];
+    for (int i = 0; i < lanes; ++i)
+    {
+      factors[i] = 1.0 / this->ShareOfRow(first + std::min(i, block.Count - 1));
+    }
+    block.LoadScaled(masses, factors, lines.Values());
+    CosineLines::Complex* nodes = lines.Nodes();
+    nodes[0] *= Lanes(2.0);
+    nodes[block.Nodes - 1] *= Lanes(2.0);
+  }
+
+  // Of a cell, the share of an inner node of a row along axis 0.
+  double ShareOfRow(std::int64_t row) const
+  {
+    double share = 1.0;
+    for (int axis = 1; axis < Dimension; ++axis)
+    {
+      const std::int64_t nodes = this->Grid.Cells[axis] + 1;
+      share *= shareOf(row % nodes, nodes - 1);
+      row /= nodes;
+    }
+    return share;
+  }
+
+  // The transform along the last axis, the division by the eigenvalues of the Laplacian, and the
+  // transform back. All transforms of a density together with their inverses have the factor
+  // 2^Dimension times the number of cells; a density is masses times this number.
+  void TransformAndDivide(std::int64_t first, const PoissonBlock& block, CosineLines& lines) const
+  {
+    lines.Transform();
+    alignas(16) double others[lanes];
+    alignas(16) double atZero[lanes];
+    for (int i = 0; i < lanes; ++i)
+    {
+      std::int64_t line = first + std::min(i, block.Count - 1);
+      double sum = 0.0;
+      for (int axis = 0; axis < Last; ++axis)
+      {
+        const std::int64_t nodes = this->Grid.Cells[axis] + 1;
+        sum += this->Eigenvalues[axis][static_cast<std::size_t>(line % nodes)];
+        line /= nodes;
+      }
+      others[i] = sum;
+      atZero[i] = sum > 0.0 ? sum : std::numeric_limits<double>::infinity(); // the mean
+    }
+    const Lanes scale(1.0 / (1 << Dimension));
+    const Lanes real = Lanes::Load(others);
+    const Lanes imaginary = Lanes::Load(others + Lanes::Count);
+    CosineLines::Complex* node = lines.Nodes();
+    *node = { node->real() * (scale / Lanes::Load(atZero)),
+      node->imag() * (scale / Lanes::Load(atZero + Lanes::Count)) };
+    for (std::size_t k = 1; k < this->Eigenvalues[Last].size(); ++k)
+    {
+      ++node;
+      const Lanes own(this->Eigenvalues[Last][k]);
+      *node = { node->real() * (scale / (real + own)), node->imag() * (scale / (imaginary + own)) };
+    }
+    lines.Transform();
+  }
+
+  void SolveWeighted(const double* masses, const double* density, double floor, int iterations,
+    double* p, Progress& progress)
+  {
+    for (NodeValues* values :
+      { &this->Weights, &this->Rest, &this->Preconditioned, &this->Direction, &this->Image })
+    {
+      if (values->size() == 0)
+      {
+        *values = NodeValues(this->Nodes);
+      }
+    }
+    this->Begin(masses, density, floor, p, progress);
+    double before = 1.0;
+    for (int iteration = 0; iteration < iterations; ++iteration)
+    {
+      this->Solve(this->Rest.data(), this->Preconditioned.data(), progress);
+      const double now = this->Product(progress);
+      if (!(now > 0.0))
+      {
+        return;
+      }
+      this->Turn(iteration > 0 ? now / before : 0.0, progress);
+      const double curvature = this->Apply(progress);
+      if (!(curvature > 0.0)) // what is left is rounding
+      {
+        return;
+      }
+      this->Move(now / curvature, p, progress);
+      before = now;
+    }
+  }
+
+  // kernel(row, first node) for the rows along axis 0 of a range of nodes.
+  template <class Kernel>
+  void ForRows(std::int64_t first, std::int64_t last, const Kernel& kernel) const
+  {
+    const std::int64_t nodes = this->Grid.Cells[0] + 1;
+    for (; first < last; first += nodes)
+    {
+      kernel(first / nodes, first);
+    }
+  }
+
+  void Begin(
+    const double* masses, const double* density, double floor, double* p, Progress& progress)
+  {
+    const std::int64_t cells = this->Grid.Cells[0];
+    const double number = static_cast<double>(this->Grid.NumberOfCells());
+    double* rest = this->Rest.data();
+    double* weights = this->Weights.data();
+    double* direction = this->Direction.data();
+    progress.For(this->Nodes, this->Chunk, [&](std::int64_t first, std::int64_t last) {
+      std::copy(masses + first, masses + last, rest + first);
+      std::fill(p + first, p + last, 0.0);
+      std::fill(direction + first, direction + last, 0.0);
+      this->ForRows(first, last, [&](std::int64_t row, std::int64_t node) {
+        const double factor = number / this->ShareOfRow(row);
+        weights[node] = std::max(floor, 2.0 * factor * density[node]);
+        for (std::int64_t i = node + 1; i < node + cells; ++i)
+        {
+          weights[i] = std::max(floor, factor * density[i]);
+        }
+        weights[node + cells] = std::max(floor, 2.0 * factor * density[node + cells]);
+      });
+    });
+  }
+
+  double Product(Progress& progress) const
+  {
+    const double* z = this->Preconditioned.data();
+    const double* r = this->Rest.data();
+    return reduceChunks(
+      progress, this->Nodes, this->Chunk, 0.0,
+      [=](std::int64_t first, std::int64_t last) {
+        double sum = 0.0;
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          sum += z[i] * r[i];
+        }
+        return sum;
+      },
+      std::plus<>());
+  }
+
+  void Turn(double factor, Progress& progress)
+  {
+    const double* z = this->Preconditioned.data();
+    double* direction = this->Direction.data();
+    progress.For(this->Nodes, this->Chunk, [=](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        direction[i] = z[i] + factor * direction[i];
+      }
+    });
+  }
+
+  // Image = -div(weight grad Direction), as masses. Returns its product with Direction.
+  double Apply(Progress& progress)
+  {
+    return reduceChunks(
+      progress, this->Nodes, this->Chunk, 0.0,
+      [this](std::int64_t first, std::int64_t last) {
+        double sum = 0.0;
+        this->ForRows(first, last,
+          [&](std::int64_t row, std::int64_t node) { sum += this->ApplyToRow(row, node); });
+        return sum;
+      },
+      std::plus<>());
+  }
+
+  double ApplyToRow(std::int64_t row, std::int64_t node)
+  {
+    const std::int64_t cells = this->Grid.Cells[0];
+    const double* d = this->Direction.data() + node;
+    const double* w = this->Weights.data() + node;
+    double* image = this->Image.data() + node;
+    // A node's share of a flux is that of the nodes across it.
+    const double share = this->ShareOfRow(row);
+    const double number = static_cast<double>(this->Grid.NumberOfCells());
+    const auto scaleOf = [&](int axis) {
+      const double spacing = this->Grid.Spacing[axis];
+      return 0.5 / (number * spacing * spacing);
+    };
+    std::fill_n(image, cells + 1, 0.0);
+    std::int64_t rest = row;
+    for (int axis = 1; axis < Dimension; ++axis)
+    {
+      const std::int64_t end = this->Grid.Cells[axis];
+      const std::int64_t at = rest % (end + 1);
+      rest /= end + 1;
+      const double scale = scaleOf(axis) * share / shareOf(at, end);
+      const std::int64_t stride = this->Grid.Stride(axis);
+      const std::int64_t low = at > 0 ? -stride : 0; // no flux from the node itself
+      const std::int64_t high = at < end ? stride : 0;
+      for (std::int64_t i = 0; i <= cells; ++i)
+      {
+        image[i] += scale *
+          ((w[i] + w[i + low]) * (d[i] - d[i + low]) + (w[i] + w[i + high]) * (d[i] - d[i + high]));
+      }
+    }
+    image[0] *= 0.5;
+    image[cells] *= 0.5;
+    const double scale = scaleOf(0) * share;
+    image[0] += scale * (w[0] + w[1]) * (d[0] - d[1]);
+    double sum = image[0] * d[0];
+    for (std::int64_t i = 1; i < cells; ++i)
+    {
+      image[i] +=
+        scale * ((w[i] + w[i - 1]) * (d[i] - d[i - 1]) + (w[i] + w[i + 1]) * (d[i] - d[i + 1]));
+      sum += image[i] * d[i];
+    }
+    image[cells] += scale * (w[cells] + w[cells - 1]) * (d[cells] - d[cells - 1]);
+    return sum + image[cells] * d[cells];
+  }
+
+  void Move(double step, double* p, Progress& progress)
+  {
+    const double* direction = this->Direction.data();
+    const double* image = this->Image.data();
+    double* rest = this->Rest.data();
+    progress.For(this->Nodes, this->Chunk, [=](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        p[i] += step * direction[i];
+        rest[i] -= step * image[i];
+      }
+    });
+  }
+
+  const NodeGrid<Dimension> Grid;
+  const std::int64_t Nodes;
+  const std::int64_t Chunk; // of whole rows along axis 0
+  std::array<std::shared_ptr<CosineLinesPool>, Dimension> Pools;
+  std::array<std::vector<double>, Dimension> Eigenvalues; // of -Laplace along each axis
+
+  // Of the weighted equation.
+  NodeValues Weights;
+  NodeValues Rest; // what is left of the masses
+  NodeValues Preconditioned;
+  NodeValues Direction;
+  NodeValues Image;
+};
+
+template <int Dimension>
+NodePoisson<Dimension>::NodePoisson(const NodeGrid<Dimension>& grid)
+  : Self(std::make_unique<Implementation>(grid))
+{
+}
+
+template <int Dimension>
+NodePoisson<Dimension>::~NodePoisson() = default;
+
+template <int Dimension>
+void NodePoisson<Dimension>::Solve(const double* masses, double* p, Progress& progress)
+{
+  this->Self->Solve(masses, p, progress);
+}
+
+template <int Dimension>
+void NodePoisson<Dimension>::SolveWeighted(const double* masses, const double* density,
+  double floor, int iterations, double* p, Progress& progress)
+{
+  this->Self->SolveWeighted(masses, density, floor, iterations, p, progress);
+}
+
+template <int Dimension>
+std::int64_t NodePoisson<Dimension>::UnitsOf(const NodeGrid<Dimension>& grid)
+{
+  constexpr int loops = Dimension == 1 ? 4 : 2 * Dimension;
+  return loops * grid.NumberOfNodes();
+}
+
+template <int Dimension>
+std::int64_t NodePoisson<Dimension>::UnitsOfWeighted(
+  const NodeGrid<Dimension>& grid, int iterations)
+{
+  constexpr int others = 4; // of an iteration: loops over the nodes
+  return grid.NumberOfNodes() + iterations * (UnitsOf(grid) + others * grid.NumberOfNodes());
+}
+
+template <int Dimension>
+double NodePoisson<Dimension>::MemoryFor(const NodeGrid<Dimension>& grid, bool weighted)
+{
+  constexpr double arrays = 5.0;
+  const double nodes = numberOfCorners<Dimension>(grid.Cells);
+  double bytes = weighted ? arrays * sizeof(double) * nodes : 0.0;
+  // Transforms of each length for every thread that has lines.
+  const double threads = std::max(1u, std::thread::hardware_concurrency());
+  for (int axis = 0; axis < Implementation::TransformedAxes; ++axis)
+  {
+    const std::int64_t cells = grid.Cells[axis];
+    const double blocks = std::ceil(nodes / static_cast<double>(cells + 1) / lanes);
+    bytes += std::min(blocks, threads) * CosineLines::MemoryFor(cells);
+    bytes += sizeof(double) * static_cast<double>(cells + 1);
+  }
+  return bytes;
+}
+
+template class NodePoisson<1>;
+template class NodePoisson<2>;
+template class NodePoisson<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,564 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/OptimalMap.h"
+
+#include "Core/Flow/FlowArguments.h"
+#include "Core/Flow/ParticleSource.h"
+#include "Core/OptimalMap/CellDensity.h"
+#include "Core/OptimalMap/CorrectedMap.h"
+#include "Core/OptimalMap/CouplingCost.h"
+#include "Core/OptimalMap/ExactCounts.h"
+#include "Core/OptimalMap/MassCorrection.h"
+#include "Core/OptimalMap/PotentialSolver.h"
+#include "Core/OptimalMap/SpreadInCells.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/SmallWork.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t group = 64; // of particles that are read together
+// Fewer samples a cell are no image from which to correct masses.
+constexpr double leastSamplesACell = 0.25;
+constexpr int samplesCellsANode = 2;
+
+void check(const OptimalMapOptions& options)
+{
+  if (!(options.Tolerance > 0.0 && options.Tolerance < 1.0))
+  {
+    throw std::invalid_argument("the tolerance of an optimal map is " +
+      std::to_string(options.Tolerance) + ", it must be above 0 and below 1");
+  }
+  if (options.LeastIterations < 0 || options.MostIterations < options.LeastIterations)
+  {
+    throw std::invalid_argument("an optimal map has from " +
+      std::to_string(options.LeastIterations) + " to " + std::to_string(options.MostIterations) +
+      " iterations, these numbers must ascend from 0 on");
+  }
+  if (!(options.MostNodes >= 1.0))
+  {
+    throw std::invalid_argument(
+      "an optimal map has at most " + std::to_string(options.MostNodes) + " nodes, it needs some");
+  }
+}
+
+template <int Dimension>
+void checkBox(const Point<Dimension>& low, const Point<Dimension>& high)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double side = high[axis] - low[axis];
+    if (!(side > 0.0 && std::isfinite(side * side)))
+    {
+      throw std::invalid_argument("the box of a density has a side of " + std::to_string(side) +
+        ", it must be positive, with a finite square");
+    }
+  }
+}
+
+template <int Dimension>
+Point<Dimension> pointOf(double coordinate)
+{
+  Point<Dimension> point;
+  point.fill(coordinate);
+  return point;
+}
+
+} // namespace
+
+template <int Dimension>
+struct OptimalMap<Dimension>::Implementation
+{
+  // The densities in a box of these sides, in which they fill the parts.
+  Implementation(CellDensity<Dimension> source, CellDensity<Dimension> target,
+    const Point<Dimension>& sides, const std::array<std::array<Point<Dimension>, 2>, 2>& parts,
+    const OptimalMapOptions& options)
+    : Densities{ std::move(source), std::move(target) }
+    , Sides(sides)
+    , Parts(parts)
+    , Options(options)
+    , Solver(this->Boxed(0), this->Boxed(1), sides, this->SolverOptionsOf(options))
+  {
+  }
+
+  double Nodes() const { return static_cast<double>(this->Solver.Grid().NumberOfNodes()); }
+  BoxedDensity<Dimension> Boxed(std::size_t side) const
+  {
+    return { this->Densities[side], this->Parts[side][0], this->Parts[side][1] };
+  }
+  static SolverOptions SolverOptionsOf(const OptimalMapOptions& options)
+  {
+    SolverOptions solver;
+    solver.Tolerance = options.Tolerance;
+    solver.LeastIterations = options.LeastIterations;
+    solver.MostIterations = options.MostIterations;
+    solver.MostNodes = options.MostNodes;
+    return solver;
+  }
+  Point<Dimension> CellSides(std::size_t side) const
+  {
+    Point<Dimension> sides;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double part = this->Parts[side][1][axis] - this->Parts[side][0][axis];
+      sides[axis] =
+        part * this->Sides[axis] / static_cast<double>(this->Densities[side].Size()[axis]);
+    }
+    return sides;
+  }
+  bool HaveSameGrid() const
+  {
+    return this->Densities[0].Size() == this->Densities[1].Size() &&
+      this->Parts[0] == this->Parts[1] && this->Parts[0][0] == pointOf<Dimension>(0.0) &&
+      this->Parts[0][1] == pointOf<Dimension>(1.0);
+  }
+
+  // The map from a side to the other one, made when it is first wanted.
+  const CorrectedMap<Dimension>& MapFrom(int side, Progress& progress, double end)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    auto& map = this->Maps[static_cast<std::size_t>(side)];
+    if (!map)
+    {
+      progress.BeginStage(end);
+      const auto to = static_cast<std::size_t>(1 - side);
+      map.emplace(this->Solver, side, this->Densities[to], this->CellSides(to), progress);
+    }
+    return *map;
+  }
+
+  FlowReport Move(int side, const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions,
+    const Context& context);
+  void Finish(int side, PointSpan<Dimension> positions, Progress& progress);
+  void FinishOnRanks(int side, PointSpan<Dimension> positions, Progress& progress);
+
+  const std::array<CellDensity<Dimension>, 2> Densities;
+  const Point<Dimension> Sides;
+  const std::array<std::array<Point<Dimension>, 2>, 2> Parts; // low and high, as fractions
+  const OptimalMapOptions Options;
+  PotentialSolver<Dimension> Solver;
+  double Bound = 0.0;
+  OptimalMapReport Info;
+  std::mutex Mutex; // of the maps
+  std::array<std::optional<CorrectedMap<Dimension>>, 2> Maps;
+};
+
+template <int Dimension>
+OptimalMap<Dimension>::OptimalMap(const DensitySource<Dimension>& density,
+  const Point<Dimension>& sides, const OptimalMapOptions& options, const Context& context)
+{
+  check(options);
+  checkBox<Dimension>(pointOf<Dimension>(0.0), sides);
+  check<Dimension>(density.Size, "a density");
+  Progress progress(contextForSize(context, numberOfCells<Dimension>(density.Size)));
+  progress.BeginStage(1.0);
+  const std::array<Point<Dimension>, 2> whole{ pointOf<Dimension>(0.0), pointOf<Dimension>(1.0) };
+  this->Self = std::make_unique<Implementation>(CellDensity<Dimension>(density.Size),
+    CellDensity<Dimension>(density, progress), sides, std::array{ whole, whole }, options);
+}
+
+template <int Dimension>
+OptimalMap<Dimension>::OptimalMap(const PlacedDensity<Dimension>& source,
+  const PlacedDensity<Dimension>& target, const OptimalMapOptions& options, const Context& context)
+{
+  check(options);
+  Point<Dimension> low;
+  Point<Dimension> sides;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    low[axis] = std::min(source.Low[axis], target.Low[axis]);
+    sides[axis] = std::max(source.High[axis], target.High[axis]) - low[axis];
+  }
+  checkBox<Dimension>(pointOf<Dimension>(0.0), sides);
+  std::array<std::array<Point<Dimension>, 2>, 2> parts;
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    const PlacedDensity<Dimension>& density = i == 0 ? source : target;
+    check<Dimension>(density.Source.Size, "a density");
+    checkBox<Dimension>(density.Low, density.High);
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      parts[i][0][axis] = (density.Low[axis] - low[axis]) / sides[axis];
+      parts[i][1][axis] = (density.High[axis] - low[axis]) / sides[axis];
+    }
+  }
+  Progress progress(contextForSize(context,
+    std::max(
+      numberOfCells<Dimension>(source.Source.Size), numberOfCells<Dimension>(target.Source.Size))));
+  progress.BeginStage(0.5);
+  CellDensity<Dimension> first(source.Source, progress);
+  progress.BeginStage(1.0);
+  this->Self = std::make_unique<Implementation>(
+    std::move(first), CellDensity<Dimension>(target.Source, progress), sides, parts, options);
+}
+
+template <int Dimension>
+OptimalMap<Dimension>::~OptimalMap() = default;
+template <int Dimension>
+OptimalMap<Dimension>::OptimalMap(OptimalMap&&) noexcept = default;
+template <int Dimension>
+OptimalMap<Dimension>& OptimalMap<Dimension>::operator=(OptimalMap&&) noexcept = default;
+
+template <int Dimension>
+void OptimalMap<Dimension>::Solve(const Context& context)
+{
+  Progress progress(context);
+  this->Self->Solver.Solve(progress, 0.9);
+  progress.BeginStage(1.0);
+  const double bound = this->Self->Options.RefineBound ? this->Self->Solver.RefinedBound(progress)
+                                                       : this->Self->Solver.Bound();
+  this->Self->Bound = std::max(0.0, bound);
+  this->Self->Info.Iterations = this->Self->Solver.Iterations();
+  this->Self->Info.Residual = this->Self->Solver.Residual();
+}
+
+template <int Dimension>
+const OptimalMapReport& OptimalMap<Dimension>::Report() const
+{
+  return this->Self->Info;
+}
+
+template <int Dimension>
+double OptimalMap<Dimension>::MassError(const Context& context) const
+{
+  Progress progress(contextForSize(context, this->Self->Nodes()));
+  return this->Self->MapFrom(0, progress, 1.0).MassError();
+}
+
+template <int Dimension>
+double OptimalMap<Dimension>::LowerBound() const
+{
+  return this->Self->Bound;
+}
+
+template <int Dimension>
+double OptimalMap<Dimension>::UpperBound(const Context& context) const
+{
+  if (!this->Self->HaveSameGrid())
+  {
+    throw std::invalid_argument("the densities of an upper bound must have the same number of "
+                                "cells along each axis, in the same box");
+  }
+  Progress progress(contextForSize(context, this->Self->Nodes()));
+  double least = std::numeric_limits<double>::infinity();
+  NodeMap<Dimension> map;
+  map.Grid = this->Self->Solver.Grid();
+  for (NodeValues& coordinate : map.Images)
+  {
+    coordinate = NodeValues(map.Grid.NumberOfNodes());
+  }
+  for (int side = 0; side < 2; ++side)
+  {
+    progress.BeginStage(0.5 * (side + 1));
+    writeGradientMap<Dimension>(this->Self->Solver.Side(side).Potential.data(), map, progress);
+    const auto from = static_cast<std::size_t>(side);
+    least = std::min(least,
+      couplingCost<Dimension>(
+        this->Self->Densities[from], this->Self->Densities[1 - from], map, progress));
+  }
+  return least;
+}
+
+template <int Dimension>
+void OptimalMap<Dimension>::Slack(ConstPointSpan<Dimension> points,
+  ConstPointSpan<Dimension> images, double* slack, const Context& context) const
+{
+  if (points.size() != images.size())
+  {
+    throw std::invalid_argument("there are " + std::to_string(points.size()) + " points and " +
+      std::to_string(images.size()) + " images, there must be as many of both");
+  }
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+  const PotentialSolver<Dimension>& solver = this->Self->Solver;
+  const NodeGrid<Dimension>& grid = solver.Grid();
+  Progress progress(context);
+  progress.BeginStage(1.0);
+  progress.For(points.size(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      double sum = 0.0;
+      Point<Dimension> places[2];
+      for (int side = 0; side < 2; ++side)
+      {
+        Point<Dimension>& place = places[side];
+        place = solver.Side(side).Placement.ToNodes(side == 0 ? points[i] : images[i]);
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          place[axis] = std::clamp(place[axis], 0.0, static_cast<double>(grid.Cells[axis]));
+          // What is interpolated is the convex |x|^2 / 2 - potential.
+          const double h = grid.Spacing[axis];
+          const double part = place[axis] - std::floor(place[axis]);
+          sum += 0.5 * h * h * part * (1.0 - part);
+        }
+        sum -= interpolate<Dimension>(solver.Side(side).Potential.data(), grid.Cells, place.data());
+      }
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        const double way = grid.Spacing[axis] * (places[1][axis] - places[0][axis]);
+        sum += 0.5 * way * way;
+      }
+      slack[i] = std::max(0.0, sum);
+    }
+  });
+}
+
+template <int Dimension>
+const double* OptimalMap<Dimension>::Potential() const
+{
+  return this->Self->Solver.Side(0).Potential.data();
+}
+
+template <int Dimension>
+const GridSize<Dimension>& OptimalMap<Dimension>::NodeCells() const
+{
+  return this->Self->Solver.Grid().Cells;
+}
+
+template <int Dimension>
+double OptimalMap<Dimension>::MemoryFor(const GridSize<Dimension>& source,
+  const GridSize<Dimension>& target, const OptimalMapOptions& options)
+{
+  constexpr double real = sizeof(double);
+  constexpr int threads = 8;
+  std::vector<Point<Dimension>> cellSides;
+  for (const GridSize<Dimension>& size : { source, target })
+  {
+    Point<Dimension> sides;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      sides[axis] = 1.0 / static_cast<double>(size[axis]);
+    }
+    cellSides.push_back(sides);
+  }
+  const GridSize<Dimension> cells =
+    PotentialSolver<Dimension>::FinestCells(cellSides, options.MostNodes);
+  const double nodes = numberOfCorners<Dimension>(cells);
+  const double kept = real * (numberOfCells<Dimension>(source) + numberOfCells<Dimension>(target));
+  const double solving = nodes * PotentialSolver<Dimension>::BytesANode(threads);
+  // Potentials, hats and cells, two gradient maps, minimizers, samples, and the correction.
+  const double mapping = nodes * real * (6.0 + 2.0 * Dimension + 1.0 + 2.0 * (Dimension + 1.0)) +
+    MassCorrection<Dimension>::MemoryFor(target, 1);
+  return kept + std::max(solving, mapping);
+}
+
+template <int Dimension>
+const GridSize<Dimension>& OptimalMap<Dimension>::Size() const
+{
+  return this->Self->Densities[0].Size();
+}
+
+template <int Dimension>
+bool OptimalMap<Dimension>::Serves(TransportUse) const
+{
+  return true;
+}
+
+template <int Dimension>
+StepChoice OptimalMap<Dimension>::ChooseSteps(
+  const FlowOptions&, FlowDirection, const Context&) const
+{
+  StepChoice none;
+  none.NumberOfSteps = 0;
+  return none;
+}
+
+template <int Dimension>
+FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds<Dimension>& seeds,
+  PointSpan<Dimension> positions, const Context& context)
+{
+  constexpr double endOfMap = 0.4;
+  constexpr double endOfPoints = 0.8;
+  // A point takes about as long as ten values of a loop.
+  const double values = std::max(this->Nodes(), 10.0 * static_cast<double>(positions.size()));
+  Progress progress(contextForSize(context, values));
+  const CorrectedMap<Dimension>& map = this->MapFrom(side, progress, endOfMap);
+  const auto from = static_cast<std::size_t>(side);
+  ParticleSource<Dimension> source(seeds, this->Densities[from].Size(), positions.size());
+  const std::int64_t count = source.Count();
+  progress.BeginStage(seeds.AreSamples() ? endOfPoints : 1.0, count);
+  for (std::int64_t begin = 0; begin < count;)
+  {
+    const std::int64_t chunk = source.Prepare(begin);
+    progress.For(
+      chunk, 8 * group,
+      [&](std::int64_t first, std::int64_t last) {
+        std::int64_t index[group];
+        Point<Dimension> points[group];
+        for (std::int64_t i = first; i < last; i += group)
+        {
+          const auto size = static_cast<int>(std::min(group, last - i));
+          source.Fill(i, size, index, points[0].data());
+          for (int j = 0; j < size; ++j)
+          {
+            const Point<Dimension> image = map.At(points[j].data());
+            std::copy(image.begin(), image.end(), positions[index[j]]);
+          }
+        }
+      },
+      64 * group);
+    begin += chunk;
+  }
+  if (seeds.AreSamples())
+  {
+    this->FinishOnRanks(side, positions, progress);
+  }
+  FlowReport report;
+  return report;
+}
+
+// The samples of all ranks together; each computes the same.
+template <int Dimension>
+void OptimalMap<Dimension>::Implementation::FinishOnRanks(
+  int side, PointSpan<Dimension> positions, Progress& progress)
+{
+  const Ranks& ranks = progress.Group();
+  if (!ranks.AreSeveral())
+  {
+    this->Finish(side, positions, progress);
+    return;
+  }
+  std::vector<std::int64_t> starts{ 0 };
+  for (const std::int64_t count : gatherValues<std::int64_t>(ranks, positions.size() * Dimension))
+  {
+    starts.push_back(starts.back() + count);
+  }
+  LargeBuffer<double> all(starts.back());
+  const std::int64_t own = starts[static_cast<std::size_t>(ranks.Own())];
+  std::copy_n(positions.data(), positions.size() * Dimension, all.data() + own);
+  gatherParts(ranks, starts, all.data());
+  this->Finish(side, { all.data(), starts.back() / Dimension }, progress);
+  std::copy_n(all.data() + own, positions.size() * Dimension, positions.data());
+}
+
+template <int Dimension>
+void OptimalMap<Dimension>::Implementation::Finish(
+  int side, PointSpan<Dimension> positions, Progress& progress)
+{
+  constexpr double endOfMasses = 0.9;
+  constexpr double endOfCounts = 0.97;
+  const auto to = static_cast<std::size_t>(1 - side);
+  const CellDensity<Dimension>& target = this->Densities[to];
+  const Point<Dimension> sides = this->CellSides(to);
+  progress.BeginStage(endOfMasses);
+  const auto count = static_cast<double>(positions.size());
+  if (count >= leastSamplesACell * static_cast<double>(target.NumberOfCells()))
+  {
+    const MassCorrection<Dimension> correction(
+      target, sides, samplesCellsANode, positions, nullptr, progress);
+  }
+  progress.BeginStage(endOfCounts);
+  makeCountsExact<Dimension>(target, sides, positions, progress);
+  progress.BeginStage(1.0, 2 * Dimension * positions.size());
+  spreadInCells<Dimension>(target.Size(), positions, progress);
+}
+
+template <int Dimension>
+FlowReport OptimalMap<Dimension>::Forward(const FlowSeeds<Dimension>& seeds,
+  PointSpan<Dimension> positions, const FlowOptions&, const Context& context) const
+{
+  return this->Self->Move(0, seeds, positions, context);
+}
+
+template <int Dimension>
+FlowReport OptimalMap<Dimension>::Backward(const FlowSeeds<Dimension>& points,
+  PointSpan<Dimension> positions, const FlowOptions&, const Context& context) const
+{
+  return this->Self->Move(1, points, positions, context);
+}
+
+template <int Dimension>
+FlowReport OptimalMap<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds,
+  const std::vector<double>& times, PointSpan<Dimension> positions, const FlowOptions&,
+  const Context& context) const
+{
+  RectifiedTransport::check(times);
+  checkCount(positions.size(), seeds.Count() * static_cast<double>(times.size()));
+  constexpr double endOfImages = 0.9;
+  const auto several = static_cast<std::int64_t>(times.size());
+  const std::int64_t count = positions.size() / several;
+  LargeBuffer<double> coordinates(count * Dimension);
+  const PointSpan<Dimension> images(coordinates.data(), count);
+  Progress progress(context);
+  progress.BeginStage(endOfImages);
+  const FlowReport report = this->Self->Move(0, seeds, images, progress.Stage());
+  progress.BeginStage(1.0, count);
+  ParticleSource<Dimension> source(seeds, this->Size(), count);
+  const auto& target = this->Self->Solver.Side(1).Placement;
+  const auto& from = this->Self->Solver.Side(0).Placement;
+  for (std::int64_t begin = 0; begin < count;)
+  {
+    const std::int64_t chunk = source.Prepare(begin);
+    progress.For(chunk, 8 * group, [&](std::int64_t first, std::int64_t last) {
+      std::int64_t index[group];
+      Point<Dimension> points[group];
+      for (std::int64_t i = first; i < last; i += group)
+      {
+        const auto size = static_cast<int>(std::min(group, last - i));
+        source.Fill(i, size, index, points[0].data());
+        for (int j = 0; j < size; ++j)
+        {
+          // The place of the point in the index space of the target.
+          const Point<Dimension> node = from.ToNodes(points[j].data());
+          const Point<Dimension> begins = target.FromNodes(node.data());
+          const double* image = images[index[j]];
+          for (std::int64_t t = 0; t < several; ++t)
+          {
+            const double time = times[static_cast<std::size_t>(t)];
+            double* position = positions[index[j] * several + t];
+            for (int axis = 0; axis < Dimension; ++axis)
+            {
+              position[axis] = begins[axis] + time * (image[axis] - begins[axis]);
+            }
+          }
+        }
+      }
+    });
+    begin += chunk;
+  }
+  return report;
+}
+
+template <int Dimension>
+FlowReport OptimalMap<Dimension>::ForwardToCells(const FlowSeeds<Dimension>& seeds,
+  std::int64_t* cells, const FlowOptions&, const Context& context) const
+{
+  constexpr double endOfImages = 0.9;
+  std::int64_t count = seeds.Points().size();
+  if (seeds.IsLattice())
+  {
+    count = static_cast<std::int64_t>(seeds.Count());
+  }
+  LargeBuffer<double> coordinates(count * Dimension);
+  const PointSpan<Dimension> images(coordinates.data(), count);
+  Progress progress(context);
+  progress.BeginStage(endOfImages);
+  const FlowReport report = this->Self->Move(0, seeds, images, progress.Stage());
+  progress.BeginStage(1.0);
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      cells[i] = this->Self->Densities[1].CellOf(images[i]);
+    }
+  });
+  return report;
+}
+
+template class OptimalMap<1>;
+template class OptimalMap<2>;
+template class OptimalMap<3>;
+
+} // namespace RectifiedTransport

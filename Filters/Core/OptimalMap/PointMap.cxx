@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/PointMap.h"
+
+#include "Core/OptimalMap/CostTransform.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+
+template <int Dimension>
+NodeMap<Dimension> gradientMap(
+  const NodeGrid<Dimension>& grid, const double* potential, Progress& progress)
+{
+  NodeMap<Dimension> map;
+  map.Grid = grid;
+  for (NodeValues& coordinate : map.Images)
+  {
+    coordinate = NodeValues(grid.NumberOfNodes());
+  }
+  writeGradientMap<Dimension>(potential, map, progress);
+  return map;
+}
+
+// Solves by elimination with pivots; false for a singular matrix.
+template <int Dimension>
+bool solve(std::array<Point<Dimension>, Dimension> matrix, Point<Dimension> right,
+  Point<Dimension>& solution)
+{
+  constexpr double raise = 1e-9; // of the diagonal
+  constexpr double smallest = 1e-12;
+  constexpr std::size_t n = Dimension;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    matrix[i][i] += raise;
+  }
+  for (std::size_t p = 0; p < n; ++p)
+  {
+    std::size_t best = p;
+    for (std::size_t i = p + 1; i < n; ++i)
+    {
+      best = std::abs(matrix[i][p]) > std::abs(matrix[best][p]) ? i : best;
+    }
+    if (!(std::abs(matrix[best][p]) > smallest))
+    {
+      return false;
+    }
+    std::swap(matrix[best], matrix[p]);
+    std::swap(right[best], right[p]);
+    for (std::size_t i = p + 1; i < n; ++i)
+    {
+      const double factor = matrix[i][p] / matrix[p][p];
+      for (std::size_t j = p; j < n; ++j)
+      {
+        matrix[i][j] -= factor * matrix[p][j];
+      }
+      right[i] -= factor * right[p];
+    }
+  }
+  for (std::size_t p = n; p-- > 0;)
+  {
+    solution[p] = right[p];
+    for (std::size_t j = p + 1; j < n; ++j)
+    {
+      solution[p] -= matrix[p][j] * solution[j];
+    }
+    solution[p] /= matrix[p][p];
+  }
+  return true;
+}
+
+template <int Dimension>
+Point<Dimension> clampedTo(const Point<Dimension>& point, const GridSize<Dimension>& cells)
+{
+  Point<Dimension> clamped;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    clamped[axis] = std::clamp(point[axis], 0.0, static_cast<double>(cells[axis]));
+  }
+  return clamped;
+}
+
+} // namespace
+
+template <int Dimension>
+PointMap<Dimension>::PointMap(const PotentialSolver<Dimension>& solver, int from,
+  const CellDensity<Dimension>& target, const Point<Dimension>& sides, Progress& progress)
+  : Target(target)
+  , CellSides(sides)
+  , SourcePlacement(solver.Side(from).Placement)
+  , TargetPlacement(solver.Side(1 - from).Placement)
+  , There(gradientMap(solver.Grid(), solver.Side(from).Potential.data(), progress))
+  , Back(gradientMap(solver.Grid(), solver.Side(1 - from).Potential.data(), progress))
+  , Potential(solver.Side(1 - from).Potential.data())
+{
+  const SolverSide<Dimension>& other = solver.Side(1 - from);
+  const double* hats = other.Hats.data();
+  const std::int64_t nodes = other.Hats.size();
+  bool hasVoids = target.HasVoids();
+  for (std::int64_t i = 0; i < nodes && !hasVoids; ++i)
+  {
+    hasVoids = hats[i] == 0.0;
+  }
+  if (hasVoids)
+  {
+    NodeValues restricted(nodes);
+    double* values = restricted.data();
+    const double* potential = this->Potential;
+    progress.For(nodes, grain, [=](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        values[i] = hats[i] > 0.0 ? potential[i] : -std::numeric_limits<double>::infinity();
+      }
+    });
+    this->Minimizers = LargeBuffer<std::int64_t>(nodes);
+    costMinimizers<Dimension>(solver.Grid(), values, this->Minimizers.data(), progress);
+  }
+}
+
+template <int Dimension>
+bool PointMap<Dimension>::HasMass(const Point<Dimension>& image) const
+{
+  if (this->Minimizers.size() == 0)
+  {
+    return true;
+  }
+  const Point<Dimension> point = this->TargetPlacement.FromNodes(image.data());
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    if (!(point[axis] >= 0.0 && point[axis] <= static_cast<double>(this->Target.Size()[axis])))
+    {
+      return false;
+    }
+  }
+  return this->Target.HasMass(point.data());
+}
+
+template <int Dimension>
+Point<Dimension> PointMap<Dimension>::At(const double* point) const
+{
+  return this->AtPlace(
+    clampedTo<Dimension>(this->SourcePlacement.ToNodes(point), this->There.Grid.Cells));
+}
+
+template <int Dimension>
+Point<Dimension> PointMap<Dimension>::AtPlace(const Point<Dimension>& place) const
+{
+  Point<Dimension> image = this->There.At(place.data());
+  if (!this->HasMass(image))
+  {
+    image = this->LeastCost(place, image);
+  }
+  this->Improve(place, image);
+  Point<Dimension> point = this->TargetPlacement.FromNodes(image.data());
+  point = clampedTo<Dimension>(point, this->Target.Size());
+  if (!this->Target.HasMass(point.data())) // cells that nodes do not resolve
+  {
+    this->Target.MoveToMass(point.data(), {}, this->Target.Size(), this->CellSides);
+  }
+  return point;
+}
+
+// In a cell with mass at the node that the potentials say is best for one of the corners about a
+// place, where in the cell the place is in its own, so that neighbours stay apart.
+template <int Dimension>
+Point<Dimension> PointMap<Dimension>::LeastCost(
+  const Point<Dimension>& place, const Point<Dimension>& image) const
+{
+  constexpr double inside = 0.02; // of a cell: at least so far from its sides
+  const NodeGrid<Dimension>& grid = this->There.Grid;
+  const CellPlace<Dimension> at(place.data(), grid.Cells);
+  Point<Dimension> best = image;
+  double least = std::numeric_limits<double>::infinity();
+  for (int corner = 0; corner < (1 << Dimension); ++corner)
+  {
+    std::int64_t node = 0;
+    for (int axis = Dimension; axis-- > 0;)
+    {
+      node = node * (grid.Cells[axis] + 1) + at.Cell[axis] + ((corner >> axis) & 1);
+    }
+    std::int64_t rest = this->Minimizers.data()[node];
+    double cost = -this->Potential[rest];
+    Point<Dimension> to;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      to[axis] = static_cast<double>(rest % (grid.Cells[axis] + 1));
+      rest /= grid.Cells[axis] + 1;
+      const double way = grid.Spacing[axis] * (to[axis] - place[axis]);
+      cost += 0.5 * way * way;
+    }
+    if (cost >= least)
+    {
+      continue;
+    }
+    for (int side = 0; side < (1 << Dimension); ++side) // of the cells about the node
+    {
+      Point<Dimension> in;
+      bool isInBox = true;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        in[axis] = to[axis] - ((side >> axis) & 1) + inside + (1.0 - 2.0 * inside) * at.Place[axis];
+        isInBox = isInBox && in[axis] >= 0.0 && in[axis] <= static_cast<double>(grid.Cells[axis]);
+      }
+      if (isInBox && this->HasMass(in))
+      {
+        least = cost;
+        best = in;
+        break;
+      }
+    }
+  }
+  return best;
+}
+
+// Newton's method for the image that the inverse map takes to the place: steps that come nearer and
+// stay on mass.
+template <int Dimension>
+void PointMap<Dimension>::Improve(const Point<Dimension>& place, Point<Dimension>& image) const
+{
+  constexpr int mostSteps = 8;
+  constexpr double close = 1e-6; // of a cell
+  constexpr double leastDamping = 0.2;
+  constexpr double nearer = 0.9;
+  Inverse now = this->InverseAt(image, place);
+  for (int step = 0; step < mostSteps && now.Size > close; ++step)
+  {
+    Point<Dimension> move;
+    if (!solve<Dimension>(now.Jacobian, now.Residual, move))
+    {
+      return;
+    }
+    bool isNearer = false;
+    for (double damping = 1.0; damping > leastDamping && !isNearer; damping *= 0.5)
+    {
+      Point<Dimension> next;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        next[axis] = image[axis] - damping * move[axis];
+      }
+      next = clampedTo<Dimension>(next, this->Back.Grid.Cells);
+      if (this->HasMass(next))
+      {
+        const Inverse found = this->InverseAt(next, place);
+        isNearer = found.Size < nearer * now.Size;
+        if (isNearer)
+        {
+          image = next;
+          now = found;
+        }
+      }
+    }
+    if (!isNearer)
+    {
+      return;
+    }
+  }
+}
+
+template <int Dimension>
+typename PointMap<Dimension>::Inverse PointMap<Dimension>::InverseAt(
+  const Point<Dimension>& image, const Point<Dimension>& place) const
+{
+  const GridSize<Dimension>& cells = this->Back.Grid.Cells;
+  const CellPlace<Dimension> at(image.data(), cells);
+  std::array<std::int64_t, Dimension> strides;
+  std::int64_t node = 0;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    strides[axis] = this->Back.Grid.Stride(axis);
+    node += at.Cell[axis] * strides[axis];
+  }
+  Inverse inverse;
+  double square = 0.0;
+  for (int coordinate = 0; coordinate < Dimension; ++coordinate)
+  {
+    const double* values = this->Back.Images[static_cast<std::size_t>(coordinate)].data();
+    double value = 0.0;
+    Point<Dimension> slopes{};
+    for (int corner = 0; corner < (1 << Dimension); ++corner)
+    {
+      std::int64_t of = node;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        of += ((corner >> axis) & 1) * strides[axis];
+      }
+      double weight = 1.0;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        weight *= ((corner >> axis) & 1) != 0 ? at.Place[axis] : 1.0 - at.Place[axis];
+      }
+      value += weight * values[of];
+      for (int along = 0; along < Dimension; ++along)
+      {
+        double slope = ((corner >> along) & 1) != 0 ? 1.0 : -1.0;
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          slope *= axis == along          ? 1.0
+            : ((corner >> axis) & 1) != 0 ? at.Place[axis]
+                                          : 1.0 - at.Place[axis];
+        }
+        slopes[along] += slope * values[of];
+      }
+    }
+    inverse.Jacobian[static_cast<std::size_t>(coordinate)] = slopes;
+    inverse.Residual[coordinate] = value - place[coordinate];
+    square += inverse.Residual[coordinate] * inverse.Residual[coordinate];
+  }
+  inverse.Size = std::sqrt(square);
+  return inverse;
+}
+
+template class PointMap<1>;
+template class PointMap<2>;
+template class PointMap<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A solved map at any points: x - grad potential, improved by Newton's method on the inverse map,
+// and never into a void of the target.
+#ifndef RectifiedTransport_PointMap_h
+#define RectifiedTransport_PointMap_h
+
+#include "Core/OptimalMap/CellDensity.h"
+#include "Core/OptimalMap/NodeMap.h"
+#include "Core/OptimalMap/PotentialSolver.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// From one side of a solver to the other.
+template <int Dimension>
+class PointMap
+{
+public:
+  // The solver's sides and the target must live as long. `sides` are those of the target's cells,
+  // in lengths. Throws std::bad_alloc and Cancelled.
+  PointMap(const PotentialSolver<Dimension>& solver, int from, const CellDensity<Dimension>& target,
+    const Point<Dimension>& sides, Progress& progress);
+
+  // In cells of the nodes.
+  const NodeMap<Dimension>& AtNodes() const { return this->There; }
+  // From the index space of the one density to that of the other.
+  Point<Dimension> At(const double* point) const;
+  // The same from cells of the nodes.
+  Point<Dimension> AtPlace(const Point<Dimension>& place) const;
+
+private:
+  using Matrix = std::array<Point<Dimension>, Dimension>;
+  struct Inverse
+  {
+    Point<Dimension> Residual;
+    Matrix Jacobian;
+    double Size; // of the residual
+  };
+
+  bool HasMass(const Point<Dimension>& image) const;
+  Point<Dimension> LeastCost(const Point<Dimension>& place, const Point<Dimension>& image) const;
+  void Improve(const Point<Dimension>& place, Point<Dimension>& image) const;
+  Inverse InverseAt(const Point<Dimension>& image, const Point<Dimension>& place) const;
+
+  const CellDensity<Dimension>& Target;
+  const Point<Dimension> CellSides;
+  const CellPlacement<Dimension> SourcePlacement;
+  const CellPlacement<Dimension> TargetPlacement;
+  NodeMap<Dimension> There;
+  NodeMap<Dimension> Back;
+  // With voids: the potential of the target, and the node with mass of least cost for each node.
+  const double* Potential;
+  LargeBuffer<std::int64_t> Minimizers;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Moves of points down the gradient of a function at nodes. Points are in cells of the nodes.
+#ifndef RectifiedTransport_PoissonMoves_h
+#define RectifiedTransport_PoissonMoves_h
+
+#include "Core/OptimalMap/NodeGrid.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// The nodes about a point and their hat functions there.
+template <int Dimension>
+struct HatsAt
+{
+  static constexpr int Count = 1 << Dimension;
+
+  HatsAt(const double* point, const GridSize<Dimension>& cells)
+  {
+    const CellPlace<Dimension> at(point, cells);
+    this->Node[0] = 0;
+    this->Weight[0] = 1.0;
+    std::int64_t stride = 1;
+    int corners = 1;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double high = at.Place[axis];
+      for (int corner = 0; corner < corners; ++corner)
+      {
+        this->Node[corner] += at.Cell[axis] * stride;
+        this->Node[corners + corner] = this->Node[corner] + stride;
+        this->Weight[corners + corner] = this->Weight[corner] * high;
+        this->Weight[corner] *= 1.0 - high;
+      }
+      stride *= cells[axis] + 1;
+      corners *= 2;
+    }
+  }
+
+  double Interpolate(const double* values) const
+  {
+    double sum = 0.0;
+    for (int corner = 0; corner < Count; ++corner)
+    {
+      sum += this->Weight[corner] * values[this->Node[corner]];
+    }
+    return sum;
+  }
+
+  std::int64_t Node[Count];
+  double Weight[Count];
+};
+
+// A vector a node.
+template <int Dimension>
+class NodeMoves
+{
+public:
+  // -grad q in cells of the nodes, by central differences; none across the faces of the box. Adds
+  // the nodes to the units of the current stage. Throws std::bad_alloc and Cancelled.
+  NodeMoves(const NodeGrid<Dimension>& grid, const double* q, Progress& progress)
+    : Cells(grid.Cells)
+    , Moves(grid.NumberOfNodes() * Dimension)
+  {
+    const std::int64_t nodes = grid.Cells[0] + 1;
+    const std::int64_t lines = std::max<std::int64_t>(1, 4096 / nodes);
+    progress.For(grid.NumberOfNodes(), lines * nodes, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t begin = first; begin < last; begin += nodes)
+      {
+        this->WriteLine(grid, q, begin);
+      }
+    });
+  }
+
+  Point<Dimension> At(const double* point) const
+  {
+    const HatsAt<Dimension> hats(point, this->Cells);
+    Point<Dimension> move{};
+    for (int corner = 0; corner < HatsAt<Dimension>::Count; ++corner)
+    {
+      const double* of = this->Moves.data() + hats.Node[corner] * Dimension;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        move[axis] += hats.Weight[corner] * of[axis];
+      }
+    }
+    return move;
+  }
+
+private:
+  void WriteLine(const NodeGrid<Dimension>& grid, const double* q, std::int64_t begin)
+  {
+    const std::int64_t nodes = grid.Cells[0] + 1;
+    std::int64_t stride = 1;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double scale = 0.5 / (grid.Spacing[axis] * grid.Spacing[axis]);
+      const std::int64_t across = begin / stride % (grid.Cells[axis] + 1);
+      for (std::int64_t i = 0; i < nodes; ++i)
+      {
+        const std::int64_t at = axis == 0 ? i : across;
+        const std::int64_t node = begin + i;
+        this->Moves.data()[node * Dimension + axis] =
+          at == 0 || at == grid.Cells[axis] ? 0.0 : scale * (q[node - stride] - q[node + stride]);
+      }
+      stride *= grid.Cells[axis] + 1;
+    }
+  }
+
+  GridSize<Dimension> Cells;
+  LargeBuffer<double> Moves;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,550 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/PotentialSolver.h"
+
+#include "Core/OptimalMap/CostTransform.h"
+#include "Core/OptimalMap/Prolongation.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
+#include "Core/Parallel/SmallWork.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+// The largest number of cells along an axis that is not halved on the way to coarser nodes.
+constexpr std::int64_t coarsest = 12;
+constexpr int weightedIterations = 4;
+constexpr double weightFloor = 1.0;
+
+std::int64_t evenAtLeast(double cells)
+{
+  return std::max<std::int64_t>(2, 2 * static_cast<std::int64_t>(std::ceil(0.5 * cells)));
+}
+
+template <int Dimension>
+double squaredDiagonal(const Point<Dimension>& sides)
+{
+  double sum = 0.0;
+  for (const double side : sides)
+  {
+    sum += side * side;
+  }
+  return sum;
+}
+
+template <int Dimension>
+bool isUniformInBox(const BoxedDensity<Dimension>& density)
+{
+  bool fills = density.Density.IsUniform();
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    fills = fills && density.Low[axis] == 0.0 && density.High[axis] == 1.0;
+  }
+  return fills;
+}
+
+template <int Dimension>
+bool hasMassEverywhere(const BoxedDensity<Dimension>& density)
+{
+  bool fills = !density.Density.HasVoids();
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    fills = fills && density.Low[axis] == 0.0 && density.High[axis] == 1.0;
+  }
+  return fills;
+}
+
+// From the coarsest to the finest.
+template <int Dimension>
+std::vector<GridSize<Dimension>> levelsOf(const GridSize<Dimension>& finest)
+{
+  std::vector<GridSize<Dimension>> levels{ finest };
+  for (;;)
+  {
+    GridSize<Dimension> next = levels.back();
+    for (std::int64_t& cells : next)
+    {
+      cells = cells <= coarsest ? cells : evenAtLeast(0.5 * static_cast<double>(cells));
+    }
+    if (next == levels.back())
+    {
+      break;
+    }
+    levels.push_back(next);
+  }
+  std::reverse(levels.begin(), levels.end());
+  return levels;
+}
+
+template <int Dimension>
+NodeGrid<Dimension> gridOf(const GridSize<Dimension>& cells, const Point<Dimension>& lengths)
+{
+  NodeGrid<Dimension> grid{ cells, {} };
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    grid.Spacing[axis] = lengths[axis] / static_cast<double>(cells[axis]);
+  }
+  return grid;
+}
+
+template <int Dimension>
+CellPlacement<Dimension> placementOn(
+  const BoxedDensity<Dimension>& density, const GridSize<Dimension>& nodeCells)
+{
+  CellPlacement<Dimension> placement;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const auto cells = static_cast<double>(nodeCells[axis]);
+    placement.Low[axis] = density.Low[axis] * cells;
+    placement.Sides[axis] = (density.High[axis] - density.Low[axis]) * cells /
+      static_cast<double>(density.Density.Size()[axis]);
+  }
+  return placement;
+}
+
+// Adds the masses of the nodes' hats in the image of a density, of which the cells between the
+// nodes have the masses `cells`, null if each has 1.
+template <int Dimension>
+void pushForward(
+  const NodeMap<Dimension>& map, const double* cells, NodeSums<Dimension>& sums, Progress& progress)
+{
+  const std::int64_t row = map.Grid.Cells[0];
+  const std::int64_t rows = std::max<std::int64_t>(1, 1024 / row);
+  constexpr std::int64_t firstCells = std::int64_t{ 1 } << 15;
+  progress.For(
+    map.Grid.NumberOfCells(), rows * row,
+    [&](std::int64_t first, std::int64_t last) {
+      typename NodeSums<Dimension>::Part part(sums);
+      ImageSamples<Dimension> samples(map);
+      for (std::int64_t r = first / row; r < last / row; ++r)
+      {
+        samples.ForRow(
+          r, cells, [&](const CellSample<Dimension>& sample, const Point<Dimension>& image) {
+            part.Add(sample.Mass, image.data());
+          });
+      }
+    },
+    firstCells);
+}
+
+double sumOfProducts(const double* a, const double* b, std::int64_t count, Progress& progress)
+{
+  return reduceChunks(
+    progress, count, grain / 4, 0.0,
+    [=](std::int64_t first, std::int64_t last) {
+      return std::inner_product(a + first, a + last, b + first, 0.0);
+    },
+    [](double all, double part) { return all + part; });
+}
+
+// In so many units of the nodes, about.
+template <int Dimension>
+std::int64_t unitsOfIteration(std::int64_t nodes, bool isWeighted)
+{
+  const int solutions = isWeighted ? weightedIterations : 1;
+  return 2 * nodes * (Dimension * (1 + 2 + 2 * solutions) + 6 * solutions + 4);
+}
+
+} // namespace
+
+template <int Dimension>
+struct PotentialSolver<Dimension>::Scratch
+{
+  explicit Scratch(const NodeGrid<Dimension>& grid, const Progress& progress)
+    : Poisson(grid)
+    , Sums(grid, static_cast<double>(grid.NumberOfCells()), grid.NumberOfCells(), progress)
+    , Defect(grid.NumberOfNodes())
+    , P(grid.NumberOfNodes())
+    , New(grid.NumberOfNodes())
+    , NewOther(grid.NumberOfNodes())
+  {
+    this->Map.Grid = grid;
+    for (NodeValues& coordinate : this->Map.Images)
+    {
+      coordinate = NodeValues(grid.NumberOfNodes());
+    }
+  }
+
+  NodePoisson<Dimension> Poisson;
+  NodeSums<Dimension> Sums;
+  NodeMap<Dimension> Map;
+  NodeValues Defect;
+  NodeValues P;
+  NodeValues New;
+  NodeValues NewOther;
+};
+
+template <int Dimension>
+PotentialSolver<Dimension>::PotentialSolver(const BoxedDensity<Dimension>& source,
+  const BoxedDensity<Dimension>& target, const Point<Dimension>& sides,
+  const SolverOptions& options)
+  : Given{ source, target }
+  , Lengths(sides)
+  , Options(options)
+  , Rounding(1e-13 * squaredDiagonal<Dimension>(sides))
+  , IsWeighted(!isUniformInBox(source) && !isUniformInBox(target) && hasMassEverywhere(source) &&
+      hasMassEverywhere(target))
+  , Nodes{}
+{
+}
+
+template <int Dimension>
+GridSize<Dimension> PotentialSolver<Dimension>::FinestCells(
+  const std::vector<Point<Dimension>>& cellSides, double mostNodes)
+{
+  // Few cells cost little, and a bound is as much better as nodes are closer.
+  constexpr double fewCells = Dimension == 3 ? 0x1p14 : 0x1p11;
+  Point<Dimension> wanted;
+  double all = 1.0;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    double shortest = 1.0;
+    for (const Point<Dimension>& sides : cellSides)
+    {
+      shortest = std::min(shortest, sides[axis]);
+    }
+    wanted[axis] = std::round(1.0 / shortest);
+    all *= wanted[axis];
+  }
+  double factor = 1.0;
+  for (; all * factor < fewCells; factor *= std::ldexp(1.0, Dimension))
+  {
+    for (double& cells : wanted)
+    {
+      cells *= 2.0;
+    }
+  }
+  all *= factor;
+  const double ratio = all > mostNodes ? std::pow(mostNodes / all, 1.0 / Dimension) : 1.0;
+  GridSize<Dimension> cells;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    cells[axis] = evenAtLeast(wanted[axis] * ratio);
+  }
+  return cells;
+}
+
+template <int Dimension>
+double PotentialSolver<Dimension>::BytesANode(int threads)
+{
+  constexpr double real = sizeof(double);
+  const int arrays = std::min(threads, mostArraysOfSums);
+  // Potentials, hats and cells of two sides, the scratch, and that of the weighted equation.
+  return real * (6.0 + Dimension + 4.0 + arrays + 6.0);
+}
+
+template <int Dimension>
+void PotentialSolver<Dimension>::Solve(Progress& progress, double end)
+{
+  std::vector<Point<Dimension>> cellSides;
+  for (const BoxedDensity<Dimension>& given : this->Given)
+  {
+    if (!isUniformInBox(given))
+    {
+      Point<Dimension> sides;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        sides[axis] =
+          (given.High[axis] - given.Low[axis]) / static_cast<double>(given.Density.Size()[axis]);
+      }
+      cellSides.push_back(sides);
+    }
+  }
+  const auto levels = levelsOf<Dimension>(FinestCells(cellSides, this->Options.MostNodes));
+  const auto costOf = [&](std::size_t level) {
+    const int iterations = level + 1 == levels.size() ? std::max(1, this->Options.LeastIterations)
+                                                      : this->Options.CoarseIterations;
+    return numberOfCells<Dimension>(levels[level]) * (iterations + 1);
+  };
+  double all = 0.0;
+  for (std::size_t level = 0; level < levels.size(); ++level)
+  {
+    all += costOf(level);
+  }
+  const double begin = progress.StageEnd();
+  double done = 0.0;
+  NodeValues potential;
+  constexpr double partOfReading = 0.03;
+  progress.BeginStage(begin + partOfReading * (end - begin));
+  this->MakeCells(levels, progress);
+  for (std::size_t level = 0; level < levels.size(); ++level)
+  {
+    done += costOf(level);
+    progress.BeginStage(
+      begin + (end - begin) * (partOfReading + (1.0 - partOfReading) * done / all));
+    Progress work(contextForSize(progress.Stage(), numberOfCells<Dimension>(levels[level])));
+    constexpr double partOfBegin = 0.1;
+    work.BeginStage(partOfBegin);
+    this->Begin(levels, level, std::move(potential), work);
+    this->BestBound = this->BoundNow;
+    const bool isFinest = level + 1 == levels.size();
+    if (!isFinest || this->Options.MostIterations > 0)
+    {
+      Scratch scratch(this->Nodes, work);
+      this->Iterate(scratch, isFinest, work);
+    }
+    if (level + 1 < levels.size())
+    {
+      potential = std::move(this->Sides[0].Potential);
+    }
+  }
+}
+
+// The masses of cells on all levels, each from those on the next finer one.
+template <int Dimension>
+void PotentialSolver<Dimension>::MakeCells(
+  const std::vector<GridSize<Dimension>>& levels, Progress& progress)
+{
+  for (std::size_t i = 0; i < this->Given.size(); ++i)
+  {
+    const BoxedDensity<Dimension>& given = this->Given[i];
+    std::vector<NodeValues>& cells = this->LevelCells[i];
+    cells.clear();
+    if (isUniformInBox(given))
+    {
+      continue;
+    }
+    cells.resize(levels.size());
+    cells.back() = cellMasses(given.Density, placementOn<Dimension>(given, levels.back()),
+      gridOf<Dimension>(levels.back(), this->Lengths), progress);
+    for (std::size_t level = levels.size() - 1; level-- > 0;)
+    {
+      const NodeGrid<Dimension> grid = gridOf<Dimension>(levels[level], this->Lengths);
+      cells[level] =
+        coarserCells<Dimension>(cells[level + 1].data(), levels[level + 1], grid, progress);
+    }
+  }
+}
+
+// Goes to finer nodes with the potential of those before. Coarse nodes have the masses of the cells
+// of the next level; only the finest ones, whose bound counts, have those of the density itself.
+template <int Dimension>
+void PotentialSolver<Dimension>::Begin(const std::vector<GridSize<Dimension>>& levels,
+  std::size_t level, NodeValues potential, Progress& progress)
+{
+  const GridSize<Dimension> before = this->Nodes.Cells;
+  const GridSize<Dimension>& cells = levels[level];
+  const bool isFinest = level + 1 == levels.size();
+  this->Nodes = gridOf<Dimension>(cells, this->Lengths);
+  const std::int64_t nodes = this->Nodes.NumberOfNodes();
+  this->Excess = 0.0;
+  for (std::size_t i = 0; i < this->Given.size(); ++i)
+  {
+    const BoxedDensity<Dimension>& given = this->Given[i];
+    SolverSide<Dimension>& side = this->Sides[i];
+    side = SolverSide<Dimension>();
+    side.Placement = placementOn<Dimension>(given, cells);
+    if (!this->LevelCells[i].empty())
+    {
+      side.Cells = std::move(this->LevelCells[i][level]);
+    }
+    if (isFinest)
+    {
+      side.Hats = hatMasses(given.Density, side.Placement, this->Nodes, progress);
+    }
+    else
+    {
+      const bool isUniform = this->LevelCells[i].empty();
+      const double* finer = isUniform ? nullptr : this->LevelCells[i][level + 1].data();
+      side.Hats = hatMasses<Dimension>(finer, levels[level + 1], this->Nodes, progress);
+    }
+    if (isFinest)
+    {
+      this->Excess += lumpingExcess(given.Density, side.Placement, this->Nodes, progress);
+    }
+    for (int axis = 0; axis < Dimension && !isFinest; ++axis)
+    {
+      this->Excess += this->Nodes.Spacing[axis] * this->Nodes.Spacing[axis] / 6.0;
+    }
+    side.Potential = NodeValues(nodes);
+  }
+  if (potential.size() > 0)
+  {
+    this->Sides[0].Potential = prolong<Dimension>(potential, before, cells, progress);
+  }
+  else
+  {
+    std::fill_n(this->Sides[0].Potential.data(), nodes, 0.0);
+  }
+  this->Transform(progress);
+  this->BoundNow =
+    this->Dual(this->Sides[0].Potential.data(), this->Sides[1].Potential.data(), progress);
+}
+
+// Makes the potentials conjugate.
+template <int Dimension>
+void PotentialSolver<Dimension>::Transform(Progress& progress)
+{
+  double* source = this->Sides[0].Potential.data();
+  double* target = this->Sides[1].Potential.data();
+  costTransform<Dimension>(this->Nodes, source, target, progress);
+  costTransform<Dimension>(this->Nodes, target, source, progress);
+}
+
+// The bound that conjugate potentials give.
+template <int Dimension>
+double PotentialSolver<Dimension>::Dual(
+  const double* source, const double* target, Progress& progress) const
+{
+  const std::int64_t nodes = this->Nodes.NumberOfNodes();
+  const double sum = sumOfProducts(this->Sides[0].Hats.data(), source, nodes, progress) +
+    sumOfProducts(this->Sides[1].Hats.data(), target, nodes, progress);
+  return 2.0 * sum - this->Excess;
+}
+
+template <int Dimension>
+void PotentialSolver<Dimension>::Iterate(Scratch& scratch, bool isFinest, Progress& progress)
+{
+  constexpr double end = 0.95;
+  this->Steps = { 1.0, 1.0 };
+  const int most = isFinest ? this->Options.MostIterations : this->Options.CoarseIterations;
+  const int least = isFinest ? this->Options.LeastIterations : 0;
+  const std::int64_t units =
+    unitsOfIteration<Dimension>(this->Nodes.NumberOfNodes(), this->IsWeighted);
+  const double begin = progress.StageEnd();
+  int iteration = 0;
+  for (bool goesOn = true; goesOn && iteration < most; ++iteration)
+  {
+    progress.BeginRound(iteration, std::max(1, isFinest ? least : most), begin, end, units);
+    const double before = this->BoundNow;
+    this->HalfStep(scratch, 0, progress);
+    this->HalfStep(scratch, 1, progress);
+    const double gain = this->BoundNow - before;
+    goesOn =
+      gain >= 0.25 * this->Options.Tolerance * std::abs(this->BoundNow) || iteration + 1 < least;
+  }
+  this->BestBound = this->BoundNow;
+  if (isFinest)
+  {
+    this->FineIterations = iteration;
+    progress.BeginStage(1.0, units);
+    this->FindDefect(scratch, 0, progress);
+    scratch.Poisson.Solve(scratch.Defect.data(), scratch.P.data(), progress);
+    this->LastResidual = 2.0 * std::sqrt(std::max(0.0, this->Product(scratch, progress)));
+  }
+}
+
+// What is missing at the nodes to the masses of a side, when the map of the other side's potential
+// moves the other side's density.
+template <int Dimension>
+void PotentialSolver<Dimension>::FindDefect(Scratch& scratch, int side, Progress& progress) const
+{
+  const SolverSide<Dimension>& own = this->Sides[Index(side)];
+  const SolverSide<Dimension>& other = this->Sides[Index(1 - side)];
+  writeGradientMap<Dimension>(other.Potential.data(), scratch.Map, progress);
+  pushForward<Dimension>(scratch.Map, other.CellsOrNull(), scratch.Sums, progress);
+  const double share = 1.0 / static_cast<double>(this->Nodes.NumberOfCells());
+  const double* hats = own.Hats.data();
+  scratch.Sums.Write(scratch.Defect.data(), progress,
+    [=](std::int64_t node, double mass) { return hats[node] - share * mass; });
+}
+
+// The product of p and the defect's masses.
+template <int Dimension>
+double PotentialSolver<Dimension>::Product(const Scratch& scratch, Progress& progress) const
+{
+  return sumOfProducts(
+    scratch.P.data(), scratch.Defect.data(), this->Nodes.NumberOfNodes(), progress);
+}
+
+// Moves the potential of a side along the solution p of Poisson's equation for the defect, by a
+// step that raises the bound, and makes both potentials conjugate again.
+template <int Dimension>
+void PotentialSolver<Dimension>::HalfStep(Scratch& scratch, int side, Progress& progress)
+{
+  constexpr int halvings = 8;
+  // Of the bound's gain to what the slope promises: longer and shorter steps next time.
+  constexpr double good = 0.6;
+  constexpr double poor = 0.35;
+  constexpr double longer = 1.4;
+  constexpr double shorter = 0.75;
+
+  SolverSide<Dimension>& own = this->Sides[Index(side)];
+  SolverSide<Dimension>& other = this->Sides[Index(1 - side)];
+  this->FindDefect(scratch, side, progress);
+  double* p = scratch.P.data();
+  if (this->IsWeighted)
+  {
+    scratch.Poisson.SolveWeighted(
+      scratch.Defect.data(), own.Hats.data(), weightFloor, weightedIterations, p, progress);
+  }
+  else
+  {
+    scratch.Poisson.Solve(scratch.Defect.data(), p, progress);
+  }
+  const double slope = 2.0 * std::max(0.0, this->Product(scratch, progress));
+  double& step = this->Steps[Index(side)];
+  for (int attempt = 0; attempt <= halvings; ++attempt)
+  {
+    double* moved = scratch.New.data();
+    double* movedOther = scratch.NewOther.data();
+    const double* potential = own.Potential.data();
+    const double length = step;
+    progress.For(this->Nodes.NumberOfNodes(), grain, [=](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        moved[i] = potential[i] + length * p[i];
+      }
+    });
+    costTransform<Dimension>(this->Nodes, moved, movedOther, progress);
+    costTransform<Dimension>(this->Nodes, movedOther, moved, progress);
+    const double bound =
+      side == 0 ? this->Dual(moved, movedOther, progress) : this->Dual(movedOther, moved, progress);
+    const double gain = bound - this->BoundNow;
+    if (gain > 0.0)
+    {
+      std::swap(own.Potential, scratch.New);
+      std::swap(other.Potential, scratch.NewOther);
+      this->BoundNow = bound;
+      step *= gain > good * length * slope ? longer : gain < poor * length * slope ? shorter : 1.0;
+      return;
+    }
+    step *= 0.5;
+  }
+}
+
+template <int Dimension>
+double PotentialSolver<Dimension>::RefinedBound(Progress& progress) const
+{
+  NodeGrid<Dimension> grid = this->Nodes;
+  for (std::int64_t& cells : grid.Cells)
+  {
+    cells *= 2;
+  }
+  if (numberOfCells<Dimension>(grid.Cells) > this->Options.MostNodes)
+  {
+    return this->Bound();
+  }
+  grid = gridOf<Dimension>(grid.Cells, this->Lengths);
+  NodeValues source =
+    prolong<Dimension>(this->Sides[0].Potential, this->Nodes.Cells, grid.Cells, progress);
+  NodeValues target(grid.NumberOfNodes());
+  costTransform<Dimension>(grid, source.data(), target.data(), progress);
+  costTransform<Dimension>(grid, target.data(), source.data(), progress);
+  double bound = -this->Rounding;
+  for (int i = 0; i < 2; ++i)
+  {
+    const BoxedDensity<Dimension>& given = this->Given[Index(i)];
+    const auto placement = placementOn<Dimension>(given, grid.Cells);
+    const NodeValues hats = hatMasses(given.Density, placement, grid, progress);
+    const double* masses = hats.data();
+    const double* potential = i == 0 ? source.data() : target.data();
+    bound += 2.0 * sumOfProducts(masses, potential, grid.NumberOfNodes(), progress);
+    bound -= lumpingExcess(given.Density, placement, grid, progress);
+  }
+  return std::max(bound, this->Bound());
+}
+
+template class PotentialSolver<1>;
+template class PotentialSolver<2>;
+template class PotentialSolver<3>;
+
+} // namespace RectifiedTransport

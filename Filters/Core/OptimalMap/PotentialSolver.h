@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The potentials of the optimal map between two densities by the back-and-forth method, from coarse
+// to fine nodes, and the certified bound that they give.
+#ifndef RectifiedTransport_PotentialSolver_h
+#define RectifiedTransport_PotentialSolver_h
+
+#include "Core/OptimalMap/CellDensity.h"
+#include "Core/OptimalMap/NodeGrid.h"
+#include "Core/OptimalMap/NodeMap.h"
+#include "Core/OptimalMap/NodeMasses.h"
+#include "Core/OptimalMap/NodePoisson.h"
+#include "Core/OptimalMap/NodeSums.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// A density and the part of the box that its cells fill: fractions of the box's sides.
+template <int Dimension>
+struct BoxedDensity
+{
+  const CellDensity<Dimension>& Density;
+  Point<Dimension> Low{};
+  Point<Dimension> High{};
+};
+
+struct SolverOptions
+{
+  double Tolerance = 1e-3; // of an iteration's gain, relative to a quarter of the bound
+  int CoarseIterations = 3;
+  int LeastIterations = 0; // on the finest nodes
+  int MostIterations = 20;
+  double MostNodes = 0x1p24;
+};
+
+// One of the two densities on the nodes.
+template <int Dimension>
+struct SolverSide
+{
+  CellPlacement<Dimension> Placement; // of its own cells
+  NodeValues Hats;
+  NodeValues Cells; // as of cellMasses; without memory if it is uniform in the box
+  NodeValues Potential;
+
+  const double* CellsOrNull() const
+  {
+    return this->Cells.size() > 0 ? this->Cells.data() : nullptr;
+  }
+};
+
+// Side 0 is the source, 1 the target. Lengths are such that the squared diagonal of the box is not
+// far from 1.
+template <int Dimension>
+class PotentialSolver
+{
+public:
+  PotentialSolver(const BoxedDensity<Dimension>& source, const BoxedDensity<Dimension>& target,
+    const Point<Dimension>& sides, const SolverOptions& options);
+
+  // Takes the progress to `end`. Throws std::bad_alloc and Cancelled.
+  void Solve(Progress& progress, double end);
+
+  const NodeGrid<Dimension>& Grid() const { return this->Nodes; }
+  const SolverSide<Dimension>& Side(int side) const { return this->Sides[Index(side)]; }
+  // Not above the least squared distance; may be below 0.
+  double Bound() const { return this->BestBound - this->Rounding; }
+  // The bound on twice as many nodes along each axis, if they are not more than the most, else
+  // Bound. Runs as the current stage. Throws std::bad_alloc and Cancelled.
+  double RefinedBound(Progress& progress) const;
+  int Iterations() const { return this->FineIterations; }
+  double Residual() const { return this->LastResidual; }
+
+  // The finest nodes for densities whose cells have these sides, in fractions of the box.
+  static GridSize<Dimension> FinestCells(
+    const std::vector<Point<Dimension>>& cellSides, double mostNodes);
+  // Bytes a node of the finest grid that Solve holds at most.
+  static double BytesANode(int threads);
+
+private:
+  struct Scratch;
+
+  static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+  void MakeCells(const std::vector<GridSize<Dimension>>& levels, Progress& progress);
+  void Begin(const std::vector<GridSize<Dimension>>& levels, std::size_t level,
+    NodeValues potential, Progress& progress);
+  void Transform(Progress& progress);
+  void Iterate(Scratch& scratch, bool isFinest, Progress& progress);
+  void HalfStep(Scratch& scratch, int side, Progress& progress);
+  void FindDefect(Scratch& scratch, int side, Progress& progress) const;
+  double Product(const Scratch& scratch, Progress& progress) const;
+  double Dual(const double* source, const double* target, Progress& progress) const;
+
+  const std::array<BoxedDensity<Dimension>, 2> Given;
+  const Point<Dimension> Lengths;
+  const SolverOptions Options;
+  const double Rounding;
+  bool IsWeighted;
+  std::array<std::vector<NodeValues>, 2> LevelCells; // of levels to come; none if uniform
+
+  // Of the present nodes.
+  NodeGrid<Dimension> Nodes;
+  std::array<SolverSide<Dimension>, 2> Sides;
+  std::array<double, 2> Steps{};
+  double Excess = 0.0;
+  double BoundNow = 0.0;
+  double BestBound = 0.0;
+  int FineIterations = 0;
+  double LastResidual = 0.0;
+};
+
+} // namespace RectifiedTransport
+
+#endif
