@@ -95,6 +95,7 @@ int vtkDensityEqualizingWarp::RequestData(
   DensityEqualizingWarp warp{};
   warp.Tables = tableSetting(this->Tables);
   warp.Flow = this->GetFlowOptions();
+  warp.Optimal = this->GetOptimalSetting();
   warp.Blend = this->Blend;
   warp.EqualizeAreas = this->EqualizeAreas != 0;
   const Ranks& ranks = this->GetRanks();
@@ -129,10 +130,12 @@ int vtkDensityEqualizingWarp::RequestData(
   addFieldValue(output, "FoldedCells", static_cast<double>(turned));
   if (turned > 0)
   {
-    this->WarnOnFirstRank(describePart(turned, cells, "cells") +
-      " turned over; more NumberOfSteps turn most of them back, an input of smaller cells does not "
-      "(where there is no mass, add a small part of the mean to the density)");
+    this->WarnOnFirstRank(describePart(turned, cells, "cells") + " turned over" +
+      report.Transport.WithSteps(
+        "; more NumberOfSteps turn most of them back, an input of smaller cells does not") +
+      " (where there is no mass, add a small part of the mean to the density)");
   }
+  this->WarnOfMap(report.Transport);
   this->WarnOfSteps(report.Flow, warp.Flow, FlowDirection::Backward);
   if (report.IsUncorrected)
   {

@@ -8,7 +8,7 @@
  * becomes a cartogram. The map is the rectified flow of Do, Coeurjolly, Memari and Bonneel,
  * "Linear-Time Transport with Rectified Flows", ACM Transactions on Graphics 44(4), 2025,
  * doi:10.1145/3731147, backward in time (Section 4.2). It is the inverse of the map of
- * vtkTransportSampler. Neither is an optimal transport.
+ * vtkTransportSampler. Neither is an optimal transport, unless Method is Optimal.
  *
  * Input 0 is the vtkPointSet. Input 1 is the density, a data set (see vtkDensityAlgorithm), chosen
  * with SetInputArrayToProcess(0, 1, 0, ...). The output has the type of input 0: the same points
@@ -28,6 +28,11 @@
  * tetra, voxels, hexahedra, wedges, pyramids, prisms and polyhedra (with faces seen from outside,
  * as VTK defines them) a volume; cells of higher order count by their corners. Ghost cells do not
  * count. A warning says how many there are if there are any.
+ *
+ * With Method Optimal or Certify, and Blend above 0, there are also the field data `TransportCost`,
+ * the mean squared displacement of the density's mass, by the centres of its cells, and
+ * `TransportCostLowerBound` and `OptimalityGap` (see vtkTransportAlgorithm). They are those of the
+ * whole map, whatever Blend is.
  *
  * Cost: O(cells) for the tables, which are kept until the density changes, and O(points * steps).
  * Memory: 48 bytes a point for the output and, while it runs, 16 more in 2D, plus the tables (see

@@ -12,6 +12,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/Run/WarningLimit.h"
+#include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/SiteCells/EqualMassCells.h"
 #include "Bridge/SiteCells/LabelGrid.h"
@@ -195,6 +196,12 @@ int vtkEqualMassCells::RequestData(
   }
   requireThat(tableSetting(this->Tables) != TableSetting::Tiled, "Tables", this->Tables,
     "0 (Auto) or 1 (Whole), as cells have no tiles");
+  if (this->GetOptimalSetting().NeedsMap())
+  {
+    throw Failure(
+      "Method must be RectifiedFlow and Certify Off, as cells have no optimal map; Shape "
+      "Power gives those of least cost");
+  }
   EqualMassCells cells{};
   cells.Flow = this->GetFlowOptions();
   cells.Norm = { this->NormExponent, this->CostExponent };

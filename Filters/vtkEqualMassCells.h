@@ -74,7 +74,7 @@
  * sites are distributed very differently from the density, cells of equal mass may not be found;
  * this is an error.
  *
- * The processor does the work, whatever Device is.
+ * The processor does the work, whatever Device is. Method Optimal and Certify are errors.
  *
  * With several MPI ranks, rank 0 gathers all sites and the domain and does the work. Each rank gets
  * the extent of Labels that is requested of it. The other outputs are on rank 0.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportAlgorithm.h"
 
+#include "Bridge/Density/DensityTransport.h"
 #include "Bridge/Ranks/PlaceOnMachine.h"
 #include "Bridge/Run/MpiController.h"
 #include "Bridge/Run/SharedDevices.h"
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/Settings/FlowSettings.h"
+#include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 
 #include "vtkNew.h"
@@ -32,6 +34,9 @@ struct vtkTransportAlgorithm::vtkDevice
 //------------------------------------------------------------------------------
 vtkTransportAlgorithm::vtkTransportAlgorithm(int densityPort)
   : vtkDensityAlgorithm(densityPort)
+  , Method(RECTIFIED_FLOW)
+  , OptimalityTolerance(0.001)
+  , Certify(false)
   , Tables(TABLES_AUTO)
   , Integrator(MULTISTEP)
   , NumberOfSteps(0)
@@ -46,6 +51,12 @@ vtkTransportAlgorithm::vtkTransportAlgorithm(int densityPort)
 
 //------------------------------------------------------------------------------
 vtkTransportAlgorithm::~vtkTransportAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkTransportAlgorithm::GetMethodAsString()
+{
+  return choiceText(MethodTexts, this->Method);
+}
 
 //------------------------------------------------------------------------------
 const char* vtkTransportAlgorithm::GetTablesAsString()
@@ -114,7 +125,8 @@ vtkStringArray* vtkTransportAlgorithm::GetDeviceNames()
 DeviceUse vtkTransportAlgorithm::BeginDevice()
 {
   // Devices do nothing of other methods.
-  const bool serves = this->Integrator == MULTISTEP && this->TableLookup == INTERPOLATED;
+  const bool serves = this->Method == RECTIFIED_FLOW && this->Integrator == MULTISTEP &&
+    this->TableLookup == INTERPOLATED;
   if (this->Device != DEVICE_OPENCL || !serves)
   {
     this->OwnDevice->Kept.Release();
@@ -155,6 +167,21 @@ FlowOptions vtkTransportAlgorithm::GetFlowOptions()
 }
 
 //------------------------------------------------------------------------------
+OptimalSetting vtkTransportAlgorithm::GetOptimalSetting()
+{
+  return optimalSettingOf(*this);
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportAlgorithm::WarnOfMap(const TransportReport& transport)
+{
+  if (!transport.Warning.empty())
+  {
+    this->WarnOnFirstRank(transport.Warning);
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkTransportAlgorithm::WarnOfSteps(const FlowReport& flow, const FlowOptions& options,
   FlowDirection direction, const std::string& name)
 {
@@ -178,6 +205,7 @@ void vtkTransportAlgorithm::WarnOfAreas()
 void vtkTransportAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  printOptimalSetting(*this, os, indent);
   os << indent << "Tables: " << this->GetTablesAsString() << "\n";
   printFlowOptions(*this, os, indent);
   os << indent << "Device: " << this->GetDeviceAsString() << "\n";

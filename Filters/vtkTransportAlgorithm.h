@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTransportAlgorithm
- * @brief   superclass of the filters that move points along the rectified flow of a density
+ * @brief   superclass of the filters that move points by a map between a density and the uniform
+ *          measure
  *
  * The flow is that of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport with Rectified
  * Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147. Points that are uniform at
  * time 0 follow the velocity field of equation 12. The velocity needs the mass and the centroid of
  * the density in a box (equations 10 and 11). Both come from summed-area tables (Section 3.3).
  *
- * This class holds the properties of the tables, of the integration and of the device.
+ * With Method Optimal the map of least mean squared distance takes the place of the flow (see
+ * OptimalMap.h in the core): by the back-and-forth method of Jacobs and Leger, "A fast approach to
+ * optimal transport: the back-and-forth method", Numerische Mathematik 146, 2020,
+ * doi:10.1007/s00211-020-01154-8. With it, or with Certify, outputs have the field data
+ * - `TransportCostLowerBound`: no map between the uniform measure and the density costs less. This
+ *   is certified, up to rounding; it is not the distance itself;
+ * - `OptimalityGap`: the cost of the map that is delivered over the bound, less one, not below 0.
+ * It has the errors of the map's masses and of the samples that the cost is from. Where the bound
+ * is 0, it is 0 for a cost of 0 up to rounding, else infinite.
+ *
+ * This class holds the properties of the method, of the tables, of the integration and of the
+ * device.
  *
  * @sa vtkDensityAlgorithm vtkTransportSampler vtkTransportMap
  */
@@ -26,6 +38,8 @@ class DeviceUse;
 enum class FlowDirection;
 struct FlowOptions;
 struct FlowReport;
+struct OptimalSetting;
+struct TransportReport;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -36,6 +50,15 @@ class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportAlgorithm : public vtkDensityAlgo
 public:
   vtkTypeMacro(vtkTransportAlgorithm, vtkDensityAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * What Method may be.
+   */
+  enum MethodType
+  {
+    RECTIFIED_FLOW = 0,
+    OPTIMAL = 1
+  };
 
   /**
    * What Tables may be.
@@ -85,6 +108,43 @@ public:
     DEVICE_CPU = 0,
     DEVICE_OPENCL = 1
   };
+
+  ///@{
+  /**
+   * What moves the points. RectifiedFlow (default): the flow, which is fast and keeps masses, but
+   * costs a few per cent more than the optimal map. Optimal: a map whose cost is near the least
+   * possible one. The properties of the flow (Integrator, NumberOfSteps, FlowMaps, Device and the
+   * like) then have no effect, Tables Tiled is an error, and StepsTaken is 0. The map is kept until
+   * the density or OptimalityTolerance changes, and filters that read the same density share it. If
+   * the density is too thin for its grid, for example lines of less than three cells, the points
+   * are moved by the flow, and a warning says so.
+   */
+  vtkSetMacro(Method, int);
+  vtkGetMacro(Method, int);
+  void SetMethodToRectifiedFlow() { this->SetMethod(RECTIFIED_FLOW); }
+  void SetMethodToOptimal() { this->SetMethod(OPTIMAL); }
+  const char* GetMethodAsString();
+  ///@}
+
+  ///@{
+  /**
+   * With Optimal or Certify: iterations end when one raises the bound of the cost by less than a
+   * quarter of this part of it. Above 0 and below 1. Default 0.001.
+   */
+  vtkSetMacro(OptimalityTolerance, double);
+  vtkGetMacro(OptimalityTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * With RectifiedFlow: give TransportCostLowerBound, OptimalityGap and, for particles, Slack of
+   * the flow's map, too. This solves the optimal map, which takes longer than most flows, and needs
+   * whole tables. Optimal always gives them. Off by default.
+   */
+  vtkSetMacro(Certify, vtkTypeBool);
+  vtkGetMacro(Certify, vtkTypeBool);
+  vtkBooleanMacro(Certify, vtkTypeBool);
+  ///@}
 
   ///@{
   /**
@@ -225,6 +285,11 @@ protected:
   RectifiedTransport::FlowOptions GetFlowOptions();
 
   /**
+   * Method, OptimalityTolerance and Certify, checked. Throws what RequestData may throw.
+   */
+  RectifiedTransport::OptimalSetting GetOptimalSetting();
+
+  /**
    * The device of a run, opened. Collective.
    */
   RectifiedTransport::DeviceUse BeginDevice();
@@ -242,10 +307,18 @@ protected:
     const std::string& name = "");
 
   /**
+   * Warns on the first rank if the flow took the place of the optimal map.
+   */
+  void WarnOfMap(const RectifiedTransport::TransportReport& transport);
+
+  /**
    * Warns on the first rank that EqualizeAreas has changed nothing.
    */
   void WarnOfAreas();
 
+  int Method;
+  double OptimalityTolerance;
+  vtkTypeBool Certify;
   int Tables;
   int Integrator;
   int NumberOfSteps;

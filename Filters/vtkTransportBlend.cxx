@@ -172,6 +172,7 @@ RectifiedTransport::BlendSettings vtkTransportBlend::GetBlendSettings()
   settings.ParticlesPerCell = this->ParticlesPerCell > 0 ? this->ParticlesPerCell : autoParticles;
   settings.Mode = static_cast<RectifiedTransport::MassMode>(this->MassMode);
   settings.Flow = this->GetFlowOptions();
+  settings.Optimal = this->GetOptimalSetting();
   settings.Splat = splatOptions(this->Kernel, this->Radius);
   return settings;
 }

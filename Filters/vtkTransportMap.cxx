@@ -118,6 +118,7 @@ int vtkTransportMap::RequestData(
   TransportMap map{};
   map.Tables = tableSetting(this->Tables);
   map.Flow = this->GetFlowOptions();
+  map.Optimal = this->GetOptimalSetting();
   map.Backward = this->Direction == DENSITY_TO_UNIFORM;
   map.EqualizeAreas = this->EqualizeAreas != 0;
   std::copy_n(this->SampleDimensions, 3, map.SampleDimensions.begin());
@@ -138,6 +139,7 @@ int vtkTransportMap::RequestData(
   this->EndDevice(device);
   // The association of the density may not be known before the data.
   announceGrid(result.Grid, outputInformation);
+  this->WarnOfMap(result.Transport);
   this->WarnOfSteps(
     result.Flow, map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward);
   if (result.IsUncorrected)
@@ -148,16 +150,18 @@ int vtkTransportMap::RequestData(
   if (isWorthWarning(result.MovedToMass, samples))
   {
     this->WarnOnFirstRank(std::to_string(result.MovedToMass) + " of " + std::to_string(samples) +
-      " samples in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare "
-      "them that)");
+      " samples in empty cells moved to the nearest cell with mass" +
+      result.Transport.WithSteps(" (more NumberOfSteps may spare them that)"));
   }
   if (result.Folded > 0)
   {
     this->WarnOnFirstRank(describePart(result.Folded, samples, "samples") +
-      " are folded: JacobianDeterminant is 0 or negative there; more NumberOfSteps unfold " +
-      (map.Backward
-          ? "most, but not beside regions without mass, where the map tears"
-          : "some, but not at sharp edges of the density, where only a smoother one helps"));
+      " are folded: JacobianDeterminant is 0 or negative there" +
+      result.Transport.WithSteps(map.Backward
+          ? "; more NumberOfSteps unfold most, but not beside regions without mass, where the map "
+            "tears"
+          : "; more NumberOfSteps unfold some, but not at sharp edges of the density, where only a "
+            "smoother one helps"));
   }
   return 1;
 }

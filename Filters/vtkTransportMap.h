@@ -6,7 +6,8 @@
  * Follows the rectified flow (equation 12) of Do, Coeurjolly, Memari and Bonneel, "Linear-Time
  * Transport with Rectified Flows", ACM Transactions on Graphics 44(4), 2025,
  * doi:10.1145/3731147, from one point in each cell of an image: forward, from the uniform measure
- * to the density, or backward (Section 4.2), from the density to the uniform measure.
+ * to the density, or backward (Section 4.2), from the density to the uniform measure. With Method
+ * Optimal the map is that of least cost.
  *
  * The input is the density, a data set (see vtkDensityAlgorithm). The output is a vtkImageData
  * on the same domain with
@@ -19,7 +20,8 @@
  * - field data `TotalMass` (density times cell measure, summed) and `TransportCost` (the mean of
  *   |Displacement|^2, in physical units), `MovedSamples` (those that ended in an empty cell and
  *   were put on the nearest mass; a warning counts them if they are at least one in a thousand),
- *   `FoldedCells` and `LargestBlockError`, and the input's field data.
+ *   `FoldedCells` and `LargestBlockError`, and the input's field data; with Method Optimal or
+ *   Certify also `TransportCostLowerBound` and `OptimalityGap` (see vtkTransportAlgorithm).
  *
  * If the density is point data, so are the arrays, at the image's points, the centres of the dual
  * cells. Otherwise they are cell data, at the centres of the cells. Derivatives are taken only

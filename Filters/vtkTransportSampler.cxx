@@ -86,6 +86,7 @@ int vtkTransportSampler::RequestData(
   sampler.Pattern = seedPattern("SeedPattern", this->SeedPattern);
   sampler.Tables = tableSetting(this->Tables);
   sampler.Flow = this->GetFlowOptions();
+  sampler.Optimal = this->GetOptimalSetting();
   sampler.NumberOfParticles = this->NumberOfParticles;
   sampler.RandomSeed = this->RandomSeed;
   sampler.SamplesPerCell = this->SamplesPerCell;
@@ -117,6 +118,7 @@ int vtkTransportSampler::RequestData(
   const TransportSampler::Report report =
     sampler.Run(*density, seeds, this->GetFlowCache(), progress, output);
   this->EndDevice(device);
+  this->WarnOfMap(report.Transport);
   this->WarnOfSteps(report.Flow, sampler.Flow, FlowDirection::Forward);
   const std::string ofAll = " of " + std::to_string(report.Particles);
   if (report.SeedsMoved > 0)
@@ -127,8 +129,8 @@ int vtkTransportSampler::RequestData(
   if (isWorthWarning(report.ParticlesMoved, report.Particles))
   {
     this->WarnOnFirstRank(std::to_string(report.ParticlesMoved) + ofAll +
-      " particles in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare "
-      "them that)");
+      " particles in empty cells moved to the nearest cell with mass" +
+      report.Transport.WithSteps(" (more NumberOfSteps may spare them that)"));
   }
   return 1;
 }

@@ -5,8 +5,8 @@
  *
  * Moves points that fill the domain uniformly until they are distributed like the density, along
  * the rectified flow (equation 12) of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport
- * with Rectified Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147. It stipples
- * pictures and samples volumes.
+ * with Rectified Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147, or by the
+ * optimal map (see Method). It stipples pictures and samples volumes.
  *
  * Input 0 is the density, a data set (see vtkDensityAlgorithm). Input 1, optional, is a vtkPointSet
  * of seeds in physical space, which replace SeedPattern. Seeds outside the domain are moved to its
@@ -23,6 +23,14 @@
  *   above it for images), `MovedParticles` (those that ended in an empty cell and were put on the
  *   nearest mass; a warning counts them if they are at least one in a thousand), `OutsideSeeds`,
  *   and the input's field data.
+ *
+ * With Method Optimal or Certify, and FlowTime 1, there are also the field data
+ * `TransportCostLowerBound` and `OptimalityGap` (see vtkTransportAlgorithm; the gap is that of
+ * seeds that are uniform) and the point data `Slack`: how much more a pair of seed and particle
+ * costs, halved, than the bound allows for there, at least 0, in squared physical units. Twice its
+ * mean is about TransportCost less the bound. Paths have no Slack. Positions at other times are on
+ * straight lines with Optimal. Particles of a SeedPattern are moved together, so that boxes of
+ * cells get their shares of them; given seeds move each by itself.
  *
  * With OutputPaths, the output is one polyline a particle instead (see OutputPaths).
  *

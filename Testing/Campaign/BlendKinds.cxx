@@ -33,6 +33,7 @@ void drawBlend(Settings& settings)
   drawFlowSettings<vtkTransportAlgorithm>(settings);
   drawTables<Blend>(settings);
   drawDevice<Blend>(settings);
+  drawMethod<Blend>(settings);
   drawDensitySettings(settings);
 }
 
@@ -82,6 +83,36 @@ State expectBlend(vtkAlgorithm* filter, const Inputs& inputs)
   return state;
 }
 
+// The bound, the gap and the slack, and the functional of a barycenter.
+void checkBlendBound(vtkTransportBlend* blend, Findings& findings)
+{
+  vtkPolyData* particles = blend->GetParticles();
+  const bool isOptimal = blend->GetMethod() == vtkTransportAlgorithm::OPTIMAL;
+  const bool isBounded = isOptimal || blend->GetCertify();
+  vtkDataArray* gap = particles->GetFieldData()->GetArray("OptimalityGap");
+  vtkDataArray* slack = particles->GetPointData()->GetArray("Slack");
+  findings.That((gap != nullptr) == isBounded, "a gap with a bound");
+  findings.That((slack != nullptr) == isBounded, "Slack with a bound");
+  if (gap && slack)
+  {
+    findings.That(gap->GetComponent(0, 0) >= 0.0, "the gap is not negative"); // may be infinite
+    const double bound = requireField(particles, "TransportCostLowerBound", findings);
+    findings.That(bound >= 0.0, "the bound is not negative");
+    requireArray(particles->GetPointData(), "Slack", 1, particles->GetNumberOfPoints(), findings);
+    findings.That(
+      slack->GetNumberOfTuples() == 0 || slack->GetRange(0)[0] >= 0.0, "Slack is not negative");
+  }
+  if (vtkDataArray* functional = particles->GetFieldData()->GetArray("Functional"))
+  {
+    findings.That(isOptimal, "Functional with Optimal");
+    for (vtkIdType i = 1; i < functional->GetNumberOfTuples(); ++i)
+    {
+      findings.That(functional->GetComponent(i, 0) < functional->GetComponent(i - 1, 0),
+        "Functional decreases");
+    }
+  }
+}
+
 void checkBlend(vtkAlgorithm* filter, const Inputs& inputs, const std::vector<double>& weights,
   Findings& findings)
 {
@@ -95,6 +126,7 @@ void checkBlend(vtkAlgorithm* filter, const Inputs& inputs, const std::vector<do
   const vtkIdType values = onPoints ? image->GetNumberOfPoints() : image->GetNumberOfCells();
   const int each = blend->GetParticlesPerCell() > 0 ? blend->GetParticlesPerCell() : 4;
   findings.That(count == values * each, "ParticlesPerCell");
+  checkBlendBound(blend, findings);
   vtkDataArray* density = requireDensity(image, onPoints, findings);
   vtkDataArray* mass = requireArray(particles->GetPointData(), "Mass", 1, count, findings);
   const double total = requireField(image, "TotalMass", findings);

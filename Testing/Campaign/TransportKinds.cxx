@@ -7,6 +7,7 @@
 #include "vtkBlueNoiseRelaxation.h"
 #include "vtkCellData.h"
 #include "vtkDensityEqualizingWarp.h"
+#include "vtkFieldData.h"
 #include "vtkPointData.h"
 #include "vtkTable.h"
 #include "vtkTransportMap.h"
@@ -21,6 +22,43 @@ namespace Campaign
 
 namespace
 {
+
+// The bound of the least cost and the gap of a map of this cost, where they are to be.
+void checkBound(vtkTransportAlgorithm* filter, vtkDataObject* output, bool isWhole, double cost,
+  Findings& findings)
+{
+  const bool isOptimal = filter->GetMethod() == vtkTransportAlgorithm::OPTIMAL;
+  vtkFieldData* fields = output->GetFieldData();
+  vtkDataArray* gaps = fields->GetArray("OptimalityGap");
+  if (!isWhole || (!isOptimal && !filter->GetCertify()))
+  {
+    findings.That(!gaps && !fields->GetArray("TransportCostLowerBound"), "no bound");
+    return;
+  }
+  const double bound = requireField(output, "TransportCostLowerBound", findings);
+  findings.That(bound >= 0.0, "TransportCostLowerBound is " + textOf(bound));
+  findings.That(gaps && gaps->GetNumberOfTuples() == 1, "a gap");
+  const double gap = gaps ? gaps->GetComponent(0, 0) : 0.0;
+  findings.That(gap >= 0.0, "OptimalityGap is " + textOf(gap)); // it may be infinite
+  if (bound > 0.0)
+  {
+    findings.Near(1.0 + gap, std::max(1.0, cost / bound), 1e-9, "OptimalityGap");
+  }
+}
+
+// The slack of each particle.
+void checkSlack(vtkTransportSampler* sampler, Findings& findings)
+{
+  vtkPolyData* output = sampler->GetOutput();
+  const bool isBounded = output->GetFieldData()->GetArray("OptimalityGap") != nullptr;
+  vtkDataArray* found = output->GetPointData()->GetArray("Slack");
+  findings.That(isBounded == (found != nullptr), "Slack is there with a bound");
+  if (isBounded && found)
+  {
+    requireArray(output->GetPointData(), "Slack", 1, output->GetNumberOfPoints(), findings);
+    findings.That(found->GetRange(0)[0] >= 0.0, "Slack is not negative");
+  }
+}
 
 //------------------------------------------------------------------------------
 using Sampler = vtkTransportSampler;
@@ -53,6 +91,7 @@ void drawSampler(Settings& settings)
   drawFlowSettings<vtkTransportAlgorithm>(settings);
   drawTables<Sampler>(settings);
   drawDevice<Sampler>(settings);
+  drawMethod<Sampler>(settings);
   drawDensitySettings(settings);
 }
 
@@ -112,7 +151,9 @@ void checkSampler(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings
   vtkPolyData* output = sampler->GetOutput();
   requireFinitePoints(output, findings);
   const double total = requireField(output, "TotalMass", findings);
-  findings.That(requireField(output, "TransportCost", findings) >= 0.0, "TransportCost >= 0");
+  const double cost = requireField(output, "TransportCost", findings);
+  findings.That(cost >= 0.0, "TransportCost >= 0");
+  checkBound(sampler, output, sampler->GetFlowTime() == 1.0, cost, findings);
   const bool sound = densityState(filter, inputs[0][0]) == State::Sound;
   if (sound)
   {
@@ -126,6 +167,7 @@ void checkSampler(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings
   }
   const vtkIdType count = output->GetNumberOfPoints();
   requireVertices(output, findings);
+  checkSlack(sampler, findings);
   vtkPointData* data = output->GetPointData();
   vtkDataArray* ids = requireArray(data, "SeedId", 1, count, findings);
   for (vtkIdType i = 0; ids && i < count; ++i)
@@ -144,8 +186,8 @@ void checkSampler(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings
   {
     auto* given = vtkPointSet::SafeDownCast(inputs[1][0].Data);
     findings.That(count == given->GetNumberOfPoints(), "a particle for each seed");
-    requirePassed(
-      given->GetPointData(), data, { "SeedId", "SeedPosition", "Displacement", "Mass" }, findings);
+    requirePassed(given->GetPointData(), data,
+      { "SeedId", "SeedPosition", "Displacement", "Mass", "Slack" }, findings);
   }
   else if (!usesGrid(sampler) && sampler->GetSeedPattern() != Sampler::LATTICE)
   {
@@ -186,6 +228,7 @@ void drawMap(Settings& settings)
   drawFlowSettings<vtkTransportAlgorithm>(settings);
   drawTables<Map>(settings);
   drawDevice<Map>(settings);
+  drawMethod<Map>(settings);
   drawDensitySettings(settings);
 }
 
@@ -221,6 +264,7 @@ void checkMap(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
   requireArray(data, "JacobianDeterminant", 1, count, findings);
   const double total = requireField(output, "TotalMass", findings);
   const double cost = requireField(output, "TransportCost", findings);
+  checkBound(map, output, true, cost, findings);
   const State state = densityState(filter, input);
   if (state == State::Sound)
   {
@@ -262,6 +306,7 @@ void drawWarp(Settings& settings)
   drawFlowSettings<vtkTransportAlgorithm>(settings);
   drawTables<Warp>(settings);
   drawDevice<Warp>(settings);
+  drawMethod<Warp>(settings);
   drawDensitySettings(settings);
 }
 
@@ -284,6 +329,9 @@ void checkWarp(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
   vtkPointSet* output = Warp::SafeDownCast(filter)->GetOutput();
   auto* input = vtkPointSet::SafeDownCast(inputs[0][0].Data);
   requireFinitePoints(output, findings);
+  auto* warp = Warp::SafeDownCast(filter);
+  vtkDataArray* cost = output->GetFieldData()->GetArray("TransportCost");
+  checkBound(warp, output, warp->GetBlend() > 0.0, cost ? cost->GetComponent(0, 0) : 0.0, findings);
   const vtkIdType count = input->GetNumberOfPoints();
   findings.That(output->GetNumberOfPoints() == count &&
       output->GetNumberOfCells() == input->GetNumberOfCells() &&

@@ -29,7 +29,7 @@ class Range(NamedTuple):
 
 def range_of(text):
     """The range that words give: «0 to 1», «2 or 3», «0 to less than 1», «1 and more», «above 0, at
-    most 10000»."""
+    most 10000», «above 0, below 1»."""
     number = r"(-?\d+(?:\.\d+)?)"
     found = re.match("any integer$", text)
     if found:
@@ -40,6 +40,9 @@ def range_of(text):
     found = re.match("%s to less than %s(?=$|,)" % (number, number), text)
     if found:
         return Range(float(found[1]), False, float(found[2]), True)
+    found = re.match("above %s, below %s(?=$|,)" % (number, number), text)
+    if found:
+        return Range(float(found[1]), True, float(found[2]), True)
     found = re.match("(?:above|greater than) %s(?:, at most %s)?(?=$|,)" % (number, number), text)
     if found:
         return Range(float(found[1]), True, float(found[2] or math.inf))

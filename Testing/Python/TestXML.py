@@ -28,6 +28,22 @@ OF_MEASURE = {
 }
 
 
+# Of a filter that can take the optimal map: shown where it does not. Two values that give different
+# results of small inputs there.
+OF_FLOW = {
+    "Integrator": (0, 2),
+    "NumberOfSteps": (32, 1),
+    "AreaTolerance": (0.5, 1e-5),
+    "TableLookup": (0, 1),
+    "Tolerance": None,  # of one integrator, see rt_filters.py
+    "FlowMaps": None,  # of large inputs
+    "Certify": None,  # see TestOptimal.py
+    "Tables": None,  # these change no result
+    "Device": None,
+    "DeviceName": None,
+}
+
+
 def inputs(proxy):
     return {int(prop.element.get("port_index", 0)): prop for prop in proxy.properties.values()
             if prop.element.tag == "InputProperty"}
@@ -171,7 +187,9 @@ class XML(unittest.TestCase):
         for case, proxy, prop in self.each_property():
             with case:
                 if prop.texts:
-                    expected = {str(i): text for i, text in enumerate(PROPERTIES[prop.name].choices)}
+                    choices = by_label(proxy.label).choices.get(
+                        prop.name, PROPERTIES[prop.name].choices)
+                    expected = {str(i): text for i, text in enumerate(choices)}
                     self.assertEqual(prop.texts, expected)
                     self.assertEqual(prop.texts[prop.default], by_label(proxy.label).defaults.get(
                         prop.name, prop.texts["0"]))
@@ -314,6 +332,20 @@ class XML(unittest.TestCase):
         for case, proxy, prop in self.each_property():
             with case:
                 found = decorators(prop)
+                if "Certify" in proxy.properties:
+                    shown = [one for one in found if one.get("property") == "Method"]
+                    self.assertEqual([dict(one.attrib) for one in shown],
+                                     [{"type": "GenericDecorator", "mode": "visibility",
+                                       "property": "Method", "value": "0"}]
+                                     if prop.name in OF_FLOW else [])
+                    found = [one for one in found if one not in shown]
+                if prop.name == "OptimalityTolerance":  # by one of two
+                    self.assertEqual([one.get("type") for one in found], ["CompositeDecorator"])
+                    either = found[0].find("Expression")
+                    self.assertEqual(either.get("type"), "or")
+                    self.assertEqual([(one.get("property"), one.get("value")) for one in either],
+                                     [("Method", "1"), ("Certify", "1")])
+                    continue
                 if "Measure" in proxy.properties:
                     shown = [one for one in found if one.get("property") == "Measure"]
                     self.assertEqual([dict(one.attrib) for one in shown],
@@ -350,7 +382,8 @@ class XML(unittest.TestCase):
         for case, proxy, prop in self.each_property():
             with case:
                 for decorator in decorators(prop):
-                    if decorator.get("property") in (None, "Measure") or prop.name == "AreaTolerance":
+                    if (decorator.get("property") in (None, "Measure", "Method")
+                            or prop.name == "AreaTolerance"):
                         continue  # shown by the type of the input, and see below
                     if prop.name == "DeviceName":
                         continue  # it changes no result
@@ -369,6 +402,20 @@ class XML(unittest.TestCase):
                     one, other = (result(proxy, {"Measure": measure, name: number}, case[1])
                                   for number in case[0])
                     self.assertEqual(one != other, measure == 1)
+
+    def test_flow_is_shown_where_it_moves_points(self):
+        for proxy in proxies():
+            if proxy.label not in ("Sample Density", "Transport Map", "Density-Equalizing Warp"):
+                continue
+            backward = {"Direction": 1} if "Direction" in proxy.properties else {}
+            for name, values in OF_FLOW.items():
+                for method in (0, 1) if values else ():
+                    if name == "AreaTolerance" and proxy.label == "Sample Density":
+                        continue  # small images take the fewest steps
+                    with self.subTest(proxy=proxy.label, property=name, method=method):
+                        one, other = (result(proxy, {**backward, "Method": method, name: number})
+                                      for number in values)
+                        self.assertEqual(one != other, method == 0)
 
     def test_tolerance_is_shown_where_it_sets_steps(self):
         proxy = next(proxy for proxy in proxies() if proxy.label == "Density-Equalizing Warp")

@@ -55,6 +55,11 @@ def give_blends():
         Input=image, Target=sparse, NegativeValues="Clamp", NumberOfSteps=2, Integrator="Euler"))
     give_both("morph coarse", morph(
         Input=image, Target=other, Dimensions=[5, 4, 3], Kernel="Gaussian", **usual))
+    for name, choice in (("optimal", dict(Method="Optimal")), ("certified", dict(Certify=1))):
+        give_both("morph " + name, morph(Input=image, Target=other, **choice, **usual))
+        give_both("morph geometries " + name, morph(Input=cells, Target=long, **choice, **usual))
+        give_both("barycenter " + name, barycenter(
+            Input=[image, other], Weights=[1, 2], **choice, **usual))
     series = morph(Input=image, Target=long, PublishTime=1, NumberOfTimeSteps=4, **usual)
     for time in (0.0, 1 / 3, 1.0):
         series.UpdatePipeline(time)

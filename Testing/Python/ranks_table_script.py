@@ -140,6 +140,27 @@ def give_data():
     give("parameterization apart", simple.AreaPreservingParameterization(Input=cut, Resolution=24))
 
 
+def give_optimal(image, flat, seeds):
+    """Each rank solves, and moves its share."""
+    shell = simple.Contour(Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[150.0],
+                           ComputeNormals=0)
+    for name, choice in (("optimal", dict(Method="Optimal")),
+                         ("certified", dict(Certify=1, NumberOfSteps=8))):
+        choice["NegativeValues"] = "Clamp"
+        give("sample " + name, simple.SampleDensity(Input=image, NumberOfParticles=500, **choice))
+        give("sample flat " + name, simple.SampleDensity(
+            Input=flat, NumberOfParticles=3000, **choice))
+        give("seeds " + name, simple.SampleDensity(Input=image, Seeds=seeds, **choice))
+        give("paths " + name, simple.SampleDensity(
+            Input=image, NumberOfParticles=40, OutputPaths=1, SampleArrays=0, **choice))
+        for direction in ("UniformToDensity", "DensityToUniform"):
+            give("map %s %s" % (direction, name), simple.TransportMap(
+                Input=image, Direction=direction, **choice))
+        give("warp " + name, simple.DensityEqualizingWarp(Input=shell, Density=image, **choice))
+    give("equal areas optimal", simple.DensityEqualizingWarp(
+        Input=shell, Density=image, EqualizeAreas=1, NegativeValues="Clamp", Method="Optimal"))
+
+
 def main(path):
     load_plugin()
     image = simple.Wavelet(WholeExtent=[-4, 8, 0, 7, 0, 10])
@@ -192,6 +213,7 @@ def main(path):
                            ComputeNormals=0)
     give("warp", simple.DensityEqualizingWarp(Input=shell, Density=image, **usual))
     give("warp cells", simple.DensityEqualizingWarp(Input=shell, Density=cells, **usual))
+    give_optimal(image, flat, seeds)
     give("seeds apart", simple.SampleDensity(
         Input=image, Seeds=redistributed(Input=seeds), **usual))
     field = simple.TransportMap(Input=image, **usual)

@@ -23,7 +23,8 @@ SMOOTH = {"Kernel": "TriangularShapedCloud"}
 RULES = ["Component", "InvertDensity", "NegativeValues", "NaNValues", "ValidRange", "DensityResolution"]
 DENSITY_PANEL = ["DensityArray", *RULES]
 FLOW_PANEL = ["Integrator", "NumberOfSteps", "AreaTolerance", "Tolerance", "TableLookup", "FlowMaps"]
-TILED_PANEL = [*FLOW_PANEL, "Tables", "Device", "DeviceName", "Threading"]
+METHOD_PANEL = ["Method", "OptimalityTolerance", "Certify"]
+TILED_PANEL = [*METHOD_PANEL, *FLOW_PANEL, "Tables", "Device", "DeviceName", "Threading"]
 BLEND_PANEL = ["ParticlesPerCell", "MassMode", "Dimensions", "Kernel", "Radius", *TILED_PANEL]
 
 
@@ -47,6 +48,7 @@ class Filter(NamedTuple):
     shown: list = []       # hints of how an output is shown at first, where it is not as ParaView shows all
     always_shown: tuple = ()     # properties that mean something else here than PROPERTIES has them mean
     defaults: dict = {}          # choices that are not the first one here
+    choices: dict = {}           # those of properties that mean something else here
     slow_at_highest: tuple = ()  # properties that take 10 GB at their highest value
     gives_table: bool = False
     on_ranks: bool = True  # whether ParaView offers it on servers of several processes
@@ -92,7 +94,7 @@ FILTERS = [
                   *TILED_PANEL],
            refused=("NumberOfSteps", -1, 2),
            saved=dict(InvertDensity=1, Direction="DensityToUniform", EqualizeAreas=1, EmptyCells="Least",
-                      SampleDimensions=[20, 30, 1], Integrator="Adaptive", Tolerance=0.5),
+                      SampleDimensions=[20, 30, 1], Integrator="Adaptive", Tolerance=0.5, Certify=1),
            shown=[("FirstDisplay", {"dimension": "3", "type": "Surface", "array": "Displacement"}),
                   ("FirstDisplay", {"array": "Displacement"})]),
     Filter("Equal-Mass Cells", "vtkEqualMassCells",
@@ -164,7 +166,8 @@ FILTERS = [
            {"Input": "mesh", "Density": "density"},
            panel=["Blend", "EqualizeAreas", *DENSITY_PANEL, "EmptyCells", "EmptyValue", "Margin", *TILED_PANEL],
            refused=("Blend", -0.5, 1),
-           saved=dict(InvertDensity=1, Blend=0.25, EqualizeAreas=1, NumberOfSteps=9, EmptyCells="Value",
+           saved=dict(InvertDensity=1, Blend=0.25, EqualizeAreas=1, NumberOfSteps=9, Method="Optimal",
+                      OptimalityTolerance=0.01, EmptyCells="Value",
                       EmptyValue=80, Margin=0.05),
            always_shown=("EqualizeAreas",), defaults={"EmptyCells": "Mean"}),
     Filter("Transport Quality", "vtkTransportQuality",
@@ -179,7 +182,8 @@ FILTERS = [
            refused=("MaximumIterations", -1, 2),
            quick=dict(MaximumIterations=2),
            saved=dict(InvertDensity=1, Method="OptimalTransport", MaximumIterations=3, Tolerance=0.001),
-           shown=PARTICLES, always_shown=("Tolerance",)),  # of another meaning than that of flows
+           shown=PARTICLES, always_shown=("Tolerance",),  # of another meaning than that of flows
+           choices={"Method": ["GaussianBlueNoise", "OptimalTransport"]}),
     Filter("Cartogram", "vtkCartogram", {"Input": "map"}, {"Overlay": "mesh"},
            ["Regions", "Graticule", "Overlay"],
            panel=["Overlay", "MassArray", "RegionArray", "Tolerance", "LeastShare", "Blend", "Resolution",
@@ -215,6 +219,9 @@ PROPERTIES = {
     "EmptyCells": Property(["Zero", "Mean", "Least", "Value"], advanced=True),
     "EmptyValue": Property(advanced=True, shown_by=("EmptyCells",), differing=(0.0, 2.0)),
     "Margin": Property(advanced=True),
+    "Method": Property(["RectifiedFlow", "Optimal"]),
+    "OptimalityTolerance": Property(advanced=True, shown_by=("Method", "Certify")),
+    "Certify": Property(advanced=True),
     "Integrator": Property(["Multistep", "RungeKutta4", "Euler", "Adaptive"], advanced=True),
     "NumberOfSteps": Property(advanced=True, shown_by=("Integrator",), differing=(32, 1)),
     "AreaTolerance": Property(advanced=True, shown_by=("Integrator", "NumberOfSteps"), differing=(0.5, 1e-5)),
@@ -233,7 +240,6 @@ PROPERTIES = {
     "Radius": Property(shown_by=("Kernel",), differing=(1.0, 3.0)),
     "Boundary": Property(["Renormalize", "Drop"]),
     "Association": Property(["Points", "Cells"]),
-    "Method": Property(["GaussianBlueNoise", "OptimalTransport"]),
     "Shape": Property(["Flow", "Power"]),
     "Measure": Property(["Uniform", "Density"]),
     "SamplesPerCell": Property(shown_by=("SeedPattern",), differing=(0, 2)),

@@ -62,12 +62,14 @@ class Proxy:
 def parse(path):
     """The root of one of the plugin's XML files, with its entities in it as in the built plugin."""
     texts = []
-    for name in (path, os.path.join(SOURCE, "Plugin", "TransportCommon.ent")):
+    for name in (path, *(os.path.join(SOURCE, "Plugin", "Transport%s.ent" % name)
+                         for name in ("Common", "Method"))):
         with open(name, encoding="utf-8") as file:
             texts.append(file.read())
-    xml, entities = texts
-    return ElementTree.fromstring(
-        xml.replace('SYSTEM "TransportCommon.ent"', "[%s]" % entities))
+    xml, common, of_method = texts
+    for name, entities in (("Common", common), ("Method", of_method + common)):
+        xml = xml.replace('SYSTEM "Transport%s.ent"' % name, "[%s]" % entities)
+    return ElementTree.fromstring(xml)
 
 
 def concrete(*groups):

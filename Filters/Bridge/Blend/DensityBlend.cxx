@@ -9,6 +9,7 @@
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/PlaceOwners.h"
 #include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Run/CostBound.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/StepReport.h"
@@ -141,10 +142,21 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
     this->Means = this->Masses = this->Density = this->Displacements = nullptr;
     this->Ends = {};
   }
-  const double maps =
-    stageEnds({ static_cast<double>(newMaps) * Cost::flow(settings.Flow, geometry.Dimension()),
-      Cost::MeanAndSplat })[0];
-  BlendReport report = this->MakeMaps(inputs, pivot, tables, progress, maps);
+  const double mapCost =
+    static_cast<double>(newMaps) * Cost::flow(settings.Flow, geometry.Dimension());
+  const double solutions = settings.Optimal.NeedsMap()
+    ? static_cast<double>(inputs.size()) * Cost::OptimalCell / settings.ParticlesPerCell
+    : 0.0;
+  const auto ends = stageEnds({ mapCost, solutions, Cost::MeanAndSplat });
+  BlendReport report = this->MakeMaps(inputs, pivot, tables, progress, ends[0]);
+  if (settings.Optimal.IsOptimal)
+  {
+    // The flow only leads to where the optimal maps begin, and its properties are not shown.
+    report = {};
+  }
+  const double maps = ends[1];
+  this->FindPositions(inputs, settings, geometry, progress, maps);
+  report.Steps.insert(report.Steps.end(), this->Found.Warnings.begin(), this->Found.Warnings.end());
 
   progress.BeginStage(maps + partOfMean * (1.0 - maps));
   this->TakeMeans(inputs, progress);
@@ -177,6 +189,7 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
     {
       addFieldValue(part, "TransportCost", cost);
     }
+    this->AddBound(geometry, part);
     addFieldValue(part, "TotalMass", mass);
     addFieldValue(part, "MovedParticles", movedOnRanks);
     addSteps(part, flows);
@@ -272,12 +285,66 @@ BlendReport DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
   return report;
 }
 
+void DensityBlend::FindPositions(const std::vector<BlendInput>& inputs,
+  const BlendSettings& settings, const ImageGrid& geometry, Progress& progress, double end)
+{
+  decltype(this->FoundFor) now;
+  now.Optimal = settings.Optimal;
+  now.Geometry = geometry;
+  std::vector<OptimalBlendInput> given;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    vtkDoubleArray* positions = this->Maps[i].Positions();
+    given.push_back({ inputs[i].Density.get(), inputs[i].Name, inputs[i].Weight, positions });
+    now.Maps.emplace_back(positions);
+    // Between two inputs particles only move along their ways.
+    now.Weights.push_back(settings.ComparesEnds ? 0.0 : inputs[i].Weight);
+  }
+  if (!settings.Optimal.NeedsMap())
+  {
+    this->Found = {};
+    for (const OptimalBlendInput& input : given)
+    {
+      this->Found.Positions.emplace_back(input.Positions);
+    }
+  }
+  else
+  {
+    const bool isFound = now.Maps == this->FoundFor.Maps && now.Weights == this->FoundFor.Weights &&
+      now.Optimal == this->FoundFor.Optimal && now.Geometry == this->FoundFor.Geometry;
+    if (!onAllRanks(progress.Group(), isFound))
+    {
+      this->Found = {};
+      this->FoundFor = {};
+      this->Found =
+        blendOptimally(given, { settings.Optimal, geometry, settings.ComparesEnds }, progress, end);
+    }
+    else
+    {
+      this->Found.Warnings.clear();
+    }
+  }
+  this->FoundFor = now;
+}
+
+void DensityBlend::AddBound(const ImageGrid& geometry, vtkDataObject* output) const
+{
+  if (this->Found.Slack)
+  {
+    addCostBound(output, this->Found.Bound, this->Found.Cost, geometry);
+  }
+  if (!this->Found.Functional.empty())
+  {
+    addFieldValues(output, "Functional", this->Found.Functional);
+  }
+}
+
 void DensityBlend::TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress)
 {
   std::vector<WeightedPositions> parts;
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
-    vtkDoubleArray* positions = this->Maps[i].Positions();
+    vtkDoubleArray* positions = this->Found.Positions[i];
     parts.push_back(
       { { positions->GetPointer(0), positions->GetNumberOfTuples() }, inputs[i].Weight });
   }
@@ -295,8 +362,8 @@ void DensityBlend::TakeMeans(const std::vector<BlendInput>& inputs, Progress& pr
 double DensityBlend::CompareEnds(
   const ImageGrid& geometry, std::int64_t particles, Progress& progress)
 {
-  const std::array<vtkDoubleArray*, 2> ends = { this->Maps[0].Positions(),
-    this->Maps[1].Positions() };
+  const std::array<vtkDoubleArray*, 2> ends = { this->Found.Positions[0],
+    this->Found.Positions[1] };
   if (onAllRanks(progress.Group(), this->Ends[0] == ends[0] && this->Ends[1] == ends[1]))
   {
     return this->EndsCost;
@@ -353,10 +420,17 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, const I
     {
       // Inputs of one density share the values, under different names.
       vtkNew<vtkDoubleArray> named;
-      named->ShallowCopy(this->Maps[i].Positions());
+      named->ShallowCopy(this->Found.Positions[i]);
       named->SetName(inputs[i].PositionName.c_str());
       output->GetPointData()->AddArray(named);
     }
+  }
+  if (this->Found.Slack)
+  {
+    vtkNew<vtkDoubleArray> slack;
+    slack->ShallowCopy(this->Found.Slack);
+    slack->SetName("Slack");
+    output->GetPointData()->AddArray(slack);
   }
   progress.BeginStage(0.5 * (progress.StageEnd() + end));
   const Ranks& ranks = progress.Group();

@@ -6,7 +6,9 @@
 #define RectifiedTransport_DensityBlend_h
 
 #include "Bridge/Blend/LinearizedMap.h"
+#include "Bridge/Blend/OptimalBlend.h"
 #include "Bridge/Ranks/TupleBoxes.h"
+#include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
@@ -21,6 +23,7 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkCellArray;
+class vtkDataObject;
 class vtkImageData;
 class vtkInformation;
 class vtkInformationVector;
@@ -56,6 +59,7 @@ struct BlendSettings
   MassMode Mode;
   FlowOptions Flow;
   TableSetting Tables;
+  OptimalSetting Optimal;
   SplatOptions Splat;
   bool ComparesEnds = false; // of two inputs: gives TransportCost and Displacement
 };
@@ -94,6 +98,11 @@ private:
   BlendReport MakeMaps(const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings,
     FlowCache& tables, Progress& progress, double end);
   double CompareEnds(const ImageGrid& geometry, std::int64_t particles, Progress& progress);
+  // With an optimal map or its bound: finds the particles' positions anew where anything that they
+  // depend on has changed. Else takes those of the maps.
+  void FindPositions(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
+    const ImageGrid& geometry, Progress& progress, double end);
+  void AddBound(const ImageGrid& geometry, vtkDataObject* output) const;
   void TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress);
   double TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const;
   void WriteParticles(const std::vector<BlendInput>& inputs, const ImageGrid& geometry,
@@ -103,6 +112,15 @@ private:
     vtkImageData* output);
 
   std::vector<LinearizedMap> Maps;
+  // The particles' positions in the inputs, and what an optimal map says of them.
+  OptimalBlendResult Found;
+  struct
+  {
+    std::vector<vtkWeakPointer<vtkDoubleArray>> Maps; // the positions that it is from
+    std::vector<double> Weights;
+    OptimalSetting Optimal;
+    ImageGrid Geometry;
+  } FoundFor;
   // The arrays of the last CompareEnds.
   std::array<vtkWeakPointer<vtkDoubleArray>, 2> Ends;
   double EndsCost = 0.0;

@@ -91,7 +91,7 @@ void LinearizedMap::Move(InputDensity& density, FlowCache& tables, Progress& pro
 
   const double begin = progress.StageEnd();
   progress.BeginStage(begin + (1.0 - partOfConversion) * (end - begin));
-  this->Report = transportPivot<D>(flow.Transport<D>(), pivot, this->Settings.Share.First,
+  this->Report = transportPivot<D>(flow.Flow<D>(), pivot, this->Settings.Share.First,
     { positions, particles }, options, progress.Stage());
   progress.BeginStage(end);
   toPhysical<D>(

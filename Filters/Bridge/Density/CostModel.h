@@ -24,6 +24,7 @@ constexpr double Comparison = 4000.0;  // of a particle with a density
 constexpr double Relaxation = 20000.0; // of a point, in each iteration
 constexpr double TurnedCell = 200.0;   // of a vtkCell, to find whether it turned over
 constexpr double Reading = 2.0;        // of a cell's value
+constexpr double OptimalCell = 1500.0; // of a cell of an optimal map
 
 inline double tables(const FlowCache& cache, const InputDensity& density)
 {
@@ -39,6 +40,15 @@ inline double flow(const FlowOptions& options, int dimension)
   constexpr int usual = 64; // that 0 stands for
   return evaluation * (options.NumberOfSteps > 0 ? options.NumberOfSteps : usual) *
     (options.Integrator == Integrator::RungeKutta4 ? 4.0 : 1.0);
+}
+
+// Of the optimal map, where it has to be solved.
+inline double optimal(
+  const FlowCache& cache, const InputDensity& density, const OptimalSetting& setting)
+{
+  const bool mustSolve =
+    cache.MustSolve(setting) || (setting.NeedsMap() && cache.IsOutdated(density));
+  return mustSolve ? OptimalCell * static_cast<double>(density.Grid().NumberOfCells()) : 0.0;
 }
 
 // Of the correction of areas, for each cell of the density: the flow of its corners, and the

@@ -2,7 +2,6 @@
 #include "Bridge/Density/FlowCache.h"
 
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include <algorithm>
@@ -31,6 +30,7 @@ const SharedFlow& FlowCache::Update(
   {
     this->Hash = ContentHash(); // invalid until the tables are built
     this->ForgetCorrection();
+    this->KeptMap.reset();
     const auto findOrBuild = dispatchDimension(density.Grid().Dimension(),
       &SharedFlow::FindOrBuild<1>, &SharedFlow::FindOrBuild<2>, &SharedFlow::FindOrBuild<3>);
     this->Kept = findOrBuild(density, hash, tables, std::move(this->Kept), progress, end);

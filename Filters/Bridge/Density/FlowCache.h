@@ -4,7 +4,9 @@
 #define RectifiedTransport_FlowCache_h
 
 #include "Bridge/Density/ContentHash.h"
+#include "Bridge/Density/DensityTransport.h"
 #include "Bridge/Density/SharedFlow.h"
+#include "Core/Parallel/Progress.h"
 
 #include <memory>
 #include <utility>
@@ -28,24 +30,50 @@ public:
   const SharedFlow& Update(
     InputDensity& density, Progress& progress, double end, FlowTables tables = FlowTables::Whole);
 
+  // After Update of the same density, with whole tables where the setting needs a map: what moves
+  // its points. An optimal map is kept until a setting that needs none, another one or another
+  // density, and shared with other filters. Valid as the flow. Progress reaches `end`. Collective.
+  // Throws Failure and Cancelled.
+  template <int D>
+  DensityTransport<D> Transport(
+    const OptimalSetting& setting, InputDensity& density, Progress& progress, double end)
+  {
+    std::shared_ptr<const OptimalMap<D>> map;
+    if (setting.NeedsMap())
+    {
+      constexpr double partOfPotential = 0.8;
+      map = this->Kept->template Optimal<D>(setting, density, std::move(this->KeptMap), progress,
+        progress.StageEnd() + partOfPotential * (end - progress.StageEnd()));
+    }
+    this->KeptMap = map;
+    progress.BeginStage(end);
+    return { this->Kept->template Flow<D>(), density.Grid(), setting, map, progress };
+  }
+  // Whether Transport probably solves.
+  bool MustSolve(const OptimalSetting& setting) const
+  {
+    return setting.NeedsMap() && !this->KeptMap;
+  }
+
   // After Update, with whole tables: by what points that go back have to be corrected for equal
   // areas. Kept until other options, another density or ForgetCorrection, and shared with other
   // filters. Runs as the current stage; not collective. Throws Failure and Cancelled.
   template <int D>
   std::shared_ptr<const AreaCorrection<D>> Correction(
-    const FlowOptions& options, Progress& progress)
+    const DensityTransport<D>& transport, const FlowOptions& options, Progress& progress)
   {
-    const auto found =
-      this->Kept->template Correction<D>(options, std::move(this->KeptCorrection), progress);
+    const auto found = this->Kept->template Correction<D>(
+      transport, options, std::move(this->KeptCorrection), progress);
     this->KeptCorrection = found;
     return found;
   }
   void ForgetCorrection() { this->KeptCorrection.reset(); }
 
-  // Releases this filter's references to the tables and the correction.
+  // Releases this filter's references to the tables and what was made for them.
   void Release()
   {
     this->ForgetCorrection();
+    this->KeptMap.reset();
     this->Kept.reset();
   }
 
@@ -54,6 +82,7 @@ public:
 
 private:
   std::shared_ptr<SharedFlow> Kept;
+  std::shared_ptr<const void> KeptMap;
   std::shared_ptr<const void> KeptCorrection;
   ContentHash Hash;
   vtkMTimeType Time = 0;

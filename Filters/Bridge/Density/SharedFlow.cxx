@@ -8,7 +8,6 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -150,41 +149,76 @@ std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(InputDensity& density,
 }
 
 template <int D>
-std::shared_ptr<const AreaCorrection<D>> SharedFlow::Correction(
-  const FlowOptions& options, std::shared_ptr<const void> previous, Progress& progress) const
+std::shared_ptr<const OptimalMap<D>> SharedFlow::Optimal(const OptimalSetting& setting,
+  InputDensity& density, std::shared_ptr<const void> previous, Progress& progress, double end) const
 {
-  using Made = std::shared_ptr<const AreaCorrection<D>>;
-  using Seen = std::weak_ptr<const AreaCorrection<D>>;
-  const RectifiedFlow<D>& flow = this->Flow<D>();
-  const FlowOptions resolved = AreaCorrection<D>::Resolve(flow, options, progress.Stage());
+  const ImageGrid& grid = density.Grid();
+  const OptimalMapKey key(setting, grid);
+  std::shared_ptr<const OptimalMap<D>> found = this->Maps.Find<OptimalMap<D>>(key);
+  if (onAllRanks(progress.Group(), found != nullptr))
   {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    for (const auto& [of, seen] : this->Corrections)
-    {
-      if (of == resolved)
-      {
-        if (Made found = std::get<Seen>(seen).lock())
-        {
-          return found;
-        }
-      }
-    }
+    progress.BeginStage(end);
+    return found;
+  }
+  found.reset();
+  previous.reset(); // two side by side would double the peak
+  const GridSize<D> size = grid.Size<D>();
+  OptimalMapOptions options;
+  options.Tolerance = setting.Tolerance;
+  const std::string purpose = "the optimal map of a density of " + describeSize<D>(size) +
+    " cells (" + setting.Advice() + ")";
+  const double bytes = OptimalMap<D>::MemoryFor(size, size, options);
+  requireMemory(purpose, bytes);
+
+  const double begin = progress.StageEnd();
+  constexpr double partOfPreparation = 0.02;
+  constexpr double partOfReading = 0.05;
+  progress.BeginStage(begin + partOfPreparation * (end - begin));
+  density.Prepare(FlowTables::Whole, progress);
+  const LengthScale scale(grid);
+  Point<D> sides = grid.Lengths<D>();
+  for (double& side : sides)
+  {
+    side = scale.ToUnits(side);
+  }
+  auto made = withMemory(purpose, bytes, [&]() {
+    progress.BeginStage(begin + partOfReading * (end - begin));
+    auto map =
+      std::make_shared<OptimalMap<D>>(density.Source<D>(), sides, options, progress.Stage());
+    density.ReleaseGathered();
+    progress.BeginStage(end);
+    map->Solve(progress.Stage());
+    return map;
+  });
+  this->Maps.Insert(key, made);
+  return made;
+}
+
+template <int D>
+std::shared_ptr<const AreaCorrection<D>> SharedFlow::Correction(
+  const DensityTransport<D>& transport, const FlowOptions& options,
+  std::shared_ptr<const void> previous, Progress& progress) const
+{
+  const RectifiedFlow<D>& flow = this->Flow<D>();
+  // Nothing of them is used by an optimal map.
+  const FlowOptions resolved = transport.Report().IsOptimal
+    ? FlowOptions()
+    : AreaCorrection<D>::Resolve(flow, options, progress.Stage());
+  const auto key = std::make_pair(resolved, transport.MapKey());
+  if (auto found = this->Corrections.Find<AreaCorrection<D>>(key))
+  {
+    return found;
   }
   previous.reset(); // two side by side would double the peak
   const std::string purpose =
     "the areas of " + describeSize<D>(flow.Size()) + " cells (EqualizeAreas Off needs none)";
   const double bytes = AreaCorrection<D>::MemoryFor(flow.Size());
   requireMemory(purpose, bytes);
-  Made made = withMemory(purpose, bytes, [&]() {
+  auto made = withMemory(purpose, bytes, [&]() {
     return std::make_shared<const AreaCorrection<D>>(
-      flow, resolved, EqualizeOptions(), progress.Stage());
+      flow, transport.Points(), resolved, EqualizeOptions(), progress.Stage());
   });
-  const std::lock_guard<std::mutex> lock(this->Mutex);
-  const auto isGone = [](const auto& entry) { return std::get<Seen>(entry.second).expired(); };
-  this->Corrections.erase(
-    std::remove_if(this->Corrections.begin(), this->Corrections.end(), isGone),
-    this->Corrections.end());
-  this->Corrections.emplace_back(resolved, Seen(made));
+  this->Corrections.Insert(key, made);
   return made;
 }
 
@@ -205,12 +239,18 @@ void SharedFlow::Attach(InputDensity& density, Progress& progress)
   }
 }
 
+template std::shared_ptr<const OptimalMap<1>> SharedFlow::Optimal<1>(
+  const OptimalSetting&, InputDensity&, std::shared_ptr<const void>, Progress&, double) const;
+template std::shared_ptr<const OptimalMap<2>> SharedFlow::Optimal<2>(
+  const OptimalSetting&, InputDensity&, std::shared_ptr<const void>, Progress&, double) const;
+template std::shared_ptr<const OptimalMap<3>> SharedFlow::Optimal<3>(
+  const OptimalSetting&, InputDensity&, std::shared_ptr<const void>, Progress&, double) const;
 template std::shared_ptr<const AreaCorrection<1>> SharedFlow::Correction<1>(
-  const FlowOptions&, std::shared_ptr<const void>, Progress&) const;
+  const DensityTransport<1>&, const FlowOptions&, std::shared_ptr<const void>, Progress&) const;
 template std::shared_ptr<const AreaCorrection<2>> SharedFlow::Correction<2>(
-  const FlowOptions&, std::shared_ptr<const void>, Progress&) const;
+  const DensityTransport<2>&, const FlowOptions&, std::shared_ptr<const void>, Progress&) const;
 template std::shared_ptr<const AreaCorrection<3>> SharedFlow::Correction<3>(
-  const FlowOptions&, std::shared_ptr<const void>, Progress&) const;
+  const DensityTransport<3>&, const FlowOptions&, std::shared_ptr<const void>, Progress&) const;
 template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<1>(
   InputDensity&, const ContentHash&, FlowTables, std::shared_ptr<SharedFlow>, Progress&, double);
 template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<2>(

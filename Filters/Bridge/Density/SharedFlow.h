@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flow of a density with its tables, shared by all filters that read the same density.
+// The flow of a density with its tables, and what is made for some filters: its optimal map and
+// corrections of areas. Shared by all filters that read the same density.
 #ifndef RectifiedTransport_SharedFlow_h
 #define RectifiedTransport_SharedFlow_h
 
+#include "Bridge/Density/DensityTransport.h"
 #include "Bridge/Density/InputDensity.h"
+#include "Bridge/Density/WeakPool.h"
+#include "Bridge/Settings/OptimalSettings.h"
 #include "Core/Equalize/AreaCorrection.h"
 #include "Core/Flow/RectifiedFlow.h"
+#include "Core/OptimalMap/OptimalMap.h"
 
 #include "vtkTimeStamp.h"
 
 #include <memory>
-#include <mutex>
 #include <utility>
 #include <variant>
-#include <vector>
 
 namespace RectifiedTransport
 {
@@ -28,23 +31,23 @@ public:
   template <int D>
   SharedFlow(RectifiedFlow<D> flow, FlowTables tables, const InputDensity& density);
 
-  // What moves points.
-  template <int D>
-  const PointTransport<D>& Transport() const
-  {
-    return this->Flow<D>();
-  }
-  // The same, with access to what its tables know about the density.
+  // What its tables know about the density, and the flow that they define.
   template <int D>
   const RectifiedFlow<D>& Flow() const
   {
     return std::get<RectifiedFlow<D>>(this->Kept);
   }
-  // By what points that go back have to be corrected for equal areas: one that somebody owns, for
-  // options that mean the same, or a new one, for which `previous` is reset first. Of whole tables;
-  // not collective. Runs as the current stage. Throws Failure and Cancelled.
+  // The optimal map of the density, solved, in LengthScale's units: one that somebody owns, or a
+  // new one, for which `previous` is reset first. The density has the content of this one. Of whole
+  // tables; collective. Progress reaches `end`. Throws Failure and Cancelled.
   template <int D>
-  std::shared_ptr<const AreaCorrection<D>> Correction(
+  std::shared_ptr<const OptimalMap<D>> Optimal(const OptimalSetting& setting, InputDensity& density,
+    std::shared_ptr<const void> previous, Progress& progress, double end) const;
+  // By what points that a map takes back have to be corrected for equal areas: one that somebody
+  // owns, for options that mean the same, or a new one, for which `previous` is reset first. Of
+  // whole tables; not collective. Runs as the current stage. Throws Failure and Cancelled.
+  template <int D>
+  std::shared_ptr<const AreaCorrection<D>> Correction(const DensityTransport<D>& transport,
     const FlowOptions& options, std::shared_ptr<const void> previous, Progress& progress) const;
   // Density times cell measure, summed.
   double TotalMass() const { return this->Mass; }
@@ -67,13 +70,10 @@ private:
   using AnyFlow =
     std::variant<std::monostate, RectifiedFlow<1>, RectifiedFlow<2>, RectifiedFlow<3>>;
 
-  using AnyCorrection = std::variant<std::weak_ptr<const AreaCorrection<1>>,
-    std::weak_ptr<const AreaCorrection<2>>, std::weak_ptr<const AreaCorrection<3>>>;
-
   AnyFlow Kept;
-  mutable std::mutex Mutex; // of the next: several filters may share this
-  // By their options, resolved.
-  mutable std::vector<std::pair<FlowOptions, AnyCorrection>> Corrections;
+  mutable WeakPool<OptimalMapKey> Maps;
+  // By the flow's options, resolved, and by the optimal map.
+  mutable WeakPool<std::pair<FlowOptions, OptimalMapKey>> Corrections;
   FlowTables Kind;
   double Mass;
   UnusualValues Values;

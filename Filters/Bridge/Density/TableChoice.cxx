@@ -23,13 +23,13 @@ std::string refusal(const GridSize<D>& size, const TableUse& use)
   {
     return oneAxis;
   }
-  if (!takesFlowMaps(use.Options))
-  {
-    return "needs Integrator Multistep and TableLookup Interpolated";
-  }
   if (!use.WholeFor.empty())
   {
     return "does not give " + use.WholeFor;
+  }
+  if (!takesFlowMaps(use.Options))
+  {
+    return "needs Integrator Multistep and TableLookup Interpolated";
   }
   return servesTiles<D>(size, use.Options, use.Direction)
     ? ""

@@ -4,10 +4,14 @@
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Density/TableChoice.h"
+#include "Bridge/Flow/CorrectedImages.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/StepReport.h"
+#include "Core/Flow/MapDisplacement.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/RankShare.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
@@ -18,6 +22,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <new>
 #include <string>
 
@@ -154,25 +159,63 @@ private:
   double* Index;
 };
 
+// The mean squared displacement of the mass of the density, by the centres of its cells, of which
+// each rank moves its share. Progress reaches `end`. Collective.
+template <int D>
+double costOfMap(const ImageGrid& grid, const RectifiedFlow<D>& flow, const PointTransport<D>& map,
+  const FlowOptions& options, const AreaCorrection<D>* correction, const std::string& purpose,
+  Progress& progress, double end)
+{
+  const GridSize<D>& size = flow.Size();
+  auto part = LatticePart<D>::WholeOf(size);
+  const RankShare layers(size[D - 1], progress.Group());
+  part.Low[D - 1] = layers.First;
+  part.Cells[D - 1] = layers.Count;
+  const double bytes = static_cast<double>(part.Count()) * D * sizeof(double);
+  requireMemory(purpose, bytes);
+  constexpr double partOfMap = 0.9;
+  const double begin = progress.StageEnd();
+  return withMemory(purpose, bytes, [&]() {
+    LargeBuffer<double> buffer(part.Count() * D);
+    const PointSpan<D> images(buffer.data(), part.Count());
+    const LatticeParts<D> parts(part, part);
+    progress.BeginStage(begin + partOfMap * (end - begin));
+    map.Backward(FlowSeeds<D>::Lattice(size, parts), images, options, progress.Stage());
+    progress.BeginStage(end, (correction ? 2 : 1) * part.Count());
+    if (correction)
+    {
+      correctImages<D>(*correction, latticeStep<D>(size, size), part, parts, images, progress);
+    }
+    const MapDisplacement<D> moves(grid, size, part, part, images, &flow);
+    DisplacementSums sums;
+    moves.Count(sums, progress);
+    return moves.MeanSquare(sumOverRanks(progress.Group(), sums));
+  });
+}
+
 template <int D>
 DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputDensity& density,
   vtkPointSet* input, FlowCache& cache, Progress& progress, vtkPointSet* output)
 {
   const bool moves = settings.Blend > 0.0;
   const bool equalizes = moves && settings.EqualizeAreas;
+  const OptimalSetting optimal = moves ? settings.Optimal : OptimalSetting();
   const double count = static_cast<double>(input->GetNumberOfPoints());
   const auto inputCells = static_cast<double>(moves ? input->GetNumberOfCells() : 0);
   const auto gridCells = static_cast<double>(density.Grid().NumberOfCells());
   const FlowOptions options =
     equalizes ? AreaCorrection<D>::OptionsFor(settings.Flow) : settings.Flow;
   const auto ends = stageEnds({ Cost::tables(cache, density), Cost::Seed * count,
-    moves ? Cost::flow(options, D) * count : 0.0,
+    Cost::optimal(cache, density, optimal), moves ? Cost::flow(options, D) * count : 0.0,
     equalizes ? Cost::equalization(options, D) * gridCells : 0.0,
-    equalizes ? Cost::Seed * count : 0.0, Cost::Seed * count, Cost::TurnedCell * inputCells });
+    equalizes ? Cost::Seed * count : 0.0,
+    optimal.NeedsMap() ? Cost::flow(options, D) * gridCells : 0.0, Cost::Seed * count,
+    Cost::TurnedCell * inputCells });
   WarpedPoints<D> points(density.Grid(), input, progress);
   const FlowTables tables = chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
-    { options, FlowDirection::Backward, count, false, equalizes ? EqualAreas : "" });
-  const SharedFlow& flow = cache.Update(density, progress, ends[0], tables);
+    { options, FlowDirection::Backward, count, false,
+      equalizes ? EqualAreas : optimal.WholeFor() });
+  const SharedFlow& shared = cache.Update(density, progress, ends[0], tables);
   if (!equalizes)
   {
     cache.ForgetCorrection();
@@ -180,21 +223,33 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
   progress.BeginStage(ends[1]);
   DensityEqualizingWarp::Report report;
   report.Outside = points.Read();
+  int passes = 0;
   if (moves)
   {
-    progress.BeginStage(ends[2]);
-    report.Flow = points.Flow(flow.Transport<D>(), options);
-  }
-  int passes = 0;
-  if (equalizes && input->GetNumberOfPoints() > 0)
-  {
+    const DensityTransport<D> transport = cache.Transport<D>(optimal, density, progress, ends[2]);
+    report.Transport = transport.Report();
     progress.BeginStage(ends[3]);
-    const auto correction = cache.Correction<D>(options, progress);
-    progress.BeginStage(ends[4], input->GetNumberOfPoints());
-    points.Correct(*correction);
-    passes = correction->Report().Passes;
+    report.Flow = points.Flow(transport.Points(), options);
+    std::shared_ptr<const AreaCorrection<D>> correction;
+    if (equalizes && (input->GetNumberOfPoints() > 0 || transport.Certificate()))
+    {
+      progress.BeginStage(ends[4]);
+      correction = cache.Correction<D>(transport, options, progress);
+      progress.BeginStage(ends[5], input->GetNumberOfPoints());
+      points.Correct(*correction);
+      passes = correction->Report().Passes;
+    }
+    if (transport.Certificate())
+    {
+      const std::string purpose = "the images of " +
+        std::to_string(density.Grid().NumberOfCells()) + " cells (" + optimal.Advice() + ")";
+      const double cost = costOfMap<D>(density.Grid(), shared.Flow<D>(), transport.Points(),
+        options, correction.get(), purpose, progress, ends[6]);
+      addFieldValue(output, "TransportCost", cost);
+      transport.AddBound(cost, output);
+    }
   }
-  progress.BeginStage(ends[5]);
+  progress.BeginStage(ends[7]);
   points.Write(settings.Blend, output);
   report.IsUncorrected =
     equalizes && addEqualAreas(output, progress.Group(), passes, report.Flow) == 0;

@@ -3,7 +3,9 @@
 #ifndef RectifiedTransport_DensityEqualizingWarp_h
 #define RectifiedTransport_DensityEqualizingWarp_h
 
+#include "Bridge/Density/DensityTransport.h"
 #include "Bridge/Flow/TurnedCells.h"
+#include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
@@ -26,6 +28,7 @@ struct DensityEqualizingWarp
 {
   FlowOptions Flow;
   TableSetting Tables;
+  OptimalSetting Optimal;
   double Blend;
   bool EqualizeAreas;
 
@@ -34,6 +37,7 @@ struct DensityEqualizingWarp
     std::int64_t Outside = 0; // points of this rank outside the domain
     TurnedCells Cells;        // of this rank's input
     FlowReport Flow;
+    TransportReport Transport;
     bool IsUncorrected = false; // EqualizeAreas has changed nothing
   };
 

@@ -4,6 +4,7 @@
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Density/TableChoice.h"
+#include "Bridge/Flow/CorrectedImages.h"
 #include "Bridge/Flow/MapField.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
@@ -44,29 +45,6 @@ void prepareShares(
   flow.PrepareShares(low, high);
 }
 
-// Corrects the images of this rank's samples.
-template <int D>
-void correct(
-  const AreaCorrection<D>& correction, const Point<D>& step, MapField<D>& field, Progress& progress)
-{
-  constexpr std::int64_t grain = 1 << 12;
-  const LatticePart<D>& part = field.Part();
-  const LatticeParts<D> parts = field.Parts();
-  const PointSpan<D> positions = field.Positions();
-  progress.For(part.Count(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      const GridSize<D> cell = part.CellOf(i);
-      Point<D> sample;
-      for (int a = 0; a < D; ++a)
-      {
-        sample[a] = (static_cast<double>(cell[a]) + 0.5) * step[a];
-      }
-      correction.Correct(sample.data(), positions[parts.IndexOf(cell)]);
-    }
-  });
-}
-
 template <int D>
 TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   const ImageGrid& samples, const Extent& wanted, FlowCache& cache, Progress& progress,
@@ -79,7 +57,8 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   const bool equalizes = map.Backward && map.EqualizeAreas;
   const FlowOptions options = equalizes ? AreaCorrection<D>::OptionsFor(map.Flow) : map.Flow;
   const double cells = static_cast<double>(density.Grid().NumberOfCells());
-  const auto ends = stageEnds({ Cost::tables(cache, density), Cost::flow(options, D) * count,
+  const auto ends = stageEnds({ Cost::tables(cache, density),
+    Cost::optimal(cache, density, map.Optimal), Cost::flow(options, D) * count,
     equalizes ? Cost::equalization(options, D) * cells : 0.0, equalizes ? Cost::Seed * count : 0.0,
     (map.Backward && D == 3 ? Cost::MassShare : Cost::Write) * count });
   const int owner = samples.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
@@ -91,22 +70,23 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
 
   const FlowTables tables = chooseTables<D>(map.Tables, density.Grid().Size<D>(),
     { options, map.Backward ? FlowDirection::Backward : FlowDirection::Forward, count, true,
-      equalizes ? EqualAreas : "" });
+      equalizes ? EqualAreas : map.Optimal.WholeFor() });
   const SharedFlow& shared = cache.Update(density, progress, ends[0], tables);
   const RectifiedFlow<D>& flow = shared.Flow<D>();
-  progress.BeginStage(ends[1]);
+  const DensityTransport<D> transport = cache.Transport<D>(map.Optimal, density, progress, ends[1]);
+  progress.BeginStage(ends[2]);
   const auto seeds = FlowSeeds<D>::Lattice(lattice, field.Parts());
-  const PointTransport<D>& transport = shared.Transport<D>();
   FlowReport report = map.Backward
-    ? transport.Backward(seeds, field.Positions(), options, progress.Stage())
-    : transport.Forward(seeds, field.Positions(), options, progress.Stage());
+    ? transport.Points().Backward(seeds, field.Positions(), options, progress.Stage())
+    : transport.Points().Forward(seeds, field.Positions(), options, progress.Stage());
   int passes = 0;
   if (equalizes)
   {
-    progress.BeginStage(ends[2]);
-    const auto correction = cache.Correction<D>(options, progress);
-    progress.BeginStage(ends[3], field.Part().Count());
-    correct<D>(*correction, latticeStep<D>(lattice, flow.Size()), field, progress);
+    progress.BeginStage(ends[3]);
+    const auto correction = cache.Correction<D>(transport, options, progress);
+    progress.BeginStage(ends[4], field.Part().Count());
+    correctImages<D>(*correction, latticeStep<D>(lattice, flow.Size()), field.Part(), field.Parts(),
+      field.Positions(), progress);
     passes = correction->Report().Passes;
   }
   else
@@ -124,13 +104,14 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
       density.Source<D>(), progress, 1.0, output->GetAttributes(owner));
   addFieldValue(output, "TotalMass", shared.TotalMass());
   addFieldValue(output, "TransportCost", figures.Cost);
+  transport.AddBound(figures.Cost, output);
   const std::int64_t moved = sumOverRanks(ranks, report.MovedToMass);
   addFieldValue(output, "MovedSamples", static_cast<double>(moved));
   addFieldValue(output, "FoldedCells", static_cast<double>(figures.Folded));
   addFieldTuple(output, "LargestBlockError", { figures.Blocks.Quantile, figures.Blocks.Largest });
   const bool isUncorrected = equalizes && addEqualAreas(output, ranks, passes, report) == 0;
   addSteps(output, { report });
-  return { samples, all, report, moved, figures.Folded, isUncorrected };
+  return { samples, all, report, transport.Report(), moved, figures.Folded, isUncorrected };
 }
 
 } // namespace

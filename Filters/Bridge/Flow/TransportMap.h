@@ -3,6 +3,8 @@
 #ifndef RectifiedTransport_TransportMap_h
 #define RectifiedTransport_TransportMap_h
 
+#include "Bridge/Density/DensityTransport.h"
+#include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
@@ -27,6 +29,7 @@ struct TransportMap
 {
   FlowOptions Flow;
   TableSetting Tables;
+  OptimalSetting Optimal;
   bool Backward;
   bool EqualizeAreas;                  // of Backward
   std::array<int, 3> SampleDimensions; // 0 keeps the number of the density's values
@@ -36,6 +39,7 @@ struct TransportMap
     ImageGrid Grid; // of all samples
     double Samples;
     FlowReport Flow;
+    TransportReport Transport;
     std::int64_t MovedToMass; // from empty cells of the density
     std::int64_t Folded;
     bool IsUncorrected; // EqualizeAreas has changed nothing

@@ -159,9 +159,12 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   const double count = share.Count;
   const std::vector<double> times = timesOf(sampler);
   const bool addsArrays = sampler.SampleArrays && !sampler.OutputPaths;
-  const auto ends = stageEnds({ Cost::tables(cache, density), Cost::Seed * count,
-    Cost::flow(sampler.Flow, D) * count, Cost::Write * count * static_cast<double>(times.size()),
-    addsArrays ? Cost::Write * count : 0.0 });
+  const OptimalSetting& optimal = sampler.Optimal;
+  const auto ends = stageEnds(
+    { Cost::tables(cache, density), Cost::Seed * count, Cost::optimal(cache, density, optimal),
+      Cost::flow(sampler.Flow, D) * count, optimal.NeedsMap() ? Cost::Write * count : 0.0,
+      Cost::Write * count * static_cast<double>(times.size()),
+      addsArrays ? Cost::Write * count : 0.0 });
   const std::string purpose = describeParticles(count, sampler.OutputPaths);
   ParticleSet<D> particles(
     grid, purpose, count, static_cast<std::int64_t>(times.size()), given != nullptr);
@@ -169,7 +172,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
 
   const std::string wholeFor = times.size() > 1 ? "OutputPaths"
     : times.back() < 1.0                        ? "a FlowTime other than 1"
-                                                : "";
+                                                : optimal.WholeFor();
   const FlowTables tables = chooseTables<D>(sampler.Tables, grid.Size<D>(),
     { sampler.Flow, FlowDirection::Forward, count, false, wholeFor });
   const SharedFlow& flow = cache.Update(density, progress, ends[0], tables);
@@ -185,9 +188,13 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     makeSeeds<D>(
       pattern, grid.Size<D>(), purpose, share.First, progress, ends[1], particles.Seeds());
   }
-  progress.BeginStage(ends[2]);
+  const DensityTransport<D> transport = cache.Transport<D>(optimal, density, progress, ends[2]);
+  report.Transport = transport.Report();
+  progress.BeginStage(ends[3]);
   const ConstPointSpan<D> seeds = particles.Seeds();
   const PointSpan<D> positions = particles.Positions();
+  const FlowSeeds<D> starts = given ? FlowSeeds<D>(seeds) : FlowSeeds<D>(seeds).AsSamples();
+  vtkSmartPointer<vtkDoubleArray> slack;
   try
   {
     if (times.back() == 0.0 && times.size() == 1)
@@ -198,12 +205,17 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     }
     else if (times.back() == 1.0 && times.size() == 1)
     {
-      report.Flow = flow.Transport<D>().Forward(seeds, positions, sampler.Flow, progress.Stage());
+      report.Flow = transport.Points().Forward(starts, positions, sampler.Flow, progress.Stage());
+      if (transport.Certificate())
+      {
+        progress.BeginStage(ends[4]);
+        slack = transport.Slack(seeds, positions, progress);
+      }
     }
     else
     {
       report.Flow =
-        flow.Transport<D>().ForwardAt(seeds, times, positions, sampler.Flow, progress.Stage());
+        transport.Points().ForwardAt(starts, times, positions, sampler.Flow, progress.Stage());
     }
   }
   catch (const std::bad_alloc& caught)
@@ -223,8 +235,12 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   }
   const double mass = flow.TotalMass();
   const double cost = sampler.OutputPaths
-    ? particles.WritePaths(mass, times, progress, ends[3], output)
-    : particles.WriteParticles(mass, progress, ends[3], output);
+    ? particles.WritePaths(mass, times, progress, ends[5], output)
+    : particles.WriteParticles(mass, progress, ends[5], output);
+  if (slack)
+  {
+    output->GetPointData()->AddArray(slack);
+  }
   const PlaceOwners owners(grid, density.Pieces(), ranks);
   moveToOwners(output, static_cast<std::int64_t>(times.size()), owners, ranks, progress);
   report.SeedsMoved = sumOverRanks(ranks, report.SeedsMoved);
@@ -238,6 +254,10 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   }
   addFieldValue(output, "TotalMass", mass);
   addFieldValue(output, "TransportCost", cost);
+  if (sampler.FlowTime == 1.0) // as the bound is
+  {
+    transport.AddBound(cost, output);
+  }
   addFieldValue(output, "MovedParticles", static_cast<double>(report.ParticlesMoved));
   addFieldValue(output, "OutsideSeeds", static_cast<double>(report.SeedsMoved));
   addSteps(output, { report.Flow });

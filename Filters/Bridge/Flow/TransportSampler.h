@@ -3,6 +3,8 @@
 #ifndef RectifiedTransport_TransportSampler_h
 #define RectifiedTransport_TransportSampler_h
 
+#include "Bridge/Density/DensityTransport.h"
+#include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
@@ -29,6 +31,7 @@ struct TransportSampler
 {
   FlowOptions Flow;
   TableSetting Tables;
+  OptimalSetting Optimal;
   SeedPattern Pattern;
   std::int64_t NumberOfParticles;
   int RandomSeed;
@@ -41,7 +44,8 @@ struct TransportSampler
   struct Report
   {
     std::int64_t Particles = 0;
-    FlowReport Flow;                 // of this rank
+    FlowReport Flow; // of this rank
+    TransportReport Transport;
     std::int64_t SeedsMoved = 0;     // to the domain's border
     std::int64_t ParticlesMoved = 0; // from empty cells of the density to the nearest mass
   };

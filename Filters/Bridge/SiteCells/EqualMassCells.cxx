@@ -165,7 +165,7 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
   const SiteLabels::Division& division =
     updateLabels<D>(sites, { grid, false, cells.Flow, true, kept.HashOf(density, progress) },
       bytesOfLabellingByMass<D>(grid), kept, progress, [&](std::int64_t* values) {
-        return placed.Label(flow.Transport<D>(), values, cells.Flow, progress.Stage());
+        return placed.Label(flow.Flow<D>(), values, cells.Flow, progress.Stage());
       });
   SiteIdArray* labels = division.Labels;
   EqualMassCells::Report report{ placed.NumberOutside(), 0, division.Flow };

@@ -64,5 +64,19 @@ int TestSamplerAbort(int, char*[])
   CHECK(checks, sampler->GetOutput()->GetNumberOfPoints() == 20000);
   CHECK(checks, fieldValue(sampler->GetOutput(), "TotalMass") > 0.0);
   CHECK(checks, messages.Errors.empty());
+
+  // The optimal map takes most of the progress.
+  auto plane = makeImage<vtkUnsignedCharArray>(
+    900, 800, 1, false, [](vtkIdType i) { return static_cast<double>(1 + i % 900 / 4); });
+  sampler->SetInputData(plane);
+  sampler->SetMethodToOptimal();
+  for (const double from : { 0.1, 0.3, 0.5, 0.7, 0.9 })
+  {
+    checkAbort(checks, sampler, from, __LINE__);
+  }
+  changeDensity(plane);
+  checkProgress(checks, sampler);
+  CHECK(checks, fieldValue(sampler->GetOutput(), "OptimalityGap") < 0.01);
+  CHECK(checks, messages.Errors.empty());
   return checks.Result();
 }

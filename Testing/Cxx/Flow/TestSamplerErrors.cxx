@@ -69,6 +69,23 @@ void checkProperties(Checks& checks)
   s->SetTableLookup(2);
   test.Expect({ "TableLookup is 2", "0 (Interpolated) or 1 (Nearest)" }, __LINE__);
   s->SetTableLookup(0);
+  s->SetMethod(2);
+  test.Expect({ "Method is 2", "0 (RectifiedFlow)", "1 (Optimal)" }, __LINE__);
+  s->SetMethod(0);
+  for (const double tolerance : { 0.0, -1.0, 1.0, notANumber })
+  {
+    s->SetOptimalityTolerance(tolerance);
+    test.Expect({ "OptimalityTolerance is ", "above 0 and below 1" }, __LINE__);
+  }
+  s->SetOptimalityTolerance(0.001);
+  s->SetTablesToTiled();
+  s->SetMethodToOptimal();
+  test.Expect({ "Tables is Tiled", "the optimal map (Method Optimal)", "Whole" }, __LINE__);
+  s->SetMethodToRectifiedFlow();
+  s->CertifyOn();
+  test.Expect({ "Tables is Tiled", "a bound of the cost (Certify)", "Whole" }, __LINE__);
+  s->CertifyOff();
+  s->SetTablesToAuto();
   s->SetFlowMaps(3);
   test.Expect({ "FlowMaps is 3", "0 (Auto)", "2 (Off)" }, __LINE__);
   s->SetFlowMaps(0);

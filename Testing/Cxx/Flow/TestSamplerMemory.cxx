@@ -102,6 +102,18 @@ void checkLimits(Checks& checks)
   }
   sampler->SetFlowMapsToOn();
   ErrorTest(checks, sampler).ExpectNone(__LINE__);
+  {
+    const MemoryLimit limit(64 << 20);
+    sampler->SetMethodToOptimal();
+    expectError(checks, sampler,
+      "the optimal map of a density of 160 x 160 x 160 cells (Method RectifiedFlow needs none)",
+      __LINE__);
+    sampler->SetMethodToRectifiedFlow();
+    sampler->CertifyOn();
+    expectError(checks, sampler, "160 x 160 x 160 cells (Certify Off needs none)", __LINE__);
+    sampler->CertifyOff();
+  }
+  ErrorTest(checks, sampler).ExpectNone(__LINE__);
 }
 #endif
 

@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Blend/OptimalBlend.h"
+
+#include "Bridge/Density/InputDensity.h"
+#include "Bridge/Image/GridText.h"
+#include "Bridge/Ranks/TupleBoxes.h"
+#include "Bridge/Run/CostBound.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Splat/DistributedSplat.h"
+#include "Core/Flow/WeightedMean.h"
+#include "Core/Geometry/Dispatch.h"
+#include "Core/Geometry/LengthScale.h"
+#include "Core/OptimalMap/OptimalMap.h"
+#include "Core/Parallel/ExactSum.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/RankExchange.h"
+
+#include "vtkDataObject.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+constexpr int mostRounds = 20; // of a barycenter
+
+// Particles and maps in index spaces, in which inputs differ, and in the lengths of the common
+// directions.
+template <int D>
+class OptimalBlender
+{
+public:
+  OptimalBlender(const std::vector<OptimalBlendInput>& inputs, const OptimalBlendSettings& settings,
+    Progress& progress, double end)
+    : Inputs(inputs)
+    , Settings(settings)
+    , Scale(settings.Geometry)
+    , Work(progress)
+    , Begin(progress.StageEnd())
+    , End(end)
+    , Count(inputs.front().Positions->GetNumberOfTuples())
+  {
+    for (const OptimalBlendInput& input : inputs)
+    {
+      this->Result.Positions.emplace_back(input.Positions);
+    }
+    this->Result.Slack = newArray<vtkDoubleArray>("Slack", 1, this->Count);
+    std::fill_n(this->Result.Slack->GetPointer(0), this->Count, 0.0);
+  }
+
+  OptimalBlendResult Run()
+  {
+    if (this->Settings.IsPair)
+    {
+      this->BlendPair();
+    }
+    else
+    {
+      this->BlendAll();
+    }
+    this->Work.BeginStage(this->End);
+    return std::move(this->Result);
+  }
+
+private:
+  // The part of the progress that a number of maps among others takes.
+  void TakePart(double done, double all)
+  {
+    this->Next = this->Begin + (this->End - this->Begin) * std::min(1.0, done / all);
+  }
+
+  PlacedDensity<D> Place(const ImageGrid& grid, const DensitySource<D>& source) const
+  {
+    constexpr double rounding = 1e-9; // of the sides
+    const ImageGrid& common = this->Settings.Geometry;
+    const Point<D> lengths = common.Lengths<D>();
+    const GridSize<D> cells = common.Size<D>();
+    const GridSize<D> own = grid.Size<D>();
+    Point<D> corner{};
+    PlacedDensity<D> placed{ source, {}, {} };
+    for (Point<D>* end : { &placed.Low, &placed.High })
+    {
+      double x[3];
+      grid.ToPhysical<D>(corner.data(), x);
+      common.ToIndex<D>(x, end->data());
+      for (int axis = 0; axis < D; ++axis)
+      {
+        double part = (*end)[axis] / static_cast<double>(cells[axis]);
+        part = std::abs(part) < rounding ? 0.0 : std::abs(part - 1.0) < rounding ? 1.0 : part;
+        (*end)[axis] = part * this->Scale.ToUnits(lengths[axis]);
+        corner[axis] = static_cast<double>(own[axis]);
+      }
+    }
+    return placed;
+  }
+
+  std::unique_ptr<OptimalMap<D>> Solve(const PlacedDensity<D>& source,
+    const OptimalBlendInput& target, int leastIterations, bool refines)
+  {
+    OptimalMapOptions options;
+    options.Tolerance = this->Settings.Optimal.Tolerance;
+    options.LeastIterations = leastIterations;
+    options.RefineBound = refines;
+    const GridSize<D> size = target.Density->Grid().template Size<D>();
+    const std::string purpose = "the optimal map between densities of " +
+      describeSize<D>(source.Source.Size) + " and " + describeSize<D>(size) + " cells (" +
+      this->Settings.Optimal.Advice() + ")";
+    const double bytes = OptimalMap<D>::MemoryFor(source.Source.Size, size, options);
+    requireMemory(purpose, bytes);
+    constexpr double partOfReading = 0.1;
+    const double begin = this->Work.StageEnd();
+    this->Work.BeginStage(begin + partOfReading * (this->Next - begin));
+    target.Density->Prepare(FlowTables::Whole, this->Work);
+    return withMemory(purpose, bytes, [&]() {
+      auto map = std::make_unique<OptimalMap<D>>(source,
+        this->Place(target.Density->Grid(), target.Density->template Source<D>()), options,
+        this->Work.Stage());
+      target.Density->ReleaseGathered();
+      constexpr double partOfSolution = 0.7;
+      this->Work.BeginStage(begin + partOfSolution * (this->Next - begin));
+      map->Solve(this->Work.Stage());
+      return map;
+    });
+  }
+
+  LargeBuffer<double> IndexOf(const ImageGrid& grid, vtkDoubleArray* positions)
+  {
+    LargeBuffer<double> index(this->Count * D);
+    const double* x = positions->GetPointer(0);
+    double* out = index.data();
+    this->Work.Threads().For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        grid.ToIndex<D>(x + 3 * i, out + D * i);
+        grid.ClampToDomain<D>(out + D * i);
+      }
+    });
+    this->Work.Check();
+    return index;
+  }
+
+  vtkSmartPointer<vtkDoubleArray> PhysicalOf(const ImageGrid& grid, ConstPointSpan<D> points)
+  {
+    auto physical = newArray<vtkDoubleArray>("Positions", 3, this->Count);
+    double* x = physical->GetPointer(0);
+    this->Work.Threads().For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        grid.ToPhysical<D>(points[i], x + 3 * i);
+      }
+    });
+    this->Work.Check();
+    return physical;
+  }
+
+  // The mean over all ranks of the squared distances.
+  double MeanSquare(vtkDoubleArray* from, vtkDoubleArray* to)
+  {
+    const double* a = from->GetPointer(0);
+    const double* b = to->GetPointer(0);
+    const auto own = sumExactly<ExactSum>(
+      this->Work, this->Count, grain, [&](std::int64_t first, std::int64_t last, ExactSum& sum) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          sum.Add(this->Scale.SquaredDistanceInUnits(a + 3 * i, b + 3 * i));
+        }
+      });
+    const Ranks& ranks = this->Work.Group();
+    const double squares = sumOverRanks(ranks, own).Value();
+    const auto all = static_cast<double>(sumOverRanks(ranks, this->Count));
+    return this->Scale.CostFromUnits(squares / all);
+  }
+
+  void AddSlack(const OptimalMap<D>& map, double weight, const LargeBuffer<double>& points,
+    ConstPointSpan<D> images)
+  {
+    LargeBuffer<double> slack(this->Count);
+    map.Slack({ points.data(), this->Count }, images, slack.data(), this->Work.Stage());
+    double* sum = this->Result.Slack->GetPointer(0);
+    this->Work.Threads().For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        sum[i] += weight * this->Scale.SquareFromUnits(slack.data()[i]);
+      }
+    });
+  }
+
+  // Whether the map reaches its target; else warns, and the flow's positions remain.
+  bool Resolves(const OptimalMap<D>& map, const OptimalBlendInput& target)
+  {
+    const std::string text = unresolvedText(map.MassError(this->Work.Stage()));
+    if (!text.empty())
+    {
+      this->Result.Warnings.push_back(target.Name + ": " + text);
+    }
+    return text.empty();
+  }
+
+  // From particles in the index space `from` of a source, under the map or by the given positions
+  // of the flow.
+  void Follow(const OptimalMap<D>& map, std::size_t input, vtkDoubleArray* starts,
+    const ImageGrid& startGrid, bool areSamples, double weight)
+  {
+    const OptimalBlendInput& target = this->Inputs[input];
+    const ImageGrid& grid = target.Density->Grid();
+    const LargeBuffer<double> points = this->IndexOf(startGrid, starts);
+    LargeBuffer<double> images;
+    this->Work.BeginStage(this->Next);
+    if (this->Settings.Optimal.IsOptimal && this->Resolves(map, target))
+    {
+      images = LargeBuffer<double>(this->Count * D);
+      FlowSeeds<D> seeds(points.data(), this->Count);
+      map.Forward(areSamples ? seeds.AsSamples() : seeds, { images.data(), this->Count }, {},
+        this->Work.Stage());
+      this->Result.Positions[input] = this->PhysicalOf(grid, { images.data(), this->Count });
+    }
+    else
+    {
+      images = this->IndexOf(grid, target.Positions);
+    }
+    if (areSamples)
+    {
+      this->AddSlack(map, weight, points, { images.data(), this->Count });
+      this->Result.Bound += weight * this->Scale.CostFromUnits(map.LowerBound());
+      this->Result.Cost += weight * this->MeanSquare(starts, this->Result.Positions[input]);
+    }
+  }
+
+  void BlendPair()
+  {
+    const OptimalBlendInput& source = this->Inputs[0];
+    const ImageGrid& grid = source.Density->Grid();
+    this->TakePart(1.0, 1.0);
+    source.Density->Prepare(FlowTables::Whole, this->Work);
+    const auto map = this->Solve(this->Place(grid, source.Density->template Source<D>()),
+      this->Inputs[1], this->LeastIterations(), true);
+    source.Density->ReleaseGathered();
+    this->Follow(*map, 1, source.Positions, grid, true, 1.0);
+  }
+
+  int LeastIterations() const { return this->Settings.Optimal.IsOptimal ? 4 : 1; }
+
+  vtkSmartPointer<vtkDoubleArray> MeanOf()
+  {
+    std::vector<WeightedPositions> parts;
+    for (std::size_t i = 0; i < this->Inputs.size(); ++i)
+    {
+      parts.push_back(
+        { { this->Result.Positions[i]->GetPointer(0), this->Count }, this->Inputs[i].Weight });
+    }
+    auto mean = newArray<vtkDoubleArray>("Positions", 3, this->Count);
+    const PointSpan<3> points(mean->GetPointer(0), this->Count);
+    this->Work.Threads().For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+      writeWeightedMean(parts, first, last, points);
+    });
+    this->Work.Check();
+    return mean;
+  }
+
+  // Alvarez-Esteban, del Barrio, Cuesta-Albertos and Matran, "A fixed-point approach to barycenters
+  // in Wasserstein space", Journal of Mathematical Analysis and Applications 441, 2016: the
+  // particles of a mean go to the mean of their images in the inputs, which lowers the functional.
+  void BlendAll()
+  {
+    std::vector<std::size_t> used;
+    for (std::size_t i = 0; i < this->Inputs.size(); ++i)
+    {
+      if (this->Inputs[i].Weight > 0.0)
+      {
+        used.push_back(i);
+      }
+    }
+    if (used.size() == 1)
+    {
+      if (this->Settings.Optimal.IsOptimal)
+      {
+        this->Result.Functional.push_back(0.0);
+      }
+      return;
+    }
+    const auto each = static_cast<double>(used.size());
+    if (this->Settings.Optimal.IsOptimal)
+    {
+      // The usual number of rounds is five.
+      constexpr double usual = 6.0;
+      double done = 0.0;
+      for (int round = 0; round < mostRounds; ++round)
+      {
+        const auto before = this->Result.Positions;
+        const double functional = this->TakeRound(used, false, done, usual * each);
+        const std::vector<double>& all = this->Result.Functional;
+        const double fall = all.empty() ? functional : all.back() - functional;
+        if (fall <= 0.0)
+        {
+          this->Result.Positions = before;
+          break;
+        }
+        this->Result.Functional.push_back(functional);
+        if (fall < this->Settings.Optimal.Tolerance * functional)
+        {
+          break;
+        }
+      }
+    }
+    double done = 0.0;
+    this->Begin = this->Work.StageEnd();
+    const double last = this->TakeRound(used, true, done, each);
+    std::vector<double>& all = this->Result.Functional;
+    if (!all.empty() && last < all.back())
+    {
+      all.push_back(last);
+    }
+  }
+
+  // One map to each input from the density of the mean. Returns the weighted mean of their bounds.
+  double TakeRound(const std::vector<std::size_t>& used, bool isLast, double& done, double all)
+  {
+    const ImageGrid& geometry = this->Settings.Geometry;
+    const vtkSmartPointer<vtkDoubleArray> mean = this->MeanOf();
+    const vtkSmartPointer<vtkDoubleArray> density = this->Splat(mean);
+    const GridSize<D> size = geometry.Size<D>();
+    const DensityArray<D, double> values(density->GetPointer(0), size);
+    const PlacedDensity<D> source = this->Place(geometry, DensitySource<D>(size, values));
+    double functional = 0.0;
+    for (const std::size_t i : used)
+    {
+      this->TakePart(++done, all);
+      const double weight = this->Inputs[i].Weight;
+      const auto map =
+        this->Solve(source, this->Inputs[i], isLast ? this->LeastIterations() : 2, isLast);
+      this->Follow(*map, i, mean, geometry, isLast, weight);
+      functional += weight * this->Scale.CostFromUnits(map->LowerBound());
+    }
+    return functional;
+  }
+
+  // The density of all ranks' particles, on each of them.
+  vtkSmartPointer<vtkDoubleArray> Splat(vtkDoubleArray* points)
+  {
+    const ImageGrid& geometry = this->Settings.Geometry;
+    const int owner = geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
+    const TupleBox box = tuplesOf(geometry.Extent(), owner, geometry.Extent());
+    SplatOptions options;
+    options.Kernel = SplatKernel::CloudInCell;
+    const SplatTarget target{ geometry, options, false };
+    auto density = newArray<vtkDoubleArray>("Density", 1, box.Count());
+    this->Work.BeginStage(this->Work.StageEnd());
+    splatDistributed(points, nullptr, 1.0, nullptr, target, box, this->Work, density);
+    return density;
+  }
+
+  const std::vector<OptimalBlendInput>& Inputs;
+  const OptimalBlendSettings& Settings;
+  const LengthScale Scale;
+  Progress& Work;
+  double Begin;
+  const double End;
+  double Next = 0.0;
+  const std::int64_t Count;
+  OptimalBlendResult Result;
+};
+
+template <int D>
+OptimalBlendResult blend(const std::vector<OptimalBlendInput>& inputs,
+  const OptimalBlendSettings& settings, Progress& progress, double end)
+{
+  return OptimalBlender<D>(inputs, settings, progress, end).Run();
+}
+
+} // namespace
+
+OptimalBlendResult blendOptimally(const std::vector<OptimalBlendInput>& inputs,
+  const OptimalBlendSettings& settings, Progress& progress, double end)
+{
+  return dispatchDimension(settings.Geometry.Dimension(), blend<1>, blend<2>, blend<3>)(
+    inputs, settings, progress, end);
+}
+
+} // namespace RectifiedTransport
