@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Morphs one solid into another: two closed meshes, a density each, and surfaces in between."""
+import itertools
 import os
 import sys
 
@@ -11,8 +12,8 @@ import rectified_shapes as shapes
 from paraview import simple
 
 
-def morph(names, options):
-    """Pictures of a morph, the size of its grid, and how long what took."""
+def morph(names, method, options):
+    """Pictures of a morph by a method, the size of its grid, and how long what took."""
     watch, times = shapes.Watch(), []
 
     def took(what, paper="-"):
@@ -29,17 +30,17 @@ def morph(names, options):
         took("solid of " + name)
         solids.append(solid)
     between = simple.MorphDensities(solids[0], Target=solids[1], ParticlesPerCell=1,
-                                    Kernel=options.kernel)
+                                    Kernel=options.kernel, Method=method)
     pictures = []
     for t in np.linspace(0, 1, options.frames):
         watch.lap()
         between.Parameter = t
         density = example.result(between)
-        took(*("step t = %.2f" % t, "3") if pictures else ("two maps, step t = 0", "815"))
+        took(*("step t = %.2f" % t, "3") if pictures else ("the maps, step t = 0", "815"))
         surface = shapes.surface(density)
         took("its surface", "with the step")
-        pictures.append(("t = %.2f" % t, shapes.lit(surface, shapes.mixed([1 - t, t]),
-                                                    options.panel)))
+        words = "t = %.2f" % t if len(options.method) == 1 else "%s, t = %.2f" % (method, t)
+        pictures.append((words, shapes.lit(surface, shapes.mixed([1 - t, t]), options.panel)))
     return pictures, density.GetDimensions(), times
 
 
@@ -53,16 +54,18 @@ def main():
         kernel=dict(default="Gaussian",
                     choices=["Gaussian", "CloudInCell", "TriangularShapedCloud"],
                     help="how a particle's mass is spread"),
+        method=dict(nargs="+", default=["RectifiedFlow"], choices=["RectifiedFlow", "Optimal"],
+                    help="by which map; a row for each"),
         frames=5, panel=400)
     arguments = parser.parse_args()
     pairs = shapes.pairs(parser, arguments.shapes)
 
     example.load_plugin()
     pictures = []
-    for pair in pairs:
-        line, size, times = morph(pair, arguments)
-        figures.table("%s to %s on %d x %d x %d cells with as many particles: seconds"
-                      % (*pair, *size),
+    for pair, method in itertools.product(pairs, arguments.method):
+        line, size, times = morph(pair, method, arguments)
+        figures.table("%s to %s by %s on %d x %d x %d cells with as many particles: seconds"
+                      % (*pair, method, *size),
                       ["stage", "clock", "all processors", "paper, 256\u00b3, 32 cores"], times)
         pictures.append(line)
     print("\nAt most %.2f GiB of memory" % shapes.peak_memory())

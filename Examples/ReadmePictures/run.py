@@ -152,6 +152,11 @@ def main():
     draw_example(path("morph"), "Morph2D", "morph-2d.png", "bunny", "camel+dinosaur",
                  "--frames", "6", "--panel", "140")
     draw_example(path("morph-3d"), "Morph3D", "morph-3d.png", "--panel", "180")
+    draw_example(path("morph-3d-optimal"), "Morph3D", "morph-3d.png", "spot", "bunny", "--method",
+                 "RectifiedFlow", "Optimal", "--panel", "180")
+    draw_examples({path("optimal-" + name): "optimal-%s.png" % name
+                   for name in ("stipples", "ways", "barycenter")}, "OptimalTransport",
+                  "--particles", "8000", "--panel", "420")
     draw_example(path("barycenters"), "Barycenters2D", "barycenters-2d.png", "--panel", "90")
     draw_splats(path("splats"), stipple)
     draw_solid(path("solid"))
@@ -165,7 +170,8 @@ def main():
     draw_examples({path("tutorial-" + name): "tutorial-%s.png" % name
                    for name in ("slice", "morph", "compare", "people")}, "Tutorial", "--pixels", "600")
     print("particles, volume, warped-photograph, cartogram, gaps, districts, area-errors, cells, "
-          "territories, colours, patterns, flow, flow-maps, map, paths, morph, morph-3d, barycenters, splats, solid, parameterization, "
+          "territories, colours, patterns, flow, flow-maps, map, paths, morph, morph-3d, "
+          "morph-3d-optimal, optimal-stipples, optimal-ways, optimal-barycenter, barycenters, splats, solid, parameterization, "
           "surface-dots, print, video, tutorial-slice, tutorial-morph, tutorial-compare, "
           "tutorial-people: "
           + arguments.output)

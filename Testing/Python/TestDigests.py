@@ -268,6 +268,26 @@ def sampler_runs():
     yield "sample many", sampler, [flat], dict(NumberOfParticles=100000, SeedPattern=3)
 
 
+def optimal_runs():
+    for shape in ((200,), (61, 47), (23, 17, 19)):
+        density = image(shape)
+        where = f"{len(shape)}D"
+        for name, options in (("optimal", dict(Method=1)), ("certified", dict(Certify=1))):
+            yield f"sample {name} {where}", rt.vtkTransportSampler, [density], dict(
+                options, NumberOfParticles=2000)
+            for direction in (0, 1):
+                yield f"map {name} {direction} {where}", rt.vtkTransportMap, [density], dict(
+                    options, Direction=direction)
+            yield f"warp {name} {where}", rt.vtkDensityEqualizingWarp, [points_in(density), density], \
+                options
+    yield "sample optimal given seeds", rt.vtkTransportSampler, [image(), points_in(image())], dict(
+        Method=1)
+    yield "sample optimal paths", rt.vtkTransportSampler, [image()], dict(
+        Method=1, OutputPaths=1, NumberOfParticles=300)
+    yield "warp optimal equal areas", rt.vtkDensityEqualizingWarp, [points_in(image()), image()], dict(
+        Method=1, EqualizeAreas=1)
+
+
 def map_runs():
     transport = rt.vtkTransportMap
     for direction, name in enumerate(["to the density", "to the uniform measure"]):
@@ -430,7 +450,7 @@ def digests():
     vtkObject.GlobalWarningDisplayOff()
     found = {}
     ran = set()
-    for runs in (sampler_runs, map_runs, warp_runs, blend_runs, splat_runs, other_runs,
+    for runs in (sampler_runs, optimal_runs, map_runs, warp_runs, blend_runs, splat_runs, other_runs,
                  parameterization_runs, surface_runs, relaxation_runs):
         for name, filter_class, inputs, properties in runs():
             assert name not in found, name

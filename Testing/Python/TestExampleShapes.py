@@ -38,7 +38,7 @@ class ExampleShapes(ExampleTest):
     @need_meshes
     def test_morph_3d(self):
         printed = self.ran("Morph3D")
-        steps = ["two maps, step t = 0", "its surface", "step t = 0.50", "its surface",
+        steps = ["the maps, step t = 0", "its surface", "step t = 0.50", "its surface",
                  "step t = 1.00", "its surface"]
         self.assertEqual(
             [self.stages(times) for times in tables(printed)],
@@ -60,6 +60,17 @@ class ExampleShapes(ExampleTest):
                  (10, 140, 270)]
         self.assertGreater(inked[0], 0.3)
         np.testing.assert_allclose(inked, inked[0], rtol=0.02)
+
+    def test_morph_3d_by_both_methods(self):
+        """A row for each; by the optimal map a shape stays itself."""
+        printed = self.ran("Morph3D", "spot", "spot", "--method", "RectifiedFlow", "Optimal")
+        self.assertEqual(len(tables(printed)), 2)
+        drawn = read(os.path.join(OUTPUT, "morph-3d.png"))[0]
+        self.assertEqual(drawn.shape[0], 2 * (120 + 10 + 26))
+        inked = [(drawn[10:130, left:left + 120] < 250).any(axis=2) for left in (10, 140, 270)]
+        self.assertTrue(0.1 < inked[0].mean() < 0.9)
+        for frame in inked[1:]:
+            self.assertLess((frame != inked[0]).mean(), 0.01)
 
     def test_not_a_surface(self):
         for name, text in (("broken.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),

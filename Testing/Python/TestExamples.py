@@ -226,6 +226,22 @@ class Examples(ExampleTest):
             self.assertLess(float(row[5]), 1e-6)
         self.check_picture("power-cells-random.png")
 
+    def test_optimal_transport(self):
+        """The optimal map is nearer to the bound, leaves alone what stands still, and lowers the
+        functional."""
+        dots, disks, functional = tables(self.ran("OptimalTransport"))
+        (flow, *_), (best, *_) = [row[3:] for row in dots]
+        self.assertEqual([row[0] for row in dots], ["RectifiedFlow", "Optimal"])
+        self.assertEqual(dots[0][1], dots[1][1])
+        self.assertTrue(first(best) < 1 < first(flow), dots)
+        for flow, best in disks[:2], disks[2:]:
+            self.assertLess(8 * first(best[4]), first(flow[4]))
+            self.assertLess(10 * first(best[3]), first(flow[3]))
+        self.assertLess(first(disks[1][4]), 0.1)
+        self.check_falls(row[1] for row in functional)
+        for name in "stipples", "ways", "barycenter":
+            self.check_picture("optimal-%s.png" % name)
+
     def test_territories(self):
         printed = self.ran("Territories")
         rows, = tables(printed)
@@ -246,6 +262,11 @@ class Examples(ExampleTest):
             self.assertLess(first(found[row[0], "Multistep, 64"][1]), 1)
         for there, back in (maps[0], maps[1]), (maps[2], maps[3]):
             self.assertAlmostEqual(first(there[4]) / first(back[4]), 1, delta=0.01)
+            for row in there, back:
+                errors = found[row[0], "the flow against the optimal map"]
+                self.assertGreater(first(errors[1]), 2)
+                self.assertLess(first(errors[1]), 50)
+                self.assertLess(first(row[5]), 2)  # percent, of a small picture
         self.assertEqual(found["subject, paper, against the optimum", "RK4, 50"][2], "125 %")
         self.check_picture("figure6-map.png")
 

@@ -16,6 +16,7 @@ CORE = {
     "Tables": {"Parallel", "Geometry"},
     "Flow": {"Parallel", "Device", "Geometry", "Tables"},
     "Equalize": {"Parallel", "Geometry", "Tables", "Flow"},
+    "OptimalMap": {"Parallel", "Geometry", "Tables", "Flow"},
     "Cartogram": {"Parallel", "Geometry", "Overlap", "Tables", "Flow"},
     "SiteCells": {"Parallel", "Algebra", "Geometry", "Tables", "Flow", "PowerCells"},
     "Quality": {"Parallel", "Geometry", "Tables", "Flow"},
