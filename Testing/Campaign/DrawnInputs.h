@@ -75,17 +75,17 @@ void drawMethod(Settings& settings)
 {
   RandomSource before = settings.GetRandom();
   RandomSource random(before.Next() + 1);
-  const int method = random.Chance(0.003) ? random.Of({ -1, 2 }) : random.Chance(0.2) ? 1 : 0;
+  const int method = random.Chance(0.003) ? random.Of({ -1, 2 }) : random.Chance(0.1) ? 1 : 0;
   settings.Add(
     "Method", std::to_string(method),
     [method](vtkAlgorithm* filter) { static_cast<T*>(filter)->SetMethod(method); },
     method == T::RECTIFIED_FLOW || method == T::OPTIMAL);
-  const bool certifies = random.Chance(0.1);
+  const bool certifies = random.Chance(0.05);
   settings.Add("Certify", certifies ? "1" : "0",
     [certifies](vtkAlgorithm* filter) { static_cast<T*>(filter)->SetCertify(certifies); });
   const bool inRange = !random.Chance(0.003);
   const double tolerance =
-    inRange ? random.Of({ 0.001, 0.001, 0.5, 1e-12 }) : random.Of({ 0.0, 1.0, -1.0, NaN });
+    inRange ? random.Of({ 0.001, 0.001, 0.5, 1e-5 }) : random.Of({ 0.0, 1.0, -1.0, NaN });
   settings.Add(
     "OptimalityTolerance", std::to_string(tolerance),
     [tolerance](
