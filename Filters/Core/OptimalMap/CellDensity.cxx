@@ -19,23 +19,12 @@ namespace
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 constexpr double inside = 0x1p-20; // of a cell: at least so far from its sides
 
-template <int Dimension>
-std::int64_t countOf(const GridSize<Dimension>& size)
-{
-  std::int64_t count = 1;
-  for (const std::int64_t cells : size)
-  {
-    count *= cells;
-  }
-  return count;
-}
-
 } // namespace
 
 template <int Dimension>
 CellDensity<Dimension>::CellDensity(const GridSize<Dimension>& size)
   : Cells(size)
-  , Count(countOf<Dimension>(size))
+  , Count(LatticePart<Dimension>::WholeOf(size).Count())
   , UniformShare(1.0 / numberOfCells<Dimension>(size))
 {
 }

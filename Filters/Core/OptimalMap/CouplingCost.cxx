@@ -6,6 +6,7 @@
 #include "Core/OptimalMap/NodePoisson.h"
 #include "Core/OptimalMap/NodeSums.h"
 #include "Core/OptimalMap/PoissonMoves.h"
+#include "Core/Parallel/ExactSum.h"
 #include "Core/Parallel/KeySort.h"
 #include "Core/Parallel/Progress.h"
 
@@ -27,24 +28,6 @@ constexpr int corrections = 2;
 constexpr int iterations = 6;
 constexpr double leastWeight = 0.1; // of the mean density
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-
-// A sum with what its terms lost to rounding.
-class CompensatedSum
-{
-public:
-  void Add(double term)
-  {
-    const double sum = this->Sum + term;
-    this->Lost +=
-      std::abs(this->Sum) >= std::abs(term) ? (this->Sum - sum) + term : (term - sum) + this->Sum;
-    this->Sum = sum;
-  }
-  double Value() const { return this->Sum + this->Lost; }
-
-private:
-  double Sum = 0.0;
-  double Lost = 0.0;
-};
 
 // The coupling. Masses are integers, as in IntegerSums.h, so that passing them on loses nothing.
 template <int Dimension>
@@ -128,12 +111,10 @@ private:
   {
     const NodeGrid<Dimension>& grid = map.Grid;
     const std::int64_t nodes = grid.NumberOfNodes();
-    NodeMap<Dimension> corners;
-    corners.Grid = { this->Size, this->Sides };
+    auto corners = NodeMap<Dimension>::On({ this->Size, this->Sides });
     std::array<NodeValues, Dimension> images;
     for (std::size_t axis = 0; axis < images.size(); ++axis)
     {
-      corners.Images[axis] = NodeValues(corners.Grid.NumberOfNodes());
       images[axis] = NodeValues(nodes);
       std::copy_n(map.Images[axis].data(), nodes, images[axis].data());
     }
@@ -514,7 +495,7 @@ private:
   LargeBuffer<std::int64_t> Shares;
   int SumsACell = 0;
   LargeBuffer<std::int64_t> Rest;
-  CompensatedSum Sum; // of the cost, in integerUnit squared diagonals
+  ExactSum Sum; // of the cost, in integerUnit squared diagonals
 };
 
 } // namespace

@@ -62,35 +62,48 @@ struct CellPlace
   Point<Dimension> Place;
 };
 
-// The multilinear interpolant of values at nodes, at a point in the box in cells of the nodes.
+// The nodes about a point of the box, in cells of the nodes, and their hat functions there.
 template <int Dimension>
-double interpolate(const double* values, const GridSize<Dimension>& cells, const double* point)
+struct HatsAt
 {
-  const CellPlace<Dimension> at(point, cells);
-  std::int64_t node = 0;
-  std::int64_t strides[Dimension];
-  std::int64_t stride = 1;
-  for (int axis = 0; axis < Dimension; ++axis)
+  static constexpr int Count = 1 << Dimension;
+
+  HatsAt(const double* point, const GridSize<Dimension>& cells)
   {
-    strides[axis] = stride;
-    node += at.Cell[axis] * stride;
-    stride *= cells[axis] + 1;
-  }
-  double sum = 0.0;
-  for (int corner = 0; corner < (1 << Dimension); ++corner)
-  {
-    double weight = 1.0;
-    std::int64_t of = node;
+    const CellPlace<Dimension> at(point, cells);
+    this->Node[0] = 0;
+    this->Weight[0] = 1.0;
+    std::int64_t stride = 1;
+    int corners = 1;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      const bool high = ((corner >> axis) & 1) != 0;
-      weight *= high ? at.Place[axis] : 1.0 - at.Place[axis];
-      of += high ? strides[axis] : 0;
+      const double high = at.Place[axis];
+      for (int corner = 0; corner < corners; ++corner)
+      {
+        this->Node[corner] += at.Cell[axis] * stride;
+        this->Node[corners + corner] = this->Node[corner] + stride;
+        this->Weight[corners + corner] = this->Weight[corner] * high;
+        this->Weight[corner] *= 1.0 - high;
+      }
+      stride *= cells[axis] + 1;
+      corners *= 2;
     }
-    sum += weight * values[of];
   }
-  return sum;
-}
+
+  // The multilinear interpolant of values at nodes.
+  double Interpolate(const double* values) const
+  {
+    double sum = 0.0;
+    for (int corner = 0; corner < Count; ++corner)
+    {
+      sum += this->Weight[corner] * values[this->Node[corner]];
+    }
+    return sum;
+  }
+
+  std::int64_t Node[Count];
+  double Weight[Count];
+};
 
 } // namespace RectifiedTransport
 

@@ -23,12 +23,25 @@ struct NodeMap
   NodeGrid<Dimension> Grid;
   std::array<NodeValues, Dimension> Images; // a coordinate each, at the nodes
 
+  // With memory for the images, not initialised.
+  static NodeMap On(const NodeGrid<Dimension>& grid)
+  {
+    NodeMap map;
+    map.Grid = grid;
+    for (NodeValues& coordinate : map.Images)
+    {
+      coordinate = NodeValues(grid.NumberOfNodes());
+    }
+    return map;
+  }
+
   Point<Dimension> At(const double* point) const
   {
+    const HatsAt<Dimension> hats(point, this->Grid.Cells);
     Point<Dimension> image;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      image[axis] = interpolate<Dimension>(this->Images[axis].data(), this->Grid.Cells, point);
+      image[axis] = hats.Interpolate(this->Images[axis].data());
     }
     return image;
   }

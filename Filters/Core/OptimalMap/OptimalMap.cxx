@@ -69,6 +69,35 @@ void checkBox(const Point<Dimension>& low, const Point<Dimension>& high)
   }
 }
 
+// kernel(index of the result, point) of all particles, as `source.Count()` units of the current
+// stage.
+template <int Dimension, class Kernel>
+void forParticles(ParticleSource<Dimension>& source, Progress& progress, const Kernel& kernel)
+{
+  const std::int64_t count = source.Count();
+  for (std::int64_t begin = 0; begin < count;)
+  {
+    const std::int64_t chunk = source.Prepare(begin);
+    progress.For(
+      chunk, 8 * group,
+      [&](std::int64_t first, std::int64_t last) {
+        std::int64_t index[group];
+        Point<Dimension> points[group];
+        for (std::int64_t i = first; i < last; i += group)
+        {
+          const auto size = static_cast<int>(std::min(group, last - i));
+          source.Fill(i, size, index, points[0].data());
+          for (int j = 0; j < size; ++j)
+          {
+            kernel(index[j], points[j]);
+          }
+        }
+      },
+      64 * group);
+    begin += chunk;
+  }
+}
+
 template <int Dimension>
 Point<Dimension> pointOf(double coordinate)
 {
@@ -254,12 +283,7 @@ double OptimalMap<Dimension>::UpperBound(const Context& context) const
   }
   Progress progress(contextForSize(context, this->Self->Nodes()));
   double least = std::numeric_limits<double>::infinity();
-  NodeMap<Dimension> map;
-  map.Grid = this->Self->Solver.Grid();
-  for (NodeValues& coordinate : map.Images)
-  {
-    coordinate = NodeValues(map.Grid.NumberOfNodes());
-  }
+  auto map = NodeMap<Dimension>::On(this->Self->Solver.Grid());
   for (int side = 0; side < 2; ++side)
   {
     progress.BeginStage(0.5 * (side + 1));
@@ -303,7 +327,8 @@ void OptimalMap<Dimension>::Slack(ConstPointSpan<Dimension> points,
           const double part = place[axis] - std::floor(place[axis]);
           sum += 0.5 * h * h * part * (1.0 - part);
         }
-        sum -= interpolate<Dimension>(solver.Side(side).Potential.data(), grid.Cells, place.data());
+        sum -= HatsAt<Dimension>(place.data(), grid.Cells)
+                 .Interpolate(solver.Side(side).Potential.data());
       }
       for (int axis = 0; axis < Dimension; ++axis)
       {
@@ -387,36 +412,16 @@ FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds
   const CorrectedMap<Dimension>& map = this->MapFrom(side, progress, endOfMap);
   const auto from = static_cast<std::size_t>(side);
   ParticleSource<Dimension> source(seeds, this->Densities[from].Size(), positions.size());
-  const std::int64_t count = source.Count();
-  progress.BeginStage(seeds.AreSamples() ? endOfPoints : 1.0, count);
-  for (std::int64_t begin = 0; begin < count;)
-  {
-    const std::int64_t chunk = source.Prepare(begin);
-    progress.For(
-      chunk, 8 * group,
-      [&](std::int64_t first, std::int64_t last) {
-        std::int64_t index[group];
-        Point<Dimension> points[group];
-        for (std::int64_t i = first; i < last; i += group)
-        {
-          const auto size = static_cast<int>(std::min(group, last - i));
-          source.Fill(i, size, index, points[0].data());
-          for (int j = 0; j < size; ++j)
-          {
-            const Point<Dimension> image = map.At(points[j].data());
-            std::copy(image.begin(), image.end(), positions[index[j]]);
-          }
-        }
-      },
-      64 * group);
-    begin += chunk;
-  }
+  progress.BeginStage(seeds.AreSamples() ? endOfPoints : 1.0, source.Count());
+  forParticles(source, progress, [&](std::int64_t index, const Point<Dimension>& point) {
+    const Point<Dimension> image = map.At(point.data());
+    std::copy(image.begin(), image.end(), positions[index]);
+  });
   if (seeds.AreSamples())
   {
     this->FinishOnRanks(side, positions, progress);
   }
-  FlowReport report;
-  return report;
+  return {};
 }
 
 // The samples of all ranks together; each computes the same.
@@ -498,36 +503,20 @@ FlowReport OptimalMap<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds,
   ParticleSource<Dimension> source(seeds, this->Size(), count);
   const auto& target = this->Self->Solver.Side(1).Placement;
   const auto& from = this->Self->Solver.Side(0).Placement;
-  for (std::int64_t begin = 0; begin < count;)
-  {
-    const std::int64_t chunk = source.Prepare(begin);
-    progress.For(chunk, 8 * group, [&](std::int64_t first, std::int64_t last) {
-      std::int64_t index[group];
-      Point<Dimension> points[group];
-      for (std::int64_t i = first; i < last; i += group)
+  forParticles(source, progress, [&](std::int64_t index, const Point<Dimension>& point) {
+    // The place of the point in the index space of the target.
+    const Point<Dimension> begins = target.FromNodes(from.ToNodes(point.data()).data());
+    const double* image = images[index];
+    for (std::int64_t t = 0; t < several; ++t)
+    {
+      const double time = times[static_cast<std::size_t>(t)];
+      double* position = positions[index * several + t];
+      for (int axis = 0; axis < Dimension; ++axis)
       {
-        const auto size = static_cast<int>(std::min(group, last - i));
-        source.Fill(i, size, index, points[0].data());
-        for (int j = 0; j < size; ++j)
-        {
-          // The place of the point in the index space of the target.
-          const Point<Dimension> node = from.ToNodes(points[j].data());
-          const Point<Dimension> begins = target.FromNodes(node.data());
-          const double* image = images[index[j]];
-          for (std::int64_t t = 0; t < several; ++t)
-          {
-            const double time = times[static_cast<std::size_t>(t)];
-            double* position = positions[index[j] * several + t];
-            for (int axis = 0; axis < Dimension; ++axis)
-            {
-              position[axis] = begins[axis] + time * (image[axis] - begins[axis]);
-            }
-          }
-        }
+        position[axis] = begins[axis] + time * (image[axis] - begins[axis]);
       }
-    });
-    begin += chunk;
-  }
+    }
+  });
   return report;
 }
 

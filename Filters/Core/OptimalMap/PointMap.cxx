@@ -21,12 +21,7 @@ template <int Dimension>
 NodeMap<Dimension> gradientMap(
   const NodeGrid<Dimension>& grid, const double* potential, Progress& progress)
 {
-  NodeMap<Dimension> map;
-  map.Grid = grid;
-  for (NodeValues& coordinate : map.Images)
-  {
-    coordinate = NodeValues(grid.NumberOfNodes());
-  }
+  auto map = NodeMap<Dimension>::On(grid);
   writeGradientMap<Dimension>(potential, map, progress);
   return map;
 }

@@ -13,48 +13,6 @@
 namespace RectifiedTransport
 {
 
-// The nodes about a point and their hat functions there.
-template <int Dimension>
-struct HatsAt
-{
-  static constexpr int Count = 1 << Dimension;
-
-  HatsAt(const double* point, const GridSize<Dimension>& cells)
-  {
-    const CellPlace<Dimension> at(point, cells);
-    this->Node[0] = 0;
-    this->Weight[0] = 1.0;
-    std::int64_t stride = 1;
-    int corners = 1;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const double high = at.Place[axis];
-      for (int corner = 0; corner < corners; ++corner)
-      {
-        this->Node[corner] += at.Cell[axis] * stride;
-        this->Node[corners + corner] = this->Node[corner] + stride;
-        this->Weight[corners + corner] = this->Weight[corner] * high;
-        this->Weight[corner] *= 1.0 - high;
-      }
-      stride *= cells[axis] + 1;
-      corners *= 2;
-    }
-  }
-
-  double Interpolate(const double* values) const
-  {
-    double sum = 0.0;
-    for (int corner = 0; corner < Count; ++corner)
-    {
-      sum += this->Weight[corner] * values[this->Node[corner]];
-    }
-    return sum;
-  }
-
-  std::int64_t Node[Count];
-  double Weight[Count];
-};
-
 // A vector a node.
 template <int Dimension>
 class NodeMoves

@@ -41,9 +41,9 @@ double squaredDiagonal(const Point<Dimension>& sides)
 }
 
 template <int Dimension>
-bool isUniformInBox(const BoxedDensity<Dimension>& density)
+bool fillsBox(const BoxedDensity<Dimension>& density)
 {
-  bool fills = density.Density.IsUniform();
+  bool fills = true;
   for (int axis = 0; axis < Dimension; ++axis)
   {
     fills = fills && density.Low[axis] == 0.0 && density.High[axis] == 1.0;
@@ -52,14 +52,15 @@ bool isUniformInBox(const BoxedDensity<Dimension>& density)
 }
 
 template <int Dimension>
+bool isUniformInBox(const BoxedDensity<Dimension>& density)
+{
+  return density.Density.IsUniform() && fillsBox(density);
+}
+
+template <int Dimension>
 bool hasMassEverywhere(const BoxedDensity<Dimension>& density)
 {
-  bool fills = !density.Density.HasVoids();
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    fills = fills && density.Low[axis] == 0.0 && density.High[axis] == 1.0;
-  }
-  return fills;
+  return !density.Density.HasVoids() && fillsBox(density);
 }
 
 // From the coarsest to the finest.
@@ -161,16 +162,12 @@ struct PotentialSolver<Dimension>::Scratch
   explicit Scratch(const NodeGrid<Dimension>& grid, const Progress& progress)
     : Poisson(grid)
     , Sums(grid, static_cast<double>(grid.NumberOfCells()), grid.NumberOfCells(), progress)
+    , Map(NodeMap<Dimension>::On(grid))
     , Defect(grid.NumberOfNodes())
     , P(grid.NumberOfNodes())
     , New(grid.NumberOfNodes())
     , NewOther(grid.NumberOfNodes())
   {
-    this->Map.Grid = grid;
-    for (NodeValues& coordinate : this->Map.Images)
-    {
-      coordinate = NodeValues(grid.NumberOfNodes());
-    }
   }
 
   NodePoisson<Dimension> Poisson;
@@ -284,7 +281,6 @@ void PotentialSolver<Dimension>::Solve(Progress& progress, double end)
     constexpr double partOfBegin = 0.1;
     work.BeginStage(partOfBegin);
     this->Begin(levels, level, std::move(potential), work);
-    this->BestBound = this->BoundNow;
     const bool isFinest = level + 1 == levels.size();
     if (!isFinest || this->Options.MostIterations > 0)
     {
@@ -421,7 +417,6 @@ void PotentialSolver<Dimension>::Iterate(Scratch& scratch, bool isFinest, Progre
     goesOn =
       gain >= 0.25 * this->Options.Tolerance * std::abs(this->BoundNow) || iteration + 1 < least;
   }
-  this->BestBound = this->BoundNow;
   if (isFinest)
   {
     this->FineIterations = iteration;

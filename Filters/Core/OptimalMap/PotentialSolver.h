@@ -69,7 +69,7 @@ public:
   const NodeGrid<Dimension>& Grid() const { return this->Nodes; }
   const SolverSide<Dimension>& Side(int side) const { return this->Sides[Index(side)]; }
   // Not above the least squared distance; may be below 0.
-  double Bound() const { return this->BestBound - this->Rounding; }
+  double Bound() const { return this->BoundNow - this->Rounding; }
   // The bound on twice as many nodes along each axis, if they are not more than the most, else
   // Bound. Runs as the current stage. Throws std::bad_alloc and Cancelled.
   double RefinedBound(Progress& progress) const;
@@ -109,7 +109,6 @@ private:
   std::array<double, 2> Steps{};
   double Excess = 0.0;
   double BoundNow = 0.0;
-  double BestBound = 0.0;
   int FineIterations = 0;
   double LastResidual = 0.0;
 };
