@@ -189,7 +189,7 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
     {
       addFieldValue(part, "TransportCost", cost);
     }
-    this->AddBound(geometry, part);
+    this->AddBound(geometry, settings.ComparesEnds ? cost : this->Found.Cost, part);
     addFieldValue(part, "TotalMass", mass);
     addFieldValue(part, "MovedParticles", movedOnRanks);
     addSteps(part, flows);
@@ -327,11 +327,11 @@ void DensityBlend::FindPositions(const std::vector<BlendInput>& inputs,
   this->FoundFor = now;
 }
 
-void DensityBlend::AddBound(const ImageGrid& geometry, vtkDataObject* output) const
+void DensityBlend::AddBound(const ImageGrid& geometry, double cost, vtkDataObject* output) const
 {
   if (this->Found.Slack)
   {
-    addCostBound(output, this->Found.Bound, this->Found.Cost, geometry);
+    addCostBound(output, this->Found.Bound, cost, geometry);
   }
   if (!this->Found.Functional.empty())
   {

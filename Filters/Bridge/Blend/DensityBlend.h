@@ -102,7 +102,7 @@ private:
   // depend on has changed. Else takes those of the maps.
   void FindPositions(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
     const ImageGrid& geometry, Progress& progress, double end);
-  void AddBound(const ImageGrid& geometry, vtkDataObject* output) const;
+  void AddBound(const ImageGrid& geometry, double cost, vtkDataObject* output) const;
   void TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress);
   double TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const;
   void WriteParticles(const std::vector<BlendInput>& inputs, const ImageGrid& geometry,

@@ -230,7 +230,10 @@ private:
     {
       this->AddSlack(map, weight, points, { images.data(), this->Count });
       this->Result.Bound += weight * this->Scale.CostFromUnits(map.LowerBound());
-      this->Result.Cost += weight * this->MeanSquare(starts, this->Result.Positions[input]);
+      if (!this->Settings.IsPair)
+      {
+        this->Result.Cost += weight * this->MeanSquare(starts, this->Result.Positions[input]);
+      }
     }
   }
 

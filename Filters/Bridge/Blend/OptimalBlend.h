@@ -35,7 +35,7 @@ struct OptimalBlendResult
   // over the inputs. In squared physical lengths.
   vtkSmartPointer<vtkDoubleArray> Slack;
   double Bound = 0.0; // of the cost between two inputs, or the weighted mean from the barycenter
-  double Cost = 0.0;  // what it is a bound of
+  double Cost = 0.0;  // of a barycenter: what it is a bound of
   // With Method Optimal, from the barycenter: the weighted mean of the bounds, for each iteration.
   std::vector<double> Functional;
   std::vector<std::string> Warnings;
