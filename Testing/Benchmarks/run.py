@@ -368,6 +368,30 @@ def masses(r):
                  "map of single points", "samples together", "still part moves, cells"], rows)
 
 
+BOUNDS = (*((f"2D/{pair}", text, side) for side in (256, 1024) for pair, text in (
+              ("uniform_photograph", f"uniform → photograph, {side}²"),
+              ("star_ring", f"star → ring, {side}²"))),
+          *((f"3D/{pair}", text, side) for side in (64, 128) for pair, text in (
+              ("blobs", f"blobs → blobs, {side}³"),
+              ("animal_ring", f"animal → ring, {side}³"))))
+
+
+def bounds(r):
+    rows = []
+    for pair, text, side in BOUNDS:
+        name = f"OptimalBound{pair}/{side}"
+        best = r.median(f"{name}/20/2", "bound")
+        row = [text]
+        for iterations in (0, 1, 5):
+            one, two = (f"{name}/{iterations}/{threads}" for threads in (1, 2))
+            low = 100 * (1 - r.median(one, "bound") / best)
+            row.append(f"{milliseconds(r.median(one, 'real_time'))}, {low:.2g} %, "
+                       f"{r.ratio(one, two, 'real_time'):.2f}×")
+        rows.append(row)
+    print_table(["iterations: one thread, below the bound of 20, gain of two threads", "0", "1",
+                 "5"], rows)
+
+
 def relaxation(r):
     rows = []
     for points in (2048, 8192, 32768):
@@ -457,6 +481,7 @@ OPTIONS = {"quality": ("how good the particles are", "Quality", quality),
            "morphs": ("morphs, barycenters and splats", "Morph|Barycenters|Splat3D", morphs),
            "parameterization": ("maps of disks", "Parameterization", parameterization),
            "masses": ("masses of optimal maps", "OptimalMasses", masses),
+           "bounds": ("certified bounds of the least cost", "OptimalBound", bounds),
            "relaxation": ("blue noise", "Relaxation", relaxation),
            "steps": ("how exactly areas are kept", "Steps", steps),
            "cartograms": ("cartograms of maps", "Cartogram/", cartograms),
@@ -514,7 +539,7 @@ def main():
     # A process that has ever kept freed memory reuses it: those benchmarks run on their own.
     results = Results(run(
         arguments, "-_reused|Lattice|Tiles|Quality|_fresh|Parameterization|Relaxation|Areas|Steps|"
-        "Cartogram|OptimalMasses"))
+        "Cartogram|OptimalMasses|OptimalBound"))
     results.add(run(arguments, "_reused"))
 
     print_text("Whole updates of filters with a new density, on one thread of an "

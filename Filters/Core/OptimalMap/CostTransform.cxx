@@ -299,8 +299,10 @@ struct AxisLines
   template <class Kernel>
   void For(Progress& progress, const Kernel& kernel) const
   {
+    // Ranges that are large enough to pay for their buffers, and enough for some threads.
     const std::int64_t block = blockLines * this->Nodes;
-    const std::int64_t blocks = std::max<std::int64_t>(1, 4096 / block);
+    const std::int64_t range = std::min<std::int64_t>(this->All / 16, 1 << 16);
+    const std::int64_t blocks = std::max<std::int64_t>(1, range / block);
     progress.For(
       this->All, blocks * block,
       [&](
