@@ -115,7 +115,7 @@ void addBounds(const std::string& name, const std::vector<std::int64_t>& sides)
 }
 
 const bool areRegistered = []() {
-  addBounds<2>("uniform_photograph", { 256, 1024 });
+  addBounds<2>("uniform_photograph", { 64, 256, 1024 });
   addBounds<2>("star_ring", { 256, 1024 });
   addBounds<3>("blobs", { 64, 128 });
   addBounds<3>("animal_ring", { 64, 128 });
