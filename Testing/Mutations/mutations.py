@@ -444,9 +444,9 @@ OTHERS = [
     E(BRIDGE + "Run/SharedDevices.cxx", "this->Opened && «name == this->Name»", "true"),
     E("Filters/vtkTransportAlgorithm.cxx", "«first != all.end()»)", "false"),
     # optimal maps
-    E(CORE + "OptimalMap/NodeMasses.cxx", "share * «(1.0 - middle)»;", "0.5"),
-    E(CORE + "OptimalMap/NodeMasses.cxx", "(lumped - «side * side / 12.0»)", "0.0"),
-    E(CORE + "OptimalMap/NodeMap.h", "image[axis] = begin[axis] + «a * step[axis]»;", "0.0"),
+    E(CORE + "OptimalMap/Masses/NodeMasses.cxx", "share * «(1.0 - middle)»;", "0.5"),
+    E(CORE + "OptimalMap/Masses/NodeMasses.cxx", "(lumped - «side * side / 12.0»)", "0.0"),
+    E(CORE + "OptimalMap/Nodes/NodeMap.h", "image[axis] = begin[axis] + «a * step[axis]»;", "0.0"),
     E(CORE + "OptimalMap/PotentialSolver.cxx", "if («gain > 0.0»)", "true"),
     E(CORE + "OptimalMap/PotentialSolver.cxx", "return «2.0 * sum» - this->Excess;", "2.1 * sum"),
     E(CORE + "OptimalMap/PotentialSolver.cxx", "moved[i] = potential[i] + «length * p[i]»;", "-length * p[i]"),

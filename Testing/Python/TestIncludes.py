@@ -30,6 +30,11 @@ CORE = {
     "SurfaceSampling": {"Parallel", "Geometry", "Mesh", "Tables", "Flow", "Seeds",
                         "Parameterization"},
 }
+# Of the folders within OptimalMap: those there, and of Core.
+OPTIMAL_MAP = {
+    "Nodes": (set(), {"Parallel", "Geometry"}),
+    "Masses": ({"Nodes"}, {"Parallel", "Geometry", "Tables"}),
+}
 RUN = {"Run"}
 WORKERS = RUN | {"Image", "Points", "Settings", "Density", "Ranks"}
 BLOCKS = RUN | {"Image", "Points", "Ranks", "Density"}
@@ -81,6 +86,19 @@ class Includes(unittest.TestCase):
 
     def test_core(self):
         self.check("Core", CORE)
+
+    def test_optimal_map(self):
+        for room, (rooms, folders) in OPTIMAL_MAP.items():
+            found = 0
+            for path, text in sources("Core", "OptimalMap", room, "*"):
+                for folder, name in re.findall(r'#include "Core/(\w+)/([\w/]+)[.]', text):
+                    found += 1
+                    with self.subTest(path, includes=name):
+                        if folder == "OptimalMap":
+                            self.assertIn(name.rpartition("/")[0], rooms | {room})
+                        else:
+                            self.assertIn(folder, folders)
+            self.assertGreater(found, 20)
 
     def test_bridge(self):
         self.check("Bridge", BRIDGE)

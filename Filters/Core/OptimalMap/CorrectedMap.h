@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_CorrectedMap_h
 #define RectifiedTransport_CorrectedMap_h
 
-#include "Core/OptimalMap/MassCorrection.h"
+#include "Core/OptimalMap/Masses/MassCorrection.h"
 #include "Core/OptimalMap/PointMap.h"
 
 #include <optional>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/OptimalMap/CouplingCost.h"
 
-#include "Core/OptimalMap/IntegerSums.h"
-#include "Core/OptimalMap/NodeMasses.h"
-#include "Core/OptimalMap/NodePoisson.h"
-#include "Core/OptimalMap/NodeSums.h"
-#include "Core/OptimalMap/PoissonMoves.h"
+#include "Core/OptimalMap/Masses/NodeMasses.h"
+#include "Core/OptimalMap/Nodes/IntegerSums.h"
+#include "Core/OptimalMap/Nodes/NodePoisson.h"
+#include "Core/OptimalMap/Nodes/NodeSums.h"
+#include "Core/OptimalMap/Nodes/PoissonMoves.h"
 #include "Core/Parallel/ExactSum.h"
 #include "Core/Parallel/KeySort.h"
 #include "Core/Parallel/Progress.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/OptimalMap/PointMap.h"
 
-#include "Core/OptimalMap/CostTransform.h"
+#include "Core/OptimalMap/Nodes/CostTransform.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_PointMap_h
 #define RectifiedTransport_PointMap_h
 
-#include "Core/OptimalMap/CellDensity.h"
-#include "Core/OptimalMap/NodeMap.h"
+#include "Core/OptimalMap/Masses/CellDensity.h"
+#include "Core/OptimalMap/Nodes/NodeMap.h"
 #include "Core/OptimalMap/PotentialSolver.h"
 
 #include <cstdint>

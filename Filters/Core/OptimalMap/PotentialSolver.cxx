@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/OptimalMap/PotentialSolver.h"
 
-#include "Core/OptimalMap/CostTransform.h"
-#include "Core/OptimalMap/Prolongation.h"
+#include "Core/OptimalMap/Nodes/CostTransform.h"
+#include "Core/OptimalMap/Nodes/Prolongation.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/SmallWork.h"

@@ -4,12 +4,12 @@
 #ifndef RectifiedTransport_PotentialSolver_h
 #define RectifiedTransport_PotentialSolver_h
 
-#include "Core/OptimalMap/CellDensity.h"
-#include "Core/OptimalMap/NodeGrid.h"
-#include "Core/OptimalMap/NodeMap.h"
-#include "Core/OptimalMap/NodeMasses.h"
-#include "Core/OptimalMap/NodePoisson.h"
-#include "Core/OptimalMap/NodeSums.h"
+#include "Core/OptimalMap/Masses/CellDensity.h"
+#include "Core/OptimalMap/Masses/NodeMasses.h"
+#include "Core/OptimalMap/Nodes/NodeGrid.h"
+#include "Core/OptimalMap/Nodes/NodeMap.h"
+#include "Core/OptimalMap/Nodes/NodePoisson.h"
+#include "Core/OptimalMap/Nodes/NodeSums.h"
 
 #include <array>
 #include <cstdint>

@@ -3,7 +3,7 @@
 // nothing has to move.
 #include "Core/OptimalMap/CouplingCost.h"
 
-#include "ParticleMasses.h"
+#include "OptimalMap/Masses/ParticleMasses.h"
 #include "RecordingContext.h"
 #include "TestDimensions.h"
 #include "TestRefusal.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The mass correction: masses of boxes that it does not know improve, nothing enters a void, single
 // points move as samples do.
-#include "Core/OptimalMap/MassCorrection.h"
+#include "Core/OptimalMap/Masses/MassCorrection.h"
 
-#include "ParticleMasses.h"
+#include "OptimalMap/Masses/ParticleMasses.h"
 #include "RecordingContext.h"
 #include "TestDimensions.h"
 #include "ThreadsExecutor.h"

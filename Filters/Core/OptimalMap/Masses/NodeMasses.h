@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_NodeMasses_h
 #define RectifiedTransport_NodeMasses_h
 
-#include "Core/OptimalMap/CellDensity.h"
-#include "Core/OptimalMap/NodeGrid.h"
+#include "Core/OptimalMap/Masses/CellDensity.h"
+#include "Core/OptimalMap/Nodes/NodeGrid.h"
 
 namespace RectifiedTransport
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/SpreadInCells.h"
+#include "Core/OptimalMap/Masses/SpreadInCells.h"
 
-#include "Core/OptimalMap/IntegerSums.h"
+#include "Core/OptimalMap/Nodes/IntegerSums.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 

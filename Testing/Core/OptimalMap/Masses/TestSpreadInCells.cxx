@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Particles in cells: uneven ones become even, independent ones nearly stay, none leaves its cell.
-#include "Core/OptimalMap/SpreadInCells.h"
+#include "Core/OptimalMap/Masses/SpreadInCells.h"
 
-#include "ParticleMasses.h"
+#include "OptimalMap/Masses/ParticleMasses.h"
 #include "TestDimensions.h"
 #include "ThreadsExecutor.h"
 

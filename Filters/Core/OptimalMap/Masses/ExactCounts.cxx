@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/ExactCounts.h"
+#include "Core/OptimalMap/Masses/ExactCounts.h"
 
-#include "Core/OptimalMap/HalvingTree.h"
+#include "Core/OptimalMap/Masses/HalvingTree.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>

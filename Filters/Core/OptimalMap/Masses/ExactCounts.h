@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_ExactCounts_h
 #define RectifiedTransport_ExactCounts_h
 
-#include "Core/OptimalMap/CellDensity.h"
+#include "Core/OptimalMap/Masses/CellDensity.h"
 
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/HalvingTree.h"
+#include "Core/OptimalMap/Masses/HalvingTree.h"
 
 #include "Core/Parallel/Progress.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/NodeMasses.h"
+#include "Core/OptimalMap/Masses/NodeMasses.h"
 
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"

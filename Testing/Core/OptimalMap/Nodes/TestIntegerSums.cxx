@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sums of integers: the same for every number of threads, each of which has an array of its own.
-#include "Core/OptimalMap/IntegerSums.h"
+#include "Core/OptimalMap/Nodes/IntegerSums.h"
 #include "ThreadsExecutor.h"
 
 #include <gtest/gtest.h>

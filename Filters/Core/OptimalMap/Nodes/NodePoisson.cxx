@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/NodePoisson.h"
+#include "Core/OptimalMap/Nodes/NodePoisson.h"
 
 #include "Core/Geometry/ReproducibleMath.h"
-#include "Core/OptimalMap/CosineTransform.h"
+#include "Core/OptimalMap/Nodes/CosineTransform.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 

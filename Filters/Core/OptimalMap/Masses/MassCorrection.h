@@ -4,10 +4,10 @@
 #ifndef RectifiedTransport_MassCorrection_h
 #define RectifiedTransport_MassCorrection_h
 
-#include "Core/OptimalMap/CellDensity.h"
-#include "Core/OptimalMap/NodeGrid.h"
-#include "Core/OptimalMap/NodeMasses.h"
-#include "Core/OptimalMap/PoissonMoves.h"
+#include "Core/OptimalMap/Masses/CellDensity.h"
+#include "Core/OptimalMap/Masses/NodeMasses.h"
+#include "Core/OptimalMap/Nodes/NodeGrid.h"
+#include "Core/OptimalMap/Nodes/PoissonMoves.h"
 
 #include <cstdint>
 #include <vector>

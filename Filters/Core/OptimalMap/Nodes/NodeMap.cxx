@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/NodeMap.h"
+#include "Core/OptimalMap/Nodes/NodeMap.h"
 
 #include "Core/Parallel/Progress.h"
 

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_HalvingTree_h
 #define RectifiedTransport_HalvingTree_h
 
-#include "Core/OptimalMap/CellDensity.h"
+#include "Core/OptimalMap/Masses/CellDensity.h"
 
 #include <cstdint>
 #include <vector>

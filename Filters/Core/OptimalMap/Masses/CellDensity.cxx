@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/CellDensity.h"
+#include "Core/OptimalMap/Masses/CellDensity.h"
 
 #include "Core/Geometry/LatticePart.h"
 #include "Core/Parallel/Progress.h"

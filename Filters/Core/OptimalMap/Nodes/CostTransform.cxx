@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/CostTransform.h"
+#include "Core/OptimalMap/Nodes/CostTransform.h"
 
 #include "Core/Parallel/Progress.h"
 

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_PoissonMoves_h
 #define RectifiedTransport_PoissonMoves_h
 
-#include "Core/OptimalMap/NodeGrid.h"
+#include "Core/OptimalMap/Nodes/NodeGrid.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The cost transform against minima over all pairs of nodes.
-#include "Core/OptimalMap/CostTransform.h"
+#include "Core/OptimalMap/Nodes/CostTransform.h"
 
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/Progress.h"

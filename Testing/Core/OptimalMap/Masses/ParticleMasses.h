@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_ParticleMasses_h
 #define RectifiedTransport_ParticleMasses_h
 
-#include "Core/OptimalMap/CellDensity.h"
+#include "Core/OptimalMap/Masses/CellDensity.h"
 #include "Core/Parallel/Progress.h"
 
 #include "TestDensities.h"

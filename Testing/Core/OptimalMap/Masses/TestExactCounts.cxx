@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exact counts: of particles in all boxes that halve the grid, by a recursion of their own; what
 // stays, what leaves voids; the same bits for every number of threads.
-#include "Core/OptimalMap/ExactCounts.h"
+#include "Core/OptimalMap/Masses/ExactCounts.h"
 
-#include "ParticleMasses.h"
+#include "OptimalMap/Masses/ParticleMasses.h"
 #include "RecordingContext.h"
 #include "TestDimensions.h"
 #include "ThreadsExecutor.h"
