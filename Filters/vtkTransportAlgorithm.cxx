@@ -2,9 +2,9 @@
 #include "vtkTransportAlgorithm.h"
 
 #include "Bridge/Density/DensityTransport.h"
+#include "Bridge/Device/SharedDevices.h"
 #include "Bridge/Ranks/PlaceOnMachine.h"
 #include "Bridge/Run/MpiController.h"
-#include "Bridge/Run/SharedDevices.h"
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/OptimalSettings.h"

@@ -441,7 +441,7 @@ OTHERS = [
     S(CORE + "Flow/Kernels/Shared/Particle.h", "s->IsUnresolved |= !isInMass(tables, s->End);", ";"),
     E(CORE + "Flow/Kernels/Shared/Particle.h", "input->HasEmptyCells && «3 * step >= steps»", "1"),
     E(CORE + "Flow/Kernels/Shared/Particle.h", "box->IsVoid > 0.0 && «!input->Backward» ?", "1"),
-    E(BRIDGE + "Run/SharedDevices.cxx", "this->Opened && «name == this->Name»", "true"),
+    E(BRIDGE + "Device/SharedDevices.cxx", "this->Opened && «name == this->Name»", "true"),
     E("Filters/vtkTransportAlgorithm.cxx", "«first != all.end()»)", "false"),
     # optimal maps
     E(CORE + "OptimalMap/Masses/NodeMasses.cxx", "share * «(1.0 - middle)»;", "0.5"),
@@ -460,5 +460,5 @@ OTHERS = [
     E(BRIDGE + "Blend/OptimalBlend.cxx", "if («fall <= 0.0»)", "false"),
     E(BRIDGE + "Blend/OptimalBlend.cxx", "(*end)[axis] = part * «this->Scale.ToUnits(lengths[axis])»;", "1.0"),
     E(BRIDGE + "Blend/DensityBlend.cxx", "«now.Weights == this->FoundFor.Weights» &&", "true"),
-    E(BRIDGE + "Run/CostBound.h", "std::sqrt(cost) <= «nothing * cell»;", "0.0"),
+    E(BRIDGE + "Density/CostBound.h", "std::sqrt(cost) <= «nothing * cell»;", "0.0"),
 ]

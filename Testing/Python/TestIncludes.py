@@ -40,6 +40,7 @@ WORKERS = RUN | {"Image", "Points", "Settings", "Density", "Ranks"}
 BLOCKS = RUN | {"Image", "Points", "Ranks", "Density"}
 BRIDGE = {
     "Pipeline": set(),
+    "Device": set(),
     "Run": {"Pipeline"},
     "Image": RUN,
     "Points": RUN,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blend/DensityBlend.h"
 
+#include "Bridge/Density/CostBound.h"
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/CommonGrid.h"
@@ -9,7 +10,6 @@
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/PlaceOwners.h"
 #include "Bridge/Ranks/SameOnRanks.h"
-#include "Bridge/Run/CostBound.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/StepReport.h"

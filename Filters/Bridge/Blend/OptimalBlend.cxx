@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blend/OptimalBlend.h"
 
+#include "Bridge/Density/CostBound.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Ranks/TupleBoxes.h"
-#include "Bridge/Run/CostBound.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Flow/WeightedMean.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/DensityTransport.h"
 
-#include "Bridge/Run/CostBound.h"
+#include "Bridge/Density/CostBound.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Progress.h"
 
