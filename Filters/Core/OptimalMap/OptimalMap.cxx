@@ -9,6 +9,7 @@
 #include "Core/OptimalMap/Masses/ExactCounts.h"
 #include "Core/OptimalMap/Masses/MassCorrection.h"
 #include "Core/OptimalMap/Masses/SpreadInCells.h"
+#include "Core/OptimalMap/Nodes/NodeLevels.h"
 #include "Core/OptimalMap/PotentialSolver.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
@@ -368,8 +369,7 @@ double OptimalMap<Dimension>::MemoryFor(const GridSize<Dimension>& source,
     }
     cellSides.push_back(sides);
   }
-  const GridSize<Dimension> cells =
-    PotentialSolver<Dimension>::FinestCells(cellSides, options.MostNodes);
+  const GridSize<Dimension> cells = finestNodeCells<Dimension>(cellSides, options.MostNodes);
   const double nodes = numberOfCorners<Dimension>(cells);
   const double kept = real * (numberOfCells<Dimension>(source) + numberOfCells<Dimension>(target));
   const double solving = nodes * PotentialSolver<Dimension>::BytesANode(threads);

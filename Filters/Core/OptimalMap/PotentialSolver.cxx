@@ -2,6 +2,7 @@
 #include "Core/OptimalMap/PotentialSolver.h"
 
 #include "Core/OptimalMap/Nodes/CostTransform.h"
+#include "Core/OptimalMap/Nodes/NodeLevels.h"
 #include "Core/OptimalMap/Nodes/Prolongation.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
@@ -19,15 +20,8 @@ namespace
 {
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-// The largest number of cells along an axis that is not halved on the way to coarser nodes.
-constexpr std::int64_t coarsest = 12;
 constexpr int weightedIterations = 4;
 constexpr double weightFloor = 1.0;
-
-std::int64_t evenAtLeast(double cells)
-{
-  return std::max<std::int64_t>(2, 2 * static_cast<std::int64_t>(std::ceil(0.5 * cells)));
-}
 
 template <int Dimension>
 double squaredDiagonal(const Point<Dimension>& sides)
@@ -61,28 +55,6 @@ template <int Dimension>
 bool hasMassEverywhere(const BoxedDensity<Dimension>& density)
 {
   return !density.Density.HasVoids() && fillsBox(density);
-}
-
-// From the coarsest to the finest.
-template <int Dimension>
-std::vector<GridSize<Dimension>> levelsOf(const GridSize<Dimension>& finest)
-{
-  std::vector<GridSize<Dimension>> levels{ finest };
-  for (;;)
-  {
-    GridSize<Dimension> next = levels.back();
-    for (std::int64_t& cells : next)
-    {
-      cells = cells <= coarsest ? cells : evenAtLeast(0.5 * static_cast<double>(cells));
-    }
-    if (next == levels.back())
-    {
-      break;
-    }
-    levels.push_back(next);
-  }
-  std::reverse(levels.begin(), levels.end());
-  return levels;
 }
 
 template <int Dimension>
@@ -194,42 +166,6 @@ PotentialSolver<Dimension>::PotentialSolver(const BoxedDensity<Dimension>& sourc
 }
 
 template <int Dimension>
-GridSize<Dimension> PotentialSolver<Dimension>::FinestCells(
-  const std::vector<Point<Dimension>>& cellSides, double mostNodes)
-{
-  // Few cells cost little, and a bound is as much better as nodes are closer.
-  constexpr double fewCells = Dimension == 3 ? 0x1p14 : 0x1p11;
-  Point<Dimension> wanted;
-  double all = 1.0;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    double shortest = 1.0;
-    for (const Point<Dimension>& sides : cellSides)
-    {
-      shortest = std::min(shortest, sides[axis]);
-    }
-    wanted[axis] = std::round(1.0 / shortest);
-    all *= wanted[axis];
-  }
-  double factor = 1.0;
-  for (; all * factor < fewCells; factor *= std::ldexp(1.0, Dimension))
-  {
-    for (double& cells : wanted)
-    {
-      cells *= 2.0;
-    }
-  }
-  all *= factor;
-  const double ratio = all > mostNodes ? std::pow(mostNodes / all, 1.0 / Dimension) : 1.0;
-  GridSize<Dimension> cells;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    cells[axis] = evenAtLeast(wanted[axis] * ratio);
-  }
-  return cells;
-}
-
-template <int Dimension>
 double PotentialSolver<Dimension>::BytesANode(int threads)
 {
   constexpr double real = sizeof(double);
@@ -255,7 +191,8 @@ void PotentialSolver<Dimension>::Solve(Progress& progress, double end)
       cellSides.push_back(sides);
     }
   }
-  const auto levels = levelsOf<Dimension>(FinestCells(cellSides, this->Options.MostNodes));
+  const auto levels =
+    nodeLevels<Dimension>(finestNodeCells<Dimension>(cellSides, this->Options.MostNodes));
   const auto costOf = [&](std::size_t level) {
     const int iterations = level + 1 == levels.size() ? std::max(1, this->Options.LeastIterations)
                                                       : this->Options.CoarseIterations;

@@ -76,9 +76,6 @@ public:
   int Iterations() const { return this->FineIterations; }
   double Residual() const { return this->LastResidual; }
 
-  // The finest nodes for densities whose cells have these sides, in fractions of the box.
-  static GridSize<Dimension> FinestCells(
-    const std::vector<Point<Dimension>>& cellSides, double mostNodes);
   // Bytes a node of the finest grid that Solve holds at most.
   static double BytesANode(int threads);
 

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/Nodes/NodeLevels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// The largest number of cells along an axis that is not halved on the way to coarser nodes.
+constexpr std::int64_t coarsest = 12;
+
+std::int64_t evenAtLeast(double cells)
+{
+  return std::max<std::int64_t>(2, 2 * static_cast<std::int64_t>(std::ceil(0.5 * cells)));
+}
+
+} // namespace
+
+template <int Dimension>
+GridSize<Dimension> finestNodeCells(
+  const std::vector<Point<Dimension>>& cellSides, double mostNodes)
+{
+  // Few cells cost little, and a bound is as much better as nodes are closer.
+  constexpr double fewCells = Dimension == 3 ? 0x1p14 : 0x1p11;
+  Point<Dimension> wanted;
+  double all = 1.0;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    double shortest = 1.0;
+    for (const Point<Dimension>& sides : cellSides)
+    {
+      shortest = std::min(shortest, sides[axis]);
+    }
+    wanted[axis] = std::round(1.0 / shortest);
+    all *= wanted[axis];
+  }
+  double factor = 1.0;
+  for (; all * factor < fewCells; factor *= std::ldexp(1.0, Dimension))
+  {
+    for (double& cells : wanted)
+    {
+      cells *= 2.0;
+    }
+  }
+  all *= factor;
+  const double ratio = all > mostNodes ? std::pow(mostNodes / all, 1.0 / Dimension) : 1.0;
+  GridSize<Dimension> cells;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    cells[axis] = evenAtLeast(wanted[axis] * ratio);
+  }
+  return cells;
+}
+
+template <int Dimension>
+std::vector<GridSize<Dimension>> nodeLevels(const GridSize<Dimension>& finest)
+{
+  std::vector<GridSize<Dimension>> levels{ finest };
+  for (;;)
+  {
+    GridSize<Dimension> next = levels.back();
+    for (std::int64_t& cells : next)
+    {
+      cells = cells <= coarsest ? cells : evenAtLeast(0.5 * static_cast<double>(cells));
+    }
+    if (next == levels.back())
+    {
+      break;
+    }
+    levels.push_back(next);
+  }
+  std::reverse(levels.begin(), levels.end());
+  return levels;
+}
+
+template GridSize<1> finestNodeCells<1>(const std::vector<Point<1>>&, double);
+template GridSize<2> finestNodeCells<2>(const std::vector<Point<2>>&, double);
+template GridSize<3> finestNodeCells<3>(const std::vector<Point<3>>&, double);
+template std::vector<GridSize<1>> nodeLevels<1>(const GridSize<1>&);
+template std::vector<GridSize<2>> nodeLevels<2>(const GridSize<2>&);
+template std::vector<GridSize<3>> nodeLevels<3>(const GridSize<3>&);
+
+} // namespace RectifiedTransport

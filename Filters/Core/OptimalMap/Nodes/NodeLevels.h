@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The grids of nodes of a box, from coarse to fine.
+#ifndef RectifiedTransport_NodeLevels_h
+#define RectifiedTransport_NodeLevels_h
+
+#include "Core/OptimalMap/Nodes/NodeGrid.h"
+
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// The finest cells between nodes for densities whose cells have these sides, in fractions of the
+// box: as many as cells of the shortest sides would be. While these are few, they are halved along
+// all axes; if they are more than `mostNodes`, there are about so many.
+template <int Dimension>
+GridSize<Dimension> finestNodeCells(
+  const std::vector<Point<Dimension>>& cellSides, double mostNodes);
+
+// From the coarsest to the finest. Each has about half the cells of the next one along each axis
+// that has many.
+template <int Dimension>
+std::vector<GridSize<Dimension>> nodeLevels(const GridSize<Dimension>& finest);
+
+} // namespace RectifiedTransport
+
+#endif
