@@ -455,7 +455,7 @@ OTHERS = [
     S(CORE + "OptimalMap/PointMap.cxx", "this->Improve(place, image);", ";"),
     E(CORE + "OptimalMap/OptimalMap.cxx", "sum += 0.5 * h * h * «part * (1.0 - part)»;", "0.0"),
     E(CORE + "OptimalMap/OptimalMap.cxx", "if («seeds.AreSamples()»)", "false"),
-    S(CORE + "OptimalMap/OptimalMap.cxx", "gatherParts(ranks, starts, all.data());", ";"),
+    S(CORE + "OptimalMap/Masses/FinishSamples.cxx", "gatherParts(ranks, starts, all.data());", ";"),
     E(BRIDGE + "Blend/OptimalBlend.cxx", "sum[i] += «weight» * this->Scale", "1.0"),
     E(BRIDGE + "Blend/OptimalBlend.cxx", "if («fall <= 0.0»)", "false"),
     E(BRIDGE + "Blend/OptimalBlend.cxx", "(*end)[axis] = part * «this->Scale.ToUnits(lengths[axis])»;", "1.0"),

@@ -6,13 +6,11 @@
 #include "Core/OptimalMap/CorrectedMap.h"
 #include "Core/OptimalMap/CouplingCost.h"
 #include "Core/OptimalMap/Masses/CellDensity.h"
-#include "Core/OptimalMap/Masses/ExactCounts.h"
+#include "Core/OptimalMap/Masses/FinishSamples.h"
 #include "Core/OptimalMap/Masses/MassCorrection.h"
-#include "Core/OptimalMap/Masses/SpreadInCells.h"
 #include "Core/OptimalMap/Nodes/NodeLevels.h"
 #include "Core/OptimalMap/PotentialSolver.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/SmallWork.h"
 
 #include <algorithm>
@@ -32,9 +30,6 @@ namespace
 {
 
 constexpr std::int64_t group = 64; // of particles that are read together
-// Fewer samples a cell are no image from which to correct masses.
-constexpr double leastSamplesACell = 0.25;
-constexpr int samplesCellsANode = 2;
 
 void check(const OptimalMapOptions& options)
 {
@@ -172,8 +167,6 @@ struct OptimalMap<Dimension>::Implementation
 
   FlowReport Move(int side, const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions,
     const Context& context);
-  void Finish(int side, PointSpan<Dimension> positions, Progress& progress);
-  void FinishOnRanks(int side, PointSpan<Dimension> positions, Progress& progress);
 
   const std::array<CellDensity<Dimension>, 2> Densities;
   const Point<Dimension> Sides;
@@ -419,55 +412,10 @@ FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds
   });
   if (seeds.AreSamples())
   {
-    this->FinishOnRanks(side, positions, progress);
+    const auto to = static_cast<std::size_t>(1 - side);
+    finishSamples<Dimension>(this->Densities[to], this->CellSides(to), positions, progress);
   }
   return {};
-}
-
-// The samples of all ranks together; each computes the same.
-template <int Dimension>
-void OptimalMap<Dimension>::Implementation::FinishOnRanks(
-  int side, PointSpan<Dimension> positions, Progress& progress)
-{
-  const Ranks& ranks = progress.Group();
-  if (!ranks.AreSeveral())
-  {
-    this->Finish(side, positions, progress);
-    return;
-  }
-  std::vector<std::int64_t> starts{ 0 };
-  for (const std::int64_t count : gatherValues<std::int64_t>(ranks, positions.size() * Dimension))
-  {
-    starts.push_back(starts.back() + count);
-  }
-  LargeBuffer<double> all(starts.back());
-  const std::int64_t own = starts[static_cast<std::size_t>(ranks.Own())];
-  std::copy_n(positions.data(), positions.size() * Dimension, all.data() + own);
-  gatherParts(ranks, starts, all.data());
-  this->Finish(side, { all.data(), starts.back() / Dimension }, progress);
-  std::copy_n(all.data() + own, positions.size() * Dimension, positions.data());
-}
-
-template <int Dimension>
-void OptimalMap<Dimension>::Implementation::Finish(
-  int side, PointSpan<Dimension> positions, Progress& progress)
-{
-  constexpr double endOfMasses = 0.9;
-  constexpr double endOfCounts = 0.97;
-  const auto to = static_cast<std::size_t>(1 - side);
-  const CellDensity<Dimension>& target = this->Densities[to];
-  const Point<Dimension> sides = this->CellSides(to);
-  progress.BeginStage(endOfMasses);
-  const auto count = static_cast<double>(positions.size());
-  if (count >= leastSamplesACell * static_cast<double>(target.NumberOfCells()))
-  {
-    const MassCorrection<Dimension> correction(
-      target, sides, samplesCellsANode, positions, nullptr, progress);
-  }
-  progress.BeginStage(endOfCounts);
-  makeCountsExact<Dimension>(target, sides, positions, progress);
-  progress.BeginStage(1.0, 2 * Dimension * positions.size());
-  spreadInCells<Dimension>(target.Size(), positions, progress);
 }
 
 template <int Dimension>

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/Masses/FinishSamples.h"
+
+#include "Core/OptimalMap/Masses/ExactCounts.h"
+#include "Core/OptimalMap/Masses/MassCorrection.h"
+#include "Core/OptimalMap/Masses/SpreadInCells.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/RankExchange.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Fewer samples a cell are no image from which to correct masses.
+constexpr double leastSamplesACell = 0.25;
+constexpr int samplesCellsANode = 2;
+
+template <int Dimension>
+void finishAll(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
+  PointSpan<Dimension> samples, Progress& progress)
+{
+  constexpr double endOfMasses = 0.9;
+  constexpr double endOfCounts = 0.97;
+  progress.BeginStage(endOfMasses);
+  const auto count = static_cast<double>(samples.size());
+  if (count >= leastSamplesACell * static_cast<double>(density.NumberOfCells()))
+  {
+    const MassCorrection<Dimension> correction(
+      density, sides, samplesCellsANode, samples, nullptr, progress);
+  }
+  progress.BeginStage(endOfCounts);
+  makeCountsExact<Dimension>(density, sides, samples, progress);
+  progress.BeginStage(1.0, 2 * Dimension * samples.size());
+  spreadInCells<Dimension>(density.Size(), samples, progress);
+}
+
+} // namespace
+
+template <int Dimension>
+void finishSamples(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
+  PointSpan<Dimension> samples, Progress& progress)
+{
+  const Ranks& ranks = progress.Group();
+  if (!ranks.AreSeveral())
+  {
+    finishAll<Dimension>(density, sides, samples, progress);
+    return;
+  }
+  std::vector<std::int64_t> starts{ 0 };
+  for (const std::int64_t count : gatherValues<std::int64_t>(ranks, samples.size() * Dimension))
+  {
+    starts.push_back(starts.back() + count);
+  }
+  LargeBuffer<double> all(starts.back());
+  const std::int64_t own = starts[static_cast<std::size_t>(ranks.Own())];
+  std::copy_n(samples.data(), samples.size() * Dimension, all.data() + own);
+  gatherParts(ranks, starts, all.data());
+  // Each computes the same.
+  finishAll<Dimension>(density, sides, { all.data(), starts.back() / Dimension }, progress);
+  std::copy_n(all.data() + own, samples.size() * Dimension, samples.data());
+}
+
+template void finishSamples<1>(const CellDensity<1>&, const Point<1>&, PointSpan<1>, Progress&);
+template void finishSamples<2>(const CellDensity<2>&, const Point<2>&, PointSpan<2>, Progress&);
+template void finishSamples<3>(const CellDensity<3>&, const Point<3>&, PointSpan<3>, Progress&);
+
+} // namespace RectifiedTransport

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The last moves of samples that a map has taken to a density: boxes of cells get their shares of
+// them.
+#ifndef RectifiedTransport_FinishSamples_h
+#define RectifiedTransport_FinishSamples_h
+
+#include "Core/OptimalMap/Masses/CellDensity.h"
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// Masses of the nodes, if there are samples enough, then exact counts in boxes, then even places
+// in cells. Samples are in the index space of the density, whose cells have the sides `sides`. The
+// samples of all ranks are moved together. The same bits for every number of threads and ranks.
+// Takes the progress to its end. Collective. Throws std::bad_alloc and Cancelled.
+template <int Dimension>
+void finishSamples(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
+  PointSpan<Dimension> samples, Progress& progress);
+
+} // namespace RectifiedTransport
+
+#endif
