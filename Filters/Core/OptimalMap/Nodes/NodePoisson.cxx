@@ -3,6 +3,8 @@
 
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/OptimalMap/Nodes/CosineTransform.h"
+#include "Core/OptimalMap/Nodes/NodeRows.h"
+#include "Core/OptimalMap/Nodes/WeightedPoisson.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 
@@ -24,12 +26,6 @@ namespace
 
 constexpr int lanes = CosineLines::Count;
 constexpr std::int64_t firstSlice = std::int64_t{ 1 } << 19;
-
-// Of the cells, the share that a node stands for along an axis.
-double shareOf(std::int64_t node, std::int64_t cells)
-{
-  return node == 0 || node == cells ? 0.5 : 1.0;
-}
 
 // Lines of nodes along an axis, which are numbered like the nodes of the grid without the axis.
 struct PoissonLines
@@ -151,7 +147,8 @@ struct NodePoisson<Dimension>::Implementation
   explicit Implementation(const NodeGrid<Dimension>& grid)
     : Grid(grid)
     , Nodes(grid.NumberOfNodes())
-    , Chunk(std::max<std::int64_t>(1, 8192 / (grid.Cells[0] + 1)) * (grid.Cells[0] + 1))
+    , Chunk(chunkOfRows(grid))
+    , Weighted(grid)
   {
     for (int axis = 0; axis < TransformedAxes; ++axis)
     {
@@ -277,25 +274,12 @@ struct NodePoisson<Dimension>::Implementation
     double factors[lanes];
     for (int i = 0; i < lanes; ++i)
     {
-      factors[i] = 1.0 / this->ShareOfRow(first + std::min(i, block.Count - 1));
+      factors[i] = 1.0 / shareOfRow<Dimension>(this->Grid, first + std::min(i, block.Count - 1));
     }
     block.LoadScaled(masses, factors, lines.Values());
     CosineLines::Complex* nodes = lines.Nodes();
     nodes[0] *= Lanes(2.0);
     nodes[block.Nodes - 1] *= Lanes(2.0);
-  }
-
-  // Of a cell, the share of an inner node of a row along axis 0.
-  double ShareOfRow(std::int64_t row) const
-  {
-    double share = 1.0;
-    for (int axis = 1; axis < Dimension; ++axis)
-    {
-      const std::int64_t nodes = this->Grid.Cells[axis] + 1;
-      share *= shareOf(row % nodes, nodes - 1);
-      row /= nodes;
-    }
-    return share;
   }
 
   // The transform along the last axis, the division by the eigenvalues of the Laplacian, and the
@@ -334,187 +318,12 @@ struct NodePoisson<Dimension>::Implementation
     lines.Transform();
   }
 
-  void SolveWeighted(const double* masses, const double* density, double floor, int iterations,
-    double* p, Progress& progress)
-  {
-    for (NodeValues* values :
-      { &this->Weights, &this->Rest, &this->Preconditioned, &this->Direction, &this->Image })
-    {
-      if (values->size() == 0)
-      {
-        *values = NodeValues(this->Nodes);
-      }
-    }
-    this->Begin(masses, density, floor, p, progress);
-    double before = 1.0;
-    for (int iteration = 0; iteration < iterations; ++iteration)
-    {
-      this->Solve(this->Rest.data(), this->Preconditioned.data(), progress);
-      const double now = this->Product(progress);
-      if (!(now > 0.0))
-      {
-        return;
-      }
-      this->Turn(iteration > 0 ? now / before : 0.0, progress);
-      const double curvature = this->Apply(progress);
-      if (!(curvature > 0.0)) // what is left is rounding
-      {
-        return;
-      }
-      this->Move(now / curvature, p, progress);
-      before = now;
-    }
-  }
-
-  // kernel(row, first node) for the rows along axis 0 of a range of nodes.
-  template <class Kernel>
-  void ForRows(std::int64_t first, std::int64_t last, const Kernel& kernel) const
-  {
-    const std::int64_t nodes = this->Grid.Cells[0] + 1;
-    for (; first < last; first += nodes)
-    {
-      kernel(first / nodes, first);
-    }
-  }
-
-  void Begin(
-    const double* masses, const double* density, double floor, double* p, Progress& progress)
-  {
-    const std::int64_t cells = this->Grid.Cells[0];
-    const double number = static_cast<double>(this->Grid.NumberOfCells());
-    double* rest = this->Rest.data();
-    double* weights = this->Weights.data();
-    double* direction = this->Direction.data();
-    progress.For(this->Nodes, this->Chunk, [&](std::int64_t first, std::int64_t last) {
-      std::copy(masses + first, masses + last, rest + first);
-      std::fill(p + first, p + last, 0.0);
-      std::fill(direction + first, direction + last, 0.0);
-      this->ForRows(first, last, [&](std::int64_t row, std::int64_t node) {
-        const double factor = number / this->ShareOfRow(row);
-        weights[node] = std::max(floor, 2.0 * factor * density[node]);
-        for (std::int64_t i = node + 1; i < node + cells; ++i)
-        {
-          weights[i] = std::max(floor, factor * density[i]);
-        }
-        weights[node + cells] = std::max(floor, 2.0 * factor * density[node + cells]);
-      });
-    });
-  }
-
-  double Product(Progress& progress) const
-  {
-    const double* z = this->Preconditioned.data();
-    const double* r = this->Rest.data();
-    return reduceChunks(
-      progress, this->Nodes, this->Chunk, 0.0,
-      [=](std::int64_t first, std::int64_t last) {
-        double sum = 0.0;
-        for (std::int64_t i = first; i < last; ++i)
-        {
-          sum += z[i] * r[i];
-        }
-        return sum;
-      },
-      std::plus<>());
-  }
-
-  void Turn(double factor, Progress& progress)
-  {
-    const double* z = this->Preconditioned.data();
-    double* direction = this->Direction.data();
-    progress.For(this->Nodes, this->Chunk, [=](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        direction[i] = z[i] + factor * direction[i];
-      }
-    });
-  }
-
-  // Image = -div(weight grad Direction), as masses. Returns its product with Direction.
-  double Apply(Progress& progress)
-  {
-    return reduceChunks(
-      progress, this->Nodes, this->Chunk, 0.0,
-      [this](std::int64_t first, std::int64_t last) {
-        double sum = 0.0;
-        this->ForRows(first, last,
-          [&](std::int64_t row, std::int64_t node) { sum += this->ApplyToRow(row, node); });
-        return sum;
-      },
-      std::plus<>());
-  }
-
-  double ApplyToRow(std::int64_t row, std::int64_t node)
-  {
-    const std::int64_t cells = this->Grid.Cells[0];
-    const double* d = this->Direction.data() + node;
-    const double* w = this->Weights.data() + node;
-    double* image = this->Image.data() + node;
-    // A node's share of a flux is that of the nodes across it.
-    const double share = this->ShareOfRow(row);
-    const double number = static_cast<double>(this->Grid.NumberOfCells());
-    const auto scaleOf = [&](int axis) {
-      const double spacing = this->Grid.Spacing[axis];
-      return 0.5 / (number * spacing * spacing);
-    };
-    std::fill_n(image, cells + 1, 0.0);
-    std::int64_t rest = row;
-    for (int axis = 1; axis < Dimension; ++axis)
-    {
-      const std::int64_t end = this->Grid.Cells[axis];
-      const std::int64_t at = rest % (end + 1);
-      rest /= end + 1;
-      const double scale = scaleOf(axis) * share / shareOf(at, end);
-      const std::int64_t stride = this->Grid.Stride(axis);
-      const std::int64_t low = at > 0 ? -stride : 0; // no flux from the node itself
-      const std::int64_t high = at < end ? stride : 0;
-      for (std::int64_t i = 0; i <= cells; ++i)
-      {
-        image[i] += scale *
-          ((w[i] + w[i + low]) * (d[i] - d[i + low]) + (w[i] + w[i + high]) * (d[i] - d[i + high]));
-      }
-    }
-    image[0] *= 0.5;
-    image[cells] *= 0.5;
-    const double scale = scaleOf(0) * share;
-    image[0] += scale * (w[0] + w[1]) * (d[0] - d[1]);
-    double sum = image[0] * d[0];
-    for (std::int64_t i = 1; i < cells; ++i)
-    {
-      image[i] +=
-        scale * ((w[i] + w[i - 1]) * (d[i] - d[i - 1]) + (w[i] + w[i + 1]) * (d[i] - d[i + 1]));
-      sum += image[i] * d[i];
-    }
-    image[cells] += scale * (w[cells] + w[cells - 1]) * (d[cells] - d[cells - 1]);
-    return sum + image[cells] * d[cells];
-  }
-
-  void Move(double step, double* p, Progress& progress)
-  {
-    const double* direction = this->Direction.data();
-    const double* image = this->Image.data();
-    double* rest = this->Rest.data();
-    progress.For(this->Nodes, this->Chunk, [=](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        p[i] += step * direction[i];
-        rest[i] -= step * image[i];
-      }
-    });
-  }
-
   const NodeGrid<Dimension> Grid;
   const std::int64_t Nodes;
   const std::int64_t Chunk; // of whole rows along axis 0
   std::array<std::shared_ptr<CosineLinesPool>, Dimension> Pools;
   std::array<std::vector<double>, Dimension> Eigenvalues; // of -Laplace along each axis
-
-  // Of the weighted equation.
-  NodeValues Weights;
-  NodeValues Rest; // what is left of the masses
-  NodeValues Preconditioned;
-  NodeValues Direction;
-  NodeValues Image;
+  WeightedPoisson<Dimension> Weighted;
 };
 
 template <int Dimension>
@@ -536,7 +345,10 @@ template <int Dimension>
 void NodePoisson<Dimension>::SolveWeighted(const double* masses, const double* density,
   double floor, int iterations, double* p, Progress& progress)
 {
-  this->Self->SolveWeighted(masses, density, floor, iterations, p, progress);
+  const auto precondition = [&](const double* rest, double* solution) {
+    this->Self->Solve(rest, solution, progress);
+  };
+  this->Self->Weighted.Solve(masses, density, floor, iterations, precondition, p, progress);
 }
 
 template <int Dimension>
@@ -550,16 +362,14 @@ template <int Dimension>
 std::int64_t NodePoisson<Dimension>::UnitsOfWeighted(
   const NodeGrid<Dimension>& grid, int iterations)
 {
-  constexpr int others = 4; // of an iteration: loops over the nodes
-  return grid.NumberOfNodes() + iterations * (UnitsOf(grid) + others * grid.NumberOfNodes());
+  return WeightedPoisson<Dimension>::UnitsOf(grid, iterations, UnitsOf(grid));
 }
 
 template <int Dimension>
 double NodePoisson<Dimension>::MemoryFor(const NodeGrid<Dimension>& grid, bool weighted)
 {
-  constexpr double arrays = 5.0;
   const double nodes = numberOfCorners<Dimension>(grid.Cells);
-  double bytes = weighted ? arrays * sizeof(double) * nodes : 0.0;
+  double bytes = weighted ? WeightedPoisson<Dimension>::MemoryFor(grid) : 0.0;
   // Transforms of each length for every thread that has lines.
   const double threads = std::max(1u, std::thread::hardware_concurrency());
   for (int axis = 0; axis < Implementation::TransformedAxes; ++axis)

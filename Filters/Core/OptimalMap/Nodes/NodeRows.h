@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rows of nodes along axis 0, and of how much of a cell nodes stand.
+#ifndef RectifiedTransport_NodeRows_h
+#define RectifiedTransport_NodeRows_h
+
+#include "Core/OptimalMap/Nodes/NodeGrid.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// The nodes of the rows that make a chunk of work.
+template <int Dimension>
+std::int64_t chunkOfRows(const NodeGrid<Dimension>& grid)
+{
+  const std::int64_t nodes = grid.Cells[0] + 1;
+  return std::max<std::int64_t>(1, 8192 / nodes) * nodes;
+}
+
+// Of the cells, the share that a node stands for along an axis.
+inline double shareOf(std::int64_t node, std::int64_t cells)
+{
+  return node == 0 || node == cells ? 0.5 : 1.0;
+}
+
+// Of a cell, the share of an inner node of a row.
+template <int Dimension>
+double shareOfRow(const NodeGrid<Dimension>& grid, std::int64_t row)
+{
+  double share = 1.0;
+  for (int axis = 1; axis < Dimension; ++axis)
+  {
+    const std::int64_t nodes = grid.Cells[axis] + 1;
+    share *= shareOf(row % nodes, nodes - 1);
+    row /= nodes;
+  }
+  return share;
+}
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/Nodes/WeightedPoisson.h"
+
+#include "Core/OptimalMap/Nodes/NodeRows.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+WeightedPoisson<Dimension>::WeightedPoisson(const NodeGrid<Dimension>& grid)
+  : Grid(grid)
+  , Nodes(grid.NumberOfNodes())
+  , Chunk(chunkOfRows(grid))
+{
+}
+
+template <int Dimension>
+void WeightedPoisson<Dimension>::Solve(const double* masses, const double* density, double floor,
+  int iterations, const Preconditioner& precondition, double* p, Progress& progress)
+{
+  for (NodeValues* values :
+    { &this->Weights, &this->Rest, &this->Preconditioned, &this->Direction, &this->Image })
+  {
+    if (values->size() == 0)
+    {
+      *values = NodeValues(this->Nodes);
+    }
+  }
+  this->Begin(masses, density, floor, p, progress);
+  double before = 1.0;
+  for (int iteration = 0; iteration < iterations; ++iteration)
+  {
+    precondition(this->Rest.data(), this->Preconditioned.data());
+    const double now = this->Product(progress);
+    if (!(now > 0.0))
+    {
+      return;
+    }
+    this->Turn(iteration > 0 ? now / before : 0.0, progress);
+    const double curvature = this->Apply(progress);
+    if (!(curvature > 0.0)) // what is left is rounding
+    {
+      return;
+    }
+    this->Move(now / curvature, p, progress);
+    before = now;
+  }
+}
+
+// kernel(row, first node) for the rows along axis 0 of a range of nodes.
+template <int Dimension>
+template <class Kernel>
+void WeightedPoisson<Dimension>::ForRows(
+  std::int64_t first, std::int64_t last, const Kernel& kernel) const
+{
+  const std::int64_t nodes = this->Grid.Cells[0] + 1;
+  for (; first < last; first += nodes)
+  {
+    kernel(first / nodes, first);
+  }
+}
+
+template <int Dimension>
+void WeightedPoisson<Dimension>::Begin(
+  const double* masses, const double* density, double floor, double* p, Progress& progress)
+{
+  const std::int64_t cells = this->Grid.Cells[0];
+  const double number = static_cast<double>(this->Grid.NumberOfCells());
+  double* rest = this->Rest.data();
+  double* weights = this->Weights.data();
+  double* direction = this->Direction.data();
+  progress.For(this->Nodes, this->Chunk, [&](std::int64_t first, std::int64_t last) {
+    std::copy(masses + first, masses + last, rest + first);
+    std::fill(p + first, p + last, 0.0);
+    std::fill(direction + first, direction + last, 0.0);
+    this->ForRows(first, last, [&](std::int64_t row, std::int64_t node) {
+      const double factor = number / shareOfRow<Dimension>(this->Grid, row);
+      weights[node] = std::max(floor, 2.0 * factor * density[node]);
+      for (std::int64_t i = node + 1; i < node + cells; ++i)
+      {
+        weights[i] = std::max(floor, factor * density[i]);
+      }
+      weights[node + cells] = std::max(floor, 2.0 * factor * density[node + cells]);
+    });
+  });
+}
+
+template <int Dimension>
+double WeightedPoisson<Dimension>::Product(Progress& progress) const
+{
+  const double* z = this->Preconditioned.data();
+  const double* r = this->Rest.data();
+  return reduceChunks(
+    progress, this->Nodes, this->Chunk, 0.0,
+    [=](std::int64_t first, std::int64_t last) {
+      double sum = 0.0;
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        sum += z[i] * r[i];
+      }
+      return sum;
+    },
+    std::plus<>());
+}
+
+template <int Dimension>
+void WeightedPoisson<Dimension>::Turn(double factor, Progress& progress)
+{
+  const double* z = this->Preconditioned.data();
+  double* direction = this->Direction.data();
+  progress.For(this->Nodes, this->Chunk, [=](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      direction[i] = z[i] + factor * direction[i];
+    }
+  });
+}
+
+// Image = -div(weight grad Direction), as masses. Returns its product with Direction.
+template <int Dimension>
+double WeightedPoisson<Dimension>::Apply(Progress& progress)
+{
+  return reduceChunks(
+    progress, this->Nodes, this->Chunk, 0.0,
+    [this](std::int64_t first, std::int64_t last) {
+      double sum = 0.0;
+      this->ForRows(first, last,
+        [&](std::int64_t row, std::int64_t node) { sum += this->ApplyToRow(row, node); });
+      return sum;
+    },
+    std::plus<>());
+}
+
+template <int Dimension>
+double WeightedPoisson<Dimension>::ApplyToRow(std::int64_t row, std::int64_t node)
+{
+  const std::int64_t cells = this->Grid.Cells[0];
+  const double* d = this->Direction.data() + node;
+  const double* w = this->Weights.data() + node;
+  double* image = this->Image.data() + node;
+  // A node's share of a flux is that of the nodes across it.
+  const double share = shareOfRow<Dimension>(this->Grid, row);
+  const double number = static_cast<double>(this->Grid.NumberOfCells());
+  const auto scaleOf = [&](int axis) {
+    const double spacing = this->Grid.Spacing[axis];
+    return 0.5 / (number * spacing * spacing);
+  };
+  std::fill_n(image, cells + 1, 0.0);
+  std::int64_t rest = row;
+  for (int axis = 1; axis < Dimension; ++axis)
+  {
+    const std::int64_t end = this->Grid.Cells[axis];
+    const std::int64_t at = rest % (end + 1);
+    rest /= end + 1;
+    const double scale = scaleOf(axis) * share / shareOf(at, end);
+    const std::int64_t stride = this->Grid.Stride(axis);
+    const std::int64_t low = at > 0 ? -stride : 0; // no flux from the node itself
+    const std::int64_t high = at < end ? stride : 0;
+    for (std::int64_t i = 0; i <= cells; ++i)
+    {
+      image[i] += scale *
+        ((w[i] + w[i + low]) * (d[i] - d[i + low]) + (w[i] + w[i + high]) * (d[i] - d[i + high]));
+    }
+  }
+  image[0] *= 0.5;
+  image[cells] *= 0.5;
+  const double scale = scaleOf(0) * share;
+  image[0] += scale * (w[0] + w[1]) * (d[0] - d[1]);
+  double sum = image[0] * d[0];
+  for (std::int64_t i = 1; i < cells; ++i)
+  {
+    image[i] +=
+      scale * ((w[i] + w[i - 1]) * (d[i] - d[i - 1]) + (w[i] + w[i + 1]) * (d[i] - d[i + 1]));
+    sum += image[i] * d[i];
+  }
+  image[cells] += scale * (w[cells] + w[cells - 1]) * (d[cells] - d[cells - 1]);
+  return sum + image[cells] * d[cells];
+}
+
+template <int Dimension>
+void WeightedPoisson<Dimension>::Move(double step, double* p, Progress& progress)
+{
+  const double* direction = this->Direction.data();
+  const double* image = this->Image.data();
+  double* rest = this->Rest.data();
+  progress.For(this->Nodes, this->Chunk, [=](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      p[i] += step * direction[i];
+      rest[i] -= step * image[i];
+    }
+  });
+}
+
+template <int Dimension>
+std::int64_t WeightedPoisson<Dimension>::UnitsOf(
+  const NodeGrid<Dimension>& grid, int iterations, std::int64_t ofPreconditioner)
+{
+  constexpr int others = 4; // of an iteration: loops over the nodes
+  return grid.NumberOfNodes() + iterations * (ofPreconditioner + others * grid.NumberOfNodes());
+}
+
+template <int Dimension>
+double WeightedPoisson<Dimension>::MemoryFor(const NodeGrid<Dimension>& grid)
+{
+  constexpr double arrays = 5.0;
+  return arrays * sizeof(double) * numberOfCorners<Dimension>(grid.Cells);
+}
+
+template class WeightedPoisson<1>;
+template class WeightedPoisson<2>;
+template class WeightedPoisson<3>;
+
+} // namespace RectifiedTransport
