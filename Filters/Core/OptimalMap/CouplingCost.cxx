@@ -6,15 +6,13 @@
 #include "Core/OptimalMap/Nodes/NodePoisson.h"
 #include "Core/OptimalMap/Nodes/NodeSums.h"
 #include "Core/OptimalMap/Nodes/PoissonMoves.h"
-#include "Core/Parallel/ExactSum.h"
-#include "Core/Parallel/KeySort.h"
+#include "Core/OptimalMap/PassRest.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <stdexcept>
 #include <vector>
 
@@ -38,37 +36,26 @@ public:
     const NodeMap<Dimension>& map, Progress& progress)
     : Source(source)
     , Target(target)
-    , Size(target.Size())
     , Count(target.NumberOfCells())
     , Placement(CellPlacement<Dimension>::Filling(target.Size(), map.Grid.Cells))
     , Work(progress)
   {
+    this->Shares.Size = target.Size();
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      this->Sides[axis] = map.Grid.Spacing[axis] * this->Placement.Sides[axis];
-      const double length = this->Sides[axis] * static_cast<double>(this->Size[axis]);
-      this->SquaredDiagonal += length * length;
+      this->Shares.Sides[axis] = map.Grid.Spacing[axis] * this->Placement.Sides[axis];
+      const double length = this->Shares.Sides[axis] * static_cast<double>(this->Shares.Size[axis]);
+      this->Shares.SquaredDiagonal += length * length;
     }
   }
 
   double Cost(const NodeMap<Dimension>& map)
   {
     this->ShareCorrected(map);
-    this->FindRest();
-    this->PassToNeighbours();
-    this->PassAlongCurve();
-    return this->TotalCost();
+    return passRest(this->Shares, this->Target, this->Work);
   }
 
 private:
-  // What each cell got: the mass, and in the end also its first moments, with ways from the source
-  // in parts of the whole grid, and its cost from there to the cell, in squared diagonals.
-  static constexpr int Sums = Dimension + 2;
-  const std::int64_t* Got(std::int64_t cell) const
-  {
-    return this->Shares.data() + cell * this->SumsACell;
-  }
-
   // The images of the cells' corners, in cells, of a map between its nodes.
   void FindCorners(const std::array<NodeValues, Dimension>& images,
     const GridSize<Dimension>& nodeCells, NodeMap<Dimension>& corners)
@@ -111,7 +98,7 @@ private:
   {
     const NodeGrid<Dimension>& grid = map.Grid;
     const std::int64_t nodes = grid.NumberOfNodes();
-    auto corners = NodeMap<Dimension>::On({ this->Size, this->Sides });
+    auto corners = NodeMap<Dimension>::On({ this->Shares.Size, this->Shares.Sides });
     std::array<NodeValues, Dimension> images;
     for (std::size_t axis = 0; axis < images.size(); ++axis)
     {
@@ -127,10 +114,10 @@ private:
       this->FindCorners(images, grid.Cells, corners);
       if (correction == corrections)
       {
-        this->ShareImages<Sums>(corners);
+        this->ShareImages<CellShares<Dimension>::WithCosts>(corners);
         return;
       }
-      this->ShareImages<1>(corners);
+      this->ShareImages<CellShares<Dimension>::MassAlone>(corners);
       this->FindExcess(grid, excess);
       poisson.SolveWeighted(
         excess.data(), wanted.data(), leastWeight, iterations, q.data(), this->Work);
@@ -163,13 +150,14 @@ private:
       for (std::int64_t cell = first; cell < last; ++cell)
       {
         Point<Dimension> centre;
-        const GridSize<Dimension> place = this->PlaceOf(cell);
+        const GridSize<Dimension> place = this->Shares.PlaceOf(cell);
         for (int axis = 0; axis < Dimension; ++axis)
         {
           centre[axis] = static_cast<double>(place[axis]) + 0.5;
         }
         const Point<Dimension> at = this->Placement.ToNodes(centre.data());
-        part.Add(static_cast<double>(this->RestOf(cell)) / integerUnit, at.data());
+        part.Add(
+          static_cast<double>(this->Shares.RestOf(cell, this->Target)) / integerUnit, at.data());
       }
     });
     sums.Write(excess.data(), this->Work, [](std::int64_t, double sum) { return sum; });
@@ -179,11 +167,11 @@ private:
   template <int Each>
   void ShareImages(const NodeMap<Dimension>& corners)
   {
-    this->SumsACell = Each;
+    this->Shares.Each = Each;
     const std::int64_t rows = ImageSamples<Dimension>::NumberOfRows(corners.Grid);
-    const std::int64_t each = std::max<std::int64_t>(1, 8192 / this->Size[0]);
+    const std::int64_t each = std::max<std::int64_t>(1, 8192 / this->Shares.Size[0]);
     const std::int64_t sums = this->Count * Each;
-    this->Shares = LargeBuffer<std::int64_t>(); // before there are new ones
+    this->Shares.Sums = LargeBuffer<std::int64_t>(); // before there are new ones
     IntegerSums integers(sums, this->Count * 4, this->Work);
     this->Work.For(
       rows, each,
@@ -193,8 +181,8 @@ private:
         const double scale = integerUnit * (this->Source.IsUniform() ? this->Source.Share(0) : 1.0);
         for (std::int64_t row = first; row < last; ++row)
         {
-          const std::int64_t begin = row * this->Size[0];
-          GridSize<Dimension> place = this->PlaceOf(begin);
+          const std::int64_t begin = row * this->Shares.Size[0];
+          GridSize<Dimension> place = this->Shares.PlaceOf(begin);
           samples.ForRow(row, this->Source.data(),
             [&](const CellSample<Dimension>& sample, const Point<Dimension>& image) {
               place[0] = sample.Cell - begin;
@@ -203,7 +191,7 @@ private:
         }
       },
       each);
-    this->Shares = integers.Release(this->Work);
+    this->Shares.Sums = integers.Release(this->Work);
   }
 
   template <int Each>
@@ -218,11 +206,11 @@ private:
     int count = 1;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      const double most = static_cast<double>(this->Size[axis] - 1);
+      const double most = static_cast<double>(this->Shares.Size[axis] - 1);
       const double at = std::clamp(image[axis] - 0.5, 0.0, most);
       const auto low = static_cast<std::int64_t>(at);
       const double high = at - static_cast<double>(low);
-      const std::int64_t step = low + 1 < this->Size[axis] ? stride : 0;
+      const std::int64_t step = low + 1 < this->Shares.Size[axis] ? stride : 0;
       ways[axis][0] = static_cast<double>(low - from[axis]);
       ways[axis][1] = static_cast<double>(low + 1 - from[axis]);
       for (int c = 0; c < count; ++c)
@@ -233,7 +221,7 @@ private:
         weight[c] *= 1.0 - high;
       }
       count *= 2;
-      stride *= this->Size[axis];
+      stride *= this->Shares.Size[axis];
     }
     double sum = 0.0;
     for (int c = 0; c < corners; ++c)
@@ -259,243 +247,24 @@ private:
           for (int axis = 0; axis < Dimension; ++axis)
           {
             const double way = ways[axis][(c >> axis) & 1];
-            const double length = way * this->Sides[axis];
+            const double length = way * this->Shares.Sides[axis];
             square += length * length;
-            got[1 + axis] += toInteger(share * way / static_cast<double>(this->Size[axis]));
+            got[1 + axis] += toInteger(share * way / static_cast<double>(this->Shares.Size[axis]));
           }
           // Rounded up.
-          const double cost = share * square / this->SquaredDiagonal;
+          const double cost = share * square / this->Shares.SquaredDiagonal;
           got[1 + Dimension] += static_cast<std::int64_t>(cost) + (cost > 0.0 ? 1 : 0);
         }
       }
     }
   }
 
-  GridSize<Dimension> PlaceOf(std::int64_t cell) const
-  {
-    GridSize<Dimension> place;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      place[axis] = cell % this->Size[axis];
-      cell /= this->Size[axis];
-    }
-    return place;
-  }
-
-  std::int64_t RestOf(std::int64_t cell) const
-  {
-    return this->Got(cell)[0] - toInteger(this->Target.Share(cell) * integerUnit);
-  }
-
-  // What each cell got more than its share; the rest of what it got stays.
-  void FindRest()
-  {
-    this->Rest = LargeBuffer<std::int64_t>(this->Count);
-    for (std::int64_t cell = 0; cell < this->Count; ++cell)
-    {
-      const std::int64_t rest = this->RestOf(cell);
-      this->Rest.data()[cell] = rest;
-      const std::int64_t kept = this->Got(cell)[0] - std::max<std::int64_t>(rest, 0);
-      if (kept > 0)
-      {
-        this->Sum.Add(
-          this->Share(kept, cell) * static_cast<double>(this->Got(cell)[1 + Dimension]));
-      }
-      this->Work.Add(1);
-    }
-  }
-
-  double Share(std::int64_t mass, std::int64_t cell) const
-  {
-    return static_cast<double>(mass) / static_cast<double>(this->Got(cell)[0]);
-  }
-
-  // From a cell that got too much to one that got too little. The mixture of what the cell got
-  // goes on.
-  void Pass(std::int64_t from, std::int64_t to)
-  {
-    const GridSize<Dimension> begin = this->PlaceOf(from);
-    GridSize<Dimension> way = this->PlaceOf(to);
-    std::transform(way.begin(), way.end(), begin.begin(), way.begin(), std::minus<>());
-    this->Pass(from, to, way, 1.0);
-  }
-  // The way times `sign` leads there.
-  void Pass(std::int64_t from, std::int64_t to, const GridSize<Dimension>& cells, double sign)
-  {
-    std::int64_t* rest = this->Rest.data();
-    const std::int64_t mass = std::min(rest[from], -rest[to]);
-    rest[from] -= mass;
-    rest[to] += mass;
-    const std::int64_t* got = this->Got(from);
-    const double share = this->Share(mass, from);
-    double cost = share * static_cast<double>(got[1 + Dimension]);
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const double scale = this->Sides[axis] * this->Sides[axis] / this->SquaredDiagonal;
-      const double way = sign * static_cast<double>(cells[axis]);
-      const double before = share * static_cast<double>(got[1 + axis]) *
-        static_cast<double>(this->Size[axis]); // in cells
-      cost += scale * way * (2.0 * before + way * static_cast<double>(mass));
-    }
-    this->Sum.Add(cost);
-  }
-
-  // The nearest ones first.
-  void PassToNeighbours()
-  {
-    constexpr int reach = Dimension == 3 ? 2 : 5; // cells
-    struct Offset
-    {
-      double Square;
-      std::array<std::int64_t, 3> Cells;
-    };
-    std::vector<Offset> offsets;
-    const std::array<std::int64_t, 3> reaches = { reach, Dimension > 1 ? reach : 0,
-      Dimension > 2 ? reach : 0 };
-    for (std::int64_t z = 0; z <= reaches[2]; ++z)
-    {
-      for (std::int64_t y = -reaches[1]; y <= reaches[1]; ++y)
-      {
-        for (std::int64_t x = -reaches[0]; x <= reaches[0]; ++x)
-        {
-          // One of two opposite ones.
-          const bool isFirst = z > 0 || (z == 0 && (y > 0 || (y == 0 && x > 0)));
-          if (isFirst && x * x + y * y + z * z <= reach * reach)
-          {
-            const std::array<std::int64_t, 3> cells = { x, y, z };
-            double square = 0.0;
-            for (int axis = 0; axis < Dimension; ++axis)
-            {
-              const double way =
-                static_cast<double>(cells[static_cast<std::size_t>(axis)]) * this->Sides[axis];
-              square += way * way;
-            }
-            offsets.push_back({ square, cells });
-          }
-        }
-      }
-    }
-    std::stable_sort(offsets.begin(), offsets.end(),
-      [](const Offset& a, const Offset& b) { return a.Square < b.Square; });
-    for (const Offset& offset : offsets)
-    {
-      this->PassBy(offset.Cells);
-    }
-  }
-
-  void PassBy(const std::array<std::int64_t, 3>& offset)
-  {
-    std::array<std::int64_t, 3> size = { 1, 1, 1 };
-    std::copy(this->Size.begin(), this->Size.end(), size.begin());
-    const std::int64_t step = offset[0] + size[0] * (offset[1] + size[1] * offset[2]);
-    const auto begin = [&](std::size_t axis) { return std::max<std::int64_t>(0, -offset[axis]); };
-    const auto end = [&](std::size_t axis) {
-      return size[axis] - std::max<std::int64_t>(0, offset[axis]);
-    };
-    GridSize<Dimension> way;
-    std::copy_n(offset.begin(), Dimension, way.begin());
-    const std::int64_t* rest = this->Rest.data();
-    for (std::int64_t z = begin(2); z < end(2); ++z)
-    {
-      for (std::int64_t y = begin(1); y < end(1); ++y)
-      {
-        const std::int64_t row = size[0] * (y + size[1] * z);
-        for (std::int64_t cell = row + begin(0); cell < row + end(0); ++cell)
-        {
-          const std::int64_t other = cell + step;
-          if (rest[cell] > 0 && rest[other] < 0)
-          {
-            this->Pass(cell, other, way, 1.0);
-          }
-          else if (rest[cell] < 0 && rest[other] > 0)
-          {
-            this->Pass(other, cell, way, -1.0);
-          }
-        }
-        this->Work.Add(size[0]);
-      }
-    }
-  }
-
-  // What is left meets along Morton's curve, as brackets do.
-  void PassAlongCurve()
-  {
-    struct Ordered
-    {
-      std::uint64_t Key;
-      std::int64_t Cell;
-    };
-    std::vector<Ordered> order;
-    for (std::int64_t cell = 0; cell < this->Count; ++cell)
-    {
-      if (this->Rest.data()[cell] != 0)
-      {
-        order.push_back({ this->MortonCode(cell), cell });
-      }
-      this->Work.Add(1);
-    }
-    sortByKey(order, this->Work);
-    std::vector<std::int64_t> open; // all with too much or all with too little
-    for (const Ordered& next : order)
-    {
-      std::int64_t& rest = this->Rest.data()[next.Cell];
-      while (rest != 0 && !open.empty() && (this->Rest.data()[open.back()] > 0) != (rest > 0))
-      {
-        const std::int64_t other = open.back();
-        this->Pass(rest > 0 ? next.Cell : other, rest > 0 ? other : next.Cell);
-        if (this->Rest.data()[other] == 0)
-        {
-          open.pop_back();
-        }
-      }
-      if (rest != 0)
-      {
-        open.push_back(next.Cell);
-      }
-      this->Work.Add(1);
-    }
-  }
-
-  std::uint64_t MortonCode(std::int64_t cell) const
-  {
-    constexpr int bits = Dimension == 3 ? 21 : 31; // of each coordinate
-    std::uint64_t code = 0;
-    const GridSize<Dimension> place = this->PlaceOf(cell);
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      auto rest = static_cast<std::uint64_t>(place[axis]);
-      for (int bit = 0; bit < bits && rest > 0; ++bit)
-      {
-        code |= (rest & 1) << (bit * Dimension + axis);
-        rest >>= 1;
-      }
-    }
-    return code;
-  }
-
-  double TotalCost()
-  {
-    // What rounding left may have to cross the whole box.
-    for (std::int64_t cell = 0; cell < this->Count; ++cell)
-    {
-      this->Sum.Add(std::abs(static_cast<double>(this->Rest.data()[cell])));
-      this->Work.Add(1);
-    }
-    return this->Sum.Value() / integerUnit * this->SquaredDiagonal;
-  }
-
   const CellDensity<Dimension>& Source;
   const CellDensity<Dimension>& Target;
-  GridSize<Dimension> Size;
   std::int64_t Count;
   CellPlacement<Dimension> Placement; // of the cells on the nodes
-  Point<Dimension> Sides{};           // of a cell
-  double SquaredDiagonal = 0.0;       // of the box
   Progress& Work;
-  LargeBuffer<std::int64_t> Shares;
-  int SumsACell = 0;
-  LargeBuffer<std::int64_t> Rest;
-  ExactSum Sum; // of the cost, in integerUnit squared diagonals
+  CellShares<Dimension> Shares;
 };
 
 } // namespace
