@@ -159,7 +159,7 @@ Point<Dimension> PointMap<Dimension>::AtPlace(const Point<Dimension>& place) con
   point = clampedTo<Dimension>(point, this->Target.Size());
   if (!this->Target.HasMass(point.data())) // cells that nodes do not resolve
   {
-    this->Target.MoveToMass(point.data(), {}, this->Target.Size(), this->CellSides);
+    this->Target.MoveToMass(point.data(), this->CellSides);
   }
   return point;
 }

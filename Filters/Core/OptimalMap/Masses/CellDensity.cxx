@@ -17,7 +17,6 @@ namespace
 {
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-constexpr double inside = 0x1p-20; // of a cell: at least so far from its sides
 
 } // namespace
 
@@ -70,20 +69,11 @@ std::int64_t CellDensity<Dimension>::CellOf(const double* point) const
 }
 
 template <int Dimension>
-void CellDensity<Dimension>::MoveToMass(double* point, const GridSize<Dimension>& low,
-  const GridSize<Dimension>& high, const Point<Dimension>& sides) const
+void CellDensity<Dimension>::MoveToMass(double* point, const Point<Dimension>& sides) const
 {
-  GridSize<Dimension> own;
-  Point<Dimension> place;
-  double shortest = std::numeric_limits<double>::max();
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    const auto cell = static_cast<std::int64_t>(std::clamp(std::floor(point[axis]),
-      static_cast<double>(low[axis]), static_cast<double>(high[axis] - 1)));
-    own[axis] = cell;
-    place[axis] = std::clamp(point[axis] - static_cast<double>(cell), inside, 1.0 - inside);
-    shortest = std::min(shortest, sides[axis]);
-  }
+  const PlaceInCell<Dimension> place(point, {}, this->Cells);
+  const GridSize<Dimension>& own = place.Cell;
+  const double shortest = *std::min_element(sides.begin(), sides.end());
   // Boxes of growing radius about the cell, until no cell beyond one can be nearer.
   for (double radius = 2.0 * shortest;; radius *= 2.0)
   {
@@ -93,11 +83,11 @@ void CellDensity<Dimension>::MoveToMass(double* point, const GridSize<Dimension>
     {
       const double reach = std::ceil(radius / sides[axis]);
       const auto cells =
-        static_cast<std::int64_t>(std::min(reach, static_cast<double>(high[axis] - low[axis])));
-      part.Low[axis] = std::max(low[axis], own[axis] - cells);
-      const std::int64_t end = std::min(high[axis], own[axis] + cells + 1);
+        static_cast<std::int64_t>(std::min(reach, static_cast<double>(this->Cells[axis])));
+      part.Low[axis] = std::max<std::int64_t>(0, own[axis] - cells);
+      const std::int64_t end = std::min(this->Cells[axis], own[axis] + cells + 1);
       part.Cells[axis] = end - part.Low[axis];
-      isAll = isAll && part.Low[axis] == low[axis] && end == high[axis];
+      isAll = isAll && part.Cells[axis] == this->Cells[axis];
     }
     double least = std::numeric_limits<double>::infinity();
     GridSize<Dimension> best = own;
@@ -120,10 +110,7 @@ void CellDensity<Dimension>::MoveToMass(double* point, const GridSize<Dimension>
     }
     if (least <= radius * radius || isAll)
     {
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        point[axis] = static_cast<double>(best[axis]) + place[axis];
-      }
+      place.MoveTo(best, point);
       return;
     }
   }

@@ -7,12 +7,43 @@
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Tables/Density.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace RectifiedTransport
 {
 
 class Progress;
+
+// Where a point is in its cell of the box of cells [low, high): the one that holds it or is nearest
+// to it. In another cell it goes to the same place, which keeps neighbours apart.
+template <int Dimension>
+struct PlaceInCell
+{
+  static constexpr double Inside = 0x1p-20; // of a cell: at least so far from its sides
+
+  PlaceInCell(const double* point, const GridSize<Dimension>& low, const GridSize<Dimension>& high)
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double cell = std::clamp(std::floor(point[axis]), static_cast<double>(low[axis]),
+        static_cast<double>(high[axis] - 1));
+      this->Cell[axis] = static_cast<std::int64_t>(cell);
+      this->Place[axis] = std::clamp(point[axis] - cell, Inside, 1.0 - Inside);
+    }
+  }
+  void MoveTo(const GridSize<Dimension>& cell, double* point) const
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      point[axis] = static_cast<double>(cell[axis]) + this->Place[axis];
+    }
+  }
+
+  GridSize<Dimension> Cell;
+  Point<Dimension> Place;
+};
 
 // Points are in the index space of the density, cell i covers [i, i+1].
 template <int Dimension>
@@ -43,10 +74,9 @@ public:
   {
     return !this->Voids || this->Shares.data()[this->CellOf(point)] > 0.0;
   }
-  // Moves a point into the nearest cell with mass of the box of cells [low, high), which has some,
-  // to where it is in its own cell, which keeps neighbours apart. Cells have the sides `sides`.
-  void MoveToMass(double* point, const GridSize<Dimension>& low, const GridSize<Dimension>& high,
-    const Point<Dimension>& sides) const;
+  // Moves a point into the nearest cell with mass, as PlaceInCell does. Cells have the sides
+  // `sides`.
+  void MoveToMass(double* point, const Point<Dimension>& sides) const;
 
 private:
   GridSize<Dimension> Cells;

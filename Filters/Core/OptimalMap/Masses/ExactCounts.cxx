@@ -20,7 +20,6 @@ namespace
 {
 
 constexpr std::int64_t fewest = 5;    // particles of a box that is halved
-constexpr double inside = 0x1p-20;    // of a cell: particles arrive at least so far from its sides
 constexpr double beyondVoid = 6.0;    // cells that a way to an empty cell counts more
 constexpr std::int64_t together = 64; // at least so many boxes are halved on one thread each
 
@@ -196,6 +195,7 @@ private:
 
   static double Mirrored(double at, int axis, double plane, const HalvingBox<Dimension>& to)
   {
+    constexpr double inside = PlaceInCell<Dimension>::Inside;
     return std::clamp(2.0 * plane - at, static_cast<double>(to.Low[axis]) + inside,
       static_cast<double>(to.High[axis]) - inside);
   }

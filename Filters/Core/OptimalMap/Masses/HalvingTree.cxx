@@ -15,7 +15,6 @@ namespace
 {
 
 constexpr std::int64_t leafCells = 64; // halves of boxes up to this size are not kept
-constexpr double inside = 0x1p-20;     // of a cell: at least so far from its sides
 
 // visit(first, last, cell): the numbers of the cells of each row of a box, and its first cell.
 template <int Dimension, class Visit>
@@ -160,20 +159,10 @@ template <int Dimension>
 void HalvingTree<Dimension>::MoveToMass(
   Point<Dimension>& point, const HalvingBox<Dimension>& box) const
 {
-  Nearest nearest;
-  Point<Dimension> place;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    const double cell = std::clamp(std::floor(point[axis]), static_cast<double>(box.Low[axis]),
-      static_cast<double>(box.High[axis] - 1));
-    nearest.From[axis] = static_cast<std::int64_t>(cell);
-    place[axis] = std::clamp(point[axis] - cell, inside, 1.0 - inside);
-  }
+  const PlaceInCell<Dimension> place(point.data(), box.Low, box.High);
+  Nearest nearest{ place.Cell };
   this->Search(box, nearest);
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    point[axis] = static_cast<double>(nearest.Cell[axis]) + place[axis];
-  }
+  place.MoveTo(nearest.Cell, point.data());
 }
 
 template <int Dimension>

@@ -55,8 +55,9 @@ public:
   Halved Halves(const HalvingBox<Dimension>& box) const;
   // Its share, or that times any constant, the same one for all boxes.
   double Mass(const HalvingBox<Dimension>& box) const;
-  // Moves a point to the nearest cell with mass of a box that has some, to where it is in its own
-  // cell, which keeps neighbours apart.
+  // Moves a point into the nearest cell with mass of a box that has some, as PlaceInCell does. The
+  // tree leaves out what is empty; of equally near cells, this may take another one than
+  // CellDensity does.
   void MoveToMass(Point<Dimension>& point, const HalvingBox<Dimension>& box) const;
   const CellDensity<Dimension>& Density() const { return this->Cells; }
 
