@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blend/DensityBlend.h"
 
+#include "Bridge/Blend/ParticlePositions.h"
 #include "Bridge/Density/CostBound.h"
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/FlowCache.h"
@@ -14,7 +15,6 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/Splat/DistributedSplat.h"
-#include "Core/Flow/WeightedMean.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/ExactSum.h"
 #include "Core/Parallel/Progress.h"
@@ -341,19 +341,9 @@ void DensityBlend::AddBound(const ImageGrid& geometry, double cost, vtkDataObjec
 
 void DensityBlend::TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress)
 {
-  std::vector<WeightedPositions> parts;
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-  {
-    vtkDoubleArray* positions = this->Found.Positions[i];
-    parts.push_back(
-      { { positions->GetPointer(0), positions->GetNumberOfTuples() }, inputs[i].Weight });
-  }
   const std::int64_t count = this->Maps.front().Positions()->GetNumberOfTuples();
   reuseOrMake(this->Means, "Points", 3, count);
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  const PointSpan<3> means(this->Means->GetPointer(0), count);
-  progress.For(count, grain,
-    [&](std::int64_t first, std::int64_t last) { writeWeightedMean(parts, first, last, means); });
+  writeMeans(this->Found.Positions, inputs, progress, { this->Means->GetPointer(0), count });
 }
 
 // Takes the displacements y - x of the particles between their positions x and y in the two inputs.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blend/LinearizedMap.h"
 
+#include "Bridge/Blend/ParticlePositions.h"
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Density/TableChoice.h"
 #include "Bridge/Run/Failure.h"
@@ -17,27 +18,6 @@
 
 namespace RectifiedTransport
 {
-
-namespace
-{
-
-// From index to physical coordinates, which in 3D share memory.
-template <int D>
-void toPhysical(
-  const ImageGrid& geometry, ConstPointSpan<D> positions, Progress& progress, PointSpan<3> physical)
-{
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  progress.For(positions.size(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      double index[D];
-      std::copy_n(positions[i], D, index);
-      geometry.ToPhysical<D>(index, physical[i]);
-    }
-  });
-}
-
-} // namespace
 
 bool LinearizedMap::IsOf(const InputDensity& density, const LinearizedMapSettings& settings) const
 {
@@ -94,7 +74,7 @@ void LinearizedMap::Move(InputDensity& density, FlowCache& tables, Progress& pro
   this->Report = transportPivot<D>(flow.Flow<D>(), pivot, this->Settings.Share.First,
     { positions, particles }, options, progress.Stage());
   progress.BeginStage(end);
-  toPhysical<D>(
+  writePhysical<D>(
     this->Geometry, { positions, particles }, progress, { physical->GetPointer(0), particles });
   this->Kept = physical;
 }

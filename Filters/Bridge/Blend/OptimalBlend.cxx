@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blend/OptimalBlend.h"
 
+#include "Bridge/Blend/ParticlePositions.h"
 #include "Bridge/Density/CostBound.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/DistributedSplat.h"
-#include "Core/Flow/WeightedMean.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/OptimalMap/OptimalMap.h"
@@ -150,14 +150,7 @@ private:
   vtkSmartPointer<vtkDoubleArray> PhysicalOf(const ImageGrid& grid, ConstPointSpan<D> points)
   {
     auto physical = newArray<vtkDoubleArray>("Positions", 3, this->Count);
-    double* x = physical->GetPointer(0);
-    this->Work.Threads().For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        grid.ToPhysical<D>(points[i], x + 3 * i);
-      }
-    });
-    this->Work.Check();
+    writePhysical<D>(grid, points, this->Work, { physical->GetPointer(0), this->Count });
     return physical;
   }
 
@@ -253,18 +246,9 @@ private:
 
   vtkSmartPointer<vtkDoubleArray> MeanOf()
   {
-    std::vector<WeightedPositions> parts;
-    for (std::size_t i = 0; i < this->Inputs.size(); ++i)
-    {
-      parts.push_back(
-        { { this->Result.Positions[i]->GetPointer(0), this->Count }, this->Inputs[i].Weight });
-    }
     auto mean = newArray<vtkDoubleArray>("Positions", 3, this->Count);
-    const PointSpan<3> points(mean->GetPointer(0), this->Count);
-    this->Work.Threads().For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
-      writeWeightedMean(parts, first, last, points);
-    });
-    this->Work.Check();
+    writeMeans(
+      this->Result.Positions, this->Inputs, this->Work, { mean->GetPointer(0), this->Count });
     return mean;
   }
 
