@@ -453,7 +453,7 @@ OTHERS = [
     E(CORE + "OptimalMap/PointMap.cxx", "hats[i] > 0.0 ? potential[i] : «-std::numeric_limits<double>::infinity()»;",
       "potential[i]"),
     S(CORE + "OptimalMap/PointMap.cxx", "this->Improve(place, image);", ";"),
-    E(CORE + "OptimalMap/OptimalMap.cxx", "sum += 0.5 * h * h * «part * (1.0 - part)»;", "0.0"),
+    E(CORE + "OptimalMap/PairSlack.cxx", "sum += 0.5 * h * h * «part * (1.0 - part)»;", "0.0"),
     E(CORE + "OptimalMap/OptimalMap.cxx", "if («seeds.AreSamples()»)", "false"),
     S(CORE + "OptimalMap/Masses/FinishSamples.cxx", "gatherParts(ranks, starts, all.data());", ";"),
     E(BRIDGE + "Blend/OptimalBlend.cxx", "sum[i] += «weight» * this->Scale", "1.0"),
