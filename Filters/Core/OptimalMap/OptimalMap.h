@@ -42,6 +42,14 @@ struct OptimalMapOptions
   bool RefineBound = true;
 };
 
+// What a map is wanted for besides points one by one: it takes memory.
+struct OptimalMapUse
+{
+  double Samples = 0.0; // that Forward or Backward moves together, of all ranks
+  bool OnSeveralRanks = false;
+  bool UpperBound = false;
+};
+
 struct OptimalMapReport
 {
   int Iterations = 0; // on the finest nodes
@@ -104,9 +112,12 @@ public:
   const double* Potential() const;
   const GridSize<Dimension>& NodeCells() const;
 
-  // About the most bytes that Solve and a map take, for densities of these sizes.
+  // About the most bytes that an object takes, for densities of these sizes: with Solve, a map in
+  // one direction and this use of it.
   static double MemoryFor(const GridSize<Dimension>& source, const GridSize<Dimension>& target,
-    const OptimalMapOptions& options = {});
+    const OptimalMapOptions& options = {}, const OptimalMapUse& use = {});
+  // Of these, those that samples take beyond what a map has, while Forward moves them.
+  static double MemoryForSamples(const GridSize<Dimension>& target, const OptimalMapUse& use);
 
   // Of the source.
   const GridSize<Dimension>& Size() const override;

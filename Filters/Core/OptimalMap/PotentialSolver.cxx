@@ -175,6 +175,21 @@ double PotentialSolver<Dimension>::BytesANode(int threads)
 }
 
 template <int Dimension>
+double PotentialSolver<Dimension>::MemoryForRefined(
+  const GridSize<Dimension>& cells, double mostNodes)
+{
+  constexpr double arrays = 3.5; // potentials and hats, and what they are made from
+  GridSize<Dimension> finer = cells;
+  for (std::int64_t& count : finer)
+  {
+    count *= 2;
+  }
+  return numberOfCells<Dimension>(finer) > mostNodes
+    ? 0.0
+    : arrays * sizeof(double) * numberOfCorners<Dimension>(finer);
+}
+
+template <int Dimension>
 void PotentialSolver<Dimension>::Solve(Progress& progress, double end)
 {
   std::vector<Point<Dimension>> cellSides;

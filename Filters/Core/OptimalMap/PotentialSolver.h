@@ -78,6 +78,8 @@ public:
 
   // Bytes a node of the finest grid that Solve holds at most.
   static double BytesANode(int threads);
+  // Bytes that RefinedBound takes besides.
+  static double MemoryForRefined(const GridSize<Dimension>& cells, double mostNodes);
 
 private:
   struct Scratch;

@@ -17,9 +17,14 @@ namespace RectifiedTransport
 namespace
 {
 
-// Fewer samples a cell are no image from which to correct masses.
-constexpr double leastSamplesACell = 0.25;
 constexpr int samplesCellsANode = 2;
+
+// Fewer samples are no image from which to correct masses.
+bool areEnough(double samples, double cells)
+{
+  constexpr double least = 0.25; // a cell
+  return samples >= least * cells;
+}
 
 template <int Dimension>
 void finishAll(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
@@ -28,8 +33,7 @@ void finishAll(const CellDensity<Dimension>& density, const Point<Dimension>& si
   constexpr double endOfMasses = 0.9;
   constexpr double endOfCounts = 0.97;
   progress.BeginStage(endOfMasses);
-  const auto count = static_cast<double>(samples.size());
-  if (count >= leastSamplesACell * static_cast<double>(density.NumberOfCells()))
+  if (areEnough(static_cast<double>(samples.size()), static_cast<double>(density.NumberOfCells())))
   {
     const MassCorrection<Dimension> correction(
       density, sides, samplesCellsANode, samples, nullptr, progress);
@@ -66,8 +70,23 @@ void finishSamples(const CellDensity<Dimension>& density, const Point<Dimension>
   std::copy_n(all.data() + own, samples.size() * Dimension, samples.data());
 }
 
+template <int Dimension>
+double memoryForFinishing(const GridSize<Dimension>& size, double samples, bool onSeveralRanks)
+{
+  const auto count = static_cast<std::int64_t>(samples);
+  const double ofMasses = areEnough(samples, numberOfCells<Dimension>(size))
+    ? MassCorrection<Dimension>::MemoryFor(size, samplesCellsANode)
+    : 0.0;
+  const double ofSteps = std::max({ ofMasses, memoryForExactCounts<Dimension>(size, count),
+    memoryForSpreading<Dimension>(size, count) });
+  return ofSteps + (onSeveralRanks ? samples * Dimension * sizeof(double) : 0.0);
+}
+
 template void finishSamples<1>(const CellDensity<1>&, const Point<1>&, PointSpan<1>, Progress&);
 template void finishSamples<2>(const CellDensity<2>&, const Point<2>&, PointSpan<2>, Progress&);
 template void finishSamples<3>(const CellDensity<3>&, const Point<3>&, PointSpan<3>, Progress&);
+template double memoryForFinishing<1>(const GridSize<1>&, double, bool);
+template double memoryForFinishing<2>(const GridSize<2>&, double, bool);
+template double memoryForFinishing<3>(const GridSize<3>&, double, bool);
 
 } // namespace RectifiedTransport

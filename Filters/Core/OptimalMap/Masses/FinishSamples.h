@@ -19,6 +19,10 @@ template <int Dimension>
 void finishSamples(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
   PointSpan<Dimension> samples, Progress& progress);
 
+// Bytes that it takes at most, about, for so many samples of all ranks.
+template <int Dimension>
+double memoryForFinishing(const GridSize<Dimension>& size, double samples, bool onSeveralRanks);
+
 } // namespace RectifiedTransport
 
 #endif

@@ -115,9 +115,15 @@ template <int Dimension>
 double MassCorrection<Dimension>::MemoryFor(const GridSize<Dimension>& target, int cellsANode)
 {
   const NodeGrid<Dimension> grid = nodesFor<Dimension>(target, Point<Dimension>{}, cellsANode);
-  return numberOfCorners<Dimension>(grid.Cells) * sizeof(double) *
-    (3.0 + mostArraysOfSums + steps * Dimension) +
-    NodePoisson<Dimension>::MemoryFor(grid, true);
+  return numberOfCorners<Dimension>(grid.Cells) * sizeof(double) * (3.0 + mostArraysOfSums) +
+    NodePoisson<Dimension>::MemoryFor(grid, true) + MemoryKept(target, cellsANode);
+}
+
+template <int Dimension>
+double MassCorrection<Dimension>::MemoryKept(const GridSize<Dimension>& target, int cellsANode)
+{
+  const NodeGrid<Dimension> grid = nodesFor<Dimension>(target, Point<Dimension>{}, cellsANode);
+  return numberOfCorners<Dimension>(grid.Cells) * sizeof(double) * steps * Dimension;
 }
 
 template class MassCorrection<1>;

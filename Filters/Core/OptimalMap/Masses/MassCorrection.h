@@ -36,8 +36,9 @@ public:
   // Moves other images in the same way.
   void Move(double* point) const;
 
-  // Bytes that the constructor takes at most.
+  // Bytes that the constructor takes at most, and those of them that an object keeps.
   static double MemoryFor(const GridSize<Dimension>& target, int cellsANode);
+  static double MemoryKept(const GridSize<Dimension>& target, int cellsANode);
 
 private:
   void Step(const NodeMoves<Dimension>& moves, double* point) const;

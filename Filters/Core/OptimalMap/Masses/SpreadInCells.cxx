@@ -174,8 +174,30 @@ void spreadInCells(
   }
 }
 
+template <int Dimension>
+double memoryForSpreading(const GridSize<Dimension>& size, std::int64_t particles)
+{
+  double most = 0.0;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const std::int64_t slabs = Slabs<Dimension>(size, axis).NumberOfSlabs();
+    const std::int64_t sums = slabs * binsFor(slabs, particles);
+    if (sums > 0)
+    {
+      const double arrays = IntegerSums::ArraysFor(sums, particles, mostArraysOfSums);
+      const auto ends = static_cast<double>(sums + slabs);
+      most = std::max(most, static_cast<double>(sums) * arrays);
+      most = std::max(most, static_cast<double>(sums) + ends);
+    }
+  }
+  return most * sizeof(double);
+}
+
 template void spreadInCells<1>(const GridSize<1>&, PointSpan<1>, Progress&);
 template void spreadInCells<2>(const GridSize<2>&, PointSpan<2>, Progress&);
 template void spreadInCells<3>(const GridSize<3>&, PointSpan<3>, Progress&);
+template double memoryForSpreading<1>(const GridSize<1>&, std::int64_t);
+template double memoryForSpreading<2>(const GridSize<2>&, std::int64_t);
+template double memoryForSpreading<3>(const GridSize<3>&, std::int64_t);
 
 } // namespace RectifiedTransport

@@ -27,6 +27,10 @@ template <int Dimension>
 void spreadInCells(
   const GridSize<Dimension>& size, PointSpan<Dimension> particles, Progress& progress);
 
+// Bytes that it takes at most, about.
+template <int Dimension>
+double memoryForSpreading(const GridSize<Dimension>& size, std::int64_t particles);
+
 } // namespace RectifiedTransport
 
 #endif
