@@ -141,6 +141,11 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
     // Releases memory for the tables.
     this->Means = this->Masses = this->Density = this->Displacements = nullptr;
     this->Ends = {};
+    if (settings.Optimal.NeedsMap()) // before the work of the tables
+    {
+      requireMemoryForMaps(this->Given(inputs),
+        { settings.Optimal, geometry, settings.ComparesEnds }, static_cast<double>(count), ranks);
+    }
   }
   const double mapCost =
     static_cast<double>(newMaps) * Cost::flow(settings.Flow, geometry.Dimension());
@@ -285,18 +290,28 @@ BlendReport DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
   return report;
 }
 
+// With the positions of the maps that there are.
+std::vector<OptimalBlendInput> DensityBlend::Given(const std::vector<BlendInput>& inputs) const
+{
+  std::vector<OptimalBlendInput> given;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    given.push_back(
+      { inputs[i].Density.get(), inputs[i].Name, inputs[i].Weight, this->Maps[i].Positions() });
+  }
+  return given;
+}
+
 void DensityBlend::FindPositions(const std::vector<BlendInput>& inputs,
   const BlendSettings& settings, const ImageGrid& geometry, Progress& progress, double end)
 {
   decltype(this->FoundFor) now;
   now.Optimal = settings.Optimal;
   now.Geometry = geometry;
-  std::vector<OptimalBlendInput> given;
+  const std::vector<OptimalBlendInput> given = this->Given(inputs);
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
-    vtkDoubleArray* positions = this->Maps[i].Positions();
-    given.push_back({ inputs[i].Density.get(), inputs[i].Name, inputs[i].Weight, positions });
-    now.Maps.emplace_back(positions);
+    now.Maps.emplace_back(given[i].Positions);
     // Between two inputs particles only move along their ways.
     now.Weights.push_back(settings.ComparesEnds ? 0.0 : inputs[i].Weight);
   }

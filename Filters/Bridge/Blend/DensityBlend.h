@@ -97,6 +97,7 @@ private:
   // Returns how many particles of this rank the new maps moved, and their warnings.
   BlendReport MakeMaps(const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings,
     FlowCache& tables, Progress& progress, double end);
+  std::vector<OptimalBlendInput> Given(const std::vector<BlendInput>& inputs) const;
   double CompareEnds(const ImageGrid& geometry, std::int64_t particles, Progress& progress);
   // With an optimal map or its bound: finds the particles' positions anew where anything that they
   // depend on has changed. Else takes those of the maps.

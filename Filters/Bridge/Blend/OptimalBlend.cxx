@@ -4,6 +4,7 @@
 #include "Bridge/Blend/ParticlePositions.h"
 #include "Bridge/Density/CostBound.h"
 #include "Bridge/Density/InputDensity.h"
+#include "Bridge/Density/OptimalMemory.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Run/Memory.h"
@@ -32,6 +33,30 @@ namespace
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 constexpr int mostRounds = 20; // of a barycenter
 
+// Of a barycenter's inputs.
+std::vector<std::size_t> usedOf(const std::vector<OptimalBlendInput>& inputs)
+{
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    if (inputs[i].Weight > 0.0)
+    {
+      used.push_back(i);
+    }
+  }
+  return used;
+}
+
+template <int D>
+OptimalMemory memoryOfMap(const GridSize<D>& source, const OptimalBlendInput& target,
+  const OptimalNeeds& needs, const Ranks& ranks)
+{
+  const GridSize<D> size = target.Density->Grid().template Size<D>();
+  return OptimalMemory::Of<D>(
+    "between densities of " + describeSize<D>(source) + " and " + describeSize<D>(size) + " cells",
+    source, size, needs, ranks);
+}
+
 // Particles and maps in index spaces, in which inputs differ, and in the lengths of the common
 // directions.
 template <int D>
@@ -47,6 +72,7 @@ public:
     , Begin(progress.StageEnd())
     , End(end)
     , Count(inputs.front().Positions->GetNumberOfTuples())
+    , All(static_cast<double>(sumOverRanks(progress.Group(), this->Count)))
   {
     for (const OptimalBlendInput& input : inputs)
     {
@@ -109,17 +135,14 @@ private:
     options.Tolerance = this->Settings.Optimal.Tolerance;
     options.LeastIterations = leastIterations;
     options.RefineBound = refines;
-    const GridSize<D> size = target.Density->Grid().template Size<D>();
-    const std::string purpose = "the optimal map between densities of " +
-      describeSize<D>(source.Source.Size) + " and " + describeSize<D>(size) + " cells (" +
-      this->Settings.Optimal.Advice() + ")";
-    const double bytes = OptimalMap<D>::MemoryFor(source.Source.Size, size, options);
-    requireMemory(purpose, bytes);
+    const OptimalMemory memory = memoryOfMap<D>(source.Source.Size, target,
+      { this->Settings.Optimal, refines ? this->All : 0.0 }, this->Work.Group());
+    memory.Require();
     constexpr double partOfReading = 0.1;
     const double begin = this->Work.StageEnd();
     this->Work.BeginStage(begin + partOfReading * (this->Next - begin));
     target.Density->Prepare(FlowTables::Whole, this->Work);
-    return withMemory(purpose, bytes, [&]() {
+    return withMemory(memory.Purpose, memory.Bytes, [&]() {
       auto map = std::make_unique<OptimalMap<D>>(source,
         this->Place(target.Density->Grid(), target.Density->template Source<D>()), options,
         this->Work.Stage());
@@ -168,8 +191,7 @@ private:
       });
     const Ranks& ranks = this->Work.Group();
     const double squares = sumOverRanks(ranks, own).Value();
-    const auto all = static_cast<double>(sumOverRanks(ranks, this->Count));
-    return this->Scale.CostFromUnits(squares / all);
+    return this->Scale.CostFromUnits(squares / this->All);
   }
 
   void AddSlack(const OptimalMap<D>& map, double weight, const LargeBuffer<double>& points,
@@ -257,14 +279,7 @@ private:
   // particles of a mean go to the mean of their images in the inputs, which lowers the functional.
   void BlendAll()
   {
-    std::vector<std::size_t> used;
-    for (std::size_t i = 0; i < this->Inputs.size(); ++i)
-    {
-      if (this->Inputs[i].Weight > 0.0)
-      {
-        used.push_back(i);
-      }
-    }
+    const std::vector<std::size_t> used = usedOf(this->Inputs);
     if (used.size() == 1)
     {
       if (this->Settings.Optimal.IsOptimal)
@@ -352,6 +367,7 @@ private:
   const double End;
   double Next = 0.0;
   const std::int64_t Count;
+  const double All; // of the particles, on all ranks
   OptimalBlendResult Result;
 };
 
@@ -362,7 +378,34 @@ OptimalBlendResult blend(const std::vector<OptimalBlendInput>& inputs,
   return OptimalBlender<D>(inputs, settings, progress, end).Run();
 }
 
+template <int D>
+void requireFor(const std::vector<OptimalBlendInput>& inputs, const OptimalBlendSettings& settings,
+  double particles, const Ranks& ranks)
+{
+  const OptimalNeeds needs{ settings.Optimal, particles };
+  // Positions in the inputs and slack, and points and images in index spaces.
+  const double each = sizeof(double) * (3.0 * static_cast<double>(inputs.size()) + 1.0 + 2.0 * D);
+  const double more = each * particles / ranks.Count();
+  if (settings.IsPair)
+  {
+    memoryOfMap<D>(inputs[0].Density->Grid().Size<D>(), inputs[1], needs, ranks).Require(more);
+    return;
+  }
+  const std::vector<std::size_t> used = usedOf(inputs);
+  for (std::size_t i = 0; i < used.size() && used.size() > 1; ++i)
+  {
+    memoryOfMap<D>(settings.Geometry.Size<D>(), inputs[used[i]], needs, ranks).Require(more);
+  }
+}
+
 } // namespace
+
+void requireMemoryForMaps(const std::vector<OptimalBlendInput>& inputs,
+  const OptimalBlendSettings& settings, double particles, const Ranks& ranks)
+{
+  dispatchDimension(settings.Geometry.Dimension(), requireFor<1>, requireFor<2>, requireFor<3>)(
+    inputs, settings, particles, ranks);
+}
 
 OptimalBlendResult blendOptimally(const std::vector<OptimalBlendInput>& inputs,
   const OptimalBlendSettings& settings, Progress& progress, double end)

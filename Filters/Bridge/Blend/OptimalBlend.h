@@ -18,6 +18,7 @@ namespace RectifiedTransport
 
 class InputDensity;
 class Progress;
+class Ranks;
 
 struct OptimalBlendInput
 {
@@ -47,6 +48,11 @@ struct OptimalBlendSettings
   ImageGrid Geometry; // on which barycenters are found
   bool IsPair;        // else a barycenter
 };
+
+// Throws Failure if there is no memory for one of the maps and so many particles, on all ranks.
+// These need not have positions.
+void requireMemoryForMaps(const std::vector<OptimalBlendInput>& inputs,
+  const OptimalBlendSettings& settings, double particles, const Ranks& ranks);
 
 // Collective on the ranks of the progress, which reaches `end`. Throws Failure and Cancelled.
 OptimalBlendResult blendOptimally(const std::vector<OptimalBlendInput>& inputs,

@@ -10,8 +10,8 @@
 namespace RectifiedTransport
 {
 
-const SharedFlow& FlowCache::Update(
-  InputDensity& density, Progress& progress, double end, FlowTables tables)
+const SharedFlow& FlowCache::Update(InputDensity& density, Progress& progress, double end,
+  FlowTables tables, const OptimalNeeds& needs)
 {
   if (this->Kept && this->Kept->Tables() != tables)
   {
@@ -33,7 +33,7 @@ const SharedFlow& FlowCache::Update(
     this->KeptMap.reset();
     const auto findOrBuild = dispatchDimension(density.Grid().Dimension(),
       &SharedFlow::FindOrBuild<1>, &SharedFlow::FindOrBuild<2>, &SharedFlow::FindOrBuild<3>);
-    this->Kept = findOrBuild(density, hash, tables, std::move(this->Kept), progress, end);
+    this->Kept = findOrBuild(density, hash, tables, needs, std::move(this->Kept), progress, end);
     this->Time = std::max(this->Time, this->Kept->BuildTime());
   }
   else

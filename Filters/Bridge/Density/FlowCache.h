@@ -25,10 +25,11 @@ public:
 
   // The flow of a density; progress then reaches `end`. Tables are built if the content of the
   // density differs from that of the last update and no other filter has them. A flow with tiles is
-  // valid only as long as the density lives. Throws Failure and Cancelled; the next update then
-  // builds.
-  const SharedFlow& Update(
-    InputDensity& density, Progress& progress, double end, FlowTables tables = FlowTables::Whole);
+  // valid only as long as the density lives. If Transport follows, its needs are known before
+  // tables are built: these are not, if memory for a map is missing. Throws Failure and Cancelled;
+  // the next update then builds.
+  const SharedFlow& Update(InputDensity& density, Progress& progress, double end,
+    FlowTables tables = FlowTables::Whole, const OptimalNeeds& needs = {});
 
   // After Update of the same density, with whole tables where the setting needs a map: what moves
   // its points. An optimal map is kept until a setting that needs none, another one or another
@@ -36,16 +37,18 @@ public:
   // Throws Failure and Cancelled.
   template <int D>
   DensityTransport<D> Transport(
-    const OptimalSetting& setting, InputDensity& density, Progress& progress, double end)
+    const OptimalNeeds& needs, InputDensity& density, Progress& progress, double end)
   {
+    const OptimalSetting& setting = needs.Setting;
     std::shared_ptr<const OptimalMap<D>> map;
     if (setting.NeedsMap())
     {
       constexpr double partOfPotential = 0.8;
-      map = this->Kept->template Optimal<D>(setting, density, std::move(this->KeptMap), progress,
+      map = this->Kept->template Optimal<D>(needs, density, std::move(this->KeptMap), progress,
         progress.StageEnd() + partOfPotential * (end - progress.StageEnd()));
     }
     this->KeptMap = map;
+    needs.RequireForSamples<D>(density.Grid().Size<D>(), progress.Group());
     progress.BeginStage(end);
     return { this->Kept->template Flow<D>(), density.Grid(), setting, map, progress };
   }

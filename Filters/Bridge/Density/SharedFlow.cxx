@@ -76,6 +76,13 @@ private:
   std::map<ContentHash, std::weak_ptr<SharedFlow>> Entries;
 };
 
+template <int D>
+OptimalMemory memoryOfMap(const GridSize<D>& size, const OptimalNeeds& needs, const Ranks& ranks)
+{
+  return OptimalMemory::Of<D>(
+    "of a density of " + describeSize<D>(size) + " cells", size, size, needs, ranks);
+}
+
 } // namespace
 
 template <int D>
@@ -97,8 +104,8 @@ SharedFlow::SharedFlow(RectifiedFlow<D> flow, FlowTables tables, const InputDens
 
 template <int D>
 std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(InputDensity& density,
-  const ContentHash& content, FlowTables tables, std::shared_ptr<SharedFlow> previous,
-  Progress& progress, double end)
+  const ContentHash& content, FlowTables tables, const OptimalNeeds& needs,
+  std::shared_ptr<SharedFlow> previous, Progress& progress, double end)
 {
   FlowRegistry& registry = FlowRegistry::Get();
   const bool isShared = content.IsComplete() && tables == FlowTables::Whole;
@@ -117,6 +124,12 @@ std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(InputDensity& density,
     }
   }
   previous.reset();
+  if (needs.Setting.NeedsMap())
+  {
+    const GridSize<D> size = density.Grid().Size<D>();
+    memoryOfMap<D>(size, needs, progress.Group())
+      .Require(old ? 0.0 : RectifiedFlow<D>::MemoryFor(size));
+  }
 
   constexpr double partOfPreparation = 0.1;
   progress.BeginStage(progress.StageEnd() + partOfPreparation * (end - progress.StageEnd()));
@@ -149,11 +162,12 @@ std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(InputDensity& density,
 }
 
 template <int D>
-std::shared_ptr<const OptimalMap<D>> SharedFlow::Optimal(const OptimalSetting& setting,
+std::shared_ptr<const OptimalMap<D>> SharedFlow::Optimal(const OptimalNeeds& needs,
   InputDensity& density, std::shared_ptr<const void> previous, Progress& progress, double end) const
 {
   const ImageGrid& grid = density.Grid();
-  const OptimalMapKey key(setting, grid);
+  const GridSize<D> size = grid.Size<D>();
+  const OptimalMapKey key(needs.Setting, grid);
   std::shared_ptr<const OptimalMap<D>> found = this->Maps.Find<OptimalMap<D>>(key);
   if (onAllRanks(progress.Group(), found != nullptr))
   {
@@ -162,13 +176,10 @@ std::shared_ptr<const OptimalMap<D>> SharedFlow::Optimal(const OptimalSetting& s
   }
   found.reset();
   previous.reset(); // two side by side would double the peak
-  const GridSize<D> size = grid.Size<D>();
   OptimalMapOptions options;
-  options.Tolerance = setting.Tolerance;
-  const std::string purpose = "the optimal map of a density of " + describeSize<D>(size) +
-    " cells (" + setting.Advice() + ")";
-  const double bytes = OptimalMap<D>::MemoryFor(size, size, options);
-  requireMemory(purpose, bytes);
+  options.Tolerance = needs.Setting.Tolerance;
+  const OptimalMemory memory = memoryOfMap<D>(size, needs, progress.Group());
+  memory.Require();
 
   const double begin = progress.StageEnd();
   constexpr double partOfPreparation = 0.02;
@@ -181,7 +192,7 @@ std::shared_ptr<const OptimalMap<D>> SharedFlow::Optimal(const OptimalSetting& s
   {
     side = scale.ToUnits(side);
   }
-  auto made = withMemory(purpose, bytes, [&]() {
+  auto made = withMemory(memory.Purpose, memory.Bytes, [&]() {
     progress.BeginStage(begin + partOfReading * (end - begin));
     auto map =
       std::make_shared<OptimalMap<D>>(density.Source<D>(), sides, options, progress.Stage());
@@ -240,22 +251,22 @@ void SharedFlow::Attach(InputDensity& density, Progress& progress)
 }
 
 template std::shared_ptr<const OptimalMap<1>> SharedFlow::Optimal<1>(
-  const OptimalSetting&, InputDensity&, std::shared_ptr<const void>, Progress&, double) const;
+  const OptimalNeeds&, InputDensity&, std::shared_ptr<const void>, Progress&, double) const;
 template std::shared_ptr<const OptimalMap<2>> SharedFlow::Optimal<2>(
-  const OptimalSetting&, InputDensity&, std::shared_ptr<const void>, Progress&, double) const;
+  const OptimalNeeds&, InputDensity&, std::shared_ptr<const void>, Progress&, double) const;
 template std::shared_ptr<const OptimalMap<3>> SharedFlow::Optimal<3>(
-  const OptimalSetting&, InputDensity&, std::shared_ptr<const void>, Progress&, double) const;
+  const OptimalNeeds&, InputDensity&, std::shared_ptr<const void>, Progress&, double) const;
 template std::shared_ptr<const AreaCorrection<1>> SharedFlow::Correction<1>(
   const DensityTransport<1>&, const FlowOptions&, std::shared_ptr<const void>, Progress&) const;
 template std::shared_ptr<const AreaCorrection<2>> SharedFlow::Correction<2>(
   const DensityTransport<2>&, const FlowOptions&, std::shared_ptr<const void>, Progress&) const;
 template std::shared_ptr<const AreaCorrection<3>> SharedFlow::Correction<3>(
   const DensityTransport<3>&, const FlowOptions&, std::shared_ptr<const void>, Progress&) const;
-template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<1>(
-  InputDensity&, const ContentHash&, FlowTables, std::shared_ptr<SharedFlow>, Progress&, double);
-template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<2>(
-  InputDensity&, const ContentHash&, FlowTables, std::shared_ptr<SharedFlow>, Progress&, double);
-template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<3>(
-  InputDensity&, const ContentHash&, FlowTables, std::shared_ptr<SharedFlow>, Progress&, double);
+template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<1>(InputDensity&, const ContentHash&,
+  FlowTables, const OptimalNeeds&, std::shared_ptr<SharedFlow>, Progress&, double);
+template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<2>(InputDensity&, const ContentHash&,
+  FlowTables, const OptimalNeeds&, std::shared_ptr<SharedFlow>, Progress&, double);
+template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<3>(InputDensity&, const ContentHash&,
+  FlowTables, const OptimalNeeds&, std::shared_ptr<SharedFlow>, Progress&, double);
 
 } // namespace RectifiedTransport

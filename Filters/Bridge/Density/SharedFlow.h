@@ -6,8 +6,8 @@
 
 #include "Bridge/Density/DensityTransport.h"
 #include "Bridge/Density/InputDensity.h"
+#include "Bridge/Density/OptimalMemory.h"
 #include "Bridge/Density/WeakPool.h"
-#include "Bridge/Settings/OptimalSettings.h"
 #include "Core/Equalize/AreaCorrection.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/OptimalMap/OptimalMap.h"
@@ -41,7 +41,7 @@ public:
   // new one, for which `previous` is reset first. The density has the content of this one. Of whole
   // tables; collective. Progress reaches `end`. Throws Failure and Cancelled.
   template <int D>
-  std::shared_ptr<const OptimalMap<D>> Optimal(const OptimalSetting& setting, InputDensity& density,
+  std::shared_ptr<const OptimalMap<D>> Optimal(const OptimalNeeds& needs, InputDensity& density,
     std::shared_ptr<const void> previous, Progress& progress, double end) const;
   // By what points that a map takes back have to be corrected for equal areas: one that somebody
   // owns, for options that mean the same, or a new one, for which `previous` is reset first. Of
@@ -58,10 +58,12 @@ public:
   // Returns the flow that another filter owns for a density of this content, else builds one and
   // shares it; progress then reaches `end`. Flows with tiles are not shared because they read the
   // density of one filter's run. Resets `previous` first and reuses its memory if it has no other
-  // owner. Throws Failure and Cancelled.
+  // owner. Builds nothing if there is too little memory for the optimal map besides. Throws Failure
+  // and Cancelled.
   template <int D>
   static std::shared_ptr<SharedFlow> FindOrBuild(InputDensity& density, const ContentHash& content,
-    FlowTables tables, std::shared_ptr<SharedFlow> previous, Progress& progress, double end);
+    FlowTables tables, const OptimalNeeds& needs, std::shared_ptr<SharedFlow> previous,
+    Progress& progress, double end);
 
   // For a flow with tiles: sets the density of the run, which has the same content.
   void Attach(InputDensity& density, Progress& progress);

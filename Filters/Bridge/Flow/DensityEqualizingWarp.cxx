@@ -215,7 +215,7 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
   const FlowTables tables = chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
     { options, FlowDirection::Backward, count, false,
       equalizes ? EqualAreas : optimal.WholeFor() });
-  const SharedFlow& shared = cache.Update(density, progress, ends[0], tables);
+  const SharedFlow& shared = cache.Update(density, progress, ends[0], tables, { optimal });
   if (!equalizes)
   {
     cache.ForgetCorrection();
@@ -226,7 +226,8 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
   int passes = 0;
   if (moves)
   {
-    const DensityTransport<D> transport = cache.Transport<D>(optimal, density, progress, ends[2]);
+    const DensityTransport<D> transport =
+      cache.Transport<D>({ optimal }, density, progress, ends[2]);
     report.Transport = transport.Report();
     progress.BeginStage(ends[3]);
     report.Flow = points.Flow(transport.Points(), options);

@@ -71,9 +71,10 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   const FlowTables tables = chooseTables<D>(map.Tables, density.Grid().Size<D>(),
     { options, map.Backward ? FlowDirection::Backward : FlowDirection::Forward, count, true,
       equalizes ? EqualAreas : map.Optimal.WholeFor() });
-  const SharedFlow& shared = cache.Update(density, progress, ends[0], tables);
+  const SharedFlow& shared = cache.Update(density, progress, ends[0], tables, { map.Optimal });
   const RectifiedFlow<D>& flow = shared.Flow<D>();
-  const DensityTransport<D> transport = cache.Transport<D>(map.Optimal, density, progress, ends[1]);
+  const DensityTransport<D> transport =
+    cache.Transport<D>({ map.Optimal }, density, progress, ends[1]);
   progress.BeginStage(ends[2]);
   const auto seeds = FlowSeeds<D>::Lattice(lattice, field.Parts());
   FlowReport report = map.Backward

@@ -173,9 +173,10 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   const std::string wholeFor = times.size() > 1 ? "OutputPaths"
     : times.back() < 1.0                        ? "a FlowTime other than 1"
                                                 : optimal.WholeFor();
+  const OptimalNeeds needs{ optimal, given ? 0.0 : static_cast<double>(share.All) };
   const FlowTables tables = chooseTables<D>(sampler.Tables, grid.Size<D>(),
     { sampler.Flow, FlowDirection::Forward, count, false, wholeFor });
-  const SharedFlow& flow = cache.Update(density, progress, ends[0], tables);
+  const SharedFlow& flow = cache.Update(density, progress, ends[0], tables, needs);
   TransportSampler::Report report;
   if (given)
   {
@@ -188,7 +189,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     makeSeeds<D>(
       pattern, grid.Size<D>(), purpose, share.First, progress, ends[1], particles.Seeds());
   }
-  const DensityTransport<D> transport = cache.Transport<D>(optimal, density, progress, ends[2]);
+  const DensityTransport<D> transport = cache.Transport<D>(needs, density, progress, ends[2]);
   report.Transport = transport.Report();
   progress.BeginStage(ends[3]);
   const ConstPointSpan<D> seeds = particles.Seeds();

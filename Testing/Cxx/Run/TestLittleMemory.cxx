@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Filters whose output grows while it is made, with less and less memory: all of it or one error.
+// What an optimal map takes is asked for before the work begins.
 #include "../../MemoryLimit.h"
+#include "BlendTest.h"
 #include "CellsTest.h"
 #include "MapRegions.h"
 #include "ParameterizationTest.h"
 #include "SolidTest.h"
 #include "SurfaceSamplerTest.h"
+
+#include "Bridge/Density/OptimalMemory.h"
+#include "Bridge/Run/Failure.h"
 
 #include <vector>
 
@@ -106,7 +111,89 @@ void checkCartogram(Checks& checks)
   cartogram->SetTolerance(1.0);
   checkSweep(checks, cartogram, __LINE__);
 }
+
+void checkOptimal(Checks& checks)
+{
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputData(makeImage(40, 30, 1, true, bumpy));
+  sampler->SetMethodToOptimal();
+  sampler->SetNumberOfParticles(20000);
+  checkSweep(checks, sampler, __LINE__);
+  auto morph = makeMorph(makeDensity({ 24, 20, 1 }, true, bumpy),
+    makeDensity({ 24, 20, 1 }, true, otherDensity(24, 20)));
+  morph->SetMethodToOptimal();
+  morph->SetParticlesPerCell(9);
+  checkSweep(checks, morph, __LINE__);
+}
+
+// There is memory neither for the map nor for the tables: the map is asked for first.
+void checkMapBeforeTables(Checks& checks)
+{
+  const Counts cells{ 96, 96, 96 };
+  auto density = makeDensity(cells, true, bumpy);
+  auto other = makeDensity(cells, true, otherDensity(96, 96, 96));
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetNumberOfParticles(1000);
+  vtkNew<vtkTransportMap> map;
+  map->SetSampleDimensions(4, 4, 4);
+  auto morph = makeMorph(density, other);
+  morph->SetDimensions(8, 8, 8);
+  auto barycenter = makeBarycenter({ density, other, density }, { 1.0, 1.0, 1.0 });
+  barycenter->SetDimensions(8, 8, 8);
+  const auto check = [&](vtkTransportAlgorithm* filter, const std::string& densities, int line) {
+    filter->SetThreadingToSerial();
+    filter->SetMethodToOptimal();
+    ErrorTest test(checks, filter);
+    const MemoryLimit limit(16 << 20);
+    test.Expect({ "the optimal map " + densities, "Method RectifiedFlow needs none" }, line);
+    filter->SetMethodToRectifiedFlow();
+    filter->CertifyOn();
+    test.Expect({ "the optimal map " + densities, "Certify Off needs none" }, line);
+  };
+  for (vtkTransportAlgorithm* filter :
+    { static_cast<vtkTransportAlgorithm*>(sampler), static_cast<vtkTransportAlgorithm*>(map) })
+  {
+    filter->SetInputData(density);
+    check(filter, "of a density of 96 x 96 x 96 cells", __LINE__);
+    CHECK(checks, filter->GetTableBuildTime() == 0);
+  }
+  check(morph, "between densities of 96 x 96 x 96 and 96 x 96 x 96 cells", __LINE__);
+  check(barycenter, "between densities of 8 x 8 x 8 and 96 x 96 x 96 cells", __LINE__);
+}
+
 #endif
+
+// Particles that get exact counts are asked for with their map and without, if it is there.
+void checkExactCounts(Checks& checks)
+{
+  using namespace RectifiedTransport;
+  const GridSize<2> size{ 40, 30 };
+  const Ranks& alone = SoloRanks::Get();
+  const auto isRefused = [&](const auto& require) {
+    try
+    {
+      require();
+    }
+    catch (const Failure&)
+    {
+      return true;
+    }
+    return false;
+  };
+  for (const bool isOptimal : { true, false })
+  {
+    for (const double particles : { 1e3, 1e15 })
+    {
+      OptimalNeeds needs{ {}, particles };
+      needs.Setting.IsOptimal = isOptimal;
+      const bool isWrong = isOptimal && particles > 1e14;
+      const auto map = [&]() { OptimalMemory::Of<2>("", size, size, needs, alone).Require(); };
+      const auto counts = [&]() { needs.RequireForSamples<2>(size, alone); };
+      CHECK(checks, isRefused(map) == isWrong);
+      CHECK(checks, isRefused(counts) == isWrong);
+    }
+  }
+}
 
 } // namespace
 
@@ -119,6 +206,9 @@ int TestLittleMemory(int, char*[])
   checkParameterization(checks);
   checkSurfaceSampler(checks);
   checkCartogram(checks);
+  checkOptimal(checks);
+  checkMapBeforeTables(checks);
 #endif
+  checkExactCounts(checks);
   return checks.Result();
 }

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The memory of an optimal map and of what it is wanted for, to ask for before the work.
+#ifndef RectifiedTransport_OptimalMemory_h
+#define RectifiedTransport_OptimalMemory_h
+
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Settings/OptimalSettings.h"
+#include "Core/OptimalMap/OptimalMap.h"
+#include "Core/Parallel/Ranks.h"
+
+#include <string>
+
+namespace RectifiedTransport
+{
+
+// What an optimal map is wanted for.
+struct OptimalNeeds
+{
+  OptimalSetting Setting;
+  double Samples = 0.0; // that the map moves together, of all ranks
+
+  OptimalMapUse Use(const Ranks& ranks) const
+  {
+    OptimalMapUse use;
+    use.Samples = this->Setting.IsOptimal ? this->Samples : 0.0;
+    use.OnSeveralRanks = ranks.AreSeveral();
+    return use;
+  }
+  // For a map that is there. Throws Failure if the memory is not there.
+  template <int D>
+  void RequireForSamples(const GridSize<D>& target, const Ranks& ranks) const
+  {
+    requireMemory(std::string("the exact counts of particles (") + this->Setting.Advice() + ")",
+      OptimalMap<D>::MemoryForSamples(target, this->Use(ranks)));
+  }
+};
+
+struct OptimalMemory
+{
+  // `densities` are those of the map, for messages.
+  template <int D>
+  static OptimalMemory Of(const std::string& densities, const GridSize<D>& source,
+    const GridSize<D>& target, const OptimalNeeds& needs, const Ranks& ranks)
+  {
+    return { "the optimal map " + densities + " (" + needs.Setting.Advice() + ")",
+      OptimalMap<D>::MemoryFor(source, target, OptimalMapOptions(), needs.Use(ranks)) };
+  }
+
+  // Throws Failure if this and so many more bytes are not there.
+  void Require(double more = 0.0) const { requireMemory(this->Purpose, this->Bytes + more); }
+
+  std::string Purpose;
+  double Bytes;
+};
+
+} // namespace RectifiedTransport
+
+#endif
