@@ -31,7 +31,7 @@ SETTINGS = [
     ("AVX2, two threads of OpenMP", "AVX2", "Sequential", 2),
     ("AVX512, two threads of VTK", "AVX512", "STDThread", 2),
 ]
-BLOCK = 250
+BLOCK = 100
 
 
 class Case:

@@ -12,18 +12,19 @@ simple = load_plugin()
 
 
 def sources():
-    """One for each kind of input."""
+    """One for each kind of input, small ones: each filter runs on them up to seven times."""
     photograph = simple.PNGSeriesReader(FileNames=[os.path.join(SOURCE, "Testing", "Data",
                                                                 "ascent.png")])
     parts = [simple.ExtractSubset(Input=photograph, VOI=[first, first + 40, 0, 30, 0, 0])
              for first in (100, 200, 300)]
-    seeds = simple.UniformSeeds(Bounds=[0, 511, 0, 511, 0, 0], NumberOfPoints=400)
-    particles = simple.SampleDensity(Input=photograph, InvertDensity=1, NumberOfParticles=500)
+    density = simple.ExtractSubset(Input=photograph, VOI=[100, 340, 0, 60, 0, 0])
+    seeds = simple.UniformSeeds(Bounds=[100, 340, 0, 60, 0, 0], NumberOfPoints=400)
+    particles = simple.SampleDensity(Input=density, InvertDensity=1, NumberOfParticles=500)
     plane = simple.Plane(XResolution=6, YResolution=5)
     sheet = simple.Calculator(Input=plane, ResultArrayName="Height", Function="2+coordsX")
     sphere = simple.Sphere()
     regions = simple.Calculator(Input=plane, AttributeType="Cell Data", ResultArrayName="Mass", Function="3")
-    return {"density": photograph, "densities": parts, "image": parts[0], "mesh": seeds,
+    return {"density": density, "densities": parts, "image": parts[0], "mesh": seeds,
             "points": particles, "disk": sheet, "solid": sphere, "map": regions}
 
 
