@@ -9,7 +9,7 @@ usage()
 usage: bash Testing/run.sh [--long] [--gui] [--core] [--asan] [--tsan] [--vtk]
                            [--package] [--all] [--suite SUITE]...
   Builds Release into build/ and runs its tests. Further legs:
-  --long   also the tests that take minutes
+  --long   also the tests that take minutes; others run on more ranks
   --gui    also the tests that drive ParaView's own window, on a virtual display
   --core   the core without VTK and OpenCL, its tests and its installation, in build-core/
   --asan   the C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer, in build-asan/
