@@ -3,6 +3,7 @@
 
 usage: python3 run.py [--help] [--repetitions N] [--quality | --steps | ...] PROGRAM
        python3 run.py --cartograms [--maps FOLDER] PROGRAM
+       python3 run.py --surfaces [--meshes FOLDER] PROGRAM
        python3 run.py --device PROGRAM
 
 Every figure is the median of the repetitions, which are interleaved at random. One thread is
@@ -412,6 +413,26 @@ def relaxation(r):
         for method in ("transport", "repulsion")) + ".")
 
 
+SURFACES = {"sphere": "sphere, 22,500 triangles", "torus": "torus, 14,400", "box": "box, 19,200",
+            "hemisphere": "hemisphere, 12,000", "fine": "torus, 1,000,000",
+            "bunny": "bunny, 3,674", "dragon": "dragon, 871,414"}
+
+
+def surfaces(r):
+    rows = []
+    for name, text in SURFACES.items():
+        for points in (8192, 100000, 1000000):
+            one = f"Surfaces/{name}/core/{points}"
+            if one in r.runs:
+                mean, least, patches = (r.median(one, what) for what in ("mean", "least", "patches"))
+                rows.append([text if points == 8192 else "", f"{points:,}", f"{mean:.3f}",
+                             f"{least:.2f}", f"{patches:.4f}", r.time(one),
+                             f"{r.ratio(one, one.replace('core', 'core_2_threads'), 'real_time'):.2f}×",
+                             f"{r.median(one, 'megabytes'):.0f} MB"])
+    print_table(["surface", "points", "mean spacing", "least", "patches", "time", "two threads",
+                 "memory"], rows)
+
+
 TILED = (  # cells, particles, direction, steps, tables
     ("256³", "one a cell", "forward", "32", "whole", "forward/whole/32/256"),
     ("256³", "one a cell", "forward", "32", "tiled", "forward/tiled/32/256"),
@@ -483,6 +504,7 @@ OPTIONS = {"quality": ("how good the particles are", "Quality", quality),
            "masses": ("masses of optimal maps", "OptimalMasses", masses),
            "bounds": ("certified bounds of the least cost", "OptimalBound", bounds),
            "relaxation": ("blue noise", "Relaxation", relaxation),
+           "surfaces": ("points spread over surfaces", "Surfaces/", surfaces),
            "steps": ("how exactly areas are kept", "Steps", steps),
            "cartograms": ("cartograms of maps", "Cartogram/", cartograms),
            "tiles": ("large grids: 7 GB of memory, 8 minutes a repetition", "Tiles", tiles)}
@@ -525,6 +547,7 @@ def main():
     parser.add_argument("--device", action="store_true",
                         help="only times of an OpenCL device, the first that can be used")
     parser.add_argument("--maps", help="a folder that Maps/make.sh has made, for --cartograms")
+    parser.add_argument("--meshes", help="a folder that Surfaces/make.sh has made, for --surfaces")
     arguments = parser.parse_args()
 
     if arguments.device:
@@ -535,11 +558,13 @@ def main():
             if arguments.option == "cartograms" and not arguments.maps:
                 subprocess.run([sys.executable, SQUARES, folder], check=True)
             os.environ["RECTIFIEDTRANSPORT_MAPS"] = arguments.maps or folder
+            if arguments.meshes:
+                os.environ["RECTIFIEDTRANSPORT_SURFACES"] = os.path.abspath(arguments.meshes)
             return show(Results(run(arguments, names)))
     # A process that has ever kept freed memory reuses it: those benchmarks run on their own.
     results = Results(run(
         arguments, "-_reused|Lattice|Tiles|Quality|_fresh|Parameterization|Relaxation|Areas|Steps|"
-        "Cartogram|OptimalMasses|OptimalBound"))
+        "Cartogram|OptimalMasses|OptimalBound|Surfaces"))
     results.add(run(arguments, "_reused"))
 
     print_text("Whole updates of filters with a new density, on one thread of an "

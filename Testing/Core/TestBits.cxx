@@ -9,6 +9,7 @@
 #include "Core/Seeds/Seeds.h"
 #include "Core/SiteCells/EqualizeSiteCells.h"
 #include "Core/SiteCells/SplitSharedPixels.h"
+#include "Core/SurfaceRelaxation/SurfaceRelaxation.h"
 #include "SolidSurfaces.h"
 #include "TestDimensions.h"
 #include "TestFlow.h"
@@ -75,6 +76,7 @@ void expectDigest(const std::string& what, const Digest& digest)
     { "splat 2", 0x9445002a37b3e017u },
     { "splat 3", 0xde6e3006ec464fb8u },
     { "solid", 0x9c993f6a23587daau },
+    { "surface relaxation", 0x3f9c87f5c94414adu },
     { "neighbours", 0xdcdd9212c32fb8b8u },
   };
   const auto found = known.find(what);
@@ -288,6 +290,48 @@ TEST(Bits, Solid)
   Digest digest;
   digest.Add(cover(mesh, cells, 3, OpenMPExecutor()));
   expectDigest("solid", digest);
+}
+
+// Hills of a sheet with holes, with values of every kind.
+TEST(Bits, SurfaceRelaxation)
+{
+  std::mt19937_64 engine(31);
+  Mesh mesh;
+  constexpr std::int64_t side = 40;
+  std::vector<double> atPoints;
+  for (std::int64_t i = 0; i < side * side; ++i)
+  {
+    const auto height = static_cast<double>(engine() >> 40) * 0x1p-24;
+    mesh.Points.push_back({ static_cast<double>(i % side), static_cast<double>(i / side), height });
+    atPoints.push_back(height);
+  }
+  std::vector<double> ofTriangles;
+  for (std::int64_t i = 0; i + side < side * side; ++i)
+  {
+    if (i % side + 1 < side && engine() % 8 > 0)
+    {
+      mesh.Triangles.push_back({ i, i + 1, i + side });
+      mesh.Triangles.push_back({ i + 1, i + side, i + side + 1 });
+      ofTriangles.push_back(static_cast<double>(engine() % 5));
+      ofTriangles.push_back(i % side < 20 ? 1.0 : 16.0);
+    }
+  }
+  SurfaceRelaxationOptions options;
+  options.NumberOfSamples = 1500;
+  Digest digest;
+  for (const SurfaceDensityValues& density :
+    { SurfaceDensityValues{}, SurfaceDensityValues{ atPoints.data(), nullptr },
+      SurfaceDensityValues{ nullptr, ofTriangles.data() } })
+  {
+    const SurfaceRelaxation relaxed = relaxOnSurface(mesh.Surface(), density, options);
+    for (std::int64_t i = 0; i < relaxed.Places.size(); ++i)
+    {
+      const PlaceOnTriangle& place = relaxed.Places.data()[i];
+      digest.Add(std::vector<std::int64_t>{ place.Triangle });
+      digest.Add(std::vector<double>(place.Weights.begin(), place.Weights.end()));
+    }
+  }
+  expectDigest("surface relaxation", digest);
 }
 
 TEST(Bits, Neighbours)

@@ -27,6 +27,7 @@ CORE = {
     "Overlap": {"Parallel", "Geometry"},
     "Solid": {"Parallel", "Geometry", "Mesh"},
     "Parameterization": {"Parallel", "Algebra", "Geometry", "Mesh", "Tables", "Flow"},
+    "SurfaceRelaxation": {"Parallel", "Geometry", "Mesh", "Tables"},
     "SurfaceSampling": {"Parallel", "Geometry", "Mesh", "Tables", "Flow", "Seeds",
                         "Parameterization"},
 }

@@ -4,11 +4,11 @@
 #define RectifiedTransport_FlatLocator_h
 
 #include "../Geometry/Points.h"
+#include "../Mesh/PlaceOnTriangle.h"
 #include "../Parallel/Context.h"
 #include "../Parallel/LargeBuffer.h"
 #include "../Parallel/Progress.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -24,13 +24,6 @@ struct FlatMesh
   std::int64_t NumberOfTriangles;
   const double* Masses = nullptr;
   Point<2> Lengths{ 1.0, 1.0 }; // of the square's sides, for distances; each > 0
-};
-
-// A point of a triangle, by its barycentric coordinates: not negative, with the sum 1.
-struct PlaceOnTriangle
-{
-  std::int64_t Triangle;
-  std::array<double, 3> Weights;
 };
 
 // A tree of bounding boxes, divided at the median along their longer axis: triangles of very uneven

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SurfaceRelaxation/DensityLevels.h"
+
+#include "Core/Mesh/Trees.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+
+constexpr double fewestDots = 8.0; // of a wide part, and around noise
+constexpr double leastWidth = 1.0; // of a wide part, in spacings
+
+// What is known of a part, by its first triangle.
+struct Part
+{
+  double Mass;
+  double Area;
+  double Border;     // its length towards other parts
+  double MassAround; // of the triangles there, for parts of density 0
+  double AreaAround;
+};
+
+class LevelsRun
+{
+public:
+  LevelsRun(WalkedSurface& surface, const SurfaceDensity& density, double massOfDot, double* levels,
+    Progress& progress)
+    : Surface(surface)
+    , Density(density)
+    , MassOfDot(massOfDot)
+    , Levels(levels)
+    , Count(surface.NumberOfTriangles())
+    , Work(progress)
+    , PartOf(this->Count)
+  {
+  }
+
+  void Run(double begin, double end)
+  {
+    const auto stage = [&](double of) { this->Work.BeginStage(begin + of * (end - begin)); };
+    stage(0.1);
+    this->Work.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t t = first; t < last; ++t)
+      {
+        this->Levels[t] = this->Density.MeanOf(t);
+        this->PartOf.data()[t] = t;
+      }
+    });
+    stage(0.3);
+    bool hasJumps = false;
+    this->ForSides([&](std::int64_t side, std::int64_t other) {
+      const bool isJump = this->IsJump(side, other);
+      hasJumps = hasJumps || isJump;
+      if (!isJump)
+      {
+        joinTrees(this->PartOf.data(), side / 3, other / 3);
+      }
+    });
+    stage(0.4);
+    this->ForTriangles(
+      [&](std::int64_t t) { this->PartOf.data()[t] = rootOf(this->PartOf.data(), t); });
+    if (hasJumps)
+    {
+      stage(0.6);
+      this->Measure();
+      stage(0.8);
+      this->FindWide();
+      this->CloseJumps();
+      stage(1.0);
+      this->SmoothNoise();
+    }
+    else
+    {
+      stage(1.0);
+      this->ForTriangles([&](std::int64_t t) { this->SetLevel(t); });
+    }
+  }
+
+private:
+  template <class Visit>
+  void ForTriangles(const Visit& visit)
+  {
+    this->Work.ForInOrder(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t t = first; t < last; ++t)
+      {
+        visit(t);
+      }
+    });
+  }
+  // Pairs of sides, once each.
+  template <class Visit>
+  void ForSides(const Visit& visit)
+  {
+    this->ForTriangles([&](std::int64_t t) {
+      for (std::int64_t side = 3 * t; side < 3 * t + 3; ++side)
+      {
+        const std::int64_t other = this->Surface.Across(side);
+        if (other > side)
+        {
+          visit(side, other);
+        }
+      }
+    });
+  }
+
+  // Between the means of triangles. A linear density is continuous: it jumps where it changes so
+  // much within a spacing.
+  bool IsJump(std::int64_t side, std::int64_t other) const
+  {
+    const std::int64_t a = side / 3;
+    const std::int64_t b = other / 3;
+    const double low = std::min(this->Levels[a], this->Levels[b]);
+    const double high = std::max(this->Levels[a], this->Levels[b]);
+    if (high <= largestStep * low)
+    {
+      return false;
+    }
+    if (low == 0.0 || !this->Density.IsLinear())
+    {
+      return true;
+    }
+    const Point<3> way = (1.0 / 3.0) * (this->SumOfCorners(a) - this->SumOfCorners(b));
+    return dot(way, way) * high < this->MassOfDot;
+  }
+  Point<3> SumOfCorners(std::int64_t t) const
+  {
+    return this->Surface.Corner(t, 0) + this->Surface.Corner(t, 1) + this->Surface.Corner(t, 2);
+  }
+
+  double LengthOf(std::int64_t side) const
+  {
+    const Point<3> edge = this->Surface.Corner(side / 3, (side + 1) % 3 == 0 ? 0 : side % 3 + 1) -
+      this->Surface.Corner(side / 3, side % 3);
+    return std::sqrt(dot(edge, edge));
+  }
+
+  void Measure()
+  {
+    this->Parts = LargeBuffer<Part>(this->Count);
+    std::fill_n(this->Parts.data(), this->Count, Part{});
+    this->ForTriangles([&](std::int64_t t) {
+      Part& part = this->Parts.data()[this->PartOf.data()[t]];
+      const double area = this->Surface.Area(t);
+      part.Area += area;
+      part.Mass += area * this->Levels[t];
+    });
+    this->ForSides([&](std::int64_t side, std::int64_t other) {
+      const std::int64_t sides[2] = { side, other };
+      for (int i = 0; i < 2; ++i)
+      {
+        const std::int64_t beside = sides[1 - i] / 3;
+        if (this->PartOf.data()[sides[i] / 3] != this->PartOf.data()[beside])
+        {
+          Part& part = this->Parts.data()[this->PartOf.data()[sides[i] / 3]];
+          const double area = this->Surface.Area(beside);
+          part.Border += this->LengthOf(side);
+          part.AreaAround += area;
+          part.MassAround += area * this->Levels[beside];
+        }
+      }
+    });
+  }
+
+  void FindWide()
+  {
+    this->IsWide = LargeBuffer<char>(this->Count);
+    this->ForTriangles([&](std::int64_t t) {
+      if (this->PartOf.data()[t] != t)
+      {
+        return;
+      }
+      const Part& part = this->Parts.data()[t];
+      const bool isEmpty = part.Mass == 0.0;
+      const double mass = isEmpty ? part.MassAround : part.Mass;
+      const double area = isEmpty ? part.AreaAround : part.Area;
+      // width = 2 area / border, and spacing^2 = area of a dot
+      const double width = 2.0 * part.Area;
+      const double least = leastWidth * part.Border;
+      this->IsWide.data()[t] = part.Border == 0.0 ||
+        ((isEmpty || part.Mass >= fewestDots * this->MassOfDot) &&
+          width * width * mass >= least * least * this->MassOfDot * area);
+    });
+  }
+  bool InWide(std::int64_t t) const { return this->IsWide.data()[this->PartOf.data()[t]]; }
+
+  void CloseJumps()
+  {
+    this->SeenBy = LargeBuffer<std::int64_t>(this->Count);
+    std::fill_n(this->SeenBy.data(), this->Count, std::int64_t{ -1 });
+    this->ForSides([&](std::int64_t side, std::int64_t other) {
+      const std::int64_t a = side / 3;
+      const std::int64_t b = other / 3;
+      if (this->InWide(a) && this->InWide(b) && this->Surface.Area(a) > 0.0 &&
+        this->Surface.Area(b) > 0.0 && this->IsJump(side, other) &&
+        (this->PartOf.data()[a] != this->PartOf.data()[b] || this->JumpsAround(side, other)))
+      {
+        const bool isEmpty = this->Levels[a] == 0.0 || this->Levels[b] == 0.0;
+        const std::int64_t with = isEmpty ? WalkedSurface::Boundary : WalkedSurface::Wall;
+        this->Surface.Close(side, with);
+        this->Surface.Close(other, with);
+      }
+    });
+  }
+
+  // Whether the means of the triangles around both sides of an edge jump, too, where a part meets
+  // itself. In a part with noise they do not.
+  bool JumpsAround(std::int64_t side, std::int64_t other)
+  {
+    constexpr std::size_t mostTriangles = 32;
+    double means[2];
+    for (int i = 0; i < 2; ++i)
+    {
+      const std::int64_t start = i == 0 ? side : other;
+      means[i] = this->MeanAround(start / 3, start, mostTriangles,
+        [this](std::int64_t a, std::int64_t b) { return !this->IsJump(a, b); });
+    }
+    return std::max(means[0], means[1]) > largestStep * std::min(means[0], means[1]);
+  }
+
+  // The mean density of the nearest triangles over edges, up to the mass of some dots. Leaves those
+  // in Queue, and marks them, and some more, by `mark`.
+  template <class IsWay>
+  double MeanAround(
+    std::int64_t start, std::int64_t mark, std::size_t mostTriangles, const IsWay& isWay)
+  {
+    double mass = 0.0;
+    double area = 0.0;
+    this->Queue.assign(1, start);
+    this->SeenBy.data()[start] = mark;
+    std::size_t next = 0;
+    for (;
+         next < std::min(this->Queue.size(), mostTriangles) && mass < fewestDots * this->MassOfDot;
+         ++next)
+    {
+      const std::int64_t t = this->Queue[next];
+      const double own = this->Surface.Area(t);
+      area += own;
+      mass += own * this->Levels[t];
+      for (std::int64_t side = 3 * t; side < 3 * t + 3; ++side)
+      {
+        const std::int64_t other = this->Surface.Across(side);
+        if (other >= 0 && this->SeenBy.data()[other / 3] != mark && isWay(side, other))
+        {
+          this->SeenBy.data()[other / 3] = mark;
+          this->Queue.push_back(other / 3);
+        }
+      }
+    }
+    this->Queue.resize(next);
+    this->Work.Add(static_cast<std::int64_t>(next));
+    return area > 0.0 ? mass / area : 0.0;
+  }
+
+  void SetLevel(std::int64_t t)
+  {
+    this->Levels[t] = this->Levels[t] > 0.0 ? DensityLevels::Given : 0.0;
+  }
+
+  // The mean of the triangles around each that has noise; all of these get the same.
+  void SmoothNoise()
+  {
+    LargeBuffer<double> smooth(this->Count);
+    std::fill_n(this->SeenBy.data(), this->Count, std::int64_t{ -1 });
+    std::fill_n(smooth.data(), this->Count, DensityLevels::Given);
+    this->ForTriangles([&](std::int64_t start) {
+      if (this->InWide(start) || smooth.data()[start] >= 0.0)
+      {
+        return;
+      }
+      constexpr auto all = static_cast<std::size_t>(-1);
+      const double mean =
+        this->MeanAround(start, start, all, [](std::int64_t, std::int64_t) { return true; });
+      for (const std::int64_t t : this->Queue)
+      {
+        if (!this->InWide(t) && smooth.data()[t] < 0.0)
+        {
+          smooth.data()[t] = mean;
+        }
+      }
+    });
+    this->ForTriangles([&](std::int64_t t) {
+      if (this->Levels[t] > 0.0 && smooth.data()[t] > 0.0)
+      {
+        this->Levels[t] = smooth.data()[t];
+      }
+      else
+      {
+        this->SetLevel(t);
+      }
+    });
+  }
+
+  WalkedSurface& Surface;
+  const SurfaceDensity& Density;
+  const double MassOfDot;
+  double* Levels;
+  const std::int64_t Count;
+  Progress& Work;
+  LargeBuffer<std::int64_t> PartOf;
+  LargeBuffer<Part> Parts;
+  LargeBuffer<char> IsWide;
+  LargeBuffer<std::int64_t> SeenBy; // the last search that has met a triangle
+  std::vector<std::int64_t> Queue;
+};
+
+} // namespace
+
+DensityLevels::DensityLevels(WalkedSurface& surface, const SurfaceDensity& density,
+  double massOfDot, Progress& progress, double end)
+  : Levels(surface.NumberOfTriangles())
+{
+  LevelsRun run(surface, density, massOfDot, this->Levels.data(), progress);
+  run.Run(progress.StageEnd(), end);
+}
+
+double DensityLevels::MemoryFor(std::int64_t triangles)
+{
+  return static_cast<double>(triangles) * (8.0 + 8.0 + sizeof(Part) + 1.0 + 16.0);
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,472 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SurfaceRelaxation/StratifiedStart.h"
+
+#include "Core/Geometry/LowDiscrepancy.h"
+#include "Core/Geometry/ReproducibleMath.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/SurfaceRelaxation/DotTree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+
+// Eight samples a dot make counts in patches a little more exact, four need less memory.
+std::int64_t samplesOfDot(std::int64_t dots)
+{
+  constexpr std::int64_t many = std::int64_t{ 1 } << 18;
+  return dots < many ? 8 : 4;
+}
+
+constexpr int bitsOfAxis = 10;
+
+// The bits of a coordinate in [-1/2, 1/2], two free ones after each.
+std::uint32_t spreadBits(double x)
+{
+  constexpr double most = (1 << bitsOfAxis) - 1;
+  auto bits = static_cast<std::uint32_t>(std::clamp((x + 0.5) * (most + 1.0), 0.0, most));
+  bits = (bits | bits << 16) & 0x030000ffu;
+  bits = (bits | bits << 8) & 0x0300f00fu;
+  bits = (bits | bits << 4) & 0x030c30c3u;
+  return (bits | bits << 2) & 0x09249249u;
+}
+
+// Triangles in Morton order of their centres, so that samples at equal steps of the mass are
+// spread over small triangles, too.
+class TriangleOrder
+{
+public:
+  TriangleOrder(const WalkedSurface& surface, Progress& progress, double end)
+    : Order(surface.NumberOfTriangles())
+  {
+    const std::int64_t count = this->Order.size();
+    LargeBuffer<std::uint32_t> keys(count);
+    const double begin = progress.StageEnd();
+    progress.BeginStage(begin + 0.3 * (end - begin));
+    progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t t = first; t < last; ++t)
+      {
+        const Point<3> centre =
+          (1.0 / 3.0) * (surface.Corner(t, 0) + surface.Corner(t, 1) + surface.Corner(t, 2));
+        keys.data()[t] =
+          spreadBits(centre[0]) | spreadBits(centre[1]) << 1 | spreadBits(centre[2]) << 2;
+      }
+    });
+    LargeBuffer<std::int64_t> other(count);
+    this->Pass(keys, nullptr, other.data(), 0, progress, begin + 0.6 * (end - begin));
+    this->Pass(keys, other.data(), this->Order.data(), 3 * bitsOfAxis / 2, progress, end);
+  }
+
+  std::int64_t operator[](std::int64_t place) const { return this->Order.data()[place]; }
+
+private:
+  // A stable counting sort by 15 bits.
+  void Pass(const LargeBuffer<std::uint32_t>& keys, const std::int64_t* from, std::int64_t* to,
+    int shift, Progress& progress, double end)
+  {
+    constexpr std::uint32_t buckets = 1u << (3 * bitsOfAxis / 2);
+    const auto bucketOf = [&](std::int64_t t) { return keys.data()[t] >> shift & (buckets - 1u); };
+    std::vector<std::int64_t> next(buckets + 1, 0);
+    const std::int64_t count = keys.size();
+    progress.BeginStage(end, 2 * count);
+    progress.ForInOrder(count, grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t t = first; t < last; ++t)
+      {
+        ++next[bucketOf(t) + 1];
+      }
+    });
+    for (std::size_t bucket = 1; bucket <= buckets; ++bucket)
+    {
+      next[bucket] += next[bucket - 1];
+    }
+    progress.ForInOrder(count, grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        const std::int64_t t = from ? from[i] : i;
+        to[next[bucketOf(t)]++] = t;
+      }
+    });
+  }
+
+  LargeBuffer<std::int64_t> Order;
+};
+
+// Numbers of [0, 1) whose multiples fill the cube evenly.
+template <int Dimension>
+class EvenPoints
+{
+public:
+  EvenPoints(std::uint64_t seed, std::uint64_t stream)
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      this->At[axis] = randomWord(seed, Dimension * stream + static_cast<std::uint64_t>(axis));
+    }
+  }
+  void Next()
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      this->At[axis] += lowDiscrepancyStep<Dimension>(axis);
+    }
+  }
+  double operator[](int axis) const { return unitReal(this->At[axis]); }
+
+private:
+  std::uint64_t At[Dimension];
+};
+
+// Places on one triangle, one after another.
+class TriangleSamples
+{
+public:
+  TriangleSamples(const WalkedSurface& surface, std::int64_t triangle)
+    : Triangle(triangle)
+    , A(surface.Corner(triangle, 0))
+    , AB(surface.Corner(triangle, 1) - this->A)
+    , BC(surface.Corner(triangle, 2) - surface.Corner(triangle, 1))
+  {
+  }
+  SurfacePlace At(double u, double v) const
+  {
+    const double root = std::sqrt(u);
+    return { this->A + root * this->AB + (root * v) * this->BC, this->Triangle };
+  }
+
+  // Uniform ones.
+  void Make(std::uint64_t seed, SurfacePlace* first, SurfacePlace* last) const
+  {
+    EvenPoints<2> even(seed, static_cast<std::uint64_t>(this->Triangle));
+    for (SurfacePlace* sample = first; sample < last; ++sample)
+    {
+      even.Next();
+      *sample = this->At(even[0], even[1]);
+    }
+  }
+  // Of a density that is linear between its corners: uniform ones that are under it.
+  void Make(std::uint64_t seed, const std::array<double, 3>& corners, SurfacePlace* first,
+    SurfacePlace* last) const
+  {
+    EvenPoints<3> even(seed, static_cast<std::uint64_t>(this->Triangle));
+    const double most = std::max({ corners[0], corners[1], corners[2] });
+    for (SurfacePlace* sample = first; sample < last;)
+    {
+      even.Next();
+      const double root = std::sqrt(even[0]);
+      const double density =
+        corners[0] + root * (corners[1] - corners[0] + even[1] * (corners[2] - corners[1]));
+      if (even[2] * most < density)
+      {
+        *sample++ = this->At(even[0], even[1]);
+      }
+    }
+  }
+
+private:
+  std::int64_t Triangle;
+  Point<3> A;
+  Point<3> AB;
+  Point<3> BC;
+};
+
+LargeBuffer<SurfacePlace> makeSamples(const WalkedSurface& surface, const SurfaceDensity& density,
+  double total, std::int64_t count, std::uint64_t seed, Progress& progress, double end)
+{
+  const double begin = progress.StageEnd();
+  const std::int64_t triangles = surface.NumberOfTriangles();
+  const TriangleOrder order(surface, progress, begin + 0.4 * (end - begin));
+  // The first sample of each triangle, at equal steps of the mass from a random one on.
+  LargeBuffer<std::int64_t> firsts(triangles + 1);
+  const double offset = unitReal(randomWord(seed + 2, 0));
+  double mass = 0.0;
+  firsts.data()[0] = 0;
+  progress.BeginStage(begin + 0.6 * (end - begin));
+  progress.ForInOrder(triangles, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      const double own = density.MassOf(order[i]);
+      mass += own;
+      const double before = mass / total * static_cast<double>(count) + offset;
+      const std::int64_t next =
+        std::clamp(static_cast<std::int64_t>(before), firsts.data()[i], count);
+      firsts.data()[i + 1] = own > 0.0 ? next : firsts.data()[i];
+    }
+  });
+  // Rounding may leave some to the last triangle that has any.
+  std::int64_t used = triangles;
+  while (firsts.data()[used - 1] == firsts.data()[triangles])
+  {
+    --used;
+  }
+  std::fill(firsts.data() + used, firsts.data() + triangles + 1, count);
+  LargeBuffer<SurfacePlace> samples(count);
+  progress.BeginStage(end);
+  constexpr std::int64_t triangleGrain = 256;
+  progress.For(
+    triangles, triangleGrain,
+    [&](std::int64_t from, std::int64_t to) {
+      for (std::int64_t i = from; i < to; ++i)
+      {
+        SurfacePlace* first = samples.data() + firsts.data()[i];
+        SurfacePlace* last = samples.data() + firsts.data()[i + 1];
+        if (first == last)
+        {
+          continue;
+        }
+        const TriangleSamples triangle(surface, order[i]);
+        if (density.IsLinear())
+        {
+          triangle.Make(seed, density.AtCorners(order[i]), first, last);
+        }
+        else
+        {
+          triangle.Make(seed, first, last);
+        }
+      }
+    },
+    triangleGrain);
+  return samples;
+}
+
+// Dots [First, Last).
+struct DotRange
+{
+  std::int64_t First;
+  std::int64_t Last;
+};
+
+class SampleCuts
+{
+public:
+  SampleCuts(LargeBuffer<SurfacePlace>& samples, const SurfaceDensity& density, std::int64_t ofDot,
+    Progress& progress)
+    : Samples(samples.data())
+    , Density(density)
+    , OfDot(ofDot)
+    , Work(progress)
+  {
+  }
+
+  // Puts the sample of each dot first among those of the dot.
+  void Run(std::int64_t dots, double end)
+  {
+    constexpr std::size_t manyRanges = 256;
+    constexpr std::int64_t fewDots = 256;
+    const double begin = this->Work.StageEnd();
+    std::vector<DotRange> ranges{ { 0, dots } };
+    for (int level = 0; ranges.size() < manyRanges && (dots >> level) > fewDots; ++level)
+    {
+      const double part = 0.06 * (level + 1); // of about log2(dots) equal levels
+      this->Work.BeginStage(begin + part * (end - begin));
+      std::vector<DotRange> halves(2 * ranges.size());
+      this->For(ranges, [&](std::int64_t i) {
+        const DotRange range = ranges[static_cast<std::size_t>(i)];
+        const std::int64_t middle = this->Cut(range);
+        halves[static_cast<std::size_t>(2 * i)] = { range.First, middle };
+        halves[static_cast<std::size_t>(2 * i + 1)] = { middle, range.Last };
+      });
+      ranges = std::move(halves);
+    }
+    this->Work.BeginStage(end);
+    this->For(ranges, [&](std::int64_t i) { this->Finish(ranges[static_cast<std::size_t>(i)]); });
+  }
+
+  // Where the density jumps among the samples of a dot, the one next to their mean would be a
+  // sparse one too often. Chooses from the sparse or from the dense ones so that both have their
+  // shares over all dots.
+  void ShareJumps(std::int64_t dots)
+  {
+    double owed = 0.5; // to the sparse side
+    std::vector<std::pair<double, std::int64_t>> byDensity(static_cast<std::size_t>(this->OfDot));
+    std::vector<SurfacePlace> side;
+    this->Work.ForInOrder(dots, grain, [&](std::int64_t from, std::int64_t to) {
+      for (std::int64_t dot = from; dot < to; ++dot)
+      {
+        SurfacePlace* const first = this->At(dot);
+        for (std::int64_t i = 0; i < this->OfDot; ++i)
+        {
+          byDensity[static_cast<std::size_t>(i)] = { this->Density.MeanOf(first[i].Triangle), i };
+        }
+        std::sort(byDensity.begin(), byDensity.end());
+        std::size_t jump = 0;
+        double largest = largestStep;
+        for (std::size_t i = 1; i < byDensity.size(); ++i)
+        {
+          if (byDensity[i].first > largest * byDensity[i - 1].first)
+          {
+            largest = byDensity[i].first / byDensity[i - 1].first;
+            jump = i;
+          }
+        }
+        if (jump == 0)
+        {
+          continue;
+        }
+        owed += static_cast<double>(jump) / static_cast<double>(this->OfDot);
+        const bool takesSparse = owed >= 1.0;
+        owed -= takesSparse ? 1.0 : 0.0;
+        side.clear();
+        for (std::size_t i = takesSparse ? 0 : jump; i < (takesSparse ? jump : byDensity.size());
+             ++i)
+        {
+          side.push_back(first[byDensity[i].second]);
+        }
+        *first = *Middle(side.data(), side.data() + side.size());
+      }
+    });
+  }
+
+private:
+  template <class Visit>
+  void For(const std::vector<DotRange>& ranges, const Visit& visit)
+  {
+    this->Work.For(
+      static_cast<std::int64_t>(ranges.size()), 1,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          visit(i);
+        }
+      },
+      1);
+  }
+
+  SurfacePlace* At(std::int64_t dot) const { return this->Samples + dot * this->OfDot; }
+
+  void CountComparisons(int& comparisons) const
+  {
+    constexpr int interval = 1 << 17;
+    if (++comparisons == interval)
+    {
+      comparisons = 0;
+      this->Work.Check();
+    }
+  }
+
+  // Cuts the samples of a range across their longest extent. Returns where the second half begins.
+  std::int64_t Cut(const DotRange& range) const
+  {
+    SurfacePlace* const first = this->At(range.First);
+    SurfacePlace* const last = this->At(range.Last);
+    Point<3> low = first->X;
+    Point<3> high = low;
+    for (const SurfacePlace* sample = first; sample < last; ++sample)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        low[axis] = std::min(low[axis], sample->X[axis]);
+        high[axis] = std::max(high[axis], sample->X[axis]);
+      }
+    }
+    std::size_t longest = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis)
+    {
+      longest = high[axis] - low[axis] > high[longest] - low[longest] ? axis : longest;
+    }
+    const std::int64_t middle = range.First + dotsBeforeCut(range.Last - range.First);
+    int comparisons = 0;
+    std::nth_element(first, this->At(middle), last, [&](const auto& a, const auto& b) {
+      this->CountComparisons(comparisons);
+      return isBefore(a, b, longest);
+    });
+    return middle;
+  }
+
+  // Which samples are in a half must not depend on how they are sorted.
+  static bool isBefore(const SurfacePlace& a, const SurfacePlace& b, std::size_t axis)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::size_t at = (axis + i) % 3;
+      if (a.X[at] != b.X[at])
+      {
+        return a.X[at] < b.X[at];
+      }
+    }
+    return a.Triangle < b.Triangle;
+  }
+
+  void Finish(const DotRange& range) const
+  {
+    if (range.Last - range.First > 1)
+    {
+      const std::int64_t middle = this->Cut(range);
+      this->Finish({ range.First, middle });
+      this->Finish({ middle, range.Last });
+    }
+    else if (range.Last > range.First)
+    {
+      SurfacePlace* const first = this->At(range.First);
+      SurfacePlace* const last = this->At(range.Last);
+      // Sums of them must not depend on how they were sorted.
+      std::sort(first, last, [](const auto& a, const auto& b) { return isBefore(a, b, 0); });
+      std::swap(*first, *Middle(first, last));
+    }
+  }
+
+  // The sample next to the mean of some.
+  static SurfacePlace* Middle(SurfacePlace* first, SurfacePlace* last)
+  {
+    Point<3> mean{ 0.0, 0.0, 0.0 };
+    for (const SurfacePlace* sample = first; sample < last; ++sample)
+    {
+      mean = mean + (1.0 / static_cast<double>(last - first)) * sample->X;
+    }
+    return std::min_element(first, last, [&](const SurfacePlace& a, const SurfacePlace& b) {
+      const Point<3> fromA = a.X - mean;
+      const Point<3> fromB = b.X - mean;
+      return dot(fromA, fromA) < dot(fromB, fromB);
+    });
+  }
+
+  SurfacePlace* Samples;
+  const SurfaceDensity& Density;
+  const std::int64_t OfDot;
+  Progress& Work;
+};
+
+} // namespace
+
+LargeBuffer<SurfacePlace> startDots(const WalkedSurface& surface, const SurfaceDensity& density,
+  double total, const SurfaceRelaxationOptions& options, Progress& progress, double end)
+{
+  const std::int64_t dots = options.NumberOfSamples;
+  const std::int64_t ofDot = samplesOfDot(dots);
+  const double begin = progress.StageEnd();
+  LargeBuffer<SurfacePlace> samples = makeSamples(surface, density, total, ofDot * dots,
+    options.RandomSeed, progress, begin + 0.3 * (end - begin));
+  SampleCuts cuts(samples, density, ofDot, progress);
+  cuts.Run(dots, begin + 0.9 * (end - begin));
+  if (!density.IsUniform())
+  {
+    progress.BeginStage(begin + 0.95 * (end - begin));
+    cuts.ShareJumps(dots);
+  }
+  progress.BeginStage(end);
+  LargeBuffer<SurfacePlace> chosen(dots);
+  progress.For(dots, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t dot = first; dot < last; ++dot)
+    {
+      chosen.data()[dot] = samples.data()[dot * ofDot];
+    }
+  });
+  return chosen;
+}
+
+double memoryForStart(std::int64_t triangles, std::int64_t dots)
+{
+  return 28.0 * static_cast<double>(triangles) +
+    static_cast<double>(sizeof(SurfacePlace)) * static_cast<double>(dots) *
+    static_cast<double>(samplesOfDot(dots) + 1);
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The dots before their relaxation.
+#ifndef RectifiedTransport_StratifiedStart_h
+#define RectifiedTransport_StratifiedStart_h
+
+#include "Core/SurfaceRelaxation/SurfaceDensity.h"
+#include "Core/SurfaceRelaxation/WalkedSurface.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// Several samples a dot, in proportion to mass, are halved by k-d cuts with whole numbers of dots;
+// of the samples of one dot it takes the one in their middle. `total` is the surface's mass. The
+// order of the dots is that of the cuts (DotTree.h). Runs in the progress's current stage up to
+// `end`. Throws std::bad_alloc and Cancelled.
+LargeBuffer<SurfacePlace> startDots(const WalkedSurface& surface, const SurfaceDensity& density,
+  double total, const SurfaceRelaxationOptions& options, Progress& progress, double end);
+
+// Bytes that it takes at most, about, with the dots.
+double memoryForStart(std::int64_t triangles, std::int64_t dots);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SurfaceRelaxation/SurfaceDensity.h"
+
+#include "Core/Parallel/Reduction.h"
+#include "Core/Tables/Density.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Of the values of a range of triangles, or at their points.
+DensitySummary summarize(const WalkedSurface& surface, const SurfaceDensityValues& values,
+  std::int64_t first, std::int64_t last)
+{
+  DensitySummary summary;
+  const auto add = [&summary](double value, std::int64_t index) {
+    if (!std::isfinite(value))
+    {
+      summary.FirstNotFinite = summary.NotFinite++ == 0 ? index : summary.FirstNotFinite;
+    }
+    else if (value < 0.0)
+    {
+      summary.FirstNegative = summary.Negative++ == 0 ? index : summary.FirstNegative;
+    }
+    else
+    {
+      summary.Maximum = std::max(summary.Maximum, value);
+    }
+  };
+  for (std::int64_t triangle = first; triangle < last; ++triangle)
+  {
+    if (values.OfTriangles)
+    {
+      add(values.OfTriangles[triangle], triangle);
+    }
+    for (std::int64_t i = 0; i < 3 && values.AtPoints; ++i)
+    {
+      const std::int64_t point = surface.Triangle(triangle)[i];
+      add(values.AtPoints[point], point);
+    }
+  }
+  return summary;
+}
+
+DensitySummary combine(DensitySummary all, const DensitySummary& more)
+{
+  all.FirstNotFinite = all.NotFinite > 0 ? all.FirstNotFinite : more.FirstNotFinite;
+  all.NotFinite += more.NotFinite;
+  all.FirstNegative = all.Negative > 0 ? all.FirstNegative : more.FirstNegative;
+  all.Negative += more.Negative;
+  all.Maximum = std::max(all.Maximum, more.Maximum);
+  return all;
+}
+
+} // namespace
+
+SurfaceDensity::SurfaceDensity(
+  const WalkedSurface& surface, const SurfaceDensityValues& values, Progress& progress)
+  : Surface(surface)
+  , Values(values)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+  if (this->IsUniform())
+  {
+    return;
+  }
+  const DensitySummary summary = reduceChunks(
+    progress, surface.NumberOfTriangles(), grain, DensitySummary(),
+    [&](std::int64_t first, std::int64_t last) {
+      return summarize(surface, this->Values, first, last);
+    },
+    combine);
+  if (summary.NotFinite > 0 || summary.Negative > 0 || summary.Maximum == 0.0)
+  {
+    throw InvalidDensity(summary);
+  }
+  this->Maximum = summary.Maximum;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Vectors of space.
+#ifndef RectifiedTransport_Vectors_h
+#define RectifiedTransport_Vectors_h
+
+#include "Core/Geometry/Points.h"
+
+namespace RectifiedTransport
+{
+
+inline Point<3> operator+(const Point<3>& a, const Point<3>& b)
+{
+  return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
+}
+
+inline Point<3> operator-(const Point<3>& a, const Point<3>& b)
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
+
+inline Point<3> operator*(double factor, const Point<3>& a)
+{
+  return { factor * a[0], factor * a[1], factor * a[2] };
+}
+
+inline double dot(const Point<3>& a, const Point<3>& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+inline Point<3> cross(const Point<3>& a, const Point<3>& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SurfaceRelaxation/WalkedSurface.h"
+
+#include "Core/Mesh/MergePoints.h"
+#include "Core/Mesh/SurfaceEdges.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+
+// Triangles lower than this part of their longest sides have no area.
+constexpr double flatHeight = 1e-12;
+
+bool isFlat(double squaredNormal, double squaredSides)
+{
+  return !(squaredNormal > flatHeight * flatHeight * squaredSides * squaredSides);
+}
+
+std::int64_t cornerOpposite(std::int64_t side)
+{
+  return (side % 3 + 2) % 3;
+}
+
+struct Bounds
+{
+  Point<3> Low;
+  Point<3> High;
+};
+
+Bounds boundsOfTriangles(
+  const TriangleSurface& surface, std::int64_t first, std::int64_t last, Bounds bounds)
+{
+  for (std::int64_t corner = 3 * first; corner < 3 * last; ++corner)
+  {
+    const std::int64_t point = surface.Triangles[corner];
+    if (point < 0 || point >= surface.Points.size())
+    {
+      throw std::invalid_argument("triangle " + std::to_string(corner / 3) + " has the point " +
+        std::to_string(point) + ", but there are " + std::to_string(surface.Points.size()) +
+        " points");
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double x = surface.Points[point][axis];
+      if (!std::isfinite(x))
+      {
+        throw std::invalid_argument("point " + std::to_string(point) + " is not finite");
+      }
+      bounds.Low[axis] = std::min(bounds.Low[axis], x);
+      bounds.High[axis] = std::max(bounds.High[axis], x);
+    }
+  }
+  return bounds;
+}
+
+} // namespace
+
+WalkedSurface::WalkedSurface(const TriangleSurface& surface, Progress& progress, double end)
+  : Triangles(surface.Triangles)
+  , Count(surface.NumberOfTriangles)
+{
+  if (this->Count == 0)
+  {
+    throw std::invalid_argument("the surface has no triangles");
+  }
+  const double begin = progress.StageEnd();
+  const auto part = [=](double of) { return begin + of * (end - begin); };
+  progress.BeginStage(part(0.1));
+  constexpr double most = std::numeric_limits<double>::infinity();
+  const Bounds none{ { most, most, most }, { -most, -most, -most } };
+  const Bounds bounds = reduceChunks(
+    progress, this->Count, grain, none,
+    [&](std::int64_t first, std::int64_t last) {
+      return boundsOfTriangles(surface, first, last, none);
+    },
+    [](Bounds all, const Bounds& more) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        all.Low[axis] = std::min(all.Low[axis], more.Low[axis]);
+        all.High[axis] = std::max(all.High[axis], more.High[axis]);
+      }
+      return all;
+    });
+  Point<3> centre;
+  double half = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    centre[axis] = 0.5 * bounds.Low[axis] + 0.5 * bounds.High[axis];
+    half = std::max(half, 0.5 * bounds.High[axis] - 0.5 * bounds.Low[axis]);
+  }
+  // A power of two, so that scaling does not round. In two steps, neither of which overflows.
+  int exponent = 0;
+  std::frexp(half, &exponent);
+  const double scales[2] = { std::ldexp(1.0, -exponent / 2),
+    std::ldexp(1.0, -exponent - -exponent / 2 - 1) };
+  const std::int64_t points = surface.Points.size();
+  this->Positions = LargeBuffer<double>(3 * points);
+  progress.BeginStage(part(0.2));
+  progress.For(points, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t point = first; point < last; ++point)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        this->Positions.data()[3 * point + static_cast<std::int64_t>(axis)] =
+          (surface.Points[point][axis] - centre[axis]) * scales[0] * scales[1];
+      }
+    }
+  });
+  LargeBuffer<std::int64_t> welded(points);
+  progress.BeginStage(part(0.5));
+  mergePoints(surface.Points, welded.data(), progress.Stage());
+  this->PairSides(welded.data(), points, progress, part(0.5), end);
+}
+
+double WalkedSurface::MemoryFor(std::int64_t points, std::int64_t triangles)
+{
+  // Positions and sides stay; the welded points with their hash table, or the sorted sides, go.
+  return 24.0 * static_cast<double>(points) + 24.0 * static_cast<double>(triangles) +
+    std::max(40.0 * static_cast<double>(points),
+      16.0 * static_cast<double>(points) + 24.0 * static_cast<double>(triangles));
+}
+
+double WalkedSurface::Area(std::int64_t triangle) const
+{
+  const Point<3> a = this->Corner(triangle, 0);
+  const Point<3> b = this->Corner(triangle, 1) - a;
+  const Point<3> c = this->Corner(triangle, 2) - a;
+  const Point<3> normal = cross(b, c);
+  const double squared = dot(normal, normal);
+  return isFlat(squared, dot(b, b) + dot(c, c)) ? 0.0 : 0.5 * std::sqrt(squared);
+}
+
+// A counting sort by the lower ends, as in SurfaceEdges.
+void WalkedSurface::PairSides(
+  const std::int64_t* welded, std::int64_t points, Progress& progress, double begin, double end)
+{
+  const std::int64_t count = 3 * this->Count;
+  this->Sides = LargeBuffer<std::int64_t>(count);
+  const auto low = [=](std::int64_t side) {
+    return std::min(welded[this->Triangles[side]], welded[this->Triangles[nextSide(side)]]);
+  };
+  const auto high = [=](std::int64_t side) {
+    return std::max(welded[this->Triangles[side]], welded[this->Triangles[nextSide(side)]]);
+  };
+  // Triangles with a corner twice are a line that others share.
+  const auto isLine = [=](std::int64_t triangle) {
+    const std::int64_t* t = this->Triangle(triangle);
+    return welded[t[0]] == welded[t[1]] || welded[t[1]] == welded[t[2]] ||
+      welded[t[2]] == welded[t[0]];
+  };
+  LargeBuffer<std::int64_t> firstMemory(points + 2);
+  LargeBuffer<std::int64_t> sortedMemory(count);
+  std::int64_t* first = firstMemory.data();
+  std::int64_t* sorted = sortedMemory.data();
+  std::fill_n(first, points + 2, std::int64_t{ 0 });
+  const auto forSides = [&](double of, const auto& visit) {
+    progress.BeginStage(begin + of * (end - begin));
+    progress.ForInOrder(this->Count, grain, [&](std::int64_t from, std::int64_t to) {
+      for (std::int64_t triangle = from; triangle < to; ++triangle)
+      {
+        for (std::int64_t side = 3 * triangle; side < 3 * triangle + 3 && !isLine(triangle); ++side)
+        {
+          visit(side);
+        }
+      }
+    });
+  };
+  forSides(0.3, [=](std::int64_t side) { ++first[low(side) + 2]; });
+  for (std::int64_t point = 1; point < points + 2; ++point)
+  {
+    first[point] += first[point - 1];
+  }
+  forSides(0.6, [=](std::int64_t side) { sorted[first[low(side) + 1]++] = side; });
+  for (std::int64_t point = 0; point < points; ++point)
+  {
+    this->NumberWelded += welded[point] != point ? 1 : 0;
+  }
+  progress.BeginStage(begin + 0.7 * (end - begin));
+  progress.For(count, grain, [&](std::int64_t from, std::int64_t to) {
+    std::fill(this->Sides.data() + from, this->Sides.data() + to, Boundary);
+  });
+  std::atomic<std::int64_t> open{ 0 };
+  std::atomic<std::int64_t> nonManifold{ 0 };
+  progress.BeginStage(end);
+  progress.For(
+    points, grain,
+    [&](std::int64_t from, std::int64_t to) {
+      for (std::int64_t point = from; point < to; ++point)
+      {
+        std::int64_t* next = sorted + first[point];
+        std::int64_t* const last = sorted + first[point + 1];
+        std::sort(next, last, [&](std::int64_t a, std::int64_t b) {
+          const std::int64_t highA = high(a);
+          const std::int64_t highB = high(b);
+          return highA != highB ? highA < highB : a < b;
+        });
+        while (next < last)
+        {
+          const std::int64_t* edge = next;
+          const std::int64_t other = high(*edge);
+          while (next < last && high(*next) == other)
+          {
+            ++next;
+          }
+          open += next - edge == 1 ? 1 : 0;
+          nonManifold += next - edge > 2 ? 1 : 0;
+          this->PairEdge(edge, next - edge);
+        }
+      }
+    },
+    2 * grain);
+  this->NumberOpen = open;
+  this->NumberNonManifold = nonManifold;
+}
+
+void WalkedSurface::PairEdge(const std::int64_t* sides, std::int64_t count)
+{
+  const auto pair = [this](std::int64_t a, std::int64_t b) {
+    this->Sides.data()[a] = b;
+    this->Sides.data()[b] = a;
+  };
+  if (count == 2)
+  {
+    pair(sides[0], sides[1]);
+  }
+  if (count <= 2)
+  {
+    return;
+  }
+  std::vector<std::int64_t> left(sides, sides + count);
+  constexpr std::size_t mostCompared = 32; // in cubic time
+  if (left.size() > mostCompared)
+  {
+    for (std::int64_t i = 0; i < count / 2; ++i)
+    {
+      pair(sides[i], sides[i + count / 2]);
+    }
+    left.assign(sides + count / 2 * 2, sides + count);
+  }
+  while (left.size() > 1)
+  {
+    std::size_t first = 0;
+    std::size_t second = 1;
+    double least = 2.0;
+    for (std::size_t i = 0; i < left.size(); ++i)
+    {
+      const Point<3> inwards = this->Inwards(left[i]);
+      for (std::size_t j = i + 1; j < left.size(); ++j)
+      {
+        const double cosine = dot(inwards, this->Inwards(left[j]));
+        if (cosine < least)
+        {
+          least = cosine;
+          first = i;
+          second = j;
+        }
+      }
+    }
+    pair(left[first], left[second]);
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(second));
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+  if (!left.empty())
+  {
+    this->Sides.data()[left[0]] = Wall;
+  }
+}
+
+// The unit vector from a side into its triangle, 0 of flat ones.
+Point<3> WalkedSurface::Inwards(std::int64_t side) const
+{
+  const std::int64_t triangle = side / 3;
+  const Point<3> a = this->Corner(triangle, side % 3);
+  const Point<3> edge = this->Corner(triangle, nextSide(side) % 3) - a;
+  const Point<3> to = this->Corner(triangle, cornerOpposite(side)) - a;
+  const Point<3> inwards = to - (dot(to, edge) / dot(edge, edge)) * edge;
+  const double squared = dot(inwards, inwards);
+  return squared > 0.0 ? (1.0 / std::sqrt(squared)) * inwards : Point<3>{ 0.0, 0.0, 0.0 };
+}
+
+// The side of a triangle with area that is across a side at one of its points, through flat
+// triangles; else what is there instead.
+std::int64_t WalkedSurface::Beyond(std::int64_t side, const Point<3>& x) const
+{
+  constexpr int mostFlat = 1000;
+  std::int64_t at = this->Across(side);
+  for (int i = 0; i < mostFlat && at >= 0 && this->Area(at / 3) == 0.0; ++i)
+  {
+    // Through the one of both other sides that has the point.
+    double least = std::numeric_limits<double>::infinity();
+    std::int64_t through = at;
+    for (const std::int64_t other : { nextSide(at), lastSide(at) })
+    {
+      const Point<3> a = this->Corner(other / 3, other % 3);
+      const Point<3> edge = this->Corner(other / 3, nextSide(other) % 3) - a;
+      const double squared = dot(edge, edge);
+      const double place = squared > 0.0 ? std::clamp(dot(x - a, edge) / squared, 0.0, 1.0) : 0.0;
+      const Point<3> gap = x - a - place * edge;
+      if (dot(gap, gap) < least)
+      {
+        least = dot(gap, gap);
+        through = other;
+      }
+    }
+    at = this->Across(through);
+  }
+  return at >= 0 && this->Area(at / 3) == 0.0 ? Wall : at;
+}
+
+// The gradients of the weights of corners 1 and 2.
+struct WalkedSurface::Frame
+{
+  Frame(const WalkedSurface& surface, std::int64_t triangle)
+    : A(surface.Corner(triangle, 0))
+  {
+    const Point<3> b = surface.Corner(triangle, 1) - this->A;
+    const Point<3> c = surface.Corner(triangle, 2) - this->A;
+    this->Normal = cross(b, c);
+    this->PerSquare = 1.0 / dot(this->Normal, this->Normal);
+    this->ToB = this->PerSquare * cross(c, this->Normal);
+    this->ToC = this->PerSquare * cross(this->Normal, b);
+  }
+
+  std::array<double, 3> Change(const Point<3>& by) const
+  {
+    const double b = dot(this->ToB, by);
+    const double c = dot(this->ToC, by);
+    return { -b - c, b, c };
+  }
+  std::array<double, 3> Weights(const Point<3>& x) const
+  {
+    std::array<double, 3> weights = this->Change(x - this->A);
+    weights[0] += 1.0;
+    return weights;
+  }
+
+  Point<3> A;
+  Point<3> Normal;
+  double PerSquare; // 1 / |Normal|^2
+  Point<3> ToB;
+  Point<3> ToC;
+};
+
+void WalkedSurface::Walk(SurfacePlace& place, const Point<3>& by, const double* levels) const
+{
+  constexpr int mostCrossings = 1 << 16;
+  constexpr int mostSlides = 4;     // at one corner
+  constexpr int mostStanding = 100; // crossings without a way: around a point
+  SurfacePlace kept = place;
+  Frame frame(*this, place.Triangle);
+  Point<3> left = by - (frame.PerSquare * dot(by, frame.Normal)) * frame.Normal;
+  std::size_t from = 3; // the corner opposite to the side that is just left behind
+  int slides = 0;
+  int standing = 0;
+  for (int crossing = 0; crossing < mostCrossings; ++crossing)
+  {
+    const std::array<double, 3> weights = frame.Weights(place.X);
+    const std::array<double, 3> change = frame.Change(left);
+    double part = 1.0;
+    std::size_t through = 3;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      if (i != from && weights[i] + change[i] < 0.0)
+      {
+        const double until = weights[i] > 0.0 ? weights[i] / -change[i] : 0.0;
+        if (change[i] < 0.0 && until < part)
+        {
+          part = until;
+          through = i;
+        }
+      }
+    }
+    place.X = place.X + part * left;
+    if (through == 3)
+    {
+      break;
+    }
+    left = (1.0 - part) * left;
+    standing = part > 0.0 ? 0 : standing + 1;
+    slides = part > 0.0 ? 0 : slides;
+    const std::int64_t side = 3 * place.Triangle + static_cast<std::int64_t>(through + 1) % 3;
+    Point<3> edge =
+      this->Corner(place.Triangle, nextSide(side) % 3) - this->Corner(place.Triangle, side % 3);
+    edge = (1.0 / std::sqrt(dot(edge, edge))) * edge;
+    const double along = dot(left, edge);
+    const double across = std::sqrt(std::max(0.0, dot(left, left) - along * along));
+    const std::int64_t beyond = this->Beyond(side, place.X);
+    if (beyond < 0)
+    {
+      if (++slides > mostSlides || standing > mostStanding)
+      {
+        break;
+      }
+      left = along * edge;
+      from = through;
+      continue;
+    }
+    if (standing > mostStanding)
+    {
+      break;
+    }
+    if (levels && levels[beyond / 3] == 0.0 && levels[place.Triangle] > 0.0)
+    {
+      kept = place;
+    }
+    place.Triangle = beyond / 3;
+    frame = Frame(*this, place.Triangle);
+    from = static_cast<std::size_t>(cornerOpposite(beyond));
+    Point<3> inwards = this->Corner(place.Triangle, cornerOpposite(beyond)) -
+      this->Corner(place.Triangle, beyond % 3);
+    inwards = inwards - dot(inwards, edge) * edge;
+    inwards = (1.0 / std::sqrt(dot(inwards, inwards))) * inwards;
+    left = along * edge + across * inwards;
+  }
+  if (levels && levels[place.Triangle] == 0.0)
+  {
+    place = kept;
+  }
+  // Onto the triangle, off which rounding may have led.
+  const PlaceOnTriangle on = this->WeightsOf(place);
+  place.X = { 0.0, 0.0, 0.0 };
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    place.X = place.X + on.Weights[i] * this->Corner(place.Triangle, static_cast<std::int64_t>(i));
+  }
+}
+
+PlaceOnTriangle WalkedSurface::WeightsOf(const SurfacePlace& place) const
+{
+  PlaceOnTriangle on{ place.Triangle, Frame(*this, place.Triangle).Weights(place.X) };
+  double sum = 0.0;
+  for (double& weight : on.Weights)
+  {
+    weight = std::max(weight, 0.0);
+    sum += weight;
+  }
+  for (double& weight : on.Weights)
+  {
+    weight /= sum;
+  }
+  return on;
+}
+
+} // namespace RectifiedTransport

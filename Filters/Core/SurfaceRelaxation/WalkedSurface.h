@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A triangle surface to walk on: straight ahead over edges, along boundaries.
+#ifndef RectifiedTransport_WalkedSurface_h
+#define RectifiedTransport_WalkedSurface_h
+
+#include "Core/Mesh/PlaceOnTriangle.h"
+#include "Core/Mesh/TriangleSurface.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/SurfaceRelaxation/Vectors.h"
+
+#include <array>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// Where one is: in space, on a triangle.
+struct SurfacePlace
+{
+  Point<3> X;
+  std::int64_t Triangle;
+};
+
+// Any triangles: points with equal coordinates are one point, and triangles on one edge are
+// neighbours, whichever way they turn. Of more than two, those that continue each other most
+// straightly are neighbours; one that is left over ends there.
+class WalkedSurface
+{
+public:
+  // What is across a side: another side, or one of these.
+  static constexpr std::int64_t Boundary = -1;
+  static constexpr std::int64_t Wall = -2; // there is surface, but no way
+
+  // Keeps a view of the triangles. Runs in the progress's current stage up to `end`. Throws
+  // std::invalid_argument, std::bad_alloc and Cancelled.
+  WalkedSurface(const TriangleSurface& surface, Progress& progress, double end);
+  // Bytes that the constructor takes at most, about.
+  static double MemoryFor(std::int64_t points, std::int64_t triangles);
+
+  std::int64_t NumberOfTriangles() const { return this->Count; }
+  const std::int64_t* Triangle(std::int64_t triangle) const
+  {
+    return this->Triangles + 3 * triangle;
+  }
+  // In a frame in which the surface is in the box [-1/2, 1/2]^3.
+  Point<3> Corner(std::int64_t triangle, std::int64_t corner) const
+  {
+    const double* x = this->Positions.data() + 3 * this->Triangles[3 * triangle + corner];
+    return { x[0], x[1], x[2] };
+  }
+  // 0 of flat triangles, which have no height beyond rounding.
+  double Area(std::int64_t triangle) const;
+
+  // Side 3t+i of triangle t goes from its corner i to the next.
+  std::int64_t Across(std::int64_t side) const { return this->Sides.data()[side]; }
+  void Close(std::int64_t side, std::int64_t with) { this->Sides.data()[side] = with; }
+
+  // Walks by a vector, of which only the part in the triangle's plane counts. Where `levels`, if
+  // not null, is 0, the walk may pass, but not end.
+  void Walk(SurfacePlace& place, const Point<3>& by, const double* levels) const;
+  PlaceOnTriangle WeightsOf(const SurfacePlace& place) const;
+
+  std::int64_t WeldedPoints() const { return this->NumberWelded; }
+  std::int64_t OpenEdges() const { return this->NumberOpen; }
+  std::int64_t NonManifoldEdges() const { return this->NumberNonManifold; }
+
+private:
+  struct Frame; // of a triangle, as the walk needs it
+
+  void Fit(const ConstPointSpan<3>& points, Progress& progress);
+  void PairSides(
+    const std::int64_t* welded, std::int64_t points, Progress& progress, double begin, double end);
+  void PairEdge(const std::int64_t* sides, std::int64_t count);
+  Point<3> Inwards(std::int64_t side) const;
+  std::int64_t Beyond(std::int64_t side, const Point<3>& x) const;
+
+  const std::int64_t* Triangles;
+  std::int64_t Count;
+  LargeBuffer<double> Positions;
+  LargeBuffer<std::int64_t> Sides;
+  std::int64_t NumberWelded = 0;
+  std::int64_t NumberOpen = 0;
+  std::int64_t NumberNonManifold = 0;
+};
+
+} // namespace RectifiedTransport
+
+#endif
