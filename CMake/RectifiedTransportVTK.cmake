@@ -31,7 +31,7 @@ if (RectifiedTransport_BUILD_PARAVIEW_PLUGIN)
   set(vtk_place PATHS "${ParaView_DIR}/vtk" NO_DEFAULT_PATH)
 endif ()
 
-set(vtk_components CommonCore CommonDataModel CommonExecutionModel FiltersCore)
+set(vtk_components CommonCore CommonDataModel CommonExecutionModel FiltersCore FiltersGeometry)
 set(vtk_optional ParallelMPI WrappingPythonCore WrappingTools)
 if (RectifiedTransport_BUILD_TESTING)
   list(APPEND vtk_components

@@ -4,6 +4,7 @@
 #include "Bridge/Inputs/OptionalArray.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/CornerSettings.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/SeedSettings.h"
@@ -27,6 +28,8 @@ using namespace RectifiedTransport;
 //------------------------------------------------------------------------------
 vtkSurfaceSampler::vtkSurfaceSampler()
   : NumberOfParticles(8192)
+  , Method(RELAXATION)
+  , RelaxationIterations(20)
   , Resolution(1024)
   , SeedPattern(BLUE_NOISE)
   , RandomSeed(1)
@@ -42,6 +45,12 @@ vtkSurfaceSampler::vtkSurfaceSampler()
 
 //------------------------------------------------------------------------------
 vtkSurfaceSampler::~vtkSurfaceSampler() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkSurfaceSampler::GetMethodAsString()
+{
+  return choiceText(SurfaceMethodTexts, this->Method);
+}
 
 //------------------------------------------------------------------------------
 const char* vtkSurfaceSampler::GetSeedPatternAsString()
@@ -84,12 +93,15 @@ int vtkSurfaceSampler::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   SurfaceSampler sampler{};
+  requireChoice("Method", this->Method, SurfaceMethodTexts);
+  sampler.Method = this->Method == FLOW ? SurfaceMethod::Flow : SurfaceMethod::Relaxation;
+  sampler.RelaxationIterations = this->RelaxationIterations;
+  sampler.RandomSeed = this->RandomSeed;
+  sampler.NumberOfParticles = this->NumberOfParticles;
   sampler.Flow = flowOptionsOf(*this);
   sampler.Corners = this->GetCorners();
-  sampler.NumberOfParticles = this->NumberOfParticles;
   sampler.Resolution = this->Resolution;
   sampler.Pattern = seedPattern("SeedPattern", this->SeedPattern);
-  sampler.RandomSeed = this->RandomSeed;
   sampler.Check();
   AlgorithmProgress progress(this, this->Threading);
 
@@ -113,6 +125,8 @@ void vtkSurfaceSampler::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfParticles: " << this->NumberOfParticles << "\n";
+  os << indent << "Method: " << this->GetMethodAsString() << "\n";
+  os << indent << "RelaxationIterations: " << this->RelaxationIterations << "\n";
   os << indent << "Resolution: " << this->Resolution << "\n";
   os << indent << "SeedPattern: " << this->GetSeedPatternAsString() << "\n";
   os << indent << "RandomSeed: " << this->RandomSeed << "\n";

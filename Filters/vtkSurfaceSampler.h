@@ -3,20 +3,28 @@
  * @class   vtkSurfaceSampler
  * @brief   sample a surface with particles
  *
- * Places particles on a surface that is a disk. Each region gets its share of the particles by its
- * area or by the mass of a density per area. The surface is mapped conformally to a rectangle; this
- * keeps angles and so the pattern of the seeds. Even seeds fill the rectangle. They move to the
- * density of the surface there along the rectified flow of Do, Coeurjolly, Memari and Bonneel,
- * "Linear-Time Transport with Rectified Flows", ACM Transactions on Graphics 44(4), 2025,
- * doi:10.1145/3731147. Then they are put on the triangles.
+ * Places particles on a surface. Each region gets its share of the particles by its area or by the
+ * mass of a density per area.
  *
- * Input: a vtkPolyData, or a vtkUnstructuredGrid or vtkStructuredGrid of polygons. Its polygons and
- * triangle strips form a disk: one component with one boundary, without holes and handles. Other
- * surfaces are errors that say what is wrong. Cut a closed surface open, for example by clipping.
- * Polygons are cut into triangles. If the surface is no disk otherwise, points in no polygon and
- * triangles without area are left out, and points at the same position are merged, with a warning
- * that counts them. A cut whose points are duplicated stays a cut. Lines and vertices are ignored.
- * An input without points gives an empty output.
+ * Method Relaxation takes triangles of any shape: closed, with holes and handles, in several parts,
+ * with edges of three triangles and more, with parts that cross. It draws samples in proportion to
+ * the mass, divides them by planes into as many equal parts as there are particles, and puts a
+ * particle in each. Particles then repel each other for some iterations. Each step follows the
+ * triangles: it turns at their edges, slides along the boundary, and ends where the density jumps.
+ *
+ * Method Flow takes disks: one component with one boundary, without holes and handles. The surface
+ * is mapped conformally to a rectangle; this keeps angles and so the pattern of the seeds. Even
+ * seeds fill the rectangle. They move to the density of the surface there along the rectified flow
+ * of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport with Rectified Flows", ACM
+ * Transactions on Graphics 44(4), 2025, doi:10.1145/3731147. Then they are put on the triangles.
+ *
+ * Input: a vtkPolyData with polygons or triangle strips, a vtkUnstructuredGrid or a
+ * vtkStructuredGrid; of cells of three dimensions the outer surface. Polygons are cut into
+ * triangles. Lines and vertices are ignored. With Flow, surfaces that are no disk are errors that
+ * say what is wrong; points in no polygon and triangles without area are left out, and points at
+ * the same position are merged, with a warning that counts them. A cut whose points are duplicated
+ * stays a cut. Relaxation joins triangles whose corners are at the same positions. An input without
+ * points gives an empty output.
  *
  * The density is array 0 of SetInputArrayToProcess, a point or cell array of one component and any
  * numeric type. Without an array (the default) it is 1. The mass of a triangle is its area times
@@ -24,31 +32,34 @@
  * cell. Negative, NaN and infinite values, and a total mass of zero or beyond the largest double,
  * are errors. Ghost cells (duplicate, hidden or refined) have no mass.
  *
- * The output is a vtkPolyData with one vertex a particle, in the order of the seeds, and
+ * The output is a vtkPolyData with one vertex a particle, near ones one after the other, or with
+ * Flow in the order of the seeds, and
  * - point data `SeedId` (the particle's number), `Mass` (equal shares of the total mass), `CellId`
  *   (the cell of the input that it is on), and `Normal` (the unit normal of its triangle, active
- *   normals; on the side from which most of the area appears counterclockwise). The input's point
+ *   normals; on the side from which the polygon appears counterclockwise, with Flow most of the
+ *   area). The input's point
  *   arrays are interpolated linearly in the triangle; integers are rounded, text is that of the
  *   nearest point. Its cell arrays have the cell's value. Arrays with the names above, ghost arrays
  *   and ids of points (vtkIdTypeArray), which VTK does not interpolate, are left out;
- * - field data `TotalMass` (density times area, summed), `MovedParticles` (those that ended in an
- *   empty cell of the grid and were put on the nearest mass; a warning counts them if they are at
- *   least one in a thousand), and the input's field data.
+ * - field data `TotalMass` (density times area, summed), the input's field data, and with Flow
+ *   `MovedParticles` (those that ended in an empty cell of the grid and were put on the nearest
+ *   mass; a warning counts them if they are at least one in a thousand).
  *
- * A cell of the grid in the rectangle spreads its mass evenly. If it overlaps triangles with mass
- * and without, particles on the latter are moved to the nearest place that has mass. With 24 bands
- * of density 0 and 1 across a head, 3.4 % of the particles were moved; a higher Resolution lowers
- * this number. In rare cases the map turns triangles over. Their particles are then on the
+ * With Flow, a cell of the grid in the rectangle spreads its mass evenly. If it overlaps triangles
+ * with mass and without, particles on the latter are moved to the nearest place that has mass. With
+ * 24 bands of density 0 and 1 across a head, 3.4 % of the particles were moved; a higher Resolution
+ * lowers this number. In rare cases the map turns triangles over. Their particles are then on the
  * triangles above them.
  *
- * Cost: O(points^1.5) for the conformal map, O(points log points + Resolution^2 + particles *
+ * Cost of Relaxation: O(triangles + particles * RelaxationIterations). Of Flow: O(points^1.5) for
+ * the conformal map, O(points log points + Resolution^2 + particles *
  * steps) for the rest. Memory: up to 1350 bytes a point, 45 a cell of the grid, and 140 a particle,
  * plus the arrays that are passed.
  *
  * The output is in one piece: if several are requested, piece 0 holds all particles. With several
  * MPI ranks the surface is gathered on rank 0, which has the output.
  *
- * @warning The flow stretches the pattern where the conformal map is very uneven, for example on
+ * @warning Method Flow stretches the pattern where the conformal map is very uneven, for example on
  * the neck of a head. If the map squeezes much of the surface into few cells of the grid, for
  * example the far end of a long tube, the numbers of particles would be wrong. The area-preserving
  * map (see vtkAreaPreservingParameterization) is then used instead, with a warning.
@@ -82,6 +93,15 @@ public:
   static vtkSurfaceSampler* New();
   vtkTypeMacro(vtkSurfaceSampler, vtkDiskAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * What Method may be.
+   */
+  enum MethodType
+  {
+    RELAXATION = 0,
+    FLOW = 1
+  };
 
   /**
    * What SeedPattern may be.
@@ -127,10 +147,33 @@ public:
 
   ///@{
   /**
-   * The number of particles, at least 1. Default 8192. It is exact unless SeedPattern is Lattice.
+   * The number of particles, at least 1. Default 8192. It is exact unless Method is Flow and
+   * SeedPattern is Lattice.
    */
   vtkSetMacro(NumberOfParticles, vtkIdType);
   vtkGetMacro(NumberOfParticles, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * How particles are placed. Relaxation (default): on any surface, evenly, by repulsion. Flow: on
+   * disks, by the rectified flow in a conformal map. Corners, Resolution, SeedPattern and what
+   * follows them are of Flow alone.
+   */
+  vtkSetMacro(Method, int);
+  vtkGetMacro(Method, int);
+  void SetMethodToRelaxation() { this->SetMethod(RELAXATION); }
+  void SetMethodToFlow() { this->SetMethod(FLOW); }
+  const char* GetMethodAsString();
+  ///@}
+
+  ///@{
+  /**
+   * The number of iterations of Relaxation, 0 to 1000. More make distances of particles more equal.
+   * Default 20.
+   */
+  vtkSetMacro(RelaxationIterations, int);
+  vtkGetMacro(RelaxationIterations, int);
   ///@}
 
   ///@{
@@ -252,6 +295,8 @@ protected:
     vtkInformationVector* outputVector) override;
 
   vtkIdType NumberOfParticles;
+  int Method;
+  int RelaxationIterations;
   int Resolution;
   int SeedPattern;
   int RandomSeed;

@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A cow in 4,000 beads, spread evenly over the side that is seen, which is a disk."""
+"""A cow in 8,000 beads, spread evenly."""
 from paraview.simple import *
 
 cow = XMLPolyDataReader(registrationName="Cow", FileName=["Testing/Data/spot.vtp"])
-side = Clip(cow, registrationName="Side", ClipType="Plane")
-side.ClipType.Origin = [0.004, 0, 0]
-side.ClipType.Normal = [1, 0, 0]
-dots = SampleSurface(side, registrationName="Dots")
-dots.NumberOfParticles = 4000
+dots = SampleSurface(cow, registrationName="Dots")
+dots.NumberOfParticles = 8000
 
 view = GetActiveViewOrCreate("RenderView")
 view.UseColorPaletteForBackground = 0

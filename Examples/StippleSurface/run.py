@@ -62,8 +62,8 @@ def draw(mesh, dots, size, pose, pixels):
 def main():
     arguments = example.parser(
         __doc__, surface=dict(nargs="?", default="lion-head",
-                              help="a name of rectified_disks.py or a file of a surface that is a "
-                              "disk (default: %(default)s)"),
+                              help="a name of rectified_disks.py or a file of a surface "
+                              "(default: %(default)s)"),
         dots=example.number(16384, "dots on the surface"), panel=640).parse_args()
 
     example.load_plugin()

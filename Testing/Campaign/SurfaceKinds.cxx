@@ -219,6 +219,9 @@ void drawSampler(Settings& settings)
   settings.Draw<Sampler, vtkIdType>("NumberOfParticles", &Sampler::SetNumberOfParticles,
     { 1, 2, 10, 333, 1000 }, { 0, -1 }, 1.0,
     { 1000000000000, std::numeric_limits<vtkIdType>::max() });
+  settings.Draw<Sampler, int>("Method", &Sampler::SetMethod, { 0, 1 }, { -1, 2 }, 1.0);
+  settings.Draw<Sampler, int>("RelaxationIterations", &Sampler::SetRelaxationIterations,
+    { 0, 1, 5, 20 }, { -1, 1001 }, 0.5);
   settings.Draw<Sampler, int>("Resolution", &Sampler::SetResolution, { 1, 2, 3, 8, 33, 64 },
     { 0, -1, 16385, std::numeric_limits<int>::max() }, 1.0);
   settings.Draw<Sampler, int>(
@@ -263,6 +266,14 @@ void drawSurfaceDensity(RandomSource& random, Settings& settings, Input& input)
   }
 }
 
+// Only the flow needs a disk.
+State expectSurface(vtkAlgorithm* filter, const Inputs& inputs)
+{
+  const State disk = expectDisk(filter, inputs);
+  const bool needsDisk = Sampler::SafeDownCast(filter)->GetMethod() == Sampler::FLOW;
+  return disk == State::Faulty && !needsDisk ? State::Odd : disk;
+}
+
 Inputs drawSamplerInputs(RandomSource& random, Settings& settings)
 {
   Inputs inputs(1);
@@ -280,7 +291,8 @@ void checkSampler(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings
   vtkPolyData* output = sampler->GetOutput();
   const vtkIdType count = output->GetNumberOfPoints();
   findings.That(
-    sampler->GetSeedPattern() == Sampler::LATTICE || count == sampler->GetNumberOfParticles(),
+    (sampler->GetMethod() == Sampler::FLOW && sampler->GetSeedPattern() == Sampler::LATTICE) ||
+      count == sampler->GetNumberOfParticles(),
     "NumberOfParticles");
   requireFinitePoints(output, findings);
   requireVertices(output, findings);
@@ -360,7 +372,7 @@ void addSurfaceKinds(std::vector<FilterKind>& kinds)
 {
   kinds.push_back({ "Parameterization", make<Parameterization>, drawParameterization,
     drawParameterizationInputs, expectDisk, checkParameterization, quickParameterization });
-  kinds.push_back({ "SurfaceSampler", make<Sampler>, drawSampler, drawSamplerInputs, expectDisk,
+  kinds.push_back({ "SurfaceSampler", make<Sampler>, drawSampler, drawSamplerInputs, expectSurface,
     checkSampler, quickSampler });
 }
 

@@ -73,16 +73,16 @@ inline vtkSmartPointer<vtkPolyData> makeHills(int columns, int rows)
 // A sphere, from the pole to a latitude: half of it for 0.5.
 inline vtkSmartPointer<vtkPolyData> makeCap(int rings, double part)
 {
-  const double pi = std::acos(-1.0);
+  const double half = std::acos(-1.0); // of a turn
   const int around = 3 * rings;
   Values points{ 0, 0, 1 };
   std::vector<vtkIdType> polygons;
   for (int i = 1; i <= rings; ++i)
   {
-    const double polar = part * pi * i / rings;
+    const double polar = part * half * i / rings;
     for (int j = 0; j < around; ++j)
     {
-      const double angle = 2.0 * pi * j / around;
+      const double angle = 2.0 * half * j / around;
       const double at[3] = { std::sin(polar) * std::cos(angle), std::sin(polar) * std::sin(angle),
         std::cos(polar) };
       points.insert(points.end(), at, at + 3);

@@ -407,13 +407,22 @@ def surface_runs():
     surface.GetCellData().AddArray(numbers)
     for pattern, name in enumerate(PATTERNS):
         yield f"surface {name}", sampler, [surface], dict(
-            SeedPattern=pattern, NumberOfParticles=2000, RandomSeed=7, Resolution=200)
+            Method=1, SeedPattern=pattern, NumberOfParticles=2000, RandomSeed=7, Resolution=200)
     yield "surface with a density", sampler, [surface], dict(
-        NumberOfParticles=2000, Resolution=64, array=(0, 0, 0, 0, "Heights"))
+        Method=1, NumberOfParticles=2000, Resolution=64, array=(0, 0, 0, 0, "Heights"))
     yield "surface with a density of cells", sampler, [surface], dict(
-        NumberOfParticles=2000, Resolution=64, Integrator=1, array=(0, 0, 0, 1, "Numbers"))
-    yield "surface of quads", sampler, [sheet(quads=True)], dict(Resolution=64)
-    yield "surface of corners", sampler, [sheet(60, 50)], dict(Corners=[7, 121, 3100, 1952])
+        Method=1, NumberOfParticles=2000, Resolution=64, Integrator=1, array=(0, 0, 0, 1, "Numbers"))
+    yield "surface of quads", sampler, [sheet(quads=True)], dict(Method=1, Resolution=64)
+    yield "surface of corners", sampler, [sheet(60, 50)], dict(
+        Method=1, Corners=[7, 121, 3100, 1952])
+    for iterations in (0, 20):
+        yield f"surface relaxed {iterations}", sampler, [surface], dict(
+            NumberOfParticles=2000, RelaxationIterations=iterations, RandomSeed=7)
+    yield "surface relaxed with a density", sampler, [surface], dict(
+        NumberOfParticles=2000, array=(0, 0, 0, 0, "Heights"))
+    yield "surface relaxed with a density of cells", sampler, [surface], dict(
+        NumberOfParticles=2000, array=(0, 0, 0, 1, "Numbers"))
+    yield "surface of quads relaxed", sampler, [sheet(quads=True)], dict(NumberOfParticles=3000)
 
 
 def relaxation_runs():

@@ -150,6 +150,31 @@ class State(unittest.TestCase):
                     self.assertEqual(digest(output_of(found)), expected[then])
             warp = simple.FindSource("Warp")
 
+    def test_state_before_the_method_of_surfaces(self):
+        """Sample Surface of a state without Method takes the flow, as then."""
+        dome = simple.Sphere(EndPhi=90)
+        dots = simple.SampleSurface(dome, NumberOfParticles=50, Resolution=32, registrationName="Dots")
+        self.assertEqual(dots.Method, "Relaxation")
+        relaxed = digest(output_of(dots))
+        dots.Method = "Flow"
+        flowed = digest(output_of(dots))
+        self.assertNotEqual(relaxed, flowed)
+        path = os.path.join(OUTPUT, "surface-method.pvsm")
+        for method, removed, expected in (("Relaxation", False, relaxed), ("Flow", False, flowed),
+                                          ("Relaxation", True, flowed)):
+            simple.FindSource("Dots").Method = method
+            simple.SaveState(path)
+            state = ElementTree.parse(path)
+            for proxy in state.iter("Proxy") if removed else []:
+                for new in list(proxy) if proxy.get("type") == "SurfaceSampler" else []:
+                    if new.get("name") in ("Method", "RelaxationIterations"):
+                        proxy.remove(new)
+            state.write(path)
+            simple.ResetSession()
+            simple.LoadState(path)
+            with self.subTest(method, removed=removed):
+                self.assertEqual(digest(output_of(simple.FindSource("Dots"))), expected)
+
     def test_python_state(self):
         from paraview import smstate
         pipeline()

@@ -2,6 +2,7 @@
 """Sample Surface and Area-Preserving Parameterization on what ParaView's filters make: Clip and Slice through
 points, meshes with points twice, unused or on one line. Particles are exactly as many, their mass is the area,
 none is on a cell without area, and every cell of the input is in the output with its own figures."""
+import itertools
 import unittest
 
 import numpy as np
@@ -185,6 +186,9 @@ def cell_areas(data):
     return areas
 
 
+METHODS = "Relaxation", "Flow"
+
+
 class Surfaces(unittest.TestCase):
     def run_filter(self, name, source, repaired, **properties):
         made = getattr(simple, name)(Input=source, **properties)
@@ -196,12 +200,13 @@ class Surfaces(unittest.TestCase):
         return data
 
     def test_particles(self):
-        for name, (make, repaired) in INPUTS.items():
-            with self.subTest(name):
+        for (name, (make, repaired)), method in itertools.product(INPUTS.items(), METHODS):
+            with self.subTest(name, method=method):
                 source = make()
                 areas = cell_areas(output_of(source))
-                particles = self.run_filter("SampleSurface", source, repaired,
-                                            NumberOfParticles=1000, Resolution=128)
+                particles = self.run_filter(
+                    "SampleSurface", source, repaired and method == "Flow", Method=method,
+                    NumberOfParticles=1000, Resolution=128)
                 self.assertEqual(particles.GetNumberOfPoints(), 1000)
                 mass = particles.GetFieldData().GetArray("TotalMass").GetValue(0)
                 # A quad that is not plane may be cut the other way.
@@ -251,17 +256,43 @@ class Surfaces(unittest.TestCase):
         array = numpy_to_vtk(values, deep=1)
         array.SetName("Triangle")
         data.GetPointData().AddArray(array)
-        particles = self.run_filter("SampleSurface", source, True, NumberOfParticles=500,
-                                    Resolution=128, DensityArray=["POINTS", "Triangle"])
-        np.testing.assert_allclose(vtk_to_numpy(particles.GetPointData().GetArray("Triangle")),
-                                   vtk_to_numpy(particles.GetPointData().GetArray("CellId")), atol=1e-9)
-        mass = particles.GetFieldData().GetArray("TotalMass").GetValue(0)
-        right = (cell_areas(data) * values[::3]).sum()
-        self.assertAlmostEqual(mass / right, 1, places=6)
+        for method in METHODS:
+            particles = self.run_filter("SampleSurface", source, method == "Flow", Method=method,
+                                        NumberOfParticles=500, Resolution=128,
+                                        DensityArray=["POINTS", "Triangle"])
+            np.testing.assert_allclose(
+                vtk_to_numpy(particles.GetPointData().GetArray("Triangle")),
+                vtk_to_numpy(particles.GetPointData().GetArray("CellId")), atol=1e-9)
+            mass = particles.GetFieldData().GetArray("TotalMass").GetValue(0)
+            right = (cell_areas(data) * values[::3]).sum()
+            self.assertAlmostEqual(mass / right, 1, places=6)
+
+    def test_any_shape(self):
+        """Sources of the menu that are no disks, and what filters make of volumes."""
+        volume = simple.Wavelet(WholeExtent=[-4, 4] * 3)
+        for name, source in (
+                ("sphere", simple.Sphere()), ("box", simple.Box()), ("cone", simple.Cone()),
+                ("cylinder", simple.Cylinder()), ("disk with a hole", simple.Disk()),
+                ("two", simple.AppendDatasets(Input=[simple.Sphere(), simple.Box()])),
+                ("contour", simple.Contour(Input=volume, ContourBy=["POINTS", "RTData"],
+                                           Isosurfaces=[150.0])),
+                ("tetrahedra", simple.Tetrahedralize(Input=volume)),
+                ("clipped", simple.Clip(Input=volume, ClipType="Sphere"))):
+            with self.subTest(name):
+                particles = self.run_filter("SampleSurface", source, False, NumberOfParticles=700)
+                self.assertEqual(particles.GetNumberOfPoints(), 700)
+                surface = output_of(simple.Triangulate(Input=simple.ExtractSurface(Input=source)))
+                mass = particles.GetFieldData().GetArray("TotalMass").GetValue(0)
+                self.assertAlmostEqual(mass / cell_areas(surface).sum(), 1, places=4)
+                found, shape = (np.array(data.GetBounds()) for data in (particles, surface))
+                size = np.abs(shape[1::2] - shape[::2]).max()
+                self.assertTrue((found[::2] > shape[::2] - 1e-6 * size).all() and
+                                (found[1::2] < shape[1::2] + 1e-6 * size).all())
+                self.assertLess(np.abs(found - shape).max(), 0.2 * size)
 
     def test_count(self):
         source = with_more([(5, 5, 5), (6, 6, 6)], [(30, 30, 31)])
-        made = simple.SampleSurface(Input=source, Resolution=32, NumberOfParticles=10)
+        made = simple.SampleSurface(Input=source, Method="Flow", Resolution=32, NumberOfParticles=10)
         reported = Listener(made.GetClientSideObject())
         output_of(made)
         self.assertIn("The input surface was repaired: 2 points in no polygon left out, 1 triangle "

@@ -3,29 +3,22 @@
 #ifndef RectifiedTransport_DiskSurface_h
 #define RectifiedTransport_DiskSurface_h
 
-#include "Bridge/VTKCompatibility.h"
+#include "Bridge/Surface/PlacedTriangles.h"
+#include "Bridge/Surface/TriangulatedSurface.h"
 #include "Core/Mesh/RepairedDisk.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parameterization/ConformalMap.h"
-
-#include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
-#include "vtkType.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 
-VTK_ABI_NAMESPACE_BEGIN
-class vtkCellArray;
-VTK_ABI_NAMESPACE_END
-
 namespace RectifiedTransport
 {
 
-class DiskSurface
+class DiskSurface final : public PlacedTriangles
 {
 public:
   // `input` has points. Cuts polygons and strips into triangles and checks that they are a disk;
@@ -37,31 +30,30 @@ public:
 
   const DiskMesh& Disk() const { return this->Mesh->Mesh(); }
 
-  // The input itself if all polygons are triangles and there are no strips. Else its points,
-  // vertices, lines and triangles, with all point and field data, and the cell data of the cells
-  // that they come from, except global ids, which would no longer be unique.
-  vtkPolyData* Triangulated() const { return this->Surface; }
-
-  // The disk's point for a point of the input; -1 if no triangle with area uses it.
-  std::int64_t PointOf(std::int64_t point) const { return this->Mesh->PointOf(point); }
-  // The points of the input at the corners of a triangle of the disk.
-  std::array<std::int64_t, 3> CornersOf(std::int64_t triangle) const
+  vtkPolyData* Triangulated() const override { return this->Cells->Get(); }
+  std::int64_t NumberOfTriangles() const override { return this->Disk().NumberOfTriangles(); }
+  std::array<std::int64_t, 3> CornersOf(std::int64_t triangle) const override
   {
     return this->Mesh->GivenCorners(triangle);
   }
-  // The cell of Triangulated() that a triangle of the disk is, or is part of. vtkPolyData numbers
-  // vertices, lines, polygons, strips.
-  vtkIdType CellOf(std::int64_t triangle) const
+  vtkIdType CellOf(std::int64_t triangle) const override
   {
-    return this->FirstPolygon + static_cast<vtkIdType>(this->Mesh->GivenTriangle(triangle));
+    return this->Cells->CellOf(this->Mesh->GivenTriangle(triangle));
   }
+  vtkIdType InputCellOf(std::int64_t triangle) const override
+  {
+    return this->Cells->InputCellOf(this->Mesh->GivenTriangle(triangle));
+  }
+  TriangleSurface Surface() const override { return this->Disk().Surface(); }
+  SurfaceAreas Areas() const override
+  {
+    return { this->Disk().AreaShares(), this->Disk().Area(), this->Disk().Unit() };
+  }
+
+  // The disk's point for a point of the input; -1 if no triangle with area uses it.
+  std::int64_t PointOf(std::int64_t point) const { return this->Mesh->PointOf(point); }
   // The number of the first polygon.
-  vtkIdType FirstCell() const { return this->FirstPolygon; }
-  // The cell of the input that a triangle was cut from.
-  vtkIdType InputCellOf(std::int64_t triangle) const
-  {
-    return this->InputCell(this->Mesh->GivenTriangle(triangle));
-  }
+  vtkIdType FirstCell() const { return this->Cells->FirstCell(); }
 
   const RepairedDisk& Repaired() const { return *this->Mesh; }
   bool IsRepaired() const { return this->Mesh->Repairs().Any(); }
@@ -71,32 +63,9 @@ public:
   std::string RepairWarning() const;
 
 private:
-  // Fractions of the stages from `begin` to `end` of the run.
-  struct Stages
-  {
-    Progress& Run;
-    double Begin;
-    double End;
+  void MakeDisk(const LargeBuffer<double>& coordinates, const SurfaceStages& stages);
 
-    void Next(double part) const
-    {
-      this->Run.BeginStage(this->Begin + part * (this->End - this->Begin));
-    }
-  };
-
-  void Triangulate(vtkPolyData* input, const Stages& stages);
-  void FindInputCells(vtkPolyData* input, Progress& progress);
-  void CopyCellData(vtkPolyData* input, Progress& progress);
-  void MakeDisk(const LargeBuffer<double>& coordinates, const Stages& stages);
-  vtkIdType InputCell(std::int64_t polygon) const
-  {
-    return this->InputCells.size() > 0 ? this->InputCells.data()[polygon]
-                                       : this->FirstPolygon + static_cast<vtkIdType>(polygon);
-  }
-
-  vtkSmartPointer<vtkPolyData> Surface;
-  vtkIdType FirstPolygon;
-  LargeBuffer<vtkIdType> InputCells; // of triangles; empty if they are the input's
+  std::optional<TriangulatedSurface> Cells;
   std::optional<RepairedDisk> Mesh;
 };
 

@@ -13,7 +13,9 @@
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataObject.h"
+#include "vtkGeometryFilter.h"
 #include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationStringVectorKey.h"
 #include "vtkNew.h"
@@ -70,6 +72,7 @@ struct PolyDataCells
 {
   std::array<vtkSmartPointer<vtkCellArray>, NoPart> Parts;
   std::array<std::vector<vtkIdType>, NoPart> Ids; // in the grid
+  std::int64_t Others = 0;
 };
 
 PolyDataCells cellsOf(vtkPointSet* grid, Progress& progress)
@@ -80,7 +83,6 @@ PolyDataCells cellsOf(vtkPointSet* grid, Progress& progress)
     part = vtkSmartPointer<vtkCellArray>::New();
   }
   vtkNew<vtkIdList> points;
-  std::int64_t others = 0;
   progress.ForInOrder(
     grid->GetNumberOfCells(), Grain,
     [&](std::int64_t first, std::int64_t last) {
@@ -90,7 +92,7 @@ PolyDataCells cellsOf(vtkPointSet* grid, Progress& progress)
         const Part part = partOf(type);
         if (part == NoPart)
         {
-          others += type == VTK_EMPTY_CELL ? 0 : 1; // that or one that is blanked
+          cells.Others += type == VTK_EMPTY_CELL ? 0 : 1; // that or one that is blanked
           continue;
         }
         grid->GetCellPoints(cell, points);
@@ -103,13 +105,6 @@ PolyDataCells cellsOf(vtkPointSet* grid, Progress& progress)
       }
     },
     RandomAccessUnits);
-  if (others > 0)
-  {
-    throw Failure("The input has " + std::to_string(others) +
-      (others == 1 ? " cell that is no polygon" : " cells that are no polygons") +
-      ", as of three dimensions or with curved sides; take the surface of the input with Extract "
-      "Surface");
-  }
   return cells;
 }
 
@@ -148,6 +143,31 @@ vtkSmartPointer<vtkPolyData> surfaceOf(vtkPointSet* grid, const PolyDataCells& c
   return surface;
 }
 
+// The outer surface of cells of three dimensions, and flat pieces of curved ones. `ids` are the
+// cells that they are of.
+vtkSmartPointer<vtkPolyData> outerSurfaceOf(vtkPointSet* grid, LargeBuffer<vtkIdType>& ids)
+{
+  constexpr const char* name = "RectifiedTransportCellIds";
+  vtkNew<vtkGeometryFilter> filter;
+  filter->SetInputData(grid);
+  filter->PassThroughCellIdsOn();
+  filter->SetOriginalCellIdsName(name);
+  filter->Update();
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->ShallowCopy(filter->GetOutput());
+  vtkCellData* data = surface->GetCellData();
+  auto* found = vtkIdTypeArray::SafeDownCast(data->GetAbstractArray(name));
+  if (!found)
+  {
+    throw Failure(
+      "The outer surface of the input could not be taken; take it with Extract Surface");
+  }
+  ids = LargeBuffer<vtkIdType>(found->GetNumberOfValues());
+  std::copy_n(found->GetPointer(0), ids.size(), ids.data());
+  data->RemoveArray(name);
+  return surface;
+}
+
 } // namespace
 
 void SurfaceInput::Require(vtkInformation* info)
@@ -177,6 +197,12 @@ SurfaceInput::SurfaceInput(vtkDataObject* input, Progress& progress)
   requireMemory(purpose, cells * bytesOfCell);
   requireReadableCells(set, "input surface");
   const PolyDataCells found = cellsOf(set, progress);
+  if (found.Others > 0)
+  {
+    this->Surface = outerSurfaceOf(set, this->Cells);
+    progress.Check();
+    return;
+  }
   this->Cells = joined(found.Ids);
   this->Surface = surfaceOf(set, found, this->Cells, progress);
 }

@@ -6,7 +6,7 @@
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Surface/DiskSurface.h"
+#include "Bridge/Surface/PlacedTriangles.h"
 #include "Core/Parallel/Reduction.h"
 
 #include "vtkCellData.h"
@@ -121,11 +121,11 @@ SurfaceDensity::SurfaceDensity(
     onPoints ? "points" : "cells");
 }
 
-SurfaceMasses::SurfaceMasses(
-  vtkPolyData* input, const DiskSurface& surface, const SurfaceDensity& density, Progress& progress)
+SurfaceMasses::SurfaceMasses(vtkPolyData* input, const PlacedTriangles& surface,
+  const SurfaceDensity& density, Progress& progress)
 {
-  const DiskMesh& disk = surface.Disk();
-  const std::int64_t triangles = disk.NumberOfTriangles();
+  const SurfaceAreas areas = surface.Areas();
+  const std::int64_t triangles = surface.NumberOfTriangles();
   const unsigned char* ghosts = ghostFlags(input, vtkDataObject::CELL, "input surface");
   withMemory("the masses of " + std::to_string(triangles) + " triangles",
     static_cast<double>(triangles) * sizeof(double),
@@ -138,7 +138,8 @@ SurfaceMasses::SurfaceMasses(
     tuples.emplace(array, progress);
     const DensityRange range = density.IsOnPoints()
       ? rangeOf(tuples->data(), nullptr, 0, input->GetNumberOfPoints(), progress)
-      : rangeOf(tuples->data(), ghosts, surface.FirstCell(), input->GetNumberOfCells(), progress);
+      : rangeOf(tuples->data(), ghosts, input->GetNumberOfVerts() + input->GetNumberOfLines(),
+          input->GetNumberOfCells(), progress);
     requireDensity(range, array);
     largest = range.Largest > 0.0 ? range.Largest : 1.0;
   }
@@ -166,7 +167,7 @@ SurfaceMasses::SurfaceMasses(
       double sum = 0.0;
       for (std::int64_t triangle = first; triangle < last; ++triangle)
       {
-        masses[triangle] = disk.AreaShare(triangle) * densityOf(triangle);
+        masses[triangle] = areas.Shares[triangle] * densityOf(triangle);
         sum += masses[triangle];
       }
       return sum;
@@ -180,7 +181,8 @@ SurfaceMasses::SurfaceMasses(
       (ghosts ? " (duplicate and blanked ghosts carry none)" : "") +
       (array ? "; at least one value must be positive" : ""));
   }
-  this->Sum = shares * disk.Area() * disk.Unit() * largest * disk.Unit();
+  this->LargestValue = largest;
+  this->Sum = shares * areas.Total * areas.Unit * largest * areas.Unit;
   if (!(this->Sum > 0.0))
   {
     throw Failure(title + " below the least double; " +
@@ -192,6 +194,36 @@ SurfaceMasses::SurfaceMasses(
     throw Failure(title + " past the largest double; " +
       (array ? "its values must be smaller" : "the coordinates must be smaller"));
   }
+}
+
+RelativeDensity::RelativeDensity(
+  const PlacedTriangles& surface, const SurfaceDensity& density, double largest, Progress& progress)
+  : OnPoints(density.IsOnPoints())
+{
+  vtkDataArray* array = density.Array();
+  if (!array)
+  {
+    return;
+  }
+  const DoubleTuples tuples(array, progress);
+  const double* values = tuples.data();
+  this->Relative =
+    LargeBuffer<double>(this->OnPoints ? array->GetNumberOfTuples() : surface.NumberOfTriangles());
+  double* relative = this->Relative.data();
+  progress.For(this->Relative.size(), Grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      relative[i] = values[this->OnPoints ? i : surface.InputCellOf(i)] / largest;
+    }
+  });
+}
+
+SurfaceDensityValues RelativeDensity::Values() const
+{
+  const double* values = this->Relative.size() > 0 ? this->Relative.data() : nullptr;
+  SurfaceDensityValues found;
+  (this->OnPoints ? found.AtPoints : found.OfTriangles) = values;
+  return found;
 }
 
 } // namespace RectifiedTransport

@@ -6,6 +6,7 @@
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/SurfaceRelaxation/SurfaceRelaxation.h"
 
 #include <string>
 
@@ -18,7 +19,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class DiskSurface;
+class PlacedTriangles;
 
 // A density per area of the points or cells of a surface.
 class SurfaceDensity
@@ -46,17 +47,35 @@ public:
   // linear interpolation, or times the density of its cell. Ghost cells have no mass. Runs as the
   // current stage. Throws Failure for densities that are negative or not finite and for a total
   // mass that is zero or not finite, and Cancelled.
-  SurfaceMasses(vtkPolyData* input, const DiskSurface& surface, const SurfaceDensity& density,
+  SurfaceMasses(vtkPolyData* input, const PlacedTriangles& surface, const SurfaceDensity& density,
     Progress& progress);
 
   // The masses of the triangles, up to a factor.
   const double* Values() const { return this->Masses.data(); }
   // The total mass, in units of the density and of the input.
   double Total() const { return this->Sum; }
+  // The largest density; 1 without an array or if all values are 0.
+  double Largest() const { return this->LargestValue; }
 
 private:
   LargeBuffer<double> Masses;
+  double LargestValue = 1.0;
   double Sum = 0.0;
+};
+
+// A density relative to its largest value, as relaxOnSurface takes it.
+class RelativeDensity
+{
+public:
+  // Runs as the current stage. Throws Cancelled and std::bad_alloc.
+  RelativeDensity(const PlacedTriangles& surface, const SurfaceDensity& density, double largest,
+    Progress& progress);
+
+  SurfaceDensityValues Values() const;
+
+private:
+  bool OnPoints;
+  LargeBuffer<double> Relative; // empty for 1 everywhere
 };
 
 } // namespace RectifiedTransport

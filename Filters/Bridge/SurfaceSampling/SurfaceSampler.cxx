@@ -2,28 +2,24 @@
 #include "Bridge/SurfaceSampling/SurfaceSampler.h"
 
 #include "Bridge/Density/CostModel.h"
-#include "Bridge/Points/ParticleCells.h"
-#include "Bridge/Points/SampledArrays.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Surface/DiskSurface.h"
 #include "Bridge/Surface/SurfaceInput.h"
+#include "Bridge/Surface/WholeSurface.h"
 #include "Bridge/SurfaceSampling/SurfaceMasses.h"
+#include "Bridge/SurfaceSampling/SurfaceParticles.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parameterization/AreaPreservingMap.h"
+#include "Core/SurfaceRelaxation/SurfaceRelaxation.h"
 #include "Core/SurfaceSampling/SurfaceSamples.h"
 
 #include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
-#include <Eigen/Geometry>
-
-#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -33,7 +29,10 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
+double numberOfArrays(vtkPolyData* input)
+{
+  return input->GetPointData()->GetNumberOfArrays() + input->GetCellData()->GetNumberOfArrays();
+}
 
 // Nanoseconds, as measured on one thread.
 double costOfMap(double points)
@@ -41,91 +40,14 @@ double costOfMap(double points)
   return 40.0 * std::pow(points, 1.5);
 }
 
-Eigen::Vector3d normalOf(const DiskMesh& disk, std::int64_t triangle)
-{
-  const std::int64_t* corners = disk.Triangle(triangle);
-  const ConstPointSpan<3> points = disk.Surface().Points;
-  const auto corner = [&](int i) { return Eigen::Map<const Eigen::Vector3d>(points[corners[i]]); };
-  return (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNormalized();
-}
-
-// The arrays SeedId, Mass, CellId and Normal. Returns the points.
-vtkSmartPointer<vtkDoubleArray> writeParticles(const SurfaceInput& input,
-  const DiskSurface& surface, const LargeBuffer<PlaceOnTriangle>& places, double totalMass,
-  Progress& progress, vtkPolyData* output)
-{
-  const std::int64_t count = places.size();
-  auto points = newArray<vtkDoubleArray>("Points", 3, count);
-  auto ids = newArray<vtkIdTypeArray>("SeedId", 1, count);
-  auto masses = newArray<vtkDoubleArray>("Mass", 1, count);
-  auto cells = newArray<vtkIdTypeArray>("CellId", 1, count);
-  auto normals = newArray<vtkDoubleArray>("Normal", 3, count);
-  vtkIdType* id = ids->GetPointer(0);
-  double* mass = masses->GetPointer(0);
-  vtkIdType* cell = cells->GetPointer(0);
-  double* point = points->GetPointer(0);
-  double* normal = normals->GetPointer(0);
-  const double share = totalMass / static_cast<double>(count);
-  const DiskMesh& disk = surface.Disk();
-  progress.For(count, Grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      const PlaceOnTriangle& place = places.data()[i];
-      const std::array<std::int64_t, 3> corners = surface.CornersOf(place.Triangle);
-      Eigen::Vector3d x = Eigen::Vector3d::Zero();
-      for (std::size_t corner = 0; corner < 3; ++corner)
-      {
-        Eigen::Vector3d at;
-        surface.Triangulated()->GetPoint(static_cast<vtkIdType>(corners[corner]), at.data());
-        x += place.Weights[corner] * at;
-      }
-      Eigen::Map<Eigen::Vector3d>(point + 3 * i) = x;
-      Eigen::Map<Eigen::Vector3d>(normal + 3 * i) = normalOf(disk, place.Triangle);
-      id[i] = i;
-      mass[i] = share;
-      cell[i] = input.InputCellOf(surface.InputCellOf(place.Triangle));
-    }
-  });
-  vtkPointData* data = output->GetPointData();
-  data->AddArray(ids);
-  data->AddArray(masses);
-  data->AddArray(cells);
-  data->SetNormals(normals);
-  return points;
-}
-
-class PlacesOnSurface : public SampledPlaces
-{
-public:
-  PlacesOnSurface(const DiskSurface& surface, const LargeBuffer<PlaceOnTriangle>& places)
-    : Surface(surface)
-    , Places(places)
-  {
-  }
-
-  std::int64_t Count() const override { return this->Places.size(); }
-  SampledPlace Find(std::int64_t place) const override
-  {
-    const PlaceOnTriangle& on = this->Places.data()[place];
-    SampledPlace found{};
-    found.Count = 3;
-    std::copy_n(this->Surface.CornersOf(on.Triangle).data(), 3, found.Points);
-    std::copy_n(on.Weights.data(), 3, found.Weights);
-    found.Cell = this->Surface.CellOf(on.Triangle);
-    return found;
-  }
-
-private:
-  const DiskSurface& Surface;
-  const LargeBuffer<PlaceOnTriangle>& Places;
-};
-
 } // namespace
 
 void SurfaceSampler::Check() const
 {
   requireThat(
     this->NumberOfParticles >= 1, "NumberOfParticles", this->NumberOfParticles, "at least 1");
+  requireThat(this->RelaxationIterations >= 0 && this->RelaxationIterations <= MostIterations,
+    "RelaxationIterations", this->RelaxationIterations, "from 0 to 1000");
   requireThat(this->Resolution >= 1 && this->Resolution <= AreaPreservingOptions::MaximumResolution,
     "Resolution", this->Resolution, "from 1 to 16384");
   this->Corners.Check();
@@ -169,8 +91,51 @@ std::vector<std::string> SurfaceSamplingReport::Warnings() const
   return warnings;
 }
 
-SurfaceSamplingReport SurfaceSampler::Run(const SurfaceInput& given, const SurfaceDensity& density,
+SurfaceSamplingReport SurfaceSampler::Run(const SurfaceInput& input, const SurfaceDensity& density,
   Progress& progress, vtkPolyData* output) const
+{
+  return this->Method == SurfaceMethod::Flow ? this->Transport(input, density, progress, output)
+                                             : this->Relax(input, density, progress, output);
+}
+
+SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
+  const SurfaceDensity& density, Progress& progress, vtkPolyData* output) const
+{
+  vtkPolyData* input = given.Get();
+  SurfaceRelaxationOptions options;
+  options.NumberOfSamples = this->NumberOfParticles;
+  options.Iterations = this->RelaxationIterations;
+  options.RandomSeed = static_cast<std::uint64_t>(this->RandomSeed);
+  const auto size = static_cast<double>(input->GetNumberOfPoints());
+  const auto asked = static_cast<double>(this->NumberOfParticles);
+  const auto ends = stageEnds({ 500.0 * size, 50.0 * size,
+    2000.0 * size + (3000.0 + 500.0 * this->RelaxationIterations) * asked, Cost::Write * asked,
+    Cost::Write * asked, 2.0 * Cost::Write * asked * (1.0 + numberOfArrays(input)) });
+  const std::string particles =
+    std::to_string(this->NumberOfParticles) + " particles (see NumberOfParticles)";
+  const double bytes = asked * BytesOfSurfaceParticle;
+  requireMemory(particles, bytes);
+
+  const WholeSurface surface(input, progress, ends[0]);
+  progress.BeginStage(ends[1]);
+  const SurfaceMasses masses(input, surface, density, progress);
+  const RelativeDensity relative(surface, density, masses.Largest(), progress);
+  const TriangleSurface triangles = surface.Surface();
+  progress.BeginStage(ends[2]);
+  const SurfaceRelaxation samples = withMemory("the relaxation of " + particles,
+    bytes +
+      memoryForSurfaceRelaxation(triangles.Points.size(), triangles.NumberOfTriangles,
+        relative.Values().AtPoints || relative.Values().OfTriangles, this->NumberOfParticles),
+    [&]() { return relaxOnSurface(triangles, relative.Values(), options, progress.Stage()); });
+  writeSurfaceParticles(
+    given, surface, samples.Places, masses.Total(), progress, ends.data() + 3, output);
+  SurfaceSamplingReport report;
+  report.Particles = samples.Places.size();
+  return report;
+}
+
+SurfaceSamplingReport SurfaceSampler::Transport(const SurfaceInput& given,
+  const SurfaceDensity& density, Progress& progress, vtkPolyData* output) const
 {
   vtkPolyData* input = given.Get();
   SurfaceSamplingOptions options;
@@ -182,15 +147,13 @@ SurfaceSamplingReport SurfaceSampler::Run(const SurfaceInput& given, const Surfa
   const auto size = static_cast<double>(input->GetNumberOfPoints());
   const auto asked = static_cast<double>(this->NumberOfParticles);
   const double cells = static_cast<double>(this->Resolution) * this->Resolution;
-  const auto arrays = static_cast<double>(
-    input->GetPointData()->GetNumberOfArrays() + input->GetCellData()->GetNumberOfArrays());
   const auto ends = stageEnds({ 1500.0 * size, costOfMap(size), 50.0 * size,
     30.0 * cells + 1500.0 * size + (1000.0 + Cost::flow(this->Flow, 2)) * asked,
-    Cost::Write * asked, Cost::Write * asked, 2.0 * Cost::Write * asked * (1.0 + arrays) });
+    Cost::Write * asked, Cost::Write * asked,
+    2.0 * Cost::Write * asked * (1.0 + numberOfArrays(input)) });
   const std::string particles =
     std::to_string(this->NumberOfParticles) + " particles (see NumberOfParticles)";
-  constexpr double bytesOfParticle =
-    9 * sizeof(double) + 4 * sizeof(vtkIdType) + sizeof(PlaceOnTriangle);
+  constexpr double bytesOfParticle = BytesOfSurfaceParticle + sizeof(PlaceOnTriangle);
   requireMemory(particles, asked * bytesOfParticle);
 
   const DiskSurface surface(input, progress, ends[0]);
@@ -210,14 +173,8 @@ SurfaceSamplingReport SurfaceSampler::Run(const SurfaceInput& given, const Surfa
     tables + asked * bytesOfParticle + 80.0 * static_cast<double>(disk.NumberOfTriangles()),
     [&]() { return sampleSurface(disk, map, masses.Values(), options, progress.Stage()); });
 
-  progress.BeginStage(ends[4]);
-  const vtkSmartPointer<vtkDoubleArray> points =
-    writeParticles(given, surface, samples.Places, masses.Total(), progress, output);
-  progress.BeginStage(ends[5]);
-  setParticles(output, points, 1, progress);
-  sampleArrays({ { surface.Triangulated() }, "input surface", true },
-    PlacesOnSurface(surface, samples.Places), progress, ends[6], output->GetPointData());
-  addFieldValue(output, "TotalMass", masses.Total());
+  writeSurfaceParticles(
+    given, surface, samples.Places, masses.Total(), progress, ends.data() + 4, output);
   addFieldValue(output, "MovedParticles", static_cast<double>(samples.Flow.MovedToMass));
   addSteps(output, { samples.Flow });
   return { samples.Places.size(), samples.Flow.MovedToMass,

@@ -38,21 +38,39 @@ struct SurfaceSamplingReport
   std::vector<std::string> Warnings() const;
 };
 
+// Indexed by vtkSurfaceSampler::MethodType.
+constexpr const char* SurfaceMethodTexts[] = { "Relaxation", "Flow" };
+enum class SurfaceMethod
+{
+  Relaxation, // of any surface
+  Flow        // of a disk, by its map
+};
+
 // The members are the properties of that class.
 struct SurfaceSampler
 {
+  static constexpr int MostIterations = 1000;
+
+  SurfaceMethod Method;
+  int RelaxationIterations; // of that method; what follows NumberOfParticles is of the other one
+  int RandomSeed;
+  std::int64_t NumberOfParticles;
   FlowOptions Flow;
   CornerSettings Corners;
-  std::int64_t NumberOfParticles;
   int Resolution;
   SeedPattern Pattern;
-  int RandomSeed;
 
   // Throws Failure for values that are out of range for any surface.
   void Check() const;
 
   // Writes particles. Throws Failure and Cancelled.
   SurfaceSamplingReport Run(const SurfaceInput& surface, const SurfaceDensity& density,
+    Progress& progress, vtkPolyData* output) const;
+
+private:
+  SurfaceSamplingReport Relax(const SurfaceInput& surface, const SurfaceDensity& density,
+    Progress& progress, vtkPolyData* output) const;
+  SurfaceSamplingReport Transport(const SurfaceInput& surface, const SurfaceDensity& density,
     Progress& progress, vtkPolyData* output) const;
 };
 

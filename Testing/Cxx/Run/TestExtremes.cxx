@@ -328,10 +328,14 @@ void checkSources(Checks& checks)
     sampler->SetInputData(surface);
     sampler->SetNumberOfParticles(20);
     sampler->SetResolution(20);
-    // Areas are numbers, and not zero, between these.
-    const bool isSampled = expectFinite(checks, sampler, scale, __LINE__);
-    checks.That(isSampled == (exponent >= -160 && exponent <= 154), "sampled", __LINE__,
-      std::to_string(exponent));
+    for (const int method : { vtkSurfaceSampler::RELAXATION, vtkSurfaceSampler::FLOW })
+    {
+      sampler->SetMethod(method);
+      // Areas are numbers, and not zero, between these.
+      const bool isSampled = expectFinite(checks, sampler, scale, __LINE__);
+      checks.That(isSampled == (exponent >= -160 && exponent <= 154), "sampled", __LINE__,
+        std::to_string(exponent));
+    }
     vtkNew<vtkUniformSeedSource> seeds;
     seeds->SetBounds(-scale, scale, 0, scale, 0, scale);
     seeds->SetNumberOfPoints(20);

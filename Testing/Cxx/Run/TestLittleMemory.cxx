@@ -85,12 +85,13 @@ void checkParameterization(Checks& checks)
   checkSweep(checks, filter, __LINE__);
 }
 
-void checkSurfaceSampler(Checks& checks)
+void checkSurfaceSampler(Checks& checks, int method)
 {
   auto surface = makeHill(false);
   surface->GetCellData()->AddArray(makeNumbers("Number", surface->GetNumberOfCells()));
   surface->GetPointData()->AddArray(makeNumbers("Density", surface->GetNumberOfPoints()));
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethod(method);
   sampler->SetInputData(surface);
   sampler->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
   sampler->SetNumberOfParticles(50000);
@@ -204,7 +205,8 @@ int TestLittleMemory(int, char*[])
   checkCells(checks);
   checkSolid(checks);
   checkParameterization(checks);
-  checkSurfaceSampler(checks);
+  checkSurfaceSampler(checks, vtkSurfaceSampler::RELAXATION);
+  checkSurfaceSampler(checks, vtkSurfaceSampler::FLOW);
   checkCartogram(checks);
   checkOptimal(checks);
   checkMapBeforeTables(checks);

@@ -147,10 +147,14 @@ void checkSources(Checks& checks)
   vtkNew<vtkSurfaceSampler> surface;
   surface->SetNumberOfParticles(100);
   surface->SetResolution(50);
-  for (const bool triangles : { false, true })
+  for (const int method : { vtkSurfaceSampler::RELAXATION, vtkSurfaceSampler::FLOW })
   {
-    surface->SetInputData(makeHill(triangles));
-    expectRising(checks, surface, "particles on a surface", __LINE__);
+    surface->SetMethod(method);
+    for (const bool triangles : { false, true })
+    {
+      surface->SetInputData(makeHill(triangles));
+      expectRising(checks, surface, "particles on a surface", __LINE__);
+    }
   }
 }
 

@@ -98,13 +98,19 @@ void checkOthers(Checks& checks)
   CHECK(checks, read(polygons).Get() == polygons && read(polygons).InputCellOf(5) == 5);
   CHECK(checks, !read(nullptr).Get() && !read(vtkSmartPointer<vtkPolyData>::New()).Get());
 
+  // With a tetrahedron: its faces, too.
   auto grid = makeGrid();
   const std::vector<vtkIdType> corners{ 0, 1, 4, 9 };
   grid->InsertNextCell(VTK_TETRA, 4, corners.data());
+  const SurfaceInput outer = read(grid);
+  vtkIdType faces = 0;
+  for (vtkIdType cell = 0; cell < outer.Get()->GetNumberOfCells(); ++cell)
+  {
+    faces += outer.InputCellOf(cell) == 7 ? 1 : 0;
+  }
+  CHECK(checks, faces == 4 && outer.Get()->GetNumberOfPolys() >= 8);
   CHECK(checks,
-    failureOf(grid) ==
-      "The input has 1 cell that is no polygon, as of three dimensions or with curved sides; take "
-      "the surface of the input with Extract Surface");
+    outer.Get()->GetCellData()->GetNumberOfArrays() == grid->GetCellData()->GetNumberOfArrays());
   grid = makeGrid();
   const std::vector<vtkIdType> wrong{ 0, 1, 10 };
   grid->InsertNextCell(VTK_TRIANGLE, 3, wrong.data());

@@ -54,6 +54,7 @@ void checkOutput(Checks& checks)
   auto hill = makeHill();
   hill->GetFieldData()->AddArray(makeArray("Own", 1, [](vtkIdType) { return 5.0; }));
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   Messages messages(sampler);
   sampler->SetInputData(hill);
   for (const vtkIdType count : { 1, 2, 1000 })
@@ -105,6 +106,7 @@ void checkFlatAsImage(Checks& checks)
     flat->GetCellData()->AddArray(
       makeArray("Density", flat->GetNumberOfCells(), [=](vtkIdType i) { return bumpy(i / part); }));
     vtkNew<vtkSurfaceSampler> sampler;
+    sampler->SetMethodToFlow();
     sampler->SetInputData(flat);
     sampler->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Density");
     sampler->SetNumberOfParticles(700);
@@ -131,6 +133,7 @@ void checkPointDensity(Checks& checks)
   const auto x = [&](vtkIdType i) { return flat->GetPoint(i)[0]; };
   const vtkIdType count = flat->GetNumberOfPoints();
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   sampler->SetInputData(flat);
   sampler->SetNumberOfParticles(4000);
   const std::vector<vtkSmartPointer<vtkDataArray>> arrays{ makeArray("X", count, x),
@@ -173,6 +176,7 @@ void checkPointDensity(Checks& checks)
 void checkPatterns(Checks& checks)
 {
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   sampler->SetInputData(makeHill());
   sampler->SetNumberOfParticles(777);
   for (int pattern = 0; pattern < 5; ++pattern)
@@ -196,6 +200,7 @@ void checkEmptyParts(Checks& checks)
   hill->GetCellData()->AddArray(
     makeArray<vtkIntArray>("Light", count, [&](vtkIdType i) { return isDark(i) ? 0.0 : 2.0; }));
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   sampler->SetInputData(hill);
   sampler->SetNumberOfParticles(3000);
   sampler->SetResolution(37); // cells across the edge
@@ -233,6 +238,7 @@ void checkPolygonsAndStrips(Checks& checks)
   quads->SetLines(others);
   quads->SetVerts(others);
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   sampler->SetInputData(quads);
   sampler->SetNumberOfParticles(500);
   const auto expectQuads = [&](vtkPolyData* particles, int line) {
@@ -276,6 +282,7 @@ void checkPolygonsAndStrips(Checks& checks)
 void checkScales(Checks& checks)
 {
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   sampler->SetNumberOfParticles(300);
   sampler->SetInputData(makeHill());
   const Values expected = coordinates(runSampler(sampler));

@@ -47,6 +47,7 @@ void checkPointArrays(Checks& checks)
   data->AddArray(makeArray<vtkIdTypeArray>("Others", count, value));
 
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   sampler->SetInputData(hill);
   sampler->SetNumberOfParticles(900);
   vtkPolyData* particles = runSampler(sampler);
@@ -98,6 +99,7 @@ void checkCellArrays(Checks& checks)
     }
     data->AddArray(names);
     vtkNew<vtkSurfaceSampler> sampler;
+    sampler->SetMethodToFlow();
     sampler->SetInputData(hill);
     sampler->SetNumberOfParticles(300);
     vtkPolyData* particles = runSampler(sampler);
@@ -130,6 +132,7 @@ void checkNames(Checks& checks)
   normals->SetNumberOfComponents(3);
   hill->GetPointData()->SetNormals(normals);
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   sampler->SetInputData(hill);
   sampler->SetNumberOfParticles(50);
   vtkPolyData* particles = runSampler(sampler);
@@ -150,6 +153,7 @@ void checkShortArrays(Checks& checks)
     const vtkIdType points = hill->GetNumberOfPoints();
     const vtkIdType cells = hill->GetNumberOfCells();
     vtkNew<vtkSurfaceSampler> sampler;
+    sampler->SetMethodToFlow();
     sampler->SetInputData(hill);
     sampler->SetNumberOfParticles(10);
     hill->GetPointData()->AddArray(makeArray("Short", points - 1, [](vtkIdType) { return 1.0; }));

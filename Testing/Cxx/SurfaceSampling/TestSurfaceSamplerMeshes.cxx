@@ -101,6 +101,7 @@ void checkMesh(Checks& checks, const std::string& name, double spacing)
     return;
   }
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   Messages messages(sampler);
   sampler->SetInputData(mesh);
   vtkPolyData* particles = runSampler(sampler);

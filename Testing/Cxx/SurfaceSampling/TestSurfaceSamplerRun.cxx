@@ -22,6 +22,7 @@ void checkThreads(Checks& checks)
   auto hill = makeHill();
   hill->GetPointData()->AddArray(makeArray("Density", hill->GetNumberOfPoints(), bumpy));
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   sampler->SetInputData(hill);
   sampler->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
   sampler->SetNumberOfParticles(30000);
@@ -51,6 +52,7 @@ void checkAborts(Checks& checks)
   sheet->GetPointData()->AddArray(makeArray("Density", sheet->GetNumberOfPoints(), bumpy));
   sheet->GetCellData()->AddArray(makeArray("Number", sheet->GetNumberOfCells(), bumpy));
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   Messages messages(sampler);
   sampler->SetInputData(sheet);
   sampler->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
@@ -71,6 +73,7 @@ void checkAborts(Checks& checks)
 void checkPipeline(Checks& checks)
 {
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   Messages messages(sampler);
   sampler->SetNumberOfParticles(50);
   sampler->SetInputData(vtkSmartPointer<vtkPolyData>::New());
@@ -94,6 +97,7 @@ void checkPipeline(Checks& checks)
 void checkPropertyErrors(Checks& checks)
 {
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   sampler->SetInputData(makeHill());
   ErrorTest test(checks, sampler);
   sampler->SetNumberOfParticles(0);
@@ -140,6 +144,7 @@ void checkDensityErrors(Checks& checks)
   vtkPointData* points = hill->GetPointData();
   const vtkIdType count = hill->GetNumberOfPoints();
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   sampler->SetInputData(hill);
   sampler->SetNumberOfParticles(10);
   sampler->SetResolution(64);
@@ -202,6 +207,7 @@ void checkDensityErrors(Checks& checks)
 void checkSurfaceErrors(Checks& checks)
 {
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   sampler->SetNumberOfParticles(10);
   ErrorTest test(checks, sampler);
   vtkNew<vtkSphereSource> sphere;

@@ -28,6 +28,7 @@ void checkFinger(Checks& checks, double height, std::size_t warnings)
 {
   auto finger = makeFinger(height);
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   Messages messages(sampler);
   sampler->SetInputData(finger);
   sampler->SetResolution(512);
@@ -62,6 +63,7 @@ void checkTeeth(Checks& checks)
 {
   auto teeth = makeTeeth();
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   Messages messages(sampler);
   sampler->SetInputData(teeth);
   CHECK(checks, runSampler(sampler)->GetNumberOfPoints() == 8192);
@@ -79,6 +81,7 @@ void checkMoved(Checks& checks)
   hill->GetCellData()->AddArray(makeArray<vtkIntArray>("Light", hill->GetNumberOfCells(),
     [](vtkIdType i) { return i / 2 % 7 == 3 && i / 48 % 5 == 2 ? 1.0 : 0.0; }));
   vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetMethodToFlow();
   sampler->SetInputData(hill);
   sampler->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Light");
   sampler->SetNumberOfParticles(20000);

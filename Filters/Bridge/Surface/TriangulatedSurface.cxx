@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Surface/TriangulatedSurface.h"
+
+#include "Bridge/Points/CopiedTuples.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Surface/PolygonInput.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkFieldData.h"
+#include "vtkPointData.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
+
+} // namespace
+
+TriangulatedSurface::TriangulatedSurface(
+  vtkPolyData* input, const SurfaceStages& stages, double part)
+  : Surface(input)
+  , FirstPolygon(input->GetNumberOfVerts() + input->GetNumberOfLines())
+{
+  if (isAllTriangles(input))
+  {
+    stages.Next(part);
+    return;
+  }
+  Progress& progress = stages.Run;
+  stages.Next(0.6 * part);
+  const vtkSmartPointer<vtkCellArray> triangles =
+    triangulate(input->GetPoints(), input->GetPolys(), input->GetStrips(), progress);
+  this->Surface = vtkSmartPointer<vtkPolyData>::New();
+  this->Surface->SetPoints(input->GetPoints());
+  this->Surface->SetVerts(input->GetVerts());
+  this->Surface->SetLines(input->GetLines());
+  this->Surface->SetPolys(triangles);
+  this->Surface->GetPointData()->PassData(input->GetPointData());
+  this->Surface->GetFieldData()->PassData(input->GetFieldData());
+  stages.Next(0.75 * part);
+  const auto count = static_cast<std::int64_t>(triangles->GetNumberOfCells());
+  withMemory("the cells of the surface's " + std::to_string(count) + " triangles",
+    static_cast<double>(count) * sizeof(vtkIdType), [&]() {
+      this->InputCells = LargeBuffer<vtkIdType>(count);
+      this->FindInputCells(input, progress);
+    });
+  stages.Next(part);
+  this->CopyCellData(input, progress);
+}
+
+std::int64_t TriangulatedSurface::NumberOfTriangles() const
+{
+  return this->Surface->GetPolys()->GetNumberOfCells();
+}
+
+LargeBuffer<std::int64_t> TriangulatedSurface::Corners(Progress& progress) const
+{
+  LargeBuffer<std::int64_t> corners(3 * this->NumberOfTriangles());
+  std::int64_t* copy = corners.data();
+  visitTriangles(this->Surface->GetPolys(), progress,
+    [copy](std::int64_t triangle, const std::array<std::int64_t, 3>& ids) {
+      std::copy_n(ids.data(), 3, copy + 3 * triangle);
+    });
+  return corners;
+}
+
+// triangulate() returns all triangles, in the order of the polygons and then the strips.
+void TriangulatedSurface::FindInputCells(vtkPolyData* input, Progress& progress)
+{
+  vtkIdType* next = this->InputCells.data();
+  vtkIdType before = this->FirstPolygon;
+  for (vtkCellArray* cells : { input->GetPolys(), input->GetStrips() })
+  {
+    progress.ForInOrder(
+      cells->GetNumberOfCells(), Grain,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t cell = first; cell < last; ++cell)
+        {
+          next = std::fill_n(next, trianglesOf(cells, cell), before + static_cast<vtkIdType>(cell));
+        }
+      },
+      RandomAccessUnits);
+    before += cells->GetNumberOfCells();
+  }
+}
+
+void TriangulatedSurface::CopyCellData(vtkPolyData* input, Progress& progress)
+{
+  copyTuples(
+    { input->GetCellData(), input->GetNumberOfCells(), "cell", "input surface" },
+    this->Surface->GetNumberOfCells(),
+    [this](vtkIdType cell) {
+      return cell < this->FirstPolygon ? cell : this->InputCells.data()[cell - this->FirstPolygon];
+    },
+    this->Surface->GetCellData(), progress);
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Surface/WholeSurface.h"
+
+#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Surface/PolygonInput.h"
+#include "Core/Parallel/Reduction.h"
+
+#include "vtkDataObject.h"
+#include "vtkPolyData.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
+
+} // namespace
+
+WholeSurface::WholeSurface(vtkPolyData* input, Progress& progress, double end)
+{
+  const SurfaceStages stages{ progress, progress.StageEnd(), end };
+  const std::int64_t points = input->GetNumberOfPoints();
+  stages.Next(0.2);
+  withMemory("the surface's " + std::to_string(points) + " points",
+    static_cast<double>(points) * 24.0, [&]() { this->ReadPoints(input, progress); });
+  requirePolygons(input, "it must be a surface");
+  this->Cells.emplace(input, stages, 0.6);
+  const std::int64_t triangles = this->Cells->NumberOfTriangles();
+  withMemory("the surface's " + std::to_string(triangles) + " triangles",
+    static_cast<double>(triangles) * 40.0, [&]() {
+      stages.Next(0.8);
+      this->Corners = this->Cells->Corners(progress);
+      this->LeaveOutGhosts(input, progress);
+      stages.Next(1.0);
+      this->FindAreas(progress);
+    });
+}
+
+TriangleSurface WholeSurface::Surface() const
+{
+  return { { this->Coordinates.data(), this->Coordinates.size() / 3 }, this->Corners.data(),
+    this->NumberOfTriangles() };
+}
+
+// Scaled, so that areas neither underflow nor pass the largest double.
+void WholeSurface::ReadPoints(vtkPolyData* input, Progress& progress)
+{
+  this->Coordinates = readPoints(input, progress);
+  const std::int64_t count = this->Coordinates.size() / 3;
+  double* coordinates = this->Coordinates.data();
+  Eigen::AlignedBox3d bounds;
+  progress.ForInOrder(count, Grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      bounds.extend(Eigen::Map<const Eigen::Vector3d>(coordinates + 3 * i));
+    }
+  });
+  const Eigen::Vector3d centre = 0.5 * bounds.max() + 0.5 * bounds.min();
+  const double half = (0.5 * bounds.max() - 0.5 * bounds.min()).maxCoeff();
+  const double unit = half > 0.0 ? half : 1.0;
+  this->Unit = half > 0.0 ? 2.0 * half : 1.0;
+  progress.For(count, Grain, [=](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      Eigen::Map<Eigen::Vector3d> point(coordinates + 3 * i);
+      point = 0.5 * ((point - centre) / unit);
+    }
+  });
+}
+
+void WholeSurface::LeaveOutGhosts(vtkPolyData* input, Progress& progress)
+{
+  const unsigned char* ghosts = ghostFlags(input, vtkDataObject::CELL, "input surface");
+  if (!ghosts)
+  {
+    return;
+  }
+  const std::int64_t all = this->NumberOfTriangles();
+  const auto isGhost = [&](std::int64_t triangle) {
+    return (ghosts[this->Cells->InputCellOf(triangle)] & ghostCell) != 0;
+  };
+  const auto kept = reduceChunks(
+    progress, all, Grain, std::int64_t{ 0 },
+    [&](std::int64_t first, std::int64_t last) {
+      std::int64_t count = 0;
+      for (std::int64_t triangle = first; triangle < last; ++triangle)
+      {
+        count += isGhost(triangle) ? 0 : 1;
+      }
+      return count;
+    },
+    std::plus<>());
+  if (kept == all)
+  {
+    return;
+  }
+  if (kept == 0)
+  {
+    throw Failure("The input surface has only ghost cells: all " + std::to_string(all) +
+      " triangles are duplicates, blanked or refined");
+  }
+  this->Kept = LargeBuffer<std::int64_t>(kept);
+  LargeBuffer<std::int64_t> corners(3 * kept);
+  std::int64_t next = 0;
+  progress.ForInOrder(all, Grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t triangle = first; triangle < last; ++triangle)
+    {
+      if (!isGhost(triangle))
+      {
+        this->Kept.data()[next] = triangle;
+        std::copy_n(this->Corners.data() + 3 * triangle, 3, corners.data() + 3 * next);
+        ++next;
+      }
+    }
+  });
+  this->Corners = std::move(corners);
+}
+
+void WholeSurface::FindAreas(Progress& progress)
+{
+  const std::int64_t triangles = this->NumberOfTriangles();
+  this->Shares = LargeBuffer<double>(triangles);
+  double* areas = this->Shares.data();
+  this->Area = reduceChunks(
+    progress, triangles, Grain, 0.0,
+    [&](std::int64_t first, std::int64_t last) {
+      double sum = 0.0;
+      for (std::int64_t triangle = first; triangle < last; ++triangle)
+      {
+        const auto corner = [&](int i) {
+          return Eigen::Map<const Eigen::Vector3d>(
+            this->Coordinates.data() + 3 * this->Corners.data()[3 * triangle + i]);
+        };
+        areas[triangle] = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+        sum += areas[triangle];
+      }
+      return sum;
+    },
+    std::plus<>());
+  if (!(this->Area > 0.0))
+  {
+    throw Failure("The input surface has no area: each of its " + std::to_string(triangles) +
+      " triangles has corners at one place or on one line");
+  }
+  const double area = this->Area;
+  progress.For(triangles, Grain, [=](std::int64_t first, std::int64_t last) {
+    for (std::int64_t triangle = first; triangle < last; ++triangle)
+    {
+      areas[triangle] /= area;
+    }
+  });
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The output of a sampled surface.
+#ifndef RectifiedTransport_SurfaceParticles_h
+#define RectifiedTransport_SurfaceParticles_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Mesh/PlaceOnTriangle.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
+
+#include "vtkType.h"
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class PlacedTriangles;
+class SurfaceInput;
+
+// Bytes of a particle of the output, without the surface's arrays.
+constexpr double BytesOfSurfaceParticle = 9 * sizeof(double) + 4 * sizeof(vtkIdType);
+
+// Writes a vertex for each place, with SeedId, Mass (equal shares), CellId, Normal, and the
+// surface's arrays there; field data TotalMass. Progress reaches the ends of three stages. Throws
+// Failure and Cancelled.
+void writeSurfaceParticles(const SurfaceInput& input, const PlacedTriangles& surface,
+  const LargeBuffer<PlaceOnTriangle>& places, double totalMass, Progress& progress,
+  const double* ends, vtkPolyData* output);
+
+} // namespace RectifiedTransport
+
+#endif
