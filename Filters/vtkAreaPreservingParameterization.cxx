@@ -3,6 +3,7 @@
 
 #include "Bridge/Parameterization/AreaPreservingParameterization.h"
 #include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/CornerSettings.h"
 #include "Bridge/Surface/SurfaceInput.h"
 
@@ -21,12 +22,19 @@ using namespace RectifiedTransport;
 vtkAreaPreservingParameterization::vtkAreaPreservingParameterization()
   : Resolution(512)
   , Polish(true)
+  , Seams(SEAMS_AUTO)
 {
   this->SetNumberOfOutputPorts(2);
 }
 
 //------------------------------------------------------------------------------
 vtkAreaPreservingParameterization::~vtkAreaPreservingParameterization() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkAreaPreservingParameterization::GetSeamsAsString()
+{
+  return choiceText(SeamsTexts, this->Seams);
+}
 
 //------------------------------------------------------------------------------
 vtkPolyData* vtkAreaPreservingParameterization::GetFlat()
@@ -42,6 +50,7 @@ int vtkAreaPreservingParameterization::RequestData(
   parameterization.Corners = this->GetCorners();
   parameterization.Resolution = this->Resolution;
   parameterization.Polish = this->Polish;
+  parameterization.Seams = this->Seams;
   parameterization.Check();
   AlgorithmProgress progress(this, this->Threading);
 
@@ -66,5 +75,6 @@ void vtkAreaPreservingParameterization::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Resolution: " << this->Resolution << "\n";
   os << indent << "Polish: " << (this->Polish ? "On" : "Off") << "\n";
+  os << indent << "Seams: " << this->GetSeamsAsString() << "\n";
 }
 VTK_ABI_NAMESPACE_END

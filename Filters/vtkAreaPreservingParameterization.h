@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkAreaPreservingParameterization
- * @brief   texture coordinates of a disk that preserve areas
+ * @brief   texture coordinates of a surface that preserve areas
  *
  * Input: a vtkPolyData, or a vtkUnstructuredGrid or vtkStructuredGrid of polygons. Its polygons and
- * triangle strips form a disk: one component with one boundary, without holes and handles, such as
- * a surface that was cut open. Outputs: the same surface with coordinates in the unit square for
- * every point, and the surface laid flat in that square. Each triangle's share of the square equals
- * its share of the surface.
+ * triangle strips are a surface of any shape. Outputs: the surface with coordinates in the unit
+ * square for every point, and the surface laid flat in that square. Each triangle's share of the
+ * square equals its share of the surface.
+ *
+ * A disk, a component with one boundary and without holes and handles, fills the square. Other
+ * surfaces are cut along short seams (see Seams; Gu, Gortler and Hoppe 2002,
+ * doi:10.1145/566654.566589) until each component is a disk, and further to where the map would
+ * squeeze areas, such as the tips of limbs. Each component has a square of its own in the unit
+ * square, an atlas: the areas of these squares are in proportion to those of the components, and
+ * between squares there is a margin. Points on seams are doubled.
  *
  * The method is that of Section 5.4 of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport
  * with Rectified Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147. A conformal
@@ -29,6 +35,12 @@
  * - field data `AreaDistortionRMS` (the root mean square of the deviation of AreaDistortion from 1,
  *   weighted by area), `AngleDistortionMean` (weighted by area) and `FlippedCount`.
  *
+ * If the surface is cut or has several components, also the point data `PointIds` (vtkIdType: the
+ * point of the input; the points of the input come first, in their order, then the copies on seams)
+ * and the cell data `Component` (int: 0, 1 ...; -1 for cells that are not polygons or have no
+ * area). AreaDistortion then compares with the area of all squares. Global ids of points are
+ * dropped.
+ *
  * Output 1, Flat, has the same cells and data, and points (u, v, 0) by AreaPreservingExact. Normals
  * and tangents are those of the surface; their arrays are kept, but are not active, so that they do
  * not shade the flat mesh.
@@ -39,18 +51,19 @@
  *
  * If the surface is no disk otherwise, points in no polygon (their coordinates are 0 0) and
  * triangles without area are left out of the map, and points at the same position are merged, with
- * a warning that counts them. A cut whose points are duplicated stays a cut. Polygons with
- * inconsistent orientation are mapped with the orientation that most of the area has. A closed
- * surface, several components or boundaries, handles, and edges of more than two triangles are
- * errors that say which. An input without points gives empty outputs.
+ * a warning that counts them. A cut of a disk whose points are duplicated stays a cut. Polygons
+ * with inconsistent orientation are mapped with the orientation that most of the area of a
+ * component has. Sheets that share an edge of more than two triangles are parted there. If Seams is
+ * None, a closed surface, several components or boundaries, handles, and edges of more than two
+ * triangles are errors that say which. An input without points gives empty outputs.
  *
  * With several MPI ranks the surface is gathered on rank 0, which has the outputs.
  *
  * Cost: O(points^1.5) for the conformal map, O(points + Resolution^2) for the rest. Memory: up to
  * 1350 bytes a point, and 40 bytes a cell of the grid.
  *
- * @warning On a nearly closed surface, with a short boundary, areas cannot be kept well. The
- * warning says how well they are kept.
+ * @warning On a nearly closed disk, with a short boundary, areas cannot be kept well. The warning
+ * says how well they are kept.
  *
  * \code{.cpp}
  * vtkNew<vtkAreaPreservingParameterization> map;
@@ -94,6 +107,27 @@ public:
   ///@}
 
   /**
+   * What Seams may be.
+   */
+  enum SeamsType
+  {
+    SEAMS_AUTO = 0,
+    SEAMS_NONE = 1
+  };
+
+  ///@{
+  /**
+   * Whether surfaces that are no disks are cut along seams. Auto: they are. None: they are errors.
+   * Disks have no seams. With seams or several components there can be no corners. Default Auto.
+   */
+  vtkSetMacro(Seams, int);
+  vtkGetMacro(Seams, int);
+  void SetSeamsToAuto() { this->SetSeams(SEAMS_AUTO); }
+  void SetSeamsToNone() { this->SetSeams(SEAMS_NONE); }
+  const char* GetSeamsAsString();
+  ///@}
+
+  /**
    * Output 1: the surface in the unit square. Output 0 is GetOutput.
    */
   vtkPolyData* GetFlat();
@@ -107,6 +141,7 @@ protected:
 
   int Resolution;
   bool Polish;
+  int Seams;
 
 private:
   vtkAreaPreservingParameterization(const vtkAreaPreservingParameterization&) = delete;

@@ -87,7 +87,7 @@ run_suites()
 parallel_tests="Invariance*:FlowMap*:SplatOrder*:SplatContext*:Context*:Progress*:Lattice*:Tables*"
 parallel_tests="$parallel_tests:PivotLattice*:MapDerivatives*:NearestNeighbours*:SiteCells*"
 parallel_tests="$parallel_tests:SolidCoverage*:Executors*"
-parallel_tests="$parallel_tests:AreaPreserving*:ConformalMap*:MassRaster*:SurfaceSamples*"
+parallel_tests="$parallel_tests:AreaPreserving*:ConformalMap*:CutSurface*:MassRaster*:SurfaceSamples*"
 parallel_tests="$parallel_tests:Tiles*:TilesOnRanks*:TileSchedule*:PartTables*:Ranks*:RankOrder*:SplatPart*"
 parallel_tests="$parallel_tests:BoxesByTiles*:BlockShares*:ParticleQuality*"
 parallel_tests="$parallel_tests:PowerDiagram*:EqualMassPartition*:PowerSiteCells*:Repulsion*"

@@ -21,7 +21,7 @@ shown.SetScalarBarVisibility(view, False)
 colours = GetColorTransferFunction("Normal")
 colours.ColorSpace = "RGB"
 colours.RGBPoints = [-1, 0.45, 0.3, 0.7, 0, 0.2, 0.8, 0.75, 1, 1, 0.95, 0.5]
-shown.GaussianRadius = 0.019
+shown.GaussianRadius = 0.0145
 
 view.CameraFocalPoint = [0, 0.08, 0.05]
 view.CameraPosition = [-7, 1.2, -1.8]

@@ -81,6 +81,8 @@ void drawParameterization(Settings& settings)
     { 1, 2, 3, 8, 33, 64 }, { 0, -1, 16385, std::numeric_limits<int>::max() }, 1.0);
   settings.Draw<Parameterization, bool>(
     "Polish", &Parameterization::SetPolish, { true, false, false }, {}, 0.4);
+  settings.Draw<Parameterization, int>(
+    "Seams", &Parameterization::SetSeams, { Parameterization::SEAMS_NONE }, { -1, 2 }, 1.0);
   drawThreading<Parameterization>(settings);
 }
 
@@ -220,8 +222,8 @@ void drawSampler(Settings& settings)
     { 1, 2, 10, 333, 1000 }, { 0, -1 }, 1.0,
     { 1000000000000, std::numeric_limits<vtkIdType>::max() });
   settings.Draw<Sampler, int>("Method", &Sampler::SetMethod, { 0, 1 }, { -1, 2 }, 1.0);
-  settings.Draw<Sampler, int>("RelaxationIterations", &Sampler::SetRelaxationIterations,
-    { 0, 1, 5, 20 }, { -1, 1001 }, 0.5);
+  settings.Draw<Sampler, int>(
+    "RelaxationIterations", &Sampler::SetRelaxationIterations, { 0, 1, 5, 20 }, { -1, 1001 }, 0.5);
   settings.Draw<Sampler, int>("Resolution", &Sampler::SetResolution, { 1, 2, 3, 8, 33, 64 },
     { 0, -1, 16385, std::numeric_limits<int>::max() }, 1.0);
   settings.Draw<Sampler, int>(

@@ -156,11 +156,13 @@ class Errors(unittest.TestCase):
         self.assertIn("Supersampling is 17; it must be from 1 to 16", reported.errors[-2])
 
     def test_parameterization(self):
-        made = simple.AreaPreservingParameterization(Input=simple.Sphere(), Resolution=16)
+        made = simple.AreaPreservingParameterization(Input=simple.Sphere(), Resolution=16, Seams="None")
         for settings, message in (
                 ({}, "The input surface is closed: it has no boundary"),
                 ({"Input": simple.Box()}, "The input surface is closed"),
                 ({"Input": simple.Disk()}, "The input surface has 2 boundary loops"),
+                ({"Seams": "Auto", "Corners": [0, 1, 2, 3]},
+                 "; or give no Corners, which only a disk can have: then it is cut along seams"),
                 ({"Input": simple.Plane(), "Corners": [0, 1, 3]}, "Corners are 3 points; they must"),
                 ({"Corners": [0, 1, 3, 4]}, "Corners have the point 4; there are points 0 to 3"),
                 ({"Corners": [], "Resolution": 0}, "Resolution is 0; it must be from 1 to 16384")):
@@ -176,7 +178,8 @@ class Errors(unittest.TestCase):
     def test_surface(self):
         plane = simple.Calculator(Input=simple.Plane(XResolution=4), ResultArrayName="Height",
                                   Function="coordsX")
-        sampled = simple.SampleSurface(Input=simple.Sphere(), Resolution=16, NumberOfParticles=9)
+        sampled = simple.SampleSurface(Input=simple.Sphere(), Method="Flow", Resolution=16,
+                                       NumberOfParticles=9)
         for settings, message in (
                 ({}, "The input surface is closed: it has no boundary"),
                 ({"Input": plane, "DensityArray": ["POINTS", "Height"]},

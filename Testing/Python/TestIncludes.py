@@ -28,6 +28,7 @@ CORE = {
     "Solid": {"Parallel", "Geometry", "Mesh"},
     "Parameterization": {"Parallel", "Algebra", "Geometry", "Mesh", "Tables", "Flow"},
     "SurfaceRelaxation": {"Parallel", "Geometry", "Mesh", "Tables"},
+    "Seams": {"Parallel", "Geometry", "Mesh", "Parameterization"},
     "SurfaceSampling": {"Parallel", "Geometry", "Mesh", "Tables", "Flow", "Seeds",
                         "Parameterization"},
 }

@@ -300,6 +300,12 @@ def gather(name, algorithm, *data):
     finish(name, algorithm, errors)
 
 
+def disk():
+    algorithm = vtkAreaPreservingParameterization()
+    algorithm.SetSeamsToNone()
+    return algorithm
+
+
 def cells():
     algorithm = vtkEqualMassCells()
     algorithm.SetResolution(20)
@@ -346,9 +352,8 @@ gather("solid on one", solid(), on(FAULTY, sphere, vtkPolyData))
 gather("solid whole", solid(), sphere())
 gather("solid open", solid(), on(FAULTY, lambda: sphere(120.0), vtkPolyData))
 gather("solid none has any", solid(), vtkPolyData())
-gather("disk right", vtkAreaPreservingParameterization(), plane())
-gather("disk apart", vtkAreaPreservingParameterization(), on(
-    FAULTY, vtkPolyData, plane))
+gather("disk right", disk(), plane())
+gather("disk apart", disk(), on(FAULTY, vtkPolyData, plane))
 
 source = vtkTrivialProducer()
 source.SetOutput(piece())

@@ -62,13 +62,14 @@ class Proxy:
 def parse(path):
     """The root of one of the plugin's XML files, with its entities in it as in the built plugin."""
     texts = []
+    names = "Common", "Method", "Surface"
     for name in (path, *(os.path.join(SOURCE, "Plugin", "Transport%s.ent" % name)
-                         for name in ("Common", "Method"))):
+                         for name in names)):
         with open(name, encoding="utf-8") as file:
             texts.append(file.read())
-    xml, common, of_method = texts
-    for name, entities in (("Common", common), ("Method", of_method + common)):
-        xml = xml.replace('SYSTEM "Transport%s.ent"' % name, "[%s]" % entities)
+    xml, common, *of_kinds = texts
+    for name, entities in zip(names, ("", *of_kinds)):
+        xml = xml.replace('SYSTEM "Transport%s.ent"' % name, "[%s]" % (entities + common))
     return ElementTree.fromstring(xml)
 
 

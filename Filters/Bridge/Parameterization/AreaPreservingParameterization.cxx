@@ -5,12 +5,17 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Surface/DiskSurface.h"
+#include "Bridge/Surface/OpenedSurface.h"
+#include "Bridge/Surface/PolygonInput.h"
 #include "Core/Parameterization/AreaPreservingMap.h"
+#include "Core/Seams/CutSurfaceMap.h"
 
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -18,6 +23,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
 namespace RectifiedTransport
@@ -31,12 +37,18 @@ constexpr double AcceptableDeviation = 0.05;
 
 constexpr const char* exactName = "AreaPreservingExact";
 
-// By the points of the output; 0 0 for those that no triangle with area has.
-template <class ArrayT>
-vtkSmartPointer<ArrayT> coordinatesArray(
-  const std::string& name, const DiskSurface& surface, ConstPointSpan<2> positions)
+enum SeamsChoice
 {
-  const vtkIdType points = surface.Triangulated()->GetNumberOfPoints();
+  AutomaticSeams,
+  NoSeams
+};
+
+// By the points of the output; 0 0 for those that no triangle with area has. SurfaceT::PointOf
+// gives the place in `positions` of a point of the output.
+template <class ArrayT, class SurfaceT>
+vtkSmartPointer<ArrayT> coordinatesArray(
+  const std::string& name, const SurfaceT& surface, vtkIdType points, ConstPointSpan<2> positions)
+{
   auto array = newArray<ArrayT>(name, 2, points);
   auto* next = array->GetPointer(0);
   for (vtkIdType i = 0; i < points; ++i)
@@ -50,12 +62,31 @@ vtkSmartPointer<ArrayT> coordinatesArray(
   return array;
 }
 
+template <class SurfaceT>
+void attachCoordinates(const SurfaceT& surface, ConstPointSpan<2> conformal,
+  ConstPointSpan<2> positions, vtkPolyData* output)
+{
+  const vtkIdType points = output->GetNumberOfPoints();
+  vtkPointData* data = output->GetPointData();
+  data->AddArray(coordinatesArray<vtkDoubleArray>("Conformal", surface, points, conformal));
+  data->AddArray(coordinatesArray<vtkDoubleArray>(exactName, surface, points, positions));
+  data->AddArray(coordinatesArray<vtkFloatArray>("AreaPreserving", surface, points, positions));
+  data->SetActiveTCoords("AreaPreserving"); // SetTCoords would remove the input's
+}
+
+void attachFigures(const MapDistortion& figures, vtkPolyData* output)
+{
+  addFieldValue(output, "AreaDistortionRMS", figures.AreaRootMeanSquare);
+  addFieldValue(output, "AngleDistortionMean", figures.AngleMean);
+  addFieldValue(output, "FlippedCount", static_cast<double>(figures.Flipped));
+}
+
 // The arrays of the cells; those that are no triangles with area are not distorted.
 class CellDistortions
 {
 public:
-  CellDistortions(const DiskSurface& surface, ConstPointSpan<2> positions)
-    : Surface(surface)
+  CellDistortions(vtkIdType cells, ConstPointSpan<2> positions)
+    : Cells(cells)
     , Positions(positions)
     , Area(make<vtkDoubleArray>("AreaDistortion", 1.0))
     , Angle(make<vtkDoubleArray>("AngleDistortion", 1.0))
@@ -95,13 +126,12 @@ private:
   template <class ArrayT>
   vtkSmartPointer<ArrayT> make(const char* name, typename ArrayT::ValueType value) const
   {
-    const vtkIdType cells = this->Surface.Triangulated()->GetNumberOfCells();
-    auto array = newArray<ArrayT>(name, 1, cells);
-    std::fill_n(array->GetPointer(0), cells, value);
+    auto array = newArray<ArrayT>(name, 1, this->Cells);
+    std::fill_n(array->GetPointer(0), this->Cells, value);
     return array;
   }
 
-  const DiskSurface& Surface;
+  const vtkIdType Cells;
   const ConstPointSpan<2> Positions;
   const vtkSmartPointer<vtkDoubleArray> Area;
   const vtkSmartPointer<vtkDoubleArray> Angle;
@@ -131,6 +161,39 @@ MapDistortion measureCells(const DiskSurface& surface, const AreaPreservingMap& 
   return measureDistortion(triangles, map.Positions, progress.Stage());
 }
 
+template <class Map>
+auto withFlowMemory(std::int64_t points, int resolution, const Map& map)
+{
+  const std::string cells = std::to_string(resolution);
+  const double bytes = 40.0 * resolution * resolution + 200.0 * static_cast<double>(points);
+  const std::string flow = "the flow of " + std::to_string(points) + " points on " + cells + " x " +
+    cells + " cells (see Resolution)";
+  requireMemory(flow, bytes);
+  return withMemory(flow, bytes, map);
+}
+
+// Which point of the input each point is, and which component each cell; -1 for cells that are no
+// triangles with area.
+void attachOrigins(const OpenedSurface& surface, vtkPolyData* output)
+{
+  const vtkIdType points = output->GetNumberOfPoints();
+  auto origins = newArray<vtkIdTypeArray>("PointIds", 1, points);
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    origins->SetValue(i, static_cast<vtkIdType>(surface.OriginOf(i)));
+  }
+  output->GetPointData()->AddArray(origins);
+  const vtkIdType cells = output->GetNumberOfCells();
+  auto components = newArray<vtkIntArray>("Component", 1, cells);
+  std::fill_n(components->GetPointer(0), cells, -1);
+  for (std::int64_t triangle = 0; triangle < surface.Given().NumberOfTriangles; ++triangle)
+  {
+    components->SetValue(surface.FirstCell() + static_cast<vtkIdType>(triangle),
+      static_cast<int>(surface.Cut().DiskOf(triangle)));
+  }
+  output->GetCellData()->AddArray(components);
+}
+
 } // namespace
 
 std::vector<std::string> ParameterizationReport::Warnings() const
@@ -148,14 +211,16 @@ std::vector<std::string> ParameterizationReport::Warnings() const
     text << flipped << " of " << this->Triangles
          << " triangles are flipped and 95 % of the area is within "
          << 100.0 * this->Distortion.Area95 << " % of its share of the square; "
-         << (this->Polish ? "a longer boundary helps where the surface is nearly closed, smaller "
-                            "triangles help elsewhere"
-                          : "Polish is off");
+         << (!this->Polish ? "Polish is off"
+                : this->IsCut
+                ? "smaller triangles help"
+                : "a longer boundary helps where the surface is nearly closed, smaller "
+                  "triangles help elsewhere");
     warnings.push_back(text.str());
   }
   if (this->Collapsed > 0)
   {
-    warnings.push_back(collapsedWarning(this->Collapsed, this->Triangles));
+    warnings.push_back(collapsedWarning(this->Collapsed, this->Triangles, this->IsCut));
   }
   return warnings;
 }
@@ -164,50 +229,99 @@ void AreaPreservingParameterization::Check() const
 {
   requireThat(this->Resolution >= 1 && this->Resolution <= AreaPreservingOptions::MaximumResolution,
     "Resolution", this->Resolution, "from 1 to 16384");
+  requireChoice("Seams", this->Seams, SeamsTexts);
   this->Corners.Check();
 }
 
 ParameterizationReport AreaPreservingParameterization::Run(
   vtkPolyData* input, Progress& progress, vtkPolyData* output) const
 {
-  const DiskSurface surface(input, progress, 0.1);
-  const DiskMesh& disk = surface.Disk();
-  const auto points = static_cast<double>(disk.NumberOfPoints());
-  const std::string purpose = " of " + std::to_string(disk.NumberOfPoints()) + " points";
+  if (this->Seams == AutomaticSeams)
+  {
+    requirePolygons(input, "it must be a surface");
+  }
+  std::optional<DiskSurface> disk;
+  try
+  {
+    disk.emplace(input, progress, 0.1);
+  }
+  catch (const NoDiskSurface& defect)
+  {
+    if (this->Seams == NoSeams)
+    {
+      throw;
+    }
+    if (this->Corners.Number() > 0)
+    {
+      throw Failure(std::string(defect.what()) +
+        "; or give no Corners, which only a disk can have: " + "then it is cut along seams");
+    }
+  }
+  if (disk)
+  {
+    return this->MapDisk(*disk, progress, output);
+  }
+  OpenedSurface opened(input, progress, 0.5);
+  return this->MapOpened(opened, progress, output);
+}
 
+ParameterizationReport AreaPreservingParameterization::MapDisk(
+  const DiskSurface& surface, Progress& progress, vtkPolyData* output) const
+{
+  const DiskMesh& disk = surface.Disk();
   progress.BeginStage(0.4);
   const ConformalMap conformal = mapDisk(disk, this->Corners.Of(surface.Repaired()), progress);
   progress.BeginStage(0.95);
-  const std::string cells = std::to_string(this->Resolution);
-  const double bytes = 40.0 * this->Resolution * this->Resolution + 200.0 * points;
-  const std::string flow =
-    "the flow" + purpose + " on " + cells + " x " + cells + " cells (see Resolution)";
-  requireMemory(flow, bytes);
-  const AreaPreservingMap map = withMemory(flow, bytes, [&]() {
+  const AreaPreservingMap map = withFlowMemory(disk.NumberOfPoints(), this->Resolution, [&]() {
     return mapAreaPreserving(
       disk, conformal.Square, { this->Resolution, this->Polish }, progress.Stage());
   });
 
   progress.BeginStage(1.0);
-  CellDistortions distortions(surface, map.Positions);
-  const MapDistortion figures = measureCells(surface, map, distortions, progress);
   vtkPolyData* triangles = surface.Triangulated();
+  CellDistortions distortions(triangles->GetNumberOfCells(), map.Positions);
+  const MapDistortion figures = measureCells(surface, map, distortions, progress);
   output->CopyStructure(triangles);
   output->GetFieldData()->PassData(triangles->GetFieldData());
   output->GetCellData()->PassData(triangles->GetCellData());
   distortions.Attach(output->GetCellData());
-  vtkPointData* data = output->GetPointData();
-  data->PassData(triangles->GetPointData());
-  data->AddArray(
-    coordinatesArray<vtkDoubleArray>("Conformal", surface, conformal.Square.Positions));
-  data->AddArray(coordinatesArray<vtkDoubleArray>(exactName, surface, map.Positions));
-  data->AddArray(coordinatesArray<vtkFloatArray>("AreaPreserving", surface, map.Positions));
-  data->SetActiveTCoords("AreaPreserving"); // SetTCoords would remove the input's
-  addFieldValue(output, "AreaDistortionRMS", figures.AreaRootMeanSquare);
-  addFieldValue(output, "AngleDistortionMean", figures.AngleMean);
-  addFieldValue(output, "FlippedCount", static_cast<double>(figures.Flipped));
+  output->GetPointData()->PassData(triangles->GetPointData());
+  attachCoordinates(surface, conformal.Square.Positions, map.Positions, output);
+  attachFigures(figures, output);
   return { disk.NumberOfTriangles(), countCollapsed(disk, conformal.Square.Corners), figures,
-    this->Polish, surface.IsRepaired() ? surface.RepairWarning() : "" };
+    this->Polish, false, surface.IsRepaired() ? surface.RepairWarning() : "" };
+}
+
+ParameterizationReport AreaPreservingParameterization::MapOpened(
+  OpenedSurface& surface, Progress& progress, vtkPolyData* output) const
+{
+  const CutSurface& cut = surface.Cut();
+  progress.BeginStage(0.95);
+  const CutSurfaceMap map = withFlowMemory(cut.NumberOfPoints(), this->Resolution, [&]() {
+    return mapCutSurface(cut, { this->Resolution, this->Polish }, progress.Stage());
+  });
+
+  progress.BeginStage(0.98);
+  const CutTriangles given(cut, surface.Given());
+  const MeasuredTriangles triangles = given.Measured();
+  const std::vector<Point<2>> scaled = scaledToUnitArea(map);
+  CellDistortions distortions(surface.Triangulated()->GetNumberOfCells(), scaled);
+  distortions.Measure(
+    triangles,
+    [&](std::int64_t triangle) {
+      return surface.FirstCell() + static_cast<vtkIdType>(given.Given(triangle));
+    },
+    progress);
+  const MapDistortion figures = measureDistortion(triangles, scaled, progress.Stage());
+  progress.BeginStage(1.0);
+  surface.PlaceFlatCells(map.Positions);
+  surface.CopyTo(output, progress);
+  distortions.Attach(output->GetCellData());
+  attachOrigins(surface, output);
+  attachCoordinates(surface, map.Conformal, map.Positions, output);
+  attachFigures(figures, output);
+  return { triangles.Surface.NumberOfTriangles, map.Collapsed, figures, this->Polish, true,
+    surface.RepairWarning() };
 }
 
 void layFlat(vtkPolyData* surface, vtkPolyData* flat)

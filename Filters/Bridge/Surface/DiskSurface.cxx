@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Surface/DiskSurface.h"
 
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/PolygonInput.h"
 
@@ -53,7 +52,7 @@ void DiskSurface::MakeDisk(const LargeBuffer<double>& coordinates, const Surface
       message += "; triangle " + std::to_string(first) + " is of cell " +
         std::to_string(this->Cells->InputCellOf(first));
     }
-    throw Failure(message);
+    throw NoDiskSurface(message);
   }
 }
 
@@ -65,10 +64,14 @@ GivenTriangles DiskSurface::GivenWithArea(Progress& progress) const
 
 std::string DiskSurface::RepairWarning() const
 {
+  return "The input surface was repaired: " + repairText(this->Mesh->Repairs());
+}
+
+std::string repairText(const SurfaceRepairs& repairs)
+{
   const auto counted = [](std::int64_t count, const char* what, const char* rest) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s") + rest;
   };
-  const SurfaceRepairs repairs = this->Mesh->Repairs();
   std::string message;
   const auto add = [&message](
                      const std::string& part) { message += (message.empty() ? "" : ", ") + part; };
@@ -84,7 +87,7 @@ std::string DiskSurface::RepairWarning() const
   {
     add(counted(repairs.MergedPoints, "point", " merged with others at their places"));
   }
-  return "The input surface was repaired: " + message;
+  return message;
 }
 
 ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progress& progress)
@@ -103,11 +106,12 @@ ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progres
   }
 }
 
-std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles)
+std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles, bool isCut)
 {
   return std::to_string(collapsed) + " of " + std::to_string(triangles) +
     " triangles have all points on one side of the square and so no area there; subdivide the "
-    "surface, or give Corners between these points";
+    "surface" +
+    (isCut ? "" : ", or give Corners between these points");
 }
 
 } // namespace RectifiedTransport

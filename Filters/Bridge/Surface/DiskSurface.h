@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_DiskSurface_h
 #define RectifiedTransport_DiskSurface_h
 
+#include "Bridge/Run/Failure.h"
 #include "Bridge/Surface/PlacedTriangles.h"
 #include "Bridge/Surface/TriangulatedSurface.h"
 #include "Core/Mesh/RepairedDisk.h"
@@ -18,14 +19,21 @@
 namespace RectifiedTransport
 {
 
+// The input surface is no disk.
+class NoDiskSurface : public Failure
+{
+public:
+  using Failure::Failure;
+};
+
 class DiskSurface final : public PlacedTriangles
 {
 public:
   // `input` has points. Cuts polygons and strips into triangles and checks that they are a disk;
   // progress then reaches `end`. If they are no disk, unused points and triangles without area are
-  // left out, and points at the same position are merged (see RepairedDisk). Throws Failure if the
-  // input has no polygons, coordinates that are not finite or polygons that cannot be cut, or is no
-  // disk, and Cancelled.
+  // left out, and points at the same position are merged (see RepairedDisk). Throws NoDiskSurface
+  // if the input is no disk, Failure if it has no polygons, coordinates that are not finite or
+  // polygons that cannot be cut, and Cancelled.
   DiskSurface(vtkPolyData* input, Progress& progress, double end);
 
   const DiskMesh& Disk() const { return this->Mesh->Mesh(); }
@@ -73,8 +81,11 @@ private:
 // and Cancelled.
 ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progress& progress);
 
-// A warning about triangles that have no area in the map.
-std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles);
+// "2 points in no polygon left out, ...": the text of what was repaired; empty if nothing was.
+std::string repairText(const SurfaceRepairs& repairs);
+
+// A warning about triangles that have no area in the map; Corners help if the surface is not cut.
+std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles, bool isCut = false);
 
 } // namespace RectifiedTransport
 

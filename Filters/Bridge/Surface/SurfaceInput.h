@@ -24,10 +24,10 @@ class Progress;
 class SurfaceInput
 {
 public:
-  // A vtkPolyData is used as it is. A grid with cells of at most two dimensions, as Clip makes, keeps
-  // all its points; its cells are in the order of vtkPolyData: vertices, lines, polygons, strips.
-  // Other grids give their outer surface. Polls for abort. Throws Failure for a
-  // block of another type and for cells with points that do not exist, and Cancelled.
+  // A vtkPolyData is used as it is. A grid with cells of at most two dimensions, as Clip makes,
+  // keeps all its points; its cells are in the order of vtkPolyData: vertices, lines, polygons,
+  // strips. Other grids give their outer surface. Polls for abort. Throws Failure for a block of
+  // another type and for cells with points that do not exist, and Cancelled.
   SurfaceInput(vtkDataObject* input, Progress& progress);
 
   // For FillInputPortInformation: what the constructor takes.

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace RectifiedTransport
@@ -15,18 +14,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-// What rounding in double leaves of coordinates at one place.
-double roundingOfDoubles(ConstPointSpan<3> points)
-{
-  double largest = 0.0;
-  for (std::int64_t i = 0; i < 3 * points.size(); ++i)
-  {
-    largest = std::max(largest, std::abs(points.data()[i]));
-  }
-  constexpr double units = 4.0;
-  return units * std::numeric_limits<double>::epsilon() * largest;
-}
 
 bool areFinite(ConstPointSpan<3> points)
 {

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace RectifiedTransport
@@ -318,6 +319,17 @@ TriangleSurface RepairedSurface::Surface() const
 {
   return { { this->Positions.data(), this->Positions.size() / 3 }, this->Triangles.data(),
     this->Triangles.size() / 3 };
+}
+
+double roundingOfDoubles(ConstPointSpan<3> points)
+{
+  double largest = 0.0;
+  for (std::int64_t i = 0; i < 3 * points.size(); ++i)
+  {
+    largest = std::max(largest, std::abs(points.data()[i]));
+  }
+  constexpr double units = 4.0;
+  return units * std::numeric_limits<double>::epsilon() * largest;
 }
 
 bool needsRepair(const TriangleSurface& surface, double rounding, const Context& context)

@@ -68,6 +68,9 @@ private:
   SurfaceRepairs Counts;
 };
 
+// What rounding in double leaves of the differences of coordinates at one place.
+double roundingOfDoubles(ConstPointSpan<3> points);
+
 // Whether a surface has points that no triangle uses, edges of no length or triangles without area,
 // up to `rounding`. O(triangles). Throws std::bad_alloc and Cancelled.
 bool needsRepair(

@@ -325,6 +325,25 @@ SquareCorners chooseCorners(const DiskMesh& disk)
   return pointsAt(places, best);
 }
 
+SquareCorners turnCorners(const DiskMesh& disk, const SquareCorners& corners, double part)
+{
+  const BoundaryPlaces places(disk);
+  const std::vector<BoundaryArc> arcs = smallestArcs(disk, places);
+  const auto missed = [&](const CornerPlaces& tried) {
+    return std::count_if(arcs.begin(), arcs.end(),
+      [&](const BoundaryArc& arc) { return !hasCorner(places, arc, tried); });
+  };
+  CornerPlaces known;
+  std::transform(corners.begin(), corners.end(), known.begin(),
+    [&](std::int64_t point) { return places.PlaceOf(point); });
+  const double start = places.LengthAt(known[0]) + part * places.Total();
+  const CornerPlaces turned =
+    cornersFrom(places, arcs, places.Nearest(std::fmod(start, places.Total())));
+  const bool isBetter =
+    std::isfinite(unevenness(places, turned)) && missed(turned) <= missed(known);
+  return isBetter ? pointsAt(places, turned) : corners;
+}
+
 SquareCorners orderCorners(const DiskMesh& disk, const std::vector<std::int64_t>& points,
   const std::vector<std::int64_t>& names)
 {

@@ -22,6 +22,10 @@ using SquareCorners = std::array<std::int64_t, 4>;
 // are not enough, the longest parts get them.
 SquareCorners chooseCorners(const DiskMesh& disk);
 
+// Corners near the quarters of the boundary's length, from a part of it, 0 to 1, after the first of
+// some corners on. The same corners if those others would leave more triangles without area.
+SquareCorners turnCorners(const DiskMesh& disk, const SquareCorners& corners, double part);
+
 // Four given points, the first as given and the others in the order of the boundary. Throws
 // std::invalid_argument unless they are four different points of the boundary; its message uses
 // `names` for the points if there are any.

@@ -284,6 +284,27 @@ TEST(SquareCorners, Ordered)
   } while (std::next_permutation(points.begin(), points.end()));
 }
 
+TEST(SquareCorners, TurnedAlongTheBoundary)
+{
+  const DiskMesh disk(makeRoundDisk(8).Surface());
+  const std::vector<std::int64_t>& loop = disk.Boundary();
+  ASSERT_EQ(loop.size(), 48u);
+  const SquareCorners corners = chooseCorners(disk);
+  const SquareCorners turned = turnCorners(disk, corners, 1.0 / 8.0);
+  std::set<std::int64_t> wanted;
+  for (const std::int64_t corner : corners)
+  {
+    const auto place = std::find(loop.begin(), loop.end(), corner) - loop.begin();
+    wanted.insert(loop[(static_cast<std::size_t>(place) + 6) % 48]);
+  }
+  EXPECT_EQ(setOf(turned), wanted);
+  EXPECT_EQ(setOf(turnCorners(disk, corners, 0.25)), setOf(corners));
+  // There are no others.
+  const DiskMesh square(makeRectangle(1, 1).Surface());
+  const SquareCorners only = chooseCorners(square);
+  EXPECT_EQ(setOf(turnCorners(square, only, 1.0 / 8.0)), setOf(only));
+}
+
 TEST(SquareCorners, Refused)
 {
   const DiskMesh disk(makeRectangle(4, 3).Surface());

@@ -10,6 +10,7 @@
 #include "vtkSphereSource.h"
 
 #include <limits>
+#include <string>
 
 namespace
 {
@@ -23,6 +24,7 @@ void checkPipeline(Checks& checks)
   plane->SetResolution(6, 5);
   vtkNew<Parameterization> filter;
   CHECK(checks, filter->GetResolution() == 512 && filter->GetPolish());
+  CHECK(checks, filter->GetSeams() == Parameterization::SEAMS_AUTO);
   CHECK(checks, filter->GetNumberOfCorners() == 0);
   filter->SetInputConnection(plane->GetOutputPort());
   filter->SetResolution(32);
@@ -124,6 +126,64 @@ void checkAbortAmongPolygons(Checks& checks)
   CHECK(checks, messages.Errors.empty());
 }
 
+vtkSmartPointer<vtkPolyData> makeClosed(int resolution)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetThetaResolution(resolution);
+  sphere->SetPhiResolution(resolution);
+  sphere->Update();
+  return sphere->GetOutput();
+}
+
+// A surface that is cut along seams.
+void checkSeams(Checks& checks)
+{
+  auto filter = makeParameterization(makeClosed(40));
+  Messages messages(filter);
+  const auto run = [&](int threading) {
+    filter->SetThreading(threading);
+    filter->Modified();
+    return runSquare(filter);
+  };
+  const std::size_t values = expectSameBits(checks, run, __LINE__).size();
+  vtkPolyData* output = filter->GetOutput();
+  CHECK(checks, values == 2 * static_cast<std::size_t>(output->GetNumberOfPoints()));
+  CHECK(checks, output->GetPointData()->GetArray("PointIds"));
+  CHECK(checks, output->GetCellData()->GetArray("Component"));
+  CHECK(checks, messages.Errors.empty() && messages.Warnings.empty());
+
+  CHECK(checks, std::string(filter->GetSeamsAsString()) == "Auto");
+  filter->SetSeamsToNone();
+  CHECK(checks, std::string(filter->GetSeamsAsString()) == "None");
+  ErrorTest(checks, filter).Expect("The input surface is closed", __LINE__);
+  filter->SetSeams(2);
+  ErrorTest(checks, filter).Expect("Seams is 2; it must be 0 (Auto) or 1 (None)", __LINE__);
+  filter->SetSeamsToAuto();
+  for (int i = 0; i < 4; ++i)
+  {
+    filter->SetCorner(i, i);
+  }
+  ErrorTest(checks, filter).Expect("give no Corners, which only a disk can have", __LINE__);
+  filter->ClearCorners();
+  ErrorTest(checks, filter).ExpectNone(__LINE__);
+}
+
+void checkAbortsOfSeams(Checks& checks)
+{
+  auto filter = makeParameterization(makeClosed(200));
+  Messages messages(filter);
+  for (const double from : { 0.02, 0.1, 0.15, 0.2, 0.3, 0.4, 0.49, 0.6, 0.96 })
+  {
+    checkAbort(
+      checks, filter, from, [&]() { filter->Modified(); }, __LINE__);
+  }
+  ProgressTest progress(filter);
+  filter->Modified();
+  CHECK(checks, !runSquare(filter).empty());
+  progress.ExpectRising(checks, 20, __LINE__);
+  CHECK(checks, messages.Errors.empty());
+}
+
 void checkPropertyErrors(Checks& checks)
 {
   auto filter = makeParameterization(makeFlatSheet(5, 4)); // 30 points
@@ -169,6 +229,7 @@ void checkSurfaceErrors(Checks& checks)
 {
   vtkNew<Parameterization> filter;
   filter->SetResolution(8);
+  filter->SetSeamsToNone();
   const auto expect = [&](vtkPolyData* surface, const std::string& text, int line) {
     filter->SetInputData(surface);
     ErrorTest(checks, filter).Expect(text, line);
@@ -237,5 +298,5 @@ void checkScales(Checks& checks)
 int TestAreaPreservingRun(int, char*[])
 {
   return runChecks({ checkPipeline, checkBlocks, checkThreads, checkAborts, checkAbortAmongPolygons,
-    checkPropertyErrors, checkSurfaceErrors, checkScales });
+    checkSeams, checkAbortsOfSeams, checkPropertyErrors, checkSurfaceErrors, checkScales });
 }

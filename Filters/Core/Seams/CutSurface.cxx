@@ -1,0 +1,499 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Seams/CutSurface.h"
+
+#include "Core/Mesh/FlatShape.h"
+#include "Core/Mesh/SurfaceRepair.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parameterization/LocalMap.h"
+#include "Core/Parameterization/SquareCorners.h"
+#include "Core/Seams/CutGraph.h"
+#include "Core/Seams/SeamMesh.h"
+#include "Core/Seams/SeamSearch.h"
+#include "Core/Seams/SqueezedPoints.h"
+#include "Core/Seams/SurfaceParts.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// A component's triangles, cut along seams.
+struct OpenedDisk
+{
+  CutDisk Disk;
+  SeamMesh::Cut Cut;
+  double Unevenness;
+};
+
+// How far a map is from one that keeps areas: the root mean square of the logarithm of the change
+// of areas, over the surface. The angles of the map that keeps areas are worse where this is large.
+double unevennessOf(const DiskMesh& disk, const ConformalMap& map)
+{
+  constexpr double smallest = 1e-10; // also where triangles are turned over
+  const std::vector<Point<2>>& positions = map.Square.Positions;
+  double sum = 0.0;
+  for (std::int64_t t = 0; t < disk.NumberOfTriangles(); ++t)
+  {
+    const std::int64_t* ids = disk.Triangle(t);
+    const auto at = [&](int i) { return positions[static_cast<std::size_t>(ids[i])]; };
+    const double change = 0.5 * crossProduct(at(0), at(1), at(2)) / disk.AreaShare(t);
+    const double logarithm = std::log(std::max(change, smallest));
+    sum += disk.AreaShare(t) * logarithm * logarithm;
+  }
+  // A triangle without area in the map is worse than any seam.
+  return std::sqrt(sum) + static_cast<double>(countCollapsed(disk, map.Square.Corners));
+}
+
+class ComponentCutting
+{
+public:
+  ComponentCutting(SeamMesh& mesh, Progress& progress)
+    : Mesh(mesh)
+    , Run(progress)
+  {
+  }
+
+  OpenedDisk Open(int rounds)
+  {
+    constexpr std::int64_t disk = 1; // the Euler characteristic
+    this->Next(0.2);
+    if (this->Mesh.EulerCharacteristic() == disk)
+    {
+      return this->OpenDisk();
+    }
+    openToDisk(this->Mesh, this->Run);
+    shortenSeams(this->Mesh, this->Run);
+    auto last = std::make_shared<OpenedDisk>(this->Make());
+    std::shared_ptr<OpenedDisk> best = last;
+    for (int round = 0; round < rounds && this->Extend(*last); ++round)
+    {
+      last = std::make_shared<OpenedDisk>(this->Make());
+      best = last->Unevenness < best->Unevenness ? last : best;
+    }
+    last.reset();
+    this->TurnCorners(*best);
+    return std::move(*best);
+  }
+
+private:
+  // Takes the progress on by a part of what is left of it: how many rounds there will be is not
+  // known.
+  void Next(double part)
+  {
+    this->Run.BeginStage(this->Run.StageEnd() + part * (1.0 - this->Run.StageEnd()));
+  }
+
+  OpenedDisk OpenDisk()
+  {
+    if (this->Mesh.NumberOfTriangles() > 1)
+    {
+      if (this->HasThreePointsOnBoundary())
+      {
+        this->JoinInnerPoint();
+      }
+      return this->Make();
+    }
+    SeamMesh::Cut cut = this->Mesh.MakeCut(this->Run);
+    const auto at = [&](std::size_t i) { return this->Mesh.Position(cut.Origins[i]).data(); };
+    const FlatShape shape(at(0), at(1), at(2));
+    return { { {}, {}, 0, 3, 0.5 * shape.Length * shape.Height }, std::move(cut), 0.0 };
+  }
+
+  // The triangles cut along the seams that there are now.
+  OpenedDisk Make()
+  {
+    SeamMesh::Cut cut = this->Mesh.MakeCut(this->Run);
+    this->Run.Check();
+    const auto points = static_cast<std::int64_t>(cut.Origins.size());
+    LargeBuffer<double> places(3 * points);
+    for (std::int64_t i = 0; i < points; ++i)
+    {
+      const Point<3>& place = this->Mesh.Position(cut.Origins[static_cast<std::size_t>(i)]);
+      std::copy(place.begin(), place.end(), places.data() + 3 * i);
+    }
+    this->Run.Check();
+    this->Next(0.1);
+    CutDisk disk{ {}, {}, 0, points, 0.0 };
+    const TriangleSurface surface{ { places.data(), points }, cut.Triangles.data(),
+      this->Mesh.NumberOfTriangles() };
+    disk.Mesh.emplace(surface, this->Run.Stage());
+    disk.Area = disk.Mesh->Area() * disk.Mesh->Unit() * disk.Mesh->Unit();
+    this->Next(0.2);
+    disk.Conformal = mapConformally(*disk.Mesh, chooseCorners(*disk.Mesh), this->Run.Stage());
+    const double unevenness = unevennessOf(*disk.Mesh, *disk.Conformal);
+    this->Run.Check();
+    return { std::move(disk), std::move(cut), unevenness };
+  }
+
+  // Lets seams grow to where the map squeezes areas. Returns whether one does.
+  bool Extend(const OpenedDisk& opened)
+  {
+    // Near where seams meet they enclose small angles, which the sides of the square straighten.
+    // That also squeezes areas, and seams there would not help.
+    constexpr double least = 0.5; // of a side of a square of the area that is squeezed
+    this->Next(0.05);
+    const std::vector<SqueezedPoint> tips = findSqueezedPoints(*opened.Disk.Mesh,
+      opened.Disk.Conformal->Square.Positions, SqueezeLimits(), this->Run.Stage());
+    this->Next(0.05);
+    SeamSearch search(this->Mesh, this->Run);
+    bool isLonger = false;
+    for (const SqueezedPoint& tip : tips)
+    {
+      const std::int64_t point = opened.Cut.Origins[static_cast<std::size_t>(tip.Point)];
+      const double length = least * std::sqrt(tip.AreaShare * opened.Disk.Area);
+      isLonger = joinToSeams(this->Mesh, search, point, length) || isLonger;
+    }
+    return isLonger;
+  }
+
+  // Tries other corners, if that does not take long.
+  void TurnCorners(OpenedDisk& opened)
+  {
+    constexpr std::int64_t mostPoints = std::int64_t{ 1 } << 17;
+    const DiskMesh& disk = *opened.Disk.Mesh;
+    if (disk.NumberOfPoints() > mostPoints)
+    {
+      return;
+    }
+    const SquareCorners corners = opened.Disk.Conformal->Square.Corners;
+    for (const double part : { 1.0 / 16.0, 2.0 / 16.0, 3.0 / 16.0 })
+    {
+      const SquareCorners turned = turnCorners(disk, corners, part);
+      if (turned == corners)
+      {
+        continue;
+      }
+      this->Next(0.3);
+      ConformalMap map = mapConformally(disk, turned, this->Run.Stage());
+      const double unevenness = unevennessOf(disk, map);
+      this->Run.Check();
+      if (unevenness < opened.Unevenness)
+      {
+        opened.Unevenness = unevenness;
+        opened.Disk.Conformal = std::move(map);
+      }
+    }
+  }
+
+  bool HasThreePointsOnBoundary() const
+  {
+    int count = 0;
+    for (std::int64_t point = 0; point < this->Mesh.NumberOfPoints() && count <= 3; ++point)
+    {
+      count += this->Mesh.IsOnSeam(point) ? 1 : 0;
+    }
+    return count == 3;
+  }
+
+  void JoinInnerPoint()
+  {
+    std::int64_t inner = 0;
+    while (this->Mesh.IsOnSeam(inner))
+    {
+      ++inner;
+    }
+    SeamSearch search(this->Mesh, this->Run);
+    joinToSeams(this->Mesh, search, inner);
+  }
+
+  SeamMesh& Mesh;
+  Progress& Run;
+};
+
+void poll(std::int64_t triangle, Progress& progress)
+{
+  constexpr std::int64_t triangles = std::int64_t{ 1 } << 14;
+  if (triangle % triangles == 0)
+  {
+    progress.Check();
+  }
+}
+
+void requireTriangles(const TriangleSurface& surface)
+{
+  for (std::int64_t i = 0; i < 3 * surface.Points.size(); ++i)
+  {
+    if (!std::isfinite(surface.Points.data()[i]))
+    {
+      throw NotADisk(DiskDefect::PointsNotFinite, 1, i / 3);
+    }
+  }
+  if (surface.NumberOfTriangles == 0)
+  {
+    throw NotADisk(DiskDefect::NoTriangles, 0);
+  }
+  for (std::int64_t corner = 0; corner < 3 * surface.NumberOfTriangles; ++corner)
+  {
+    const std::int64_t point = surface.Triangles[corner];
+    if (point < 0 || point >= surface.Points.size())
+    {
+      throw std::invalid_argument("triangle " + std::to_string(corner / 3) + " has the point " +
+        std::to_string(point) + ", but there are " + std::to_string(surface.Points.size()) +
+        " points");
+    }
+  }
+}
+
+// Merges with the smallest rounding that leaves no more edges open than a larger one.
+RepairedSurface repaired(const TriangleSurface& surface, double rounding, Progress& progress)
+{
+  const auto next = [&progress](double part) {
+    progress.BeginStage(progress.StageEnd() + part * (0.3 - progress.StageEnd()));
+  };
+  const auto openEdges = [&](const RepairedSurface& made) {
+    next(0.3);
+    return SurfaceEdges(made.Surface(), progress.Stage()).Open();
+  };
+  const double least = roundingOfDoubles(surface.Points);
+  next(0.5);
+  RepairedSurface made = repairSurface(surface, { least, true }, progress.Stage());
+  if (rounding > least)
+  {
+    const std::int64_t open = openEdges(made);
+    if (open > 0)
+    {
+      next(0.5);
+      RepairedSurface other = repairSurface(surface, { rounding, true }, progress.Stage());
+      if (openEdges(other) < open)
+      {
+        return other;
+      }
+    }
+  }
+  return made;
+}
+
+} // namespace
+
+class SurfaceCutting
+{
+public:
+  SurfaceCutting(const TriangleSurface& surface, CutSurface& made)
+    : Surface(surface)
+    , Made(made)
+  {
+  }
+
+  void Run(const SeamOptions& options, const Context& context)
+  {
+    requireTriangles(this->Surface);
+    Progress progress(context);
+    const RepairedSurface repair = repaired(this->Surface, options.Rounding, progress);
+    this->KeepTriangles(repair, progress);
+    const TriangleSurface kept{ repair.Surface().Points, this->Triangles.data(),
+      static_cast<std::int64_t>(this->Repaired.size()) };
+    if (kept.NumberOfTriangles == 0)
+    {
+      throw NotADisk(DiskDefect::TrianglesWithoutArea, this->Surface.NumberOfTriangles, 0);
+    }
+    progress.BeginStage(0.35);
+    const SurfaceParts parts(kept, progress.Stage());
+    SurfaceCuts& counts = this->Made.Counts;
+    counts.UnusedPoints = repair.Repairs().UnusedPoints;
+    counts.MergedPoints = repair.Repairs().MergedPoints;
+    counts.NonManifoldEdges = parts.NonManifoldEdges();
+
+    this->Prepare(repair);
+    std::int64_t done = 0;
+    for (const std::vector<std::int64_t>& component : parts.Components())
+    {
+      done += static_cast<std::int64_t>(component.size());
+      constexpr double begin = 0.35;
+      progress.BeginStage(begin +
+        (1.0 - begin) * static_cast<double>(done) / static_cast<double>(kept.NumberOfTriangles));
+      this->CutOpen({ kept, parts, component, repair }, options, progress);
+    }
+    progress.BeginStage(1.0);
+    progress.EndSlice(1);
+    for (std::int64_t point = 0; point < this->Surface.Points.size(); ++point)
+    {
+      const std::int64_t place = repair.NewPoint(point);
+      this->Made.PointsOf.data()[point] = place < 0 ? -1 : this->FirstCopies.data()[place];
+    }
+    counts.FlatTriangles = std::count(
+      this->Made.DisksOf.data(), this->Made.DisksOf.data() + this->Made.DisksOf.size(), -1);
+  }
+
+private:
+  // Those with an area.
+  void KeepTriangles(const RepairedSurface& repair, Progress& progress)
+  {
+    const TriangleSurface surface = repair.Surface();
+    for (std::int64_t i = 0; i < 3 * surface.Points.size(); ++i)
+    {
+      this->Unit = std::max(this->Unit, std::abs(surface.Points.data()[i]));
+    }
+    for (std::int64_t triangle = 0; triangle < surface.NumberOfTriangles; ++triangle)
+    {
+      poll(triangle, progress);
+      const std::int64_t* ids = surface.Triangles + 3 * triangle;
+      std::array<Point<3>, 3> corners;
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          corners[i][axis] = surface.Points[ids[i]][axis] / this->Unit;
+        }
+      }
+      if (FlatShape(corners[0].data(), corners[1].data(), corners[2].data()).Height > 0.0)
+      {
+        this->Repaired.push_back(triangle);
+        this->Triangles.insert(this->Triangles.end(), ids, ids + 3);
+      }
+    }
+  }
+
+  void Prepare(const RepairedSurface& repair)
+  {
+    const std::int64_t triangles = this->Surface.NumberOfTriangles;
+    this->Made.DisksOf = LargeBuffer<std::int64_t>(triangles);
+    this->Made.Corners = LargeBuffer<std::int64_t>(3 * triangles);
+    this->Made.PointsOf = LargeBuffer<std::int64_t>(this->Surface.Points.size());
+    this->Made.Turned = LargeBuffer<unsigned char>(triangles);
+    std::fill_n(this->Made.Turned.data(), triangles, static_cast<unsigned char>(0));
+    std::fill_n(this->Made.DisksOf.data(), triangles, std::int64_t{ -1 });
+    std::fill_n(this->Made.Corners.data(), 3 * triangles, std::int64_t{ -1 });
+    this->FirstCopies = LargeBuffer<std::int64_t>(repair.Surface().Points.size());
+    std::fill_n(this->FirstCopies.data(), this->FirstCopies.size(), std::int64_t{ -1 });
+  }
+
+  struct Component
+  {
+    const TriangleSurface& Kept;
+    const SurfaceParts& Parts;
+    const std::vector<std::int64_t>& Triangles; // of those kept
+    const RepairedSurface& Repair;
+  };
+
+  void CutOpen(const Component& component, const SeamOptions& options, Progress& progress)
+  {
+    SeamMesh mesh = this->MeshOf(component, progress);
+    Progress opening(progress.Stage());
+    OpenedDisk opened = ComponentCutting(mesh, opening).Open(options.MaximumRounds);
+    CutDisk& disk = opened.Disk;
+    disk.FirstPoint = this->NumberOfPoints;
+    const auto number = static_cast<std::int64_t>(this->Made.AllDisks.size());
+    for (std::size_t t = 0; t < component.Triangles.size(); ++t)
+    {
+      const std::int64_t kept = component.Triangles[t];
+      poll(static_cast<std::int64_t>(t), progress);
+      const std::int64_t repaired = this->Repaired[static_cast<std::size_t>(kept)];
+      const std::int64_t given = component.Repair.GivenTriangle(repaired);
+      this->Made.DisksOf.data()[given] = number;
+      this->Made.Turned.data()[given] = this->IsTurned(given, component.Kept.Points, opened,
+        static_cast<std::int64_t>(t), component.Kept.Triangles + 3 * kept);
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const auto corner = static_cast<std::int64_t>(i);
+        const std::int64_t point = disk.FirstPoint + opened.Cut.Triangles[3 * t + i];
+        std::int64_t& first = this->FirstCopies.data()[component.Kept.Triangles[3 * kept + corner]];
+        first = first < 0 ? point : first;
+        const std::int64_t label = component.Repair.Corners(repaired)[corner];
+        for (std::int64_t j = 3 * given; j < 3 * given + 3; ++j)
+        {
+          if (this->Surface.Triangles[j] == label)
+          {
+            this->Made.Corners.data()[j] = point;
+          }
+        }
+      }
+    }
+    this->NumberOfPoints += disk.NumberOfPoints;
+    this->Made.AllDisks.push_back(std::move(disk));
+  }
+
+  // Whether the normals of a given triangle and of the disk's triangle that is part of it disagree.
+  unsigned char IsTurned(std::int64_t given, ConstPointSpan<3> points, const OpenedDisk& opened,
+    std::int64_t triangle, const std::int64_t* kept) const
+  {
+    const auto normalOf = [](ConstPointSpan<3> places, std::array<std::int64_t, 3> ids) {
+      const auto at = [&](std::size_t i) {
+        return Eigen::Map<const Eigen::Vector3d>(places[ids[i]]);
+      };
+      return Eigen::Vector3d((at(1) - at(0)).cross(at(2) - at(0)).stableNormalized());
+    };
+    std::array<std::int64_t, 3> part{ kept[0], kept[1], kept[2] };
+    // In the mesh the corners are those of the cut, in their order or the opposite one.
+    if (opened.Disk.Mesh)
+    {
+      const std::int64_t* ids = opened.Disk.Mesh->Triangle(triangle);
+      const std::int64_t* corners = opened.Cut.Triangles.data() + 3 * triangle;
+      if (ids[1] != corners[1])
+      {
+        std::swap(part[1], part[2]);
+      }
+    }
+    const std::int64_t* ids = this->Surface.Triangles + 3 * given;
+    const double product =
+      normalOf(points, part).dot(normalOf(this->Surface.Points, { ids[0], ids[1], ids[2] }));
+    return static_cast<unsigned char>(product < 0.0 ? 1 : 0);
+  }
+
+  SeamMesh MeshOf(const Component& component, Progress& progress)
+  {
+    if (this->Locals.size() == 0)
+    {
+      this->Locals = LargeBuffer<std::int64_t>(component.Parts.NumberOfPoints());
+      std::fill_n(this->Locals.data(), this->Locals.size(), std::int64_t{ -1 });
+    }
+    std::vector<Point<3>> points;
+    std::vector<std::int64_t> triangles;
+    std::vector<std::int64_t> origins;
+    triangles.reserve(3 * component.Triangles.size());
+    origins.reserve(component.Triangles.size());
+    for (const std::int64_t triangle : component.Triangles)
+    {
+      poll(triangle, progress);
+      for (std::int64_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
+      {
+        std::int64_t& local = this->Locals.data()[component.Parts.Corners()[corner]];
+        if (local < 0)
+        {
+          local = static_cast<std::int64_t>(points.size());
+          const double* place = component.Kept.Points[component.Kept.Triangles[corner]];
+          points.push_back({ place[0] / this->Unit, place[1] / this->Unit, place[2] / this->Unit });
+        }
+        triangles.push_back(local);
+      }
+      origins.push_back(
+        component.Repair.GivenTriangle(this->Repaired[static_cast<std::size_t>(triangle)]));
+    }
+    return { std::move(points), std::move(triangles), std::move(origins), progress.Stage() };
+  }
+
+  const TriangleSurface Surface;
+  CutSurface& Made;
+  double Unit = 0.0;                     // the largest coordinate, so that areas do not overflow
+  std::vector<std::int64_t> Repaired;    // the triangles that are kept
+  std::vector<std::int64_t> Triangles;   // their points
+  LargeBuffer<std::int64_t> FirstCopies; // by points of the repaired surface
+  LargeBuffer<std::int64_t> Locals;      // by points of the parts: numbers in their component
+  std::int64_t NumberOfPoints = 0;
+};
+
+CutSurface::CutSurface(
+  const TriangleSurface& surface, const SeamOptions& options, const Context& context)
+{
+  SurfaceCutting(surface, *this).Run(options, context);
+}
+
+std::int64_t CutSurface::NumberOfPoints() const
+{
+  return this->AllDisks.empty()
+    ? 0
+    : this->AllDisks.back().FirstPoint + this->AllDisks.back().NumberOfPoints;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Seams/CutSurfaceMap.h"
+
+#include "Core/Mesh/FlatShape.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parameterization/SquareCorners.h"
+#include "Core/Seams/SquareAtlas.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// The part of its square that a disk covers: a triangle alone is half of it.
+double partOf(const CutDisk& disk)
+{
+  return disk.Mesh ? 1.0 : 0.5;
+}
+
+void put(const std::vector<Point<2>>& positions, const AtlasSquare& square, std::int64_t first,
+  std::vector<Point<2>>& all)
+{
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      all[static_cast<std::size_t>(first) + i][axis] =
+        square.Low[axis] + square.Side * positions[i][axis];
+    }
+  }
+}
+
+AreaPreservingOptions optionsFor(
+  const CutDisk& disk, std::size_t disks, const AreaPreservingOptions& options)
+{
+  AreaPreservingOptions own = options;
+  if (disks > 1)
+  {
+    constexpr double cells = 4.0;
+    const double enough = std::ceil(cells * std::sqrt(static_cast<double>(disk.NumberOfPoints)));
+    own.Resolution = std::min(options.Resolution, static_cast<std::int64_t>(enough));
+  }
+  return own;
+}
+
+} // namespace
+
+CutSurfaceMap mapCutSurface(
+  const CutSurface& cut, const AreaPreservingOptions& options, const Context& context)
+{
+  const std::vector<CutDisk>& disks = cut.Disks();
+  std::vector<double> areas;
+  for (const CutDisk& disk : disks)
+  {
+    areas.push_back(disk.Area / partOf(disk));
+  }
+  const std::vector<AtlasSquare> squares = arrangeSquares(areas);
+
+  CutSurfaceMap map;
+  map.Conformal.resize(static_cast<std::size_t>(cut.NumberOfPoints()));
+  map.Positions.resize(map.Conformal.size());
+  Progress progress(context);
+  for (std::size_t i = 0; i < disks.size(); ++i)
+  {
+    const CutDisk& disk = disks[i];
+    progress.BeginStage(static_cast<double>(disk.FirstPoint + disk.NumberOfPoints) /
+      static_cast<double>(cut.NumberOfPoints()));
+    map.Coverage += partOf(disk) * squares[i].Side * squares[i].Side;
+    if (!disk.Mesh)
+    {
+      const std::vector<Point<2>> half{ { 0.0, 0.0 }, { 1.0, 0.0 }, { 1.0, 1.0 } };
+      put(half, squares[i], disk.FirstPoint, map.Conformal);
+      put(half, squares[i], disk.FirstPoint, map.Positions);
+      continue;
+    }
+    const SquareMap& conformal = disk.Conformal->Square;
+    const AreaPreservingMap found = mapAreaPreserving(
+      *disk.Mesh, conformal, optionsFor(disk, disks.size(), options), progress.Stage());
+    put(conformal.Positions, squares[i], disk.FirstPoint, map.Conformal);
+    put(found.Positions, squares[i], disk.FirstPoint, map.Positions);
+    map.Collapsed += countCollapsed(*disk.Mesh, conformal.Corners);
+  }
+  return map;
+}
+
+CutTriangles::CutTriangles(const CutSurface& cut, const TriangleSurface& given)
+  : Points(static_cast<std::size_t>(cut.NumberOfPoints()))
+{
+  double total = 0.0;
+  double largest = 0.0;
+  for (std::int64_t i = 0; i < 3 * given.Points.size(); ++i)
+  {
+    largest = std::max(largest, std::abs(given.Points.data()[i]));
+  }
+  for (std::int64_t triangle = 0; triangle < given.NumberOfTriangles; ++triangle)
+  {
+    const std::int64_t* corners = cut.CornersOf(triangle);
+    if (std::min({ corners[0], corners[1], corners[2] }) < 0)
+    {
+      continue;
+    }
+    std::array<Point<3>, 3> places;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const double* place = given.Points[given.Triangles[3 * triangle + static_cast<int>(i)]];
+      places[i] = { place[0] / largest, place[1] / largest, place[2] / largest };
+    }
+    const FlatShape shape(places[0].data(), places[1].data(), places[2].data());
+    const double area = 0.5 * shape.Length * shape.Height;
+    if (!(area > 0.0))
+    {
+      continue;
+    }
+    std::array<std::int64_t, 3> ids{ corners[0], corners[1], corners[2] };
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      this->Points[static_cast<std::size_t>(ids[i])] = places[i];
+    }
+    if (cut.IsTurned(triangle))
+    {
+      std::swap(ids[1], ids[2]);
+    }
+    this->Triangles.insert(this->Triangles.end(), ids.begin(), ids.end());
+    this->Numbers.push_back(triangle);
+    this->Shares.push_back(area);
+    total += area;
+  }
+  for (double& share : this->Shares)
+  {
+    share /= total;
+  }
+}
+
+MeasuredTriangles CutTriangles::Measured() const
+{
+  return { { this->Points, this->Triangles.data(),
+             static_cast<std::int64_t>(this->Numbers.size()) },
+    this->Shares.data() };
+}
+
+std::vector<Point<2>> scaledToUnitArea(const CutSurfaceMap& map)
+{
+  const double scale = 1.0 / std::sqrt(map.Coverage);
+  std::vector<Point<2>> scaled = map.Positions;
+  for (Point<2>& position : scaled)
+  {
+    position = { scale * position[0], scale * position[1] };
+  }
+  return scaled;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Seams/SeamMesh.h"
+
+#include "Core/Mesh/FlatShape.h"
+#include "Core/Mesh/Trees.h"
+#include "Core/Parallel/Progress.h"
+
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t polled = std::int64_t{ 1 } << 16; // sides between two polls
+
+} // namespace
+
+SeamMesh::SeamMesh(std::vector<Point<3>> points, std::vector<std::int64_t> triangles,
+  std::vector<std::int64_t> origins, const Context& context)
+  : Points(std::move(points))
+  , Triangles(std::move(triangles))
+  , Origins(std::move(origins))
+  , FirstCorner(this->Points.size() + 1, 0)
+  , Corners(this->Triangles.size())
+  , Seams(this->Triangles.size(), 0)
+  , Degrees(this->Points.size(), 0)
+{
+  Progress progress(context);
+  progress.BeginStage(0.6);
+  this->Edges = std::make_unique<SurfaceEdges>(
+    TriangleSurface{ this->Points, this->Triangles.data(), this->NumberOfTriangles() },
+    progress.Stage());
+  progress.BeginStage(1.0, 2 * this->NumberOfSides());
+  for (const std::int64_t point : this->Triangles)
+  {
+    ++this->FirstCorner[static_cast<std::size_t>(point) + 1];
+    progress.Add(1);
+  }
+  std::partial_sum(this->FirstCorner.begin(), this->FirstCorner.end(), this->FirstCorner.begin());
+  std::vector<std::int64_t> next(this->FirstCorner.begin(), this->FirstCorner.end() - 1);
+  for (std::int64_t side = 0; side < this->NumberOfSides(); ++side)
+  {
+    this->Corners[static_cast<std::size_t>(next[static_cast<std::size_t>(this->From(side))]++)] =
+      side;
+    if (this->Other(side) < 0)
+    {
+      this->SetSeam(side, true);
+    }
+    progress.Add(1);
+  }
+}
+
+double SeamMesh::Length(std::int64_t side) const
+{
+  return std::sqrt(squaredDistance(
+    this->Position(this->From(side)).data(), this->Position(this->To(side)).data()));
+}
+
+void SeamMesh::SetSeam(std::int64_t side, bool isSeam)
+{
+  if (this->IsSeam(side) == isSeam)
+  {
+    return;
+  }
+  const auto mark = static_cast<unsigned char>(isSeam ? 1 : 0);
+  this->Seams[static_cast<std::size_t>(side)] = mark;
+  if (this->Other(side) >= 0)
+  {
+    this->Seams[static_cast<std::size_t>(this->Other(side))] = mark;
+  }
+  this->Degrees[static_cast<std::size_t>(this->From(side))] += isSeam ? 1 : -1;
+  this->Degrees[static_cast<std::size_t>(this->To(side))] += isSeam ? 1 : -1;
+}
+
+SeamMesh::Cut SeamMesh::MakeCut(Progress& progress) const
+{
+  Cut cut;
+  std::vector<std::int64_t>& corners = cut.Triangles; // at first trees of corners
+  corners.resize(this->Triangles.size());
+  std::iota(corners.begin(), corners.end(), std::int64_t{ 0 });
+  const auto forSides = [&](const auto& visit) {
+    for (std::int64_t side = 0; side < this->NumberOfSides(); ++side)
+    {
+      visit(side);
+      if (side % polled == 0)
+      {
+        progress.Check();
+      }
+    }
+  };
+  forSides([&](std::int64_t side) {
+    if (this->IsFirst(side) && !this->IsSeam(side))
+    {
+      joinCorners(this->Triangles.data(), side, this->Other(side),
+        [&](std::int64_t a, std::int64_t b) { joinTrees(corners.data(), a, b); });
+    }
+  });
+  std::vector<std::int64_t> numbers(corners.size());
+  forSides([&](std::int64_t side) {
+    const std::int64_t root = rootOf(corners.data(), side); // the lowest corner of its tree
+    if (root == side)
+    {
+      numbers[static_cast<std::size_t>(side)] = static_cast<std::int64_t>(cut.Origins.size());
+      cut.Origins.push_back(this->From(side));
+    }
+    else
+    {
+      numbers[static_cast<std::size_t>(side)] = numbers[static_cast<std::size_t>(root)];
+    }
+  });
+  cut.Triangles = std::move(numbers);
+  return cut;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Seams/SqueezedPoints.h"
+
+#include "Core/Mesh/Trees.h"
+#include "Core/Parallel/KeySort.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parameterization/LocalMap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Above this, rounding decides how large the image of a triangle is.
+constexpr double largest = 1e10;
+
+// Grows regions about the peaks of a density, from high to low. Where two meet, the lower peak's
+// region ends.
+class PeakSearch
+{
+public:
+  PeakSearch(const DiskMesh& disk, const std::vector<Point<2>>& positions, Progress& progress)
+    : Disk(disk)
+    , Run(progress)
+    , Triangles(disk)
+    , Areas(static_cast<std::size_t>(disk.NumberOfPoints()), 0.0)
+    , Densities(static_cast<std::size_t>(disk.NumberOfPoints()), 0.0)
+    , Regions(static_cast<std::size_t>(disk.NumberOfPoints()), -1)
+  {
+    std::vector<double> images(this->Areas.size(), 0.0);
+    for (std::int64_t t = 0; t < disk.NumberOfTriangles(); ++t)
+    {
+      const std::int64_t* ids = disk.Triangle(t);
+      const auto at = [&](int i) { return positions[static_cast<std::size_t>(ids[i])]; };
+      const double image = std::max(0.0, 0.5 * crossProduct(at(0), at(1), at(2)));
+      for (int i = 0; i < 3; ++i)
+      {
+        images[static_cast<std::size_t>(ids[i])] += image / 3.0;
+        this->Areas[static_cast<std::size_t>(ids[i])] += disk.AreaShare(t) / 3.0;
+      }
+    }
+    for (std::size_t point = 0; point < images.size(); ++point)
+    {
+      this->Densities[point] =
+        this->Areas[point] / std::max(images[point], this->Areas[point] / largest);
+    }
+    for (const std::int64_t point : disk.Boundary())
+    {
+      this->Densities[static_cast<std::size_t>(point)] = 0.0;
+    }
+  }
+
+  std::vector<SqueezedPoint> Find(const SqueezeLimits& limits)
+  {
+    this->Run.Check();
+    std::vector<SqueezedPoint> points;
+    for (std::size_t point = 0; point < this->Densities.size(); ++point)
+    {
+      if (this->Densities[point] >= limits.Squeeze)
+      {
+        points.push_back({ -this->Densities[point], static_cast<std::int64_t>(point), 0.0 });
+      }
+    }
+    sortByKey(points, this->Run);
+    std::vector<SqueezedPoint> found;
+    for (const SqueezedPoint& next : points)
+    {
+      this->Enter(next.Point, limits, found);
+      this->Run.Add(1);
+    }
+    for (const SqueezedPoint& peak : points) // what no higher one has ended
+    {
+      if (this->Regions[static_cast<std::size_t>(peak.Point)] == peak.Point)
+      {
+        this->End(peak.Point, 0.0, limits, found);
+      }
+    }
+    sortByKey(found, this->Run);
+    return found;
+  }
+
+private:
+  double DensityAt(std::int64_t point) const
+  {
+    return this->Densities[static_cast<std::size_t>(point)];
+  }
+  double& AreaOf(std::int64_t peak) { return this->Areas[static_cast<std::size_t>(peak)]; }
+
+  // A region is the tree of its peak, which is higher than all others in it.
+  void Enter(std::int64_t point, const SqueezeLimits& limits, std::vector<SqueezedPoint>& found)
+  {
+    std::int64_t* regions = this->Regions.data();
+    regions[point] = point;
+    for (const std::int64_t* t = this->Triangles.begin(point); t != this->Triangles.end(point); ++t)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        const std::int64_t neighbour = this->Disk.Triangle(*t)[i];
+        if (regions[neighbour] < 0)
+        {
+          continue;
+        }
+        std::int64_t high = rootOf(regions, neighbour);
+        std::int64_t low = rootOf(regions, point);
+        if (high == low)
+        {
+          continue;
+        }
+        if (this->DensityAt(high) < this->DensityAt(low) ||
+          (this->DensityAt(high) == this->DensityAt(low) && low < high))
+        {
+          std::swap(high, low);
+        }
+        if (low != point)
+        {
+          this->End(low, this->DensityAt(point), limits, found);
+        }
+        regions[low] = high;
+        this->AreaOf(high) += this->AreaOf(low);
+      }
+    }
+  }
+
+  void End(
+    std::int64_t peak, double pass, const SqueezeLimits& limits, std::vector<SqueezedPoint>& found)
+  {
+    const double density = this->DensityAt(peak);
+    if (density >= limits.Prominence * pass && this->AreaOf(peak) >= limits.AreaShare)
+    {
+      found.push_back({ -density, peak, this->AreaOf(peak) });
+    }
+  }
+
+  const DiskMesh& Disk;
+  Progress& Run;
+  const PointTriangles Triangles;
+  std::vector<double> Areas; // of points, and then of the regions of peaks
+  std::vector<double> Densities;
+  std::vector<std::int64_t> Regions; // trees; -1 for points that are not entered
+};
+
+} // namespace
+
+std::vector<SqueezedPoint> findSqueezedPoints(const DiskMesh& disk,
+  const std::vector<Point<2>>& positions, const SqueezeLimits& limits, const Context& context)
+{
+  Progress progress(context);
+  progress.BeginStage(1.0, disk.NumberOfPoints());
+  return PeakSearch(disk, positions, progress).Find(limits);
+}
+
+} // namespace RectifiedTransport

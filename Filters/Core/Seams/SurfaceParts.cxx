@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Seams/SurfaceParts.h"
+
+#include "Core/Mesh/SurfaceEdges.h"
+#include "Core/Mesh/SurfaceOrientation.h"
+#include "Core/Mesh/Trees.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Seams/SeamMesh.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace RectifiedTransport
+{
+
+SurfaceParts::SurfaceParts(const TriangleSurface& surface, const Context& context)
+  : Points(3 * surface.NumberOfTriangles)
+{
+  const std::int64_t sides = this->Points.size();
+  Progress progress(context);
+  progress.BeginStage(0.3);
+  {
+    const SurfaceEdges edges(surface, progress.Stage());
+    this->Parted = edges.NonManifold();
+    LargeBuffer<std::int64_t> trees(sides);
+    std::iota(trees.data(), trees.data() + sides, std::int64_t{ 0 });
+    progress.BeginStage(0.5, 2 * sides);
+    for (std::int64_t side = 0; side < sides; ++side)
+    {
+      if (edges.Other(side) > side)
+      {
+        joinCorners(surface.Triangles, side, edges.Other(side),
+          [&](std::int64_t a, std::int64_t b) { joinTrees(trees.data(), a, b); });
+      }
+      progress.Add(1);
+    }
+    for (std::int64_t side = 0; side < sides; ++side)
+    {
+      const std::int64_t root = rootOf(trees.data(), side); // the lowest corner
+      this->Points.data()[side] = root == side ? this->Count++ : this->Points.data()[root];
+      progress.Add(1);
+    }
+  }
+  // Of an edge that was parted, what still has the same two points belongs together.
+  LargeBuffer<double> places(3 * this->Count);
+  progress.Check();
+  for (std::int64_t side = 0; side < sides; ++side)
+  {
+    std::copy_n(
+      surface.Points[surface.Triangles[side]], 3, places.data() + 3 * this->Points.data()[side]);
+  }
+  progress.Check();
+  const TriangleSurface parted{ { places.data(), this->Count }, this->Points.data(),
+    surface.NumberOfTriangles };
+  progress.BeginStage(0.8);
+  const SurfaceEdges edges(parted, progress.Stage());
+  LargeBuffer<signed char> signs(surface.NumberOfTriangles);
+  progress.BeginStage(1.0, surface.NumberOfTriangles);
+  visitPatches(parted, edges, signs.data(), progress, [this](const SurfacePatch& patch) {
+    this->Triangles.emplace_back(patch.Triangles, patch.Triangles + patch.Count);
+    std::sort(this->Triangles.back().begin(), this->Triangles.back().end());
+  });
+}
+
+} // namespace RectifiedTransport
