@@ -3,9 +3,9 @@
  * @class   vtkDiskAlgorithm
  * @brief   superclass of the filters that map a surface to a square
  *
- * The input is a vtkPolyData, or a vtkUnstructuredGrid or vtkStructuredGrid of polygons, that forms
- * a disk; the output is a vtkPolyData. With several MPI ranks the surface is gathered on rank 0,
- * which has the output.
+ * The input is a vtkPolyData, a vtkUnstructuredGrid or a vtkStructuredGrid, whose polygons form a
+ * disk, unless a filter says otherwise; the output is a vtkPolyData. With several MPI ranks the
+ * surface is gathered on rank 0, which has the output.
  *
  * This class holds the corners of the square.
  *
