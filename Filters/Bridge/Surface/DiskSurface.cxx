@@ -13,12 +13,8 @@ namespace RectifiedTransport
 DiskSurface::DiskSurface(vtkPolyData* input, Progress& progress, double end)
 {
   const SurfaceStages stages{ progress, progress.StageEnd(), end };
-  const std::int64_t points = input->GetNumberOfPoints();
   stages.Next(0.1);
-  const LargeBuffer<double> coordinates =
-    withMemory("the surface's " + std::to_string(points) + " points",
-      static_cast<double>(points) * 24.0, [&]() { return readPoints(input, progress); });
-  requirePolygons(input, "it must be a disk");
+  const LargeBuffer<double> coordinates = readSurfacePoints(input, "it must be a disk", progress);
   this->Cells.emplace(input, stages, 0.45);
   this->MakeDisk(coordinates, stages);
 }

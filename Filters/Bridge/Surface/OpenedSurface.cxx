@@ -38,9 +38,7 @@ OpenedSurface::OpenedSurface(vtkPolyData* input, Progress& progress, double end)
   const SurfaceStages stages{ progress, progress.StageEnd(), end };
   const std::int64_t points = input->GetNumberOfPoints();
   stages.Next(0.02);
-  withMemory("the surface's " + std::to_string(points) + " points",
-    static_cast<double>(points) * 24.0, [&]() { this->Coordinates = readPoints(input, progress); });
-  requirePolygons(input, "it must be a surface");
+  this->Coordinates = readSurfacePoints(input, "it must be a surface", progress);
   this->Cells.emplace(input, stages, 0.05);
   const std::int64_t triangles = this->Cells->NumberOfTriangles();
   constexpr double bytesOfTriangle = 274.0;

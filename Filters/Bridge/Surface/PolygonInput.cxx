@@ -119,6 +119,17 @@ void requirePolygons(vtkPolyData* surface, const std::string& need)
   requireReadableCells(surface, "input surface");
 }
 
+LargeBuffer<double> readSurfacePoints(
+  vtkPolyData* surface, const std::string& need, Progress& progress)
+{
+  const std::int64_t points = surface->GetNumberOfPoints();
+  LargeBuffer<double> coordinates =
+    withMemory("the surface's " + std::to_string(points) + " points",
+      static_cast<double>(points) * 24.0, [&]() { return readPoints(surface, progress); });
+  requirePolygons(surface, need);
+  return coordinates;
+}
+
 bool isAllTriangles(vtkPolyData* surface)
 {
   return surface->GetNumberOfStrips() == 0 && surface->GetPolys()->IsHomogeneous() == 3;

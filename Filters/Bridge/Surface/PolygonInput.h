@@ -39,6 +39,11 @@ double roundingOf(vtkPoints* points);
 // exist; `need` completes "N points and no polygons; ".
 void requirePolygons(vtkPolyData* surface, const std::string& need);
 
+// Both: the coordinates of a surface that has polygons. Throws Failure, also without memory for
+// them, and Cancelled.
+LargeBuffer<double> readSurfacePoints(
+  vtkPolyData* surface, const std::string& need, Progress& progress);
+
 // Whether all polygons are triangles, and there are no strips.
 bool isAllTriangles(vtkPolyData* surface);
 

@@ -5,6 +5,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/PolygonInput.h"
+#include "Core/Mesh/UnitScale.h"
 #include "Core/Parallel/Reduction.h"
 
 #include "vtkDataObject.h"
@@ -30,11 +31,9 @@ constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
 WholeSurface::WholeSurface(vtkPolyData* input, Progress& progress, double end)
 {
   const SurfaceStages stages{ progress, progress.StageEnd(), end };
-  const std::int64_t points = input->GetNumberOfPoints();
   stages.Next(0.2);
-  withMemory("the surface's " + std::to_string(points) + " points",
-    static_cast<double>(points) * 24.0, [&]() { this->ReadPoints(input, progress); });
-  requirePolygons(input, "it must be a surface");
+  this->Coordinates = readSurfacePoints(input, "it must be a surface", progress);
+  this->ScalePoints(progress);
   this->Cells.emplace(input, stages, 0.6);
   const std::int64_t triangles = this->Cells->NumberOfTriangles();
   withMemory("the surface's " + std::to_string(triangles) + " triangles",
@@ -53,10 +52,8 @@ TriangleSurface WholeSurface::Surface() const
     this->NumberOfTriangles() };
 }
 
-// Scaled, so that areas neither underflow nor pass the largest double.
-void WholeSurface::ReadPoints(vtkPolyData* input, Progress& progress)
+void WholeSurface::ScalePoints(Progress& progress)
 {
-  this->Coordinates = readPoints(input, progress);
   const std::int64_t count = this->Coordinates.size() / 3;
   double* coordinates = this->Coordinates.data();
   Eigen::AlignedBox3d bounds;
@@ -66,15 +63,13 @@ void WholeSurface::ReadPoints(vtkPolyData* input, Progress& progress)
       bounds.extend(Eigen::Map<const Eigen::Vector3d>(coordinates + 3 * i));
     }
   });
-  const Eigen::Vector3d centre = 0.5 * bounds.max() + 0.5 * bounds.min();
-  const double half = (0.5 * bounds.max() - 0.5 * bounds.min()).maxCoeff();
-  const double unit = half > 0.0 ? half : 1.0;
-  this->Unit = half > 0.0 ? 2.0 * half : 1.0;
+  const UnitScale scale(bounds);
+  this->Unit = scale.Unit();
   progress.For(count, Grain, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       Eigen::Map<Eigen::Vector3d> point(coordinates + 3 * i);
-      point = 0.5 * ((point - centre) / unit);
+      point = scale(point);
     }
   });
 }

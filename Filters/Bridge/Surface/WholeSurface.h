@@ -40,7 +40,7 @@ public:
   SurfaceAreas Areas() const override { return { this->Shares.data(), this->Area, this->Unit }; }
 
 private:
-  void ReadPoints(vtkPolyData* input, Progress& progress);
+  void ScalePoints(Progress& progress);
   void LeaveOutGhosts(vtkPolyData* input, Progress& progress);
   void FindAreas(Progress& progress);
   std::int64_t Given(std::int64_t triangle) const

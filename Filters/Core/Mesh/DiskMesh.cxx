@@ -2,6 +2,7 @@
 #include "Core/Mesh/DiskMesh.h"
 
 #include "Core/Mesh/SurfaceOrientation.h"
+#include "Core/Mesh/UnitScale.h"
 #include "Core/Parallel/Progress.h"
 
 #include <Eigen/Geometry>
@@ -121,7 +122,6 @@ TriangleSurface DiskMesh::Surface() const
     this->NumberOfTriangles() };
 }
 
-// Scaled, so that areas neither underflow nor pass the largest double.
 void DiskMesh::CopyPoints(ConstPointSpan<3> points, Progress& progress)
 {
   const std::int64_t count = points.size();
@@ -143,17 +143,13 @@ void DiskMesh::CopyPoints(ConstPointSpan<3> points, Progress& progress)
   {
     throw NotADisk(DiskDefect::PointsNotFinite, wrong, first);
   }
-  const Eigen::Vector3d halfSides = 0.5 * bounds.max() - 0.5 * bounds.min();
-  const Eigen::Vector3d centre = 0.5 * bounds.max() + 0.5 * bounds.min();
-  const double half = count > 0 ? halfSides.maxCoeff() : 0.0;
-  this->Length = half > 0.0 ? 2.0 * half : 1.0;
-  const double unit = half > 0.0 ? half : 1.0;
+  const UnitScale scale(bounds);
+  this->Length = scale.Unit();
   progress.For(count, grain, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i)
     {
-      const Eigen::Map<const Eigen::Vector3d> point(points[i]);
       Eigen::Map<Eigen::Vector3d>(this->Coordinates.data() + 3 * i) =
-        0.5 * ((point - centre) / unit);
+        scale(Eigen::Map<const Eigen::Vector3d>(points[i]));
     }
   });
 }
