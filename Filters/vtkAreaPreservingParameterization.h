@@ -17,8 +17,9 @@
  *
  * The method is that of Section 5.4 of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport
  * with Rectified Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147. A conformal
- * map takes the surface to the square. Its density of area is transported to the uniform one, and
- * the points with it. The flow moves only the points; triangles stay straight between them. Polish
+ * map takes the surface to the square; where seams make that one too uneven, an embedding by
+ * weighted means does. Its density of area is transported to the uniform one, and the points with
+ * it. The flow moves only the points; triangles stay straight between them. Polish
  * then corrects the areas: 95 % of the area within 3 %, no triangle flipped.
  *
  * Output 0, Surface, is a vtkPolyData with the points, cells and data of the input in their order,

@@ -492,6 +492,11 @@ OTHERS = [
     E(CORE + "Seams/CutSurface.cxx", "best = «last->Unevenness < best->Unevenness» ?", "false"),
     E(CORE + "Seams/CutSurface.cxx", "if («unevenness < opened.Unevenness»)", "true"),
     E(CORE + "Seams/SquareAtlas.cxx", "y += height + «margin»;", "0.0"),
+    E(CORE + "Seams/CutSurfaceMap.cxx", "if («!disk.HasSeams || areaUnevenness(*disk.Mesh, conformal.Positions) < uneven»)",
+      "true"),
+    E(CORE + "Parameterization/EvenEmbedding.cxx", "const double part = «before / length»;",
+      "0.5 * before / length"),
+    S(CORE + "Parameterization/EvenEmbedding.cxx", "embedding.ChangeWeights();", ";"),
     E(CORE + "Seams/CutSurfaceMap.cxx", "const double scale = «1.0 / std::sqrt(map.Coverage)»;", "1.0"),
     E(BRIDGE + "Surface/OpenedSurface.cxx", "if («longest < least»)", "least > 1e100"),
 ]

@@ -4,7 +4,7 @@
 #include "Core/Mesh/FlatShape.h"
 #include "Core/Mesh/SurfaceRepair.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parameterization/LocalMap.h"
+#include "Core/Parameterization/EvenEmbedding.h"
 #include "Core/Parameterization/SquareCorners.h"
 #include "Core/Seams/CutGraph.h"
 #include "Core/Seams/SeamMesh.h"
@@ -37,23 +37,11 @@ struct OpenedDisk
   double Unevenness;
 };
 
-// How far a map is from one that keeps areas: the root mean square of the logarithm of the change
-// of areas, over the surface. The angles of the map that keeps areas are worse where this is large.
 double unevennessOf(const DiskMesh& disk, const ConformalMap& map)
 {
-  constexpr double smallest = 1e-10; // also where triangles are turned over
-  const std::vector<Point<2>>& positions = map.Square.Positions;
-  double sum = 0.0;
-  for (std::int64_t t = 0; t < disk.NumberOfTriangles(); ++t)
-  {
-    const std::int64_t* ids = disk.Triangle(t);
-    const auto at = [&](int i) { return positions[static_cast<std::size_t>(ids[i])]; };
-    const double change = 0.5 * crossProduct(at(0), at(1), at(2)) / disk.AreaShare(t);
-    const double logarithm = std::log(std::max(change, smallest));
-    sum += disk.AreaShare(t) * logarithm * logarithm;
-  }
   // A triangle without area in the map is worse than any seam.
-  return std::sqrt(sum) + static_cast<double>(countCollapsed(disk, map.Square.Corners));
+  return areaUnevenness(disk, map.Square.Positions) +
+    static_cast<double>(countCollapsed(disk, map.Square.Corners));
 }
 
 class ComponentCutting
@@ -83,6 +71,7 @@ public:
       best = last->Unevenness < best->Unevenness ? last : best;
     }
     last.reset();
+    best->Disk.HasSeams = true;
     this->TurnCorners(*best);
     return std::move(*best);
   }

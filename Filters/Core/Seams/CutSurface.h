@@ -40,6 +40,7 @@ struct CutDisk
   std::int64_t FirstPoint;
   std::int64_t NumberOfPoints;
   double Area; // to be compared with that of other disks
+  bool HasSeams = false;
 };
 
 // What was changed besides the seams.

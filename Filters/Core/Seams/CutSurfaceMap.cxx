@@ -3,6 +3,7 @@
 
 #include "Core/Mesh/FlatShape.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parameterization/EvenEmbedding.h"
 #include "Core/Parameterization/SquareCorners.h"
 #include "Core/Seams/SquareAtlas.h"
 
@@ -49,6 +50,24 @@ AreaPreservingOptions optionsFor(
   return own;
 }
 
+// Runs up to the end of the current stage. Seams make long boundaries. Conformal maps squeeze the
+// bays between them, in the worst cases beyond what the flow can mend.
+AreaPreservingMap mapDisk(
+  const CutDisk& disk, const AreaPreservingOptions& options, Progress& progress)
+{
+  constexpr double uneven = 1.3; // below, angles gain nothing
+  const SquareMap& conformal = disk.Conformal->Square;
+  if (!disk.HasSeams || areaUnevenness(*disk.Mesh, conformal.Positions) < uneven)
+  {
+    return mapAreaPreserving(*disk.Mesh, conformal, options, progress.Stage());
+  }
+  Progress parts(progress.Stage());
+  parts.BeginStage(0.5);
+  const SquareMap even = embedEvenly(*disk.Mesh, conformal, parts.Stage());
+  parts.BeginStage(1.0);
+  return mapAreaPreserving(*disk.Mesh, even, options, parts.Stage());
+}
+
 } // namespace
 
 CutSurfaceMap mapCutSurface(
@@ -80,8 +99,8 @@ CutSurfaceMap mapCutSurface(
       continue;
     }
     const SquareMap& conformal = disk.Conformal->Square;
-    const AreaPreservingMap found = mapAreaPreserving(
-      *disk.Mesh, conformal, optionsFor(disk, disks.size(), options), progress.Stage());
+    const AreaPreservingMap found =
+      mapDisk(disk, optionsFor(disk, disks.size(), options), progress);
     put(conformal.Positions, squares[i], disk.FirstPoint, map.Conformal);
     put(found.Positions, squares[i], disk.FirstPoint, map.Positions);
     map.Collapsed += countCollapsed(*disk.Mesh, conformal.Corners);

@@ -51,6 +51,30 @@ TEST(CutSurfaceMap, AreasAreKept)
   }
 }
 
+TEST(CutSurfaceMap, AnEmbeddingTakesThePlaceOfUnevenConformalMaps)
+{
+  for (const bool isUneven : { true, false })
+  {
+    const Mesh mesh = isUneven ? makeLimbs(40) : makeRing(48, 24, 0.4);
+    const CutSurface cut(mesh.Surface());
+    const CutDisk& disk = cut.Disks()[0];
+    const AreaPreservingMap conformal =
+      mapAreaPreserving(*disk.Mesh, disk.Conformal->Square, options());
+    const CutSurfaceMap map = mapCutSurface(cut, options());
+    if (isUneven)
+    {
+      const MapDistortion found = measureDistortion(*disk.Mesh, map.Positions);
+      EXPECT_LT(found.AngleMean, 0.9 * conformal.Distortion.AngleMean);
+      EXPECT_EQ(found.Flipped, 0);
+    }
+    else
+    {
+      EXPECT_TRUE(sameBits(map.Positions, conformal.Positions));
+    }
+    EXPECT_TRUE(sameBits(map.Conformal, disk.Conformal->Square.Positions));
+  }
+}
+
 TEST(CutSurfaceMap, SquaresHoldTheirDisks)
 {
   Mesh mesh = makeSphere({ 0.0, 0.0, 0.0 }, 1.0, 8);
