@@ -78,14 +78,16 @@ def terrain(path=TERRAIN):
 
 
 def read(name):
-    """A surface that is named above, or of a file, and the direction that it is looked at from and
-    what is up."""
+    """A surface that is named above or in rectified_shapes.py, or of a file, and the direction that
+    it is looked at from and what is up."""
     if name == "hemisphere":
         return hemisphere(), NAMES[name]
     if name == "terrain":
         return terrain(), NAMES[name]
     path = os.path.join(shapes.MESHES, name + ".off") if name in NAMES else name
-    return shapes.read_mesh(path)[0], NAMES.get(name, ((0, 0, 1), (0, 1, 0)))
+    mesh, right, up = shapes.read_mesh(path)
+    right, up = shapes.axis(right), shapes.axis(up)
+    return mesh, NAMES.get(name, (np.cross(right, up), up))
 
 
 def points(mesh):
