@@ -10,7 +10,9 @@ dots = SampleSurface(bare, registrationName="Dots", NumberOfParticles=40000)
 dots.DensityArray = ["POINTS", "Hair"]
 combed = Calculator(dots, registrationName="Combed", ResultArrayName="Way")
 combed.Function = "Normal-0.5*jHat+0.4*kHat"
-hairs = Glyph(Input=combed, registrationName="Hairs", GlyphType="Cone", GlyphMode="All Points")
+shade = Calculator(combed, registrationName="Shade", ResultArrayName="Shade")
+shade.Function = "Normal_Y+0.4*sin(SeedId^2)"
+hairs = Glyph(Input=shade, registrationName="Hairs", GlyphType="Cone", GlyphMode="All Points")
 hairs.OrientationArray = ["POINTS", "Way"]
 hairs.ScaleArray = ["POINTS", "No scale array"]
 hairs.ScaleFactor = 0.09
@@ -25,9 +27,13 @@ skin = Show(cow, view)
 skin.ColorArrayName = [None, ""]
 skin.AmbientColor = skin.DiffuseColor = [0.55, 0.45, 0.36]
 shown = Show(hairs, view)
-shown.ColorArrayName = [None, ""]
-shown.AmbientColor = shown.DiffuseColor = [0.8, 0.5, 0.24]
+UpdatePipeline(proxy=hairs)
+ColorBy(shown, ("POINTS", "Shade"))
+shown.SetScalarBarVisibility(view, False)
 shown.Ambient = 0.2
+colours = GetColorTransferFunction("Shade")
+colours.ColorSpace = "RGB"
+colours.RGBPoints = [-1, 0.4, 0.2, 0.1, 0, 0.75, 0.42, 0.18, 1, 0.95, 0.7, 0.4]
 
 view.CameraFocalPoint = [0, 0.08, 0.05]
 view.CameraPosition = [-6, 1.6, -4.8]

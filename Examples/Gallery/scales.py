@@ -41,6 +41,11 @@ colours = GetColorTransferFunction("Pattern")
 colours.ColorSpace = "RGB"
 colours.RGBPoints = [-1, 0.95, 0.9, 0.7, 0, 0.75, 0.75, 0.35, 0.6, 0.35, 0.5, 0.2, 1.2, 0.3, 0.2, 0.1]
 shown.Specular = 0.3
+for place in [-0.53, -0.57, 1.03], [-0.31, -0.37, 1.03]:
+    eye = Show(Sphere(registrationName="Eye", Center=place, Radius=0.045), view)
+    eye.ColorArrayName = [None, ""]
+    eye.AmbientColor = eye.DiffuseColor = [0.05, 0.03, 0.02]
+    eye.Specular = 1
 
 view.CameraFocalPoint = [-0.02, 0, 0.33]
 view.CameraPosition = [2, -9, 6]

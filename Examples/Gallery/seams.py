@@ -20,7 +20,7 @@ chart.UpdatePipeline()
 view = GetActiveViewOrCreate("RenderView")
 view.UseColorPaletteForBackground = 0
 view.Background = [0.97, 0.96, 0.94]
-for port, place, size in (0, [0, 0, 0], 1), (1, [1.35, -1.2, 0], 2):
+for port, place, size in (0, [0, 0, 0], 1), (1, [1.35, -1, 0], 2):
     part = OutputPort(chart, port)
     shown = Show(part, view)
     shown.SetRepresentationType("Checkerboard")

@@ -332,7 +332,7 @@ class Examples(ExampleTest):
             self.assertEqual(row[1], "3000")
         self.assertGreater(first(area[3]), 0.88)
         self.assertLess(first(curvature[2]), first(area[2]))  # the density is at most 1
-        self.check_picture("stipple-surface-lion-head.png")
+        self.check_picture("stipple-surface-bunny.png")
 
     def test_a_closed_surface(self):
         path = os.path.join(DATA, "spot.vtp")
