@@ -162,6 +162,8 @@ def main():
     draw_solid(path("solid"))
     draw_example(path("parameterization"), "Figure11Parameterization", "figure11-lion-head.png",
                  "lion-head", "--panel", "240")
+    draw_example(path("closed-surfaces"), "ClosedSurfaces", "closed-surfaces.png", "bunny",
+                 "armadillo", "--panel", "240")
     draw_example(path("surface-dots"), "StippleSurface", "stipple-surface-bunny.png",
                  "--dots", "10000", "--panel", "420")
     draw_example(path("print"), "StipplePrint", "print-raccoon.png", "--particles", "20000",
@@ -172,7 +174,7 @@ def main():
     print("particles, volume, warped-photograph, cartogram, gaps, districts, area-errors, cells, "
           "territories, colours, patterns, flow, flow-maps, map, paths, morph, morph-3d, "
           "morph-3d-optimal, optimal-stipples, optimal-ways, optimal-barycenter, barycenters, splats, solid, parameterization, "
-          "surface-dots, print, video, tutorial-slice, tutorial-morph, tutorial-compare, "
+          "closed-surfaces, surface-dots, print, video, tutorial-slice, tutorial-morph, tutorial-compare, "
           "tutorial-people, tutorial-mesh: "
           + arguments.output)
 

@@ -341,6 +341,17 @@ class Examples(ExampleTest):
                       self.refused("Figure11Parameterization", path))
 
     @need_meshes
+    def test_closed_surfaces(self):
+        """A surface with two handles becomes one disk with equal areas."""
+        row = tables(self.ran("ClosedSurfaces", "eight"))[0][0]
+        self.assertEqual(row[0], "eight (634)")
+        self.assertGreater(int(row[1]), 20)  # two cuts a handle
+        self.assertLess(first(row[2]), 0.01)
+        self.assertLess(first(row[3]), 0.05)
+        self.assertEqual(row[4], "0")
+        self.check_picture("closed-surfaces.png")
+
+    @need_meshes
     def test_figure_11(self):
         rows = tables(self.ran("Figure11Parameterization", "nefertiti", "mushroom"))[0]
         for tutte, conformal, flow, polish in rows[:4], rows[4:]:
