@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the examples with surfaces that are disks share: real ones, their maps, how they are drawn.
+"""What the examples with surfaces share: real ones that are disks, their maps, how they are drawn.
 
 Meshes are those of Debian's libcgal-demo, which CMake/setup.sh unpacks into build-meshes/; the
 terrain is a height field of python-matplotlib-data.
@@ -78,14 +78,16 @@ def terrain(path=TERRAIN):
 
 
 def read(name):
-    """A surface that is named above, or of a file, and the direction that it is looked at from and
-    what is up."""
+    """A surface that is named above or in rectified_shapes.py, or of a file, and the direction that
+    it is looked at from and what is up."""
     if name == "hemisphere":
         return hemisphere(), NAMES[name]
     if name == "terrain":
         return terrain(), NAMES[name]
     path = os.path.join(shapes.MESHES, name + ".off") if name in NAMES else name
-    return shapes.read_mesh(path)[0], NAMES.get(name, ((0, 0, 1), (0, 1, 0)))
+    mesh, right, up = shapes.read_mesh(path)
+    right, up = shapes.axis(right), shapes.axis(up)
+    return mesh, NAMES.get(name, (np.cross(right, up), up))
 
 
 def points(mesh):
@@ -152,22 +154,26 @@ def checkerboard(squares, pixels=32):
     return picture
 
 
-def lit(mesh, pose, pixels, texture=None):
-    """The picture of a surface, in grey or with a texture by its active coordinates."""
+def lit(mesh, pose, pixels, texture=None, lines=None):
+    """The picture of a surface, in grey or with a texture by its active coordinates. `lines` are a
+    mesh and its colour that are shown, too."""
     view = example.picture_view([pixels, pixels], [1, 1, 1])
-    source = example.producer(mesh)
-    shown = simple.Show(source, view, "GeometryRepresentation")
+    sources = [example.producer(mesh)]
+    shown = simple.Show(sources[0], view, "GeometryRepresentation")
     example.paint(shown, [1, 1, 1])
     shown.Texture = texture
     shown.Ambient, shown.Diffuse = 0.25, 0.75
+    if lines:
+        sources.append(example.producer(lines[0]))
+        example.paint(simple.Show(sources[1], view, "GeometryRepresentation"), lines[1])
     aim(view, mesh, pose)
     picture = figures.drawn(example.save_picture, view)
-    for proxy in view, source:
+    for proxy in view, *sources:
         simple.Delete(proxy)
     return picture
 
 
-def textured(mesh, name, squares, pose, pixels):
+def textured(mesh, name, squares, pose, pixels, lines=None):
     """The picture of a surface with a checkerboard laid on it by an array of texture coordinates."""
     shown = mesh.NewInstance()
     shown.ShallowCopy(mesh)
@@ -177,7 +183,7 @@ def textured(mesh, name, squares, pose, pixels):
         figures.save(path, checkerboard(squares))
         texture = simple.CreateTexture(path)
         texture.UpdateVTKObjects()  # ParaView 5.13 would show none
-        return lit(shown, pose, pixels, texture)
+        return lit(shown, pose, pixels, texture, lines)
 
 
 def aim(view, mesh, pose):

@@ -162,18 +162,20 @@ def main():
     draw_solid(path("solid"))
     draw_example(path("parameterization"), "Figure11Parameterization", "figure11-lion-head.png",
                  "lion-head", "--panel", "240")
-    draw_example(path("surface-dots"), "StippleSurface", "stipple-surface-lion-head.png",
+    draw_example(path("closed-surfaces"), "ClosedSurfaces", "closed-surfaces.png", "bunny",
+                 "armadillo", "--panel", "240")
+    draw_example(path("surface-dots"), "StippleSurface", "stipple-surface-bunny.png",
                  "--dots", "10000", "--panel", "420")
     draw_example(path("print"), "StipplePrint", "print-raccoon.png", "--particles", "20000",
                  "--panel", "280")
     draw_example(path("video"), "VideoStippling", "video-stippling.png", "--panel", "220")
     draw_examples({path("tutorial-" + name): "tutorial-%s.png" % name
-                   for name in ("slice", "morph", "compare", "people")}, "Tutorial", "--pixels", "600")
+                   for name in ("slice", "morph", "compare", "people", "mesh")}, "Tutorial", "--pixels", "600")
     print("particles, volume, warped-photograph, cartogram, gaps, districts, area-errors, cells, "
           "territories, colours, patterns, flow, flow-maps, map, paths, morph, morph-3d, "
           "morph-3d-optimal, optimal-stipples, optimal-ways, optimal-barycenter, barycenters, splats, solid, parameterization, "
-          "surface-dots, print, video, tutorial-slice, tutorial-morph, tutorial-compare, "
-          "tutorial-people: "
+          "closed-surfaces, surface-dots, print, video, tutorial-slice, tutorial-morph, tutorial-compare, "
+          "tutorial-people, tutorial-mesh: "
           + arguments.output)
 
 

@@ -35,35 +35,33 @@ def spacing(dots, area):
 
 
 def draw(mesh, dots, size, pose, pixels):
-    """The picture of black dots on a white surface that hides those behind it."""
+    """The picture of black discs on a white surface that hides those behind it."""
     view = example.picture_view([pixels, pixels], [1, 1, 1])
-    lifted = dots.NewInstance()  # so that the surface does not cut them
-    lifted.DeepCopy(dots)
-    places, normals = (vtk_to_numpy(array) for array in
-                       (lifted.GetPoints().GetData(), dots.GetPointData().GetArray("Normal")))
-    towards = np.array(pose[0]) / np.linalg.norm(pose[0])
-    places += 1.5 * size * np.where(normals @ towards > 0, 1, -1)[:, None] * normals
-    sources = example.producer(mesh), example.producer(lifted)
+    sources = example.producer(mesh), example.producer(dots)
     surface = simple.Show(sources[0], view, "GeometryRepresentation")
     example.paint(surface, [1, 1, 1])
     surface.Ambient, surface.Diffuse = 1, 0
-    ink = simple.Show(sources[1], view, "GeometryRepresentation")
-    ink.SetRepresentationType("Point Gaussian")
-    ink.ShaderPreset = "Black-edged circle"
-    ink.GaussianRadius = size
+    discs = simple.Glyph(Input=sources[1], GlyphType="Cylinder", GlyphMode="All Points",
+                         OrientationArray=["POINTS", "Normal"], ScaleArray=["POINTS", "No scale array"],
+                         ScaleFactor=size)
+    discs.GlyphType.Resolution, discs.GlyphType.Radius = 16, 1
+    # Glyphs have their x axis along Normal; the cylinder's own axis is y.
+    discs.GlyphTransform.Rotate, discs.GlyphTransform.Scale = [0, 0, -90], [1, 0.5, 1]
+    ink = simple.Show(discs, view, "GeometryRepresentation")
     example.paint(ink, [0, 0, 0])
+    ink.Ambient, ink.Diffuse = 1, 0
     disks.aim(view, mesh, pose)
     picture = figures.drawn(example.save_picture, view)
-    for proxy in (view, *sources):
+    for proxy in (view, discs, *sources):
         simple.Delete(proxy)
     return picture
 
 
 def main():
     arguments = example.parser(
-        __doc__, surface=dict(nargs="?", default="lion-head",
-                              help="a name of rectified_disks.py or a file of a surface "
-                              "(default: %(default)s)"),
+        __doc__, surface=dict(nargs="?", default="bunny",
+                              help="a name of rectified_shapes.py or rectified_disks.py, or a "
+                              "file of a surface (default: %(default)s)"),
         dots=example.number(16384, "dots on the surface"), panel=640).parse_args()
 
     example.load_plugin()
@@ -81,7 +79,7 @@ def main():
         size = 0.5 * np.sqrt(2 * area / (np.sqrt(3) * arguments.dots))
         rows.append([words, "%d" % dots.GetNumberOfPoints(), "%.6g" % mass,
                      "%.2f" % spacing(dots, area)])
-        pictures.append((words, draw(mesh, dots, 0.6 * size, pose, arguments.panel)))
+        pictures.append((words, draw(mesh, dots, 0.5 * size, pose, arguments.panel)))
     figures.table("The dots. Spacing: the mean distance of the nearest by that of the hexagonal "
                   "lattice of as many on\nthe same area; independent dots have 0.5.",
                   ["density", "dots", "TotalMass", "spacing"], rows)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Remakes the four tasks of Documentation/Tutorial.md: a picture of each, the film of the morph,
+"""Remakes the five tasks of Documentation/Tutorial.md: a picture of each, the film of the morph,
 and, with --states, the state files beside this script."""
 import math
 import os
@@ -146,6 +146,31 @@ def areas_of_people(pixels):
     return view, max(abs(error) for error in people.CellData["AreaError"].GetRange())
 
 
+def dots_on_a_mesh(pixels):
+    """A cow drawn by dots that are discs on it, as many in every part as its ink in a light."""
+    view = example.new_session([pixels, pixels], "Tutorial")
+    cow = simple.XMLPolyDataReader(registrationName="Cow",
+                                   FileName=[os.path.join(example.DATA, "spot.vtp")])
+    normals = simple.GenerateSurfaceNormals(cow, registrationName="Normals")
+    ink = simple.Calculator(normals, registrationName="Ink", ResultArrayName="Ink")
+    ink.Function = "0.03+(0.5-0.5*dot(Normals,0.8*jHat-0.5*iHat-0.3*kHat))^2"
+    dots = simple.SampleSurface(ink, registrationName="Dots", NumberOfParticles=20000)
+    dots.DensityArray = ["POINTS", "Ink"]
+    discs = simple.Glyph(Input=dots, registrationName="Discs", GlyphType="Sphere",
+                         GlyphMode="All Points", ScaleFactor=0.016)
+    discs.OrientationArray = ["POINTS", "Normal"]
+    discs.ScaleArray = ["POINTS", "No scale array"]
+    discs.GlyphTransform.Scale = [0.2, 1, 1]
+    for source, colour in (cow, [1, 1, 1]), (discs, [0, 0, 0]):
+        shown = simple.Show(source, view)
+        example.paint(shown, colour)
+        shown.Ambient, shown.Diffuse = 1, 0
+    look(view, [0, 0.1, 0.15], [-10, 3, -7], [0, 1, 0], 1.95)
+    simple.SetActiveSource(dots)
+    return view, "%d dots, %.4f of ink" % (
+        example.result(dots).GetNumberOfPoints(), figure(dots, 0, "TotalMass"))
+
+
 def main():
     parser = example.parser(
         __doc__, pixels=example.number(900, "side of the pictures", 16),
@@ -184,6 +209,9 @@ def main():
 
     view, error = areas_of_people(arguments.pixels)
     print("%s: areas within %.2f %%" % (keep("people", view), 100 * error))
+
+    view, words = dots_on_a_mesh(arguments.pixels)
+    print("%s: %s" % (keep("mesh", view), words))
 
 
 if __name__ == "__main__":

@@ -332,13 +332,24 @@ class Examples(ExampleTest):
             self.assertEqual(row[1], "3000")
         self.assertGreater(first(area[3]), 0.88)
         self.assertLess(first(curvature[2]), first(area[2]))  # the density is at most 1
-        self.check_picture("stipple-surface-lion-head.png")
+        self.check_picture("stipple-surface-bunny.png")
 
     def test_a_closed_surface(self):
         path = os.path.join(DATA, "spot.vtp")
         self.assertEqual(tables(self.ran("StippleSurface", path))[0][0][1], "3000")
         self.assertIn("The input surface is closed: it has no boundary",
                       self.refused("Figure11Parameterization", path))
+
+    @need_meshes
+    def test_closed_surfaces(self):
+        """A surface with two handles becomes one disk with equal areas."""
+        row = tables(self.ran("ClosedSurfaces", "eight"))[0][0]
+        self.assertEqual(row[0], "eight (634)")
+        self.assertGreater(int(row[1]), 20)  # two cuts a handle
+        self.assertLess(first(row[2]), 0.01)
+        self.assertLess(first(row[3]), 0.05)
+        self.assertEqual(row[4], "0")
+        self.check_picture("closed-surfaces.png")
 
     @need_meshes
     def test_figure_11(self):

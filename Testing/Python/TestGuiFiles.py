@@ -119,7 +119,7 @@ class GuiFiles(GuiTest):
 
     def test_tutorial(self):
         """Its states open in the window, with their data and their views."""
-        for name in ("slice", "morph", "compare", "people"):
+        for name in ("slice", "morph", "compare", "people", "mesh"):
             picture = "gui-tutorial-%s.png" % name
             path = os.path.join(SOURCE, "Examples", "Tutorial", name + ".pvsm")
             shutil.rmtree(self.home)

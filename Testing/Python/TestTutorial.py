@@ -126,6 +126,23 @@ class States(unittest.TestCase):
         shown = simple.GetRepresentation(people, simple.FindView("View"))
         self.assertEqual(shown.Representation, "Filled Outlines With Edges")
 
+    def test_mesh(self):
+        self.check_picture(self.opened("mesh"), "tutorial-mesh.png")
+        dots = output_of(simple.FindSource("Dots"))
+        self.assertEqual(dots.GetNumberOfPoints(), 20000)
+        integral = output_of(simple.IntegrateVariables(Input=simple.FindSource("Ink")))
+        expected = integral.GetPointData().GetArray("Ink").GetValue(0)
+        total = dots.GetFieldData().GetArray("TotalMass").GetValue(0)
+        self.assertAlmostEqual(total / expected, 1, 6)
+        self.assertAlmostEqual(total, 2.0394, 4)
+        # Each disc is around its dot, flat along the normal and 0.016 wide across it.
+        discs = positions(output_of(simple.FindSource("Discs"))).reshape(20000, -1, 3)
+        off = discs - positions(dots)[:, None]
+        normals = vtk_to_numpy(dots.GetPointData().GetArray("Normal"))
+        along = np.abs((off * normals[:, None]).sum(axis=2))
+        np.testing.assert_allclose(along.max(axis=1), 0.2 * 0.008, rtol=0.1)
+        np.testing.assert_allclose(np.linalg.norm(off, axis=2).max(axis=1), 0.008, rtol=0.1)
+
 
 class Script(unittest.TestCase):
     def test_script(self):
@@ -141,7 +158,8 @@ class Script(unittest.TestCase):
         self.assertEqual(data[:4], b"OggS")
         self.assertGreater(len(data), 4000)
         self.assertIn("tutorial-people.png: areas within 0.18 %", printed)
-        for name in ("slice", "compare", "people"):
+        self.assertIn("tutorial-mesh.png: 20000 dots, 2.0394 of ink", printed)
+        for name in ("slice", "compare", "people", "mesh"):
             shown = picture(os.path.join(SOURCE, "Documentation", "Images",
                                          "tutorial-%s.png" % name))
             drawn = picture(os.path.join(OUTPUT, "tutorial-%s.png" % name))
