@@ -50,22 +50,72 @@ AreaPreservingOptions optionsFor(
   return own;
 }
 
-// Runs up to the end of the current stage. Seams make long boundaries. Conformal maps squeeze the
-// bays between them, in the worst cases beyond what the flow can mend.
-AreaPreservingMap mapDisk(
-  const CutDisk& disk, const AreaPreservingOptions& options, Progress& progress)
+// Maps a disk with seams, from the conformal map or an even embedding. Seams make long boundaries.
+// Conformal maps squeeze the bays between them, in the worst cases beyond what the flow can mend.
+class SeamedDiskMap
 {
-  constexpr double uneven = 1.3; // below, angles gain nothing
-  const SquareMap& conformal = disk.Conformal->Square;
-  if (!disk.HasSeams || areaUnevenness(*disk.Mesh, conformal.Positions) < uneven)
+public:
+  SeamedDiskMap(const CutDisk& disk, const AreaPreservingOptions& options, const Context& context)
+    : Disk(*disk.Mesh)
+    , Conformal(disk.Conformal->Square)
+    , Options(options)
+    , Collapsed(countCollapsed(this->Disk, this->Conformal.Corners))
+    , Run(context)
   {
-    return mapAreaPreserving(*disk.Mesh, conformal, options, progress.Stage());
   }
-  Progress parts(progress.Stage());
-  parts.BeginStage(0.5);
-  const SquareMap even = embedEvenly(*disk.Mesh, conformal, parts.Stage());
-  parts.BeginStage(1.0);
-  return mapAreaPreserving(*disk.Mesh, even, options, parts.Stage());
+
+  // From what promises the better angles, and if areas are not reached, from the other one, too.
+  AreaPreservingMap Find()
+  {
+    constexpr double uneven = 1.3; // of conformal maps: below, angles gain nothing
+    const bool isUneven = areaUnevenness(this->Disk, this->Conformal.Positions) >= uneven;
+    AreaPreservingMap found = this->MapFrom(isUneven, 0.0);
+    constexpr double wrong = 0.05; // of which the filter warns
+    if (this->FlipsOf(found) > 0 || found.Distortion.Area95 > wrong)
+    {
+      AreaPreservingMap other = this->MapFrom(!isUneven, 0.5);
+      if (std::make_pair(this->FlipsOf(other), other.Distortion.Area95) <
+        std::make_pair(this->FlipsOf(found), found.Distortion.Area95))
+      {
+        found = std::move(other);
+      }
+    }
+    this->Run.BeginStage(1.0);
+    this->Run.EndSlice(1);
+    return found;
+  }
+
+private:
+  std::int64_t FlipsOf(const AreaPreservingMap& map) const
+  {
+    return std::max<std::int64_t>(map.Distortion.Flipped - this->Collapsed, 0);
+  }
+
+  AreaPreservingMap MapFrom(bool embedding, double begin)
+  {
+    if (!embedding)
+    {
+      this->Run.BeginStage(begin + 0.5);
+      return mapAreaPreserving(this->Disk, this->Conformal, this->Options, this->Run.Stage());
+    }
+    this->Run.BeginStage(begin + 0.25);
+    const SquareMap even = embedEvenly(this->Disk, this->Conformal, this->Run.Stage());
+    this->Run.BeginStage(begin + 0.5);
+    return mapAreaPreserving(this->Disk, even, this->Options, this->Run.Stage());
+  }
+
+  const DiskMesh& Disk;
+  const SquareMap& Conformal;
+  const AreaPreservingOptions Options;
+  const std::int64_t Collapsed;
+  Progress Run;
+};
+
+AreaPreservingMap mapDisk(
+  const CutDisk& disk, const AreaPreservingOptions& options, const Context& context)
+{
+  return disk.HasSeams ? SeamedDiskMap(disk, options, context).Find()
+                       : mapAreaPreserving(*disk.Mesh, disk.Conformal->Square, options, context);
 }
 
 } // namespace
@@ -100,7 +150,7 @@ CutSurfaceMap mapCutSurface(
     }
     const SquareMap& conformal = disk.Conformal->Square;
     const AreaPreservingMap found =
-      mapDisk(disk, optionsFor(disk, disks.size(), options), progress);
+      mapDisk(disk, optionsFor(disk, disks.size(), options), progress.Stage());
     put(conformal.Positions, squares[i], disk.FirstPoint, map.Conformal);
     put(found.Positions, squares[i], disk.FirstPoint, map.Positions);
     map.Collapsed += countCollapsed(*disk.Mesh, conformal.Corners);
