@@ -468,7 +468,6 @@ OTHERS = [
     E(CORE + "SurfaceRelaxation/SurfaceRelaxation.cxx", "return («mirrorWeight» * fourth", "0.0"),
     E(CORE + "SurfaceRelaxation/SurfaceRelaxation.cxx", "share * «std::sqrt(mostCrowded / own.Weight[lane])»",
       "1.0"),
-    E(CORE + "SurfaceRelaxation/StratifiedStart.cxx", "= «own > 0.0 ? next : firsts.data()[i]»;", "next"),
     E(CORE + "SurfaceRelaxation/StratifiedStart.cxx", "if («even[2] * most < density»)", "true"),
     E(CORE + "SurfaceRelaxation/StratifiedStart.cxx", "const bool takesSparse = «owed >= 1.0»;", "false"),
     E(CORE + "SurfaceRelaxation/DensityLevels.cxx", "return «dot(way, way) * high < this->MassOfDot»;", "true"),
@@ -485,7 +484,6 @@ OTHERS = [
     E(BRIDGE + "Surface/WholeSurface.cxx", "return «(ghosts[this->Cells->InputCellOf(triangle)] & ghostCell) != 0»;",
       "false"),
     # seams
-    E(CORE + "Seams/CutGraph.cxx", "if («root >= 0»)", "false"),
     E(CORE + "Seams/SeamShortening.cxx", "if («loops.size() == 2»)", "false"),
     E(CORE + "Seams/SeamSearch.cxx", "«neighbours > (joins ? 1 : 0)» ? beside", "false"),
     E(CORE + "Seams/SeamSearch.cxx", "!path.empty() && «length >= least»;", "true"),

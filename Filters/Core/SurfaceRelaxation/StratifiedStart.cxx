@@ -193,12 +193,9 @@ LargeBuffer<SurfacePlace> makeSamples(const WalkedSurface& surface, const Surfac
   progress.ForInOrder(triangles, grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
-      const double own = density.MassOf(order[i]);
-      mass += own;
+      mass += density.MassOf(order[i]);
       const double before = mass / total * static_cast<double>(count) + offset;
-      const std::int64_t next =
-        std::clamp(static_cast<std::int64_t>(before), firsts.data()[i], count);
-      firsts.data()[i + 1] = own > 0.0 ? next : firsts.data()[i];
+      firsts.data()[i + 1] = std::clamp(static_cast<std::int64_t>(before), firsts.data()[i], count);
     }
   });
   // Rounding may leave some to the last triangle that has any.

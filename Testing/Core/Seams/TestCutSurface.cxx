@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces of any topology, cut into disks: each triangle is in one disk, points are copies of the
 // given ones, seams are short, disks have none, and nothing depends on threads.
+#include "Core/Parameterization/EvenEmbedding.h"
 #include "Core/Parameterization/MapDistortion.h"
 #include "Core/Seams/CutSurface.h"
 #include "DiskSurfaces.h"
@@ -288,6 +289,18 @@ TEST(CutSurface, SeamsGrowToTheTipsOfLimbs)
   };
   EXPECT_GT(cut.NumberOfPoints(), first.NumberOfPoints() + 20);
   EXPECT_LT(squeezed(cut), 0.7 * squeezed(first));
+}
+
+TEST(CutSurface, CornersAreTheMostEvenOnes)
+{
+  for (const Mesh& mesh : { makeLimbs(16), makeHandles(2, 3), makeRing(24, 12, 0.4) })
+  {
+    const CutSurface cut(mesh.Surface());
+    const DiskMesh& disk = *cut.Disks()[0].Mesh;
+    const double found = areaUnevenness(disk, cut.Disks()[0].Conformal->Square.Positions);
+    const double chosen = areaUnevenness(disk, mapped(disk).Square.Positions);
+    EXPECT_LE(found, chosen);
+  }
 }
 
 TEST(CutSurface, SameBitsOnAnyNumberOfThreads)

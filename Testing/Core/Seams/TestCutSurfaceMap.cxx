@@ -75,6 +75,15 @@ TEST(CutSurfaceMap, AnEmbeddingTakesThePlaceOfUnevenConformalMaps)
   }
 }
 
+TEST(CutSurfaceMap, TheBetterOfTwoMapsIsTaken)
+{
+  // The embedding alone has 95 % of the area within 5.1 %.
+  const Mesh mesh = makeHandles(2, 1);
+  const CutSurface cut(mesh.Surface());
+  const CutSurfaceMap map = mapCutSurface(cut, options());
+  EXPECT_LT(measureDistortion(*cut.Disks()[0].Mesh, map.Positions).Area95, 0.04);
+}
+
 TEST(CutSurfaceMap, SquaresHoldTheirDisks)
 {
   Mesh mesh = makeSphere({ 0.0, 0.0, 0.0 }, 1.0, 8);

@@ -64,6 +64,19 @@ TEST(SqueezedPoints, TipsOfSpots)
   }
 }
 
+TEST(SqueezedPoints, PeaksAreProminent)
+{
+  const Mesh mesh = makeRectangle(cells, cells);
+  const DiskMesh disk(mesh.Surface());
+  const std::vector<Point<2>> positions =
+    squeezed(mesh, { { { 0.25, 0.25 }, 0.2, 4.0 }, { { 0.7, 0.65 }, 0.25, 6.0 } });
+  SqueezeLimits limits;
+  limits.Squeeze = 0.01; // all points: spots are squeezed inside and stretched at their rims
+  EXPECT_EQ(findSqueezedPoints(disk, positions, limits).size(), 2u);
+  limits.Prominence = 1e12; // the highest peak has no pass to a higher one
+  EXPECT_EQ(findSqueezedPoints(disk, positions, limits).size(), 1u);
+}
+
 TEST(SqueezedPoints, BoundariesAreLeftOut)
 {
   // Squeezed most at the boundary, and no tip inside is as high as the points next to it.
