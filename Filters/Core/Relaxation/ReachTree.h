@@ -28,36 +28,48 @@ ScaledPoint<Dimension> scaledPoint(const Point<Dimension>& x, double spacing, do
   return point;
 }
 
+// What is in reach of some blocks, and memory for it that is used again.
+struct InReach
+{
+  std::vector<std::int64_t> Blocks;
+  std::vector<std::int64_t> Points; // their numbers in the order of the tree
+  std::int64_t Count = 0;           // of Points; the rest has no meaning
+};
+
 template <int Dimension>
 class ReachTree
 {
 public:
+  // Neighbouring blocks for which blocks in reach are found together.
+  static constexpr std::int64_t BlocksAtOnce = 8;
+
   // Reorders the points. The order depends only on the set of points. Polls for cancellation.
   void Build(std::vector<ScaledPoint<Dimension>> points, Progress& progress);
   // Updates the boxes after points have changed.
   void Update();
 
-  std::int64_t Size() const { return static_cast<std::int64_t>(this->Sorted.size()); }
-  std::int64_t Blocks() const { return (this->Size() + repulsionBlock - 1) / repulsionBlock; }
-  ScaledPoint<Dimension>* Points() { return this->Sorted.data(); }
-  const ScaledPoint<Dimension>* Points() const { return this->Sorted.data(); }
+  std::int64_t Size() const { return this->Count; }
+  std::int64_t Blocks() const { return static_cast<std::int64_t>(this->Sorted.size()); }
+  const ScaledBlock<Dimension>* Points() const { return this->Sorted.data(); }
+  ScaledPoint<Dimension> Get(std::int64_t i) const;
+  void Set(std::int64_t i, const ScaledPoint<Dimension>& point);
   // The original indices of the points given to Build.
   const std::int64_t* Order() const { return this->Places.data(); }
 
   // The points of a block, the last one repeated to fill it. Returns how many there are.
   int Fill(std::int64_t block, RepulsionBlock<Dimension>& into) const;
 
-  // Finds the points y to which points of a block of `targets` may be closer than sqrt(reach * (the
-  // sum of both squared spacings)).
-  void FindInReach(const ReachTree& targets, std::int64_t block, double reach,
-    std::vector<ScaledPoint<Dimension>>& found) const;
+  // Finds the blocks with points y to which points of the blocks [first, last) of `targets` may be
+  // closer than sqrt(reach * (the sum of both squared spacings)).
+  void FindBlocks(const ReachTree& targets, std::int64_t first, std::int64_t last, double reach,
+    InReach& found) const;
+  // The points of these blocks for one of [first, last).
+  void FindPoints(
+    const ReachTree& targets, std::int64_t block, double reach, InReach& found) const;
 
 private:
-  struct Box
+  struct Box : ReachBounds<Dimension>
   {
-    double Low[Dimension];
-    double High[Dimension];
-    double Square;      // the largest squared spacing
     std::int64_t First; // blocks [First, Last)
     std::int64_t Last;
     std::int64_t Second; // the first child is the next box; -1 in a leaf
@@ -65,8 +77,14 @@ private:
 
   void MakeBoxes();
   void Bound(Box& leaf) const;
+  const Box& BoxOf(std::int64_t block) const
+  {
+    return this->Boxes[static_cast<std::size_t>(this->BlockBox[static_cast<std::size_t>(block)])];
+  }
 
-  std::vector<ScaledPoint<Dimension>> Sorted;
+  RepulsionKernels<Dimension> Kernels = repulsionKernels<Dimension>();
+  std::int64_t Count = 0;
+  std::vector<ScaledBlock<Dimension>> Sorted;
   std::vector<std::int64_t> Places;
   std::vector<Box> Boxes;
   std::vector<std::int64_t> BlockBox;

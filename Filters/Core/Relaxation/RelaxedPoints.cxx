@@ -112,7 +112,7 @@ void RelaxedPoints<Dimension>::Arrange(Progress& progress)
   this->Order.assign(sorted.Order(), sorted.Order() + sorted.Size());
   for (std::int64_t i = 0; i < sorted.Size(); ++i)
   {
-    std::copy_n(sorted.Points()[i].X, Dimension, this->X.data() + i * Dimension);
+    std::copy_n(sorted.Get(i).X, Dimension, this->X.data() + i * Dimension);
   }
 }
 

@@ -70,13 +70,13 @@ void RepulsionEnergy<Dimension>::FindSources(Progress& progress)
         double spacing = 1.0;
         if (mass > 0.0)
         {
-          typename SpacingTree<Dimension>::Place place{ leaf, {} };
+          Point<Dimension> at;
           for (int axis = 0; axis < Dimension; ++axis)
           {
-            place.At[axis] = centroid[axis] / mass;
-            centroid[axis] = low[axis] + place.At[axis] * sides[axis];
+            at[axis] = centroid[axis] / mass;
+            centroid[axis] = low[axis] + at[axis] * sides[axis];
           }
-          spacing = this->Tree.Evaluate(this->Tree.Spacing(), place)[0];
+          spacing = this->Tree.Evaluate(this->Tree.Spacing(), this->Tree.InLeaf(leaf, at))[0];
         }
         sources[static_cast<std::size_t>(leaf)] =
           scaledPoint<Dimension>(centroid, spacing, mass * this->Count);
@@ -102,22 +102,30 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
   progress.Check();
   ReachTree<Dimension> targets;
   targets.Build(std::move(nodes), progress);
-  this->Attraction.assign(static_cast<std::size_t>(this->Tree.Nodes()), {});
+  typename SpacingTree<Dimension>::Field attraction(
+    static_cast<std::size_t>(this->Tree.Nodes()));
   progress.For(
     targets.Blocks(), blockGrain,
     [&](std::int64_t first, std::int64_t last) {
-      std::vector<ScaledPoint<Dimension>> found;
+      InReach found;
       RepulsionBlock<Dimension> block;
       for (std::int64_t i = first; i < last; ++i)
       {
-        this->Sources.FindInReach(targets, i, this->Reach, found);
+        if (i == first || i % ReachTree<Dimension>::BlocksAtOnce == 0)
+        {
+          const std::int64_t together = (i / ReachTree<Dimension>::BlocksAtOnce + 1) *
+            ReachTree<Dimension>::BlocksAtOnce;
+          this->Sources.FindBlocks(
+            targets, i, std::min(together, last), this->Reach, found);
+        }
+        this->Sources.FindPoints(targets, i, this->Reach, found);
         const int count = targets.Fill(i, block);
         this->Kernels.Sum(
-          this->Shape, found.data(), static_cast<std::int64_t>(found.size()), block);
+          this->Shape, this->Sources.Points(), found.Points.data(), found.Count, block);
         for (int lane = 0; lane < count; ++lane)
         {
           const auto node = static_cast<std::size_t>(targets.Order()[i * repulsionBlock + lane]);
-          HermiteData<Dimension>& data = this->Attraction[node];
+          HermiteData<Dimension>& data = attraction[node];
           const HermiteData<Dimension>& spacing = this->Tree.Spacing()[node];
           data[0] = block.Sum[lane];
           for (int axis = 0; axis < Dimension; ++axis)
@@ -131,23 +139,32 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
     },
     blockGrain);
   progress.Check();
-  this->Tree.FindMixed(this->Attraction, false, progress);
+  this->Tree.FindMixed(attraction, false, progress);
   progress.Check();
-  const ScaledPoint<Dimension>* sources = this->Sources.Points();
   std::vector<double> parts(static_cast<std::size_t>(this->Sources.Size()));
   progress.For(
     this->Sources.Size(), grain,
     [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
+        const ScaledPoint<Dimension> source = this->Sources.Get(i);
         Point<Dimension> x;
-        std::copy_n(sources[i].X, Dimension, x.begin());
+        std::copy_n(source.X, Dimension, x.begin());
         parts[static_cast<std::size_t>(i)] =
-          sources[i].Mass * this->Tree.Evaluate(this->Attraction, this->Tree.Locate(x))[0];
+          source.Mass * this->Tree.Evaluate(attraction, this->Tree.Locate(x))[0];
       }
     },
     firstSlice);
   this->Constant = std::accumulate(parts.begin(), parts.end(), 0.0);
+  this->Fields.resize(attraction.size());
+  for (std::size_t node = 0; node < attraction.size(); ++node)
+  {
+    for (std::size_t entry = 0; entry < attraction[node].size(); ++entry)
+    {
+      this->Fields[node][entry] = { this->Tree.Spacing()[node][entry], attraction[node][entry] };
+    }
+  }
+  progress.Check();
 }
 
 template <int Dimension>
@@ -167,12 +184,10 @@ template <int Dimension>
 double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
   PointSpan<Dimension> gradient, double* spacings, Progress& progress)
 {
-  using Data = HermiteData<Dimension>;
+  using Data = HermiteData<Dimension, ValuePair>;
   const std::int64_t count = points.size();
   const std::int64_t* order = this->Particles.Order();
-  ScaledPoint<Dimension>* particles = this->Particles.Points();
-  std::vector<Data> spacing(static_cast<std::size_t>(count));
-  std::vector<Data> attraction(static_cast<std::size_t>(count));
+  std::vector<Data> fields(static_cast<std::size_t>(count));
   progress.For(
     count, grain,
     [&](std::int64_t first, std::int64_t last) {
@@ -180,12 +195,11 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
       {
         Point<Dimension> x;
         std::copy_n(points[order[i]], Dimension, x.begin());
-        const auto place = this->Tree.Locate(x);
-        const auto at = static_cast<std::size_t>(i);
-        spacing[at] = this->Tree.Evaluate(this->Tree.Spacing(), place);
-        attraction[at] = this->Tree.Evaluate(this->Attraction, place);
-        particles[i] = scaledPoint<Dimension>(x, spacing[at][0], 1.0);
-        spacings[order[i]] = spacing[at][0];
+        const Data data = this->Tree.Evaluate(this->Fields, this->Tree.Locate(x));
+        const double spacing = data[0].First();
+        this->Particles.Set(i, scaledPoint<Dimension>(x, spacing, 1.0));
+        spacings[order[i]] = spacing;
+        fields[static_cast<std::size_t>(i)] = data;
       }
     },
     firstSlice);
@@ -195,27 +209,34 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
   progress.For(
     this->Particles.Blocks(), blockGrain,
     [&](std::int64_t first, std::int64_t last) {
-      std::vector<ScaledPoint<Dimension>> found;
+      InReach found;
       RepulsionBlock<Dimension> block;
       for (std::int64_t i = first; i < last; ++i)
       {
-        this->Particles.FindInReach(this->Particles, i, this->Reach, found);
+        if (i == first || i % ReachTree<Dimension>::BlocksAtOnce == 0)
+        {
+          const std::int64_t together = (i / ReachTree<Dimension>::BlocksAtOnce + 1) *
+            ReachTree<Dimension>::BlocksAtOnce;
+          this->Particles.FindBlocks(
+            this->Particles, i, std::min(together, last), this->Reach, found);
+        }
+        this->Particles.FindPoints(this->Particles, i, this->Reach, found);
         const int filled = this->Particles.Fill(i, block);
         this->Kernels.Sum(
-          this->Shape, found.data(), static_cast<std::int64_t>(found.size()), block);
+          this->Shape, this->Particles.Points(), found.Points.data(), found.Count, block);
         double sum = 0.0;
         for (int lane = 0; lane < filled; ++lane)
         {
           const std::int64_t point = i * repulsionBlock + lane;
-          const Data& h = spacing[static_cast<std::size_t>(point)];
-          const Data& a = attraction[static_cast<std::size_t>(point)];
-          sum += block.Sum[lane] - 2.0 * a[0];
+          const Data& data = fields[static_cast<std::size_t>(point)];
+          sum += block.Sum[lane] - 2.0 * data[0].Second();
           for (int axis = 0; axis < Dimension; ++axis)
           {
             const auto entry = std::size_t{ 1 } << axis;
             gradient[order[point]][axis] = scale *
-              (block.Gradient[axis][lane] + 2.0 * h[0] * h[entry] * block.BySquare[lane] -
-                a[entry]);
+              (block.Gradient[axis][lane] +
+                2.0 * data[0].First() * data[entry].First() * block.BySquare[lane] -
+                data[entry].Second());
           }
         }
         energies[static_cast<std::size_t>(i)] = sum;

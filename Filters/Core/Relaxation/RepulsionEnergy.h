@@ -53,7 +53,8 @@ private:
   RepulsionShape Shape;
   double Reach;
   ReachTree<Dimension> Sources;
-  typename SpacingTree<Dimension>::Field Attraction; // A
+  // The spacing and A.
+  typename SpacingTree<Dimension>::template FieldOf<ValuePair> Fields;
   double Constant = 0.0;
   ReachTree<Dimension> Particles;
 };

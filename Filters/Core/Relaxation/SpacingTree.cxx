@@ -48,6 +48,14 @@ SpacingTree<Dimension>::SpacingTree(const RectifiedFlow<Dimension>& flow,
       ++first;
     }
   }
+  for (int depth = 0; depth <= DeepestLevel; ++depth)
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      this->SidesOfDepth[static_cast<std::size_t>(depth)][axis] =
+        std::ldexp(this->RootSides[axis], -this->Halvings(axis, depth));
+    }
+  }
   this->Divide(finest, progress);
   this->Number(progress);
   this->FindSpacing(progress);
@@ -88,7 +96,7 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
   {
     const std::size_t last = this->Boxes.size();
     std::vector<char> divided(last - first, 0);
-    const Point<Dimension> sides = this->Sides(depth);
+    const Point<Dimension>& sides = this->Sides(depth);
     const double widest = *std::max_element(sides.begin(), sides.end());
     if (depth < DeepestLevel)
     {
@@ -112,18 +120,18 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
     {
       if (!divided[i - first])
       {
-        this->Boxes[i].First = -1 - static_cast<std::int64_t>(this->LeafBoxes.size());
+        this->Children.push_back(-1 - static_cast<std::int64_t>(this->LeafBoxes.size()));
         this->LeafBoxes.push_back(static_cast<std::int64_t>(i));
         continue;
       }
-      this->Boxes[i].First = static_cast<std::int64_t>(this->Boxes.size());
+      this->Children.push_back(static_cast<std::int64_t>(this->Boxes.size()));
       this->Boxes.push_back(this->Boxes[i]);
       ++this->Boxes.back().Depth;
       for (int axis = 0; axis < Dimension; ++axis)
       {
         // The upper halves of those that are there.
         const std::size_t halves = this->Boxes.size();
-        for (auto k = static_cast<std::size_t>(this->Boxes[i].First);
+        for (auto k = static_cast<std::size_t>(this->Children[i]);
              k < halves && this->IsHalved(axis, depth); ++k)
         {
           this->Boxes.push_back(this->Boxes[k]);
@@ -216,25 +224,27 @@ std::int64_t SpacingTree<Dimension>::WidestLeafAt(const Node& node) const
     {
       continue;
     }
-    const Box* box = &this->Boxes[static_cast<std::size_t>(root)];
-    while (box->First >= 0)
+    std::int64_t box = root;
+    std::int64_t first;
+    while ((first = this->Children[static_cast<std::size_t>(box)]) >= 0)
     {
+      const auto& [low, depth] = this->Boxes[static_cast<std::size_t>(box)];
       int child = 0;
       int half = 1;
       for (int axis = 0; axis < Dimension; ++axis)
       {
-        if (!this->IsHalved(axis, box->Depth))
+        if (!this->IsHalved(axis, depth))
         {
           continue;
         }
-        const std::int64_t middle = box->Low[axis] + this->Width(axis, box->Depth + 1);
+        const std::int64_t middle = low[axis] + this->Width(axis, depth + 1);
         const bool isUpper = node[axis] > middle || (node[axis] == middle && (side >> axis & 1));
         child += isUpper ? half : 0;
         half *= 2;
       }
-      box = &this->Boxes[static_cast<std::size_t>(box->First + child)];
+      box = first + child;
     }
-    const std::int64_t leaf = -1 - box->First;
+    const std::int64_t leaf = -1 - first;
     if (widest < 0 || this->LeafBox(leaf).Depth < this->LeafBox(widest).Depth)
     {
       widest = leaf;
@@ -269,63 +279,46 @@ Point<Dimension> SpacingTree<Dimension>::LeafLow(std::int64_t leaf) const
 }
 
 template <int Dimension>
-Point<Dimension> SpacingTree<Dimension>::Sides(int depth) const
-{
-  Point<Dimension> sides = this->RootSides;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    sides[axis] = std::ldexp(sides[axis], -this->Halvings(axis, depth));
-  }
-  return sides;
-}
-
-template <int Dimension>
 typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
   const Point<Dimension>& x) const
 {
-  Place place{};
+  Place place;
+  Node fixed; // the place in its root, in units of the finest leaf possible
   std::int64_t root = 0;
   for (int axis = Dimension; axis-- > 0;)
   {
     const double roots = std::max(x[axis] / this->RootSides[axis], 0.0);
     const std::int64_t at = std::min(static_cast<std::int64_t>(roots), this->Roots[axis] - 1);
     place.At[axis] = std::min(roots - static_cast<double>(at), 1.0);
+    fixed[axis] = std::min(static_cast<std::int64_t>(place.At[axis] * (1 << DeepestLevel)),
+      std::int64_t{ (1 << DeepestLevel) - 1 });
     root = root * this->Roots[axis] + at;
   }
-  const Box* box = &this->Boxes[static_cast<std::size_t>(root)];
-  while (box->First >= 0)
+  std::int64_t first;
+  int depth = 0;
+  for (std::int64_t box = root; (first = this->Children[static_cast<std::size_t>(box)]) >= 0;)
   {
-    int child = 0;
-    int half = 1;
+    int half = 0;
+    box = first;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      if (!this->IsHalved(axis, box->Depth))
+      if (this->IsHalved(axis, depth))
       {
-        continue;
+        const int shift = DeepestLevel - 1 - this->Halvings(axis, depth);
+        box += (fixed[axis] >> shift & 1) << half++;
       }
-      const double twice = 2.0 * place.At[axis];
-      const bool isUpper = twice >= 1.0;
-      place.At[axis] = isUpper ? twice - 1.0 : twice;
-      child += isUpper ? half : 0;
-      half *= 2;
     }
-    box = &this->Boxes[static_cast<std::size_t>(box->First + child)];
+    ++depth;
   }
-  place.Leaf = -1 - box->First;
-  return place;
-}
-
-template <int Dimension>
-HermiteData<Dimension> SpacingTree<Dimension>::Evaluate(
-  const Field& field, const Place& place) const
-{
-  std::array<const double*, hermiteCorners<Dimension>> corners;
-  const auto& nodes = this->LeafNodes[static_cast<std::size_t>(place.Leaf)];
-  for (std::size_t corner = 0; corner < corners.size(); ++corner)
+  for (int axis = 0; axis < Dimension; ++axis)
   {
-    corners[corner] = field[static_cast<std::size_t>(nodes[corner])].data();
+    const int halvings = this->Halvings(axis, depth);
+    place.At[axis] = place.At[axis] * static_cast<double>(std::int64_t{ 1 } << halvings) -
+      static_cast<double>(fixed[axis] >> (DeepestLevel - halvings));
   }
-  return interpolateHermite<Dimension>(corners, place.At, this->LeafSides(place.Leaf));
+  place.Leaf = -1 - first;
+  place.Sides = &this->Sides(depth);
+  return place;
 }
 
 template <int Dimension>
@@ -354,14 +347,14 @@ void SpacingTree<Dimension>::Join(Field& field) const
   for (const std::int32_t i : this->Constrained)
   {
     const auto node = static_cast<std::size_t>(i);
-    Place place{ this->NodeLeaf[node], {} };
-    const Box& box = this->LeafBox(place.Leaf);
+    const Box& box = this->LeafBox(this->NodeLeaf[node]);
+    Point<Dimension> at;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      place.At[axis] = static_cast<double>(this->NodePlaces[node][axis] - box.Low[axis]) /
+      at[axis] = static_cast<double>(this->NodePlaces[node][axis] - box.Low[axis]) /
         static_cast<double>(this->Width(axis, box.Depth));
     }
-    field[node] = this->Evaluate(field, place);
+    field[node] = this->Evaluate(field, this->InLeaf(this->NodeLeaf[node], at));
   }
 }
 
@@ -376,7 +369,7 @@ void SpacingTree<Dimension>::FindMixed(Field& field, bool first, Progress& progr
       {
         const auto node = static_cast<std::size_t>(i);
         const Point<Dimension> x = this->NodePoint(i);
-        const Point<Dimension> sides = this->LeafSides(this->NodeLeaf[node]);
+        const Point<Dimension>& sides = this->LeafSides(this->NodeLeaf[node]);
         // The difference of an entry along an axis, one-sided at the border.
         const auto difference = [&](int entry, int axis) {
           Point<Dimension> low = x;
@@ -433,7 +426,7 @@ void SpacingTree<Dimension>::FindSpacing(Progress& progress)
   for (std::int64_t i = 0; i < this->Nodes(); ++i)
   {
     const auto node = static_cast<std::size_t>(i);
-    const Point<Dimension> sides = this->LeafSides(this->NodeLeaf[node]);
+    const Point<Dimension>& sides = this->LeafSides(this->NodeLeaf[node]);
     for (int entry = 1; entry < hermiteCorners<Dimension>; ++entry)
     {
       double bound = field[node][0];

@@ -28,7 +28,9 @@ class SpacingTree
 {
 public:
   using Node = std::array<std::int64_t, Dimension>;  // in units of the finest leaf possible
-  using Field = std::vector<HermiteData<Dimension>>; // data at the nodes
+  template <class Value>
+  using FieldOf = std::vector<HermiteData<Dimension, Value>>; // data at the nodes
+  using Field = FieldOf<double>;
 
   SpacingTree(const RectifiedFlow<Dimension>& flow, const RelaxationFrame<Dimension>& frame,
     std::int64_t points, double finest, double largest, Progress& progress);
@@ -39,7 +41,7 @@ public:
 
   std::int64_t Leaves() const { return static_cast<std::int64_t>(this->LeafBoxes.size()); }
   Point<Dimension> LeafLow(std::int64_t leaf) const;
-  Point<Dimension> LeafSides(std::int64_t leaf) const
+  const Point<Dimension>& LeafSides(std::int64_t leaf) const
   {
     return this->Sides(this->LeafBox(leaf).Depth);
   }
@@ -49,11 +51,28 @@ public:
   {
     std::int64_t Leaf;
     Point<Dimension> At; // in [0, 1]
+    const Point<Dimension>* Sides; // of the leaf
   };
   Place Locate(const Point<Dimension>& x) const;
 
+  // The place `at` in a leaf.
+  Place InLeaf(std::int64_t leaf, const Point<Dimension>& at) const
+  {
+    return { leaf, at, &this->LeafSides(leaf) };
+  }
+
   // A function at a place: its value and derivatives, see HermiteData.
-  HermiteData<Dimension> Evaluate(const Field& field, const Place& place) const;
+  template <class Value>
+  HermiteData<Dimension, Value> Evaluate(const FieldOf<Value>& field, const Place& place) const
+  {
+    std::array<const Value*, hermiteCorners<Dimension>> corners;
+    const auto& nodes = this->LeafNodes[static_cast<std::size_t>(place.Leaf)];
+    for (std::size_t corner = 0; corner < corners.size(); ++corner)
+    {
+      corners[corner] = field[static_cast<std::size_t>(nodes[corner])].data();
+    }
+    return interpolateHermite<Dimension, Value>(corners, place.At, *place.Sides);
+  }
 
   // Replaces the data of nodes within a face of a larger leaf by its interpolation, so that the
   // function has continuous derivatives.
@@ -72,7 +91,6 @@ private:
   {
     Node Low;
     int Depth;
-    std::int64_t First; // of its consecutive children; -1 - leaf in a leaf
   };
 
   void Divide(double finest, Progress& progress);
@@ -86,7 +104,10 @@ private:
   {
     return std::int64_t{ 1 } << (DeepestLevel - this->Halvings(axis, depth));
   }
-  Point<Dimension> Sides(int depth) const;
+  const Point<Dimension>& Sides(int depth) const
+  {
+    return this->SidesOfDepth[static_cast<std::size_t>(depth)];
+  }
   Point<Dimension> PointOf(const Node& node) const;
   const Box& LeafBox(std::int64_t leaf) const
   {
@@ -108,7 +129,10 @@ private:
   std::array<int, Dimension> FirstHalved; // the smallest depth of boxes that are halved along an
                                           // axis
   Point<Dimension> Aspect;
+  std::array<Point<Dimension>, DeepestLevel + 1> SidesOfDepth;
   std::vector<Box> Boxes;
+  // Of each box, the first of its consecutive children; -1 - leaf of a leaf.
+  std::vector<std::int64_t> Children;
   std::vector<std::int64_t> LeafBoxes;
   std::vector<std::array<std::int32_t, hermiteCorners<Dimension>>> LeafNodes;
   std::vector<Node> NodePlaces;
