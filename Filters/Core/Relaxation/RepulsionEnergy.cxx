@@ -178,6 +178,9 @@ void RepulsionEnergy<Dimension>::Sort(ConstPointSpan<Dimension> points, Progress
     particles[static_cast<std::size_t>(i)] = scaledPoint<Dimension>(x, 1.0, 1.0);
   }
   this->Particles.Build(std::move(particles), progress);
+  this->AtPoints.resize(static_cast<std::size_t>(points.size()));
+  this->Leaves.assign(static_cast<std::size_t>(points.size()), 0);
+  this->Parts.resize(static_cast<std::size_t>(this->Particles.Blocks()));
 }
 
 template <int Dimension>
@@ -187,25 +190,43 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
   using Data = HermiteData<Dimension, ValuePair>;
   const std::int64_t count = points.size();
   const std::int64_t* order = this->Particles.Order();
-  std::vector<Data> fields(static_cast<std::size_t>(count));
   progress.For(
     count, grain,
     [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+      constexpr std::int64_t most = 16; // at once
+      std::array<typename SpacingTree<Dimension>::Place, most> places;
+      for (std::int64_t begin = first; begin < last; begin += most)
       {
-        Point<Dimension> x;
-        std::copy_n(points[order[i]], Dimension, x.begin());
-        const Data data = this->Tree.Evaluate(this->Fields, this->Tree.Locate(x));
-        const double spacing = data[0].First();
-        this->Particles.Set(i, scaledPoint<Dimension>(x, spacing, 1.0));
-        spacings[order[i]] = spacing;
-        fields[static_cast<std::size_t>(i)] = data;
+        const std::int64_t end = std::min(begin + most, last);
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          Point<Dimension> x;
+          std::copy_n(points[order[i]], Dimension, x.begin());
+          std::int64_t& leaf = this->Leaves[static_cast<std::size_t>(i)];
+          auto& place = places[static_cast<std::size_t>(i - begin)];
+          place = this->Tree.Locate(x, leaf);
+          leaf = place.Leaf;
+          this->Tree.Prefetch(this->Fields, place);
+          if (i + most < last)
+          {
+            this->Tree.PrefetchLeaf(this->Leaves[static_cast<std::size_t>(i + most)]);
+          }
+        }
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          Data& data = this->AtPoints[static_cast<std::size_t>(i)];
+          data = this->Tree.Evaluate(this->Fields, places[static_cast<std::size_t>(i - begin)]);
+          Point<Dimension> x;
+          std::copy_n(points[order[i]], Dimension, x.begin());
+          const double spacing = data[0].First();
+          this->Particles.Set(i, scaledPoint<Dimension>(x, spacing, 1.0));
+          spacings[order[i]] = spacing;
+        }
       }
     },
     firstSlice);
   this->Particles.Update();
   const double scale = 2.0 / this->Count;
-  std::vector<double> energies(static_cast<std::size_t>(this->Particles.Blocks()));
   progress.For(
     this->Particles.Blocks(), blockGrain,
     [&](std::int64_t first, std::int64_t last) {
@@ -228,7 +249,7 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
         for (int lane = 0; lane < filled; ++lane)
         {
           const std::int64_t point = i * repulsionBlock + lane;
-          const Data& data = fields[static_cast<std::size_t>(point)];
+          const Data& data = this->AtPoints[static_cast<std::size_t>(point)];
           sum += block.Sum[lane] - 2.0 * data[0].Second();
           for (int axis = 0; axis < Dimension; ++axis)
           {
@@ -239,12 +260,12 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
                 data[entry].Second());
           }
         }
-        energies[static_cast<std::size_t>(i)] = sum;
+        this->Parts[static_cast<std::size_t>(i)] = sum;
       }
     },
     blockGrain);
   double sum = this->Constant;
-  for (const double energy : energies)
+  for (const double energy : this->Parts)
   {
     sum += energy;
   }

@@ -57,6 +57,10 @@ private:
   typename SpacingTree<Dimension>::template FieldOf<ValuePair> Fields;
   double Constant = 0.0;
   ReachTree<Dimension> Particles;
+  // Of each point in the order of Particles: the fields there, and its leaf.
+  std::vector<HermiteData<Dimension, ValuePair>> AtPoints;
+  std::vector<std::int64_t> Leaves;
+  std::vector<double> Parts; // of the energy, of each block
 };
 
 } // namespace RectifiedTransport

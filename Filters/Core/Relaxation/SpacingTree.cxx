@@ -57,6 +57,7 @@ SpacingTree<Dimension>::SpacingTree(const RectifiedFlow<Dimension>& flow,
     }
   }
   this->Divide(finest, progress);
+  this->OrderLeaves(progress);
   this->Number(progress);
   this->FindSpacing(progress);
 }
@@ -120,8 +121,7 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
     {
       if (!divided[i - first])
       {
-        this->Children.push_back(-1 - static_cast<std::int64_t>(this->LeafBoxes.size()));
-        this->LeafBoxes.push_back(static_cast<std::int64_t>(i));
+        this->Children.push_back(-1);
         continue;
       }
       this->Children.push_back(static_cast<std::int64_t>(this->Boxes.size()));
@@ -143,14 +143,72 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
   }
 }
 
+// Leaves that are near each other are near in their order, and so are nodes.
+template <int Dimension>
+void SpacingTree<Dimension>::OrderLeaves(Progress& progress)
+{
+  struct Range // of roots
+  {
+    Node Low;
+    Node High;
+  };
+  std::vector<Range> ranges{ { Node{}, this->Roots } };
+  std::vector<std::int64_t> boxes;
+  while (!ranges.empty())
+  {
+    const Range range = ranges.back();
+    ranges.pop_back();
+    std::int64_t root = 0;
+    int longest = 0;
+    for (int axis = Dimension; axis-- > 0;)
+    {
+      root = root * this->Roots[axis] + range.Low[axis];
+      longest = range.High[axis] - range.Low[axis] > range.High[longest] - range.Low[longest]
+        ? axis
+        : longest;
+    }
+    if (range.High[longest] - range.Low[longest] > 1)
+    {
+      const std::int64_t middle = (range.Low[longest] + range.High[longest]) / 2;
+      ranges.push_back(range);
+      ranges.back().Low[longest] = middle;
+      ranges.push_back(range);
+      ranges.back().High[longest] = middle;
+      continue;
+    }
+    boxes.push_back(root);
+    while (!boxes.empty())
+    {
+      const std::int64_t box = boxes.back();
+      boxes.pop_back();
+      std::int64_t& first = this->Children[static_cast<std::size_t>(box)];
+      if (first < 0)
+      {
+        first = -1 - this->Leaves();
+        this->LeafBoxes.push_back({ this->Boxes[static_cast<std::size_t>(box)], {} });
+        progress.Add(1);
+        continue;
+      }
+      const int depth = this->Boxes[static_cast<std::size_t>(box)].Depth;
+      int halved = 0;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        halved += this->IsHalved(axis, depth) ? 1 : 0;
+      }
+      for (std::int64_t child = std::int64_t{ 1 } << halved; child-- > 0;)
+      {
+        boxes.push_back(first + child);
+      }
+    }
+  }
+}
+
 template <int Dimension>
 void SpacingTree<Dimension>::Number(Progress& progress)
 {
   NodeNumbers<Dimension> numbers(this->LeafBoxes.size());
-  this->LeafNodes.resize(this->LeafBoxes.size());
-  for (std::int64_t leaf = 0; leaf < this->Leaves(); ++leaf)
+  for (Leaf& box : this->LeafBoxes)
   {
-    const Box& box = this->LeafBox(leaf);
     for (int corner = 0; corner < hermiteCorners<Dimension>; ++corner)
     {
       Node node = box.Low;
@@ -158,8 +216,7 @@ void SpacingTree<Dimension>::Number(Progress& progress)
       {
         node[axis] += (corner >> axis & 1) * this->Width(axis, box.Depth);
       }
-      this->LeafNodes[static_cast<std::size_t>(leaf)][static_cast<std::size_t>(corner)] =
-        numbers[node];
+      box.Nodes[static_cast<std::size_t>(corner)] = numbers[node];
     }
     progress.Add(1);
   }
@@ -282,21 +339,50 @@ template <int Dimension>
 typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
   const Point<Dimension>& x) const
 {
-  Place place;
-  Node fixed; // the place in its root, in units of the finest leaf possible
-  std::int64_t root = 0;
+  return this->Descend(this->LocateRoot(x));
+}
+
+template <int Dimension>
+typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
+  const Point<Dimension>& x, std::int64_t guess) const
+{
+  const RootPlace in = this->LocateRoot(x);
+  const Box& leaf = this->LeafBox(guess);
+  bool isInside = true;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const std::int64_t above = in.Low[axis] + in.Fixed[axis] - leaf.Low[axis];
+    isInside = isInside && above >= 0 && above < this->Width(axis, leaf.Depth);
+  }
+  return isInside ? this->PlaceIn(in, guess, leaf.Depth) : this->Descend(in);
+}
+
+template <int Dimension>
+typename SpacingTree<Dimension>::RootPlace SpacingTree<Dimension>::LocateRoot(
+  const Point<Dimension>& x) const
+{
+  constexpr auto width = std::int64_t{ 1 } << DeepestLevel;
+  RootPlace in;
+  in.Root = 0;
   for (int axis = Dimension; axis-- > 0;)
   {
     const double roots = std::max(x[axis] / this->RootSides[axis], 0.0);
     const std::int64_t at = std::min(static_cast<std::int64_t>(roots), this->Roots[axis] - 1);
-    place.At[axis] = std::min(roots - static_cast<double>(at), 1.0);
-    fixed[axis] = std::min(static_cast<std::int64_t>(place.At[axis] * (1 << DeepestLevel)),
-      std::int64_t{ (1 << DeepestLevel) - 1 });
-    root = root * this->Roots[axis] + at;
+    in.At[axis] = std::min(roots - static_cast<double>(at), 1.0);
+    in.Fixed[axis] = std::min(static_cast<std::int64_t>(in.At[axis] * width), width - 1);
+    in.Low[axis] = at * width;
+    in.Root = in.Root * this->Roots[axis] + at;
   }
+  return in;
+}
+
+template <int Dimension>
+typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Descend(const RootPlace& in) const
+{
   std::int64_t first;
   int depth = 0;
-  for (std::int64_t box = root; (first = this->Children[static_cast<std::size_t>(box)]) >= 0;)
+  for (std::int64_t box = in.Root;
+       (first = this->Children[static_cast<std::size_t>(box)]) >= 0; ++depth)
   {
     int half = 0;
     box = first;
@@ -305,19 +391,24 @@ typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
       if (this->IsHalved(axis, depth))
       {
         const int shift = DeepestLevel - 1 - this->Halvings(axis, depth);
-        box += (fixed[axis] >> shift & 1) << half++;
+        box += (in.Fixed[axis] >> shift & 1) << half++;
       }
     }
-    ++depth;
   }
+  return this->PlaceIn(in, -1 - first, depth);
+}
+
+template <int Dimension>
+typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::PlaceIn(
+  const RootPlace& in, std::int64_t leaf, int depth) const
+{
+  Place place{ leaf, {}, &this->Sides(depth) };
   for (int axis = 0; axis < Dimension; ++axis)
   {
     const int halvings = this->Halvings(axis, depth);
-    place.At[axis] = place.At[axis] * static_cast<double>(std::int64_t{ 1 } << halvings) -
-      static_cast<double>(fixed[axis] >> (DeepestLevel - halvings));
+    place.At[axis] = in.At[axis] * static_cast<double>(std::int64_t{ 1 } << halvings) -
+      static_cast<double>(in.Fixed[axis] >> (DeepestLevel - halvings));
   }
-  place.Leaf = -1 - first;
-  place.Sides = &this->Sides(depth);
   return place;
 }
 
@@ -326,7 +417,7 @@ double SpacingTree<Dimension>::Linear(
   const Field& field, int entry, const Point<Dimension>& x) const
 {
   const Place place = this->Locate(x);
-  const auto& nodes = this->LeafNodes[static_cast<std::size_t>(place.Leaf)];
+  const auto& nodes = this->LeafBox(place.Leaf).Nodes;
   double sum = 0.0;
   for (int corner = 0; corner < hermiteCorners<Dimension>; ++corner)
   {
