@@ -76,6 +76,29 @@ double SpacingTree<Dimension>::ExactSpacing(const Point<Dimension>& x) const
   return std::min(side, this->Largest);
 }
 
+// Mostly by the share in the cube of this side, without a search for the spacing.
+template <int Dimension>
+bool SpacingTree<Dimension>::IsSpacingBelow(double side, const Point<Dimension>& x) const
+{
+  if (side > this->Largest)
+  {
+    return true;
+  }
+  Point<Dimension> low;
+  Point<Dimension> high;
+  bool isInside = true;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    isInside = isInside && x[axis] >= 0.5 * side && x[axis] + 0.5 * side <= this->Frame.Sides[axis];
+    low[axis] = (x[axis] - 0.5 * side) / this->Frame.CellSides[axis];
+    high[axis] = (x[axis] + 0.5 * side) / this->Frame.CellSides[axis];
+  }
+  constexpr double doubt = 1e-6; // more than the error of the search
+  const double shares =
+    isInside ? this->Flow.Share(low, high) * static_cast<double>(this->Points) : 1.0;
+  return std::abs(shares - 1.0) > doubt ? shares > 1.0 : side > this->ExactSpacing(x);
+}
+
 // Level by level.
 template <int Dimension>
 void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
@@ -112,7 +135,7 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
             {
               centre[axis] += 0.5 * sides[axis];
             }
-            divided[static_cast<std::size_t>(i)] = widest > finest * this->ExactSpacing(centre);
+            divided[static_cast<std::size_t>(i)] = this->IsSpacingBelow(widest / finest, centre);
           }
         },
         4 * grain);

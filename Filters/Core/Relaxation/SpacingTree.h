@@ -117,6 +117,8 @@ private:
     std::int64_t Root;
   };
 
+  // Whether the spacing at a place is less than a length.
+  bool IsSpacingBelow(double side, const Point<Dimension>& x) const;
   void Divide(double finest, Progress& progress);
   void OrderLeaves(Progress& progress);
   void Number(Progress& progress);
