@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 namespace RectifiedTransport
 {
@@ -68,8 +67,7 @@ void join(ReachBounds<Dimension>& bounds, const ReachBounds<Dimension>& other)
 }
 
 template <int Dimension>
-bool isInReach(
-  const ReachBounds<Dimension>& a, const ReachBounds<Dimension>& b, double reach)
+bool isInReach(const ReachBounds<Dimension>& a, const ReachBounds<Dimension>& b, double reach)
 {
   double squared = 0.0;
   for (int axis = 0; axis < Dimension; ++axis)
@@ -87,19 +85,52 @@ bool isInReach(
 } // namespace
 
 template <int Dimension>
-void ReachTree<Dimension>::Build(std::vector<ScaledPoint<Dimension>> points, Progress& progress)
+void ReachTree<Dimension>::Begin(std::int64_t points)
 {
-  this->Count = static_cast<std::int64_t>(points.size());
+  this->Count = points;
+  this->Sorted.resize(static_cast<std::size_t>((points + repulsionBlock - 1) / repulsionBlock));
+  this->MakeBoxes();
+}
+
+template <int Dimension>
+void ReachTree<Dimension>::End()
+{
+  ScaledPoint<Dimension> missing{};
+  missing.Square = -std::numeric_limits<double>::infinity();
+  for (std::int64_t i = this->Count; i < this->Blocks() * repulsionBlock; ++i)
+  {
+    this->Set(i, missing);
+  }
+  this->Update();
+}
+
+template <int Dimension>
+void ReachTree<Dimension>::BuildInOrder(
+  const std::vector<ScaledPoint<Dimension>>& points, Progress& progress)
+{
+  this->Begin(static_cast<std::int64_t>(points.size()));
+  progress.Check();
+  for (std::int64_t i = 0; i < this->Count; ++i)
+  {
+    this->Set(i, points[static_cast<std::size_t>(i)]);
+  }
+  progress.Check();
+  this->End();
+  progress.Check();
+}
+
+template <int Dimension>
+void ReachTree<Dimension>::Build(
+  const std::vector<ScaledPoint<Dimension>>& points, Progress& progress)
+{
   std::vector<NumberedPoint<Dimension>> numbered;
   numbered.reserve(points.size());
   for (const auto& point : points)
   {
     numbered.push_back({ point, static_cast<std::int64_t>(numbered.size()) });
   }
-  points = {};
-  this->Sorted.resize(static_cast<std::size_t>((this->Count + repulsionBlock - 1) / repulsionBlock));
   progress.Check();
-  this->MakeBoxes();
+  this->Begin(static_cast<std::int64_t>(points.size()));
   progress.Check();
   // Parents are before their children.
   Polls polls(progress);
@@ -126,14 +157,8 @@ void ReachTree<Dimension>::Build(std::vector<ScaledPoint<Dimension>> points, Pro
     this->Set(static_cast<std::int64_t>(i), numbered[i].Point);
     this->Places[i] = numbered[i].Number;
   }
-  for (std::int64_t i = this->Count; i < this->Blocks() * repulsionBlock; ++i)
-  {
-    ScaledPoint<Dimension> missing{};
-    missing.Square = -std::numeric_limits<double>::infinity();
-    this->Set(i, missing);
-  }
   progress.Check();
-  this->Update();
+  this->End();
   progress.Check();
 }
 

@@ -44,7 +44,9 @@ public:
   static constexpr std::int64_t BlocksAtOnce = 8;
 
   // Reorders the points. The order depends only on the set of points. Polls for cancellation.
-  void Build(std::vector<ScaledPoint<Dimension>> points, Progress& progress);
+  void Build(const std::vector<ScaledPoint<Dimension>>& points, Progress& progress);
+  // Keeps the order of points that are near each other in it, to save time.
+  void BuildInOrder(const std::vector<ScaledPoint<Dimension>>& points, Progress& progress);
   // Updates the boxes after points have changed.
   void Update();
 
@@ -53,7 +55,7 @@ public:
   const ScaledBlock<Dimension>* Points() const { return this->Sorted.data(); }
   ScaledPoint<Dimension> Get(std::int64_t i) const;
   void Set(std::int64_t i, const ScaledPoint<Dimension>& point);
-  // The original indices of the points given to Build.
+  // The original indices of the points given to Build; nothing after BuildInOrder.
   const std::int64_t* Order() const { return this->Places.data(); }
 
   // The points of a block, the last one repeated to fill it. Returns how many there are.
@@ -64,8 +66,7 @@ public:
   void FindBlocks(const ReachTree& targets, std::int64_t first, std::int64_t last, double reach,
     InReach& found) const;
   // The points of these blocks for one of [first, last).
-  void FindPoints(
-    const ReachTree& targets, std::int64_t block, double reach, InReach& found) const;
+  void FindPoints(const ReachTree& targets, std::int64_t block, double reach, InReach& found) const;
 
 private:
   struct Box : ReachBounds<Dimension>
@@ -75,6 +76,8 @@ private:
     std::int64_t Second; // the first child is the next box; -1 in a leaf
   };
 
+  void Begin(std::int64_t points);
+  void End();
   void MakeBoxes();
   void Bound(Box& leaf) const;
   const Box& BoxOf(std::int64_t block) const

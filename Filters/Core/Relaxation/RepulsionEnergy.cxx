@@ -87,7 +87,7 @@ void RepulsionEnergy<Dimension>::FindSources(Progress& progress)
                   [](const ScaledPoint<Dimension>& source) { return !(source.Mass > 0.0); }),
     sources.end());
   progress.Check();
-  this->Sources.Build(std::move(sources), progress);
+  this->Sources.BuildInOrder(sources, progress);
 }
 
 template <int Dimension>
@@ -101,9 +101,8 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
   }
   progress.Check();
   ReachTree<Dimension> targets;
-  targets.Build(std::move(nodes), progress);
-  typename SpacingTree<Dimension>::Field attraction(
-    static_cast<std::size_t>(this->Tree.Nodes()));
+  targets.BuildInOrder(nodes, progress);
+  typename SpacingTree<Dimension>::Field attraction(static_cast<std::size_t>(this->Tree.Nodes()));
   progress.For(
     targets.Blocks(), blockGrain,
     [&](std::int64_t first, std::int64_t last) {
@@ -113,10 +112,9 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
       {
         if (i == first || i % ReachTree<Dimension>::BlocksAtOnce == 0)
         {
-          const std::int64_t together = (i / ReachTree<Dimension>::BlocksAtOnce + 1) *
-            ReachTree<Dimension>::BlocksAtOnce;
-          this->Sources.FindBlocks(
-            targets, i, std::min(together, last), this->Reach, found);
+          const std::int64_t together =
+            (i / ReachTree<Dimension>::BlocksAtOnce + 1) * ReachTree<Dimension>::BlocksAtOnce;
+          this->Sources.FindBlocks(targets, i, std::min(together, last), this->Reach, found);
         }
         this->Sources.FindPoints(targets, i, this->Reach, found);
         const int count = targets.Fill(i, block);
@@ -124,7 +122,7 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
           this->Shape, this->Sources.Points(), found.Points.data(), found.Count, block);
         for (int lane = 0; lane < count; ++lane)
         {
-          const auto node = static_cast<std::size_t>(targets.Order()[i * repulsionBlock + lane]);
+          const auto node = static_cast<std::size_t>(i * repulsionBlock + lane);
           HermiteData<Dimension>& data = attraction[node];
           const HermiteData<Dimension>& spacing = this->Tree.Spacing()[node];
           data[0] = block.Sum[lane];
@@ -177,7 +175,7 @@ void RepulsionEnergy<Dimension>::Sort(ConstPointSpan<Dimension> points, Progress
     std::copy_n(points[i], Dimension, x.begin());
     particles[static_cast<std::size_t>(i)] = scaledPoint<Dimension>(x, 1.0, 1.0);
   }
-  this->Particles.Build(std::move(particles), progress);
+  this->Particles.Build(particles, progress);
   this->AtPoints.resize(static_cast<std::size_t>(points.size()));
   this->Leaves.assign(static_cast<std::size_t>(points.size()), 0);
   this->Parts.resize(static_cast<std::size_t>(this->Particles.Blocks()));
@@ -236,8 +234,8 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
       {
         if (i == first || i % ReachTree<Dimension>::BlocksAtOnce == 0)
         {
-          const std::int64_t together = (i / ReachTree<Dimension>::BlocksAtOnce + 1) *
-            ReachTree<Dimension>::BlocksAtOnce;
+          const std::int64_t together =
+            (i / ReachTree<Dimension>::BlocksAtOnce + 1) * ReachTree<Dimension>::BlocksAtOnce;
           this->Particles.FindBlocks(
             this->Particles, i, std::min(together, last), this->Reach, found);
         }

@@ -68,7 +68,7 @@ double affordableSpacing(const SpacingTree<Dimension>& tree, ConstPointSpan<Dime
     },
     16 * grain);
   ReachTree<Dimension> neighbours;
-  neighbours.Build(std::move(scaled), progress);
+  neighbours.Build(scaled, progress);
   double limit = std::numeric_limits<double>::infinity();
   while (limit > 1.0 && meanNeighbours(neighbours, reach, progress) > affordable)
   {

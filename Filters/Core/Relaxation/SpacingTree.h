@@ -27,7 +27,7 @@ template <int Dimension>
 class SpacingTree
 {
 public:
-  using Node = std::array<std::int64_t, Dimension>;  // in units of the finest leaf possible
+  using Node = std::array<std::int64_t, Dimension>; // in units of the finest leaf possible
   template <class Value>
   using FieldOf = std::vector<HermiteData<Dimension, Value>>; // data at the nodes
   using Field = FieldOf<double>;
@@ -50,7 +50,7 @@ public:
   struct Place
   {
     std::int64_t Leaf;
-    Point<Dimension> At; // in [0, 1]
+    Point<Dimension> At;           // in [0, 1]
     const Point<Dimension>* Sides; // of the leaf
   };
   Place Locate(const Point<Dimension>& x) const;

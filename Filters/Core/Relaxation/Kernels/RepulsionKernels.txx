@@ -62,23 +62,20 @@ RT_INLINE Lanes squareRoot(const Lanes& a)
   return root;
 }
 
-// exp(-q) for q in [0, 16], to 4e-10 of it: the 16th power of the Taylor polynomial of
-// exp(-q / 16) about 1/2, by Horner in t = 1/2 - q / 16, which is within 1/2.
+// exp(-q) for q in [0, 16], to 2e-10 of it: the 32nd power of the polynomial that is exp(-q / 32)
+// at the Chebyshev points of t = 1/4 - q / 32, which is within 1/4.
 template <class Value>
 RT_INLINE Value exponential(const Value& q)
 {
-  constexpr double middle = 0.60653065971263342; // exp(-1/2)
-  const Value t = 0.5 - q * 0.0625;
-  Value p = t * (middle / 3628800.0) + middle / 362880.0;
-  p = p * t + middle / 40320.0;
-  p = p * t + middle / 5040.0;
-  p = p * t + middle / 720.0;
-  p = p * t + middle / 120.0;
-  p = p * t + middle / 24.0;
-  p = p * t + middle / 6.0;
-  p = p * t + middle / 2.0;
-  p = p * t + middle;
-  p = p * t + middle;
+  const Value t = 0.25 - q * 0.03125;
+  Value p = t * 0.00015479244535331668 + 0.00108408449795983;
+  p = p * t + 0.006489996035544878;
+  p = p * t + 0.03244993819606626;
+  p = p * t + 0.129800130643039;
+  p = p * t + 0.3894003927162396;
+  p = p * t + 0.7788007830711488;
+  p = p * t + 0.7788007830690991;
+  p *= p;
   p *= p;
   p *= p;
   p *= p;
