@@ -271,11 +271,10 @@ int ReachTree<Dimension>::Fill(std::int64_t block, RepulsionBlock<Dimension>& in
 }
 
 template <int Dimension>
-void ReachTree<Dimension>::FindBlocks(const ReachTree& targets, std::int64_t first,
-  std::int64_t last, double reach, InReach& found) const
+void ReachTree<Dimension>::FindBlocks(const ReachTree& targets, double reach, InReach& found) const
 {
-  ReachBounds<Dimension> target = targets.BoxOf(first);
-  for (std::int64_t block = first + 1; block < last; ++block)
+  ReachBounds<Dimension> target = targets.BoxOf(found.First);
+  for (std::int64_t block = found.First + 1; block < found.Last; ++block)
   {
     join<Dimension>(target, targets.BoxOf(block));
   }
@@ -305,9 +304,16 @@ void ReachTree<Dimension>::FindBlocks(const ReachTree& targets, std::int64_t fir
 }
 
 template <int Dimension>
-void ReachTree<Dimension>::FindPoints(
-  const ReachTree& targets, std::int64_t block, double reach, InReach& found) const
+void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t block,
+  std::int64_t last, double reach, InReach& found) const
 {
+  constexpr std::int64_t together = 8;
+  if (block < found.First || block >= found.Last)
+  {
+    found.First = block;
+    found.Last = std::min((block / together + 1) * together, last);
+    this->FindBlocks(targets, reach, found);
+  }
   if (found.Points.size() < found.Blocks.size() * repulsionBlock)
   {
     found.Points.resize(found.Blocks.size() * repulsionBlock);

@@ -31,8 +31,10 @@ ScaledPoint<Dimension> scaledPoint(const Point<Dimension>& x, double spacing, do
 // What is in reach of some blocks, and memory for it that is used again.
 struct InReach
 {
+  std::int64_t First = 0; // the blocks [First, Last) for which Blocks were found
+  std::int64_t Last = 0;
   std::vector<std::int64_t> Blocks;
-  std::vector<std::int64_t> Points; // their numbers in the order of the tree
+  std::vector<std::int64_t> Points; // their numbers in the order of the tree, for one of them
   std::int64_t Count = 0;           // of Points; the rest has no meaning
 };
 
@@ -40,9 +42,6 @@ template <int Dimension>
 class ReachTree
 {
 public:
-  // Neighbouring blocks for which blocks in reach are found together.
-  static constexpr std::int64_t BlocksAtOnce = 8;
-
   // Reorders the points. The order depends only on the set of points. Polls for cancellation.
   void Build(const std::vector<ScaledPoint<Dimension>>& points, Progress& progress);
   // Keeps the order of points that are near each other in it, to save time.
@@ -61,12 +60,11 @@ public:
   // The points of a block, the last one repeated to fill it. Returns how many there are.
   int Fill(std::int64_t block, RepulsionBlock<Dimension>& into) const;
 
-  // Finds the blocks with points y to which points of the blocks [first, last) of `targets` may be
-  // closer than sqrt(reach * (the sum of both squared spacings)).
-  void FindBlocks(const ReachTree& targets, std::int64_t first, std::int64_t last, double reach,
+  // Finds the points y to which points of a block of `targets` may be closer than sqrt(reach * (the
+  // sum of both squared spacings)). Fastest for blocks in their order, up to the block `last`: what
+  // is in reach of neighbouring blocks is found once.
+  void FindInReach(const ReachTree& targets, std::int64_t block, std::int64_t last, double reach,
     InReach& found) const;
-  // The points of these blocks for one of [first, last).
-  void FindPoints(const ReachTree& targets, std::int64_t block, double reach, InReach& found) const;
 
 private:
   struct Box : ReachBounds<Dimension>
@@ -79,6 +77,8 @@ private:
   void Begin(std::int64_t points);
   void End();
   void MakeBoxes();
+  // For the blocks [found.First, found.Last) of the targets.
+  void FindBlocks(const ReachTree& targets, double reach, InReach& found) const;
   void Bound(Box& leaf) const;
   const Box& BoxOf(std::int64_t block) const
   {

@@ -32,13 +32,12 @@ RepulsionEnergy<Dimension>::RepulsionEnergy(const RectifiedFlow<Dimension>& flow
   this->Shape.Cut = width.Cut;
   this->Shape.AtCut = this->Kernels.Exponential(width.Cut);
   this->Reach = width.Reach();
-  this->FindSources(progress);
   this->FindAttraction(progress);
 }
 
 // The masses of the leaves at their centroids, found from those of their halves along all axes.
 template <int Dimension>
-void RepulsionEnergy<Dimension>::FindSources(Progress& progress)
+ReachTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progress) const
 {
   std::vector<ScaledPoint<Dimension>> sources(static_cast<std::size_t>(this->Tree.Leaves()));
   progress.For(
@@ -87,12 +86,15 @@ void RepulsionEnergy<Dimension>::FindSources(Progress& progress)
                   [](const ScaledPoint<Dimension>& source) { return !(source.Mass > 0.0); }),
     sources.end());
   progress.Check();
-  this->Sources.BuildInOrder(sources, progress);
+  ReachTree<Dimension> tree;
+  tree.BuildInOrder(sources, progress);
+  return tree;
 }
 
 template <int Dimension>
 void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
 {
+  const ReachTree<Dimension> sources = this->FindSources(progress);
   std::vector<ScaledPoint<Dimension>> nodes(static_cast<std::size_t>(this->Tree.Nodes()));
   for (std::size_t node = 0; node < nodes.size(); ++node)
   {
@@ -110,16 +112,9 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
       RepulsionBlock<Dimension> block;
       for (std::int64_t i = first; i < last; ++i)
       {
-        if (i == first || i % ReachTree<Dimension>::BlocksAtOnce == 0)
-        {
-          const std::int64_t together =
-            (i / ReachTree<Dimension>::BlocksAtOnce + 1) * ReachTree<Dimension>::BlocksAtOnce;
-          this->Sources.FindBlocks(targets, i, std::min(together, last), this->Reach, found);
-        }
-        this->Sources.FindPoints(targets, i, this->Reach, found);
+        sources.FindInReach(targets, i, last, this->Reach, found);
         const int count = targets.Fill(i, block);
-        this->Kernels.Sum(
-          this->Shape, this->Sources.Points(), found.Points.data(), found.Count, block);
+        this->Kernels.Sum(this->Shape, sources.Points(), found.Points.data(), found.Count, block);
         for (int lane = 0; lane < count; ++lane)
         {
           const auto node = static_cast<std::size_t>(i * repulsionBlock + lane);
@@ -139,13 +134,13 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
   progress.Check();
   this->Tree.FindMixed(attraction, false, progress);
   progress.Check();
-  std::vector<double> parts(static_cast<std::size_t>(this->Sources.Size()));
+  std::vector<double> parts(static_cast<std::size_t>(sources.Size()));
   progress.For(
-    this->Sources.Size(), grain,
+    sources.Size(), grain,
     [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
-        const ScaledPoint<Dimension> source = this->Sources.Get(i);
+        const ScaledPoint<Dimension> source = sources.Get(i);
         Point<Dimension> x;
         std::copy_n(source.X, Dimension, x.begin());
         parts[static_cast<std::size_t>(i)] =
@@ -232,14 +227,7 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
       RepulsionBlock<Dimension> block;
       for (std::int64_t i = first; i < last; ++i)
       {
-        if (i == first || i % ReachTree<Dimension>::BlocksAtOnce == 0)
-        {
-          const std::int64_t together =
-            (i / ReachTree<Dimension>::BlocksAtOnce + 1) * ReachTree<Dimension>::BlocksAtOnce;
-          this->Particles.FindBlocks(
-            this->Particles, i, std::min(together, last), this->Reach, found);
-        }
-        this->Particles.FindPoints(this->Particles, i, this->Reach, found);
+        this->Particles.FindInReach(this->Particles, i, last, this->Reach, found);
         const int filled = this->Particles.Fill(i, block);
         this->Kernels.Sum(
           this->Shape, this->Particles.Points(), found.Points.data(), found.Count, block);

@@ -42,7 +42,7 @@ public:
     Progress& progress) override;
 
 private:
-  void FindSources(Progress& progress);
+  ReachTree<Dimension> FindSources(Progress& progress) const;
   void FindAttraction(Progress& progress);
 
   const RectifiedFlow<Dimension>& Flow;
@@ -52,7 +52,6 @@ private:
   const RepulsionKernels<Dimension> Kernels;
   RepulsionShape Shape;
   double Reach;
-  ReachTree<Dimension> Sources;
   // The spacing and A.
   typename SpacingTree<Dimension>::template FieldOf<ValuePair> Fields;
   double Constant = 0.0;

@@ -35,8 +35,7 @@ double meanNeighbours(const ReachTree<Dimension>& tree, double reach, Progress& 
   for (std::int64_t i = 0; i < taken; ++i)
   {
     const std::int64_t block = i * tree.Blocks() / taken;
-    tree.FindBlocks(tree, block, block + 1, reach, found);
-    tree.FindPoints(tree, block, reach, found);
+    tree.FindInReach(tree, block, block + 1, reach, found);
     sum += static_cast<double>(found.Count);
     progress.Check();
   }

@@ -256,6 +256,7 @@ void SpacingTree<Dimension>::Number(Progress& progress)
       }
     },
     firstSlice);
+  this->Boxes = {}; // places are found without
   this->FindConstrained();
 }
 

@@ -312,14 +312,15 @@ void expectPointsInReach()
   ReachTree<Dimension> targets;
   tree.Build(points, work);
   targets.BuildInOrder(randomScaledPoints<Dimension>(21, 2.0), work);
-  InReach found;
-  for (const std::int64_t together : { targets.Blocks(), std::int64_t{ 1 } })
+  InReach together;
+  for (const bool isAlone : { false, true })
   {
     for (std::int64_t block = 0; block < targets.Blocks(); ++block)
     {
-      const std::int64_t first = together > 1 ? 0 : block;
-      tree.FindBlocks(targets, first, first + together, reach, found);
-      tree.FindPoints(targets, block, reach, found);
+      InReach alone;
+      InReach& found = isAlone ? alone : together;
+      const std::int64_t last = isAlone ? block + 1 : targets.Blocks();
+      tree.FindInReach(targets, block, last, reach, found);
       ASSERT_TRUE(std::is_sorted(found.Points.data(), found.Points.data() + found.Count));
       for (std::int64_t i = 0; i < tree.Size(); ++i)
       {
