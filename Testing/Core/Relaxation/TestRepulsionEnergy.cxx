@@ -239,6 +239,48 @@ TEST(RepulsionEnergy, SpacingIsSmooth)
   expectSmooth<3>(twoGaussians<3>({ 12, 12, 12 }), 60);
 }
 
+// No leaf is wider than it may be, and a guess changes nothing about a place.
+template <int Dimension>
+void expectPlaces(const TestDensity<Dimension>& density, std::int64_t count)
+{
+  constexpr double finest = 0.6;
+  EnergyCase<Dimension> test(density, count, finest);
+  const auto& tree = test.Tree;
+  for (std::int64_t leaf = 0; leaf < tree.Leaves(); ++leaf)
+  {
+    const Point<Dimension> low = tree.LeafLow(leaf);
+    const Point<Dimension> sides = tree.LeafSides(leaf);
+    Point<Dimension> centre;
+    Point<Dimension> inside;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      centre[axis] = low[axis] + 0.5 * sides[axis];
+      inside[axis] = low[axis] + 0.3 * sides[axis];
+    }
+    EXPECT_LE(*std::max_element(sides.begin(), sides.end()),
+      finest * tree.ExactSpacing(centre) * (1.0 + 1e-6));
+    for (const std::int64_t guess :
+      { leaf, std::max<std::int64_t>(leaf - 1, 0), tree.Leaves() - 1 })
+    {
+      const auto place = tree.Locate(inside, guess);
+      EXPECT_EQ(place.Leaf, leaf);
+      EXPECT_EQ(place.At, tree.Locate(inside).At);
+      EXPECT_EQ(*place.Sides, sides);
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        EXPECT_NEAR(place.At[axis], 0.3, 1e-9);
+      }
+    }
+  }
+}
+
+TEST(RepulsionEnergy, PlacesInLeaves)
+{
+  expectPlaces<2>(twoGaussians<2>({ 40, 30 }), 300);
+  expectPlaces<2>(discWithHole<2>({ 60, 4 }), 100);
+  expectPlaces<3>(twoGaussians<3>({ 12, 12, 12 }), 60);
+}
+
 // Boxes as long as the domain is thin would be millions.
 TEST(RepulsionEnergy, NeedlesHaveFewLeaves)
 {
@@ -344,7 +386,7 @@ void expectPointsInReach()
             std::binary_search(found.Points.data(), found.Points.data() + found.Count, i));
         }
       }
-      EXPECT_GT(found.Count, 5);
+      EXPECT_GT(found.Count, 0);
       EXPECT_LT(found.Count, tree.Size() / 2) << "nothing is left out";
     }
   }
