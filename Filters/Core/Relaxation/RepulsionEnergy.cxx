@@ -92,18 +92,20 @@ ReachTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progress)
 }
 
 template <int Dimension>
-void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
+typename SpacingTree<Dimension>::Field RepulsionEnergy<Dimension>::SumAttraction(
+  const ReachTree<Dimension>& sources, Progress& progress) const
 {
-  const ReachTree<Dimension> sources = this->FindSources(progress);
-  std::vector<ScaledPoint<Dimension>> nodes(static_cast<std::size_t>(this->Tree.Nodes()));
-  for (std::size_t node = 0; node < nodes.size(); ++node)
-  {
-    nodes[node] = scaledPoint<Dimension>(
-      this->Tree.NodePoint(static_cast<std::int64_t>(node)), this->Tree.Spacing()[node][0], 0.0);
-  }
-  progress.Check();
   ReachTree<Dimension> targets;
-  targets.BuildInOrder(nodes, progress);
+  {
+    std::vector<ScaledPoint<Dimension>> nodes(static_cast<std::size_t>(this->Tree.Nodes()));
+    for (std::size_t node = 0; node < nodes.size(); ++node)
+    {
+      nodes[node] = scaledPoint<Dimension>(
+        this->Tree.NodePoint(static_cast<std::int64_t>(node)), this->Tree.Spacing()[node][0], 0.0);
+    }
+    progress.Check();
+    targets.BuildInOrder(nodes, progress);
+  }
   typename SpacingTree<Dimension>::Field attraction(static_cast<std::size_t>(this->Tree.Nodes()));
   progress.For(
     targets.Blocks(), blockGrain,
@@ -132,23 +134,34 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
     },
     blockGrain);
   progress.Check();
-  this->Tree.FindMixed(attraction, false, progress);
-  progress.Check();
-  std::vector<double> parts(static_cast<std::size_t>(sources.Size()));
-  progress.For(
-    sources.Size(), grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        const ScaledPoint<Dimension> source = sources.Get(i);
-        Point<Dimension> x;
-        std::copy_n(source.X, Dimension, x.begin());
-        parts[static_cast<std::size_t>(i)] =
-          source.Mass * this->Tree.Evaluate(attraction, this->Tree.Locate(x))[0];
-      }
-    },
-    firstSlice);
-  this->Constant = std::accumulate(parts.begin(), parts.end(), 0.0);
+  return attraction;
+}
+
+template <int Dimension>
+void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
+{
+  typename SpacingTree<Dimension>::Field attraction;
+  {
+    const ReachTree<Dimension> sources = this->FindSources(progress);
+    attraction = this->SumAttraction(sources, progress);
+    this->Tree.FindMixed(attraction, false, progress);
+    progress.Check();
+    std::vector<double> parts(static_cast<std::size_t>(sources.Size()));
+    progress.For(
+      sources.Size(), grain,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          const ScaledPoint<Dimension> source = sources.Get(i);
+          Point<Dimension> x;
+          std::copy_n(source.X, Dimension, x.begin());
+          parts[static_cast<std::size_t>(i)] =
+            source.Mass * this->Tree.Evaluate(attraction, this->Tree.Locate(x))[0];
+        }
+      },
+      firstSlice);
+    this->Constant = std::accumulate(parts.begin(), parts.end(), 0.0);
+  }
   this->Fields.resize(attraction.size());
   for (std::size_t node = 0; node < attraction.size(); ++node)
   {

@@ -43,6 +43,9 @@ public:
 
 private:
   ReachTree<Dimension> FindSources(Progress& progress) const;
+  // Values and first derivatives of A at the nodes.
+  typename SpacingTree<Dimension>::Field SumAttraction(
+    const ReachTree<Dimension>& sources, Progress& progress) const;
   void FindAttraction(Progress& progress);
 
   const RectifiedFlow<Dimension>& Flow;
