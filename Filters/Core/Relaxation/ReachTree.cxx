@@ -110,11 +110,13 @@ void ReachTree<Dimension>::BuildInOrder(
 {
   this->Begin(static_cast<std::int64_t>(points.size()));
   progress.Check();
-  for (std::int64_t i = 0; i < this->Count; ++i)
-  {
-    this->Set(i, points[static_cast<std::size_t>(i)]);
-  }
-  progress.Check();
+  constexpr std::int64_t grain = 512 * wholeBlock;
+  progress.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      this->Set(i, points[static_cast<std::size_t>(i)]);
+    }
+  });
   this->End();
   progress.Check();
 }

@@ -163,13 +163,20 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
     this->Constant = std::accumulate(parts.begin(), parts.end(), 0.0);
   }
   this->Fields.resize(attraction.size());
-  for (std::size_t node = 0; node < attraction.size(); ++node)
-  {
-    for (std::size_t entry = 0; entry < attraction[node].size(); ++entry)
-    {
-      this->Fields[node][entry] = { this->Tree.Spacing()[node][entry], attraction[node][entry] };
-    }
-  }
+  progress.For(
+    this->Tree.Nodes(), grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (auto node = static_cast<std::size_t>(first); node < static_cast<std::size_t>(last);
+           ++node)
+      {
+        for (std::size_t entry = 0; entry < attraction[node].size(); ++entry)
+        {
+          this->Fields[node][entry] = { this->Tree.Spacing()[node][entry],
+            attraction[node][entry] };
+        }
+      }
+    },
+    firstSlice);
   progress.Check();
 }
 
