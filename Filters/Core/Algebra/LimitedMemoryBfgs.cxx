@@ -3,7 +3,7 @@
 
 #include "Core/Parallel/Reduction.h"
 
-#include <utility>
+#include <algorithm>
 
 namespace RectifiedTransport
 {
@@ -61,7 +61,7 @@ double innerProduct(const std::vector<double>& a, const std::vector<double>& b, 
 }
 
 void LimitedMemoryBfgs::Add(
-  std::vector<double> step, std::vector<double> change, Progress& progress)
+  const std::vector<double>& step, const std::vector<double>& change, Progress& progress)
 {
   const double curvature = innerProduct(step, change, progress);
   if (!(curvature > 0.0))
@@ -70,15 +70,23 @@ void LimitedMemoryBfgs::Add(
   }
   if (this->Pairs.size() == this->Most)
   {
-    this->Pairs.erase(this->Pairs.begin());
+    // The oldest pair gives its memory to the new one.
+    std::rotate(this->Pairs.begin(), this->Pairs.begin() + 1, this->Pairs.end());
   }
-  this->Pairs.push_back({ std::move(step), std::move(change), curvature });
+  else
+  {
+    this->Pairs.emplace_back();
+  }
+  Pair& pair = this->Pairs.back();
+  pair.Step = step;
+  pair.Change = change;
+  pair.Curvature = curvature;
 }
 
-std::vector<double> LimitedMemoryBfgs::Direction(const std::vector<double>& gradient,
-  const std::vector<double>& diagonal, Progress& progress) const
+void LimitedMemoryBfgs::FindDirection(const std::vector<double>& gradient,
+  const std::vector<double>& diagonal, std::vector<double>& direction, Progress& progress) const
 {
-  std::vector<double> direction = gradient;
+  direction = gradient;
   std::vector<double> parts(this->Pairs.size());
   for (std::size_t i = this->Pairs.size(); i-- > 0;)
   {
@@ -106,7 +114,6 @@ std::vector<double> LimitedMemoryBfgs::Direction(const std::vector<double>& grad
   {
     value = -value;
   }
-  return direction;
 }
 
 } // namespace RectifiedTransport

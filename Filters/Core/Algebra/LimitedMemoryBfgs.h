@@ -26,11 +26,11 @@ public:
   void Forget() { this->Pairs.clear(); }
   bool IsEmpty() const { return this->Pairs.empty(); }
   // Adds a step and the change of the gradient over it, if the curvature along it is positive.
-  void Add(std::vector<double> step, std::vector<double> change, Progress& progress);
-  // Minus the inverse Hessian times the gradient. `diagonal` approximates the diagonal of the
-  // inverse Hessian, up to a factor.
-  std::vector<double> Direction(const std::vector<double>& gradient,
-    const std::vector<double>& diagonal, Progress& progress) const;
+  void Add(const std::vector<double>& step, const std::vector<double>& change, Progress& progress);
+  // Writes minus the inverse Hessian times the gradient. `diagonal` approximates the diagonal of
+  // the inverse Hessian, up to a factor.
+  void FindDirection(const std::vector<double>& gradient, const std::vector<double>& diagonal,
+    std::vector<double>& direction, Progress& progress) const;
 
 private:
   struct Pair

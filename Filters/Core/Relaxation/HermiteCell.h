@@ -13,18 +13,44 @@ namespace RectifiedTransport
 template <int Dimension>
 constexpr int hermiteCorners = 1 << Dimension;
 
-template <int Dimension>
-using HermiteData = std::array<double, hermiteCorners<Dimension>>;
+template <int Dimension, class Value = double>
+using HermiteData = std::array<Value, hermiteCorners<Dimension>>;
+
+// The values of two functions, which behave as one.
+struct ValuePair
+{
+  // Every processor has registers of this size.
+  using Register = double __attribute__((vector_size(16)));
+
+  ValuePair() = default;
+  explicit ValuePair(const Register& both)
+    : Both(both)
+  {
+  }
+  ValuePair(double first, double second)
+    : Both{ first, second }
+  {
+  }
+  double First() const { return this->Both[0]; }
+  double Second() const { return this->Both[1]; }
+  friend ValuePair operator+(const ValuePair& a, const ValuePair& b)
+  {
+    return ValuePair(a.Both + b.Both);
+  }
+  friend ValuePair operator*(double a, const ValuePair& b) { return ValuePair(a * b.Both); }
+
+  Register Both{};
+};
 
 // The data at the place `at`, in [0, 1], of a box with these sides. Corner c is at the upper end of
 // the axes of the bits of c.
-template <int Dimension>
-HermiteData<Dimension> interpolateHermite(
-  const std::array<const double*, hermiteCorners<Dimension>>& corners, const Point<Dimension>& at,
+template <int Dimension, class Value>
+HermiteData<Dimension, Value> interpolateHermite(
+  const std::array<const Value*, hermiteCorners<Dimension>>& corners, const Point<Dimension>& at,
   const Point<Dimension>& sides)
 {
   constexpr int count = hermiteCorners<Dimension>;
-  double data[count][count]; // corner, derivative
+  Value data[count][count]; // corner, derivative
   for (int corner = 0; corner < count; ++corner)
   {
     for (int entry = 0; entry < count; ++entry)
@@ -52,7 +78,7 @@ HermiteData<Dimension> interpolateHermite(
         {
           continue;
         }
-        const double ends[4] = { data[corner][entry], data[corner + half][entry],
+        const Value ends[4] = { data[corner][entry], data[corner + half][entry],
           data[corner][entry | half], data[corner + half][entry | half] };
         data[corner][entry] =
           value[0] * ends[0] + value[1] * ends[1] + value[2] * ends[2] + value[3] * ends[3];
@@ -61,7 +87,7 @@ HermiteData<Dimension> interpolateHermite(
       }
     }
   }
-  HermiteData<Dimension> result;
+  HermiteData<Dimension, Value> result;
   for (int entry = 0; entry < count; ++entry)
   {
     result[entry] = data[0][entry];

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 namespace RectifiedTransport
 {
@@ -54,20 +53,86 @@ int widestAxis(const NumberedPoint<Dimension>* first, const NumberedPoint<Dimens
   return widest;
 }
 
+constexpr std::int64_t wholeBlock = repulsionBlock;
+
+template <int Dimension>
+void join(ReachBounds<Dimension>& bounds, const ReachBounds<Dimension>& other)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    bounds.Low[axis] = std::min(bounds.Low[axis], other.Low[axis]);
+    bounds.High[axis] = std::max(bounds.High[axis], other.High[axis]);
+  }
+  bounds.Square = std::max(bounds.Square, other.Square);
+}
+
+template <int Dimension>
+bool isInReach(const ReachBounds<Dimension>& a, const ReachBounds<Dimension>& b, double reach)
+{
+  double squared = 0.0;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    // Not the maximum of a list: compilers keep that one in memory.
+    const double above = a.Low[axis] - b.High[axis];
+    const double below = b.Low[axis] - a.High[axis];
+    const double most = above > below ? above : below;
+    const double gap = most > 0.0 ? most : 0.0;
+    squared += gap * gap;
+  }
+  return squared < reach * (a.Square + b.Square);
+}
+
 } // namespace
 
 template <int Dimension>
-void ReachTree<Dimension>::Build(std::vector<ScaledPoint<Dimension>> points, Progress& progress)
+void ReachTree<Dimension>::Begin(std::int64_t points)
 {
-  this->Sorted = std::move(points);
+  this->Count = points;
+  this->Sorted.resize(static_cast<std::size_t>((points + repulsionBlock - 1) / repulsionBlock));
+  this->MakeBoxes();
+}
+
+template <int Dimension>
+void ReachTree<Dimension>::End()
+{
+  ScaledPoint<Dimension> missing{};
+  missing.Square = -std::numeric_limits<double>::infinity();
+  for (std::int64_t i = this->Count; i < this->Blocks() * repulsionBlock; ++i)
+  {
+    this->Set(i, missing);
+  }
+  this->Update();
+}
+
+template <int Dimension>
+void ReachTree<Dimension>::BuildInOrder(
+  const std::vector<ScaledPoint<Dimension>>& points, Progress& progress)
+{
+  this->Begin(static_cast<std::int64_t>(points.size()));
+  progress.Check();
+  constexpr std::int64_t grain = 512 * wholeBlock;
+  progress.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      this->Set(i, points[static_cast<std::size_t>(i)]);
+    }
+  });
+  this->End();
+  progress.Check();
+}
+
+template <int Dimension>
+void ReachTree<Dimension>::Build(
+  const std::vector<ScaledPoint<Dimension>>& points, Progress& progress)
+{
   std::vector<NumberedPoint<Dimension>> numbered;
-  numbered.reserve(this->Sorted.size());
-  for (const auto& point : this->Sorted)
+  numbered.reserve(points.size());
+  for (const auto& point : points)
   {
     numbered.push_back({ point, static_cast<std::int64_t>(numbered.size()) });
   }
   progress.Check();
-  this->MakeBoxes();
+  this->Begin(static_cast<std::int64_t>(points.size()));
   progress.Check();
   // Parents are before their children.
   Polls polls(progress);
@@ -88,14 +153,14 @@ void ReachTree<Dimension>::Build(std::vector<ScaledPoint<Dimension>> points, Pro
     const std::int64_t middle = this->Boxes[static_cast<std::size_t>(box.Second)].First;
     std::nth_element(first, numbered.data() + middle * repulsionBlock, last, before);
   }
-  this->Places.resize(this->Sorted.size());
+  this->Places.resize(numbered.size());
   for (std::size_t i = 0; i < numbered.size(); ++i)
   {
-    this->Sorted[i] = numbered[i].Point;
+    this->Set(static_cast<std::int64_t>(i), numbered[i].Point);
     this->Places[i] = numbered[i].Number;
   }
   progress.Check();
-  this->Update();
+  this->End();
   progress.Check();
 }
 
@@ -131,20 +196,45 @@ void ReachTree<Dimension>::MakeBoxes()
 template <int Dimension>
 void ReachTree<Dimension>::Bound(Box& box) const
 {
-  const std::int64_t first = box.First * repulsionBlock;
-  const std::int64_t last = std::min(box.Last * repulsionBlock, this->Size());
-  std::fill_n(box.Low, Dimension, std::numeric_limits<double>::infinity());
-  std::fill_n(box.High, Dimension, -std::numeric_limits<double>::infinity());
-  box.Square = 0.0;
-  for (const auto* point = this->Points() + first; point < this->Points() + last; ++point)
+  const ScaledBlock<Dimension>& block = this->Sorted[static_cast<std::size_t>(box.First)];
+  const std::int64_t count = std::min(this->Size() - box.First * repulsionBlock, wholeBlock);
+  box.Square = *std::max_element(block.Square, block.Square + count);
+  for (int axis = 0; axis < Dimension; ++axis)
   {
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      box.Low[axis] = std::min(box.Low[axis], point->X[axis]);
-      box.High[axis] = std::max(box.High[axis], point->X[axis]);
-    }
-    box.Square = std::max(box.Square, point->Square);
+    const double* x = block.X[axis];
+    box.Low[axis] = *std::min_element(x, x + count);
+    box.High[axis] = *std::max_element(x, x + count);
   }
+}
+
+template <int Dimension>
+ScaledPoint<Dimension> ReachTree<Dimension>::Get(std::int64_t i) const
+{
+  const ScaledBlock<Dimension>& block = this->Sorted[static_cast<std::size_t>(i / repulsionBlock)];
+  const std::int64_t lane = i % repulsionBlock;
+  ScaledPoint<Dimension> point;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    point.X[axis] = block.X[axis][lane];
+  }
+  point.Spacing = block.Spacing[lane];
+  point.Square = block.Square[lane];
+  point.Mass = block.Mass[lane];
+  return point;
+}
+
+template <int Dimension>
+void ReachTree<Dimension>::Set(std::int64_t i, const ScaledPoint<Dimension>& point)
+{
+  ScaledBlock<Dimension>& block = this->Sorted[static_cast<std::size_t>(i / repulsionBlock)];
+  const std::int64_t lane = i % repulsionBlock;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    block.X[axis][lane] = point.X[axis];
+  }
+  block.Spacing[lane] = point.Spacing;
+  block.Square[lane] = point.Square;
+  block.Mass[lane] = point.Mass;
 }
 
 template <int Dimension>
@@ -158,52 +248,39 @@ void ReachTree<Dimension>::Update()
       this->Bound(box);
       continue;
     }
-    const Box& a = this->Boxes[i + 1];
-    const Box& b = this->Boxes[static_cast<std::size_t>(box.Second)];
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      box.Low[axis] = std::min(a.Low[axis], b.Low[axis]);
-      box.High[axis] = std::max(a.High[axis], b.High[axis]);
-    }
-    box.Square = std::max(a.Square, b.Square);
+    ReachBounds<Dimension>& bounds = box;
+    bounds = this->Boxes[i + 1];
+    join<Dimension>(bounds, this->Boxes[static_cast<std::size_t>(box.Second)]);
   }
 }
 
 template <int Dimension>
 int ReachTree<Dimension>::Fill(std::int64_t block, RepulsionBlock<Dimension>& into) const
 {
-  const std::int64_t first = block * repulsionBlock;
-  const std::int64_t last = std::min(first + repulsionBlock, this->Size());
-  for (int lane = 0; lane < repulsionBlock; ++lane)
+  const ScaledBlock<Dimension>& from = this->Sorted[static_cast<std::size_t>(block)];
+  const std::int64_t count = std::min(this->Size() - block * repulsionBlock, wholeBlock);
+  for (std::int64_t lane = 0; lane < repulsionBlock; ++lane)
   {
-    const auto& point = this->Sorted[static_cast<std::size_t>(std::min(first + lane, last - 1))];
+    const std::int64_t at = std::min(lane, count - 1);
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      into.X[axis][lane] = point.X[axis];
+      into.X[axis][lane] = from.X[axis][at];
     }
-    into.Spacing[lane] = point.Spacing;
-    into.Square[lane] = point.Square;
+    into.Spacing[lane] = from.Spacing[at];
+    into.Square[lane] = from.Square[at];
   }
-  return static_cast<int>(last - first);
+  return static_cast<int>(count);
 }
 
 template <int Dimension>
-void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t block, double reach,
-  std::vector<ScaledPoint<Dimension>>& found) const
+void ReachTree<Dimension>::FindBlocks(const ReachTree& targets, double reach, InReach& found) const
 {
-  const Box& target =
-    targets.Boxes[static_cast<std::size_t>(targets.BlockBox[static_cast<std::size_t>(block)])];
-  const auto isInReach = [&](const double* low, const double* high, double square) {
-    double squared = 0.0;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const double gap =
-        std::max({ low[axis] - target.High[axis], target.Low[axis] - high[axis], 0.0 });
-      squared += gap * gap;
-    }
-    return squared < reach * (square + target.Square);
-  };
-  found.clear();
+  ReachBounds<Dimension> target = targets.BoxOf(found.First);
+  for (std::int64_t block = found.First + 1; block < found.Last; ++block)
+  {
+    join<Dimension>(target, targets.BoxOf(block));
+  }
+  found.Blocks.clear();
   std::int64_t stack[64]; // more than the tree's depth
   int depth = 0;
   if (!this->Boxes.empty())
@@ -214,26 +291,37 @@ void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t bl
   {
     const std::int64_t at = stack[--depth];
     const Box& box = this->Boxes[static_cast<std::size_t>(at)];
-    if (!isInReach(box.Low, box.High, box.Square))
+    if (!isInReach<Dimension>(box, target, reach))
     {
       continue;
     }
-    if (box.Second >= 0)
+    if (box.Second < 0)
     {
-      stack[depth++] = box.Second;
-      stack[depth++] = at + 1;
+      found.Blocks.push_back(box.First);
       continue;
     }
-    const std::int64_t first = box.First * repulsionBlock;
-    const std::int64_t last = std::min(first + repulsionBlock, this->Size());
-    for (const auto* point = this->Points() + first; point < this->Points() + last; ++point)
-    {
-      if (isInReach(point->X, point->X, point->Square))
-      {
-        found.push_back(*point);
-      }
-    }
+    stack[depth++] = box.Second;
+    stack[depth++] = at + 1;
   }
+}
+
+template <int Dimension>
+void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t block,
+  std::int64_t last, double reach, InReach& found) const
+{
+  constexpr std::int64_t together = 8;
+  if (block < found.First || block >= found.Last)
+  {
+    found.First = block;
+    found.Last = std::min((block / together + 1) * together, last);
+    this->FindBlocks(targets, reach, found);
+  }
+  if (found.Points.size() < found.Blocks.size() * repulsionBlock)
+  {
+    found.Points.resize(found.Blocks.size() * repulsionBlock);
+  }
+  found.Count = this->Kernels.Select(targets.BoxOf(block), reach, this->Points(),
+    found.Blocks.data(), static_cast<std::int64_t>(found.Blocks.size()), found.Points.data());
 }
 
 template class ReachTree<2>;

@@ -28,45 +28,66 @@ ScaledPoint<Dimension> scaledPoint(const Point<Dimension>& x, double spacing, do
   return point;
 }
 
+// What is in reach of some blocks, and memory for it that is used again.
+struct InReach
+{
+  std::int64_t First = 0; // the blocks [First, Last) for which Blocks were found
+  std::int64_t Last = 0;
+  std::vector<std::int64_t> Blocks;
+  std::vector<std::int64_t> Points; // their numbers in the order of the tree, for one of them
+  std::int64_t Count = 0;           // of Points; the rest has no meaning
+};
+
 template <int Dimension>
 class ReachTree
 {
 public:
   // Reorders the points. The order depends only on the set of points. Polls for cancellation.
-  void Build(std::vector<ScaledPoint<Dimension>> points, Progress& progress);
+  void Build(const std::vector<ScaledPoint<Dimension>>& points, Progress& progress);
+  // Keeps the order of points that are near each other in it, to save time.
+  void BuildInOrder(const std::vector<ScaledPoint<Dimension>>& points, Progress& progress);
   // Updates the boxes after points have changed.
   void Update();
 
-  std::int64_t Size() const { return static_cast<std::int64_t>(this->Sorted.size()); }
-  std::int64_t Blocks() const { return (this->Size() + repulsionBlock - 1) / repulsionBlock; }
-  ScaledPoint<Dimension>* Points() { return this->Sorted.data(); }
-  const ScaledPoint<Dimension>* Points() const { return this->Sorted.data(); }
-  // The original indices of the points given to Build.
+  std::int64_t Size() const { return this->Count; }
+  std::int64_t Blocks() const { return static_cast<std::int64_t>(this->Sorted.size()); }
+  const ScaledBlock<Dimension>* Points() const { return this->Sorted.data(); }
+  ScaledPoint<Dimension> Get(std::int64_t i) const;
+  void Set(std::int64_t i, const ScaledPoint<Dimension>& point);
+  // The original indices of the points given to Build; nothing after BuildInOrder.
   const std::int64_t* Order() const { return this->Places.data(); }
 
   // The points of a block, the last one repeated to fill it. Returns how many there are.
   int Fill(std::int64_t block, RepulsionBlock<Dimension>& into) const;
 
   // Finds the points y to which points of a block of `targets` may be closer than sqrt(reach * (the
-  // sum of both squared spacings)).
-  void FindInReach(const ReachTree& targets, std::int64_t block, double reach,
-    std::vector<ScaledPoint<Dimension>>& found) const;
+  // sum of both squared spacings)). Fastest for blocks in their order, up to the block `last`: what
+  // is in reach of neighbouring blocks is found once.
+  void FindInReach(const ReachTree& targets, std::int64_t block, std::int64_t last, double reach,
+    InReach& found) const;
 
 private:
-  struct Box
+  struct Box : ReachBounds<Dimension>
   {
-    double Low[Dimension];
-    double High[Dimension];
-    double Square;      // the largest squared spacing
     std::int64_t First; // blocks [First, Last)
     std::int64_t Last;
     std::int64_t Second; // the first child is the next box; -1 in a leaf
   };
 
+  void Begin(std::int64_t points);
+  void End();
   void MakeBoxes();
+  // For the blocks [found.First, found.Last) of the targets.
+  void FindBlocks(const ReachTree& targets, double reach, InReach& found) const;
   void Bound(Box& leaf) const;
+  const Box& BoxOf(std::int64_t block) const
+  {
+    return this->Boxes[static_cast<std::size_t>(this->BlockBox[static_cast<std::size_t>(block)])];
+  }
 
-  std::vector<ScaledPoint<Dimension>> Sorted;
+  RepulsionKernels<Dimension> Kernels = repulsionKernels<Dimension>();
+  std::int64_t Count = 0;
+  std::vector<ScaledBlock<Dimension>> Sorted;
   std::vector<std::int64_t> Places;
   std::vector<Box> Boxes;
   std::vector<std::int64_t> BlockBox;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace RectifiedTransport
 {
@@ -32,6 +31,11 @@ RelaxationDescent<Dimension>::RelaxationDescent(RelaxationEnergy<Dimension>& ene
   , Gradient(x.size())
   , Spacings(x.size() / Dimension)
   , Hessian(pairsKept)
+  , Free(x.size())
+  , Diagonal(x.size())
+  , Direction(x.size())
+  , Taken(x.size())
+  , Change(x.size())
   , Next(x.size())
   , NextGradient(x.size())
   , NextSpacings(x.size() / Dimension)
@@ -74,12 +78,11 @@ template <int Dimension>
 bool RelaxationDescent<Dimension>::Step()
 {
   const bool isFresh = this->Hessian.IsEmpty();
-  bool isDone = this->Search(this->Direction(), true);
+  bool isDone = this->Search(true);
   if (!isDone)
   {
     this->Hessian.Forget();
-    isDone = (!isFresh && this->Search(this->Direction(), true)) ||
-      (!this->Aimed.empty() && this->Search(this->Direction(), false));
+    isDone = (!isFresh && this->Search(true)) || (!this->Aimed.empty() && this->Search(false));
   }
   if (!isDone)
   {
@@ -100,42 +103,40 @@ bool RelaxationDescent<Dimension>::IsHeld(std::size_t i) const
 }
 
 template <int Dimension>
-std::vector<double> RelaxationDescent<Dimension>::Direction()
+void RelaxationDescent<Dimension>::FindDirection()
 {
-  Vector free = this->Gradient;
-  Vector diagonal(free.size());
-  for (std::size_t i = 0; i < free.size(); ++i)
+  for (std::size_t i = 0; i < this->X.size(); ++i)
   {
     const double h = this->Spacings[i / Dimension];
-    diagonal[i] = h * h;
-    free[i] = this->IsHeld(i) ? 0.0 : free[i];
+    this->Diagonal[i] = h * h;
+    this->Free[i] = this->IsHeld(i) ? 0.0 : this->Gradient[i];
   }
-  Vector direction = this->Hessian.Direction(free, diagonal, this->Work);
+  this->Hessian.FindDirection(this->Free, this->Diagonal, this->Direction, this->Work);
   double scale = 1.0;
   if (this->Hessian.IsEmpty() && this->Settings.FirstStep > 0.0)
   {
     double sum = 0.0;
-    for (std::size_t i = 0; i < free.size(); ++i)
+    for (std::size_t i = 0; i < this->X.size(); ++i)
     {
-      sum += direction[i] * direction[i] / diagonal[i];
+      sum += this->Direction[i] * this->Direction[i] / this->Diagonal[i];
     }
-    scale = sum > 0.0 ? this->Settings.FirstStep / std::sqrt(sum / static_cast<double>(free.size()))
-                      : 0.0;
+    scale = sum > 0.0
+      ? this->Settings.FirstStep / std::sqrt(sum / static_cast<double>(this->X.size()))
+      : 0.0;
   }
-  for (std::size_t i = 0; i < free.size(); ++i)
+  for (std::size_t i = 0; i < this->X.size(); ++i)
   {
-    direction[i] = this->IsHeld(i) ? 0.0 : scale * direction[i];
+    this->Direction[i] = this->IsHeld(i) ? 0.0 : scale * this->Direction[i];
   }
-  this->Shorten(direction);
-  return direction;
+  this->ShortenDirection();
 }
 
 template <int Dimension>
-void RelaxationDescent<Dimension>::Shorten(Vector& direction) const
+void RelaxationDescent<Dimension>::ShortenDirection()
 {
   for (std::size_t point = 0; point < this->Spacings.size(); ++point)
   {
-    double* step = direction.data() + point * Dimension;
+    double* step = this->Direction.data() + point * Dimension;
     double squared = 0.0;
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -150,19 +151,20 @@ void RelaxationDescent<Dimension>::Shorten(Vector& direction) const
 }
 
 template <int Dimension>
-bool RelaxationDescent<Dimension>::Search(Vector direction, bool hasAims)
+bool RelaxationDescent<Dimension>::Search(bool hasAims)
 {
+  this->FindDirection();
   this->Aimed.clear();
   if (hasAims)
   {
     const auto count = static_cast<std::int64_t>(this->Spacings.size());
     this->Function.Aim(
-      { this->X.data(), count }, { direction.data(), count }, this->Aimed, this->Work);
+      { this->X.data(), count }, { this->Direction.data(), count }, this->Aimed, this->Work);
   }
   double part = 1.0;
   for (int tries = 0; tries < mostEvaluations; ++tries)
   {
-    const double slope = this->Move(direction, part);
+    const double slope = this->Move(part);
     if (!(slope < 0.0))
     {
       return false;
@@ -180,23 +182,23 @@ bool RelaxationDescent<Dimension>::Search(Vector direction, bool hasAims)
 }
 
 template <int Dimension>
-double RelaxationDescent<Dimension>::Move(const Vector& direction, double part)
+double RelaxationDescent<Dimension>::Move(double part)
 {
   // The least part of the distance to the border that stays: points that met at a corner would
   // never leave each other.
   constexpr double usualRest = 0.125;
-  for (std::size_t i = 0; i < direction.size(); ++i)
+  for (std::size_t i = 0; i < this->X.size(); ++i)
   {
     const double x = this->X[i];
     const double side = this->Side(i);
     const bool isAimed = !this->Aimed.empty() && this->Aimed[i / Dimension] != 0;
     const double rest = isAimed ? 0.0 : usualRest;
-    this->Next[i] = std::clamp(x + part * direction[i], rest * x, side - rest * (side - x));
+    this->Next[i] = std::clamp(x + part * this->Direction[i], rest * x, side - rest * (side - x));
   }
   const auto count = static_cast<std::int64_t>(this->Spacings.size());
   this->Function.Constrain({ this->X.data(), count }, { this->Next.data(), count }, this->Work);
   double slope = 0.0;
-  for (std::size_t i = 0; i < direction.size(); ++i)
+  for (std::size_t i = 0; i < this->X.size(); ++i)
   {
     slope += this->Gradient[i] * (this->Next[i] - this->X[i]);
   }
@@ -206,14 +208,12 @@ double RelaxationDescent<Dimension>::Move(const Vector& direction, double part)
 template <int Dimension>
 void RelaxationDescent<Dimension>::Accept(double found)
 {
-  Vector step(this->X.size());
-  Vector change(this->X.size());
-  for (std::size_t i = 0; i < step.size(); ++i)
+  for (std::size_t i = 0; i < this->X.size(); ++i)
   {
-    step[i] = this->Next[i] - this->X[i];
-    change[i] = this->NextGradient[i] - this->Gradient[i];
+    this->Taken[i] = this->Next[i] - this->X[i];
+    this->Change[i] = this->NextGradient[i] - this->Gradient[i];
   }
-  this->Hessian.Add(std::move(step), std::move(change), this->Work);
+  this->Hessian.Add(this->Taken, this->Change, this->Work);
   this->X.swap(this->Next);
   this->Gradient.swap(this->NextGradient);
   this->Spacings.swap(this->NextSpacings);

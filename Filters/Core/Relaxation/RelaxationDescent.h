@@ -44,12 +44,12 @@ private:
   double Side(std::size_t i) const { return this->Frame.Sides[i % Dimension]; }
   // Whether a coordinate is at the border and descends outwards.
   bool IsHeld(std::size_t i) const;
-  Vector Direction();
-  void Shorten(Vector& direction) const;
-  // Without aims, points may stay at forbidden places.
-  bool Search(Vector direction, bool hasAims);
+  void FindDirection();
+  void ShortenDirection();
+  // Searches along a new direction. Without aims, points may stay at forbidden places.
+  bool Search(bool hasAims);
   // Moves by a part of the direction into Next. Returns the change of the energy to first order.
-  double Move(const Vector& direction, double part);
+  double Move(double part);
   void Accept(double found);
 
   RelaxationEnergy<Dimension>& Function;
@@ -61,6 +61,11 @@ private:
   Vector Gradient;
   Vector Spacings; // of the points
   LimitedMemoryBfgs Hessian;
+  Vector Free;      // the gradient, 0 of coordinates that are held
+  Vector Diagonal;  // of the inverse Hessian
+  Vector Direction; // of the search
+  Vector Taken;     // the step of an iteration
+  Vector Change;    // of the gradient in it
   Vector Next;
   Vector NextGradient;
   Vector NextSpacings;

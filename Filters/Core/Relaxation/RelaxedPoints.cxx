@@ -11,7 +11,6 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace RectifiedTransport
 {
@@ -108,11 +107,11 @@ void RelaxedPoints<Dimension>::Arrange(Progress& progress)
     points[i] = scaledPoint<Dimension>(this->At(static_cast<std::int64_t>(i)), 1.0, 1.0);
   }
   ReachTree<Dimension> sorted;
-  sorted.Build(std::move(points), progress);
+  sorted.Build(points, progress);
   this->Order.assign(sorted.Order(), sorted.Order() + sorted.Size());
   for (std::int64_t i = 0; i < sorted.Size(); ++i)
   {
-    std::copy_n(sorted.Points()[i].X, Dimension, this->X.data() + i * Dimension);
+    std::copy_n(sorted.Get(i).X, Dimension, this->X.data() + i * Dimension);
   }
 }
 

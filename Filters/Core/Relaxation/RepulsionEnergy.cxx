@@ -32,13 +32,12 @@ RepulsionEnergy<Dimension>::RepulsionEnergy(const RectifiedFlow<Dimension>& flow
   this->Shape.Cut = width.Cut;
   this->Shape.AtCut = this->Kernels.Exponential(width.Cut);
   this->Reach = width.Reach();
-  this->FindSources(progress);
   this->FindAttraction(progress);
 }
 
 // The masses of the leaves at their centroids, found from those of their halves along all axes.
 template <int Dimension>
-void RepulsionEnergy<Dimension>::FindSources(Progress& progress)
+ReachTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progress) const
 {
   std::vector<ScaledPoint<Dimension>> sources(static_cast<std::size_t>(this->Tree.Leaves()));
   progress.For(
@@ -70,13 +69,13 @@ void RepulsionEnergy<Dimension>::FindSources(Progress& progress)
         double spacing = 1.0;
         if (mass > 0.0)
         {
-          typename SpacingTree<Dimension>::Place place{ leaf, {} };
+          Point<Dimension> at;
           for (int axis = 0; axis < Dimension; ++axis)
           {
-            place.At[axis] = centroid[axis] / mass;
-            centroid[axis] = low[axis] + place.At[axis] * sides[axis];
+            at[axis] = centroid[axis] / mass;
+            centroid[axis] = low[axis] + at[axis] * sides[axis];
           }
-          spacing = this->Tree.Evaluate(this->Tree.Spacing(), place)[0];
+          spacing = this->Tree.Evaluate(this->Tree.Spacing(), this->Tree.InLeaf(leaf, at))[0];
         }
         sources[static_cast<std::size_t>(leaf)] =
           scaledPoint<Dimension>(centroid, spacing, mass * this->Count);
@@ -87,37 +86,41 @@ void RepulsionEnergy<Dimension>::FindSources(Progress& progress)
                   [](const ScaledPoint<Dimension>& source) { return !(source.Mass > 0.0); }),
     sources.end());
   progress.Check();
-  this->Sources.Build(std::move(sources), progress);
+  ReachTree<Dimension> tree;
+  tree.BuildInOrder(sources, progress);
+  return tree;
 }
 
 template <int Dimension>
-void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
+typename SpacingTree<Dimension>::Field RepulsionEnergy<Dimension>::SumAttraction(
+  const ReachTree<Dimension>& sources, Progress& progress) const
 {
-  std::vector<ScaledPoint<Dimension>> nodes(static_cast<std::size_t>(this->Tree.Nodes()));
-  for (std::size_t node = 0; node < nodes.size(); ++node)
-  {
-    nodes[node] = scaledPoint<Dimension>(
-      this->Tree.NodePoint(static_cast<std::int64_t>(node)), this->Tree.Spacing()[node][0], 0.0);
-  }
-  progress.Check();
   ReachTree<Dimension> targets;
-  targets.Build(std::move(nodes), progress);
-  this->Attraction.assign(static_cast<std::size_t>(this->Tree.Nodes()), {});
+  {
+    std::vector<ScaledPoint<Dimension>> nodes(static_cast<std::size_t>(this->Tree.Nodes()));
+    for (std::size_t node = 0; node < nodes.size(); ++node)
+    {
+      nodes[node] = scaledPoint<Dimension>(
+        this->Tree.NodePoint(static_cast<std::int64_t>(node)), this->Tree.Spacing()[node][0], 0.0);
+    }
+    progress.Check();
+    targets.BuildInOrder(nodes, progress);
+  }
+  typename SpacingTree<Dimension>::Field attraction(static_cast<std::size_t>(this->Tree.Nodes()));
   progress.For(
     targets.Blocks(), blockGrain,
     [&](std::int64_t first, std::int64_t last) {
-      std::vector<ScaledPoint<Dimension>> found;
+      InReach found;
       RepulsionBlock<Dimension> block;
       for (std::int64_t i = first; i < last; ++i)
       {
-        this->Sources.FindInReach(targets, i, this->Reach, found);
+        sources.FindInReach(targets, i, last, this->Reach, found);
         const int count = targets.Fill(i, block);
-        this->Kernels.Sum(
-          this->Shape, found.data(), static_cast<std::int64_t>(found.size()), block);
+        this->Kernels.Sum(this->Shape, sources.Points(), found.Points.data(), found.Count, block);
         for (int lane = 0; lane < count; ++lane)
         {
-          const auto node = static_cast<std::size_t>(targets.Order()[i * repulsionBlock + lane]);
-          HermiteData<Dimension>& data = this->Attraction[node];
+          const auto node = static_cast<std::size_t>(i * repulsionBlock + lane);
+          HermiteData<Dimension>& data = attraction[node];
           const HermiteData<Dimension>& spacing = this->Tree.Spacing()[node];
           data[0] = block.Sum[lane];
           for (int axis = 0; axis < Dimension; ++axis)
@@ -131,23 +134,50 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
     },
     blockGrain);
   progress.Check();
-  this->Tree.FindMixed(this->Attraction, false, progress);
-  progress.Check();
-  const ScaledPoint<Dimension>* sources = this->Sources.Points();
-  std::vector<double> parts(static_cast<std::size_t>(this->Sources.Size()));
+  return attraction;
+}
+
+template <int Dimension>
+void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
+{
+  typename SpacingTree<Dimension>::Field attraction;
+  {
+    const ReachTree<Dimension> sources = this->FindSources(progress);
+    attraction = this->SumAttraction(sources, progress);
+    this->Tree.FindMixed(attraction, false, progress);
+    progress.Check();
+    std::vector<double> parts(static_cast<std::size_t>(sources.Size()));
+    progress.For(
+      sources.Size(), grain,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          const ScaledPoint<Dimension> source = sources.Get(i);
+          Point<Dimension> x;
+          std::copy_n(source.X, Dimension, x.begin());
+          parts[static_cast<std::size_t>(i)] =
+            source.Mass * this->Tree.Evaluate(attraction, this->Tree.Locate(x))[0];
+        }
+      },
+      firstSlice);
+    this->Constant = std::accumulate(parts.begin(), parts.end(), 0.0);
+  }
+  this->Fields.resize(attraction.size());
   progress.For(
-    this->Sources.Size(), grain,
+    this->Tree.Nodes(), grain,
     [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+      for (auto node = static_cast<std::size_t>(first); node < static_cast<std::size_t>(last);
+           ++node)
       {
-        Point<Dimension> x;
-        std::copy_n(sources[i].X, Dimension, x.begin());
-        parts[static_cast<std::size_t>(i)] =
-          sources[i].Mass * this->Tree.Evaluate(this->Attraction, this->Tree.Locate(x))[0];
+        for (std::size_t entry = 0; entry < attraction[node].size(); ++entry)
+        {
+          this->Fields[node][entry] = { this->Tree.Spacing()[node][entry],
+            attraction[node][entry] };
+        }
       }
     },
     firstSlice);
-  this->Constant = std::accumulate(parts.begin(), parts.end(), 0.0);
+  progress.Check();
 }
 
 template <int Dimension>
@@ -160,70 +190,88 @@ void RepulsionEnergy<Dimension>::Sort(ConstPointSpan<Dimension> points, Progress
     std::copy_n(points[i], Dimension, x.begin());
     particles[static_cast<std::size_t>(i)] = scaledPoint<Dimension>(x, 1.0, 1.0);
   }
-  this->Particles.Build(std::move(particles), progress);
+  this->Particles.Build(particles, progress);
+  this->AtPoints.resize(static_cast<std::size_t>(points.size()));
+  this->Leaves.assign(static_cast<std::size_t>(points.size()), 0);
+  this->Parts.resize(static_cast<std::size_t>(this->Particles.Blocks()));
 }
 
 template <int Dimension>
 double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
   PointSpan<Dimension> gradient, double* spacings, Progress& progress)
 {
-  using Data = HermiteData<Dimension>;
+  using Data = HermiteData<Dimension, ValuePair>;
   const std::int64_t count = points.size();
   const std::int64_t* order = this->Particles.Order();
-  ScaledPoint<Dimension>* particles = this->Particles.Points();
-  std::vector<Data> spacing(static_cast<std::size_t>(count));
-  std::vector<Data> attraction(static_cast<std::size_t>(count));
   progress.For(
     count, grain,
     [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+      constexpr std::int64_t most = 16; // at once
+      std::array<typename SpacingTree<Dimension>::Place, most> places;
+      for (std::int64_t begin = first; begin < last; begin += most)
       {
-        Point<Dimension> x;
-        std::copy_n(points[order[i]], Dimension, x.begin());
-        const auto place = this->Tree.Locate(x);
-        const auto at = static_cast<std::size_t>(i);
-        spacing[at] = this->Tree.Evaluate(this->Tree.Spacing(), place);
-        attraction[at] = this->Tree.Evaluate(this->Attraction, place);
-        particles[i] = scaledPoint<Dimension>(x, spacing[at][0], 1.0);
-        spacings[order[i]] = spacing[at][0];
+        const std::int64_t end = std::min(begin + most, last);
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          Point<Dimension> x;
+          std::copy_n(points[order[i]], Dimension, x.begin());
+          std::int64_t& leaf = this->Leaves[static_cast<std::size_t>(i)];
+          auto& place = places[static_cast<std::size_t>(i - begin)];
+          place = this->Tree.Locate(x, leaf);
+          leaf = place.Leaf;
+          this->Tree.Prefetch(this->Fields, place);
+          if (i + most < last)
+          {
+            this->Tree.PrefetchLeaf(this->Leaves[static_cast<std::size_t>(i + most)]);
+          }
+        }
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          Data& data = this->AtPoints[static_cast<std::size_t>(i)];
+          data = this->Tree.Evaluate(this->Fields, places[static_cast<std::size_t>(i - begin)]);
+          Point<Dimension> x;
+          std::copy_n(points[order[i]], Dimension, x.begin());
+          const double spacing = data[0].First();
+          this->Particles.Set(i, scaledPoint<Dimension>(x, spacing, 1.0));
+          spacings[order[i]] = spacing;
+        }
       }
     },
     firstSlice);
   this->Particles.Update();
   const double scale = 2.0 / this->Count;
-  std::vector<double> energies(static_cast<std::size_t>(this->Particles.Blocks()));
   progress.For(
     this->Particles.Blocks(), blockGrain,
     [&](std::int64_t first, std::int64_t last) {
-      std::vector<ScaledPoint<Dimension>> found;
+      InReach found;
       RepulsionBlock<Dimension> block;
       for (std::int64_t i = first; i < last; ++i)
       {
-        this->Particles.FindInReach(this->Particles, i, this->Reach, found);
+        this->Particles.FindInReach(this->Particles, i, last, this->Reach, found);
         const int filled = this->Particles.Fill(i, block);
         this->Kernels.Sum(
-          this->Shape, found.data(), static_cast<std::int64_t>(found.size()), block);
+          this->Shape, this->Particles.Points(), found.Points.data(), found.Count, block);
         double sum = 0.0;
         for (int lane = 0; lane < filled; ++lane)
         {
           const std::int64_t point = i * repulsionBlock + lane;
-          const Data& h = spacing[static_cast<std::size_t>(point)];
-          const Data& a = attraction[static_cast<std::size_t>(point)];
-          sum += block.Sum[lane] - 2.0 * a[0];
+          const Data& data = this->AtPoints[static_cast<std::size_t>(point)];
+          sum += block.Sum[lane] - 2.0 * data[0].Second();
           for (int axis = 0; axis < Dimension; ++axis)
           {
             const auto entry = std::size_t{ 1 } << axis;
             gradient[order[point]][axis] = scale *
-              (block.Gradient[axis][lane] + 2.0 * h[0] * h[entry] * block.BySquare[lane] -
-                a[entry]);
+              (block.Gradient[axis][lane] +
+                2.0 * data[0].First() * data[entry].First() * block.BySquare[lane] -
+                data[entry].Second());
           }
         }
-        energies[static_cast<std::size_t>(i)] = sum;
+        this->Parts[static_cast<std::size_t>(i)] = sum;
       }
     },
     blockGrain);
   double sum = this->Constant;
-  for (const double energy : energies)
+  for (const double energy : this->Parts)
   {
     sum += energy;
   }

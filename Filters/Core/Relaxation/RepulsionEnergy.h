@@ -42,7 +42,10 @@ public:
     Progress& progress) override;
 
 private:
-  void FindSources(Progress& progress);
+  ReachTree<Dimension> FindSources(Progress& progress) const;
+  // Values and first derivatives of A at the nodes.
+  typename SpacingTree<Dimension>::Field SumAttraction(
+    const ReachTree<Dimension>& sources, Progress& progress) const;
   void FindAttraction(Progress& progress);
 
   const RectifiedFlow<Dimension>& Flow;
@@ -52,10 +55,14 @@ private:
   const RepulsionKernels<Dimension> Kernels;
   RepulsionShape Shape;
   double Reach;
-  ReachTree<Dimension> Sources;
-  typename SpacingTree<Dimension>::Field Attraction; // A
+  // The spacing and A.
+  typename SpacingTree<Dimension>::template FieldOf<ValuePair> Fields;
   double Constant = 0.0;
   ReachTree<Dimension> Particles;
+  // Of each point in the order of Particles: the fields there, and its leaf.
+  std::vector<HermiteData<Dimension, ValuePair>> AtPoints;
+  std::vector<std::int64_t> Leaves;
+  std::vector<double> Parts; // of the energy, of each block
 };
 
 } // namespace RectifiedTransport

@@ -30,12 +30,13 @@ double meanNeighbours(const ReachTree<Dimension>& tree, double reach, Progress& 
 {
   constexpr std::int64_t most = 64;
   const std::int64_t taken = std::min(most, tree.Blocks());
-  std::vector<ScaledPoint<Dimension>> found;
+  InReach found;
   double sum = 0.0;
   for (std::int64_t i = 0; i < taken; ++i)
   {
-    tree.FindInReach(tree, i * tree.Blocks() / taken, reach, found);
-    sum += static_cast<double>(found.size());
+    const std::int64_t block = i * tree.Blocks() / taken;
+    tree.FindInReach(tree, block, block + 1, reach, found);
+    sum += static_cast<double>(found.Count);
     progress.Check();
   }
   return sum / static_cast<double>(taken);
@@ -66,21 +67,22 @@ double affordableSpacing(const SpacingTree<Dimension>& tree, ConstPointSpan<Dime
     },
     16 * grain);
   ReachTree<Dimension> neighbours;
-  neighbours.Build(std::move(scaled), progress);
+  neighbours.Build(scaled, progress);
   double limit = std::numeric_limits<double>::infinity();
   while (limit > 1.0 && meanNeighbours(neighbours, reach, progress) > affordable)
   {
-    ScaledPoint<Dimension>* all = neighbours.Points();
     double largest = 0.0;
     for (std::int64_t i = 0; i < neighbours.Size(); ++i)
     {
-      largest = std::max(largest, all[i].Spacing);
+      largest = std::max(largest, neighbours.Get(i).Spacing);
     }
     limit = std::max(0.7 * largest, 1.0);
     for (std::int64_t i = 0; i < neighbours.Size(); ++i)
     {
-      all[i].Spacing = std::min(all[i].Spacing, limit);
-      all[i].Square = all[i].Spacing * all[i].Spacing;
+      ScaledPoint<Dimension> point = neighbours.Get(i);
+      point.Spacing = std::min(point.Spacing, limit);
+      point.Square = point.Spacing * point.Spacing;
+      neighbours.Set(i, point);
     }
     neighbours.Update();
   }

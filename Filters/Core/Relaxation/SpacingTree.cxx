@@ -48,7 +48,16 @@ SpacingTree<Dimension>::SpacingTree(const RectifiedFlow<Dimension>& flow,
       ++first;
     }
   }
+  for (int depth = 0; depth <= DeepestLevel; ++depth)
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      this->SidesOfDepth[static_cast<std::size_t>(depth)][axis] =
+        std::ldexp(this->RootSides[axis], -this->Halvings(axis, depth));
+    }
+  }
   this->Divide(finest, progress);
+  this->OrderLeaves(progress);
   this->Number(progress);
   this->FindSpacing(progress);
 }
@@ -65,6 +74,29 @@ double SpacingTree<Dimension>::ExactSpacing(const Point<Dimension>& x) const
   const double side = this->Frame.SideOfCells(
     this->Flow.MeasureOfShare(index, this->Aspect, 1.0 / static_cast<double>(this->Points)));
   return std::min(side, this->Largest);
+}
+
+// Mostly by the share in the cube of this side, without a search for the spacing.
+template <int Dimension>
+bool SpacingTree<Dimension>::IsSpacingBelow(double side, const Point<Dimension>& x) const
+{
+  if (side > this->Largest)
+  {
+    return true;
+  }
+  Point<Dimension> low;
+  Point<Dimension> high;
+  bool isInside = true;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    isInside = isInside && x[axis] >= 0.5 * side && x[axis] + 0.5 * side <= this->Frame.Sides[axis];
+    low[axis] = (x[axis] - 0.5 * side) / this->Frame.CellSides[axis];
+    high[axis] = (x[axis] + 0.5 * side) / this->Frame.CellSides[axis];
+  }
+  constexpr double doubt = 1e-6; // more than the error of the search
+  const double shares =
+    isInside ? this->Flow.Share(low, high) * static_cast<double>(this->Points) : 1.0;
+  return std::abs(shares - 1.0) > doubt ? shares > 1.0 : side > this->ExactSpacing(x);
 }
 
 // Level by level.
@@ -88,7 +120,7 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
   {
     const std::size_t last = this->Boxes.size();
     std::vector<char> divided(last - first, 0);
-    const Point<Dimension> sides = this->Sides(depth);
+    const Point<Dimension>& sides = this->Sides(depth);
     const double widest = *std::max_element(sides.begin(), sides.end());
     if (depth < DeepestLevel)
     {
@@ -103,7 +135,7 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
             {
               centre[axis] += 0.5 * sides[axis];
             }
-            divided[static_cast<std::size_t>(i)] = widest > finest * this->ExactSpacing(centre);
+            divided[static_cast<std::size_t>(i)] = this->IsSpacingBelow(widest / finest, centre);
           }
         },
         4 * grain);
@@ -112,18 +144,17 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
     {
       if (!divided[i - first])
       {
-        this->Boxes[i].First = -1 - static_cast<std::int64_t>(this->LeafBoxes.size());
-        this->LeafBoxes.push_back(static_cast<std::int64_t>(i));
+        this->Children.push_back(-1);
         continue;
       }
-      this->Boxes[i].First = static_cast<std::int64_t>(this->Boxes.size());
+      this->Children.push_back(static_cast<std::int64_t>(this->Boxes.size()));
       this->Boxes.push_back(this->Boxes[i]);
       ++this->Boxes.back().Depth;
       for (int axis = 0; axis < Dimension; ++axis)
       {
         // The upper halves of those that are there.
         const std::size_t halves = this->Boxes.size();
-        for (auto k = static_cast<std::size_t>(this->Boxes[i].First);
+        for (auto k = static_cast<std::size_t>(this->Children[i]);
              k < halves && this->IsHalved(axis, depth); ++k)
         {
           this->Boxes.push_back(this->Boxes[k]);
@@ -135,14 +166,72 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
   }
 }
 
+// Leaves that are near each other are near in their order, and so are nodes.
+template <int Dimension>
+void SpacingTree<Dimension>::OrderLeaves(Progress& progress)
+{
+  struct Range // of roots
+  {
+    Node Low;
+    Node High;
+  };
+  std::vector<Range> ranges{ { Node{}, this->Roots } };
+  std::vector<std::int64_t> boxes;
+  while (!ranges.empty())
+  {
+    const Range range = ranges.back();
+    ranges.pop_back();
+    std::int64_t root = 0;
+    int longest = 0;
+    for (int axis = Dimension; axis-- > 0;)
+    {
+      root = root * this->Roots[axis] + range.Low[axis];
+      longest = range.High[axis] - range.Low[axis] > range.High[longest] - range.Low[longest]
+        ? axis
+        : longest;
+    }
+    if (range.High[longest] - range.Low[longest] > 1)
+    {
+      const std::int64_t middle = (range.Low[longest] + range.High[longest]) / 2;
+      ranges.push_back(range);
+      ranges.back().Low[longest] = middle;
+      ranges.push_back(range);
+      ranges.back().High[longest] = middle;
+      continue;
+    }
+    boxes.push_back(root);
+    while (!boxes.empty())
+    {
+      const std::int64_t box = boxes.back();
+      boxes.pop_back();
+      std::int64_t& first = this->Children[static_cast<std::size_t>(box)];
+      if (first < 0)
+      {
+        first = -1 - this->Leaves();
+        this->LeafBoxes.push_back({ this->Boxes[static_cast<std::size_t>(box)], {} });
+        progress.Add(1);
+        continue;
+      }
+      const int depth = this->Boxes[static_cast<std::size_t>(box)].Depth;
+      int halved = 0;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        halved += this->IsHalved(axis, depth) ? 1 : 0;
+      }
+      for (std::int64_t child = std::int64_t{ 1 } << halved; child-- > 0;)
+      {
+        boxes.push_back(first + child);
+      }
+    }
+  }
+}
+
 template <int Dimension>
 void SpacingTree<Dimension>::Number(Progress& progress)
 {
   NodeNumbers<Dimension> numbers(this->LeafBoxes.size());
-  this->LeafNodes.resize(this->LeafBoxes.size());
-  for (std::int64_t leaf = 0; leaf < this->Leaves(); ++leaf)
+  for (Leaf& box : this->LeafBoxes)
   {
-    const Box& box = this->LeafBox(leaf);
     for (int corner = 0; corner < hermiteCorners<Dimension>; ++corner)
     {
       Node node = box.Low;
@@ -150,8 +239,7 @@ void SpacingTree<Dimension>::Number(Progress& progress)
       {
         node[axis] += (corner >> axis & 1) * this->Width(axis, box.Depth);
       }
-      this->LeafNodes[static_cast<std::size_t>(leaf)][static_cast<std::size_t>(corner)] =
-        numbers[node];
+      box.Nodes[static_cast<std::size_t>(corner)] = numbers[node];
     }
     progress.Add(1);
   }
@@ -168,6 +256,7 @@ void SpacingTree<Dimension>::Number(Progress& progress)
       }
     },
     firstSlice);
+  this->Boxes = {}; // places are found without
   this->FindConstrained();
 }
 
@@ -216,25 +305,27 @@ std::int64_t SpacingTree<Dimension>::WidestLeafAt(const Node& node) const
     {
       continue;
     }
-    const Box* box = &this->Boxes[static_cast<std::size_t>(root)];
-    while (box->First >= 0)
+    std::int64_t box = root;
+    std::int64_t first;
+    while ((first = this->Children[static_cast<std::size_t>(box)]) >= 0)
     {
+      const auto& [low, depth] = this->Boxes[static_cast<std::size_t>(box)];
       int child = 0;
       int half = 1;
       for (int axis = 0; axis < Dimension; ++axis)
       {
-        if (!this->IsHalved(axis, box->Depth))
+        if (!this->IsHalved(axis, depth))
         {
           continue;
         }
-        const std::int64_t middle = box->Low[axis] + this->Width(axis, box->Depth + 1);
+        const std::int64_t middle = low[axis] + this->Width(axis, depth + 1);
         const bool isUpper = node[axis] > middle || (node[axis] == middle && (side >> axis & 1));
         child += isUpper ? half : 0;
         half *= 2;
       }
-      box = &this->Boxes[static_cast<std::size_t>(box->First + child)];
+      box = first + child;
     }
-    const std::int64_t leaf = -1 - box->First;
+    const std::int64_t leaf = -1 - first;
     if (widest < 0 || this->LeafBox(leaf).Depth < this->LeafBox(widest).Depth)
     {
       widest = leaf;
@@ -269,183 +360,80 @@ Point<Dimension> SpacingTree<Dimension>::LeafLow(std::int64_t leaf) const
 }
 
 template <int Dimension>
-Point<Dimension> SpacingTree<Dimension>::Sides(int depth) const
+typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
+  const Point<Dimension>& x) const
 {
-  Point<Dimension> sides = this->RootSides;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    sides[axis] = std::ldexp(sides[axis], -this->Halvings(axis, depth));
-  }
-  return sides;
+  return this->Descend(this->LocateRoot(x));
 }
 
 template <int Dimension>
 typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
+  const Point<Dimension>& x, std::int64_t guess) const
+{
+  const RootPlace in = this->LocateRoot(x);
+  const Box& leaf = this->LeafBox(guess);
+  bool isInside = true;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const std::int64_t above = in.Low[axis] + in.Fixed[axis] - leaf.Low[axis];
+    isInside = isInside && above >= 0 && above < this->Width(axis, leaf.Depth);
+  }
+  return isInside ? this->PlaceIn(in, guess, leaf.Depth) : this->Descend(in);
+}
+
+template <int Dimension>
+typename SpacingTree<Dimension>::RootPlace SpacingTree<Dimension>::LocateRoot(
   const Point<Dimension>& x) const
 {
-  Place place{};
-  std::int64_t root = 0;
+  constexpr auto width = std::int64_t{ 1 } << DeepestLevel;
+  RootPlace in;
+  in.Root = 0;
   for (int axis = Dimension; axis-- > 0;)
   {
     const double roots = std::max(x[axis] / this->RootSides[axis], 0.0);
     const std::int64_t at = std::min(static_cast<std::int64_t>(roots), this->Roots[axis] - 1);
-    place.At[axis] = std::min(roots - static_cast<double>(at), 1.0);
-    root = root * this->Roots[axis] + at;
+    in.At[axis] = std::min(roots - static_cast<double>(at), 1.0);
+    in.Fixed[axis] = std::min(static_cast<std::int64_t>(in.At[axis] * width), width - 1);
+    in.Low[axis] = at * width;
+    in.Root = in.Root * this->Roots[axis] + at;
   }
-  const Box* box = &this->Boxes[static_cast<std::size_t>(root)];
-  while (box->First >= 0)
+  return in;
+}
+
+template <int Dimension>
+typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Descend(const RootPlace& in) const
+{
+  std::int64_t first;
+  int depth = 0;
+  for (std::int64_t box = in.Root; (first = this->Children[static_cast<std::size_t>(box)]) >= 0;
+       ++depth)
   {
-    int child = 0;
-    int half = 1;
+    int half = 0;
+    box = first;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      if (!this->IsHalved(axis, box->Depth))
+      if (this->IsHalved(axis, depth))
       {
-        continue;
+        const int shift = DeepestLevel - 1 - this->Halvings(axis, depth);
+        box += (in.Fixed[axis] >> shift & 1) << half++;
       }
-      const double twice = 2.0 * place.At[axis];
-      const bool isUpper = twice >= 1.0;
-      place.At[axis] = isUpper ? twice - 1.0 : twice;
-      child += isUpper ? half : 0;
-      half *= 2;
     }
-    box = &this->Boxes[static_cast<std::size_t>(box->First + child)];
   }
-  place.Leaf = -1 - box->First;
+  return this->PlaceIn(in, -1 - first, depth);
+}
+
+template <int Dimension>
+typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::PlaceIn(
+  const RootPlace& in, std::int64_t leaf, int depth) const
+{
+  Place place{ leaf, {}, &this->Sides(depth) };
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const int halvings = this->Halvings(axis, depth);
+    place.At[axis] = in.At[axis] * static_cast<double>(std::int64_t{ 1 } << halvings) -
+      static_cast<double>(in.Fixed[axis] >> (DeepestLevel - halvings));
+  }
   return place;
-}
-
-template <int Dimension>
-HermiteData<Dimension> SpacingTree<Dimension>::Evaluate(
-  const Field& field, const Place& place) const
-{
-  std::array<const double*, hermiteCorners<Dimension>> corners;
-  const auto& nodes = this->LeafNodes[static_cast<std::size_t>(place.Leaf)];
-  for (std::size_t corner = 0; corner < corners.size(); ++corner)
-  {
-    corners[corner] = field[static_cast<std::size_t>(nodes[corner])].data();
-  }
-  return interpolateHermite<Dimension>(corners, place.At, this->LeafSides(place.Leaf));
-}
-
-template <int Dimension>
-double SpacingTree<Dimension>::Linear(
-  const Field& field, int entry, const Point<Dimension>& x) const
-{
-  const Place place = this->Locate(x);
-  const auto& nodes = this->LeafNodes[static_cast<std::size_t>(place.Leaf)];
-  double sum = 0.0;
-  for (int corner = 0; corner < hermiteCorners<Dimension>; ++corner)
-  {
-    double weight = 1.0;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      weight *= (corner >> axis & 1) ? place.At[axis] : 1.0 - place.At[axis];
-    }
-    const auto node = static_cast<std::size_t>(nodes[static_cast<std::size_t>(corner)]);
-    sum += weight * field[node][static_cast<std::size_t>(entry)];
-  }
-  return sum;
-}
-
-template <int Dimension>
-void SpacingTree<Dimension>::Join(Field& field) const
-{
-  for (const std::int32_t i : this->Constrained)
-  {
-    const auto node = static_cast<std::size_t>(i);
-    Place place{ this->NodeLeaf[node], {} };
-    const Box& box = this->LeafBox(place.Leaf);
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      place.At[axis] = static_cast<double>(this->NodePlaces[node][axis] - box.Low[axis]) /
-        static_cast<double>(this->Width(axis, box.Depth));
-    }
-    field[node] = this->Evaluate(field, place);
-  }
-}
-
-template <int Dimension>
-void SpacingTree<Dimension>::FindMixed(Field& field, bool first, Progress& progress) const
-{
-  const Field given = field;
-  progress.For(
-    this->Nodes(), grain,
-    [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        const auto node = static_cast<std::size_t>(i);
-        const Point<Dimension> x = this->NodePoint(i);
-        const Point<Dimension> sides = this->LeafSides(this->NodeLeaf[node]);
-        // The difference of an entry along an axis, one-sided at the border.
-        const auto difference = [&](int entry, int axis) {
-          Point<Dimension> low = x;
-          Point<Dimension> high = x;
-          low[axis] = std::max(x[axis] - sides[axis], 0.0);
-          high[axis] = std::min(x[axis] + sides[axis], this->Frame.Sides[axis]);
-          return (this->Linear(given, entry, high) - this->Linear(given, entry, low)) /
-            (high[axis] - low[axis]);
-        };
-        for (int axis = 0; axis < Dimension && first; ++axis)
-        {
-          field[node][std::size_t{ 1 } << axis] = difference(0, axis);
-        }
-        if (!first)
-        {
-          for (int a = 0; a < Dimension; ++a)
-          {
-            for (int b = 0; b < a; ++b)
-            {
-              field[node][static_cast<std::size_t>(1 << a | 1 << b)] =
-                0.5 * (difference(1 << a, b) + difference(1 << b, a));
-            }
-          }
-        }
-      }
-    },
-    firstSlice);
-  if (!first)
-  {
-    this->Join(field);
-  }
-}
-
-template <int Dimension>
-void SpacingTree<Dimension>::FindSpacing(Progress& progress)
-{
-  Field& field = this->SpacingField;
-  field.assign(this->NodePlaces.size(), {});
-  progress.For(
-    this->Nodes(), grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t node = first; node < last; ++node)
-      {
-        field[static_cast<std::size_t>(node)][0] = this->ExactSpacing(this->NodePoint(node));
-      }
-    },
-    4 * grain);
-  progress.Check();
-  this->FindMixed(field, true, progress);
-  progress.Check();
-  this->FindMixed(field, false, progress);
-  // Bounds of the control values of the interpolation (value and derivatives times a third of the
-  // side for each order) that keep it positive.
-  for (std::int64_t i = 0; i < this->Nodes(); ++i)
-  {
-    const auto node = static_cast<std::size_t>(i);
-    const Point<Dimension> sides = this->LeafSides(this->NodeLeaf[node]);
-    for (int entry = 1; entry < hermiteCorners<Dimension>; ++entry)
-    {
-      double bound = field[node][0];
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        bound *= (entry >> axis & 1) ? 0.6 / sides[axis] : 1.0;
-      }
-      double& value = field[node][static_cast<std::size_t>(entry)];
-      value = std::clamp(value, -bound, bound);
-    }
-  }
-  this->Join(field);
 }
 
 template class SpacingTree<2>;

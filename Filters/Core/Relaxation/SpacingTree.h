@@ -27,8 +27,10 @@ template <int Dimension>
 class SpacingTree
 {
 public:
-  using Node = std::array<std::int64_t, Dimension>;  // in units of the finest leaf possible
-  using Field = std::vector<HermiteData<Dimension>>; // data at the nodes
+  using Node = std::array<std::int64_t, Dimension>; // in units of the finest leaf possible
+  template <class Value>
+  using FieldOf = std::vector<HermiteData<Dimension, Value>>; // data at the nodes
+  using Field = FieldOf<double>;
 
   SpacingTree(const RectifiedFlow<Dimension>& flow, const RelaxationFrame<Dimension>& frame,
     std::int64_t points, double finest, double largest, Progress& progress);
@@ -39,7 +41,7 @@ public:
 
   std::int64_t Leaves() const { return static_cast<std::int64_t>(this->LeafBoxes.size()); }
   Point<Dimension> LeafLow(std::int64_t leaf) const;
-  Point<Dimension> LeafSides(std::int64_t leaf) const
+  const Point<Dimension>& LeafSides(std::int64_t leaf) const
   {
     return this->Sides(this->LeafBox(leaf).Depth);
   }
@@ -48,12 +50,41 @@ public:
   struct Place
   {
     std::int64_t Leaf;
-    Point<Dimension> At; // in [0, 1]
+    Point<Dimension> At;           // in [0, 1]
+    const Point<Dimension>* Sides; // of the leaf
   };
   Place Locate(const Point<Dimension>& x) const;
+  // The same, faster if the place is in leaf `guess`.
+  Place Locate(const Point<Dimension>& x, std::int64_t guess) const;
+
+  // The place `at` in a leaf.
+  Place InLeaf(std::int64_t leaf, const Point<Dimension>& at) const
+  {
+    return { leaf, at, &this->LeafSides(leaf) };
+  }
 
   // A function at a place: its value and derivatives, see HermiteData.
-  HermiteData<Dimension> Evaluate(const Field& field, const Place& place) const;
+  template <class Value>
+  HermiteData<Dimension, Value> Evaluate(const FieldOf<Value>& field, const Place& place) const
+  {
+    std::array<const Value*, hermiteCorners<Dimension>> corners;
+    const auto& nodes = this->LeafBox(place.Leaf).Nodes;
+    for (std::size_t corner = 0; corner < corners.size(); ++corner)
+    {
+      corners[corner] = field[static_cast<std::size_t>(nodes[corner])].data();
+    }
+    return interpolateHermite<Dimension, Value>(corners, place.At, *place.Sides);
+  }
+  // Loads the data that Evaluate will need: nodes of neighbouring points are seldom in the caches.
+  template <class Value>
+  void Prefetch(const FieldOf<Value>& field, const Place& place) const
+  {
+    for (const std::int32_t node : this->LeafBox(place.Leaf).Nodes)
+    {
+      prefetch(field[static_cast<std::size_t>(node)]);
+    }
+  }
+  void PrefetchLeaf(std::int64_t leaf) const { prefetch(this->LeafBox(leaf)); }
 
   // Replaces the data of nodes within a face of a larger leaf by its interpolation, so that the
   // function has continuous derivatives.
@@ -72,10 +103,24 @@ private:
   {
     Node Low;
     int Depth;
-    std::int64_t First; // of its consecutive children; -1 - leaf in a leaf
+  };
+  struct Leaf : Box
+  {
+    std::array<std::int32_t, hermiteCorners<Dimension>> Nodes;
+  };
+  // Where a point is in its root.
+  struct RootPlace
+  {
+    Point<Dimension> At; // in [0, 1]
+    Node Fixed;          // the same in units of the finest leaf possible, below the upper end
+    Node Low;            // of the root, in these units
+    std::int64_t Root;
   };
 
+  // Whether the spacing at a place is less than a length.
+  bool IsSpacingBelow(double side, const Point<Dimension>& x) const;
   void Divide(double finest, Progress& progress);
+  void OrderLeaves(Progress& progress);
   void Number(Progress& progress);
   void FindConstrained();
   void FindSpacing(Progress& progress);
@@ -86,11 +131,26 @@ private:
   {
     return std::int64_t{ 1 } << (DeepestLevel - this->Halvings(axis, depth));
   }
-  Point<Dimension> Sides(int depth) const;
-  Point<Dimension> PointOf(const Node& node) const;
-  const Box& LeafBox(std::int64_t leaf) const
+  const Point<Dimension>& Sides(int depth) const
   {
-    return this->Boxes[static_cast<std::size_t>(this->LeafBoxes[static_cast<std::size_t>(leaf)])];
+    return this->SidesOfDepth[static_cast<std::size_t>(depth)];
+  }
+  Point<Dimension> PointOf(const Node& node) const;
+  const Leaf& LeafBox(std::int64_t leaf) const
+  {
+    return this->LeafBoxes[static_cast<std::size_t>(leaf)];
+  }
+  RootPlace LocateRoot(const Point<Dimension>& x) const;
+  Place Descend(const RootPlace& in) const;
+  Place PlaceIn(const RootPlace& in, std::int64_t leaf, int depth) const;
+  template <class Data>
+  static void prefetch(const Data& data)
+  {
+    constexpr std::size_t line = 64;
+    for (std::size_t at = 0; at < sizeof(Data); at += line)
+    {
+      __builtin_prefetch(reinterpret_cast<const char*>(&data) + at);
+    }
   }
   // The widest leaf that touches a node.
   std::int64_t WidestLeafAt(const Node& node) const;
@@ -108,9 +168,11 @@ private:
   std::array<int, Dimension> FirstHalved; // the smallest depth of boxes that are halved along an
                                           // axis
   Point<Dimension> Aspect;
+  std::array<Point<Dimension>, DeepestLevel + 1> SidesOfDepth;
   std::vector<Box> Boxes;
-  std::vector<std::int64_t> LeafBoxes;
-  std::vector<std::array<std::int32_t, hermiteCorners<Dimension>>> LeafNodes;
+  // Of each box, the first of its consecutive children; -1 - leaf of a leaf.
+  std::vector<std::int64_t> Children;
+  std::vector<Leaf> LeafBoxes;
   std::vector<Node> NodePlaces;
   std::vector<std::int64_t> NodeLeaf;    // the widest leaf that touches a node
   std::vector<std::int32_t> Constrained; // nodes within faces, those of the widest leaves first

@@ -149,6 +149,18 @@ TEST(Repulsion, NoIterationsMeasureOnly)
   EXPECT_TRUE(sameBits<2>(points, start));
 }
 
+// Also after points have gone to other leaves and have got other neighbours.
+TEST(Repulsion, TheLastEnergyIsThatOfThePoints)
+{
+  const TestDensity<2> density = twoGaussians<2>({ 60, 50 });
+  for (const int most : { 5, 40 })
+  {
+    Points<2> points = randomPoints<2>(density.Size, 700);
+    const double last = relax<2>(density, points, iterations(most)).Energy.back();
+    EXPECT_NEAR(relax<2>(density, points, iterations(0)).Energy.front() / last, 1.0, 1e-9);
+  }
+}
+
 TEST(Repulsion, ToleranceEndsIt)
 {
   const TestDensity<2> density = uniformDensity<2>({ 30, 20 });

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -238,6 +239,48 @@ TEST(RepulsionEnergy, SpacingIsSmooth)
   expectSmooth<3>(twoGaussians<3>({ 12, 12, 12 }), 60);
 }
 
+// No leaf is wider than it may be, and a guess changes nothing about a place.
+template <int Dimension>
+void expectPlaces(const TestDensity<Dimension>& density, std::int64_t count)
+{
+  constexpr double finest = 0.6;
+  EnergyCase<Dimension> test(density, count, finest);
+  const auto& tree = test.Tree;
+  for (std::int64_t leaf = 0; leaf < tree.Leaves(); ++leaf)
+  {
+    const Point<Dimension> low = tree.LeafLow(leaf);
+    const Point<Dimension> sides = tree.LeafSides(leaf);
+    Point<Dimension> centre;
+    Point<Dimension> inside;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      centre[axis] = low[axis] + 0.5 * sides[axis];
+      inside[axis] = low[axis] + 0.3 * sides[axis];
+    }
+    EXPECT_LE(*std::max_element(sides.begin(), sides.end()),
+      finest * tree.ExactSpacing(centre) * (1.0 + 1e-6));
+    for (const std::int64_t guess :
+      { leaf, std::max<std::int64_t>(leaf - 1, 0), tree.Leaves() - 1 })
+    {
+      const auto place = tree.Locate(inside, guess);
+      EXPECT_EQ(place.Leaf, leaf);
+      EXPECT_EQ(place.At, tree.Locate(inside).At);
+      EXPECT_EQ(*place.Sides, sides);
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        EXPECT_NEAR(place.At[axis], 0.3, 1e-9);
+      }
+    }
+  }
+}
+
+TEST(RepulsionEnergy, PlacesInLeaves)
+{
+  expectPlaces<2>(twoGaussians<2>({ 40, 30 }), 300);
+  expectPlaces<2>(discWithHole<2>({ 60, 4 }), 100);
+  expectPlaces<3>(twoGaussians<3>({ 12, 12, 12 }), 60);
+}
+
 // Boxes as long as the domain is thin would be millions.
 TEST(RepulsionEnergy, NeedlesHaveFewLeaves)
 {
@@ -287,30 +330,103 @@ TEST(RepulsionEnergy, ExponentialOfTheKernels)
 }
 
 template <int Dimension>
-void expectSameBits(InstructionSet set)
+std::vector<ScaledPoint<Dimension>> randomScaledPoints(std::size_t count, double side)
 {
   std::mt19937_64 engine(2);
-  std::vector<ScaledPoint<Dimension>> points(101);
+  std::vector<ScaledPoint<Dimension>> points(count);
   for (auto& point : points)
   {
     Point<Dimension> x;
-    std::generate(x.begin(), x.end(), [&]() { return 3.0 * uniformNumber(engine); });
+    std::generate(x.begin(), x.end(), [&]() { return side * uniformNumber(engine); });
     point = scaledPoint<Dimension>(x, 0.5 + uniformNumber(engine), uniformNumber(engine));
   }
-  RepulsionBlock<Dimension> block{};
-  for (int lane = 0; lane < repulsionBlock; ++lane)
+  return points;
+}
+
+// In both orders of the points, for all blocks at once and for single ones.
+template <int Dimension>
+void expectPointsInReach()
+{
+  constexpr double reach = 1.7;
+  const auto points = randomScaledPoints<Dimension>(301, 12.0);
+  Progress work{ Context() };
+  ReachTree<Dimension> tree;
+  ReachTree<Dimension> targets;
+  tree.Build(points, work);
+  targets.BuildInOrder(randomScaledPoints<Dimension>(21, 2.0), work);
+  InReach together;
+  for (const bool isAlone : { false, true })
   {
-    for (auto& row : block.X)
+    for (std::int64_t block = 0; block < targets.Blocks(); ++block)
     {
-      row[lane] = 3.0 * uniformNumber(engine);
+      InReach alone;
+      InReach& found = isAlone ? alone : together;
+      const std::int64_t last = isAlone ? block + 1 : targets.Blocks();
+      tree.FindInReach(targets, block, last, reach, found);
+      ASSERT_TRUE(std::is_sorted(found.Points.data(), found.Points.data() + found.Count));
+      for (std::int64_t i = 0; i < tree.Size(); ++i)
+      {
+        const ScaledPoint<Dimension> point = tree.Get(i);
+        const auto original = static_cast<std::size_t>(tree.Order()[i]);
+        ASSERT_EQ(std::memcmp(&point, &points[original], sizeof(point)), 0);
+        bool isInReach = false;
+        for (std::int64_t k = 8 * block; k < std::min(8 * block + 8, targets.Size()); ++k)
+        {
+          const ScaledPoint<Dimension> target = targets.Get(k);
+          double squared = 0.0;
+          for (int axis = 0; axis < Dimension; ++axis)
+          {
+            squared += (point.X[axis] - target.X[axis]) * (point.X[axis] - target.X[axis]);
+          }
+          isInReach = isInReach || squared < reach * (point.Square + target.Square);
+        }
+        if (isInReach)
+        {
+          EXPECT_TRUE(
+            std::binary_search(found.Points.data(), found.Points.data() + found.Count, i));
+        }
+      }
+      EXPECT_GT(found.Count, 0);
+      EXPECT_LT(found.Count, tree.Size() / 2) << "nothing is left out";
     }
-    block.Spacing[lane] = 0.5 + uniformNumber(engine);
-    block.Square[lane] = block.Spacing[lane] * block.Spacing[lane];
   }
-  const RepulsionShape shape{ 2.0, 5.0, std::exp(-5.0) };
+}
+
+TEST(RepulsionEnergy, PointsInReachAreFound)
+{
+  expectPointsInReach<2>();
+  expectPointsInReach<3>();
+}
+
+template <int Dimension>
+void expectSameBits(InstructionSet set)
+{
+  Progress work{ Context() };
+  ReachTree<Dimension> tree;
+  tree.Build(randomScaledPoints<Dimension>(101, 3.0), work);
+  std::vector<std::int64_t> blocks(static_cast<std::size_t>(tree.Blocks()));
+  std::iota(blocks.begin(), blocks.end(), 0);
+  ReachBounds<Dimension> bounds;
+  std::fill_n(bounds.Low, Dimension, 0.5);
+  std::fill_n(bounds.High, Dimension, 1.5);
+  bounds.Square = 0.3;
+  RepulsionBlock<Dimension> block{};
+  tree.Fill(3, block);
   RepulsionBlock<Dimension> other = block;
-  repulsionKernels<Dimension>(InstructionSet::SSE2).Sum(shape, points.data(), 101, block);
-  repulsionKernels<Dimension>(set).Sum(shape, points.data(), 101, other);
+  const RepulsionShape shape{ 2.0, 5.0, std::exp(-5.0) };
+  std::vector<std::int64_t> found(8 * blocks.size());
+  std::vector<std::int64_t> otherFound(found.size());
+  const auto run = [&](InstructionSet with, std::vector<std::int64_t>& numbers, auto& sums) {
+    const RepulsionKernels<Dimension> kernels = repulsionKernels<Dimension>(with);
+    const std::int64_t count =
+      kernels.Select(bounds, 0.9, tree.Points(), blocks.data(), tree.Blocks(), numbers.data());
+    kernels.Sum(shape, tree.Points(), numbers.data(), count, sums);
+    numbers.resize(static_cast<std::size_t>(count));
+  };
+  run(InstructionSet::SSE2, found, block);
+  run(set, otherFound, other);
+  EXPECT_EQ(found, otherFound) << nameOf(set);
+  EXPECT_LT(found.size(), 101u) << "nothing is left out";
   EXPECT_EQ(std::memcmp(&block, &other, sizeof(block)), 0) << nameOf(set);
 }
 

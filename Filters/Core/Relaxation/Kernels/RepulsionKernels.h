@@ -35,6 +35,26 @@ struct RepulsionShape
 
 constexpr int repulsionBlock = 8;
 
+// As many points as the kernels take at once. Missing ones are at 0 and have the Square -infinity,
+// so that they are in no reach.
+template <int Dimension>
+struct ScaledBlock
+{
+  double X[Dimension][repulsionBlock];
+  double Spacing[repulsionBlock];
+  double Square[repulsionBlock];
+  double Mass[repulsionBlock];
+};
+
+// The bounds of some points, and the largest of their squared spacings.
+template <int Dimension>
+struct ReachBounds
+{
+  double Low[Dimension];
+  double High[Dimension];
+  double Square;
+};
+
 // Places, and sums over the points y of m K(x, y) and its derivatives at each.
 template <int Dimension>
 struct RepulsionBlock
@@ -51,9 +71,15 @@ struct RepulsionBlock
 template <int Dimension>
 struct RepulsionKernels
 {
-  // Each place sums over the points in their order.
-  void (*Sum)(const RepulsionShape& shape, const ScaledPoint<Dimension>* points, std::int64_t count,
-    RepulsionBlock<Dimension>& block);
+  // Writes the numbers of those points of some blocks that are closer to the bounds than
+  // sqrt(reach * (the sum of both squared spacings)), in their order; returns how many there are.
+  // `found` has room for all points of these blocks.
+  std::int64_t (*Select)(const ReachBounds<Dimension>& bounds, double reach,
+    const ScaledBlock<Dimension>* points, const std::int64_t* blocks, std::int64_t count,
+    std::int64_t* found);
+  // Each place sums over the found points in their order.
+  void (*Sum)(const RepulsionShape& shape, const ScaledBlock<Dimension>* points,
+    const std::int64_t* found, std::int64_t count, RepulsionBlock<Dimension>& block);
   double (*Exponential)(double); // exp(-q) for q in [0, 16]
 };
 
