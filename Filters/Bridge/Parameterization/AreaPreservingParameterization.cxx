@@ -6,7 +6,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Surface/DiskSurface.h"
 #include "Bridge/Surface/OpenedSurface.h"
-#include "Bridge/Surface/PolygonInput.h"
+#include "Bridge/Surface/SurfaceTriangles.h"
 #include "Core/Parameterization/AreaPreservingMap.h"
 #include "Core/Seams/CutSurfaceMap.h"
 
@@ -236,14 +236,12 @@ void AreaPreservingParameterization::Check() const
 ParameterizationReport AreaPreservingParameterization::Run(
   vtkPolyData* input, Progress& progress, vtkPolyData* output) const
 {
-  if (this->Seams == AutomaticSeams)
-  {
-    requirePolygons(input, "it must be a surface");
-  }
+  SurfaceTriangles triangles(input,
+    this->Seams == AutomaticSeams ? "it must be a surface" : "it must be a disk", progress, 0.05);
   std::optional<DiskSurface> disk;
   try
   {
-    disk.emplace(input, progress, 0.1);
+    disk.emplace(triangles, progress, 0.1);
   }
   catch (const NoDiskSurface& defect)
   {
@@ -261,7 +259,7 @@ ParameterizationReport AreaPreservingParameterization::Run(
   {
     return this->MapDisk(*disk, progress, output);
   }
-  OpenedSurface opened(input, progress, 0.5);
+  OpenedSurface opened(triangles, progress, 0.5);
   return this->MapOpened(opened, progress, output);
 }
 
@@ -289,7 +287,7 @@ ParameterizationReport AreaPreservingParameterization::MapDisk(
   attachCoordinates(surface, conformal.Square.Positions, map.Positions, output);
   attachFigures(figures, output);
   return { disk.NumberOfTriangles(), countCollapsed(disk, conformal.Square.Corners), figures,
-    this->Polish, false, surface.IsRepaired() ? surface.RepairWarning() : "" };
+    this->Polish, false, surface.RepairWarning() };
 }
 
 ParameterizationReport AreaPreservingParameterization::MapOpened(

@@ -34,6 +34,7 @@ WholeSurface::WholeSurface(vtkPolyData* input, Progress& progress, double end)
   stages.Next(0.2);
   this->Coordinates = readSurfacePoints(input, "it must be a surface", progress);
   this->ScalePoints(progress);
+  this->RoundingOfPoints = roundingOf(input->GetPoints()) / this->Unit;
   this->Cells.emplace(input, stages, 0.6);
   const std::int64_t triangles = this->Cells->NumberOfTriangles();
   withMemory("the surface's " + std::to_string(triangles) + " triangles",
