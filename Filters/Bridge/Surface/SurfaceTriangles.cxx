@@ -24,14 +24,14 @@ struct OpenEdges
 };
 
 OpenEdges findOpenEdges(const TriangleSurface& surface, const LargeBuffer<std::int64_t>& merged,
-  double tolerance, Progress& progress)
+  double rounding, Progress& progress)
 {
   Progress own(progress.Stage());
   own.BeginStage(0.7);
   OpenEdges found;
   found.Sides = openSidesOf(surface, merged.data(), own);
   own.BeginStage(1.0);
-  found.Junctions = findTJunctions(surface.Points, found.Sides, tolerance, own);
+  found.Junctions = findTJunctions(surface.Points, found.Sides, rounding, own);
   return found;
 }
 
@@ -87,22 +87,22 @@ void SurfaceTriangles::FindTJunctions(Progress& progress)
 {
   Progress own(progress.Stage());
   const TriangleSurface surface = this->Surface();
-  const double tolerance = toleranceOfTJunctions(surface.Points, this->RoundingOfPoints);
   LargeBuffer<std::int64_t> merged(surface.Points.size());
+  own.BeginStage(0.05);
+  const double rounding = roundingOfCorners(surface, own);
   own.BeginStage(0.1);
   mergePoints(surface.Points, merged.data(), own.Stage());
   own.BeginStage(0.3);
-  OpenEdges edges = findOpenEdges(surface, merged, tolerance, own);
-  if (this->RoundingOfPoints > 0.0 && !edges.Sides.empty())
+  OpenEdges edges = findOpenEdges(surface, merged, rounding, own);
+  if (rounding > 0.0 && !edges.Sides.empty())
   {
     // Where points at one place differ by rounding.
     own.BeginStage(0.45);
-    const bool isMerged =
-      mergeNearPoints(surface.Points, this->RoundingOfPoints, merged.data(), own.Stage());
+    const bool isMerged = mergeNearPoints(surface.Points, rounding, merged.data(), own.Stage());
     own.BeginStage(0.7);
     if (isMerged)
     {
-      OpenEdges near = findOpenEdges(surface, merged, tolerance, own);
+      OpenEdges near = findOpenEdges(surface, merged, rounding, own);
       if (near.Sides.size() < edges.Sides.size() && near.Junctions.size() > edges.Junctions.size())
       {
         edges = std::move(near);

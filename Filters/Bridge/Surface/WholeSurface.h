@@ -37,7 +37,7 @@ public:
     return this->Cells->InputCellOf(this->Given(triangle));
   }
   TriangleSurface Surface() const override;
-  // By how much the coordinates of Surface() may be off (see roundingOf).
+  // By how much the coordinates of Surface() may be off (see roundingOfCorners).
   double Rounding() const { return this->RoundingOfPoints; }
   SurfaceAreas Areas() const override { return { this->Shares.data(), this->Area, this->Unit }; }
 

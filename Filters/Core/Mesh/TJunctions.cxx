@@ -3,8 +3,8 @@
 
 #include "Core/Geometry/BoxTree.h"
 #include "Core/Mesh/EdgeSides.h"
-#include "Core/Mesh/SurfaceRepair.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -174,15 +174,13 @@ bool isInTriangle(const std::vector<TJunction>& junctions, const TJunction& othe
 class TJunctionSearch
 {
 public:
-  TJunctionSearch(
-    ConstPointSpan<3> points, const std::vector<OpenSide>& openSides, double tolerance)
+  TJunctionSearch(ConstPointSpan<3> points, const std::vector<OpenSide>& openSides)
     : Points(points)
     , OpenSides(openSides)
-    , Tolerance(tolerance)
   {
   }
 
-  std::vector<TJunction> Run(Progress& progress)
+  std::vector<TJunction> Run(double rounding, Progress& progress)
   {
     std::vector<std::int64_t> ends;
     ends.reserve(2 * this->OpenSides.size());
@@ -199,6 +197,8 @@ public:
     {
       return {};
     }
+    this->Measure(ends, rounding);
+    progress.Check();
     PointTree tree(this->Points, std::move(ends), progress);
     for (std::size_t i = 0; i < this->OpenSides.size(); ++i)
     {
@@ -217,6 +217,31 @@ public:
   }
 
 private:
+  void Measure(const std::vector<std::int64_t>& ends, double rounding)
+  {
+    constexpr double relative = 1e-9;
+    constexpr double units = 4.0;
+    double farthest = 0.0;
+    double longest = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      double low = std::numeric_limits<double>::infinity();
+      double high = -low;
+      for (const std::int64_t point : ends)
+      {
+        low = std::min(low, this->Points[point][axis]);
+        high = std::max(high, this->Points[point][axis]);
+      }
+      farthest = std::max({ farthest, -low, high });
+      longest = std::max(longest, high - low);
+    }
+    this->Tolerance = std::max(
+      { rounding, units * std::numeric_limits<double>::epsilon() * farthest, relative * longest });
+    constexpr int most = 1000; // the scale is finite
+    this->Scale =
+      longest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(longest), -most, most)) : 1.0;
+  }
+
   // Appends the points on a side.
   void Search(std::size_t number, PointTree& tree, Progress& progress)
   {
@@ -255,22 +280,25 @@ private:
     double along = 0.0;
     for (int axis = 0; axis < 3; ++axis)
     {
-      squared += (b[axis] - a[axis]) * (b[axis] - a[axis]);
-      along += (b[axis] - a[axis]) * (x[axis] - a[axis]);
+      const double by = this->Scale * (b[axis] - a[axis]);
+      squared += by * by;
+      along += by * (this->Scale * (x[axis] - a[axis]));
     }
     const double place = along / squared;
     double gap = 0.0;
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double off = x[axis] - a[axis] - place * (b[axis] - a[axis]);
+      const double off = this->Scale * (x[axis] - a[axis] - place * (b[axis] - a[axis]));
       gap += off * off;
     }
     gap = std::sqrt(gap);
     constexpr double steepest = 1.0 / 16.0; // where sides are not much longer than the tolerance
+    constexpr double nearest = 1e-6;        // to an end; nearer ones are beside each other
     const double length = std::sqrt(squared);
-    // Not beside an end, which is another place or should have been merged.
-    const bool isWithin = std::min(place, 1.0 - place) * length > gap;
-    return gap <= std::min(this->Tolerance, steepest * length) && isWithin ? place : 0.0;
+    const double room = std::min(place, 1.0 - place);
+    const bool isWithin = room > nearest && room * length > gap &&
+      gap <= std::min(this->Scale * this->Tolerance, steepest * length);
+    return isWithin ? place : 0.0;
   }
 
   // Marks the T-junctions beside parts of sides that two triangles have.
@@ -321,28 +349,45 @@ private:
 
   ConstPointSpan<3> Points;
   const std::vector<OpenSide>& OpenSides;
-  double Tolerance;
+  double Tolerance = 0.0;
+  double Scale = 1.0;     // so that squares neither overflow nor underflow
   std::vector<Found> All; // by sides and places
 };
 
 } // namespace
 
-double toleranceOfTJunctions(ConstPointSpan<3> points, double rounding)
+double roundingOfCorners(const TriangleSurface& surface, Progress& progress)
 {
-  constexpr double relative = 1e-9;
-  double longest = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
+  struct Coordinates
   {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (std::int64_t point = 0; point < points.size(); ++point)
-    {
-      low = std::min(low, points[point][axis]);
-      high = std::max(high, points[point][axis]);
-    }
-    longest = std::max(longest, high - low);
-  }
-  return std::max({ rounding, roundingOfDoubles(points), relative * longest });
+    double Farthest = 0.0;
+    bool AreFloats = true;
+  };
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+  const Coordinates all = reduceChunks(
+    progress, surface.NumberOfTriangles, grain, Coordinates(),
+    [&](std::int64_t first, std::int64_t last) {
+      Coordinates found;
+      for (std::int64_t corner = 3 * first; corner < 3 * last; ++corner)
+      {
+        const double* x = surface.Points[surface.Triangles[corner]];
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const double far = std::abs(x[axis]);
+          found.Farthest = std::max(found.Farthest, far);
+          found.AreFloats = found.AreFloats && far <= std::numeric_limits<float>::max() &&
+            static_cast<double>(static_cast<float>(x[axis])) == x[axis];
+        }
+      }
+      return found;
+    },
+    [](const Coordinates& one, const Coordinates& more) {
+      return Coordinates{ std::max(one.Farthest, more.Farthest), one.AreFloats && more.AreFloats };
+    });
+  constexpr double units = 4.0;
+  return units * all.Farthest *
+    (all.AreFloats ? static_cast<double>(std::numeric_limits<float>::epsilon())
+                   : std::numeric_limits<double>::epsilon());
 }
 
 std::vector<OpenSide> openSidesOf(
@@ -378,9 +423,9 @@ std::vector<OpenSide> openSidesOf(
 }
 
 std::vector<TJunction> findTJunctions(ConstPointSpan<3> points,
-  const std::vector<OpenSide>& openSides, double tolerance, Progress& progress)
+  const std::vector<OpenSide>& openSides, double rounding, Progress& progress)
 {
-  return TJunctionSearch(points, openSides, tolerance).Run(progress);
+  return TJunctionSearch(points, openSides).Run(rounding, progress);
 }
 
 } // namespace RectifiedTransport

@@ -37,9 +37,10 @@ struct TJunction
   double Place; // from 0 to 1 along the side
 };
 
-// How far from an edge the points on it may be: by rounding, as of coordinates that are the middle
-// of others, or by 1e-9 of the longest side of the bounds.
-double toleranceOfTJunctions(ConstPointSpan<3> points, double rounding);
+// What rounding leaves of the differences of coordinates at one place; that of float if the
+// coordinates of all triangles are floats, else that of double. Runs as the current stage. Throws
+// Cancelled.
+double roundingOfCorners(const TriangleSurface& surface, Progress& progress);
 
 // The open sides of a surface, in their order. merged[point] is the point that a point is merged
 // with; null if all points stay. Triangles with a point twice have no sides. O(sides log sides).
@@ -47,15 +48,15 @@ double toleranceOfTJunctions(ConstPointSpan<3> points, double rounding);
 std::vector<OpenSide> openSidesOf(
   const TriangleSurface& surface, const std::int64_t* merged, Progress& progress);
 
-// The ends of open sides that lie on other open sides, nearer to them than the tolerance. Cut
-// there, the side must have a part that is a side, or part of a side, of another triangle: a
-// triangle that only touches an edge makes no T-junction. They are sorted by sides and places, with
-// each point once on a side.
+// The ends of open sides that lie on other open sides. They may be off by `rounding`, or by that of
+// double, or by 1e-9 of the longest side of the bounds of all ends. Cut there, the side must have a
+// part that is a side, or part of a side, of another triangle: a triangle that only touches an edge
+// makes no T-junction. They are sorted by sides and places.
 //
 // O(sides log sides), besides the points that are found. Runs as the current stage. Memory: 250
 // bytes a side. On one thread. Throws std::bad_alloc and Cancelled.
 std::vector<TJunction> findTJunctions(ConstPointSpan<3> points,
-  const std::vector<OpenSide>& openSides, double tolerance, Progress& progress);
+  const std::vector<OpenSide>& openSides, double rounding, Progress& progress);
 
 } // namespace RectifiedTransport
 

@@ -90,7 +90,7 @@ ClosedMesh::ClosedMesh(const TriangleSurface& surface, const Context& context)
     this->CountEdges(progress.Stage());
   }
   progress.BeginStage(1.0);
-  this->CloseTJunctions(toleranceOfTJunctions(this->Points(), 0.0), progress.Stage());
+  this->CloseTJunctions(distance, progress.Stage());
 }
 
 ClosedMesh::ClosedMesh(LargeBuffer<double> coordinates, const Context& context)
@@ -219,7 +219,7 @@ void ClosedMesh::DropRepeated(const Context& context)
   drop(ways.front());
 }
 
-bool ClosedMesh::CloseTJunctions(double tolerance, const Context& context)
+bool ClosedMesh::CloseTJunctions(double rounding, const Context& context)
 {
   Progress progress(context);
   progress.BeginStage(0.3);
@@ -229,7 +229,7 @@ bool ClosedMesh::CloseTJunctions(double tolerance, const Context& context)
     const TriangleSurface surface = this->Surface();
     const std::vector<OpenSide> open = openSidesOf(surface, nullptr, progress);
     progress.BeginStage(0.5);
-    junctions = findTJunctions(surface.Points, open, tolerance, progress);
+    junctions = findTJunctions(surface.Points, open, rounding, progress);
   }
   if (junctions.empty())
   {

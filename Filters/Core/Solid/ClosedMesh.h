@@ -65,7 +65,7 @@ public:
 
   // After CountEdges(): cuts triangles at T-junctions (see TJunctions.h), if edges are open, and
   // counts edges again. Returns whether the mesh is closed. Memory: up to 90 bytes a triangle.
-  bool CloseTJunctions(double tolerance, const Context& context = Context());
+  bool CloseTJunctions(double rounding, const Context& context = Context());
   std::int64_t TJunctions() const { return this->NumberOfTJunctions; }
 
   // The numbers of edges of one triangle, and of three or another odd number.

@@ -202,9 +202,8 @@ bool WalkedSurface::Cut(const std::int64_t* welded, double rounding, Progress& p
   {
     return false;
   }
-  const ConstPointSpan<3> points = this->GivenSurface.Points;
   const std::vector<TJunction> junctions =
-    findTJunctions(points, open, toleranceOfTJunctions(points, rounding), progress);
+    findTJunctions(this->GivenSurface.Points, open, rounding, progress);
   if (junctions.empty())
   {
     return false;
