@@ -216,6 +216,14 @@ std::vector<std::string> ParameterizationReport::Warnings() const
                 ? "smaller triangles help"
                 : "a longer boundary helps where the surface is nearly closed, smaller "
                   "triangles help elsewhere");
+    const std::int64_t needles = this->Distortion.FlippedNeedles;
+    if (needles > 0)
+    {
+      text << "; " << needles
+           << (needles == 1 ? " of the flipped is a needle" : " of the flipped are needles")
+           << ", lower than " << MapDistortion::NeedleHeight
+           << " of the length: Clean with a Tolerance merges points so near to each other";
+    }
     warnings.push_back(text.str());
   }
   if (this->Collapsed > 0)

@@ -27,19 +27,28 @@ DiskSurface::DiskSurface(vtkPolyData* input, Progress& progress, double end)
 void DiskSurface::Make(SurfaceTriangles& input, const SurfaceStages& stages)
 {
   Progress& progress = stages.Run;
+  std::optional<NoDiskSurface> defect;
   stages.Next(0.5);
   try
   {
     this->MakeDisk(input, progress);
   }
-  catch (const NoDiskSurface&)
+  catch (const NoDiskSurface& found)
   {
-    stages.Next(0.7);
-    if (!input.CloseTJunctions(progress))
-    {
-      throw;
-    }
-    stages.Next(0.9);
+    defect = found;
+  }
+  // A cut that makes the surface a disk stays open.
+  const TJunctionScope scope = defect ? TJunctionScope::All : TJunctionScope::OfFlatTriangles;
+  stages.Next(0.7);
+  const bool isCut =
+    (defect || this->Mesh->Repairs().FlatTriangles > 0) && input.CloseTJunctions(scope, progress);
+  if (defect && !isCut)
+  {
+    throw NoDiskSurface(*defect);
+  }
+  stages.Next(0.9);
+  if (isCut)
+  {
     this->MakeDisk(input, progress);
   }
   this->Input = std::move(input);
@@ -113,7 +122,7 @@ std::string DiskSurface::RepairWarning() const
   const SurfaceRepairs repairs = this->Mesh->Repairs();
   RepairCounts counts;
   counts.UnusedPoints = repairs.UnusedPoints;
-  counts.FlatTriangles = repairs.FlatTriangles;
+  counts.FlatTriangles = repairs.FlatTriangles + this->Input->FlatTriangles();
   counts.MergedPoints = repairs.MergedPoints;
   counts.TJunctions = this->Input->TJunctions();
   return repairWarning(counts);

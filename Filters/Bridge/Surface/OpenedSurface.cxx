@@ -39,7 +39,7 @@ OpenedSurface::OpenedSurface(SurfaceTriangles& input, Progress& progress, double
 {
   const SurfaceStages stages{ progress, progress.StageEnd(), end };
   stages.Next(0.05);
-  this->Input.CloseTJunctions(progress);
+  this->Input.CloseTJunctions(TJunctionScope::All, progress);
   const std::int64_t points = this->Given().Points.size();
   const std::int64_t triangles = this->Given().NumberOfTriangles;
   constexpr double bytesOfTriangle = 250.0;
@@ -223,7 +223,7 @@ std::string OpenedSurface::RepairWarning() const
   const SurfaceCuts& cuts = this->Disks->Cuts();
   RepairCounts counts;
   counts.UnusedPoints = cuts.UnusedPoints;
-  counts.FlatTriangles = cuts.FlatTriangles;
+  counts.FlatTriangles = cuts.FlatTriangles + this->Input.FlatTriangles();
   counts.MergedPoints = cuts.MergedPoints;
   counts.TJunctions = this->Input.TJunctions();
   counts.PartedEdges = cuts.NonManifoldEdges;

@@ -5,6 +5,7 @@
 
 #include "Bridge/Surface/TriangulatedSurface.h"
 #include "Core/Mesh/SplitSurface.h"
+#include "Core/Mesh/TJunctionRepair.h"
 #include "Core/Mesh/TriangleSurface.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
@@ -34,25 +35,29 @@ public:
       this->Corners.size() / 3 };
   }
 
-  // Cuts triangles at T-junctions, once (see TJunctions.h); Cells() then has their parts, each with
-  // the data of the cell that it is part of. Returns whether there are any. Runs as the current
-  // stage. Throws Failure and Cancelled.
-  bool CloseTJunctions(Progress& progress);
-  std::int64_t TJunctions() const { return this->Split ? this->Split->NumberOfTJunctions() : 0; }
-  // If there are any.
+  // Cuts triangles at T-junctions (see repairTJunctions), unless that was done before. Cells() then
+  // has their parts, each with the data of the cell that it is part of. Returns whether there are
+  // any. Runs as the current stage. Throws Failure and Cancelled.
+  bool CloseTJunctions(TJunctionScope scope, Progress& progress);
+  std::int64_t TJunctions() const { return this->NumberOfTJunctions; }
+  // Left out.
+  std::int64_t FlatTriangles() const { return this->NumberOfFlat; }
+  // If triangles were cut.
   const std::optional<SplitSurface>& Parts() const { return this->Split; }
 
   // Frees the memory of Surface().
   void Free();
 
 private:
-  void FindTJunctions(Progress& progress);
+  void Cut(TJunctionScope scope, Progress& progress);
 
   std::optional<TriangulatedSurface> Triangulated;
   double RoundingOfPoints;
   LargeBuffer<double> Coordinates;
   LargeBuffer<std::int64_t> Corners;
   bool IsSearched = false;
+  std::int64_t NumberOfTJunctions = 0;
+  std::int64_t NumberOfFlat = 0;
   std::optional<SplitSurface> Split;
 };
 

@@ -26,11 +26,13 @@ Weights weightsOf(const TJunction& junction)
 
 } // namespace
 
-SplitSurface::SplitSurface(
-  const TriangleSurface& given, const std::vector<TJunction>& junctions, Progress& progress)
+SplitSurface::SplitSurface(const TriangleSurface& given, const std::vector<TJunction>& junctions,
+  Progress& progress, const unsigned char* isLeftOut)
   : Junctions(static_cast<std::int64_t>(junctions.size()))
 {
-  const std::int64_t count = given.NumberOfTriangles + this->Junctions;
+  const std::int64_t leftOut =
+    isLeftOut ? std::count(isLeftOut, isLeftOut + given.NumberOfTriangles, 1) : 0;
+  const std::int64_t count = given.NumberOfTriangles - leftOut + this->Junctions;
   this->Corners = LargeBuffer<std::int64_t>(3 * count);
   this->Origins = LargeBuffer<std::int64_t>(count);
   std::size_t next = 0;
@@ -42,6 +44,10 @@ SplitSurface::SplitSurface(
   for (std::int64_t triangle = 0; triangle < given.NumberOfTriangles; ++triangle)
   {
     progress.Add(1);
+    if (isLeftOut && isLeftOut[triangle] != 0)
+    {
+      continue;
+    }
     const std::int64_t* ids = given.Triangles + 3 * triangle;
     const std::size_t first = next;
     std::array<SplitTriangle::Side, 3> sides;

@@ -23,10 +23,10 @@ class SplitSurface
 {
 public:
   // The T-junctions are in the order of findTJunctions; their points are points of the surface.
-  // Runs as the current stage. Memory: 32 bytes a triangle. On one thread. Throws std::bad_alloc
-  // and Cancelled.
-  SplitSurface(
-    const TriangleSurface& given, const std::vector<TJunction>& junctions, Progress& progress);
+  // Triangles with `isLeftOut`, if that is not null, have no parts. Runs as the current stage.
+  // Memory: 32 bytes a triangle. On one thread. Throws std::bad_alloc and Cancelled.
+  SplitSurface(const TriangleSurface& given, const std::vector<TJunction>& junctions,
+    Progress& progress, const unsigned char* isLeftOut = nullptr);
 
   // Three points each.
   const std::int64_t* Triangles() const { return this->Corners.data(); }

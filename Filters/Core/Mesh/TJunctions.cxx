@@ -3,6 +3,7 @@
 
 #include "Core/Geometry/BoxTree.h"
 #include "Core/Mesh/EdgeSides.h"
+#include "Core/Mesh/PlaceOnSide.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 
@@ -197,12 +198,16 @@ public:
     {
       return {};
     }
-    this->Measure(ends, rounding);
-    progress.Check();
+    PointBounds bounds;
+    for (const std::int64_t end : ends)
+    {
+      bounds.Add(this->Points[end]);
+    }
+    const PlaceOnSide placeOnSide(bounds, rounding);
     PointTree tree(this->Points, std::move(ends), progress);
     for (std::size_t i = 0; i < this->OpenSides.size(); ++i)
     {
-      this->Search(i, tree, progress);
+      this->Search(i, placeOnSide, tree, progress);
     }
     this->Match(progress);
     std::vector<TJunction> junctions;
@@ -217,42 +222,19 @@ public:
   }
 
 private:
-  void Measure(const std::vector<std::int64_t>& ends, double rounding)
-  {
-    constexpr double relative = 1e-9;
-    constexpr double units = 4.0;
-    double farthest = 0.0;
-    double longest = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      double low = std::numeric_limits<double>::infinity();
-      double high = -low;
-      for (const std::int64_t point : ends)
-      {
-        low = std::min(low, this->Points[point][axis]);
-        high = std::max(high, this->Points[point][axis]);
-      }
-      farthest = std::max({ farthest, -low, high });
-      longest = std::max(longest, high - low);
-    }
-    this->Tolerance = std::max(
-      { rounding, units * std::numeric_limits<double>::epsilon() * farthest, relative * longest });
-    constexpr int most = 1000; // the scale is finite
-    this->Scale =
-      longest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(longest), -most, most)) : 1.0;
-  }
-
   // Appends the points on a side.
-  void Search(std::size_t number, PointTree& tree, Progress& progress)
+  void Search(
+    std::size_t number, const PlaceOnSide& placeOnSide, PointTree& tree, Progress& progress)
   {
     const OpenSide& side = this->OpenSides[number];
     const double* from = this->Points[side.From];
     const double* to = this->Points[side.To];
     const std::size_t first = this->All.size();
     std::int64_t visited = 1;
-    tree.VisitNear(from, to, this->Tolerance, [&](std::int64_t point) {
+    tree.VisitNear(from, to, placeOnSide.Tolerance(), [&](std::int64_t point) {
       ++visited;
-      const double place = this->PlaceOn(side, point);
+      const bool isOwn = point == side.From || point == side.To || point == side.Opposite;
+      const double place = isOwn ? 0.0 : placeOnSide.Of(from, to, this->Points[point]);
       if (place > 0.0)
       {
         this->All.push_back({ { side.Side, point, place }, number });
@@ -264,41 +246,6 @@ private:
           std::tie(b.Junction.Place, b.Junction.Point);
       });
     progress.Add(visited);
-  }
-
-  // Along a side; 0 if the point is not within it.
-  double PlaceOn(const OpenSide& side, std::int64_t point) const
-  {
-    if (point == side.From || point == side.To || point == side.Opposite)
-    {
-      return 0.0;
-    }
-    const double* a = this->Points[side.From];
-    const double* b = this->Points[side.To];
-    const double* x = this->Points[point];
-    double squared = 0.0;
-    double along = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double by = this->Scale * (b[axis] - a[axis]);
-      squared += by * by;
-      along += by * (this->Scale * (x[axis] - a[axis]));
-    }
-    const double place = along / squared;
-    double gap = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double off = this->Scale * (x[axis] - a[axis] - place * (b[axis] - a[axis]));
-      gap += off * off;
-    }
-    gap = std::sqrt(gap);
-    constexpr double steepest = 1.0 / 16.0; // where sides are not much longer than the tolerance
-    constexpr double nearest = 1e-6;        // to an end; nearer ones are beside each other
-    const double length = std::sqrt(squared);
-    const double room = std::min(place, 1.0 - place);
-    const bool isWithin = room > nearest && room * length > gap &&
-      gap <= std::min(this->Scale * this->Tolerance, steepest * length);
-    return isWithin ? place : 0.0;
   }
 
   // Marks the T-junctions beside parts of sides that two triangles have.
@@ -391,24 +338,24 @@ double roundingOfCorners(const TriangleSurface& surface, Progress& progress)
 }
 
 std::vector<OpenSide> openSidesOf(
-  const TriangleSurface& surface, const std::int64_t* merged, Progress& progress)
+  const TriangleSurface& surface, const SideOptions& options, Progress& progress)
 {
-  const auto pointOf = [&surface, merged](std::int64_t corner) {
+  const auto pointOf = [&surface, &options](std::int64_t corner) {
     const std::int64_t point = surface.Triangles[corner];
-    return merged ? merged[point] : point;
+    return options.Merged ? options.Merged[point] : point;
   };
-  const auto isLine = [&pointOf](std::int64_t triangle) {
+  const auto isLeftOut = [&pointOf, &options](std::int64_t triangle) {
     const std::int64_t a = pointOf(3 * triangle);
     const std::int64_t b = pointOf(3 * triangle + 1);
     const std::int64_t c = pointOf(3 * triangle + 2);
-    return a == b || b == c || c == a;
+    return a == b || b == c || c == a || (options.IsLeftOut && options.IsLeftOut[triangle] != 0);
   };
   const std::int64_t count = 3 * surface.NumberOfTriangles;
   LargeBuffer<unsigned char> isOpen(count);
   std::fill_n(isOpen.data(), count, static_cast<unsigned char>(0));
   Progress own(progress.Stage());
-  visitEdges(SideCorners{ surface.NumberOfTriangles, surface.Points.size(), pointOf, isLine }, own,
-    1.0, [&isOpen](const std::int64_t* sides, std::int64_t number) {
+  visitEdges(SideCorners{ surface.NumberOfTriangles, surface.Points.size(), pointOf, isLeftOut },
+    own, 1.0, [&isOpen](const std::int64_t* sides, std::int64_t number) {
       isOpen.data()[sides[0]] = number == 1 ? 1 : 0;
     });
   std::vector<OpenSide> open;

@@ -42,14 +42,20 @@ struct TJunction
 // Cancelled.
 double roundingOfCorners(const TriangleSurface& surface, Progress& progress);
 
-// The open sides of a surface, in their order. merged[point] is the point that a point is merged
-// with; null if all points stay. Triangles with a point twice have no sides. O(sides log sides).
-// Runs as the current stage. Memory: 27 bytes a triangle and 8 a point.
+// How sides of a surface are compared.
+struct SideOptions
+{
+  const std::int64_t* Merged = nullptr;     // the point that a point is merged with; null: none is
+  const unsigned char* IsLeftOut = nullptr; // by triangles; null: none is
+};
+
+// The open sides of a surface, in their order. Triangles with a point twice have no sides. O(sides
+// log sides). Runs as the current stage. Memory: 27 bytes a triangle and 8 a point.
 std::vector<OpenSide> openSidesOf(
-  const TriangleSurface& surface, const std::int64_t* merged, Progress& progress);
+  const TriangleSurface& surface, const SideOptions& options, Progress& progress);
 
 // The ends of open sides that lie on other open sides. They may be off by `rounding`, or by that of
-// double, or by 1e-9 of the longest side of the bounds of all ends. Cut there, the side must have a
+// double, or by 1e-6 of the longest side of the bounds of all ends. Cut there, the side must have a
 // part that is a side, or part of a side, of another triangle: a triangle that only touches an edge
 // makes no T-junction. They are sorted by sides and places.
 //

@@ -227,7 +227,7 @@ bool ClosedMesh::CloseTJunctions(double rounding, const Context& context)
   if (this->NumberOpen > 0)
   {
     const TriangleSurface surface = this->Surface();
-    const std::vector<OpenSide> open = openSidesOf(surface, nullptr, progress);
+    const std::vector<OpenSide> open = openSidesOf(surface, {}, progress);
     progress.BeginStage(0.5);
     junctions = findTJunctions(surface.Points, open, rounding, progress);
   }

@@ -46,7 +46,7 @@ struct Cut
     }
     const TriangleSurface surface = this->Given.Surface();
     this->Junctions =
-      findTJunctions(surface.Points, openSidesOf(surface, nullptr, progress), rounding, progress);
+      findTJunctions(surface.Points, openSidesOf(surface, {}, progress), rounding, progress);
     this->Parts = std::make_unique<SplitSurface>(surface, this->Junctions, progress);
   }
 
@@ -57,7 +57,7 @@ struct Cut
   std::size_t Open() const
   {
     Progress progress{ Context() };
-    return openSidesOf(this->Surface(), nullptr, progress).size();
+    return openSidesOf(this->Surface(), {}, progress).size();
   }
 
   Mesh Given;
@@ -172,13 +172,13 @@ TEST(TJunctions, OfABox)
   }
 }
 
-// Without the rounding of float, most points are beside the edges.
+// Without the rounding of float, far away, most points are beside the edges.
 TEST(TJunctions, OfDoublesAreOnEdges)
 {
-  const Mesh far = farAwayInFloat(makeRefinedBox(20, 2), 100.0);
+  const Mesh far = farAwayInFloat(makeRefinedBox(20, 2), 20000.0);
   const Cut cut(far);
   EXPECT_LT(cut.Junctions.size(), 60u);
-  EXPECT_EQ(cut.Open(), 80u + 160 - 2 * cut.Junctions.size() - cut.Junctions.size());
+  EXPECT_EQ(cut.Open(), 80u + 160 - 3 * cut.Junctions.size());
 }
 
 TEST(TJunctions, OfAGlobe)
@@ -274,17 +274,17 @@ TEST(TJunctions, SlitsStayOpen)
   const Mesh closed = makeZigzag({ 0.2, 0.4, 0.7 }, { 0.3, 0.6, 0.8 });
   for (const bool isWedge : { true, false })
   {
-    for (const double width : { 1e-10, 1e-8, 1e-3, 0.1 })
+    for (const double width : { 1e-8, 9e-7, 1e-5, 1e-3, 0.1 })
     {
       Mesh slit = closed;
       for (std::size_t i = 10; i < slit.Points.size(); i += 2) // of the upper row
       {
         slit.Points[i][1] += isWedge ? width * slit.Points[i][0] : width;
       }
-      EXPECT_EQ(Cut(slit).Junctions.size(), width < 1e-9 ? 6u : 0u) << width;
+      EXPECT_EQ(Cut(slit).Junctions.size(), width < 1e-6 ? 6u : 0u) << width;
     }
   }
-  // In float, by four units in the last place.
+  // In float, by its rounding.
   EXPECT_EQ(Cut(farAwayInFloat(closed, 500.0), 502.0 * floatRounding).Junctions.size(), 6u);
   Mesh slit = closed;
   for (std::size_t i = 10; i < slit.Points.size(); i += 2)

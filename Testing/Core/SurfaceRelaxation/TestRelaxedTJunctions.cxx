@@ -107,7 +107,7 @@ TEST(RelaxedTJunctions, SlitsStay)
   EXPECT_EQ(relaxOnSurface(slit.Surface(), {}, optionsFor()).TJunctions, 6);
   for (std::size_t i = 10; i < slit.Points.size(); i += 2)
   {
-    slit.Points[i][1] += 1e-6;
+    slit.Points[i][1] += 1e-5;
   }
   EXPECT_EQ(relaxOnSurface(slit.Surface(), {}, optionsFor()).TJunctions, 0);
 }
