@@ -160,12 +160,15 @@ bool ClosedSurface::CloseNear(
     }
   }
   progress.BeginStage(end);
+  if (isMerged && this->Mesh->IsClosed())
+  {
+    return true;
+  }
   const std::int64_t triangles = this->Mesh->Surface().NumberOfTriangles;
-  return this->Mesh->IsClosed() ||
-    (distance > 0.0 &&
-      withMemory("the edges of the surface's " + std::to_string(triangles) + " triangles",
-        static_cast<double>(triangles) * 90.0,
-        [&]() { return this->Mesh->CloseTJunctions(distance, progress.Stage()); }));
+  return triangles > 0 && distance > 0.0 &&
+    withMemory("the edges of the surface's " + std::to_string(triangles) + " triangles",
+      static_cast<double>(triangles) * 110.0,
+      [&]() { return this->Mesh->CloseTJunctions(distance, progress.Stage()); });
 }
 
 void ClosedSurface::ReadPolygons(vtkPolyData* input, Progress& progress, double begin, double end)

@@ -231,21 +231,32 @@ bool ClosedMesh::CloseTJunctions(double rounding, const Context& context)
     progress.BeginStage(0.5);
     junctions = findTJunctions(surface.Points, open, rounding, progress);
   }
+  progress.BeginStage(0.6);
   if (junctions.empty())
   {
     progress.BeginStage(1.0);
     progress.EndSlice(1);
     return this->Closed;
   }
-  progress.BeginStage(0.6);
   const SplitSurface split(this->Surface(), junctions, progress);
+  LargeBuffer<std::int64_t> before = std::move(this->Triangles);
+  const std::int64_t numberBefore = this->NumberOfTriangles;
   this->Reserve(split.NumberOfTriangles());
   this->NumberOfTriangles = split.NumberOfTriangles();
   std::copy_n(split.Triangles(), 3 * this->NumberOfTriangles, this->Triangles.data());
-  progress.BeginStage(1.0);
+  progress.BeginStage(0.8);
   this->CountEdges(progress.Stage());
-  this->NumberOfTJunctions += split.NumberOfTJunctions();
-  return this->Closed;
+  progress.BeginStage(1.0);
+  if (this->Closed)
+  {
+    this->NumberOfTJunctions = split.NumberOfTJunctions();
+    progress.EndSlice(1);
+    return true;
+  }
+  this->Triangles = std::move(before);
+  this->NumberOfTriangles = numberBefore;
+  this->CountEdges(progress.Stage());
+  return false;
 }
 
 bool ClosedMesh::Orient(const Context& context)

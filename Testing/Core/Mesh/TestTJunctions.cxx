@@ -175,10 +175,10 @@ TEST(TJunctions, OfABox)
 // Without the rounding of float, far away, most points are beside the edges.
 TEST(TJunctions, OfDoublesAreOnEdges)
 {
-  const Mesh far = farAwayInFloat(makeRefinedBox(20, 2), 20000.0);
-  const Cut cut(far);
+  EXPECT_EQ(Cut(farAwayInFloat(makeRefinedBox(20, 2), 500.0), 502.0 * floatRounding).Open(), 0u);
+  const Cut cut(farAwayInFloat(makeRefinedBox(20, 2), 500.0));
   EXPECT_LT(cut.Junctions.size(), 60u);
-  EXPECT_EQ(cut.Open(), 80u + 160 - 3 * cut.Junctions.size());
+  EXPECT_GT(cut.Open(), 60u);
 }
 
 TEST(TJunctions, OfAGlobe)
