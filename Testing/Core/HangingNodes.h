@@ -101,6 +101,13 @@ inline Mesh makeZigzag(const std::vector<double>& below, const std::vector<doubl
   return mesh;
 }
 
+// Volatile, as vectors of GCC 12 leave the rounding out.
+inline double inFloat(double x)
+{
+  const volatile float rounded = static_cast<float>(x);
+  return rounded;
+}
+
 // Turned about a skew axis, moved far away, and rounded to float.
 inline Mesh farAwayInFloat(const Mesh& mesh, double distance)
 {
@@ -109,9 +116,7 @@ inline Mesh farAwayInFloat(const Mesh& mesh, double distance)
     const double s = std::sin(0.7);
     const Point<3> q{ c * p[0] - s * p[1], s * p[0] + c * p[1], p[2] };
     const Point<3> far{ q[0] + distance, c * q[1] - s * q[2] - distance, s * q[1] + c * q[2] };
-    return Point<3>{ static_cast<double>(static_cast<float>(far[0])),
-      static_cast<double>(static_cast<float>(far[1])),
-      static_cast<double>(static_cast<float>(far[2])) };
+    return Point<3>{ inFloat(far[0]), inFloat(far[1]), inFloat(far[2]) };
   });
 }
 

@@ -48,8 +48,8 @@ inline vtkSmartPointer<vtkPolyData> makeRefinedCube(int quads, int ratio, bool t
         makeUnitSheet(isTop ? quads * ratio : quads, triangles, [=](double u, double v) {
           std::array<double, 3> x;
           x[axis] = level;
-          x[(axis + 1) % 3] = u;
-          x[(axis + 2) % 3] = v;
+          x[(axis + 1) % 3] = level == 1.0 ? u : v; // outwards
+          x[(axis + 2) % 3] = level == 1.0 ? v : u;
           return x;
         }));
     }

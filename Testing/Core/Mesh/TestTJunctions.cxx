@@ -250,6 +250,18 @@ TEST(TJunctions, AnyOrder)
   }
 }
 
+TEST(TJunctions, RoundingIsOfFloatIfAllAreFloats)
+{
+  Progress progress{ Context() };
+  Mesh box = farAwayInFloat(makeRefinedBox(4, 2), 100.0);
+  box.Points.push_back({ 1e30, 0.1, 0.0 }); // of no triangle
+  const double far = roundingOfCorners(box.Surface(), progress);
+  EXPECT_NEAR(far, 101.0 * floatRounding, floatRounding);
+  box.Points[3][1] += 1e-9;
+  EXPECT_NEAR(roundingOfCorners(box.Surface(), progress) / far,
+    std::numeric_limits<double>::epsilon() / std::numeric_limits<float>::epsilon(), 1e-15);
+}
+
 // Three sheets with 1, 2 and 4 edges on one line.
 TEST(TJunctions, OfThreeSheets)
 {

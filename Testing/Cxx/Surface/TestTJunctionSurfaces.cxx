@@ -31,7 +31,7 @@ void expectWarning(Checks& checks, const Messages& messages, const std::string& 
     messages.Warnings.begin(), messages.Warnings.end(), [&](const std::string& warning) {
       return contains(warning, "The input surface was repaired: ") && contains(warning, text);
     });
-  checks.That(isThere, text, line);
+  checks.That(isThere, "repaired", line, text);
 }
 
 double solidVolume(Checks& checks, vtkPolyData* surface, int count, int line)
