@@ -22,7 +22,9 @@
  *
  * Polygons are cut into triangles, and points with equal coordinates are merged. If edges are still
  * open, points that differ by less than 1e-9 of the longest side are merged, too; float points, if
- * they differ by less than 4 rounding errors. Every edge must then belong to two triangles or
+ * they differ by less than 4 rounding errors. If edges are still open, triangles are cut at
+ * T-junctions (points of others within their sides), if that closes the surface, with a warning that
+ * counts them. Every edge must then belong to two triangles or
  * another even number, for example where voxels touch along an edge. Otherwise an error counts the
  * open edges (one triangle) and the non-manifold edges (another odd number) and says how to close
  * the surface. If the triangles at an edge of four or more have inconsistent orientation, inside is

@@ -115,6 +115,37 @@ void checkParticles(Checks& checks, vtkPolyData* surface, int count, int method,
     "as many on both halves", line, std::to_string(below));
 }
 
+// A density on points, which is threefold on the fine half: the coarse one, up to the line, has a
+// fourth of the mass.
+void checkDensity(Checks& checks, vtkPolyData* surface, int method, int line)
+{
+  constexpr vtkIdType particles = 3000;
+  vtkNew<vtkPolyData> dense;
+  dense->ShallowCopy(surface);
+  vtkNew<vtkDoubleArray> density;
+  density->SetName("Density");
+  for (vtkIdType i = 0; i < dense->GetNumberOfPoints(); ++i)
+  {
+    density->InsertNextValue(i < 7 * 7 ? 1.0 : 3.0);
+  }
+  dense->GetPointData()->AddArray(density);
+  vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetInputData(dense);
+  sampler->SetMethod(method);
+  sampler->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+  sampler->SetNumberOfParticles(particles);
+  sampler->Update();
+  const Values points = coordinates(sampler->GetOutput());
+  double below = 0.0;
+  for (std::size_t i = 1; i < points.size(); i += 3)
+  {
+    below += points[i] < 0.5 ? 1.0 : 0.0;
+  }
+  checks.That(
+    std::abs(below - 0.25 * particles) < 0.01 * particles, "a fourth", line, std::to_string(below));
+  checks.That(std::abs(fieldValue(sampler->GetOutput(), "TotalMass") - 2.0) < 1e-12, "mass", line);
+}
+
 void checkSampler(Checks& checks)
 {
   for (const int ratio : { 2, 4 })
@@ -124,6 +155,8 @@ void checkSampler(Checks& checks)
       auto square = makeRefinedSquare(6, ratio, triangles);
       checkParticles(checks, square, 6 * (ratio - 1), vtkSurfaceSampler::RELAXATION, __LINE__);
       checkParticles(checks, square, 6 * (ratio - 1), vtkSurfaceSampler::FLOW, __LINE__);
+      checkDensity(checks, square, vtkSurfaceSampler::RELAXATION, __LINE__);
+      checkDensity(checks, square, vtkSurfaceSampler::FLOW, __LINE__);
     }
   }
   // Nothing is wrong with seams, points of no polygon and polygons that end in a point.
