@@ -112,7 +112,7 @@ OTHERS = [
     E(CORE + "Mesh/EdgeSides.h", "next < last && «corners.High(*next) == other»",
       "corners.High(*next) >= other"),
     E(CORE + "Mesh/PlaceOnSide.h", "const bool isWithin = «gap <= limit»", "true"),
-    E(CORE + "Mesh/TJunctions.cxx", "if («found.IsMatched» && !isInTriangle", "true"),
+    E(CORE + "Mesh/TJunctions.cxx", "if («found.IsMatched» && !std::binary_search", "true"),
     E(CORE + "Mesh/SplitTriangle.cxx", "return «(i + 2) % 3»;", "i"),
     E(CORE + "Mesh/SplitSurface.cxx", "weights[side] = «1.0 - junction.Place»", "junction.Place"),
     E(CORE + "Mesh/TJunctionRepair.cxx", "«other.TJunctions > repair.TJunctions»", "false"),

@@ -157,21 +157,6 @@ struct SidePart
 };
 constexpr std::size_t noJunction = std::numeric_limits<std::size_t>::max();
 
-// Whether a triangle without area already has the point on another side.
-bool isInTriangle(const std::vector<TJunction>& junctions, const TJunction& other)
-{
-  for (auto last = junctions.rbegin();
-       last != junctions.rend() && last->Side / 3 == other.Side / 3 && last->Side != other.Side;
-       ++last)
-  {
-    if (last->Point == other.Point)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
 class TJunctionSearch
 {
 public:
@@ -210,15 +195,7 @@ public:
       this->Search(i, placeOnSide, tree, progress);
     }
     this->Match(progress);
-    std::vector<TJunction> junctions;
-    for (const Found& found : this->All)
-    {
-      if (found.IsMatched && !isInTriangle(junctions, found.Junction))
-      {
-        junctions.push_back(found.Junction);
-      }
-    }
-    return junctions;
+    return this->Matched();
   }
 
 private:
@@ -292,6 +269,36 @@ private:
       }
       progress.Add(1);
     }
+  }
+
+  // A triangle that is nearly a line may have a point on two sides: it counts on the first one.
+  std::vector<TJunction> Matched() const
+  {
+    std::vector<TJunction> junctions;
+    std::vector<std::int64_t> before; // on other sides of the triangle, ascending
+    std::size_t own = 0;              // the first one of the side
+    for (const Found& found : this->All)
+    {
+      const TJunction& next = found.Junction;
+      if (!junctions.empty() && junctions.back().Side != next.Side)
+      {
+        if (junctions.back().Side / 3 != next.Side / 3)
+        {
+          before.clear();
+          own = junctions.size();
+        }
+        for (; own < junctions.size(); ++own)
+        {
+          before.push_back(junctions[own].Point);
+        }
+        std::sort(before.begin(), before.end());
+      }
+      if (found.IsMatched && !std::binary_search(before.begin(), before.end(), next.Point))
+      {
+        junctions.push_back(next);
+      }
+    }
+    return junctions;
   }
 
   ConstPointSpan<3> Points;

@@ -319,6 +319,17 @@ TEST(TJunctions, TouchingIsNone)
   EXPECT_EQ(Cut(mesh).Junctions.size(), 2u);
 }
 
+// A point on two sides of a triangle without area cuts it once.
+TEST(TJunctions, OnTwoSidesOfALine)
+{
+  Mesh mesh;
+  mesh.Points = { { 0, 0, 0 }, { 4, 0, 0 }, { 2, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 } };
+  mesh.Triangles = { { 0, 1, 2 }, { 0, 3, 4 }, { 3, 2, 4 } };
+  const Cut cut(mesh);
+  EXPECT_EQ(cut.Junctions.size(), 1u);
+  EXPECT_EQ(cut.Surface().NumberOfTriangles, 4);
+}
+
 TEST(TJunctions, OfNothing)
 {
   EXPECT_TRUE(Cut(makeTorus(8, 6)).Junctions.empty());
