@@ -63,8 +63,9 @@ public:
   // 24 bytes a triangle, and temporarily as much again and 8 bytes a point.
   void CountEdges(const Context& context = Context());
 
-  // After CountEdges(): if edges are open, cuts triangles at T-junctions (see TJunctions.h). Returns
-  // whether the mesh is closed; if not, it is unchanged. Memory: up to 110 bytes a triangle.
+  // After CountEdges(): if edges are open, cuts triangles at T-junctions (see TJunctions.h).
+  // Returns whether the mesh is closed; if not, it is unchanged. Memory: up to 110 bytes a
+  // triangle.
   bool CloseTJunctions(double rounding, const Context& context = Context());
   std::int64_t TJunctions() const { return this->NumberOfTJunctions; }
 
