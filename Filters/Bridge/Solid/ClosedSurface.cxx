@@ -89,12 +89,10 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
   const std::string points = std::to_string(this->NumberOfPoints) + " points";
   const double begin = progress.StageEnd();
   const auto at = [begin, end](double part) { return begin + part * (end - begin); };
-  LargeBuffer<double> coordinates;
-  withMemory("the surface's " + points, static_cast<double>(this->NumberOfPoints) * 64.0, [&]() {
-    progress.BeginStage(at(0.1));
-    coordinates = readPoints(input, progress);
-  });
-  requirePolygons(input, "a solid needs a closed surface");
+  constexpr double bytesOfPoint = 64.0; // with the table
+  progress.BeginStage(at(0.1));
+  LargeBuffer<double> coordinates =
+    readSurfacePoints(input, "a solid needs a closed surface", progress, bytesOfPoint);
   this->Box = polygonBounds(input);
   this->Rounding = lastPlacesIn(this->Box);
   progress.BeginStage(at(0.25));

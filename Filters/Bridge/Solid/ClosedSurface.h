@@ -33,9 +33,9 @@ public:
   // reaches `end`. Lines and vertices are ignored. If edges are then open, merges points that
   // differ by rounding: by less than 1e-9 of the longest side of the polygons' bounds; if that
   // leaves edges open and the coordinates are float, by less than 4 of their rounding errors. After
-  // each of both, triangles are cut at T-junctions within these distances if that closes the
-  // surface. Throws Failure if the input has no polygons, coordinates that are not finite, or edges
-  // of an odd number of triangles, and Cancelled.
+  // each of both, if edges are still open, triangles are cut at T-junctions if that closes the
+  // surface (see TJunctions.h). Throws Failure if the input has no polygons, coordinates that are
+  // not finite, or edges of an odd number of triangles, and Cancelled.
   ClosedSurface(vtkPolyData* input, Progress& progress, double end);
 
   // A warning that counts T-junctions that were closed; empty if there were none.
