@@ -51,8 +51,11 @@
  * polygon; global ids of cells are then dropped. Lines and vertices pass unchanged.
  *
  * If the surface is no disk otherwise, points in no polygon (their coordinates are 0 0) and
- * triangles without area are left out of the map, and points at the same position are merged, with
- * a warning that counts them. A cut of a disk whose points are duplicated stays a cut. Polygons
+ * triangles without area are left out of the map, points at the same position are merged, and
+ * triangles are cut at T-junctions (points of others within their sides), with a warning that
+ * counts them. Of a triangle that is cut, all parts are cells with its data, in its place; one of
+ * three points on a line beside it is not in the output. A cut of a disk whose points are
+ * duplicated stays a cut. Polygons
  * with inconsistent orientation are mapped with the orientation that most of the area of a
  * component has. Sheets that share an edge of more than two triangles are parted there. If Seams is
  * None, a closed surface, several components or boundaries, handles, and edges of more than two

@@ -111,11 +111,15 @@ int vtkSolidDensity::RequestData(
     return 1;
   }
   vtkInformation* information = outputVector->GetInformationObject(0);
-  const ImageGrid grid = solid.Run(
+  const SolidDensityReport report = solid.Run(
     surface, [&](const ImageGrid& all) { return extentToGive(all.Extent(), information, ranks); },
     progress, vtkImageData::GetData(outputVector, 0));
+  if (!report.Repair.empty())
+  {
+    this->WarnOnFirstRank(report.Repair);
+  }
   // The extent may change with time.
-  announceGrid(grid, information);
+  announceGrid(report.Grid, information);
   return 1;
 }
 

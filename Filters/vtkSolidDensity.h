@@ -22,13 +22,15 @@
  *
  * Polygons are cut into triangles, and points with equal coordinates are merged. If edges are still
  * open, points that differ by less than 1e-9 of the longest side are merged, too; float points, if
- * they differ by less than 4 rounding errors. Every edge must then belong to two triangles or
- * another even number, for example where voxels touch along an edge. Otherwise an error counts the
- * open edges (one triangle) and the non-manifold edges (another odd number) and says how to close
- * the surface. If the triangles at an edge of four or more have inconsistent orientation, inside is
- * where the number of crossings is odd. Duplicate polygons count once; two with opposite
- * orientation cancel each other. Coordinates that are not finite, points without polygons and
- * surfaces that are not orientable are errors, too. An input without points gives an empty output.
+ * they differ by less than 4 rounding errors. If edges are still open, triangles are cut at
+ * T-junctions (points of others within their sides), if that closes the surface, with a warning
+ * that counts them. Every edge must then belong to two triangles or another even number, for
+ * example where voxels touch along an edge. Otherwise an error counts the open edges (one triangle)
+ * and the non-manifold edges (another odd number) and says how to close the surface. If the
+ * triangles at an edge of four or more have inconsistent orientation, inside is where the number of
+ * crossings is odd. Duplicate polygons count once; two with opposite orientation cancel each other.
+ * Coordinates that are not finite, points without polygons and surfaces that are not orientable are
+ * errors, too. An input without points gives an empty output.
  *
  * Cost: linear in the points and triangles, then O(cells + pieces of triangles in cells + crossings
  * of lines). Memory: 8 bytes a cell; while it runs, up to 72 bytes a point, 81 a triangle, 8 more

@@ -6,7 +6,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Surface/DiskSurface.h"
 #include "Bridge/Surface/OpenedSurface.h"
-#include "Bridge/Surface/PolygonInput.h"
+#include "Bridge/Surface/SurfaceTriangles.h"
 #include "Core/Parameterization/AreaPreservingMap.h"
 #include "Core/Seams/CutSurfaceMap.h"
 
@@ -216,6 +216,14 @@ std::vector<std::string> ParameterizationReport::Warnings() const
                 ? "smaller triangles help"
                 : "a longer boundary helps where the surface is nearly closed, smaller "
                   "triangles help elsewhere");
+    const std::int64_t needles = this->Distortion.FlippedNeedles;
+    if (needles > 0)
+    {
+      text << "; " << needles
+           << (needles == 1 ? " of the flipped is a needle" : " of the flipped are needles")
+           << ", lower than " << MapDistortion::NeedleHeight
+           << " of the length: Clean with a Tolerance merges points so near to each other";
+    }
     warnings.push_back(text.str());
   }
   if (this->Collapsed > 0)
@@ -236,14 +244,12 @@ void AreaPreservingParameterization::Check() const
 ParameterizationReport AreaPreservingParameterization::Run(
   vtkPolyData* input, Progress& progress, vtkPolyData* output) const
 {
-  if (this->Seams == AutomaticSeams)
-  {
-    requirePolygons(input, "it must be a surface");
-  }
+  SurfaceTriangles triangles(input,
+    this->Seams == AutomaticSeams ? "it must be a surface" : "it must be a disk", progress, 0.05);
   std::optional<DiskSurface> disk;
   try
   {
-    disk.emplace(input, progress, 0.1);
+    disk.emplace(triangles, progress, 0.1);
   }
   catch (const NoDiskSurface& defect)
   {
@@ -261,7 +267,7 @@ ParameterizationReport AreaPreservingParameterization::Run(
   {
     return this->MapDisk(*disk, progress, output);
   }
-  OpenedSurface opened(input, progress, 0.5);
+  OpenedSurface opened(triangles, progress, 0.5);
   return this->MapOpened(opened, progress, output);
 }
 
@@ -289,7 +295,7 @@ ParameterizationReport AreaPreservingParameterization::MapDisk(
   attachCoordinates(surface, conformal.Square.Positions, map.Positions, output);
   attachFigures(figures, output);
   return { disk.NumberOfTriangles(), countCollapsed(disk, conformal.Square.Corners), figures,
-    this->Polish, false, surface.IsRepaired() ? surface.RepairWarning() : "" };
+    this->Polish, false, surface.RepairWarning() };
 }
 
 ParameterizationReport AreaPreservingParameterization::MapOpened(

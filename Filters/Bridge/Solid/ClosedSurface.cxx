@@ -5,6 +5,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Solid/SolidTriangles.h"
 #include "Bridge/Surface/PolygonInput.h"
+#include "Bridge/Surface/RepairText.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/LargeBuffer.h"
 
@@ -88,12 +89,10 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
   const std::string points = std::to_string(this->NumberOfPoints) + " points";
   const double begin = progress.StageEnd();
   const auto at = [begin, end](double part) { return begin + part * (end - begin); };
-  LargeBuffer<double> coordinates;
-  withMemory("the surface's " + points, static_cast<double>(this->NumberOfPoints) * 64.0, [&]() {
-    progress.BeginStage(at(0.1));
-    coordinates = readPoints(input, progress);
-  });
-  requirePolygons(input, "a solid needs a closed surface");
+  constexpr double bytesOfPoint = 64.0; // with the table
+  progress.BeginStage(at(0.1));
+  LargeBuffer<double> coordinates =
+    readSurfacePoints(input, "a solid needs a closed surface", progress, bytesOfPoint);
   this->Box = polygonBounds(input);
   this->Rounding = lastPlacesIn(this->Box);
   progress.BeginStage(at(0.25));
@@ -128,29 +127,46 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
   }
 }
 
-// Merges points nearer than a distance; returns whether that closes the surface.
+std::string ClosedSurface::RepairWarning() const
+{
+  RepairCounts counts;
+  counts.TJunctions = this->Mesh->TJunctions();
+  return repairWarning(counts);
+}
+
+// Merges points nearer than a distance, and cuts triangles at T-junctions within it; returns
+// whether that closes the surface.
 bool ClosedSurface::CloseNear(
   vtkPolyData* input, double distance, Progress& progress, double begin, double end)
 {
+  const auto at = [begin, end](double part) { return begin + part * (end - begin); };
   const std::string points = std::to_string(this->NumberOfPoints) + " points";
-  progress.BeginStage(begin + 0.4 * (end - begin));
+  progress.BeginStage(at(0.3));
   const bool isMerged = distance > 0.0 &&
     withMemory("the table of the surface's " + points,
       static_cast<double>(this->NumberOfPoints) * 9.0 * sizeof(std::int64_t),
       [&]() { return this->Mesh->MergeNear(distance, progress.Stage()); });
-  if (!isMerged)
+  if (isMerged)
   {
-    return false;
+    try
+    {
+      this->ReadPolygons(input, progress, at(0.3), at(0.7));
+    }
+    catch (const Failure&)
+    {
+      return false; // what was wrong before is said
+    }
   }
-  try
+  progress.BeginStage(end);
+  if (isMerged && this->Mesh->IsClosed())
   {
-    this->ReadPolygons(input, progress, begin + 0.4 * (end - begin), end);
+    return true;
   }
-  catch (const Failure&)
-  {
-    return false; // what was wrong before is said
-  }
-  return this->Mesh->IsClosed();
+  const std::int64_t triangles = this->Mesh->Surface().NumberOfTriangles;
+  return triangles > 0 && distance > 0.0 &&
+    withMemory("the edges of the surface's " + std::to_string(triangles) + " triangles",
+      static_cast<double>(triangles) * 110.0,
+      [&]() { return this->Mesh->CloseTJunctions(distance, progress.Stage()); });
 }
 
 void ClosedSurface::ReadPolygons(vtkPolyData* input, Progress& progress, double begin, double end)

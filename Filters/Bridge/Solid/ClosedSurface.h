@@ -32,10 +32,14 @@ public:
   // Merges points with equal coordinates and cuts polygons and strips into triangles; progress then
   // reaches `end`. Lines and vertices are ignored. If edges are then open, merges points that
   // differ by rounding: by less than 1e-9 of the longest side of the polygons' bounds; if that
-  // leaves edges open and the coordinates are float, by less than 4 of their rounding errors.
-  // Throws Failure if the input has no polygons, coordinates that are not finite, or edges of an
-  // odd number of triangles, and Cancelled.
+  // leaves edges open and the coordinates are float, by less than 4 of their rounding errors. After
+  // each of both, if edges are still open, triangles are cut at T-junctions if that closes the
+  // surface (see TJunctions.h). Throws Failure if the input has no polygons, coordinates that are
+  // not finite, or edges of an odd number of triangles, and Cancelled.
   ClosedSurface(vtkPolyData* input, Progress& progress, double end);
+
+  // A warning that counts T-junctions that were closed; empty if there were none.
+  std::string RepairWarning() const;
 
   // Those of polygonBounds.
   const std::array<double, 6>& Bounds() const { return this->Box; }

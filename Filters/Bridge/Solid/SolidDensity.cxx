@@ -66,7 +66,7 @@ ImageGrid SolidDensity::GridAround(vtkPolyData* surface, const Ranks& ranks) con
   return this->OnPoints ? cells.AtCellCentres() : cells;
 }
 
-ImageGrid SolidDensity::Run(vtkPolyData* surface,
+SolidDensityReport SolidDensity::Run(vtkPolyData* surface,
   const std::function<Extent(const ImageGrid&)>& chooseExtent, Progress& progress,
   vtkImageData* output) const
 {
@@ -84,7 +84,7 @@ ImageGrid SolidDensity::Run(vtkPolyData* surface,
   Extent extent = wanted; // VTK takes no constant one
   output->SetExtent(extent.data());
   output->GetAttributes(owner)->SetScalars(density);
-  return grid;
+  return { grid, closed.RepairWarning() };
 }
 
 } // namespace RectifiedTransport

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <functional>
+#include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
@@ -19,6 +20,12 @@ namespace RectifiedTransport
 
 class Progress;
 class Ranks;
+
+struct SolidDensityReport
+{
+  ImageGrid Grid;     // of the whole image
+  std::string Repair; // a warning; empty if the surface needed no repair
+};
 
 // The members are the properties of that class.
 struct SolidDensity
@@ -33,9 +40,8 @@ struct SolidDensity
   ImageGrid GridAround(vtkPolyData* surface, const Ranks& ranks) const;
 
   // Writes the fraction of each image cell that a closed surface encloses, for the cells of the
-  // extent that is chosen for an image. Returns the whole image's grid. Throws Failure and
-  // Cancelled.
-  ImageGrid Run(vtkPolyData* surface,
+  // extent that is chosen for an image. Throws Failure and Cancelled.
+  SolidDensityReport Run(vtkPolyData* surface,
     const std::function<std::array<int, 6>(const ImageGrid&)>& chooseExtent, Progress& progress,
     vtkImageData* output) const;
 };

@@ -2,51 +2,81 @@
 #include "Bridge/Surface/DiskSurface.h"
 
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Surface/PolygonInput.h"
+#include "Bridge/Surface/RepairText.h"
 
+#include <algorithm>
 #include <stdexcept>
-#include <string>
+#include <utility>
 
 namespace RectifiedTransport
 {
 
+DiskSurface::DiskSurface(SurfaceTriangles& input, Progress& progress, double end)
+{
+  this->Make(input, { progress, progress.StageEnd(), end });
+}
+
 DiskSurface::DiskSurface(vtkPolyData* input, Progress& progress, double end)
 {
   const SurfaceStages stages{ progress, progress.StageEnd(), end };
-  stages.Next(0.1);
-  const LargeBuffer<double> coordinates = readSurfacePoints(input, "it must be a disk", progress);
-  this->Cells.emplace(input, stages, 0.45);
-  this->MakeDisk(coordinates, stages);
+  SurfaceTriangles read(
+    input, "it must be a disk", progress, stages.Begin + 0.45 * (end - stages.Begin));
+  this->Make(read, { progress, progress.StageEnd(), end });
 }
 
-void DiskSurface::MakeDisk(const LargeBuffer<double>& coordinates, const SurfaceStages& stages)
+void DiskSurface::Make(SurfaceTriangles& input, const SurfaceStages& stages)
 {
   Progress& progress = stages.Run;
-  vtkPolyData* surface = this->Triangulated();
-  const std::int64_t points = surface->GetNumberOfPoints();
-  const std::int64_t triangles = this->Cells->NumberOfTriangles();
+  std::optional<NoDiskSurface> defect;
+  stages.Next(0.5);
   try
   {
-    withMemory("the surface's " + std::to_string(points) + " points and " +
-        std::to_string(triangles) + " triangles",
-      static_cast<double>(points) * 40.0 + static_cast<double>(triangles) * 104.0, [&]() {
-        stages.Next(0.5);
-        const LargeBuffer<std::int64_t> corners = this->Cells->Corners(progress);
-        stages.Next(1.0);
-        this->Mesh.emplace(
-          TriangleSurface{ { coordinates.data(), points }, corners.data(), triangles },
-          roundingOf(surface->GetPoints()), progress.Stage());
-      });
+    this->MakeDisk(input, progress);
+  }
+  catch (const NoDiskSurface& found)
+  {
+    defect = found;
+  }
+  // A cut that makes the surface a disk stays open.
+  const TJunctionScope scope = defect ? TJunctionScope::All : TJunctionScope::OfFlatTriangles;
+  stages.Next(0.7);
+  const bool isCut =
+    (defect || this->Mesh->Repairs().FlatTriangles > 0) && input.CloseTJunctions(scope, progress);
+  if (defect && !isCut)
+  {
+    throw NoDiskSurface(*defect);
+  }
+  stages.Next(0.9);
+  if (isCut)
+  {
+    this->MakeDisk(input, progress);
+  }
+  this->Input = std::move(input);
+  this->Input->Free();
+  stages.Next(1.0);
+  progress.EndSlice(1);
+}
+
+void DiskSurface::MakeDisk(const SurfaceTriangles& input, Progress& progress)
+{
+  const TriangleSurface surface = input.Surface();
+  try
+  {
+    withMemory("the surface's " + std::to_string(surface.Points.size()) + " points and " +
+        std::to_string(surface.NumberOfTriangles) + " triangles",
+      static_cast<double>(surface.Points.size()) * 40.0 +
+        static_cast<double>(surface.NumberOfTriangles) * 80.0,
+      [&]() { this->Mesh.emplace(surface, input.Rounding(), progress.Stage()); });
   }
   catch (const NotADisk& defect)
   {
     std::string message = std::string("The input surface ") + defect.what();
     const std::int64_t first = defect.First();
     if (defect.Defect() == DiskDefect::TrianglesWithoutArea &&
-      this->Cells->InputCellOf(first) != first)
+      input.Cells().InputCellOf(first) != first)
     {
       message += "; triangle " + std::to_string(first) + " is of cell " +
-        std::to_string(this->Cells->InputCellOf(first));
+        std::to_string(input.Cells().InputCellOf(first));
     }
     throw NoDiskSurface(message);
   }
@@ -54,36 +84,48 @@ void DiskSurface::MakeDisk(const LargeBuffer<double>& coordinates, const Surface
 
 GivenTriangles DiskSurface::GivenWithArea(Progress& progress) const
 {
-  const LargeBuffer<std::int64_t> corners = this->Cells->Corners(progress);
+  const LargeBuffer<std::int64_t> corners = this->Cells().Corners(progress);
   return { *this->Mesh, corners.data() };
+}
+
+bool DiskSurface::IsPart(std::int64_t triangle) const
+{
+  const std::optional<SplitSurface>& parts = this->Input->Parts();
+  return parts && parts->IsPart(this->Mesh->GivenTriangle(triangle));
+}
+
+PlaceInCell DiskSurface::InCell(const PlaceOnTriangle& place) const
+{
+  PlaceInCell found{ this->CornersOf(place.Triangle), place.Weights };
+  if (!this->IsPart(place.Triangle))
+  {
+    return found;
+  }
+  // The corners of the part, perhaps in another order.
+  const SplitSurface& parts = *this->Input->Parts();
+  PlaceOnTriangle onPart{ this->Mesh->GivenTriangle(place.Triangle), { 0.0, 0.0, 0.0 } };
+  const std::int64_t* corners = parts.Triangles() + 3 * onPart.Triangle;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const std::int64_t* corner = std::find(corners, corners + 3, found.Points[i]);
+    if (corner == corners + 3)
+    {
+      return found; // without area, the part was cut at a point of another one
+    }
+    onPart.Weights[static_cast<std::size_t>(corner - corners)] = place.Weights[i];
+  }
+  return { parts.GivenCorners(onPart.Triangle), parts.GivenPlace(onPart).Weights };
 }
 
 std::string DiskSurface::RepairWarning() const
 {
-  return "The input surface was repaired: " + repairText(this->Mesh->Repairs());
-}
-
-std::string repairText(const SurfaceRepairs& repairs)
-{
-  const auto counted = [](std::int64_t count, const char* what, const char* rest) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s") + rest;
-  };
-  std::string message;
-  const auto add = [&message](
-                     const std::string& part) { message += (message.empty() ? "" : ", ") + part; };
-  if (repairs.UnusedPoints > 0)
-  {
-    add(counted(repairs.UnusedPoints, "point", " in no polygon left out"));
-  }
-  if (repairs.FlatTriangles > 0)
-  {
-    add(counted(repairs.FlatTriangles, "triangle", " without area left out"));
-  }
-  if (repairs.MergedPoints > 0)
-  {
-    add(counted(repairs.MergedPoints, "point", " merged with others at their places"));
-  }
-  return message;
+  const SurfaceRepairs repairs = this->Mesh->Repairs();
+  RepairCounts counts;
+  counts.UnusedPoints = repairs.UnusedPoints;
+  counts.FlatTriangles = repairs.FlatTriangles + this->Input->FlatTriangles();
+  counts.MergedPoints = repairs.MergedPoints;
+  counts.TJunctions = this->Input->TJunctions();
+  return repairWarning(counts);
 }
 
 ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progress& progress)

@@ -4,8 +4,8 @@
 #include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Surface/DiskSurface.h"
 #include "Bridge/Surface/PolygonInput.h"
+#include "Bridge/Surface/RepairText.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -33,51 +34,44 @@ constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
 
 } // namespace
 
-OpenedSurface::OpenedSurface(vtkPolyData* input, Progress& progress, double end)
+OpenedSurface::OpenedSurface(SurfaceTriangles& input, Progress& progress, double end)
+  : Input(std::move(input))
 {
   const SurfaceStages stages{ progress, progress.StageEnd(), end };
-  const std::int64_t points = input->GetNumberOfPoints();
-  stages.Next(0.02);
-  this->Coordinates = readSurfacePoints(input, "it must be a surface", progress);
-  this->Cells.emplace(input, stages, 0.05);
-  const std::int64_t triangles = this->Cells->NumberOfTriangles();
-  constexpr double bytesOfTriangle = 274.0;
+  stages.Next(0.05);
+  this->Input.CloseTJunctions(TJunctionScope::All, progress);
+  const std::int64_t points = this->Given().Points.size();
+  const std::int64_t triangles = this->Given().NumberOfTriangles;
+  constexpr double bytesOfTriangle = 250.0;
   constexpr double bytesOfPoint = 1350.0; // of the conformal map
   try
   {
     withMemory("the seams of " + std::to_string(triangles) + " triangles",
       static_cast<double>(triangles) * bytesOfTriangle + static_cast<double>(points) * bytesOfPoint,
       [&]() {
-        stages.Next(0.06);
-        this->Corners = this->Cells->Corners(progress);
         stages.Next(0.98);
         SeamOptions options;
-        options.Rounding = roundingOf(input->GetPoints());
+        options.Rounding = this->Input.Rounding();
         this->Disks.emplace(this->Given(), options, progress.Stage());
         stages.Next(1.0);
         this->NumberPoints(progress);
       });
   }
-  catch (const NotADisk& defect)
+  catch (const std::exception& error)
   {
-    throw Failure(std::string("The input surface ") + defect.what());
+    if (dynamic_cast<const NotADisk*>(&error) || dynamic_cast<const std::invalid_argument*>(&error))
+    {
+      throw Failure(std::string("The input surface ") + error.what());
+    }
+    throw;
   }
-  catch (const std::invalid_argument& error)
-  {
-    throw Failure(std::string("The input surface ") + error.what());
-  }
-}
-
-TriangleSurface OpenedSurface::Given() const
-{
-  return { { this->Coordinates.data(), this->Coordinates.size() / 3 }, this->Corners.data(),
-    this->Cells->NumberOfTriangles() };
 }
 
 // The first copy of a point has its number.
 void OpenedSurface::NumberPoints(Progress& progress)
 {
-  const std::int64_t given = this->Coordinates.size() / 3;
+  const std::int64_t given = this->Given().Points.size();
+  const std::int64_t corners = 3 * this->Given().NumberOfTriangles;
   this->CutPoints.assign(static_cast<std::size_t>(given), -1);
   this->Origins.resize(static_cast<std::size_t>(given));
   for (std::int64_t point = 0; point < given; ++point)
@@ -85,13 +79,13 @@ void OpenedSurface::NumberPoints(Progress& progress)
     this->Origins[static_cast<std::size_t>(point)] = point;
   }
   this->NextCopy.assign(static_cast<std::size_t>(given), -1);
-  this->OutputCorners = LargeBuffer<std::int64_t>(this->Corners.size());
+  this->OutputCorners = LargeBuffer<std::int64_t>(corners);
   progress.ForInOrder(
-    this->Corners.size(), Grain,
+    corners, Grain,
     [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t corner = first; corner < last; ++corner)
       {
-        const std::int64_t point = this->Corners.data()[corner];
+        const std::int64_t point = this->Given().Triangles[corner];
         const std::int64_t wanted = this->Disks->CornersOf(corner / 3)[corner % 3];
         std::int64_t& own = this->CutPoints[static_cast<std::size_t>(point)];
         own = own < 0 ? wanted : own;
@@ -129,12 +123,12 @@ std::int64_t OpenedSurface::CopyAt(std::int64_t given, std::int64_t cutPoint)
 // Where the copies of the points at the place of a corner are.
 std::vector<std::int64_t> OpenedSurface::PlacesOf(std::int64_t corner) const
 {
-  const std::int64_t own = this->Disks->PointOf(this->Corners.data()[corner]);
+  const std::int64_t own = this->Disks->PointOf(this->Given().Triangles[corner]);
   const std::int64_t first = corner - corner % 3;
   std::vector<std::int64_t> places;
   for (std::int64_t i = first; i < first + 3; ++i)
   {
-    const std::int64_t given = this->Corners.data()[i];
+    const std::int64_t given = this->Given().Triangles[i];
     if (this->Disks->PointOf(given) != own)
     {
       continue;
@@ -155,9 +149,9 @@ void OpenedSurface::PlaceFlatCells(ConstPointSpan<2> positions)
     const double* q = positions[b];
     return std::max(std::abs(p[0] - q[0]), std::abs(p[1] - q[1]));
   };
-  for (std::int64_t corner = 0; corner < this->Corners.size(); corner += 3)
+  for (std::int64_t corner = 0; corner < this->OutputCorners.size(); corner += 3)
   {
-    const std::int64_t* given = this->Corners.data() + corner;
+    const std::int64_t* given = this->Given().Triangles + corner;
     const bool isPlaced = std::all_of(
       given, given + 3, [this](std::int64_t point) { return this->Disks->PointOf(point) >= 0; });
     if (this->Disks->DiskOf(corner / 3) >= 0 || !isPlaced)
@@ -227,18 +221,13 @@ void OpenedSurface::CopyTo(vtkPolyData* output, Progress& progress) const
 std::string OpenedSurface::RepairWarning() const
 {
   const SurfaceCuts& cuts = this->Disks->Cuts();
-  SurfaceRepairs repairs;
-  repairs.UnusedPoints = cuts.UnusedPoints;
-  repairs.FlatTriangles = cuts.FlatTriangles;
-  repairs.MergedPoints = cuts.MergedPoints;
-  std::string text = repairText(repairs);
-  if (cuts.NonManifoldEdges > 0)
-  {
-    const std::string edges = cuts.NonManifoldEdges == 1 ? " edge" : " edges";
-    text += (text.empty() ? "" : ", ") + std::to_string(cuts.NonManifoldEdges) + edges +
-      " of more than two triangles parted";
-  }
-  return text.empty() ? text : "The input surface was repaired: " + text;
+  RepairCounts counts;
+  counts.UnusedPoints = cuts.UnusedPoints;
+  counts.FlatTriangles = cuts.FlatTriangles + this->Input.FlatTriangles();
+  counts.MergedPoints = cuts.MergedPoints;
+  counts.TJunctions = this->Input.TJunctions();
+  counts.PartedEdges = cuts.NonManifoldEdges;
+  return repairWarning(counts);
 }
 
 } // namespace RectifiedTransport

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_OpenedSurface_h
 #define RectifiedTransport_OpenedSurface_h
 
-#include "Bridge/Surface/TriangulatedSurface.h"
+#include "Bridge/Surface/SurfaceTriangles.h"
 #include "Core/Geometry/Points.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
@@ -22,17 +22,15 @@ namespace RectifiedTransport
 class OpenedSurface
 {
 public:
-  // `input` has points. Cuts polygons and strips into triangles, and these into disks; progress
-  // then reaches `end`. Throws Failure if the input has no polygons or no area, coordinates that
-  // are not finite, polygons that cannot be cut or triangles that have no conformal map, and
-  // Cancelled.
-  OpenedSurface(vtkPolyData* input, Progress& progress, double end);
+  // Takes triangles and cuts them at T-junctions, and then into disks; progress then reaches `end`.
+  // Throws Failure if they have no area or no conformal map, and Cancelled.
+  OpenedSurface(SurfaceTriangles& input, Progress& progress, double end);
 
   const CutSurface& Cut() const { return *this->Disks; }
-  vtkPolyData* Triangulated() const { return this->Cells->Get(); }
+  vtkPolyData* Triangulated() const { return this->Input.Cells().Get(); }
   // The triangles of Triangulated(), from the cell FirstCell() on.
-  TriangleSurface Given() const;
-  vtkIdType FirstCell() const { return this->Cells->FirstCell(); }
+  TriangleSurface Given() const { return this->Input.Surface(); }
+  vtkIdType FirstCell() const { return this->Input.Cells().FirstCell(); }
 
   // The point of the input that a point of the output is.
   std::int64_t OriginOf(std::int64_t point) const
@@ -52,7 +50,7 @@ public:
   // points, which would no longer be unique. Runs as the current stage. Throws Failure and
   // Cancelled.
   void CopyTo(vtkPolyData* output, Progress& progress) const;
-  // A warning that counts what was left out, merged and parted; empty if nothing was.
+  // A warning that counts what was left out, merged, closed and parted; empty if nothing was.
   std::string RepairWarning() const;
 
 private:
@@ -60,9 +58,7 @@ private:
   std::int64_t CopyAt(std::int64_t given, std::int64_t cutPoint);
   std::vector<std::int64_t> PlacesOf(std::int64_t corner) const;
 
-  std::optional<TriangulatedSurface> Cells;
-  LargeBuffer<double> Coordinates;
-  LargeBuffer<std::int64_t> Corners; // of the triangles; points of the input
+  SurfaceTriangles Input;
   std::optional<CutSurface> Disks;
   LargeBuffer<std::int64_t> OutputCorners;
   std::vector<std::int64_t> Origins;   // by points of the output

@@ -4,6 +4,7 @@
 #define RectifiedTransport_PlacedTriangles_h
 
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Mesh/PlaceOnTriangle.h"
 #include "Core/Mesh/TriangleSurface.h"
 
 #include "vtkType.h"
@@ -25,6 +26,13 @@ struct SurfaceAreas
   double Unit;          // in units of the input
 };
 
+// Points of the input, and what each of them counts.
+struct PlaceInCell
+{
+  std::array<std::int64_t, 3> Points;
+  std::array<double, 3> Weights;
+};
+
 class PlacedTriangles
 {
 public:
@@ -35,6 +43,13 @@ public:
   virtual std::int64_t NumberOfTriangles() const = 0;
   // The points of the input at the corners of a triangle.
   virtual std::array<std::int64_t, 3> CornersOf(std::int64_t triangle) const = 0;
+  // Whether a triangle is part of one that was cut at T-junctions.
+  virtual bool IsPart(std::int64_t) const { return false; }
+  // A place in its cell before that was cut.
+  virtual PlaceInCell InCell(const PlaceOnTriangle& place) const
+  {
+    return { this->CornersOf(place.Triangle), place.Weights };
+  }
   // The cell of Triangulated() that a triangle is, or is part of.
   virtual vtkIdType CellOf(std::int64_t triangle) const = 0;
   // The cell of the input that a triangle was cut from.

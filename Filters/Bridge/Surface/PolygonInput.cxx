@@ -120,12 +120,12 @@ void requirePolygons(vtkPolyData* surface, const std::string& need)
 }
 
 LargeBuffer<double> readSurfacePoints(
-  vtkPolyData* surface, const std::string& need, Progress& progress)
+  vtkPolyData* surface, const std::string& need, Progress& progress, double bytesOfPoint)
 {
   const std::int64_t points = surface->GetNumberOfPoints();
   LargeBuffer<double> coordinates =
     withMemory("the surface's " + std::to_string(points) + " points",
-      static_cast<double>(points) * 24.0, [&]() { return readPoints(surface, progress); });
+      static_cast<double>(points) * bytesOfPoint, [&]() { return readPoints(surface, progress); });
   requirePolygons(surface, need);
   return coordinates;
 }

@@ -42,7 +42,7 @@ void requirePolygons(vtkPolyData* surface, const std::string& need);
 // Both: the coordinates of a surface that has polygons. Throws Failure, also without memory for
 // them, and Cancelled.
 LargeBuffer<double> readSurfacePoints(
-  vtkPolyData* surface, const std::string& need, Progress& progress);
+  vtkPolyData* surface, const std::string& need, Progress& progress, double bytesOfPoint = 24.0);
 
 // Whether all polygons are triangles, and there are no strips.
 bool isAllTriangles(vtkPolyData* surface);

@@ -4,15 +4,18 @@
 #include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/PolygonInput.h"
+#include "Core/Mesh/SplitSurface.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkFieldData.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -38,13 +41,7 @@ TriangulatedSurface::TriangulatedSurface(
   stages.Next(0.6 * part);
   const vtkSmartPointer<vtkCellArray> triangles =
     triangulate(input->GetPoints(), input->GetPolys(), input->GetStrips(), progress);
-  this->Surface = vtkSmartPointer<vtkPolyData>::New();
-  this->Surface->SetPoints(input->GetPoints());
-  this->Surface->SetVerts(input->GetVerts());
-  this->Surface->SetLines(input->GetLines());
-  this->Surface->SetPolys(triangles);
-  this->Surface->GetPointData()->PassData(input->GetPointData());
-  this->Surface->GetFieldData()->PassData(input->GetFieldData());
+  this->Surface = this->WithTriangles(triangles);
   stages.Next(0.75 * part);
   const auto count = static_cast<std::int64_t>(triangles->GetNumberOfCells());
   withMemory("the cells of the surface's " + std::to_string(count) + " triangles",
@@ -54,6 +51,51 @@ TriangulatedSurface::TriangulatedSurface(
     });
   stages.Next(part);
   this->CopyCellData(input, progress);
+}
+
+// What the surface is, but for the cell data and for its polygons.
+vtkSmartPointer<vtkPolyData> TriangulatedSurface::WithTriangles(vtkCellArray* triangles) const
+{
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->SetPoints(this->Surface->GetPoints());
+  surface->SetVerts(this->Surface->GetVerts());
+  surface->SetLines(this->Surface->GetLines());
+  surface->SetPolys(triangles);
+  surface->GetPointData()->PassData(this->Surface->GetPointData());
+  surface->GetFieldData()->PassData(this->Surface->GetFieldData());
+  return surface;
+}
+
+void TriangulatedSurface::Cut(const SplitSurface& parts, Progress& progress)
+{
+  const std::int64_t count = parts.NumberOfTriangles();
+  withMemory("the cells of the surface's " + std::to_string(count) + " triangles",
+    static_cast<double>(count) * 5.0 * sizeof(vtkIdType), [&]() {
+      vtkNew<vtkCellArray> triangles;
+      triangles->AllocateExact(static_cast<vtkIdType>(count), static_cast<vtkIdType>(3 * count));
+      LargeBuffer<vtkIdType> inputCells(count);
+      progress.ForInOrder(count, Grain, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t triangle = first; triangle < last; ++triangle)
+        {
+          const std::int64_t* ids = parts.Triangles() + 3 * triangle;
+          triangles->InsertNextCell({ static_cast<vtkIdType>(ids[0]),
+            static_cast<vtkIdType>(ids[1]), static_cast<vtkIdType>(ids[2]) });
+          inputCells.data()[triangle] = this->InputCellOf(parts.GivenTriangle(triangle));
+        }
+      });
+      const vtkSmartPointer<vtkPolyData> whole = this->Surface;
+      this->Surface = this->WithTriangles(triangles);
+      this->InputCells = std::move(inputCells);
+      copyTuples(
+        { whole->GetCellData(), whole->GetNumberOfCells(), "cell", "input surface" },
+        this->Surface->GetNumberOfCells(),
+        [this, &parts](vtkIdType cell) {
+          return cell < this->FirstPolygon
+            ? cell
+            : this->CellOf(parts.GivenTriangle(cell - this->FirstPolygon));
+        },
+        this->Surface->GetCellData(), progress);
+    });
 }
 
 std::int64_t TriangulatedSurface::NumberOfTriangles() const

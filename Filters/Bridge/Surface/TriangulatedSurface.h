@@ -13,8 +13,14 @@
 
 #include <cstdint>
 
+VTK_ABI_NAMESPACE_BEGIN
+class vtkCellArray;
+VTK_ABI_NAMESPACE_END
+
 namespace RectifiedTransport
 {
+
+class SplitSurface;
 
 // Stages from `Begin` to `End` of a run.
 struct SurfaceStages
@@ -57,7 +63,12 @@ public:
   // Three points a triangle, as the work of the current stage. Throws Cancelled and std::bad_alloc.
   LargeBuffer<std::int64_t> Corners(Progress& progress) const;
 
+  // Replaces the triangles by their parts, which are cells of the same data as above. Runs as the
+  // current stage. Throws Failure and Cancelled.
+  void Cut(const SplitSurface& parts, Progress& progress);
+
 private:
+  vtkSmartPointer<vtkPolyData> WithTriangles(vtkCellArray* triangles) const;
   void FindInputCells(vtkPolyData* input, Progress& progress);
   void CopyCellData(vtkPolyData* input, Progress& progress);
 

@@ -5,6 +5,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/PolygonInput.h"
+#include "Core/Mesh/TJunctions.h"
 #include "Core/Mesh/UnitScale.h"
 #include "Core/Parallel/Reduction.h"
 
@@ -33,7 +34,6 @@ WholeSurface::WholeSurface(vtkPolyData* input, Progress& progress, double end)
   const SurfaceStages stages{ progress, progress.StageEnd(), end };
   stages.Next(0.2);
   this->Coordinates = readSurfacePoints(input, "it must be a surface", progress);
-  this->ScalePoints(progress);
   this->Cells.emplace(input, stages, 0.6);
   const std::int64_t triangles = this->Cells->NumberOfTriangles();
   withMemory("the surface's " + std::to_string(triangles) + " triangles",
@@ -41,6 +41,9 @@ WholeSurface::WholeSurface(vtkPolyData* input, Progress& progress, double end)
       stages.Next(0.8);
       this->Corners = this->Cells->Corners(progress);
       this->LeaveOutGhosts(input, progress);
+      const double rounding = roundingOfCorners(this->Surface(), progress);
+      this->ScalePoints(progress);
+      this->RoundingOfPoints = rounding / this->Unit;
       stages.Next(1.0);
       this->FindAreas(progress);
     });

@@ -37,6 +37,8 @@ public:
     return this->Cells->InputCellOf(this->Given(triangle));
   }
   TriangleSurface Surface() const override;
+  // By how much the coordinates of Surface() may be off (see roundingOfCorners).
+  double Rounding() const { return this->RoundingOfPoints; }
   SurfaceAreas Areas() const override { return { this->Shares.data(), this->Area, this->Unit }; }
 
 private:
@@ -53,6 +55,7 @@ private:
   LargeBuffer<std::int64_t> Corners;
   LargeBuffer<std::int64_t> Kept; // triangles of Cells; empty if these are all
   LargeBuffer<double> Shares;
+  double RoundingOfPoints = 0.0;
   double Area = 0.0;
   double Unit = 1.0;
 };

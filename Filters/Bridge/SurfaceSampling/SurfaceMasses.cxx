@@ -155,6 +155,17 @@ SurfaceMasses::SurfaceMasses(vtkPolyData* input, const PlacedTriangles& surface,
     {
       return values ? values[cell] / largest : 1.0;
     }
+    if (surface.IsPart(triangle))
+    {
+      constexpr double third = 1.0 / 3.0;
+      const PlaceInCell centre = surface.InCell({ triangle, { third, third, third } });
+      double mean = 0.0;
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        mean += centre.Weights[i] * (values[centre.Points[i]] / largest);
+      }
+      return mean;
+    }
     const std::array<std::int64_t, 3> corners = surface.CornersOf(triangle);
     return (values[corners[0]] / largest + values[corners[1]] / largest +
              values[corners[2]] / largest) /

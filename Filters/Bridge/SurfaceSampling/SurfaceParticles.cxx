@@ -56,13 +56,13 @@ vtkSmartPointer<vtkDoubleArray> writeParticles(const SurfaceInput& input,
     for (std::int64_t i = first; i < last; ++i)
     {
       const PlaceOnTriangle& place = places.data()[i];
-      const std::array<std::int64_t, 3> corners = surface.CornersOf(place.Triangle);
+      const PlaceInCell in = surface.InCell(place);
       Eigen::Vector3d x = Eigen::Vector3d::Zero();
       for (std::size_t corner = 0; corner < 3; ++corner)
       {
         Eigen::Vector3d at;
-        surface.Triangulated()->GetPoint(static_cast<vtkIdType>(corners[corner]), at.data());
-        x += place.Weights[corner] * at;
+        surface.Triangulated()->GetPoint(static_cast<vtkIdType>(in.Points[corner]), at.data());
+        x += in.Weights[corner] * at;
       }
       Eigen::Map<Eigen::Vector3d>(point + 3 * i) = x;
       Eigen::Map<Eigen::Vector3d>(normal + 3 * i) = normalOf(triangles, place.Triangle);
@@ -94,8 +94,9 @@ public:
     const PlaceOnTriangle& on = this->Places.data()[place];
     SampledPlace found{};
     found.Count = 3;
-    std::copy_n(this->Surface.CornersOf(on.Triangle).data(), 3, found.Points);
-    std::copy_n(on.Weights.data(), 3, found.Weights);
+    const PlaceInCell in = this->Surface.InCell(on);
+    std::copy_n(in.Points.data(), 3, found.Points);
+    std::copy_n(in.Weights.data(), 3, found.Weights);
     found.Cell = this->Surface.CellOf(on.Triangle);
     return found;
   }

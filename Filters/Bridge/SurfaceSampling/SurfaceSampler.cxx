@@ -7,6 +7,7 @@
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Surface/DiskSurface.h"
+#include "Bridge/Surface/RepairText.h"
 #include "Bridge/Surface/SurfaceInput.h"
 #include "Bridge/Surface/WholeSurface.h"
 #include "Bridge/SurfaceSampling/SurfaceMasses.h"
@@ -117,6 +118,7 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
   requireMemory(particles, bytes);
 
   const WholeSurface surface(input, progress, ends[0]);
+  options.Rounding = surface.Rounding();
   progress.BeginStage(ends[1]);
   const SurfaceMasses masses(input, surface, density, progress);
   const RelativeDensity relative(surface, density, masses.Largest(), progress);
@@ -131,6 +133,9 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
     given, surface, samples.Places, masses.Total(), progress, ends.data() + 3, output);
   SurfaceSamplingReport report;
   report.Particles = samples.Places.size();
+  RepairCounts repairs; // of what else is wrong, nothing changes the result
+  repairs.TJunctions = samples.TJunctions;
+  report.Repair = repairWarning(repairs);
   return report;
 }
 
@@ -180,7 +185,7 @@ SurfaceSamplingReport SurfaceSampler::Transport(const SurfaceInput& given,
   return { samples.Places.size(), samples.Flow.MovedToMass,
     stepWarning(samples.Flow, this->Flow, FlowDirection::Forward), disk.NumberOfTriangles(),
     countCollapsed(disk, map.Square.Corners), samples.PatchError, samples.IsAreaPreserving,
-    surface.IsRepaired() ? surface.RepairWarning() : "" };
+    surface.RepairWarning() };
 }
 
 } // namespace RectifiedTransport

@@ -44,7 +44,7 @@ public:
   std::int64_t Other(std::int64_t side) const { return this->Others.data()[side]; }
 
 private:
-  void Pair(const std::int64_t* triangles, std::int64_t* begin, std::int64_t* end);
+  void Pair(const std::int64_t* triangles, const std::int64_t* sides, std::int64_t count);
 
   LargeBuffer<std::int64_t> Others; // by sides
   std::atomic<std::int64_t> NumberOpen{ 0 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Parameterization/MapDistortion.h"
 
+#include "Core/Mesh/FlatShape.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 
@@ -23,7 +24,16 @@ struct Sums
   double Square;
   double Angle;
   std::int64_t Flipped;
+  std::int64_t FlippedNeedles;
 };
+
+bool isNeedle(const TriangleSurface& surface, std::int64_t triangle)
+{
+  const std::int64_t* corners = surface.Triangles + 3 * triangle;
+  const FlatShape shape(
+    surface.Points[corners[0]], surface.Points[corners[1]], surface.Points[corners[2]]);
+  return shape.Height < MapDistortion::NeedleHeight * shape.Length;
+}
 
 // The value that the given parts of the weight do not pass, of pairs of a value and its weight.
 double quantile(const std::vector<std::pair<double, double>>& ascending, double part)
@@ -101,9 +111,9 @@ MapDistortion measureDistortion(
   std::vector<std::pair<double, double>> deviations(static_cast<std::size_t>(count));
   progress.BeginStage(0.5);
   const Sums sums = reduceChunks(
-    progress, count, grain, Sums{ 0.0, 0.0, 0 },
+    progress, count, grain, Sums{ 0.0, 0.0, 0, 0 },
     [&](std::int64_t first, std::int64_t last) {
-      Sums part{ 0.0, 0.0, 0 };
+      Sums part{ 0.0, 0.0, 0, 0 };
       for (std::int64_t t = first; t < last; ++t)
       {
         const TriangleDistortion distortion = distortionOf(triangles, positions, t);
@@ -113,17 +123,19 @@ MapDistortion measureDistortion(
         part.Square += weight * deviation * deviation;
         part.Angle += weight * distortion.Angle;
         part.Flipped += distortion.IsFlipped ? 1 : 0;
+        part.FlippedNeedles += distortion.IsFlipped && isNeedle(triangles.Surface, t) ? 1 : 0;
       }
       return part;
     },
     [](const Sums& a, const Sums& b) {
-      return Sums{ a.Square + b.Square, a.Angle + b.Angle, a.Flipped + b.Flipped };
+      return Sums{ a.Square + b.Square, a.Angle + b.Angle, a.Flipped + b.Flipped,
+        a.FlippedNeedles + b.FlippedNeedles };
     });
   std::sort(deviations.begin(), deviations.end());
   progress.BeginStage(1.0);
   progress.EndSlice(1);
   return { std::sqrt(sums.Square), quantile(deviations, 0.5), quantile(deviations, 0.95),
-    sums.Angle, sums.Flipped };
+    sums.Angle, sums.Flipped, sums.FlippedNeedles };
 }
 
 } // namespace RectifiedTransport

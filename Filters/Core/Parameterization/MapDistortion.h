@@ -48,6 +48,9 @@ struct MapDistortion
   double Area95;             // 95 % of the surface deviates by no more
   double AngleMean;
   std::int64_t Flipped; // number of triangles
+  // Of these, triangles lower than NeedleHeight times their longest sides.
+  std::int64_t FlippedNeedles;
+  static constexpr double NeedleHeight = 1e-4;
 };
 
 MapDistortion measureDistortion(const MeasuredTriangles& triangles, ConstPointSpan<2> positions,

@@ -2,7 +2,9 @@
 #include "Core/Solid/ClosedMesh.h"
 
 #include "Core/Mesh/MergePoints.h"
+#include "Core/Mesh/SplitSurface.h"
 #include "Core/Mesh/SurfaceEdges.h"
+#include "Core/Mesh/TJunctions.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Solid/OrientedBodies.h"
 #include "Core/Solid/RepeatedTriangles.h"
@@ -82,14 +84,13 @@ ClosedMesh::ClosedMesh(const TriangleSurface& surface, const Context& context)
   progress.BeginStage(0.8);
   if (!this->Closed && distance > 0.0 && this->MergeNear(distance, progress.Stage()))
   {
-    progress.BeginStage(0.9);
+    progress.BeginStage(0.85);
     addTriangles(surface, progress, *this);
-    progress.BeginStage(1.0);
+    progress.BeginStage(0.9);
     this->CountEdges(progress.Stage());
-    return;
   }
   progress.BeginStage(1.0);
-  progress.EndSlice(1);
+  this->CloseTJunctions(distance, progress.Stage());
 }
 
 ClosedMesh::ClosedMesh(LargeBuffer<double> coordinates, const Context& context)
@@ -119,6 +120,7 @@ bool ClosedMesh::MergeNear(double distance, const Context& context)
   }
   this->Firsts = std::move(firsts);
   this->NumberOfTriangles = 0;
+  this->NumberOfTJunctions = 0;
   this->Edges.reset();
   this->Closed = false;
   return true;
@@ -215,6 +217,46 @@ void ClosedMesh::DropRepeated(const Context& context)
   }
   progress.BeginStage(1.0);
   drop(ways.front());
+}
+
+bool ClosedMesh::CloseTJunctions(double rounding, const Context& context)
+{
+  Progress progress(context);
+  progress.BeginStage(0.3);
+  std::vector<TJunction> junctions;
+  if (this->NumberOpen > 0)
+  {
+    const TriangleSurface surface = this->Surface();
+    const std::vector<OpenSide> open = openSidesOf(surface, {}, progress);
+    progress.BeginStage(0.5);
+    junctions = findTJunctions(surface.Points, open, rounding, progress);
+  }
+  progress.BeginStage(0.6);
+  if (junctions.empty())
+  {
+    progress.BeginStage(1.0);
+    progress.EndSlice(1);
+    return this->Closed;
+  }
+  const SplitSurface split(this->Surface(), junctions, progress);
+  LargeBuffer<std::int64_t> before = std::move(this->Triangles);
+  const std::int64_t numberBefore = this->NumberOfTriangles;
+  this->Reserve(split.NumberOfTriangles());
+  this->NumberOfTriangles = split.NumberOfTriangles();
+  std::copy_n(split.Triangles(), 3 * this->NumberOfTriangles, this->Triangles.data());
+  progress.BeginStage(0.8);
+  this->CountEdges(progress.Stage());
+  progress.BeginStage(1.0);
+  if (this->Closed)
+  {
+    this->NumberOfTJunctions = split.NumberOfTJunctions();
+    progress.EndSlice(1);
+    return true;
+  }
+  this->Triangles = std::move(before);
+  this->NumberOfTriangles = numberBefore;
+  this->CountEdges(progress.Stage());
+  return false;
 }
 
 bool ClosedMesh::Orient(const Context& context)

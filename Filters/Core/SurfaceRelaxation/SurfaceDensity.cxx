@@ -14,7 +14,7 @@ namespace
 {
 
 // Of the values of a range of triangles, or at their points.
-DensitySummary summarize(const WalkedSurface& surface, const SurfaceDensityValues& values,
+DensitySummary summarize(const TriangleSurface& surface, const SurfaceDensityValues& values,
   std::int64_t first, std::int64_t last)
 {
   DensitySummary summary;
@@ -40,7 +40,7 @@ DensitySummary summarize(const WalkedSurface& surface, const SurfaceDensityValue
     }
     for (std::int64_t i = 0; i < 3 && values.AtPoints; ++i)
     {
-      const std::int64_t point = surface.Triangle(triangle)[i];
+      const std::int64_t point = surface.Triangles[3 * triangle + i];
       add(values.AtPoints[point], point);
     }
   }
@@ -70,9 +70,9 @@ SurfaceDensity::SurfaceDensity(
     return;
   }
   const DensitySummary summary = reduceChunks(
-    progress, surface.NumberOfTriangles(), grain, DensitySummary(),
+    progress, surface.Given().NumberOfTriangles, grain, DensitySummary(),
     [&](std::int64_t first, std::int64_t last) {
-      return summarize(surface, this->Values, first, last);
+      return summarize(surface.Given(), this->Values, first, last);
     },
     combine);
   if (summary.NotFinite > 0 || summary.Negative > 0 || summary.Maximum == 0.0)
@@ -80,6 +80,25 @@ SurfaceDensity::SurfaceDensity(
     throw InvalidDensity(summary);
   }
   this->Maximum = summary.Maximum;
+}
+
+// Linear in the given triangle.
+std::array<double, 3> SurfaceDensity::AtCornersOfPart(std::int64_t triangle) const
+{
+  std::array<double, 3> values{ 0.0, 0.0, 0.0 };
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    PlaceOnTriangle corner{ triangle, { 0.0, 0.0, 0.0 } };
+    corner.Weights[i] = 1.0;
+    const PlaceOnTriangle given = this->Surface.GivenPlace(corner);
+    for (std::size_t j = 0; j < 3; ++j)
+    {
+      const std::int64_t point =
+        this->Surface.Given().Triangles[3 * given.Triangle + static_cast<std::int64_t>(j)];
+      values[i] += given.Weights[j] * (this->Values.AtPoints[point] / this->Maximum);
+    }
+  }
+  return values;
 }
 
 } // namespace RectifiedTransport

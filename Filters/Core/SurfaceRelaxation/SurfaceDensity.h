@@ -30,6 +30,10 @@ public:
   std::array<double, 3> AtCorners(std::int64_t triangle) const
   {
     std::array<double, 3> values{ 1.0, 1.0, 1.0 };
+    if (this->Values.AtPoints && this->Surface.IsPart(triangle))
+    {
+      return this->AtCornersOfPart(triangle);
+    }
     const std::int64_t* points = this->Surface.Triangle(triangle);
     for (std::size_t i = 0; i < 3; ++i)
     {
@@ -39,7 +43,7 @@ public:
       }
       else if (this->Values.OfTriangles)
       {
-        values[i] = this->Values.OfTriangles[triangle] / this->Maximum;
+        values[i] = this->Values.OfTriangles[this->Surface.GivenTriangle(triangle)] / this->Maximum;
       }
     }
     return values;
@@ -55,6 +59,8 @@ public:
   }
 
 private:
+  std::array<double, 3> AtCornersOfPart(std::int64_t triangle) const;
+
   const WalkedSurface& Surface;
   SurfaceDensityValues Values;
   double Maximum = 1.0;

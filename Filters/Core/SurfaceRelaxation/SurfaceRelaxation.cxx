@@ -135,7 +135,8 @@ public:
     this->Work.For(places.size(), grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
-        places.data()[i] = this->Surface.WeightsOf(this->Places.data()[i]);
+        places.data()[i] =
+          this->Surface.GivenPlace(this->Surface.WeightsOf(this->Places.data()[i]));
       }
     });
     return places;
@@ -279,7 +280,7 @@ SurfaceRelaxation relaxOnSurface(const TriangleSurface& given, const SurfaceDens
 {
   check(options);
   Progress progress(context);
-  WalkedSurface surface(given, progress, 0.1);
+  WalkedSurface surface(given, options.Rounding, progress, 0.1);
   progress.BeginStage(0.11);
   const SurfaceDensity density(surface, values, progress);
   progress.BeginStage(0.12);
@@ -294,6 +295,7 @@ SurfaceRelaxation relaxOnSurface(const TriangleSurface& given, const SurfaceDens
   }
   SurfaceRelaxation relaxed;
   relaxed.WeldedPoints = surface.WeldedPoints();
+  relaxed.TJunctions = surface.TJunctions();
   relaxed.OpenEdges = surface.OpenEdges();
   relaxed.NonManifoldEdges = surface.NonManifoldEdges();
   if (options.NumberOfSamples == 0)
@@ -325,7 +327,7 @@ SurfaceRelaxation relaxOnSurface(const TriangleSurface& given, const SurfaceDens
 double memoryForSurfaceRelaxation(
   std::int64_t points, std::int64_t triangles, bool hasDensity, std::int64_t samples)
 {
-  const double kept = 24.0 * static_cast<double>(points) + 24.0 * static_cast<double>(triangles) +
+  const double kept = 24.0 * static_cast<double>(points) + 56.0 * static_cast<double>(triangles) +
     (hasDensity ? 8.0 * static_cast<double>(triangles) : 0.0);
   const double levels = hasDensity ? DensityLevels::MemoryFor(triangles) : 0.0;
   const double dots = static_cast<double>(samples) *

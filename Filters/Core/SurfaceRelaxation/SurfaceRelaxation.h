@@ -21,6 +21,8 @@ struct SurfaceRelaxationOptions
   std::int64_t NumberOfSamples = 8192;
   int Iterations = 20; // 0: the stratified start itself
   std::uint64_t RandomSeed = 1;
+  // By how much coordinates may be off because of rounding; at least that of double.
+  double Rounding = 0.0;
 };
 
 // A density per area: values at points (linear in triangles), or one a triangle, or neither: 1.
@@ -34,13 +36,15 @@ struct SurfaceRelaxation
 {
   LargeBuffer<PlaceOnTriangle> Places; // near ones are often near in the order, too
   std::int64_t WeldedPoints = 0;       // at the place of another point
+  std::int64_t TJunctions = 0;         // that were closed
   std::int64_t OpenEdges = 0;          // of one triangle
   std::int64_t NonManifoldEdges = 0;   // of more than two
 };
 
 // Any triangles: closed or not, in several components, with handles, with more than two triangles
 // on an edge, turned either way, intersecting each other, without area. Points with equal
-// coordinates count as one.
+// coordinates count as one. Triangles are neighbours also across T-junctions (see TJunctions.h):
+// there they are cut, each with the density that it has as a whole.
 //
 // Samples of the surface in proportion to area times density are halved by k-d cuts, so that each
 // part has its share of the dots to one. Then dots repel each other, by bumps as wide as their

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SurfaceRelaxation/WalkedSurface.h"
 
+#include "Core/Mesh/EdgeSides.h"
 #include "Core/Mesh/MergePoints.h"
-#include "Core/Mesh/SurfaceEdges.h"
+#include "Core/Mesh/TJunctions.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 
@@ -69,8 +70,10 @@ Bounds boundsOfTriangles(
 
 } // namespace
 
-WalkedSurface::WalkedSurface(const TriangleSurface& surface, Progress& progress, double end)
-  : Triangles(surface.Triangles)
+WalkedSurface::WalkedSurface(
+  const TriangleSurface& surface, double rounding, Progress& progress, double end)
+  : GivenSurface(surface)
+  , Triangles(surface.Triangles)
   , Count(surface.NumberOfTriangles)
 {
   if (this->Count == 0)
@@ -123,13 +126,23 @@ WalkedSurface::WalkedSurface(const TriangleSurface& surface, Progress& progress,
   LargeBuffer<std::int64_t> welded(points);
   progress.BeginStage(part(0.5));
   mergePoints(surface.Points, welded.data(), progress.Stage());
-  this->PairSides(welded.data(), points, progress, part(0.5), end);
+  for (std::int64_t point = 0; point < points; ++point)
+  {
+    this->NumberWelded += welded.data()[point] != point ? 1 : 0;
+  }
+  this->PairSides(welded.data(), points, progress, part(0.9));
+  progress.BeginStage(part(0.95));
+  if (this->Cut(welded.data(), rounding, progress))
+  {
+    this->PairSides(welded.data(), points, progress, end);
+  }
 }
 
 double WalkedSurface::MemoryFor(std::int64_t points, std::int64_t triangles)
 {
-  // Positions and sides stay; the welded points with their hash table, or the sorted sides, go.
-  return 24.0 * static_cast<double>(points) + 24.0 * static_cast<double>(triangles) +
+  // Positions, sides and parts of triangles stay; the welded points with their hash table, or the
+  // sorted sides, go.
+  return 24.0 * static_cast<double>(points) + 56.0 * static_cast<double>(triangles) +
     std::max(40.0 * static_cast<double>(points),
       16.0 * static_cast<double>(points) + 24.0 * static_cast<double>(triangles));
 }
@@ -144,87 +157,61 @@ double WalkedSurface::Area(std::int64_t triangle) const
   return isFlat(squared, dot(b, b) + dot(c, c)) ? 0.0 : 0.5 * std::sqrt(squared);
 }
 
-// A counting sort by the lower ends, as in SurfaceEdges.
 void WalkedSurface::PairSides(
-  const std::int64_t* welded, std::int64_t points, Progress& progress, double begin, double end)
+  const std::int64_t* welded, std::int64_t points, Progress& progress, double end)
 {
-  const std::int64_t count = 3 * this->Count;
-  this->Sides = LargeBuffer<std::int64_t>(count);
-  const auto low = [=](std::int64_t side) {
-    return std::min(welded[this->Triangles[side]], welded[this->Triangles[nextSide(side)]]);
-  };
-  const auto high = [=](std::int64_t side) {
-    return std::max(welded[this->Triangles[side]], welded[this->Triangles[nextSide(side)]]);
-  };
-  // Triangles with a corner twice are a line that others share.
-  const auto isLine = [=](std::int64_t triangle) {
-    const std::int64_t* t = this->Triangle(triangle);
-    return welded[t[0]] == welded[t[1]] || welded[t[1]] == welded[t[2]] ||
-      welded[t[2]] == welded[t[0]];
-  };
-  LargeBuffer<std::int64_t> firstMemory(points + 2);
-  LargeBuffer<std::int64_t> sortedMemory(count);
-  std::int64_t* first = firstMemory.data();
-  std::int64_t* sorted = sortedMemory.data();
-  std::fill_n(first, points + 2, std::int64_t{ 0 });
-  const auto forSides = [&](double of, const auto& visit) {
-    progress.BeginStage(begin + of * (end - begin));
-    progress.ForInOrder(this->Count, grain, [&](std::int64_t from, std::int64_t to) {
-      for (std::int64_t triangle = from; triangle < to; ++triangle)
-      {
-        for (std::int64_t side = 3 * triangle; side < 3 * triangle + 3 && !isLine(triangle); ++side)
-        {
-          visit(side);
-        }
-      }
-    });
-  };
-  forSides(0.3, [=](std::int64_t side) { ++first[low(side) + 2]; });
-  for (std::int64_t point = 1; point < points + 2; ++point)
-  {
-    first[point] += first[point - 1];
-  }
-  forSides(0.6, [=](std::int64_t side) { sorted[first[low(side) + 1]++] = side; });
-  for (std::int64_t point = 0; point < points; ++point)
-  {
-    this->NumberWelded += welded[point] != point ? 1 : 0;
-  }
-  progress.BeginStage(begin + 0.7 * (end - begin));
-  progress.For(count, grain, [&](std::int64_t from, std::int64_t to) {
-    std::fill(this->Sides.data() + from, this->Sides.data() + to, Boundary);
-  });
+  this->Sides = LargeBuffer<std::int64_t>(3 * this->Count);
+  std::fill_n(this->Sides.data(), 3 * this->Count, Boundary);
   std::atomic<std::int64_t> open{ 0 };
   std::atomic<std::int64_t> nonManifold{ 0 };
-  progress.BeginStage(end);
-  progress.For(
-    points, grain,
-    [&](std::int64_t from, std::int64_t to) {
-      for (std::int64_t point = from; point < to; ++point)
-      {
-        std::int64_t* next = sorted + first[point];
-        std::int64_t* const last = sorted + first[point + 1];
-        std::sort(next, last, [&](std::int64_t a, std::int64_t b) {
-          const std::int64_t highA = high(a);
-          const std::int64_t highB = high(b);
-          return highA != highB ? highA < highB : a < b;
-        });
-        while (next < last)
-        {
-          const std::int64_t* edge = next;
-          const std::int64_t other = high(*edge);
-          while (next < last && high(*next) == other)
-          {
-            ++next;
-          }
-          open += next - edge == 1 ? 1 : 0;
-          nonManifold += next - edge > 2 ? 1 : 0;
-          this->PairEdge(edge, next - edge);
-        }
-      }
-    },
-    2 * grain);
+  visitEdges(SideCorners{ this->Count, points,
+               [=](std::int64_t corner) { return welded[this->Triangles[corner]]; },
+               [=](std::int64_t triangle) { return this->IsLine(triangle, welded); } },
+    progress, end, [&](const std::int64_t* sides, std::int64_t count) {
+      open += count == 1 ? 1 : 0;
+      nonManifold += count > 2 ? 1 : 0;
+      this->PairEdge(sides, count);
+    });
   this->NumberOpen = open;
   this->NumberNonManifold = nonManifold;
+}
+
+// Triangles with a corner twice are a line that others share.
+bool WalkedSurface::IsLine(std::int64_t triangle, const std::int64_t* welded) const
+{
+  const std::int64_t* t = this->Triangle(triangle);
+  return welded[t[0]] == welded[t[1]] || welded[t[1]] == welded[t[2]] ||
+    welded[t[2]] == welded[t[0]];
+}
+
+// At T-junctions; returns whether there are any.
+bool WalkedSurface::Cut(const std::int64_t* welded, double rounding, Progress& progress)
+{
+  std::vector<OpenSide> open;
+  open.reserve(static_cast<std::size_t>(this->NumberOpen));
+  const auto at = [&](std::int64_t corner) { return welded[this->Triangles[corner]]; };
+  for (std::int64_t side = 0; side<3 * this->Count&& this->NumberOpen> 0; ++side)
+  {
+    if (this->Across(side) == Boundary && !this->IsLine(side / 3, welded))
+    {
+      open.push_back({ side, at(side), at(nextSide(side)), at(lastSide(side)) });
+    }
+    progress.Add(1);
+  }
+  if (open.empty())
+  {
+    return false;
+  }
+  const std::vector<TJunction> junctions =
+    findTJunctions(this->GivenSurface.Points, open, rounding, progress);
+  if (junctions.empty())
+  {
+    return false;
+  }
+  this->Split.emplace(this->GivenSurface, junctions, progress);
+  this->Triangles = this->Split->Triangles();
+  this->Count = this->Split->NumberOfTriangles();
+  return true;
 }
 
 void WalkedSurface::PairEdge(const std::int64_t* sides, std::int64_t count)

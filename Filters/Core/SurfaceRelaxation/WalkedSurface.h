@@ -4,12 +4,14 @@
 #define RectifiedTransport_WalkedSurface_h
 
 #include "Core/Mesh/PlaceOnTriangle.h"
+#include "Core/Mesh/SplitSurface.h"
 #include "Core/Mesh/TriangleSurface.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/SurfaceRelaxation/Vectors.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace RectifiedTransport
 {
@@ -25,7 +27,8 @@ struct SurfacePlace
 
 // Any triangles: points with equal coordinates are one point, and triangles on one edge are
 // neighbours, whichever way they turn. Of more than two, those that continue each other most
-// straightly are neighbours; one that is left over ends there.
+// straightly are neighbours; one that is left over ends there. Triangles are cut at T-junctions
+// (see TJunctions.h); "given" are those before.
 class WalkedSurface
 {
 public:
@@ -33,11 +36,23 @@ public:
   static constexpr std::int64_t Boundary = -1;
   static constexpr std::int64_t Wall = -2; // there is surface, but no way
 
-  // Keeps a view of the triangles. Runs in the progress's current stage up to `end`. Throws
-  // std::invalid_argument, std::bad_alloc and Cancelled.
-  WalkedSurface(const TriangleSurface& surface, Progress& progress, double end);
-  // Bytes that the constructor takes at most, about.
+  // Keeps a view of the triangles. `rounding` is by how much coordinates may be off. Runs in the
+  // progress's current stage up to `end`. Throws std::invalid_argument, std::bad_alloc and
+  // Cancelled.
+  WalkedSurface(const TriangleSurface& surface, double rounding, Progress& progress, double end);
+  // Bytes that the constructor takes at most, about; without T-junctions, 32 a triangle less.
   static double MemoryFor(std::int64_t points, std::int64_t triangles);
+
+  const TriangleSurface& Given() const { return this->GivenSurface; }
+  std::int64_t GivenTriangle(std::int64_t triangle) const
+  {
+    return this->Split ? this->Split->GivenTriangle(triangle) : triangle;
+  }
+  bool IsPart(std::int64_t triangle) const { return this->Split && this->Split->IsPart(triangle); }
+  PlaceOnTriangle GivenPlace(const PlaceOnTriangle& place) const
+  {
+    return this->Split ? this->Split->GivenPlace(place) : place;
+  }
 
   std::int64_t NumberOfTriangles() const { return this->Count; }
   const std::int64_t* Triangle(std::int64_t triangle) const
@@ -63,19 +78,22 @@ public:
   PlaceOnTriangle WeightsOf(const SurfacePlace& place) const;
 
   std::int64_t WeldedPoints() const { return this->NumberWelded; }
+  std::int64_t TJunctions() const { return this->Split ? this->Split->NumberOfTJunctions() : 0; }
   std::int64_t OpenEdges() const { return this->NumberOpen; }
   std::int64_t NonManifoldEdges() const { return this->NumberNonManifold; }
 
 private:
   struct Frame; // of a triangle, as the walk needs it
 
-  void Fit(const ConstPointSpan<3>& points, Progress& progress);
-  void PairSides(
-    const std::int64_t* welded, std::int64_t points, Progress& progress, double begin, double end);
+  void PairSides(const std::int64_t* welded, std::int64_t points, Progress& progress, double end);
+  bool IsLine(std::int64_t triangle, const std::int64_t* welded) const;
+  bool Cut(const std::int64_t* welded, double rounding, Progress& progress);
   void PairEdge(const std::int64_t* sides, std::int64_t count);
   Point<3> Inwards(std::int64_t side) const;
   std::int64_t Beyond(std::int64_t side, const Point<3>& x) const;
 
+  TriangleSurface GivenSurface;
+  std::optional<SplitSurface> Split; // if there are T-junctions
   const std::int64_t* Triangles;
   std::int64_t Count;
   LargeBuffer<double> Positions;

@@ -2,6 +2,7 @@
 // From any triangles to a closed surface of one orientation: what is merged, counted, refused and
 // turned, at once and in steps, until the solid is covered.
 #include "Core/Solid/ClosedMesh.h"
+#include "HangingNodes.h"
 #include "SolidSurfaces.h"
 #include "TestRefusal.h"
 
@@ -113,6 +114,26 @@ TEST(ClosedMesh, CountsOfWhatIsNotClosed)
   EXPECT_TRUE(ClosedMesh(box.Surface()).IsClosed());
   box.Points[7][0] += 1e-8;
   EXPECT_EQ(ClosedMesh(box.Surface()).OpenEdges(), 4);
+}
+
+// Sides of one face are half as long as those of its neighbours.
+TEST(ClosedMesh, TJunctionsAreClosed)
+{
+  for (const std::int64_t ratio : { 1, 2, 5 })
+  {
+    Mesh box = makeRefinedBox(3, ratio);
+    ClosedMesh mesh(box.Surface());
+    EXPECT_TRUE(mesh.IsClosed());
+    EXPECT_EQ(mesh.TJunctions(), 12 * (ratio - 1));
+    EXPECT_TRUE(mesh.Orient());
+    EXPECT_NEAR(std::abs(copyOf(mesh.Surface()).Volume()), 1.0, 1e-12);
+    // With a hole it stays open; the counts are those of the given triangles.
+    box.Triangles.erase(box.Triangles.end() - 2 * 3 * ratio);
+    ClosedMesh open(box.Surface());
+    EXPECT_FALSE(open.IsClosed());
+    EXPECT_EQ(open.TJunctions(), 0);
+    EXPECT_EQ(open.OpenEdges(), 3 + (ratio == 1 ? 0 : 12 * (1 + ratio)));
+  }
 }
 
 TEST(ClosedMesh, NothingIsClosed)

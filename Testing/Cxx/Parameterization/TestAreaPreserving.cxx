@@ -281,8 +281,8 @@ void checkPolygons(Checks& checks)
   expectFigures(checks, filter, __LINE__);
 }
 
-// A triangle without area joins another one's side to two: of that one the figures are its own,
-// not of the halves that it is cut into.
+// A triangle without area joins another one's side to two: it is left out, and that one is cut in
+// two, which have its data.
 void checkFlatTriangle(Checks& checks)
 {
   constexpr vtkIdType columns = 8;
@@ -300,13 +300,19 @@ void checkFlatTriangle(Checks& checks)
   cells->ReplaceCellAtId(2 * (3 + 2 * columns) + 1, { low, middle, high - 1 });
   cells->InsertNextCell({ middle, high, high - 1 });
   cells->InsertNextCell({ low, high, middle });
+  hills->GetCellData()->AddArray(makeNumbers("Number", hills->GetNumberOfCells()));
   auto filter = makeParameterization(hills);
   Messages messages(filter);
   filter->Update();
   CHECK(checks, messages.Errors.empty() && messages.Warnings.size() == 1);
   CHECK(checks, contains(messages.Warnings[0], "1 triangle without area left out"));
-  const Figures figures = figuresOf(filter);
-  CHECK(checks, figures.Area.back() == 1.0 && figures.Area[2 * (3 + 2 * columns)] != 1.0);
+  Values numbers = cellValues(filter, "Number");
+  const double cut = 2 * (3 + 2 * columns);
+  CHECK(checks, std::count(numbers.begin(), numbers.end(), cut) == 2);
+  numbers.erase(std::find(numbers.begin(), numbers.end(), cut));
+  numbers.push_back(static_cast<double>(hills->GetNumberOfCells() - 1)); // left out
+  CHECK(checks, numbers == arrayValues(hills->GetCellData()->GetArray("Number")));
+  CHECK(checks, filter->GetOutput()->GetNumberOfPoints() == hills->GetNumberOfPoints());
   expectFigures(checks, filter, __LINE__);
 }
 

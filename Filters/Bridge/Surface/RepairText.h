@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Warnings that count what was repaired.
+#ifndef RectifiedTransport_RepairText_h
+#define RectifiedTransport_RepairText_h
+
+#include <cstdint>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+// What was repaired in a surface.
+struct RepairCounts
+{
+  std::int64_t UnusedPoints = 0;  // of no polygon
+  std::int64_t FlatTriangles = 0; // without area
+  std::int64_t MergedPoints = 0;
+  std::int64_t TJunctions = 0;
+  std::int64_t PartedEdges = 0; // of more than two triangles
+};
+
+// "The input surface was repaired: 2 points in no polygon left out, ..."; empty if nothing was.
+std::string repairWarning(const RepairCounts& counts);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether a point lies within a side of a triangle, up to rounding.
+#ifndef RectifiedTransport_PlaceOnSide_h
+#define RectifiedTransport_PlaceOnSide_h
+
+#include "Core/Geometry/Points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace RectifiedTransport
+{
+
+// The bounds of some points.
+struct PointBounds
+{
+  void Add(const double* x)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      this->Low[axis] = std::min(this->Low[axis], x[axis]);
+      this->High[axis] = std::max(this->High[axis], x[axis]);
+    }
+  }
+
+  static constexpr double most = std::numeric_limits<double>::infinity();
+  Point<3> Low{ most, most, most };
+  Point<3> High{ -most, -most, -most };
+};
+
+class PlaceOnSide
+{
+public:
+  // Of points within the bounds. They may be off by `rounding`, or by that of double, or by 1e-6 of
+  // the longest side of the bounds.
+  PlaceOnSide(const PointBounds& bounds, double rounding)
+  {
+    constexpr double relative = 1e-6;
+    constexpr double units = 4.0;
+    double farthest = 0.0;
+    double longest = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      farthest = std::max({ farthest, -bounds.Low[axis], bounds.High[axis] });
+      longest = std::max(longest, bounds.High[axis] - bounds.Low[axis]);
+    }
+    this->Distance = std::max(
+      { rounding, units * std::numeric_limits<double>::epsilon() * farthest, relative * longest });
+    constexpr int most = 1000; // the scale is finite
+    this->Scale =
+      longest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(longest), -most, most)) : 1.0;
+  }
+
+  // How far points may be off.
+  double Tolerance() const { return this->Distance; }
+
+  // From 0 to 1 along the side from a to b; 0 if the point is not within it.
+  double Of(const double* a, const double* b, const double* x) const
+  {
+    constexpr double steepest = 1.0 / 16.0; // where sides are not much longer than the tolerance
+    double squared = 0.0;
+    double along = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double by = this->Scale * (b[axis] - a[axis]);
+      squared += by * by;
+      along += by * (this->Scale * (x[axis] - a[axis]));
+    }
+    const double place = along / squared;
+    double gap = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double off = this->Scale * (x[axis] - a[axis] - place * (b[axis] - a[axis]));
+      gap += off * off;
+    }
+    gap = std::sqrt(gap);
+    const double length = std::sqrt(squared);
+    const double limit = std::min(this->Scale * this->Distance, steepest * length);
+    // Points so near to an end are at one place with it.
+    const bool isWithin = gap <= limit && std::min(place, 1.0 - place) * length > limit;
+    return isWithin ? place : 0.0;
+  }
+
+private:
+  double Distance;
+  double Scale; // so that squares neither overflow nor underflow
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/TJunctionRepair.h"
+
+#include "Core/Mesh/MergePoints.h"
+#include "Core/Mesh/PlaceOnSide.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+bool isBefore(const OpenSide& one, const OpenSide& other)
+{
+  return one.Side < other.Side;
+}
+
+bool isAmong(const std::vector<OpenSide>& sides, std::int64_t side)
+{
+  return std::binary_search(sides.begin(), sides.end(), OpenSide{ side, 0, 0, 0 }, isBefore);
+}
+
+// With points merged in one way.
+class RepairRun
+{
+public:
+  RepairRun(const TriangleSurface& surface, const LargeBuffer<std::int64_t>& merged,
+    double rounding, TJunctionScope scope, Progress& progress)
+    : Surface(surface)
+    , Merged(merged.data())
+    , Rounding(rounding)
+    , Scope(scope)
+    , Work(progress.Stage())
+  {
+    this->Work.BeginStage(0.3);
+    this->Open = openSidesOf(surface, { this->Merged, nullptr }, this->Work);
+    this->Work.BeginStage(0.4);
+    const std::int64_t flat = this->FindFlat();
+    if (flat > 0)
+    {
+      this->Find(0.7, this->IsFlat.data());
+      this->Work.BeginStage(0.85);
+      if (this->Made.Parts && this->CountOpen() <= this->Open.size())
+      {
+        this->Made.FlatTriangles = flat;
+        return;
+      }
+      this->Made = {};
+    }
+    if (scope == TJunctionScope::All)
+    {
+      this->Find(1.0, nullptr);
+    }
+  }
+
+  std::size_t OpenSides() const { return this->Open.size(); }
+  TJunctionRepair Take() { return std::move(this->Made); }
+
+private:
+  std::int64_t FindFlat()
+  {
+    constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+    const std::int64_t count = this->Surface.NumberOfTriangles;
+    PointBounds bounds;
+    this->Work.ForInOrder(3 * count, grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t corner = first; corner < last; ++corner)
+      {
+        bounds.Add(this->Surface.Points[this->Surface.Triangles[corner]]);
+      }
+    });
+    const PlaceOnSide place(bounds, this->Rounding);
+    this->IsFlat = LargeBuffer<unsigned char>(count);
+    this->Work.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t triangle = first; triangle < last; ++triangle)
+      {
+        this->IsFlat.data()[triangle] = this->IsLine(triangle, place) ? 1 : 0;
+      }
+    });
+    return std::count(this->IsFlat.data(), this->IsFlat.data() + count, 1);
+  }
+
+  // Whether a corner is on the side across, which is not open.
+  bool IsLine(std::int64_t triangle, const PlaceOnSide& place) const
+  {
+    const std::int64_t* ids = this->Surface.Triangles + 3 * triangle;
+    for (std::int64_t i = 0; i < 3; ++i)
+    {
+      const std::int64_t a = ids[i];
+      const std::int64_t b = ids[(i + 1) % 3];
+      const std::int64_t c = ids[(i + 2) % 3];
+      const auto at = [this](std::int64_t point) { return this->Surface.Points[point]; };
+      if (place.Of(at(a), at(b), at(c)) > 0.0)
+      {
+        const bool areThree = this->Merged[a] != this->Merged[b] &&
+          this->Merged[b] != this->Merged[c] && this->Merged[c] != this->Merged[a];
+        return areThree && !isAmong(this->Open, 3 * triangle + i);
+      }
+    }
+    return false;
+  }
+
+  void Find(double end, const unsigned char* isLeftOut)
+  {
+    const double begin = this->Work.StageEnd();
+    const auto next = [&](double part) { this->Work.BeginStage(begin + part * (end - begin)); };
+    next(0.3);
+    std::vector<OpenSide> sides =
+      isLeftOut ? openSidesOf(this->Surface, { this->Merged, isLeftOut }, this->Work) : this->Open;
+    if (this->Scope == TJunctionScope::OfFlatTriangles)
+    {
+      std::vector<OpenSide> opened;
+      std::set_difference(sides.begin(), sides.end(), this->Open.begin(), this->Open.end(),
+        std::back_inserter(opened), isBefore);
+      sides = std::move(opened);
+    }
+    next(0.7);
+    std::vector<TJunction> junctions =
+      findTJunctions(this->Surface.Points, sides, this->Rounding, this->Work);
+    if (junctions.empty())
+    {
+      return;
+    }
+    this->Unmerge(sides, junctions);
+    next(1.0);
+    this->Made.Parts.emplace(this->Surface, junctions, this->Work, isLeftOut);
+    this->Made.TJunctions = std::count_if(junctions.begin(), junctions.end(),
+      [this](const TJunction& junction) { return isAmong(this->Open, junction.Side); });
+  }
+
+  // Gives T-junctions, for a merged point, a point that an open side there has.
+  void Unmerge(const std::vector<OpenSide>& sides, std::vector<TJunction>& junctions) const
+  {
+    std::vector<std::pair<std::int64_t, std::int64_t>> points;
+    points.reserve(2 * sides.size());
+    for (const OpenSide& side : sides)
+    {
+      points.emplace_back(side.From, this->Surface.Triangles[side.Side]);
+      points.emplace_back(side.To, this->Surface.Triangles[nextSide(side.Side)]);
+    }
+    std::sort(points.begin(), points.end());
+    for (TJunction& junction : junctions)
+    {
+      junction.Point = std::lower_bound(
+        points.begin(), points.end(), std::make_pair(junction.Point, std::int64_t{ 0 }))
+                         ->second;
+    }
+  }
+
+  std::size_t CountOpen()
+  {
+    const SplitSurface& parts = *this->Made.Parts;
+    return openSidesOf({ this->Surface.Points, parts.Triangles(), parts.NumberOfTriangles() },
+      { this->Merged, nullptr }, this->Work)
+      .size();
+  }
+
+  const TriangleSurface Surface;
+  const std::int64_t* Merged;
+  const double Rounding;
+  const TJunctionScope Scope;
+  Progress Work;
+  std::vector<OpenSide> Open; // of all triangles
+  LargeBuffer<unsigned char> IsFlat;
+  TJunctionRepair Made;
+};
+
+} // namespace
+
+TJunctionRepair repairTJunctions(
+  const TriangleSurface& surface, TJunctionScope scope, const Context& context)
+{
+  Progress progress(context);
+  LargeBuffer<std::int64_t> merged(surface.Points.size());
+  progress.BeginStage(0.05);
+  const double rounding = roundingOfCorners(surface, progress);
+  progress.BeginStage(0.15);
+  mergePoints(surface.Points, merged.data(), progress.Stage());
+  progress.BeginStage(0.5);
+  RepairRun equal(surface, merged, rounding, scope, progress);
+  TJunctionRepair repair = equal.Take();
+  if (equal.OpenSides() == 0 || rounding == 0.0)
+  {
+    return repair;
+  }
+  progress.BeginStage(0.6);
+  if (mergeNearPoints(surface.Points, rounding, merged.data(), progress.Stage()))
+  {
+    progress.BeginStage(1.0);
+    RepairRun near(surface, merged, rounding, scope, progress);
+    TJunctionRepair other = near.Take();
+    if (near.OpenSides() < equal.OpenSides() && other.TJunctions > repair.TJunctions)
+    {
+      return other;
+    }
+  }
+  return repair;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/TJunctions.h"
+
+#include "Core/Geometry/BoxTree.h"
+#include "Core/Mesh/EdgeSides.h"
+#include "Core/Mesh/PlaceOnSide.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t pointsOfLeaf = 8;
+
+// A tree of the bounding boxes of points.
+class PointTree
+{
+public:
+  PointTree(ConstPointSpan<3> points, std::vector<std::int64_t> numbers, Progress& progress)
+    : Points(points)
+    , Numbers(std::move(numbers))
+  {
+    this->Boxes = makeBoxTree<Box>(
+      static_cast<std::int64_t>(this->Numbers.size()),
+      [&](std::int64_t first, std::int64_t last) {
+        progress.Add(last - first);
+        return this->BoxOf(first, last);
+      },
+      [&](const Box& box) { return this->Divide(box, progress); });
+  }
+
+  // Calls visit(point) for those that may be nearer to a segment than a distance.
+  template <class Visit>
+  void VisitNear(const double* from, const double* to, double distance, const Visit& visit)
+  {
+    this->Stack.assign(1, 0);
+    while (!this->Stack.empty())
+    {
+      const std::int64_t at = this->Stack.back();
+      this->Stack.pop_back();
+      const Box& box = this->Boxes[static_cast<std::size_t>(at)];
+      if (!box.IsNear(from, to, distance))
+      {
+        continue;
+      }
+      if (box.Second >= 0)
+      {
+        this->Stack.push_back(box.Second);
+        this->Stack.push_back(at + 1);
+        continue;
+      }
+      for (std::int64_t i = box.First; i < box.Last; ++i)
+      {
+        visit(this->Numbers[static_cast<std::size_t>(i)]);
+      }
+    }
+  }
+
+private:
+  struct Box
+  {
+    double Low[3];
+    double High[3];
+    std::int64_t First;
+    std::int64_t Last;
+    std::int64_t Second; // of the children, after the next one; -1 in a leaf
+
+    // Whether the segment passes through the box with a margin.
+    bool IsNear(const double* from, const double* to, double margin) const
+    {
+      double enters = 0.0;
+      double leaves = 1.0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double low = this->Low[axis] - margin - from[axis];
+        const double high = this->High[axis] + margin - from[axis];
+        const double by = to[axis] - from[axis];
+        if (by == 0.0)
+        {
+          if (low > 0.0 || high < 0.0)
+          {
+            return false;
+          }
+          continue;
+        }
+        enters = std::max(enters, std::min(low / by, high / by));
+        leaves = std::min(leaves, std::max(low / by, high / by));
+      }
+      return enters <= leaves;
+    }
+  };
+
+  Box BoxOf(std::int64_t first, std::int64_t last) const
+  {
+    constexpr double most = std::numeric_limits<double>::infinity();
+    Box box{ { most, most, most }, { -most, -most, -most }, first, last, -1 };
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      const double* x = this->Points[this->Numbers[static_cast<std::size_t>(i)]];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        box.Low[axis] = std::min(box.Low[axis], x[axis]);
+        box.High[axis] = std::max(box.High[axis], x[axis]);
+      }
+    }
+    return box;
+  }
+
+  std::int64_t Divide(const Box& box, Progress& progress)
+  {
+    int longest = 0;
+    for (int axis = 1; axis < 3; ++axis)
+    {
+      longest =
+        box.High[axis] - box.Low[axis] > box.High[longest] - box.Low[longest] ? axis : longest;
+    }
+    if (box.Last - box.First <= pointsOfLeaf)
+    {
+      return box.First;
+    }
+    const std::int64_t middle = partitionAboutMedian(
+      this->Numbers.data(), box.First, box.Last,
+      [&](std::int64_t point) { return this->Points[point][longest]; }, progress);
+    return middle < box.Last ? middle : (box.First + box.Last) / 2;
+  }
+
+  ConstPointSpan<3> Points;
+  std::vector<std::int64_t> Numbers;
+  std::vector<Box> Boxes;
+  std::vector<std::int64_t> Stack;
+};
+
+struct Found
+{
+  TJunction Junction;
+  std::size_t OpenSide;
+  bool IsMatched = false;
+};
+
+// A part of an open side, from a T-junction or an end to the next one.
+struct SidePart
+{
+  std::int64_t Low;
+  std::int64_t High;
+  std::int64_t Triangle;
+  std::size_t Before; // the T-junction at its begin; noJunction at an end of the side
+  std::size_t After;
+};
+constexpr std::size_t noJunction = std::numeric_limits<std::size_t>::max();
+
+class TJunctionSearch
+{
+public:
+  TJunctionSearch(ConstPointSpan<3> points, const std::vector<OpenSide>& openSides)
+    : Points(points)
+    , OpenSides(openSides)
+  {
+  }
+
+  std::vector<TJunction> Run(double rounding, Progress& progress)
+  {
+    std::vector<std::int64_t> ends;
+    ends.reserve(2 * this->OpenSides.size());
+    for (const OpenSide& side : this->OpenSides)
+    {
+      ends.push_back(side.From);
+      ends.push_back(side.To);
+      progress.Add(1);
+    }
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    progress.Check();
+    if (ends.empty())
+    {
+      return {};
+    }
+    PointBounds bounds;
+    for (const std::int64_t end : ends)
+    {
+      bounds.Add(this->Points[end]);
+    }
+    const PlaceOnSide placeOnSide(bounds, rounding);
+    PointTree tree(this->Points, std::move(ends), progress);
+    for (std::size_t i = 0; i < this->OpenSides.size(); ++i)
+    {
+      this->Search(i, placeOnSide, tree, progress);
+    }
+    this->Match(progress);
+    return this->Matched();
+  }
+
+private:
+  // Appends the points on a side.
+  void Search(
+    std::size_t number, const PlaceOnSide& placeOnSide, PointTree& tree, Progress& progress)
+  {
+    const OpenSide& side = this->OpenSides[number];
+    const double* from = this->Points[side.From];
+    const double* to = this->Points[side.To];
+    const std::size_t first = this->All.size();
+    std::int64_t visited = 1;
+    tree.VisitNear(from, to, placeOnSide.Tolerance(), [&](std::int64_t point) {
+      ++visited;
+      const bool isOwn = point == side.From || point == side.To || point == side.Opposite;
+      const double place = isOwn ? 0.0 : placeOnSide.Of(from, to, this->Points[point]);
+      if (place > 0.0)
+      {
+        this->All.push_back({ { side.Side, point, place }, number });
+      }
+    });
+    std::sort(this->All.begin() + static_cast<std::ptrdiff_t>(first), this->All.end(),
+      [](const Found& a, const Found& b) {
+        return std::tie(a.Junction.Place, a.Junction.Point) <
+          std::tie(b.Junction.Place, b.Junction.Point);
+      });
+    progress.Add(visited);
+  }
+
+  // Marks the T-junctions beside parts of sides that two triangles have.
+  void Match(Progress& progress)
+  {
+    std::vector<SidePart> parts;
+    parts.reserve(this->OpenSides.size() + this->All.size());
+    std::size_t next = 0;
+    for (std::size_t number = 0; number < this->OpenSides.size(); ++number)
+    {
+      const OpenSide& side = this->OpenSides[number];
+      std::int64_t begin = side.From;
+      std::size_t before = noJunction;
+      const auto add = [&](std::int64_t end, std::size_t after) {
+        parts.push_back(
+          { std::min(begin, end), std::max(begin, end), side.Side / 3, before, after });
+        begin = end;
+        before = after;
+      };
+      for (; next < this->All.size() && this->All[next].OpenSide == number; ++next)
+      {
+        add(this->All[next].Junction.Point, next);
+      }
+      add(side.To, noJunction);
+      progress.Add(1);
+    }
+    std::sort(parts.begin(), parts.end(), [](const SidePart& a, const SidePart& b) {
+      return std::tie(a.Low, a.High, a.Triangle) < std::tie(b.Low, b.High, b.Triangle);
+    });
+    progress.Check();
+    for (std::size_t i = 1; i < parts.size(); ++i)
+    {
+      const SidePart& one = parts[i - 1];
+      const SidePart& two = parts[i];
+      if (one.Low == two.Low && one.High == two.High && one.Triangle != two.Triangle)
+      {
+        for (const std::size_t junction : { one.Before, one.After, two.Before, two.After })
+        {
+          if (junction != noJunction)
+          {
+            this->All[junction].IsMatched = true;
+          }
+        }
+      }
+      progress.Add(1);
+    }
+  }
+
+  // A triangle that is nearly a line may have a point on two sides: it counts on the first one.
+  std::vector<TJunction> Matched() const
+  {
+    std::vector<TJunction> junctions;
+    std::vector<std::int64_t> before; // on other sides of the triangle, ascending
+    std::size_t own = 0;              // the first one of the side
+    for (const Found& found : this->All)
+    {
+      const TJunction& next = found.Junction;
+      if (!junctions.empty() && junctions.back().Side != next.Side)
+      {
+        if (junctions.back().Side / 3 != next.Side / 3)
+        {
+          before.clear();
+          own = junctions.size();
+        }
+        for (; own < junctions.size(); ++own)
+        {
+          before.push_back(junctions[own].Point);
+        }
+        std::sort(before.begin(), before.end());
+      }
+      if (found.IsMatched && !std::binary_search(before.begin(), before.end(), next.Point))
+      {
+        junctions.push_back(next);
+      }
+    }
+    return junctions;
+  }
+
+  ConstPointSpan<3> Points;
+  const std::vector<OpenSide>& OpenSides;
+  double Tolerance = 0.0;
+  double Scale = 1.0;     // so that squares neither overflow nor underflow
+  std::vector<Found> All; // by sides and places
+};
+
+} // namespace
+
+double roundingOfCorners(const TriangleSurface& surface, Progress& progress)
+{
+  struct Coordinates
+  {
+    double Farthest = 0.0;
+    bool AreFloats = true;
+  };
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+  const Coordinates all = reduceChunks(
+    progress, surface.NumberOfTriangles, grain, Coordinates(),
+    [&](std::int64_t first, std::int64_t last) {
+      Coordinates found;
+      for (std::int64_t corner = 3 * first; corner < 3 * last; ++corner)
+      {
+        const double* x = surface.Points[surface.Triangles[corner]];
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const double far = std::abs(x[axis]);
+          found.Farthest = std::max(found.Farthest, far);
+          found.AreFloats = found.AreFloats && far <= std::numeric_limits<float>::max() &&
+            static_cast<double>(static_cast<float>(x[axis])) == x[axis];
+        }
+      }
+      return found;
+    },
+    [](const Coordinates& one, const Coordinates& more) {
+      return Coordinates{ std::max(one.Farthest, more.Farthest), one.AreFloats && more.AreFloats };
+    });
+  constexpr double units = 4.0;
+  return units * all.Farthest *
+    (all.AreFloats ? static_cast<double>(std::numeric_limits<float>::epsilon())
+                   : std::numeric_limits<double>::epsilon());
+}
+
+std::vector<OpenSide> openSidesOf(
+  const TriangleSurface& surface, const SideOptions& options, Progress& progress)
+{
+  const auto pointOf = [&surface, &options](std::int64_t corner) {
+    const std::int64_t point = surface.Triangles[corner];
+    return options.Merged ? options.Merged[point] : point;
+  };
+  const auto isLeftOut = [&pointOf, &options](std::int64_t triangle) {
+    const std::int64_t a = pointOf(3 * triangle);
+    const std::int64_t b = pointOf(3 * triangle + 1);
+    const std::int64_t c = pointOf(3 * triangle + 2);
+    return a == b || b == c || c == a || (options.IsLeftOut && options.IsLeftOut[triangle] != 0);
+  };
+  const std::int64_t count = 3 * surface.NumberOfTriangles;
+  LargeBuffer<unsigned char> isOpen(count);
+  std::fill_n(isOpen.data(), count, static_cast<unsigned char>(0));
+  Progress own(progress.Stage());
+  visitEdges(SideCorners{ surface.NumberOfTriangles, surface.Points.size(), pointOf, isLeftOut },
+    own, 1.0, [&isOpen](const std::int64_t* sides, std::int64_t number) {
+      isOpen.data()[sides[0]] = number == 1 ? 1 : 0;
+    });
+  std::vector<OpenSide> open;
+  for (std::int64_t side = 0; side < count; ++side)
+  {
+    if (isOpen.data()[side] != 0)
+    {
+      open.push_back({ side, pointOf(side), pointOf(nextSide(side)), pointOf(lastSide(side)) });
+    }
+  }
+  return open;
+}
+
+std::vector<TJunction> findTJunctions(ConstPointSpan<3> points,
+  const std::vector<OpenSide>& openSides, double rounding, Progress& progress)
+{
+  return TJunctionSearch(points, openSides).Run(rounding, progress);
+}
+
+} // namespace RectifiedTransport
