@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points on surfaces in proportion to densities: steps, slopes, noise and regions without any.
+#include "Core/Parallel/Progress.h"
+#include "Core/SurfaceRelaxation/DensityLevels.h"
 #include "Core/SurfaceRelaxation/SurfaceRelaxation.h"
 #include "Core/Tables/Density.h"
 
@@ -256,6 +258,46 @@ TEST(SurfaceDensities, CoarseNoise)
   {
     const std::int64_t t = half.Result.Places.data()[i].Triangle;
     ASSERT_GT(values[static_cast<std::size_t>(t)], 0.0);
+  }
+}
+
+// A checkerboard with jumps of 3. Squares count as noise if they have the mass of few dots, even
+// where they are as wide as the spacing.
+TEST(SurfaceDensities, SquaresOfFewDots)
+{
+  constexpr std::int64_t quads = 32;
+  constexpr double squares = 8.0;
+  const Mesh box = makeBox(quads);
+  const std::vector<double> values = ofTriangles(box, [](const Point<3>& x) {
+    int sum = 0;
+    for (const double coordinate : x)
+    {
+      sum += static_cast<int>(std::floor(squares * (coordinate + 1e-9)));
+    }
+    return sum % 2 == 0 ? 1.0 : 3.0;
+  });
+  for (const double dots : { 5.0, 20.0 }) // in a sparse square
+  {
+    Progress progress{ Context() };
+    WalkedSurface surface(box.Surface(), 0.0, progress, 0.2);
+    const SurfaceDensity density(surface, byTriangles(values), progress);
+    double square = 0.0; // its mass
+    for (std::int64_t t = 0; t < surface.NumberOfTriangles(); ++t)
+    {
+      square += surface.Area(t) / (6.0 * squares * squares * 3.0);
+    }
+    const DensityLevels levels(surface, density, square / dots, progress, 1.0);
+    int sparse = 0;
+    int noisy = 0;
+    for (std::int64_t t = 0; t < surface.NumberOfTriangles(); ++t)
+    {
+      const bool isSparse = values[static_cast<std::size_t>(t)] == 1.0;
+      sparse += isSparse ? 1 : 0;
+      noisy += isSparse && levels.data()[t] > 0.0 ? 1 : 0;
+    }
+    // At the edges of the box squares of one density may meet.
+    EXPECT_GE(noisy, dots < 8.0 ? sparse / 2 : 0);
+    EXPECT_LE(noisy, dots < 8.0 ? sparse : 0);
   }
 }
 
