@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arrays of numpy as VTK's images and points, and back, without copies where VTK needs none."""
+from typing import Sequence, Union
+
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_SIGNED_CHAR
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+
+Numbers = Union[float, Sequence[float]]  # one for all axes, or one for each of x, y(, z)
 
 
 def real_numbers(values, name):

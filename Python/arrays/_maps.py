@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The map between the uniform measure and a density."""
-from typing import Any, Dict, NamedTuple, Sequence, Union
+from typing import Any, Dict, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import vtkRectifiedTransport as filters
-from ._data import fields_of, image_of, point_values_of
+from ._data import Numbers, fields_of, image_of, point_values_of
 from ._run import set_properties, update
-
-Numbers = Union[float, Sequence[float]]
 
 
 class TransportMap(NamedTuple):

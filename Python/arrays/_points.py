@@ -1,17 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Points that are distributed like a density, and cells of equal mass around points."""
 from operator import index
-from typing import Any, Dict, NamedTuple, Sequence, Union
+from typing import Any, Dict, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from .. import vtkRectifiedTransport as filters
-from ._data import cell_values_of, fields_of, image_of, point_set, positions_of
+from ._data import Numbers, cell_values_of, fields_of, image_of, point_set, positions_of
 from ._run import set_properties, update
-
-Numbers = Union[float, Sequence[float]]
 
 
 class Cells(NamedTuple):
