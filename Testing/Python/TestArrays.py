@@ -252,6 +252,15 @@ class Meaning(unittest.TestCase):
         self.assertEqual(arrays.distance(a, a).lower, 0)
         self.assertEqual(arrays.Distance._fields, ("lower", "estimate"))
 
+    def test_upper_bound(self):
+        """As the page has it: by points halfway, to which cells give the distances."""
+        a, b = blob((48, 64), 15, 20), blob((48, 64), 45, 28)
+        halfway = arrays.sample(arrays.morph(a, b, Method="Optimal"), 300)
+        upper = sum(arrays.cells(halfway, density, Shape="Power").fields["TransportCost"] ** 0.5
+                    for density in (a, b))
+        self.assertGreaterEqual(upper / np.hypot(30, 8), 1)
+        self.assertLess(upper / np.hypot(30, 8), 1.002)
+
     def test_solids_are_apart(self):
         solid = np.zeros((12, 12, 12))
         solid[2:5, 3:6, 2:5] = 1
