@@ -45,11 +45,22 @@ if (RectifiedTransport_WRAP_PYTHON)
     MODULE_DESTINATION "${RectifiedTransport_PYTHON_DIR}"
     CMAKE_DESTINATION "${cmake_destination}"
     LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-  configure_file("${PROJECT_SOURCE_DIR}/CMake/__init__.py.in"
-    "${CMAKE_BINARY_DIR}/${RectifiedTransport_PYTHON_DIR}/rectifiedtransport/__init__.py" @ONLY)
+  set(python_package "${RectifiedTransport_PYTHON_DIR}/rectifiedtransport")
+  configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
+    "${CMAKE_BINARY_DIR}/${python_package}/__init__.py" @ONLY)
+  set(arrays __init__.py _blends.py _data.py _maps.py _points.py _run.py)
+  foreach (name IN LISTS arrays)
+    configure_file("${PROJECT_SOURCE_DIR}/Python/arrays/${name}"
+      "${CMAKE_BINARY_DIR}/${python_package}/arrays/${name}" COPYONLY)
+  endforeach ()
   install(
-    FILES "${CMAKE_BINARY_DIR}/${RectifiedTransport_PYTHON_DIR}/rectifiedtransport/__init__.py"
-    DESTINATION "${RectifiedTransport_PYTHON_DIR}/rectifiedtransport"
+    FILES "${CMAKE_BINARY_DIR}/${python_package}/__init__.py"
+    DESTINATION "${python_package}"
+    COMPONENT python)
+  list(TRANSFORM arrays PREPEND "${PROJECT_SOURCE_DIR}/Python/arrays/")
+  install(
+    FILES ${arrays}
+    DESTINATION "${python_package}/arrays"
     COMPONENT python)
 endif ()
 

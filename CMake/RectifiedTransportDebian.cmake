@@ -83,7 +83,7 @@ endif ()
 if (RectifiedTransport_WRAP_PYTHON)
   find_package(Python3 QUIET COMPONENTS Interpreter)
   math(EXPR next "${Python3_VERSION_MINOR} + 1")
-  list(APPEND depends
+  list(APPEND depends python3-numpy
     "python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}~)" "python3 (<< 3.${next}~)")
   list(APPEND scripts postinst prerm)
 endif ()

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Times POT (python3-pot) on the pair "uniform → photograph" of run.py --bounds, at few pixels."""
+"""Times POT (python3-pot) on the pair "uniform → photograph" of run.py --bounds, at few pixels; with
+--arrays beside rectifiedtransport.arrays, on one thread, on a ring and two discs, and on a blob that
+moves. PYTHONPATH names the folder of the package."""
 
 import os
+import sys
 import time
 
 import numpy
@@ -19,10 +22,69 @@ def ink():
     return numpy.concatenate((dark, dark[:-257:-1]))
 
 
-def timed(solve, *arguments, **options):
+def seconds(solve, *arguments, **options):
+    """A result, and the processor's time that it took."""
     begin = time.process_time()
-    cost = float(numpy.ravel(solve(*arguments, **options))[0])
-    return f"{cost:.6g} in {time.process_time() - begin:.2f} s"
+    result = solve(*arguments, **options)
+    return result, time.process_time() - begin
+
+
+def timed(solve, *arguments, **options):
+    result, took = seconds(solve, *arguments, **options)
+    return f"{float(numpy.ravel(result)[0]):.6g} in {took:.2f} s"
+
+
+def centres_of(side):
+    """The middles of the pixels of the unit square."""
+    axis = (numpy.arange(side) + 0.5) / side
+    return numpy.stack(numpy.meshgrid(axis, axis), -1).reshape(-1, 2)
+
+
+def share(values):
+    return (values / values.sum()).ravel()
+
+
+def ring_and_discs(side):
+    x, y = centres_of(side).T
+    ring = numpy.abs(numpy.hypot(x - 0.5, y - 0.5) - 0.3) < 0.08
+    discs = numpy.minimum(numpy.hypot(x - 0.25, y - 0.3), numpy.hypot(x - 0.75, y - 0.6)) < 0.15
+    return [(density + 0.01).reshape(side, side) for density in (ring, discs)]
+
+
+def bump(side, middle):
+    """Smooth, a quarter of the square wide, with its middle at a place."""
+    x, y = (centres_of(side) - middle).T
+    return (numpy.maximum(0.125 ** 2 - x ** 2 - y ** 2, 0) ** 2).reshape(side, side)
+
+
+def beside_arrays():
+    from rectifiedtransport import arrays
+
+    print("W2 of a ring and two discs in the unit square")
+    for side in 32, 48, 64, 256, 1024:
+        a, b = ring_and_discs(side)
+        found, took = seconds(arrays.distance, a, b, spacing=1 / side, Threading="Serial")
+        print(f"{side}²: from {found.lower:.6f}, estimate {found.estimate:.6f} in {took:.3f} s", end="")
+        if side <= 64:
+            centres = centres_of(side)
+            cost, took = seconds(lambda: ot.emd2(share(a), share(b), ot.dist(centres, centres),
+                                                 numItermax=10**8))
+            print(f"; emd2 {cost ** 0.5:.6f} in {took:.2f} s", end="")
+        print(flush=True)
+
+    print("The barycenter of a bump at two places: how much of its mass is elsewhere than halfway")
+    for side in 64, 128:
+        a, b = bump(side, (0.25, 0.25)), bump(side, (0.75, 0.5))
+        halfway = share(bump(side, (0.5, 0.375)))
+        runs = {"barycenter": lambda: arrays.barycenter([a, b], Threading="Serial"),
+                "barycenter, Optimal": lambda: arrays.barycenter([a, b], Method="Optimal",
+                                                                 Threading="Serial"),
+                "convolutional_barycenter2d, reg 0.004": lambda: ot.bregman.convolutional_barycenter2d(
+                    numpy.stack([values / values.sum() for values in (a, b)]), reg=4e-3)}
+        for name, run in runs.items():
+            found, took = seconds(run)
+            off = numpy.abs(share(found) - halfway).sum() / 2
+            print(f"{side}²: {name}: {100 * off:.1f} % in {took:.3f} s", flush=True)
 
 
 def main():
@@ -32,8 +94,7 @@ def main():
         masses = numpy.add.reduceat(numpy.add.reduceat(whole, edges, 0), edges, 1).ravel()
         masses /= masses.sum()
         uniform = numpy.full(side * side, 1 / side**2)
-        axis = (numpy.arange(side) + 0.5) / side
-        centres = numpy.stack(numpy.meshgrid(axis, axis), -1).reshape(-1, 2)
+        centres = centres_of(side)
         costs = ot.dist(centres, centres)
         print(f"{side}²: {costs.nbytes / 1e6:.0f} MB of costs;",
               "emd", timed(ot.emd2, uniform, masses, costs, numItermax=10**8) + ";",
@@ -42,4 +103,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    beside_arrays() if sys.argv[1:] == ["--arrays"] else main()

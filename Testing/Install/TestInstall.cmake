@@ -31,4 +31,7 @@ if (PYTHON_DIR)
   run("${CMAKE_COMMAND}" -E env
     "PYTHONPATH=${WORK}/moved/${PYTHON_DIR}:$ENV{PYTHONPATH}"
     "${PYTHON}" -c "from rectifiedtransport import vtkTransportSampler; vtkTransportSampler()")
+  run("${CMAKE_COMMAND}" -E env
+    "PYTHONPATH=${WORK}/moved/${PYTHON_DIR}:$ENV{PYTHONPATH}"
+    "${PYTHON}" -c "print(__import__('rectifiedtransport').arrays.sample([[1, 2], [3, 4]], 5))")
 endif ()

@@ -123,6 +123,10 @@ class Content(unittest.TestCase):
         if OPTIONS.python_dir:
             folder = os.path.join("usr", OPTIONS.python_dir, "rectifiedtransport")
             self.assertIn("vtkRectifiedTransport", self.text(folder, "__init__.py"))
+            for path in glob.glob(os.path.join(OPTIONS.source, "Python", "arrays", "*.py")):
+                with open(path, encoding="utf-8") as file:
+                    self.assertEqual(self.text(folder, "arrays", os.path.basename(path)), file.read())
+            self.assertRegex(self.fields()["Depends"], r"\bpython3-numpy\b")
             self.assertTrue([path for path in self.files
                              if re.match(re.escape(folder) + r"/vtkRectifiedTransport\..*so$|" +
                                          re.escape(folder) + r"/vtkRectifiedTransport\.so$", path)])

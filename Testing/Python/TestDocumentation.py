@@ -48,7 +48,7 @@ def anchors(page):
 def names():
     """The names of all files of the project, built ones aside."""
     found = set()
-    for folder in ("CMake", "Documentation", "Examples", "Filters", "Plugin", "Testing"):
+    for folder in ("CMake", "Documentation", "Examples", "Filters", "Plugin", "Python", "Testing"):
         for _, _, files in os.walk(os.path.join(SOURCE, folder)):
             found.update(files)
     return found

@@ -226,6 +226,17 @@ class Examples(ExampleTest):
             self.assertLess(float(row[5]), 1e-6)
         self.check_picture("power-cells-random.png")
 
+    def test_arrays(self):
+        """The bounds are near the estimates, and 0 of a density and itself."""
+        rows, = tables(self.ran("Arrays"))
+        bounds = [float(row[1]) for row in rows]
+        self.assertEqual(len(rows), 4)
+        for row in rows[:3]:
+            self.assertAlmostEqual(float(row[1]) / float(row[2]), 1, delta=0.01)
+        self.assertLess(bounds[3], 0.001)
+        self.assertGreater(min(bounds[:3]), 3)
+        self.check_picture("arrays.png")
+
     def test_optimal_transport(self):
         """The optimal map is nearer to the bound, leaves alone what stands still, and lowers the
         functional."""

@@ -52,6 +52,7 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
          "Morph3D": ["--resolution", "32", "--frames", "3", "--panel", "120"],
          "OptimalTransport": ["--particles", "2000", "--size", "64", "--barycenter", "48", "--panel",
                               "240"],
+         "Arrays": ["--size", "48", "--dots", "300", "--panel", "96"],
          "MorphAnimation": ["--size", "64", "--frames", "5", "--seconds", "1", "--pictures", "3",
                             "--panel", "120"],
          "InSitu": ["--particles", "2000", "--panel", "320"],
@@ -61,7 +62,8 @@ SHAPES = {"Morph2D": 2, "Morph3D": 2, "MorphAnimation": 2, "Barycenters2D": 4, "
 need_meshes = unittest.skipUnless(
     os.path.isfile(os.path.join(SOURCE, "build-meshes", "complete")),
     "needs the meshes that Testing/run.sh fetches")
-OWN = {"AreaErrors", "RasterWithGaps", "Districts", "Figure2Paths", "Figure5Cells", "PowerCells", "InSitu"}  # examples that make their input
+OWN = {"AreaErrors", "RasterWithGaps", "Districts", "Figure2Paths", "Figure5Cells", "PowerCells", "InSitu",
+       "Arrays"}  # examples that make their input
 
 
 def command(example, *arguments):

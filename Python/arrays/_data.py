@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arrays of numpy as VTK's images and points, and back, without copies where VTK needs none."""
+from typing import Sequence, Union
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.vtkConstants import VTK_SIGNED_CHAR
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+
+Numbers = Union[float, Sequence[float]]  # one for all axes, or one for each of x, y(, z)
+
+
+def real_numbers(values, name):
+    """An array that VTK takes: a copy only if the memory's order or the type asks for it."""
+    if isinstance(values, np.ma.MaskedArray):
+        raise TypeError("%s is a masked array; give %s.filled(numpy.nan) with NaNValues='Empty', or "
+                        "other values for what is masked" % (name, name))
+    array = np.asarray(values)
+    if array.dtype.kind not in "biuf":
+        raise TypeError("%s has values of type %s; they must be real numbers" % (name, array.dtype))
+    if array.dtype.kind == "b":
+        array = array.view(np.int8)
+    elif array.dtype.kind == "f" and array.dtype.itemsize not in (4, 8):
+        array = array.astype(np.float32 if array.dtype.itemsize < 4 else np.float64)
+    return np.require(array, array.dtype.newbyteorder("="), ["C", "A"])
+
+
+def vtk_array(array, name):
+    """The vtkDataArray on the memory of an array of numbers or of rows."""
+    made = numpy_to_vtk(array, array_type=VTK_SIGNED_CHAR if array.dtype == np.int8 else None)
+    made.SetName(name)
+    return made
+
+
+def along_axes(values, name, axes, positive=False):
+    """A number for each of x, y and z; one alone is that of all."""
+    numbers = np.asarray(values)
+    if numbers.dtype.kind not in "iuf" or numbers.shape not in ((), (axes,)):
+        raise ValueError("%s is %r; it must be a number, or %d in the order %s"
+                         % (name, values, axes, ", ".join("xyz"[:axes])))
+    if not np.isfinite(numbers).all() or (positive and (numbers <= 0).any()):
+        raise ValueError("%s is %r; it must be finite%s"
+                         % (name, values, " and above 0" if positive else ""))
+    made = np.full(3, 1.0 if positive else 0.0)
+    made[:axes] = numbers
+    return made
+
+
+def image_of(values, name, spacing=1.0, origin=0.0, colours=False):
+    """The vtkImageData whose points have the values. Returns the image and the shape of its axes."""
+    array = real_numbers(values, name)
+    shape, rows = array.shape, array.reshape(-1)
+    if colours and array.ndim == 3:
+        shape, rows = array.shape[:2], array.reshape(-1, array.shape[2] or 1)
+    if array.ndim not in (2, 3):
+        raise ValueError("%s has the shape %s; it must have two axes, [y, x], or three, [z, y, x]"
+                         % (name, array.shape))
+    if array.size == 0:
+        raise ValueError("%s has no values: its shape is %s" % (name, array.shape))
+    image = vtkImageData()
+    image.SetDimensions(*shape[::-1], *[1] * (3 - len(shape)))
+    image.SetSpacing(*along_axes(spacing, "spacing", len(shape), positive=True))
+    image.SetOrigin(*along_axes(origin, "origin", len(shape)))
+    image.GetPointData().SetScalars(vtk_array(rows, name))
+    return image, shape
+
+
+def point_set(points, name, axes):
+    """The vtkPolyData of points given as rows of x and y or of x, y and z."""
+    array = real_numbers(points, name)
+    if array.ndim != 2 or array.shape[1] != axes:
+        raise ValueError("%s has the shape %s; it must be (number of points, %d), as the density has "
+                         "%d axes" % (name, array.shape, axes, axes))
+    if array.dtype.kind != "f" or axes < 3:
+        rows = np.zeros((len(array), 3))
+        rows[:, :axes] = array
+        array = rows
+    data = vtkPolyData()
+    data.SetPoints(vtkPoints())
+    data.GetPoints().SetData(vtk_array(array, name))
+    return data
+
+
+def positions_of(data, axes):
+    """The points of a vtkPointSet as rows of as many coordinates as axes; not a copy."""
+    return vtk_to_numpy(data.GetPoints().GetData())[:, :axes]
+
+
+def point_values_of(image, name, axes):
+    """An array of an image's points, on [y, x] or [z, y, x]; vectors are along the last axis. Not a
+    copy."""
+    values = vtk_to_numpy(image.GetPointData().GetArray(name))
+    shape = image.GetDimensions()[axes - 1::-1]
+    return values.reshape(shape) if values.ndim == 1 else values.reshape(*shape, -1)[..., :axes]
+
+
+def cell_values_of(image, name, axes):
+    """An array of an image's cells, on [y, x] or [z, y, x]; not a copy."""
+    shape = [max(number - 1, 1) for number in image.GetDimensions()[axes - 1::-1]]
+    return vtk_to_numpy(image.GetCellData().GetArray(name)).reshape(shape)
+
+
+def fields_of(data):
+    """The field data that are numbers: a number alone as such, several as an array."""
+    fields = data.GetFieldData()
+    arrays = {fields.GetArrayName(i): fields.GetArray(i) for i in range(fields.GetNumberOfArrays())
+              if fields.GetArray(i)}
+    values = {name: vtk_to_numpy(array) for name, array in arrays.items()}
+    return {name: value.item() if value.size == 1 else value for name, value in values.items()}
