@@ -86,7 +86,8 @@ class Map(unittest.TestCase):
         other = density_image()
         other.GetCellData().SetScalars(after)
         other.GetCellData().RemoveArray("Density")
-        apart = simple.TransportMap(Input=producer(simple, density_image()), Target=producer(simple, other))
+        apart = self.map()
+        apart.Target = producer(simple, other)
         np.testing.assert_array_equal(cell_array(output_of(apart), "Displacement"), ways)
 
     def test_bad_target(self):
