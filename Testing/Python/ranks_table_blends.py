@@ -44,9 +44,9 @@ def give_targets():
                 Input=source, Target=target, NegativeValues="Clamp", **choice))
     give("map to coarse", transport_map(Input=cells, Target=long, SampleDimensions=[5, 7, 3], **usual))
     field = transport_map(Input=image, Target=other, **usual)
-    give("contour of costs", simple.Contour(Input=field, ContourBy=["POINTS", "CostDensity"],
+    give("costs contour", simple.Contour(Input=field, ContourBy=["POINTS", "CostDensity"],
                                             Isosurfaces=[0.001], ComputeNormals=0))
-    give("slice of costs", simple.Slice(Input=field))
+    give("costs slice", simple.Slice(Input=field))
     far = simple.Wavelet(WholeExtent=[0, 400, 0, 28, 0, 31], Center=[200, 10, 10],
                          StandardDeviation=2)
     near = simple.Wavelet(WholeExtent=[0, 400, 0, 28, 0, 31], Center=[100, 10, 10])
