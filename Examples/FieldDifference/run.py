@@ -83,7 +83,7 @@ def main():
     most = np.abs(change).max()
     share = costs["Optimal"][..., None] / np.quantile(costs["Optimal"], 0.999)
     cost = 255 - np.clip(share, 0, 1) * (255 - np.array([120, 20, 90]))
-    pictures = [("first run, second run, Displacement", arrows),
+    pictures = [("Displacement", arrows),
                 ("CostDensity", figures.fitted(cost.round().astype(np.uint8), panel)),
                 ("second run - first run", figures.fitted(figures.coloured(change, -most, most), panel))]
     print("\n" + figures.write_montage(arguments, "field-difference.png", [pictures]))
