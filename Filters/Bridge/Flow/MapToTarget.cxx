@@ -140,10 +140,11 @@ TransportMap::Report makeMapToTarget(const TransportMap& map, const DensityPair&
   };
   const SharedFlow& shared = update(cache, pair.Source, pair.SourceName, ends[0],
     tablesOf(pair.Source, FlowDirection::Backward, true));
+  cache.ForgetMaps(); // to the uniform measure
+  const SharedFlow& sharedTarget = update(kept.Tables, pair.Target, pair.TargetName, ends[1],
+    tablesOf(pair.Target, FlowDirection::Forward, false));
   const RectifiedFlow<D>& flow = shared.Flow<D>();
-  const RectifiedFlow<D>& targetFlow = update(kept.Tables, pair.Target, pair.TargetName, ends[1],
-    tablesOf(pair.Target, FlowDirection::Forward, false))
-                                         .template Flow<D>();
+  const RectifiedFlow<D>& targetFlow = sharedTarget.Flow<D>();
   const auto optimal = kept.Map<D>(pair, map.Optimal, progress, ends[2]);
   TransportReport transport;
   if (map.Optimal.IsOptimal)
