@@ -5,6 +5,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/SeparateInputs.h"
+#include "Bridge/Settings/TargetArray.h"
 #include "Core/Device/DeviceUse.h"
 
 #include "vtkDataObject.h"
@@ -56,11 +57,8 @@ vtkTransportInterpolator::~vtkTransportInterpolator() = default;
 void vtkTransportInterpolator::SetInputArrayToProcess(
   int idx, int port, int connection, int fieldAssociation, const char* name)
 {
-  // The array is looked up in the target's data object, so that its port is 0 here: ParaView
-  // copies the arrays of port 1 from index 0 on, and stops at the first one of another port.
-  const bool isTarget = port == 1 || idx == 1;
-  this->Superclass::SetInputArrayToProcess(
-    isTarget ? 1 : idx, isTarget ? 0 : port, connection, fieldAssociation, name);
+  const auto [index, arrayPort] = targetArray(idx, port);
+  this->Superclass::SetInputArrayToProcess(index, arrayPort, connection, fieldAssociation, name);
 }
 
 //------------------------------------------------------------------------------

@@ -2,15 +2,19 @@
 #include "vtkTransportMap.h"
 
 #include "Bridge/Density/InputDensity.h"
+#include "Bridge/Flow/MapToTarget.h"
+#include "Bridge/Flow/TargetTransport.h"
 #include "Bridge/Flow/TransportMap.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PartText.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/MissingData.h"
 #include "Bridge/Settings/TableSettings.h"
+#include "Bridge/Settings/TargetArray.h"
 #include "Core/Device/DeviceUse.h"
 
 #include "vtkImageData.h"
@@ -19,7 +23,10 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <string>
+#include <utility>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportMap);
@@ -29,6 +36,14 @@ namespace
 using namespace RectifiedTransport;
 
 const char* const DirectionTexts[] = { "UniformToDensity", "DensityToUniform" };
+
+// Of the inputs of a map to a target, in messages.
+const char* const InputNames[] = { "Source", "Target" };
+
+bool hasTarget(vtkInformationVector** inputVector)
+{
+  return inputVector[1]->GetNumberOfInformationObjects() > 0;
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -37,9 +52,12 @@ vtkTransportMap::vtkTransportMap()
   , SampleDimensions{ 0, 0, 0 }
   , EqualizeAreas(false)
 {
-  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
   this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
+  this->SetPortPolicy(1, PORT_PARTITIONED_DENSITY);
+  vtkTransportMap::SetInputArrayToProcess(
+    1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
 }
 
 //------------------------------------------------------------------------------
@@ -64,9 +82,21 @@ vtkImageData* vtkTransportMap::GetOutput()
 }
 
 //------------------------------------------------------------------------------
-int vtkTransportMap::FillInputPortInformation(int, vtkInformation* info)
+void vtkTransportMap::SetInputArrayToProcess(
+  int idx, int port, int connection, int fieldAssociation, const char* name)
+{
+  const auto [index, arrayPort] = targetArray(idx, port);
+  this->Superclass::SetInputArrayToProcess(index, arrayPort, connection, fieldAssociation, name);
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportMap::FillInputPortInformation(int port, vtkInformation* info)
 {
   vtkDensityAlgorithm::FillDensityPortInformation(info);
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
   return 1;
 }
 
@@ -81,14 +111,16 @@ int vtkTransportMap::FillOutputPortInformation(int, vtkInformation* info)
 int vtkTransportMap::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkInformation* inputInformation = inputVector[0]->GetInformationObject(0);
+  // The samples are those of the density that the map begins at, if it leads to another one.
+  const int port = hasTarget(inputVector) && this->Direction == DENSITY_TO_UNIFORM ? 1 : 0;
+  vtkInformation* inputInformation = inputVector[port]->GetInformationObject(0);
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
   if (!vtkImageData::GetData(inputInformation))
   {
-    this->UpdateInputOnRanks(0, inputVector, outputVector);
+    this->UpdateInputOnRanks(port, inputVector, outputVector);
   }
   announceSubExtents(outputInformation);
-  const ImageGrid inputGrid = this->AnnouncedDensityGrid(inputInformation);
+  const ImageGrid inputGrid = this->AnnouncedDensityGrid(inputInformation, port, port);
   announceGrid(inputGrid, outputInformation);
   if (inputGrid.IsEmpty())
   {
@@ -111,6 +143,31 @@ int vtkTransportMap::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
+bool vtkTransportMap::ReadPair(vtkInformationVector** inputVector,
+  RectifiedTransport::Progress& progress, std::unique_ptr<InputDensity>* densities)
+{
+  bool haveBoth = true;
+  for (int port = 0; port < 2; ++port)
+  {
+    try
+    {
+      vtkDataObject* data = vtkDataObject::GetData(inputVector[port], 0);
+      densities[port] = this->ReadDensity(data, progress, port, port);
+    }
+    catch (const Failure& failure)
+    {
+      throw Failure(InputNames[port], failure);
+    }
+    haveBoth = haveBoth && densities[port];
+    if (haveBoth)
+    {
+      densities[port]->SetInputName(InputNames[port]);
+    }
+  }
+  return haveBoth;
+}
+
+//------------------------------------------------------------------------------
 int vtkTransportMap::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -126,22 +183,54 @@ int vtkTransportMap::RequestData(
   DeviceUse device = this->BeginDevice();
   AlgorithmProgress progress(this, this->Threading, ranks, &device);
 
-  const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
+  std::array<std::unique_ptr<InputDensity>, 2> densities;
+  const bool isToTarget = hasTarget(inputVector);
+  if (!isToTarget)
+  {
+    this->ToTarget = nullptr;
+    densities[0] = this->ReadDensity(inputVector, progress);
+  }
+  else if (!this->ReadPair(inputVector, progress, densities.data()))
+  {
+    return 1;
+  }
+  const int first = isToTarget && map.Backward ? 1 : 0;
+  InputDensity* density = densities[first].get();
   if (!density)
   {
     return 1;
   }
   vtkImageData* output = vtkImageData::GetData(outputVector);
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
-  const Extent wanted = extentToGive(map.SampleGrid(*density).Extent(), outputInformation, ranks);
-  const TransportMap::Report result =
-    map.Run(*density, wanted, this->GetFlowCache(), progress, output);
+  const auto run = [&]() {
+    const Extent wanted = extentToGive(map.SampleGrid(*density).Extent(), outputInformation, ranks);
+    if (!isToTarget)
+    {
+      return map.Run(*density, wanted, this->GetFlowCache(), progress, output);
+    }
+    const int last = 1 - first;
+    const DensityPair pair(*density, InputNames[first], *densities[last], InputNames[last]);
+    if (!this->ToTarget)
+    {
+      this->ToTarget.reset(new TargetTransport);
+    }
+    return runToTarget(map, pair, wanted, this->GetFlowCache(), *this->ToTarget, progress, output);
+  };
+  const TransportMap::Report result = run();
   this->EndDevice(device);
   // The association of the density may not be known before the data.
   announceGrid(result.Grid, outputInformation);
   this->WarnOfMap(result.Transport);
-  this->WarnOfSteps(
-    result.Flow, map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward);
+  if (isToTarget)
+  {
+    this->WarnOfSteps(result.Flow, map.Flow, FlowDirection::Backward, InputNames[first]);
+    this->WarnOfSteps(result.ToTarget, map.Flow, FlowDirection::Forward, InputNames[1 - first]);
+  }
+  else
+  {
+    this->WarnOfSteps(
+      result.Flow, map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward);
+  }
   if (result.IsUncorrected)
   {
     this->WarnOfAreas();
@@ -157,7 +246,7 @@ int vtkTransportMap::RequestData(
   {
     this->WarnOnFirstRank(describePart(result.Folded, samples, "samples") +
       " are folded: JacobianDeterminant is 0 or negative there" +
-      result.Transport.WithSteps(map.Backward
+      result.Transport.WithSteps(map.Backward || isToTarget
           ? "; more NumberOfSteps unfold most, but not beside regions without mass, where the map "
             "tears"
           : "; more NumberOfSteps unfold some, but not at sharp edges of the density, where only a "

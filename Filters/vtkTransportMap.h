@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTransportMap
- * @brief   the map between the uniform measure and a density, as fields of an image
+ * @brief   the map between the uniform measure and a density, or between two densities, as fields
+ *          of an image
  *
  * Follows the rectified flow (equation 12) of Do, Coeurjolly, Memari and Bonneel, "Linear-Time
  * Transport with Rectified Flows", ACM Transactions on Graphics 44(4), 2025,
@@ -65,6 +66,31 @@
  * sample for the output and, while it runs, 16 more in 2D, plus the tables (see
  * vtkTransportAlgorithm), and at the end 34 MB or a layer of the density for the blocks.
  *
+ * Input port 1, which may stay empty, is a second density, the target. The map then leads from the
+ * first density to the target, each divided by its mass, and the output has samples on the domain
+ * of the first one:
+ * - Displacement ends in the target. RectifiedFlow takes the backward flow to the uniform measure
+ *   and from there the forward flow to the target: points of the two unit boxes correspond, as in
+ *   vtkTransportInterpolator. Optimal solves the map between both densities;
+ * - where both densities f and g, each divided by its mass, are smooth and positive,
+ *   JacobianDeterminant is f(x) / g(x + Displacement);
+ * - `CostDensity`: the share of the mass in the sample's cell times |Displacement|^2; its sum is
+ *   TransportCost;
+ * - TransportCost is the mean over the mass, an upper bound on the squared 2-Wasserstein distance
+ *   between the densities, each divided by its mass. TotalMass is that of the first density;
+ * - the errors of LargestBlockError are |m - s| / s: m is the target's share of the mass in the
+ *   image of the block, s the first density's share of the mass in the block. Only blocks count in
+ *   which every cell of the first density has more than 5 % of the mean;
+ * - StepsTaken and AreaErrorEstimate have two values, of the flow back and of the flow on;
+ * - MovedSamples counts samples that ended in empty cells of the target, and FoldedCells those with
+ *   mass in their cell.
+ *
+ * With Direction DensityToUniform the map leads from the target to the first density, as with both
+ * inputs exchanged: the output then has the grid and the arrays of the target. EqualizeAreas has no
+ * effect. The target's array is input array 1 (SetInputArrayToProcess(1, 1, ...)). The two may
+ * differ in size, spacing and box; other dimensions, planes or direction matrices are an error.
+ * Both tables, and the optimal map between both, are kept.
+ *
  * With several MPI ranks, each rank has the extent that is requested of it. Without MPI, piece 0
  * holds all data.
  *
@@ -72,14 +98,20 @@
  * in the box of its possible destinations until this box has mass; the map is not one to one there.
  * Where the density is low, the map needs more NumberOfSteps than elsewhere.
  *
- * @sa vtkTransportSampler vtkTransportAlgorithm vtkDensityAlgorithm
+ * @sa vtkTransportSampler vtkTransportInterpolator vtkTransportAlgorithm vtkDensityAlgorithm
  */
 #ifndef vtkTransportMap_h
 #define vtkTransportMap_h
 
 #include "vtkTransportAlgorithm.h"
 
+namespace RectifiedTransport
+{
+class TargetTransport;
+}
+
 VTK_ABI_NAMESPACE_BEGIN
+class vtkAlgorithmOutput;
 class vtkImageData;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportMap : public vtkTransportAlgorithm
@@ -98,10 +130,29 @@ public:
     DENSITY_TO_UNIFORM = 1
   };
 
+  /**
+   * Set the target (input 1), as the output of another filter; nullptr for none.
+   */
+  void SetTargetConnection(vtkAlgorithmOutput* target) { this->SetInputConnection(1, target); }
+
+  /**
+   * The same, as a data object.
+   */
+  void SetTargetData(vtkDataObject* target) { this->SetInputData(1, target); }
+
+  using vtkAlgorithm::SetInputArrayToProcess;
+  /**
+   * Choose the array of a density. With port 1 it is that of the target, input array 1, even if
+   * `idx` is 0, which ParaView passes by default.
+   */
+  void SetInputArrayToProcess(
+    int idx, int port, int connection, int fieldAssociation, const char* name) override;
+
   ///@{
   /**
    * The direction of the map. UniformToDensity (default) takes the uniform measure to the density.
-   * DensityToUniform is the inverse map.
+   * DensityToUniform is the inverse map. With a target: from the density to the target, and from
+   * the target to the density.
    */
   vtkSetMacro(Direction, int);
   vtkGetMacro(Direction, int);
@@ -180,6 +231,11 @@ protected:
   vtkTypeBool EqualizeAreas;
 
 private:
+  bool ReadPair(vtkInformationVector** inputVector, RectifiedTransport::Progress& progress,
+    std::unique_ptr<RectifiedTransport::InputDensity>* densities);
+  // Kept while there is a target.
+  std::unique_ptr<RectifiedTransport::TargetTransport> ToTarget;
+
   vtkTransportMap(const vtkTransportMap&) = delete;
   void operator=(const vtkTransportMap&) = delete;
 };

@@ -17,6 +17,7 @@ vtkSmartPointer<vtkAlgorithm> make()
 // Of a filter that is quick as it is.
 inline void leaveAsItIs(RandomSource&, vtkAlgorithm*) {}
 
+FilterKind transportMapKind();
 void addTransportKinds(std::vector<FilterKind>& kinds);
 void addBlendKinds(std::vector<FilterKind>& kinds);
 void addOtherKinds(std::vector<FilterKind>& kinds);

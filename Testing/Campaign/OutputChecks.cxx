@@ -6,6 +6,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkPoints.h"
+#include "vtkTransportAlgorithm.h"
 
 #include <algorithm>
 #include <cmath>
@@ -123,6 +124,28 @@ double requireField(vtkDataObject* data, const char* name, Findings& findings)
 {
   vtkDataArray* array = requireArray(data->GetFieldData(), name, 1, 1, findings);
   return array ? array->GetComponent(0, 0) : 0.0;
+}
+
+void checkBound(vtkTransportAlgorithm* filter, vtkDataObject* output, bool isWhole, double cost,
+  Findings& findings)
+{
+  const bool isOptimal = filter->GetMethod() == vtkTransportAlgorithm::OPTIMAL;
+  vtkFieldData* fields = output->GetFieldData();
+  vtkDataArray* gaps = fields->GetArray("OptimalityGap");
+  if (!isWhole || (!isOptimal && !filter->GetCertify()))
+  {
+    findings.That(!gaps && !fields->GetArray("TransportCostLowerBound"), "no bound");
+    return;
+  }
+  const double bound = requireField(output, "TransportCostLowerBound", findings);
+  findings.That(bound >= 0.0, "TransportCostLowerBound is " + textOf(bound));
+  findings.That(gaps && gaps->GetNumberOfTuples() == 1, "a gap");
+  const double gap = gaps ? gaps->GetComponent(0, 0) : 0.0;
+  findings.That(gap >= 0.0, "OptimalityGap is " + textOf(gap)); // it may be infinite
+  if (bound > 0.0)
+  {
+    findings.Near(1.0 + gap, std::max(1.0, cost / bound), 1e-9, "OptimalityGap");
+  }
 }
 
 void requireFinitePoints(vtkPointSet* set, Findings& findings)

@@ -10,6 +10,7 @@
 
 class vtkDataArray;
 class vtkDataSetAttributes;
+class vtkTransportAlgorithm;
 
 namespace Campaign
 {
@@ -33,6 +34,10 @@ vtkDataArray* requireDensity(vtkImageData* image, bool onPoints, Findings& findi
 
 // The only value of an array of the field data; 0, and a finding, if there is none.
 double requireField(vtkDataObject* data, const char* name, Findings& findings);
+
+// The bound of the least cost and the gap of a map of this cost, where they are to be.
+void checkBound(vtkTransportAlgorithm* filter, vtkDataObject* output, bool isWhole, double cost,
+  Findings& findings);
 
 void requireFinitePoints(vtkPointSet* set, Findings& findings);
 

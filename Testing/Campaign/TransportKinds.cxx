@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sample Density, Transport Map, Density-Equalizing Warp, Transport Quality and Relax Blue Noise.
+// Sample Density, Density-Equalizing Warp, Transport Quality and Relax Blue Noise.
 #include "DrawnInputs.h"
 #include "Kinds.h"
 #include "OutputChecks.h"
@@ -10,7 +10,6 @@
 #include "vtkFieldData.h"
 #include "vtkPointData.h"
 #include "vtkTable.h"
-#include "vtkTransportMap.h"
 #include "vtkTransportQuality.h"
 #include "vtkTransportSampler.h"
 
@@ -22,29 +21,6 @@ namespace Campaign
 
 namespace
 {
-
-// The bound of the least cost and the gap of a map of this cost, where they are to be.
-void checkBound(vtkTransportAlgorithm* filter, vtkDataObject* output, bool isWhole, double cost,
-  Findings& findings)
-{
-  const bool isOptimal = filter->GetMethod() == vtkTransportAlgorithm::OPTIMAL;
-  vtkFieldData* fields = output->GetFieldData();
-  vtkDataArray* gaps = fields->GetArray("OptimalityGap");
-  if (!isWhole || (!isOptimal && !filter->GetCertify()))
-  {
-    findings.That(!gaps && !fields->GetArray("TransportCostLowerBound"), "no bound");
-    return;
-  }
-  const double bound = requireField(output, "TransportCostLowerBound", findings);
-  findings.That(bound >= 0.0, "TransportCostLowerBound is " + textOf(bound));
-  findings.That(gaps && gaps->GetNumberOfTuples() == 1, "a gap");
-  const double gap = gaps ? gaps->GetComponent(0, 0) : 0.0;
-  findings.That(gap >= 0.0, "OptimalityGap is " + textOf(gap)); // it may be infinite
-  if (bound > 0.0)
-  {
-    findings.Near(1.0 + gap, std::max(1.0, cost / bound), 1e-9, "OptimalityGap");
-  }
-}
 
 // The slack of each particle.
 void checkSlack(vtkTransportSampler* sampler, Findings& findings)
@@ -205,92 +181,6 @@ void checkSampler(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings
     }
   }
   findings.That(way <= 1e-9, "Displacement is off by " + textOf(way));
-}
-
-//------------------------------------------------------------------------------
-using Map = vtkTransportMap;
-
-void drawMap(Settings& settings)
-{
-  settings.Draw<Map, int>("Direction", &Map::SetDirection, { 0, 1 }, { -1, 2 });
-  settings.Draw<Map, vtkTypeBool>("EqualizeAreas", &Map::SetEqualizeAreas, { 0, 1 }, {}, 0.3);
-  drawEmptySettings<Map>(settings);
-  RandomSource& random = settings.GetRandom();
-  if (random.Chance(0.3))
-  {
-    const int x = random.Of({ 0, 0, 0, 2, 9, 30, random.Of({ 1, -1, 2147483647 }) });
-    const int y = random.Of({ 0, 0, 0, 2, 9, 30 });
-    const int z = random.Of({ 0, 0, 0, 0, 2, 9 });
-    settings.Add("SampleDimensions",
-      std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z),
-      [=](vtkAlgorithm* filter) { static_cast<Map*>(filter)->SetSampleDimensions(x, y, z); });
-  }
-  drawFlowSettings<vtkTransportAlgorithm>(settings);
-  drawTables<Map>(settings);
-  drawDevice<Map>(settings);
-  drawMethod<Map>(settings);
-  drawDensitySettings(settings);
-}
-
-Inputs drawMapInputs(RandomSource& random, Settings& settings)
-{
-  Inputs inputs(1);
-  inputs[0] = { drawDensityOn(random, settings, 0) };
-  return inputs;
-}
-
-State expectMap(vtkAlgorithm* filter, const Inputs& inputs)
-{
-  const int* asked = Map::SafeDownCast(filter)->GetSampleDimensions();
-  const bool any = asked[0] != 0 || asked[1] != 0 || asked[2] != 0;
-  return worse(densityState(filter, inputs[0][0]), any ? State::Odd : State::Sound);
-}
-
-void checkMap(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
-{
-  auto* map = Map::SafeDownCast(filter);
-  vtkImageData* output = map->GetOutput();
-  const Input& input = inputs[0][0];
-  auto* image = vtkImageData::SafeDownCast(input.Data);
-  const vtkIdType count = input.OnPoints ? output->GetNumberOfPoints() : output->GetNumberOfCells();
-  vtkDataSetAttributes* data =
-    output->GetAttributes(input.OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
-  if (!data->GetArray("JacobianDeterminant"))
-  {
-    return; // an odd choice of the array took one of the other kind
-  }
-  vtkDataArray* displacements = requireArray(data, "Displacement", 3, count, findings);
-  requireArray(data, "Divergence", 1, count, findings);
-  requireArray(data, "JacobianDeterminant", 1, count, findings);
-  const double total = requireField(output, "TotalMass", findings);
-  const double cost = requireField(output, "TransportCost", findings);
-  checkBound(map, output, true, cost, findings);
-  const State state = densityState(filter, input);
-  if (state == State::Sound)
-  {
-    findings.Near(total, massOf(input), 1e-9, "TotalMass");
-  }
-  const int* asked = map->GetSampleDimensions();
-  if (asked[0] == 0 && asked[1] == 0 && asked[2] == 0)
-  {
-    findings.That(std::equal(output->GetExtent(), output->GetExtent() + 6, image->GetExtent()),
-      "the extent is the input's");
-    requirePassed(image->GetPointData(), output->GetPointData(),
-      { "Displacement", "Divergence", "JacobianDeterminant" }, findings);
-  }
-  double sum = 0.0;
-  for (vtkIdType i = 0; displacements && i < count; ++i)
-  {
-    for (int a = 0; a < 3; ++a)
-    {
-      sum += displacements->GetComponent(i, a) * displacements->GetComponent(i, a);
-    }
-  }
-  if (state == State::Sound && map->GetDirection() == Map::UNIFORM_TO_DENSITY)
-  {
-    findings.That(std::abs(cost - sum / static_cast<double>(count)) <= 1e-9 * cost + 1e-18,
-      "TransportCost is the mean square of Displacement");
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -486,11 +376,6 @@ void quickSampler(RandomSource&, vtkAlgorithm* filter)
   Sampler::SafeDownCast(filter)->SetNumberOfParticles(30);
 }
 
-void quickMap(RandomSource& random, vtkAlgorithm* filter)
-{
-  Map::SafeDownCast(filter)->SetDirection(static_cast<int>(random.Whole(0, 1)));
-}
-
 void quickRelaxation(RandomSource& random, vtkAlgorithm* filter)
 {
   auto* relaxation = Relaxation::SafeDownCast(filter);
@@ -504,7 +389,7 @@ void addTransportKinds(std::vector<FilterKind>& kinds)
 {
   kinds.push_back({ "Sampler", make<Sampler>, drawSampler, drawSamplerInputs, expectSampler,
     checkSampler, quickSampler });
-  kinds.push_back({ "Map", make<Map>, drawMap, drawMapInputs, expectMap, checkMap, quickMap });
+  kinds.push_back(transportMapKind());
   kinds.push_back({ "Warp", make<Warp>, drawWarp, drawPointsAndDensityInputs, expectWarp, checkWarp,
     leaveAsItIs });
   kinds.push_back({ "Quality", make<Quality>, drawQuality, drawPointsAndDensityInputs,

@@ -299,6 +299,15 @@ def map_runs():
     yield "map of points", transport, [image((23, 17, 19), cells=False)], {}
     yield "map of other samples", transport, [image()], dict(SampleDimensions=(30, 80, 1))
     yield "map turned 3D", transport, [image((23, 17, 19), direction=TURN)], {}
+    for shape, other in (((200,), (150,)), ((61, 47), (50, 60)), ((23, 17, 19), (20, 21, 15))):
+        both = [image(shape), image(other, seed=5, origin=(2, 3, 4)[:len(shape)] + (1, 2, 3)[len(shape):])]
+        for name, options in (("", {}), (" optimal", dict(Method=1)), (" certified", dict(Certify=1))):
+            yield f"map to a target{name} {len(shape)}D", transport, both, options
+    both = [image(cells=False), image(seed=5)]
+    yield "map from a target", transport, both, dict(Direction=1)
+    yield "map to a target, of other samples", transport, both, dict(SampleDimensions=(30, 80, 1))
+    yield "map to a target with maps", transport, [image((210, 160)), image((210, 160), seed=5)], dict(
+        FlowMaps=1)
 
 
 def warp_runs():

@@ -165,6 +165,14 @@ class Examples(ExampleTest):
         self.assertTrue(folded > 50 and left < 0.6 * largest, numbers)
         self.check_picture("area-errors.png")
 
+    def test_field_difference(self):
+        """The optimal map costs about its bound, and the flow more."""
+        flow, optimal = self.ran("FieldDifference").splitlines()[-4:-2]
+        costs, bounds = zip(*([float(word) for word in line.split()[1:3]] for line in (flow, optimal)))
+        self.assertAlmostEqual(costs[1] / bounds[1], 1, delta=0.02)
+        self.assertGreater(costs[0], 1.2 * costs[1])
+        self.check_picture("field-difference.png")
+
     def test_sample_volume(self):
         self.ran("SampleVolume")
         self.check_picture("particles-brain-t1.png")

@@ -7,6 +7,7 @@ import numpy as np
 from rt_testing import (OUTPUT, SOURCE, Listener, density_image, load_plugin, main, output_of,
                         producer)
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDoubleArray
 
 simple = load_plugin()
 
@@ -48,6 +49,53 @@ class Map(unittest.TestCase):
         back = cell_array(output_of(transport), "Displacement")
         # Not inverse at one and the same point, but against each other.
         self.assertLess((there * back).sum(), -0.5 * (there * there).sum())
+
+    def test_target(self):
+        """Where two fields differ: the input is optional, and can be taken away again."""
+        transport = self.map()
+        alone = cell_array(output_of(transport), "Displacement").copy()
+        self.assertIsNone(transport.Target)
+        transport.Target = producer(simple, density_image(values=np.arange(1.0, 121.0)))
+        transport.UpdatePipeline()
+        self.assertEqual(list(transport.TargetArray), ["CELLS", "Density"])
+        self.assertEqual(set(transport.CellData.keys()) - {"Density"},
+                         {"Displacement", "Divergence", "JacobianDeterminant", "CostDensity"})
+        output = output_of(transport)
+        costs = cell_array(output, "CostDensity")
+        cost = transport.FieldData["TransportCost"].GetRange()[0]
+        np.testing.assert_allclose(costs.sum(), cost, rtol=1e-12)
+        shares = cell_array(output, "Density") / cell_array(output, "Density").sum()
+        squares = (cell_array(output, "Displacement") ** 2).sum(axis=1)
+        np.testing.assert_allclose(costs, shares * squares, atol=1e-9 * cost)
+        transport.Target = None
+        np.testing.assert_array_equal(cell_array(output_of(transport), "Displacement"), alone)
+        self.assertEqual(set(transport.CellData.keys()) & {"CostDensity"}, set())
+
+    def test_arrays_of_one_target(self):
+        """Two arrays of one data set: the density before and after."""
+        image = density_image()
+        after = vtkDoubleArray()
+        after.SetName("After")
+        for i in range(image.GetNumberOfCells()):
+            after.InsertNextValue(1.0 + i % 5)
+        image.GetCellData().AddArray(after)
+        data = producer(simple, image)
+        transport = simple.TransportMap(Input=data, Target=data, TargetArray=["CELLS", "After"])
+        ways = cell_array(output_of(transport), "Displacement").copy()
+        self.assertEqual(list(transport.DensityArray), ["CELLS", "Density"])
+        other = density_image()
+        other.GetCellData().SetScalars(after)
+        other.GetCellData().RemoveArray("Density")
+        apart = self.map()
+        apart.Target = producer(simple, other)
+        np.testing.assert_array_equal(cell_array(output_of(apart), "Displacement"), ways)
+
+    def test_bad_target(self):
+        transport = self.map()
+        transport.Target = producer(simple, density_image((6, 5, 4)))
+        reported = Listener(transport.GetClientSideObject())
+        transport.UpdatePipeline()
+        self.assertIn("Source has the axes x and y, Target has the axes x and y and z", reported.errors[0])
 
     def test_warp_by_vector_finds_the_displacement(self):
         points = density_image((12, 10), cells=False)

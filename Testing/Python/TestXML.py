@@ -105,12 +105,12 @@ def result(proxy, values, domain=None):
         filter_.SetNumberOfPoints(30)
     if hasattr(filter_, "SetResolution"):
         filter_.SetResolution(resolution)
-    if hasattr(filter_, "SetTargetData"):
+    if hasattr(filter_, "SetTargetData") and "Target" in by_label(proxy.label).inputs:
         filter_.SetTargetData(density_image(shape, seed=5))
     if domain:
         filter_.SetDomainData(domain_of(domain, shape))
     if "EmptyCells" in values and hasattr(filter_, "SetNaNValuesToEmpty"):
-        port = 1 if filter_.GetNumberOfInputPorts() > 1 else 0
+        port = by_label(proxy.label).port_of("density")
         filter_.SetInputData(port, domain_of("missing", shape))
         filter_.SetNaNValuesToEmpty()
     for name, value in values.items():

@@ -14,6 +14,46 @@ def barycenter(**properties):
     return simple.DensityBarycenter(**properties)
 
 
+def transport_map(**properties):
+    simple.SetActiveSource(None)
+    return simple.TransportMap(**properties)
+
+
+def give_targets():
+    """Maps from one density to another: points, cells, other boxes and data, tiles, both directions."""
+    usual = dict(NegativeValues="Clamp", NumberOfSteps=8)
+    whole = [-4, 8, 0, 7, 0, 10]
+    image = simple.Wavelet(WholeExtent=whole)
+    other = simple.Wavelet(WholeExtent=whole, StandardDeviation=0.2, XFreq=20, Center=[4, 1, 2])
+    cells = simple.PointDatatoCellData(Input=image, ProcessAllArrays=1)
+    flat, other_flat = (simple.ExtractSubset(Input=density, VOI=[-4, 8, 3, 3, 0, 10])
+                        for density in (image, other))
+    long = simple.Wavelet(WholeExtent=[-2, 3, -2, 3, 0, 21], StandardDeviation=0.3)
+    mesh = simple.Threshold(Input=cells, Scalars=["CELLS", "RTData"], LowerThreshold=0,
+                            UpperThreshold=1000)
+    inputs = {"points": (image, other), "flat": (flat, other_flat), "geometries": (cells, long),
+              "twice": (image, image), "wider": (with_ghosts(other, 2), other), "mesh": (cells, mesh),
+              "from mesh": (mesh, image)}
+    for name, (source, target) in inputs.items():
+        for direction in ("UniformToDensity", "DensityToUniform"):
+            give("map to %s %s" % (name, direction), transport_map(
+                Input=source, Target=target, Direction=direction, **usual))
+    for name, choice in (("optimal", dict(Method="Optimal")), ("certified", dict(Certify=1, NumberOfSteps=8))):
+        for kind, source, target in (("", cells, long), (" flat", flat, other_flat)):
+            give("map to %s%s" % (name, kind), transport_map(
+                Input=source, Target=target, NegativeValues="Clamp", **choice))
+    give("map to coarse", transport_map(Input=cells, Target=long, SampleDimensions=[5, 7, 3], **usual))
+    field = transport_map(Input=image, Target=other, **usual)
+    give("costs contour", simple.Contour(Input=field, ContourBy=["POINTS", "CostDensity"],
+                                            Isosurfaces=[0.001], ComputeNormals=0))
+    give("costs slice", simple.Slice(Input=field))
+    far = simple.Wavelet(WholeExtent=[0, 400, 0, 28, 0, 31], Center=[200, 10, 10],
+                         StandardDeviation=2)
+    near = simple.Wavelet(WholeExtent=[0, 400, 0, 28, 0, 31], Center=[100, 10, 10])
+    give("map to tiles", transport_map(Input=far, Target=near, Tables="Tiled", NegativeValues="Clamp",
+                                       SampleDimensions=[40, 6, 7]))
+
+
 def give_blends():
     """Of densities on points and cells, of one geometry and of several."""
     usual = dict(NegativeValues="Clamp", NumberOfSteps=8)

@@ -28,6 +28,7 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
          "RasterWithGaps": ["--pixels", "600"],
          "Districts": ["--pixels", "600"],
          "AreaErrors": ["--cells", "128", "--pixels", "480"],
+         "FieldDifference": ["--size", "64", "--panel", "160"],
          "StippleSurface": ["--dots", "3000", "--panel", "300"],
          "ClosedSurfaces": ["--panel", "160"],
          "SampleVolume": ["--particles", "50000", "--pixels", "400"],
@@ -62,8 +63,9 @@ SHAPES = {"Morph2D": 2, "Morph3D": 2, "MorphAnimation": 2, "Barycenters2D": 4, "
 need_meshes = unittest.skipUnless(
     os.path.isfile(os.path.join(SOURCE, "build-meshes", "complete")),
     "needs the meshes that Testing/run.sh fetches")
-OWN = {"AreaErrors", "RasterWithGaps", "Districts", "Figure2Paths", "Figure5Cells", "PowerCells", "InSitu",
-       "Arrays"}  # examples that make their input
+# examples that make their input
+OWN = {"AreaErrors", "Arrays", "Districts", "FieldDifference", "Figure2Paths", "Figure5Cells", "InSitu",
+       "PowerCells", "RasterWithGaps"}
 
 
 def command(example, *arguments):

@@ -4,8 +4,7 @@
 #include "Bridge/Blend/ParticlePositions.h"
 #include "Bridge/Density/CostBound.h"
 #include "Bridge/Density/InputDensity.h"
-#include "Bridge/Density/OptimalMemory.h"
-#include "Bridge/Image/GridText.h"
+#include "Bridge/Density/PairMap.h"
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/DistributedSplat.h"
@@ -45,16 +44,6 @@ std::vector<std::size_t> usedOf(const std::vector<OptimalBlendInput>& inputs)
     }
   }
   return used;
-}
-
-template <int D>
-OptimalMemory memoryOfMap(const GridSize<D>& source, const OptimalBlendInput& target,
-  const OptimalNeeds& needs, const Ranks& ranks)
-{
-  const GridSize<D> size = target.Density->Grid().template Size<D>();
-  return OptimalMemory::Of<D>(
-    "between densities of " + describeSize<D>(source) + " and " + describeSize<D>(size) + " cells",
-    source, size, needs, ranks);
 }
 
 // Particles and maps in index spaces, in which inputs differ, and in the lengths of the common
@@ -105,53 +94,17 @@ private:
 
   PlacedDensity<D> Place(const ImageGrid& grid, const DensitySource<D>& source) const
   {
-    constexpr double rounding = 1e-9; // of the sides
-    const ImageGrid& common = this->Settings.Geometry;
-    const Point<D> lengths = common.Lengths<D>();
-    const GridSize<D> cells = common.Size<D>();
-    const GridSize<D> own = grid.Size<D>();
-    Point<D> corner{};
-    PlacedDensity<D> placed{ source, {}, {} };
-    for (Point<D>* end : { &placed.Low, &placed.High })
-    {
-      double x[3];
-      grid.ToPhysical<D>(corner.data(), x);
-      common.ToIndex<D>(x, end->data());
-      for (int axis = 0; axis < D; ++axis)
-      {
-        double part = (*end)[axis] / static_cast<double>(cells[axis]);
-        part = std::abs(part) < rounding ? 0.0 : std::abs(part - 1.0) < rounding ? 1.0 : part;
-        (*end)[axis] = part * this->Scale.ToUnits(lengths[axis]);
-        corner[axis] = static_cast<double>(own[axis]);
-      }
-    }
-    return placed;
+    return placeDensity<D>(this->Settings.Geometry, grid, source);
   }
 
   std::unique_ptr<OptimalMap<D>> Solve(const PlacedDensity<D>& source,
     const OptimalBlendInput& target, int leastIterations, bool refines)
   {
-    OptimalMapOptions options;
-    options.Tolerance = this->Settings.Optimal.Tolerance;
-    options.LeastIterations = leastIterations;
-    options.RefineBound = refines;
-    const OptimalMemory memory = memoryOfMap<D>(source.Source.Size, target,
-      { this->Settings.Optimal, refines ? this->All : 0.0 }, this->Work.Group());
-    memory.Require();
-    constexpr double partOfReading = 0.1;
+    constexpr double partOfSolution = 0.7;
     const double begin = this->Work.StageEnd();
-    this->Work.BeginStage(begin + partOfReading * (this->Next - begin));
-    target.Density->Prepare(FlowTables::Whole, this->Work);
-    return withMemory(memory.Purpose, memory.Bytes, [&]() {
-      auto map = std::make_unique<OptimalMap<D>>(source,
-        this->Place(target.Density->Grid(), target.Density->template Source<D>()), options,
-        this->Work.Stage());
-      target.Density->ReleaseGathered();
-      constexpr double partOfSolution = 0.7;
-      this->Work.BeginStage(begin + partOfSolution * (this->Next - begin));
-      map->Solve(this->Work.Stage());
-      return map;
-    });
+    return solvePair<D>(this->Settings.Geometry, source, *target.Density,
+      { this->Settings.Optimal, leastIterations, refines, refines ? this->All : 0.0 }, this->Work,
+      begin + partOfSolution * (this->Next - begin));
   }
 
   LargeBuffer<double> IndexOf(const ImageGrid& grid, vtkDoubleArray* positions)
@@ -264,7 +217,7 @@ private:
     this->Follow(*map, 1, source.Positions, grid, true, 1.0);
   }
 
-  int LeastIterations() const { return this->Settings.Optimal.IsOptimal ? 4 : 1; }
+  int LeastIterations() const { return leastIterations(this->Settings.Optimal); }
 
   vtkSmartPointer<vtkDoubleArray> MeanOf()
   {
@@ -388,13 +341,17 @@ void requireFor(const std::vector<OptimalBlendInput>& inputs, const OptimalBlend
   const double more = each * particles / ranks.Count();
   if (settings.IsPair)
   {
-    memoryOfMap<D>(inputs[0].Density->Grid().Size<D>(), inputs[1], needs, ranks).Require(more);
+    memoryOfPair<D>(
+      inputs[0].Density->Grid().Size<D>(), inputs[1].Density->Grid().Size<D>(), needs, ranks)
+      .Require(more);
     return;
   }
   const std::vector<std::size_t> used = usedOf(inputs);
   for (std::size_t i = 0; i < used.size() && used.size() > 1; ++i)
   {
-    memoryOfMap<D>(settings.Geometry.Size<D>(), inputs[used[i]], needs, ranks).Require(more);
+    memoryOfPair<D>(
+      settings.Geometry.Size<D>(), inputs[used[i]].Density->Grid().Size<D>(), needs, ranks)
+      .Require(more);
   }
 }
 

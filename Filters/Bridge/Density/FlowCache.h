@@ -71,12 +71,16 @@ public:
     return found;
   }
   void ForgetCorrection() { this->KeptCorrection.reset(); }
+  void ForgetMaps()
+  {
+    this->ForgetCorrection();
+    this->KeptMap.reset();
+  }
 
   // Releases this filter's references to the tables and what was made for them.
   void Release()
   {
-    this->ForgetCorrection();
-    this->KeptMap.reset();
+    this->ForgetMaps();
     this->Kept.reset();
   }
 

@@ -4,7 +4,6 @@
 #include "Bridge/Run/Memory.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parallel/RankExchange.h"
-#include "Core/Quality/MapBlocks.h"
 #include "Core/Quality/MapFolds.h"
 
 #include "vtkDataSetAttributes.h"
@@ -32,7 +31,7 @@ vtkSmartPointer<vtkDoubleArray> arrayOn(double* values, int components, std::int
 
 template <int D>
 MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const TupleBox& wanted,
-  const std::string& purpose, const Ranks& ranks)
+  const std::string& purpose, const Ranks& ranks, bool hasTarget)
   : Geometry(geometry)
   , Processes(ranks)
   , Lattice(samples.Size<D>())
@@ -50,7 +49,8 @@ MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const
   const double count = numberOfCells<D>(this->Wanted.Cells);
   const double vectors = D == 3 ? std::max(kept, count) : count;
   const double scratch = D == 3 ? 0.0 : real * D * kept;
-  requireMemory(purpose, real * (3.0 * vectors + 2.0 * count) + scratch);
+  const double scalars = hasTarget ? 3.0 : 2.0;
+  requireMemory(purpose, real * (3.0 * vectors + scalars * count) + scratch);
   this->Displacement = newArray<vtkDoubleArray>("Displacement", 3, static_cast<vtkIdType>(vectors));
   if (D != 3)
   {
@@ -135,9 +135,31 @@ void MapField<D>::Complete()
   }
 }
 
+// From the index space of the target to that of the samples, where images may be outside the
+// domain.
+template <int D>
+void MapField<D>::TakeFrom(const MapTarget<D>& target, Progress& progress)
+{
+  if (target.Grid == this->Geometry)
+  {
+    return;
+  }
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+  const PointSpan<D> positions = this->Positions();
+  progress.For(positions.size(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      double x[3];
+      target.Grid.template ToPhysical<D>(positions[i], x);
+      this->Geometry.template ToIndex<D>(x, positions[i]);
+    }
+  });
+}
+
 template <int D>
 MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direction,
-  const DensitySource<D>& density, Progress& progress, double end, vtkDataSetAttributes* output)
+  const DensitySource<D>& density, Progress& progress, double end, vtkDataSetAttributes* output,
+  const MapTarget<D>* target)
 {
   if (this->Processes.AreSeveral())
   {
@@ -150,9 +172,20 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
   const RectifiedFlow<D>* begins = direction == FlowDirection::Backward ? &flow : nullptr;
   MapFigures figures;
   constexpr double partOfBlocks = 0.2;
-  figures.Blocks = measureBlocks<D>({ this->Lattice, this->OwnPart, this->Kept, this->Positions() },
-    density, flow.Total(), direction, progress,
-    progress.StageEnd() + partOfBlocks * (end - progress.StageEnd()));
+  const MapSamples<D> samples{ this->Lattice, this->OwnPart, this->Kept, this->Positions() };
+  const double endOfBlocks = progress.StageEnd() + partOfBlocks * (end - progress.StageEnd());
+  figures.Blocks = target
+    ? measureBlocksBetween<D>(
+        samples, { density, flow.Total() }, target->Density, progress, endOfBlocks)
+    : measureBlocks<D>(samples, density, flow.Total(), direction, progress, endOfBlocks);
+  constexpr double partOfCosts = 0.1;
+  const double begin = progress.StageEnd();
+  const double endOfSamples = target ? end - partOfCosts * (end - begin) : end;
+  if (target)
+  {
+    progress.BeginStage(begin + partOfCosts * (end - begin));
+    this->TakeFrom(*target, progress);
+  }
   const MapDerivatives<D> derivatives(
     this->Lattice, this->Wanted, this->Kept, step, this->Positions());
   const MapDisplacement<D> moves(
@@ -162,23 +195,31 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
   const bool hasOwn = this->Wanted.Contains(this->OwnPart);
   if (!hasOwn)
   {
-    progress.BeginStage(0.5 * (progress.StageEnd() + end));
+    progress.BeginStage(0.5 * (progress.StageEnd() + endOfSamples));
     MapDisplacement<D>(
       this->Geometry, this->Lattice, this->OwnPart, this->Kept, this->Positions(), begins)
       .Count(sums, progress);
     figures.Folded = folds.Count(this->OwnPart, this->Kept, step, this->Positions(), progress);
   }
-  this->WriteSamples(derivatives, moves, sums, progress, end, divergences->GetPointer(0),
+  this->WriteSamples(derivatives, moves, sums, progress, endOfSamples, divergences->GetPointer(0),
     determinants->GetPointer(0));
   if (hasOwn)
   {
     figures.Folded =
       folds.Count(this->OwnPart, this->Wanted, determinants->GetPointer(0), progress);
   }
+  const DisplacementSums all = sumOverRanks(this->Processes, sums);
+  figures.Cost = moves.MeanSquare(all);
+  if (target)
+  {
+    progress.BeginStage(end);
+    auto costs = newArray<vtkDoubleArray>("CostDensity", 1, count);
+    moves.WriteCosts(this->Displacement->GetPointer(0), all, costs->GetPointer(0), progress);
+    output->AddArray(costs);
+  }
   output->SetVectors(std::exchange(this->Displacement, nullptr));
   output->AddArray(divergences);
   output->AddArray(determinants);
-  figures.Cost = moves.MeanSquare(sumOverRanks(this->Processes, sums));
   figures.Folded = sumOverRanks(this->Processes, figures.Folded);
   return figures;
 }

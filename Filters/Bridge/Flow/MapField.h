@@ -14,6 +14,7 @@
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Quality/BlockErrors.h"
+#include "Core/Quality/MapBlocks.h"
 #include "Core/Tables/Density.h"
 
 #include "vtkSmartPointer.h"
@@ -39,6 +40,15 @@ struct MapFigures
   BlockErrors Blocks;
 };
 
+// The density that a map leads to from another one, and its grid, in whose index space the images
+// are.
+template <int D>
+struct MapTarget
+{
+  const ImageGrid& Grid;
+  SummedDensity<D> Density;
+};
+
 // In 3D positions and displacements share memory.
 template <int D>
 class MapField
@@ -47,14 +57,16 @@ public:
   // Allocates memory for the lattice of the samples, on the domain of `geometry`. Each rank
   // computes one part of the lattice, gets the samples of the wanted box and has memory for these.
   // A single rank computes all. Collective. Throws Failure if there is not enough memory; `purpose`
-  // completes "not enough memory for".
+  // completes "not enough memory for". `hasTarget`: Write is called with a target.
   MapField(const ImageGrid& geometry, const ImageGrid& samples, const TupleBox& wanted,
-    const std::string& purpose, const Ranks& ranks);
+    const std::string& purpose, const Ranks& ranks, bool hasTarget = false);
 
   const GridSize<D>& Whole() const { return this->Lattice; }
   // The part that this rank computes.
   const LatticePart<D>& Part() const { return this->OwnPart; }
-  // The same, with the numbers of its positions.
+  // The part that Write needs the masses of, too.
+  LatticePart<D> WeighedPart() const { return this->OwnPart.With(this->Wanted); }
+  // The own part, with the numbers of its positions.
   LatticeParts<D> Parts() const { return { this->OwnPart, this->Kept }; }
   // The mapped samples, in index space.
   PointSpan<D> Positions();
@@ -62,14 +74,17 @@ public:
   // Computes Displacement, Divergence and JacobianDeterminant of the wanted samples; positions are
   // undefined afterwards. The map begins at the uniform measure (forward) or at the density
   // (backward), and so do the weights of samples in the cost. `density` has the values that `flow`
-  // moves points by. Progress reaches `end`. Collective. Throws Failure and Cancelled.
+  // moves points by. A map from the density to a target, which is backward to the uniform measure,
+  // also gives CostDensity. Progress reaches `end`. Collective. Throws Failure and Cancelled.
   MapFigures Write(const RectifiedFlow<D>& flow, FlowDirection direction,
-    const DensitySource<D>& density, Progress& progress, double end, vtkDataSetAttributes* output);
+    const DensitySource<D>& density, Progress& progress, double end, vtkDataSetAttributes* output,
+    const MapTarget<D>* target = nullptr);
 
 private:
   void FindParts(const ImageGrid& samples, const TupleBox& wanted, const Ranks& ranks);
   TupleBox BoxOf(const LatticePart<D>& part) const;
   void Complete();
+  void TakeFrom(const MapTarget<D>& target, Progress& progress);
   void WriteSamples(const MapDerivatives<D>& derivatives, const MapDisplacement<D>& moves,
     DisplacementSums& sums, Progress& progress, double end, double* divergence,
     double* determinant);

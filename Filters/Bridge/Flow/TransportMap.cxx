@@ -6,6 +6,7 @@
 #include "Bridge/Density/TableChoice.h"
 #include "Bridge/Flow/CorrectedImages.h"
 #include "Bridge/Flow/MapField.h"
+#include "Bridge/Flow/MapShares.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/StepReport.h"
@@ -18,8 +19,7 @@
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstdint>
 
 namespace RectifiedTransport
@@ -27,23 +27,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-// For the masses in the cells of a part of the lattice.
-template <int D>
-void prepareShares(
-  const RectifiedFlow<D>& flow, const GridSize<D>& lattice, const LatticePart<D>& part)
-{
-  const Point<D> step = latticeStep<D>(lattice, flow.Size());
-  GridSize<D> low{};
-  GridSize<D> high{};
-  for (int a = 0; a < D && part.Count() > 0; ++a)
-  {
-    low[a] = static_cast<std::int64_t>(static_cast<double>(part.Low[a]) * step[a]);
-    const double end = std::ceil(static_cast<double>(part.Low[a] + part.Cells[a]) * step[a]);
-    high[a] = std::min(flow.Size()[a], static_cast<std::int64_t>(end) + 1);
-  }
-  flow.PrepareShares(low, high);
-}
 
 template <int D>
 TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
@@ -112,10 +95,21 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   addFieldTuple(output, "LargestBlockError", { figures.Blocks.Quantile, figures.Blocks.Largest });
   const bool isUncorrected = equalizes && addEqualAreas(output, ranks, passes, report) == 0;
   addSteps(output, { report });
-  return { samples, all, report, transport.Report(), moved, figures.Folded, isUncorrected };
+  return { samples, all, report, transport.Report(), moved, figures.Folded, isUncorrected, {} };
 }
 
 } // namespace
+
+void passArrays(const InputDensity& density, const ImageGrid& samples,
+  const std::array<int, 6>& part, vtkImageData* output)
+{
+  if (samples.Extent() == density.Grid().Extent())
+  {
+    const vtkSmartPointer<vtkImageData> image = density.ImageIn(part);
+    output->GetPointData()->PassData(image->GetPointData());
+    output->GetCellData()->PassData(image->GetCellData());
+  }
+}
 
 ImageGrid TransportMap::SampleGrid(const InputDensity& density) const
 {
@@ -127,12 +121,7 @@ TransportMap::Report TransportMap::Run(InputDensity& density, const Extent& want
 {
   const ImageGrid samples = this->SampleGrid(density);
   const Extent part = intersectionOf(wanted, samples.Extent());
-  if (samples.Extent() == density.Grid().Extent())
-  {
-    const vtkSmartPointer<vtkImageData> image = density.ImageIn(part);
-    output->GetPointData()->PassData(image->GetPointData());
-    output->GetCellData()->PassData(image->GetCellData());
-  }
+  passArrays(density, samples, part, output);
   return dispatchDimension(samples.Dimension(), makeMap<1>, makeMap<2>, makeMap<3>)(
     *this, density, samples, part, cache, progress, output);
 }

@@ -42,7 +42,8 @@ struct TransportMap
     TransportReport Transport;
     std::int64_t MovedToMass; // from empty cells of the density
     std::int64_t Folded;
-    bool IsUncorrected; // EqualizeAreas has changed nothing
+    bool IsUncorrected;  // EqualizeAreas has changed nothing
+    FlowReport ToTarget; // the second flow, of a map to a target
   };
 
   // The grid of the samples on the density's domain. Throws Failure.
@@ -55,6 +56,11 @@ struct TransportMap
   Report Run(InputDensity& density, const std::array<int, 6>& wanted, FlowCache& cache,
     Progress& progress, vtkImageData* output) const;
 };
+
+// Gives the part of an image the arrays of the density's input, if the samples are on its grid.
+// Collective.
+void passArrays(const InputDensity& density, const ImageGrid& samples,
+  const std::array<int, 6>& part, vtkImageData* output);
 
 } // namespace RectifiedTransport
 

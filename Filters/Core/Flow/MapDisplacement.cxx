@@ -81,6 +81,21 @@ void MapDisplacement<Dimension>::Count(DisplacementSums& sums, Progress& progres
 }
 
 template <int Dimension>
+void MapDisplacement<Dimension>::WriteCosts(const double* displacements,
+  const DisplacementSums& sums, double* costs, Progress& progress) const
+{
+  const double all = sums.Weight.Value();
+  progress.For(this->Part.Count(), chunk, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      const double share = this->WeightOf(this->Part.CellOf(i)) / all;
+      const double square = this->Scale.SquareInUnits(displacements + 3 * i);
+      costs[i] = this->Scale.SquareFromUnits(share * square);
+    }
+  });
+}
+
+template <int Dimension>
 double MapDisplacement<Dimension>::MeanSquare(const DisplacementSums& sums) const
 {
   return this->Scale.CostFromUnits(sums.Cost.Value() / sums.Weight.Value());
@@ -101,21 +116,27 @@ void MapDisplacement<Dimension>::Displace(
 }
 
 template <int Dimension>
+double MapDisplacement<Dimension>::WeightOf(const GridSize<Dimension>& cell) const
+{
+  if (!this->Density)
+  {
+    return 1.0;
+  }
+  Point<Dimension> low;
+  Point<Dimension> high;
+  for (int a = 0; a < Dimension; ++a)
+  {
+    low[a] = static_cast<double>(cell[a]) * this->Step[a];
+    high[a] = static_cast<double>(cell[a] + 1) * this->Step[a];
+  }
+  return this->Density->Share(low, high);
+}
+
+template <int Dimension>
 void MapDisplacement<Dimension>::AddTo(
   DisplacementSums& sums, const GridSize<Dimension>& cell, const double* displacement) const
 {
-  double weight = 1.0;
-  if (this->Density)
-  {
-    Point<Dimension> low;
-    Point<Dimension> high;
-    for (int a = 0; a < Dimension; ++a)
-    {
-      low[a] = static_cast<double>(cell[a]) * this->Step[a];
-      high[a] = static_cast<double>(cell[a] + 1) * this->Step[a];
-    }
-    weight = this->Density->Share(low, high);
-  }
+  const double weight = this->WeightOf(cell);
   sums.Cost.Add(weight * this->Scale.SquareInUnits(displacement));
   sums.Weight.Add(weight);
 }

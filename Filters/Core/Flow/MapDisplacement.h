@@ -51,12 +51,18 @@ public:
   // Adds all cells of the part to the sums. Runs as the current stage. Throws Cancelled.
   void Count(DisplacementSums& sums, Progress& progress) const;
 
+  // Writes what each of the part's cells adds to MeanSquare of the sums of all cells: its cost,
+  // in squared physical units. Runs as the current stage. Throws Cancelled.
+  void WriteCosts(const double* displacements, const DisplacementSums& sums, double* costs,
+    Progress& progress) const;
+
   // The mean squared displacement, in squared physical units. Throws std::overflow_error if it is
   // beyond the largest double.
   double MeanSquare(const DisplacementSums& sums) const;
 
 private:
   void Displace(const GridSize<Dimension>& cell, double* displacement) const;
+  double WeightOf(const GridSize<Dimension>& cell) const;
   void AddTo(
     DisplacementSums& sums, const GridSize<Dimension>& cell, const double* displacement) const;
 

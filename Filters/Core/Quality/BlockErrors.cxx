@@ -27,6 +27,13 @@ void keepLargest(std::vector<double>& values, std::int64_t count)
 
 } // namespace
 
+std::vector<double> countedOf(std::vector<double> errors)
+{
+  errors.erase(
+    std::remove_if(errors.begin(), errors.end(), [](double e) { return e < 0.0; }), errors.end());
+  return errors;
+}
+
 std::vector<double> largestOf(std::vector<double> own, std::int64_t count, const Ranks& ranks)
 {
   keepLargest(own, count);

@@ -12,6 +12,12 @@ namespace RectifiedTransport
 
 class Ranks;
 
+// In place of the mass or error of a block that does not count.
+constexpr double Uncounted = -1.0;
+
+// The errors of those that do, in their order.
+std::vector<double> countedOf(std::vector<double> errors);
+
 // The largest values of all ranks, `count` of them, or all if there are fewer; in no order.
 // Collective.
 std::vector<double> largestOf(std::vector<double> own, std::int64_t count, const Ranks& ranks);

@@ -4,11 +4,11 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Reduction.h"
+#include "Core/Quality/BlockCells.h"
 #include "Core/Quality/BlockImages.h"
 #include "Core/Quality/BoundaryIntegrals.h"
 #include "Core/Quality/DensityRows.h"
 #include "Core/Quality/ItemsByLayer.h"
-#include "Core/Tables/CoveredCells.h"
 
 #include <algorithm>
 #include <array>
@@ -40,7 +40,7 @@ public:
     , End(end)
     , Size(density.Size)
     , Distributed(density.IsDistributed())
-    , Step(latticeStep<Dimension>(map.Lattice, density.Size))
+    , Cells(map.Lattice, density.Size)
     , Rows(density, total)
     , Blocks(MapBlocks<Dimension>::Of(map.Lattice, map.Own))
     , Count(this->Blocks.IsEmpty() ? 0 : this->Blocks.Count())
@@ -54,8 +54,11 @@ public:
     }
   }
 
-  BlockErrors Forward()
+  // `shares` are those that the images of the blocks are to have of the mass, negative for blocks
+  // that do not count; none: those of the domain.
+  BlockErrors Forward(std::vector<double> shares = {})
   {
+    this->Wanted = std::move(shares);
     const LatticePart<Dimension> cells = this->CellsAround();
     if constexpr (Dimension < 3)
     {
@@ -73,9 +76,9 @@ public:
             [&found](std::int64_t i) { return found[static_cast<std::size_t>(i)]; });
         }
       });
-      return largestErrors(this->Errors([&](std::int64_t block) {
-        return this->MassError(this->Inside(this->Blocks.CellOf(block)));
-      }),
+      return largestErrors(countedOf(this->Errors([&](std::int64_t block) {
+        return this->MassError(block, this->Inside(this->Blocks.CellOf(block)));
+      })),
         this->Work.Group());
     }
     else
@@ -84,46 +87,66 @@ public:
     }
   }
 
-  BlockErrors Backward()
+  // The masses of the blocks; negative for those that do not count. Progress reaches `end`.
+  std::vector<double> Masses(double end)
   {
     const auto count = static_cast<std::size_t>(this->Count);
     std::vector<double> masses(count, 0.0);
     std::vector<double> least(count, std::numeric_limits<double>::infinity());
-    constexpr double partOfMasses = 0.7;
-    const double middle = this->Start + partOfMasses * (this->End - this->Start);
-    this->InLayers(this->CellsOf(this->Blocks), this->Start, middle, [&](const LayerSpan& batch) {
-      const auto [begin, end] = this->BlocksIn(batch);
-      this->Work.For(end - begin, grain, [&](std::int64_t first, std::int64_t last) {
+    this->InLayers(this->Cells.Of(this->Blocks), this->Start, end, [&](const LayerSpan& batch) {
+      const auto [begin, stop] = this->BlocksIn(batch);
+      this->Work.For(stop - begin, grain, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = begin + first; i < begin + last; ++i)
         {
           const auto at = static_cast<std::size_t>(i);
-          this->AddMass(this->Blocks.CellOf(i), masses[at], least[at]);
+          this->Cells.AddMass(this->Blocks.CellOf(i), this->Rows, masses[at], least[at]);
         }
       });
     });
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      masses[i] = least[i] > leastOfMean * this->Mean() ? masses[i] : Uncounted;
+    }
+    return masses;
+  }
+
+  // The same, in shares of the total.
+  std::vector<double> Shares()
+  {
+    std::vector<double> shares = this->Masses(this->End);
+    for (double& share : shares)
+    {
+      share = share < 0.0 ? Uncounted : share / this->Rows.TotalMass();
+    }
+    return shares;
+  }
+
+  BlockErrors Backward()
+  {
+    constexpr double partOfMasses = 0.7;
+    const std::vector<double> masses =
+      this->Masses(this->Start + partOfMasses * (this->End - this->Start));
     this->Work.BeginStage(this->End);
     for (int axis = 0; axis<Dimension&& this->Count> 0; ++axis)
     {
       this->AddThrough(
         MeasureIntegral(), axis, this->Faces[axis].Count(), [](std::int64_t i) { return i; });
     }
-    const double cells = numberOfCells<Dimension>(this->Size);
-    const double mean = this->Rows.TotalMass() / cells;
-    std::vector<double> errors = this->Errors([&](std::int64_t block) {
-      const auto at = static_cast<std::size_t>(block);
-      if (!(least[at] > leastOfMean * mean))
+    return largestErrors(countedOf(this->Errors([&](std::int64_t block) {
+      const double mass = masses[static_cast<std::size_t>(block)];
+      if (mass < 0.0)
       {
-        return -1.0;
+        return Uncounted;
       }
-      const double wanted = masses[at] / mean; // of the measure
+      const double wanted = mass / this->Mean(); // of the measure
       return std::abs(this->Inside(this->Blocks.CellOf(block)) - wanted) / wanted;
-    });
-    errors.erase(
-      std::remove_if(errors.begin(), errors.end(), [](double e) { return e < 0.0; }), errors.end());
-    return largestErrors(std::move(errors), this->Work.Group());
+    })),
+      this->Work.Group());
   }
 
 private:
+  double Mean() const { return this->Rows.TotalMass() / numberOfCells<Dimension>(this->Size); }
+
   // Over faces across an axis, whose numbers are numberOf(0 ... count - 1).
   template <class Integral, class NumberOf>
   void AddThrough(const Integral& integral, int axis, std::int64_t count, const NumberOf& numberOf)
@@ -179,7 +202,7 @@ private:
   // layers of blocks.
   std::array<std::int64_t, 2> BlocksIn(const LayerSpan& batch) const
   {
-    const auto lies = [&](std::int64_t layer) { return this->Covered(Last, layer); };
+    const auto lies = [&](std::int64_t layer) { return this->Cells.Covered(Last, layer); };
     std::int64_t low = this->Blocks.Low[Last];
     std::int64_t high = this->Blocks.End(Last);
     while (low < high && lies(low).End <= batch.First)
@@ -205,12 +228,13 @@ private:
     std::iota(blocks.begin(), blocks.end(), std::int64_t{ 0 });
     this->AddInLayers(cells, middle, blocks, TriangleRule::Centroid, masses);
     const auto errorOf = [&](std::int64_t block) {
-      return this->MassError(masses[static_cast<std::size_t>(block)]);
+      return this->MassError(block, masses[static_cast<std::size_t>(block)]);
     };
     std::vector<double> errors = this->Errors(errorOf);
-    const std::int64_t all = sumOverRanks(ranks, this->Count);
+    const std::vector<double> own = countedOf(errors);
+    const std::int64_t all = sumOverRanks(ranks, static_cast<std::int64_t>(own.size()));
     const std::vector<double> largest =
-      largestOf(errors, (all + partExactly - 1) / partExactly, ranks);
+      largestOf(own, (all + partExactly - 1) / partExactly, ranks);
     if (largest.empty())
     {
       return {};
@@ -226,12 +250,13 @@ private:
       }
     }
     this->AddInLayers(cells, this->End, blocks, TriangleRule::Exact, masses);
-    std::fill(errors.begin(), errors.end(), 0.0);
+    std::transform(errors.begin(), errors.end(), errors.begin(),
+      [](double e) { return e < 0.0 ? Uncounted : 0.0; });
     for (const std::int64_t block : blocks)
     {
       errors[static_cast<std::size_t>(block)] = errorOf(block);
     }
-    return largestErrors(std::move(errors), ranks);
+    return largestErrors(countedOf(std::move(errors)), ranks);
   }
 
   // Adds the masses in the images of blocks. Progress reaches `end`.
@@ -283,14 +308,18 @@ private:
   }
 
   // Forward, of the mass in the image of a block.
-  double MassError(double mass) const
+  double MassError(std::int64_t block, double mass) const
   {
     double share = 1.0;
     for (const std::int64_t samples : this->Map.Lattice)
     {
       share *= static_cast<double>(MapBlocks<Dimension>::Size) / static_cast<double>(samples);
     }
-    return std::abs(mass / this->Rows.TotalMass() - share) / share;
+    if (!this->Wanted.empty())
+    {
+      share = this->Wanted[static_cast<std::size_t>(block)];
+    }
+    return share < 0.0 ? Uncounted : std::abs(mass / this->Rows.TotalMass() - share) / share;
   }
 
   // What the integrals over the faces of a block add up to.
@@ -307,27 +336,6 @@ private:
       sum += at(above) - at(block);
     }
     return sum;
-  }
-
-  CoveredCells Covered(int axis, std::int64_t block, std::int64_t blocks = 1) const
-  {
-    constexpr std::int64_t size = MapBlocks<Dimension>::Size;
-    const double step = this->Step[axis];
-    return { (static_cast<double>(size * block) + 0.5) * step,
-      (static_cast<double>(size * (block + blocks)) + 0.5) * step, this->Size[axis] };
-  }
-
-  // The grid cells that blocks cover.
-  LatticePart<Dimension> CellsOf(const LatticePart<Dimension>& blocks) const
-  {
-    LatticePart<Dimension> cells{ {}, {} };
-    for (int axis = 0; axis < Dimension && !blocks.IsEmpty(); ++axis)
-    {
-      const CoveredCells covered = this->Covered(axis, blocks.Low[axis], blocks.Cells[axis]);
-      cells.Low[axis] = covered.First;
-      cells.Cells[axis] = covered.End - covered.First;
-    }
-    return cells;
   }
 
   // The grid cells that the images of the samples of this rank's blocks are in, or more.
@@ -411,35 +419,6 @@ private:
     this->Work.BeginStage(end);
   }
 
-  // Adds the mass of a block in the cells of the rows, and the least value of a cell.
-  void AddMass(const GridSize<Dimension>& block, double& mass, double& least) const
-  {
-    const LatticePart<Dimension>& held = this->Rows.Cells();
-    const LatticePart<Dimension> cells = this->CellsOf({ block, oneBlock() }).And(held);
-    if (cells.IsEmpty())
-    {
-      return;
-    }
-    const CoveredCells x = this->Covered(0, block[0]);
-    const double low = std::max(x.Low, static_cast<double>(cells.Low[0]));
-    const double high = std::min(x.High, static_cast<double>(cells.End(0)));
-    const std::int64_t rows = cells.Count() / cells.Cells[0];
-    for (std::int64_t i = 0; i < rows; ++i)
-    {
-      const GridSize<Dimension> cell = cells.CellOf(i * cells.Cells[0]);
-      double part = 1.0;
-      for (int axis = 1; axis < Dimension; ++axis)
-      {
-        part *= this->Covered(axis, block[axis]).PartOf(cell[axis]);
-      }
-      const double* row = this->Rows.Row(cell);
-      mass += part * (this->Rows.Before(row, high) - this->Rows.Before(row, low));
-      for (std::int64_t c = cells.Low[0]; c < cells.End(0); ++c)
-      {
-        least = std::min(least, row[c + 1] - row[c]);
-      }
-    }
-  }
   static GridSize<Dimension> oneBlock()
   {
     GridSize<Dimension> one;
@@ -468,12 +447,13 @@ private:
   const double End;
   const GridSize<Dimension> Size;
   const bool Distributed;
-  const Point<Dimension> Step;
+  const BlockCells<Dimension> Cells;
   DensityRows<Dimension> Rows;
   const LatticePart<Dimension> Blocks;
   const std::int64_t Count;
   std::array<LatticePart<Dimension>, Dimension> Faces; // below blocks along an axis, and the last
   std::array<std::vector<double>, Dimension> Through;  // the integrals over them
+  std::vector<double> Wanted;                          // shares of the mass; none: by measure
 };
 
 } // namespace
@@ -486,11 +466,31 @@ BlockErrors measureBlocks(const MapSamples<Dimension>& map, const DensitySource<
   return direction == FlowDirection::Backward ? run.Backward() : run.Forward();
 }
 
+template <int Dimension>
+BlockErrors measureBlocksBetween(const MapSamples<Dimension>& map,
+  const SummedDensity<Dimension>& source, const SummedDensity<Dimension>& target,
+  Progress& progress, double end)
+{
+  constexpr double partOfShares = 0.2;
+  const double middle = progress.StageEnd() + partOfShares * (end - progress.StageEnd());
+  std::vector<double> shares =
+    BlocksRun<Dimension>(map, source.Density, source.Total, progress, middle).Shares();
+  return BlocksRun<Dimension>(map, target.Density, target.Total, progress, end)
+    .Forward(std::move(shares));
+}
+
 template BlockErrors measureBlocks<1>(
   const MapSamples<1>&, const DensitySource<1>&, double, FlowDirection, Progress&, double);
 template BlockErrors measureBlocks<2>(
   const MapSamples<2>&, const DensitySource<2>&, double, FlowDirection, Progress&, double);
 template BlockErrors measureBlocks<3>(
   const MapSamples<3>&, const DensitySource<3>&, double, FlowDirection, Progress&, double);
+
+template BlockErrors measureBlocksBetween<1>(
+  const MapSamples<1>&, const SummedDensity<1>&, const SummedDensity<1>&, Progress&, double);
+template BlockErrors measureBlocksBetween<2>(
+  const MapSamples<2>&, const SummedDensity<2>&, const SummedDensity<2>&, Progress&, double);
+template BlockErrors measureBlocksBetween<3>(
+  const MapSamples<3>&, const SummedDensity<3>&, const SummedDensity<3>&, Progress&, double);
 
 } // namespace RectifiedTransport

@@ -78,6 +78,21 @@ template <int Dimension>
 BlockErrors measureBlocks(const MapSamples<Dimension>& map, const DensitySource<Dimension>& density,
   double total, FlowDirection direction, Progress& progress, double end);
 
+template <int Dimension>
+struct SummedDensity
+{
+  const DensitySource<Dimension>& Density;
+  double Total; // the sum of the density
+};
+
+// The same for a map from one density to another, with its images in the index space of the target:
+// |the target's share of the mass in the image of the block - the source's share in the block| /
+// the latter, of the blocks that count backward. In 3D as forward.
+template <int Dimension>
+BlockErrors measureBlocksBetween(const MapSamples<Dimension>& map,
+  const SummedDensity<Dimension>& source, const SummedDensity<Dimension>& target,
+  Progress& progress, double end);
+
 } // namespace RectifiedTransport
 
 #endif

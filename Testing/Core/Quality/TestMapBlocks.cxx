@@ -444,5 +444,39 @@ TYPED_TEST(MapBlocksTest, OfTheFlow)
   }
 }
 
+template <int Dimension>
+BlockErrors errorsBetween(const TestDensity<Dimension>& source,
+  const TestDensity<Dimension>& target, const GridSize<Dimension>& lattice)
+{
+  const auto whole = LatticePart<Dimension>::WholeOf(lattice);
+  const Points<Dimension> positions = latticePoints<Dimension>(target.Size, lattice);
+  const auto sum = [](const TestDensity<Dimension>& density) {
+    return std::accumulate(density.Values.begin(), density.Values.end(), 0.0);
+  };
+  Progress progress{ Context() };
+  return measureBlocksBetween<Dimension>({ lattice, whole, whole, positions },
+    { source.Source(), sum(source) }, { target.Source(), sum(target) }, progress, 1.0);
+}
+
+// The identity, between densities of which one half of the box has another value.
+TYPED_TEST(MapBlocksTest, BetweenDensities)
+{
+  constexpr int D = TypeParam::value;
+  const auto size = sizeFor<D>({ 80 }, { 48, 30 }, { 24, 9, 14 });
+  const auto finer = sizeFor<D>({ 160 }, { 96, 60 }, { 48, 18, 28 });
+  const auto halves = [](const GridSize<D>& cells, double low, double high) {
+    return sampleDensity<D>(cells, [=](const Point<D>& p) { return p[0] < 0.5 ? low : high; });
+  };
+  const auto same = errorsBetween<D>(halves(size, 1.0, 3.0), halves(finer, 5.0, 15.0), size);
+  EXPECT_NEAR(same.Largest, 0.0, 1e-12);
+  // Of the share 1/2 of a block's measure in the low half, its image has 1: 100 % more.
+  const auto uniform = uniformDensity<D>(finer, 7.0);
+  EXPECT_NEAR(errorsBetween<D>(halves(size, 1.0, 3.0), uniform, size).Largest, 1.0, 1e-12);
+  // Where the source has less than 5 % of the mean, blocks do not count.
+  EXPECT_NEAR(
+    errorsBetween<D>(halves(size, 1.0, 99.0), uniform, size).Largest, 1.0 - 100.0 / 198.0, 1e-12);
+  EXPECT_TRUE(std::isnan(errorsBetween<D>(uniform, uniform, evenSize<D>(4)).Largest));
+}
+
 } // namespace
 } // namespace RectifiedTransport

@@ -125,6 +125,16 @@ void checkOptimal(Checks& checks)
   morph->SetMethodToOptimal();
   morph->SetParticlesPerCell(9);
   checkSweep(checks, morph, __LINE__);
+  vtkNew<vtkTransportMap> map;
+  map->SetInputData(makeDensity({ 48, 40, 1 }, true, bumpy));
+  map->SetTargetData(makeDensity({ 48, 40, 1 }, true, otherDensity(48, 40)));
+  map->SetSampleDimensions(300, 200, 1);
+  map->SetNumberOfSteps(4);
+  for (const int method : { 0, 1 })
+  {
+    map->SetMethod(method);
+    checkSweep(checks, map, __LINE__);
+  }
 }
 
 // There is memory neither for the map nor for the tables: the map is asked for first.
@@ -158,6 +168,9 @@ void checkMapBeforeTables(Checks& checks)
     check(filter, "of a density of 96 x 96 x 96 cells", __LINE__);
     CHECK(checks, filter->GetTableBuildTime() == 0);
   }
+  map->SetTargetData(other);
+  check(map, "between densities of 96 x 96 x 96 and 96 x 96 x 96 cells", __LINE__);
+  CHECK(checks, map->GetTableBuildTime() == 0);
   check(morph, "between densities of 96 x 96 x 96 and 96 x 96 x 96 cells", __LINE__);
   check(barycenter, "between densities of 8 x 8 x 8 and 96 x 96 x 96 cells", __LINE__);
 }

@@ -7,6 +7,7 @@
 #include "WarpTest.h"
 
 #include "vtkTable.h"
+#include "vtkTransportMap.h"
 #include "vtkTransportQuality.h"
 #include "vtkVariant.h"
 
@@ -161,6 +162,33 @@ void checkChosenTimes(Checks& checks)
     auto series = makeSeries(runs);
     checkEnds(checks, morphOf(choose(series, how, 3.0), choose(series, how, 3.0)),
       { 5.0, std::nullopt }, 3.0, 3.0, __LINE__);
+  }
+}
+
+// How far the density goes from one time of the series to another.
+void checkMap(Checks& checks)
+{
+  for (const Choice how : { Choice::One, Choice::Kept })
+  {
+    for (const Requests& requests : orders())
+    {
+      Times runs;
+      auto series = makeSeries(runs);
+      auto from = choose(series, how, 7.0);
+      auto to = choose(series, how, 2.0);
+      vtkNew<vtkTransportMap> map;
+      map->SetInputConnection(from->GetOutputPort());
+      map->SetTargetConnection(to->GetOutputPort());
+      for (const auto& time : requests)
+      {
+        map->SetDirection(1 - map->GetDirection());
+        update(map, time);
+        const double way = std::sqrt(fieldValue(map->GetOutput(), "TransportCost"));
+        CHECK_NEAR(checks, way, placeAt(7.0) - placeAt(2.0), 0.1);
+        CHECK_NEAR(
+          checks, placeOf(map->GetOutput()), placeAt(map->GetDirection() == 0 ? 7.0 : 2.0), 1e-6);
+      }
+    }
   }
 }
 
@@ -387,6 +415,6 @@ void checkFailure(Checks& checks)
 
 int TestSeparateInputs(int, char*[])
 {
-  return runChecks({ checkChosenTimes, checkSourceItself, checkPlay, checkRuns, checkAfterOthers,
-    checkBesideOthers, checkBarycenter, checkPointFilters, checkFailure });
+  return runChecks({ checkChosenTimes, checkMap, checkSourceItself, checkPlay, checkRuns,
+    checkAfterOthers, checkBesideOthers, checkBarycenter, checkPointFilters, checkFailure });
 }
