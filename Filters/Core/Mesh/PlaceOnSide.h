@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_PlaceOnSide_h
 #define RectifiedTransport_PlaceOnSide_h
 
-#include "Core/Geometry/Points.h"
+#include "Core/Geometry/PointBounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,23 +12,6 @@
 
 namespace RectifiedTransport
 {
-
-// The bounds of some points.
-struct PointBounds
-{
-  void Add(const double* x)
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      this->Low[axis] = std::min(this->Low[axis], x[axis]);
-      this->High[axis] = std::max(this->High[axis], x[axis]);
-    }
-  }
-
-  static constexpr double most = std::numeric_limits<double>::infinity();
-  Point<3> Low{ most, most, most };
-  Point<3> High{ -most, -most, -most };
-};
 
 class PlaceOnSide
 {
@@ -40,12 +23,11 @@ public:
     constexpr double relative = 1e-6;
     constexpr double units = 4.0;
     double farthest = 0.0;
-    double longest = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       farthest = std::max({ farthest, -bounds.Low[axis], bounds.High[axis] });
-      longest = std::max(longest, bounds.High[axis] - bounds.Low[axis]);
     }
+    const double longest = std::max(0.0, bounds.Length(bounds.Longest()));
     this->Distance = std::max(
       { rounding, units * std::numeric_limits<double>::epsilon() * farthest, relative * longest });
     constexpr int most = 1000; // the scale is finite

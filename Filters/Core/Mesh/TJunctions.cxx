@@ -2,6 +2,7 @@
 #include "Core/Mesh/TJunctions.h"
 
 #include "Core/Geometry/BoxTree.h"
+#include "Core/Geometry/PointBounds.h"
 #include "Core/Mesh/EdgeSides.h"
 #include "Core/Mesh/PlaceOnSide.h"
 #include "Core/Parallel/Progress.h"
@@ -29,13 +30,18 @@ public:
     : Points(points)
     , Numbers(std::move(numbers))
   {
-    this->Boxes = makeBoxTree<Box>(
+    this->Boxes = makeBoxTree<ItemBox>(
       static_cast<std::int64_t>(this->Numbers.size()),
       [&](std::int64_t first, std::int64_t last) {
         progress.Add(last - first);
         return this->BoxOf(first, last);
       },
-      [&](const Box& box) { return this->Divide(box, progress); });
+      [&](const ItemBox& box) {
+        return divideItems(
+          this->Numbers.data(), box, pointsOfLeaf,
+          [this](std::int64_t point, std::size_t axis) { return this->Points[point][axis]; },
+          progress);
+      });
   }
 
   // Calls visit(point) for those that may be nearer to a segment than a distance.
@@ -47,8 +53,8 @@ public:
     {
       const std::int64_t at = this->Stack.back();
       this->Stack.pop_back();
-      const Box& box = this->Boxes[static_cast<std::size_t>(at)];
-      if (!box.IsNear(from, to, distance))
+      const ItemBox& box = this->Boxes[static_cast<std::size_t>(at)];
+      if (!isNear(box, from, to, distance))
       {
         continue;
       }
@@ -66,76 +72,43 @@ public:
   }
 
 private:
-  struct Box
+  // Whether the segment passes through the box with a margin.
+  static bool isNear(const PointBounds& box, const double* from, const double* to, double margin)
   {
-    double Low[3];
-    double High[3];
-    std::int64_t First;
-    std::int64_t Last;
-    std::int64_t Second; // of the children, after the next one; -1 in a leaf
-
-    // Whether the segment passes through the box with a margin.
-    bool IsNear(const double* from, const double* to, double margin) const
+    double enters = 0.0;
+    double leaves = 1.0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      double enters = 0.0;
-      double leaves = 1.0;
-      for (int axis = 0; axis < 3; ++axis)
+      const double low = box.Low[axis] - margin - from[axis];
+      const double high = box.High[axis] + margin - from[axis];
+      const double by = to[axis] - from[axis];
+      if (by == 0.0)
       {
-        const double low = this->Low[axis] - margin - from[axis];
-        const double high = this->High[axis] + margin - from[axis];
-        const double by = to[axis] - from[axis];
-        if (by == 0.0)
+        if (low > 0.0 || high < 0.0)
         {
-          if (low > 0.0 || high < 0.0)
-          {
-            return false;
-          }
-          continue;
+          return false;
         }
-        enters = std::max(enters, std::min(low / by, high / by));
-        leaves = std::min(leaves, std::max(low / by, high / by));
+        continue;
       }
-      return enters <= leaves;
+      enters = std::max(enters, std::min(low / by, high / by));
+      leaves = std::min(leaves, std::max(low / by, high / by));
     }
-  };
+    return enters <= leaves;
+  }
 
-  Box BoxOf(std::int64_t first, std::int64_t last) const
+  ItemBox BoxOf(std::int64_t first, std::int64_t last) const
   {
-    constexpr double most = std::numeric_limits<double>::infinity();
-    Box box{ { most, most, most }, { -most, -most, -most }, first, last, -1 };
+    ItemBox box{ {}, first, last, -1 };
     for (std::int64_t i = first; i < last; ++i)
     {
-      const double* x = this->Points[this->Numbers[static_cast<std::size_t>(i)]];
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        box.Low[axis] = std::min(box.Low[axis], x[axis]);
-        box.High[axis] = std::max(box.High[axis], x[axis]);
-      }
+      box.Add(this->Points[this->Numbers[static_cast<std::size_t>(i)]]);
     }
     return box;
   }
 
-  std::int64_t Divide(const Box& box, Progress& progress)
-  {
-    int longest = 0;
-    for (int axis = 1; axis < 3; ++axis)
-    {
-      longest =
-        box.High[axis] - box.Low[axis] > box.High[longest] - box.Low[longest] ? axis : longest;
-    }
-    if (box.Last - box.First <= pointsOfLeaf)
-    {
-      return box.First;
-    }
-    const std::int64_t middle = partitionAboutMedian(
-      this->Numbers.data(), box.First, box.Last,
-      [&](std::int64_t point) { return this->Points[point][longest]; }, progress);
-    return middle < box.Last ? middle : (box.First + box.Last) / 2;
-  }
-
   ConstPointSpan<3> Points;
   std::vector<std::int64_t> Numbers;
-  std::vector<Box> Boxes;
+  std::vector<ItemBox> Boxes;
   std::vector<std::int64_t> Stack;
 };
 

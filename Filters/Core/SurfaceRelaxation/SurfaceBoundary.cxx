@@ -43,58 +43,39 @@ SurfaceBoundary::SurfaceBoundary(const WalkedSurface& surface, Progress& progres
   {
     return;
   }
-  this->Boxes = makeBoxTree<Box>(
+  this->Boxes = makeBoxTree<ItemBox>(
     static_cast<std::int64_t>(this->Sides.size()),
     [&](std::int64_t first, std::int64_t last) {
-      constexpr double most = std::numeric_limits<double>::infinity();
-      Box box{ { most, most, most }, { -most, -most, -most }, first, last, -1 };
+      ItemBox box{ {}, first, last, -1 };
       for (std::int64_t i = first; i < last; ++i)
       {
         std::int64_t side = this->Sides[static_cast<std::size_t>(i)];
         for (int end = 0; end < 2; ++end, side = nextSide(side))
         {
-          const Point<3> x = surface.Corner(side / 3, side % 3);
-          for (std::size_t axis = 0; axis < 3; ++axis)
-          {
-            box.Low[axis] = std::min(box.Low[axis], x[axis]);
-            box.High[axis] = std::max(box.High[axis], x[axis]);
-          }
+          box.Add(surface.Corner(side / 3, side % 3).data());
         }
       }
       progress.Add(last - first);
       return box;
     },
-    [&](const Box& box) {
-      int longest = 0;
-      for (int axis = 1; axis < 3; ++axis)
-      {
-        longest =
-          box.High[axis] - box.Low[axis] > box.High[longest] - box.Low[longest] ? axis : longest;
-      }
-      if (box.Last - box.First <= sidesOfLeaf)
-      {
-        return box.First;
-      }
-      const std::int64_t middle = partitionAboutMedian(
-        this->Sides.data(), box.First, box.Last,
-        [&](std::int64_t side) { return this->Middle(side, longest); }, progress);
-      // Where all middles are the same, any halves do.
-      return middle < box.Last ? middle : (box.First + box.Last) / 2;
+    [&](const ItemBox& box) {
+      return divideItems(
+        this->Sides.data(), box, sidesOfLeaf,
+        [this](std::int64_t side, std::size_t axis) { return this->Middle(side, axis); }, progress);
     });
 }
 
 double SurfaceBoundary::MemoryFor(double sides)
 {
   // Leaves are half full or more, about; the vector of boxes doubles as it grows.
-  return sides * (sizeof(std::int64_t) + 3.0 * 2.0 * sizeof(Box) / (0.5 * sidesOfLeaf));
+  return sides * (sizeof(std::int64_t) + 3.0 * 2.0 * sizeof(ItemBox) / (0.5 * sidesOfLeaf));
 }
 
-double SurfaceBoundary::Middle(std::int64_t side, int axis) const
+double SurfaceBoundary::Middle(std::int64_t side, std::size_t axis) const
 {
-  const auto at = static_cast<std::size_t>(axis);
   return 0.5 *
-    (this->Surface.Corner(side / 3, side % 3)[at] +
-      this->Surface.Corner(side / 3, nextSide(side) % 3)[at]);
+    (this->Surface.Corner(side / 3, side % 3)[axis] +
+      this->Surface.Corner(side / 3, nextSide(side) % 3)[axis]);
 }
 
 void SurfaceBoundary::FindNear(
@@ -110,9 +91,9 @@ void SurfaceBoundary::FindNear(
   {
     const std::int64_t at = stack.back();
     stack.pop_back();
-    const Box& part = this->Boxes[static_cast<std::size_t>(at)];
+    const ItemBox& part = this->Boxes[static_cast<std::size_t>(at)];
     double squared = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const double gap =
         std::max({ part.Low[axis] - box.High[axis], box.Low[axis] - part.High[axis], 0.0 });

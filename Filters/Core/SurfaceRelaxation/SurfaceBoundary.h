@@ -3,9 +3,11 @@
 #ifndef RectifiedTransport_SurfaceBoundary_h
 #define RectifiedTransport_SurfaceBoundary_h
 
+#include "Core/Geometry/PointBounds.h"
 #include "Core/SurfaceRelaxation/DotTree.h"
 #include "Core/SurfaceRelaxation/WalkedSurface.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -29,20 +31,11 @@ public:
   Point<3> FromNearest(const std::vector<std::int64_t>& sides, const Point<3>& x) const;
 
 private:
-  struct Box
-  {
-    double Low[3];
-    double High[3];
-    std::int64_t First;
-    std::int64_t Last;
-    std::int64_t Second; // of the children, after the next one; -1 in a leaf
-  };
-
-  double Middle(std::int64_t side, int axis) const;
+  double Middle(std::int64_t side, std::size_t axis) const;
 
   const WalkedSurface& Surface;
   std::vector<std::int64_t> Sides;
-  std::vector<Box> Boxes;
+  std::vector<ItemBox> Boxes;
 };
 
 } // namespace RectifiedTransport

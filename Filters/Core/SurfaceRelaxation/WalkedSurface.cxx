@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SurfaceRelaxation/WalkedSurface.h"
 
+#include "Core/Geometry/PointBounds.h"
 #include "Core/Mesh/EdgeSides.h"
 #include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/TJunctions.h"
@@ -36,15 +37,9 @@ std::int64_t cornerOpposite(std::int64_t side)
   return (side % 3 + 2) % 3;
 }
 
-struct Bounds
+PointBounds boundsOfTriangles(const TriangleSurface& surface, std::int64_t first, std::int64_t last)
 {
-  Point<3> Low;
-  Point<3> High;
-};
-
-Bounds boundsOfTriangles(
-  const TriangleSurface& surface, std::int64_t first, std::int64_t last, Bounds bounds)
-{
+  PointBounds bounds;
   for (std::int64_t corner = 3 * first; corner < 3 * last; ++corner)
   {
     const std::int64_t point = surface.Triangles[corner];
@@ -54,16 +49,12 @@ Bounds boundsOfTriangles(
         std::to_string(point) + ", but there are " + std::to_string(surface.Points.size()) +
         " points");
     }
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    const double* x = surface.Points[point];
+    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
     {
-      const double x = surface.Points[point][axis];
-      if (!std::isfinite(x))
-      {
-        throw std::invalid_argument("point " + std::to_string(point) + " is not finite");
-      }
-      bounds.Low[axis] = std::min(bounds.Low[axis], x);
-      bounds.High[axis] = std::max(bounds.High[axis], x);
+      throw std::invalid_argument("point " + std::to_string(point) + " is not finite");
     }
+    bounds.Add(x);
   }
   return bounds;
 }
@@ -83,19 +74,11 @@ WalkedSurface::WalkedSurface(
   const double begin = progress.StageEnd();
   const auto part = [=](double of) { return begin + of * (end - begin); };
   progress.BeginStage(part(0.1));
-  constexpr double most = std::numeric_limits<double>::infinity();
-  const Bounds none{ { most, most, most }, { -most, -most, -most } };
-  const Bounds bounds = reduceChunks(
-    progress, this->Count, grain, none,
-    [&](std::int64_t first, std::int64_t last) {
-      return boundsOfTriangles(surface, first, last, none);
-    },
-    [](Bounds all, const Bounds& more) {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        all.Low[axis] = std::min(all.Low[axis], more.Low[axis]);
-        all.High[axis] = std::max(all.High[axis], more.High[axis]);
-      }
+  const PointBounds bounds = reduceChunks(
+    progress, this->Count, grain, PointBounds(),
+    [&](std::int64_t first, std::int64_t last) { return boundsOfTriangles(surface, first, last); },
+    [](PointBounds all, const PointBounds& more) {
+      all.Add(more);
       return all;
     });
   Point<3> centre;
@@ -190,7 +173,8 @@ bool WalkedSurface::Cut(const std::int64_t* welded, double rounding, Progress& p
   std::vector<OpenSide> open;
   open.reserve(static_cast<std::size_t>(this->NumberOpen));
   const auto at = [&](std::int64_t corner) { return welded[this->Triangles[corner]]; };
-  for (std::int64_t side = 0; side<3 * this->Count&& this->NumberOpen> 0; ++side)
+  const std::int64_t sides = this->NumberOpen > 0 ? 3 * this->Count : 0;
+  for (std::int64_t side = 0; side < sides; ++side)
   {
     if (this->Across(side) == Boundary && !this->IsLine(side / 3, welded))
     {
