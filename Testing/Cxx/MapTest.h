@@ -51,4 +51,27 @@ inline std::function<double(vtkIdType)> smoothDensity(int nx, int ny, int nz = 1
   };
 }
 
+// The error of a run, and after one without, whether the map has all samples.
+class MapErrorTest : public ErrorTest
+{
+public:
+  MapErrorTest(Checks& checks, vtkTransportMap* map)
+    : ErrorTest(checks, map)
+    , Check(checks)
+    , Map(map)
+  {
+  }
+
+  void ExpectNone(std::size_t samples, int line)
+  {
+    this->ErrorTest::ExpectNone(line);
+    this->Check.That(imageValues(this->Map->GetOutput(), "Divergence").size() == samples,
+      "number of samples", line);
+  }
+
+private:
+  Checks& Check;
+  vtkTransportMap* Map;
+};
+
 #endif

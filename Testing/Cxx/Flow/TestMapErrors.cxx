@@ -7,32 +7,10 @@
 namespace
 {
 
-class MapErrorTest : public ErrorTest
-{
-public:
-  MapErrorTest(Checks& checks, vtkTransportMap* map)
-    : ErrorTest(checks, map)
-    , Check(checks)
-    , Map(map)
-  {
-    map->SetInputData(makeImage(6, 5, 1, true, bumpy));
-  }
-
-  void ExpectNone(std::size_t samples, int line)
-  {
-    this->ErrorTest::ExpectNone(line);
-    this->Check.That(imageValues(this->Map->GetOutput(), "Divergence").size() == samples,
-      "number of samples", line);
-  }
-
-private:
-  Checks& Check;
-  vtkTransportMap* Map;
-};
-
 void checkSampleDimensions(Checks& checks)
 {
   vtkNew<vtkTransportMap> map;
+  map->SetInputData(makeImage(6, 5, 1, true, bumpy));
   MapErrorTest test(checks, map);
   test.ExpectNone(20, __LINE__);
   map->SetSampleDimensions(4, -1, 0);
@@ -62,6 +40,7 @@ void checkSampleDimensions(Checks& checks)
 void checkProperties(Checks& checks)
 {
   vtkNew<vtkTransportMap> map;
+  map->SetInputData(makeImage(6, 5, 1, true, bumpy));
   MapErrorTest test(checks, map);
   for (const int direction : { -1, 2 })
   {
@@ -78,6 +57,7 @@ void checkProperties(Checks& checks)
 void checkInput(Checks& checks)
 {
   vtkNew<vtkTransportMap> map;
+  map->SetInputData(makeImage(6, 5, 1, true, bumpy));
   MapErrorTest test(checks, map);
   map->SetInputData(makeImage(6, 5, 1, true, [](vtkIdType i) { return i == 3 ? -1.0 : 1.0; }));
   test.Expect("'Density' has 1 negative value; NegativeValues = Clamp takes them as 0", __LINE__);

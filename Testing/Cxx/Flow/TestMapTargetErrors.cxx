@@ -10,32 +10,10 @@ namespace
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-class PairErrorTest : public ErrorTest
-{
-public:
-  PairErrorTest(Checks& checks, vtkTransportMap* map)
-    : ErrorTest(checks, map)
-    , Check(checks)
-    , Map(map)
-  {
-  }
-
-  void ExpectNone(std::size_t samples, int line)
-  {
-    this->ErrorTest::ExpectNone(line);
-    this->Check.That(imageValues(this->Map->GetOutput(), "Divergence").size() == samples,
-      "number of samples", line);
-  }
-
-private:
-  Checks& Check;
-  vtkTransportMap* Map;
-};
-
 void checkGrids(Checks& checks)
 {
   auto map = makeMapBetween(makeImage(6, 5, 1, true, bumpy), makeImage(7, 9, 1, true, bumpy));
-  PairErrorTest test(checks, map);
+  MapErrorTest test(checks, map);
   test.ExpectNone(20, __LINE__);
   map->SetTargetData(makeImage(6, 5, 4, true, bumpy));
   test.Expect("Source has the axes x and y, Target has the axes x and y and z; all must have the "
@@ -65,7 +43,7 @@ void checkDensities(Checks& checks)
 {
   const auto source = makeImage(6, 5, 1, true, bumpy);
   auto map = makeMapBetween(source, source);
-  PairErrorTest test(checks, map);
+  MapErrorTest test(checks, map);
   map->SetTargetData(makeImage(6, 5, 1, true, [](vtkIdType i) { return i == 3 ? nan : 1.0; }));
   test.Expect("Target: The density array 'Density' has 1 value that is NaN", __LINE__);
   map->SetTargetData(makeImage(6, 5, 1, true, [](vtkIdType) { return 0.0; }));
@@ -95,7 +73,7 @@ void checkEmpty(Checks& checks)
   {
     auto map = makeMapBetween(source, empty);
     map->SetDirection(direction);
-    PairErrorTest test(checks, map);
+    MapErrorTest test(checks, map);
     test.ExpectNone(0, __LINE__);
     map->SetInputData(empty);
     map->SetTargetData(source);
@@ -108,7 +86,7 @@ void checkEmpty(Checks& checks)
 void checkProperties(Checks& checks)
 {
   auto map = makeMapBetween(makeImage(6, 5, 1, true, bumpy), makeImage(8, 4, 1, true, bumpy));
-  PairErrorTest test(checks, map);
+  MapErrorTest test(checks, map);
   expectFlowErrors(test, map.Get(), __LINE__);
   map->SetTablesToTiled();
   map->SetMethodToOptimal();
