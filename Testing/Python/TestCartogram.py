@@ -353,6 +353,12 @@ class TestCartogram(unittest.TestCase):
         open_line = map_of([square(0, 4)], [1.0], lines=True)
         open_line.GetLines().ReplaceCellAtId(0, 5, [0, 1, 2, 3, 1])
         pair = [(0, 0), (3, 3), (3, 0), (0, 2)], rectangle(4, 0, 6, 3)
+        no_points = map_of([square(0, 4)], [1.0], lines=True)
+        no_points.GetLines().ReplaceCellAtId(0, 5, [0, 1, 2, 3, 0])
+        no_points.GetLines().InsertNextCell(0)
+        no_points.GetCellData().GetArray("Mass").InsertNextValue(1.0)
+        short = sixteen()
+        short.GetCellData().GetArray("Mass").SetNumberOfTuples(15)
         strips = vtkPolyData()
         strips.DeepCopy(sixteen())
         cells = vtkCellArray()
@@ -367,6 +373,10 @@ class TestCartogram(unittest.TestCase):
                  "Threshold"),
                 (open_line, {}, "1 of 1 lines of the input do not close (the first is cell 0); the outline of a "
                                 "region must end at the point where it begins"),
+                (no_points, {}, "1 of 2 lines of the input do not close (the first is cell 1); the outline of a "
+                                "region must end at the point where it begins"),
+                (short, {}, "The cell array 'Mass' of the input has 15 tuples; it must have one for each of the "
+                            "16 cells"),
                 (map_of(pair, [1.0, 1.0], name=["a", "b"]), {},
                  "The outline of the region 'a' crosses itself, so that its area is not clear; repair it, with "
                  "QGIS's Fix geometries"),

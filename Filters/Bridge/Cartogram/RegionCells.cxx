@@ -3,6 +3,7 @@
 
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Points/CellCheck.h"
+#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/Failure.h"
 
 #include "vtkAbstractArray.h"
@@ -51,6 +52,7 @@ vtkPolyData* polyDataOf(const DensityBlock& block)
       "them");
   }
   requireReadableCells(data, block.Name);
+  requireTuples(data, block.Name);
   return data;
 }
 
@@ -113,6 +115,20 @@ bool isName(const char* name)
   return lower.find("name") != std::string::npos;
 }
 
+bool isClosed(vtkPolyData* data, vtkIdList* line)
+{
+  const vtkIdType last = line->GetNumberOfIds() - 1;
+  if (last < 3) // it may have no points at all
+  {
+    return false;
+  }
+  double begin[3];
+  double end[3];
+  data->GetPoint(line->GetId(0), begin);
+  data->GetPoint(line->GetId(last), end);
+  return std::memcmp(begin, end, sizeof(begin)) == 0;
+}
+
 class RegionReading
 {
 public:
@@ -148,12 +164,7 @@ private:
     for (vtkIdType line = 0; line < lines->GetNumberOfCells(); ++line)
     {
       lines->GetCellAtId(line, ids);
-      const vtkIdType last = ids->GetNumberOfIds() - 1;
-      double begin[3];
-      double end[3];
-      data->GetPoint(ids->GetId(0), begin);
-      data->GetPoint(ids->GetId(last), end);
-      if (last < 3 || std::memcmp(begin, end, sizeof(begin)) != 0)
+      if (!isClosed(data, ids))
       {
         first = open++ == 0 ? vertices + line : first;
       }

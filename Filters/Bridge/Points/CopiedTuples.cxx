@@ -6,6 +6,8 @@
 #include "Core/Parallel/Progress.h"
 
 #include "vtkAbstractArray.h"
+#include "vtkDataObject.h"
+#include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 
 #include <algorithm>
@@ -14,22 +16,48 @@
 namespace RectifiedTransport
 {
 
+namespace
+{
+
+std::string titleOf(vtkAbstractArray* array)
+{
+  return array->GetName() ? "array '" + std::string(array->GetName()) + "'" : "array without name";
+}
+
+} // namespace
+
+void requireTuples(
+  vtkAbstractArray* array, vtkIdType count, const std::string& owner, const std::string& name)
+{
+  if (array->GetNumberOfTuples() < count)
+  {
+    throw Failure("The " + owner + " " + titleOf(array) + " of the " + name + " has " +
+      std::to_string(array->GetNumberOfTuples()) + " tuples; it must have one for each of the " +
+      std::to_string(count) + " " + owner + "s");
+  }
+}
+
+void requireTuples(vtkDataSet* data, const std::string& name)
+{
+  for (const int type : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    vtkDataSetAttributes* attributes = data->GetAttributes(type);
+    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+    {
+      requireTuples(attributes->GetAbstractArray(i), data->GetNumberOfElements(type),
+        type == vtkDataObject::CELL ? "cell" : "point", name);
+    }
+  }
+}
+
 void copyTuples(const TupleSource& source, std::int64_t count,
   const std::function<vtkIdType(vtkIdType)>& idOf, vtkDataSetAttributes* to, Progress& progress)
 {
   for (int i = 0; i < source.From->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = source.From->GetAbstractArray(i);
-    const std::string name =
-      std::string("array ") + (array->GetName() ? array->GetName() : "without name");
-    if (array->GetNumberOfTuples() < source.Count)
-    {
-      throw Failure(std::string("The ") + source.Owner + " " + name + " of the " + source.Name +
-        " has " + std::to_string(array->GetNumberOfTuples()) +
-        " tuples; it must have one for each of the " + std::to_string(source.Count) + " " +
-        source.Owner + "s");
-    }
-    requireMemory("the " + name,
+    requireTuples(array, source.Count, source.Owner, source.Name);
+    requireMemory("the " + titleOf(array),
       static_cast<double>(count) * array->GetNumberOfComponents() *
         std::max(1, array->GetDataTypeSize()));
   }

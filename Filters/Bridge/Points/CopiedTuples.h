@@ -9,8 +9,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkAbstractArray;
+class vtkDataSet;
 class vtkDataSetAttributes;
 VTK_ABI_NAMESPACE_END
 
@@ -26,6 +29,13 @@ struct TupleSource
   const char* Owner; // "point" or "cell"
   const char* Name;  // of the data set, in messages
 };
+
+// Throws Failure if the array has too few tuples for `count` points or cells (`owner`) of the data
+// set of this name.
+void requireTuples(
+  vtkAbstractArray* array, vtkIdType count, const std::string& owner, const std::string& name);
+// The same for all arrays of points and of cells.
+void requireTuples(vtkDataSet* data, const std::string& name);
 
 // Copies the arrays of the source: element i of `count` gets the tuples of element idOf(i). What
 // `to` copies is for the caller to set. Runs as the current stage. Throws Failure if an array has

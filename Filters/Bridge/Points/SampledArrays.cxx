@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Points/SampledArrays.h"
 
-#include "Bridge/Run/Failure.h"
+#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Progress.h"
 
@@ -81,13 +81,7 @@ std::vector<NewArray> newArrays(const ArraySource& source, bool ofCells, vtkPoin
       {
         break;
       }
-      const vtkIdType tuples = set->GetNumberOfElements(type);
-      if (own->GetNumberOfTuples() < tuples)
-      {
-        throw Failure("The " + owner + " array '" + name + "' of the " + source.Name + " has " +
-          std::to_string(own->GetNumberOfTuples()) + " tuples; it must have one for each of the " +
-          std::to_string(tuples) + " " + owner + "s");
-      }
+      requireTuples(own, set->GetNumberOfElements(type), owner, source.Name);
       made.From.push_back(own);
     }
     if (made.From.size() == source.Sets.size())

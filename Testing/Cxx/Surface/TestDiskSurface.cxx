@@ -195,7 +195,7 @@ void checkFailures(Checks& checks)
   sheet = makeFlatSheet(2, 2, false);
   sheet->GetCellData()->AddArray(makeNumbers("Short", 3));
   expect(sheet,
-    "The cell array Short of the input surface has 3 tuples; it must have one for each of the 4 "
+    "The cell array 'Short' of the input surface has 3 tuples; it must have one for each of the 4 "
     "cells",
     __LINE__);
   expect(makePoints({ 0, 0, 0, 1, 0, 0 }),

@@ -164,9 +164,8 @@ void checkShortArrays(Checks& checks)
     hill->GetPointData()->RemoveArray("Short");
     hill->GetCellData()->AddArray(makeArray("Short", cells - 1, [](vtkIdType) { return 1.0; }));
     ErrorTest(checks, sampler)
-      .Expect({ "he cell array", "Short",
-                "of the input surface has " + std::to_string(cells - 1) +
-                  " tuples; it must have one for each of the " + std::to_string(cells) + " cells" },
+      .Expect("The cell array 'Short' of the input surface has " + std::to_string(cells - 1) +
+          " tuples; it must have one for each of the " + std::to_string(cells) + " cells",
         __LINE__);
   }
 }
