@@ -263,6 +263,14 @@ Point<3> WalkedSurface::Inwards(std::int64_t side) const
   return squared > 0.0 ? (1.0 / std::sqrt(squared)) * inwards : Point<3>{ 0.0, 0.0, 0.0 };
 }
 
+// The unit vector along a side.
+Point<3> WalkedSurface::Along(std::int64_t side) const
+{
+  const Point<3> edge =
+    this->Corner(side / 3, nextSide(side) % 3) - this->Corner(side / 3, side % 3);
+  return (1.0 / std::sqrt(dot(edge, edge))) * edge;
+}
+
 // The side of a triangle with area that is across a side at one of its points, through flat
 // triangles; else what is there instead.
 std::int64_t WalkedSurface::Beyond(std::int64_t side, const Point<3>& x) const
@@ -364,9 +372,7 @@ void WalkedSurface::Walk(SurfacePlace& place, const Point<3>& by, const double* 
     standing = part > 0.0 ? 0 : standing + 1;
     slides = part > 0.0 ? 0 : slides;
     const std::int64_t side = 3 * place.Triangle + static_cast<std::int64_t>(through + 1) % 3;
-    Point<3> edge =
-      this->Corner(place.Triangle, nextSide(side) % 3) - this->Corner(place.Triangle, side % 3);
-    edge = (1.0 / std::sqrt(dot(edge, edge))) * edge;
+    Point<3> edge = this->Along(side);
     const double along = dot(left, edge);
     const double across = std::sqrt(std::max(0.0, dot(left, left) - along * along));
     const std::int64_t beyond = this->Beyond(side, place.X);
@@ -391,6 +397,9 @@ void WalkedSurface::Walk(SurfacePlace& place, const Point<3>& by, const double* 
     place.Triangle = beyond / 3;
     frame = Frame(*this, place.Triangle);
     from = static_cast<std::size_t>(cornerOpposite(beyond));
+    // Through flat triangles, the side may have another direction.
+    const Point<3> next = this->Along(beyond);
+    edge = dot(next, edge) < 0.0 ? -1.0 * next : next;
     Point<3> inwards = this->Corner(place.Triangle, cornerOpposite(beyond)) -
       this->Corner(place.Triangle, beyond % 3);
     inwards = inwards - dot(inwards, edge) * edge;

@@ -90,6 +90,7 @@ private:
   bool Cut(const std::int64_t* welded, double rounding, Progress& progress);
   void PairEdge(const std::int64_t* sides, std::int64_t count);
   Point<3> Inwards(std::int64_t side) const;
+  Point<3> Along(std::int64_t side) const;
   std::int64_t Beyond(std::int64_t side, const Point<3>& x) const;
 
   TriangleSurface GivenSurface;

@@ -179,6 +179,20 @@ TEST(SurfaceRelaxation, FlatTriangles)
   expectEven(torus, 4096);
 }
 
+// One corner is so far away that all others are one place beside it: walks through flat triangles
+// come out over edges of another direction.
+TEST(SurfaceRelaxation, FarCorner)
+{
+  for (const double height : { 1e16, 1e17, 1e20 })
+  {
+    const Mesh box = makeBox(1).Mapped([height](const Point<3>& x) {
+      const bool isFar = x[0] > 0.5 && x[1] < 0.5 && x[2] > 0.5;
+      return Point<3>{ x[0], x[1], isFar ? height : x[2] };
+    });
+    relaxed(box, optionsFor(100));
+  }
+}
+
 // Each part has its share.
 TEST(SurfaceRelaxation, Parts)
 {
