@@ -8,23 +8,12 @@ import unittest
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import (VTK_QUAD, VTK_TRIANGLE_STRIP, vtkCellArray, vtkPolyData,
-                                           vtkStructuredGrid)
+from vtkmodules.vtkCommonDataModel import VTK_QUAD, VTK_TRIANGLE_STRIP, vtkStructuredGrid
 from vtkmodules.vtkFiltersSources import vtkTexturedSphereSource
 
-from rt_testing import Listener, load_plugin, main, output_of, positions, producer
+from rt_testing import Listener, load_plugin, main, output_of, positions, producer, surface
 
 simple = load_plugin()
-
-
-def surface(points, cells):
-    data = vtkPolyData()
-    data.SetPoints(vtkPoints())
-    data.GetPoints().SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=1))
-    data.SetPolys(vtkCellArray())
-    for cell in cells:
-        data.GetPolys().InsertNextCell(len(cell), [int(i) for i in cell])
-    return data
 
 
 def sheet(number=8):

@@ -11,7 +11,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 SOURCE = os.environ.get("RT_SOURCE") or os.path.join(os.path.dirname(__file__), "..", "..")
@@ -183,6 +183,17 @@ def load_plugin():
     from paraview import simple
     simple.LoadPlugin(os.environ["RT_PLUGIN"], remote=False, ns=vars(simple))
     return simple
+
+
+def surface(points, cells):
+    """Polygons."""
+    data = vtkPolyData()
+    data.SetPoints(vtkPoints())
+    data.GetPoints().SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=1))
+    data.SetPolys(vtkCellArray())
+    for cell in cells:
+        data.GetPolys().InsertNextCell(len(cell), [int(i) for i in cell])
+    return data
 
 
 def producer(simple, data):

@@ -30,6 +30,9 @@ namespace
 
 constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
 
+// Of T-junctions, as a share of the longest side of the bounds.
+constexpr std::array<double, 4> gaps{ 1e-5, 1e-4, 1e-3, 1e-2 };
+
 // The largest coordinate, without its sign.
 double farthestIn(const std::array<double, 6>& bounds)
 {
@@ -37,13 +40,16 @@ double farthestIn(const std::array<double, 6>& bounds)
     [](double farthest, double x) { return std::max(farthest, std::abs(x)); });
 }
 
+double longestSideOf(const std::array<double, 6>& bounds)
+{
+  return std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
+}
+
 // Distances within which points may differ by rounding: of any coordinates, and of float ones.
 std::array<double, 2> roundingsIn(const std::array<double, 6>& bounds, bool isFloat)
 {
-  const double longest =
-    std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
   constexpr double units = 4.0;
-  const double near = ClosedMesh::NearDistance * longest;
+  const double near = ClosedMesh::NearDistance * longestSideOf(bounds);
   return { std::isfinite(near) ? near : 0.0,
     isFloat ? units * farthestIn(bounds) * std::numeric_limits<float>::epsilon() : 0.0 };
 }
@@ -121,7 +127,8 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
   }
   problem =
     this->Mesh->OpenEdges() + this->Mesh->NonManifoldEdges() > 0 ? this->Openness() : problem;
-  if (!this->CloseNear(input, roundings[1], progress, at(0.85), at(1.0)))
+  if (!this->CloseNear(input, roundings[1], progress, at(0.85), at(0.9)) &&
+    !this->CloseGaps(progress, at(0.9), at(1.0)))
   {
     throw Failure(problem);
   }
@@ -131,6 +138,7 @@ std::string ClosedSurface::RepairWarning() const
 {
   RepairCounts counts;
   counts.TJunctions = this->Mesh->TJunctions();
+  counts.Gap = this->HasGaps ? this->Mesh->WidestGap() : 0.0;
   return repairWarning(counts);
 }
 
@@ -162,8 +170,27 @@ bool ClosedSurface::CloseNear(
   {
     return true;
   }
+  return this->CloseTJunctions(distance, progress);
+}
+
+// Cuts triangles at T-junctions that gape by more than rounding: no more than it takes to close the
+// surface.
+bool ClosedSurface::CloseGaps(Progress& progress, double begin, double end)
+{
+  for (std::size_t i = 0; i < gaps.size() && !this->HasGaps; ++i)
+  {
+    const double part = static_cast<double>(i + 1) / static_cast<double>(gaps.size());
+    progress.BeginStage(begin + part * (end - begin));
+    this->HasGaps = this->CloseTJunctions(gaps[i] * longestSideOf(this->Box), progress);
+  }
+  return this->HasGaps;
+}
+
+// As the current stage; returns whether that closes the surface.
+bool ClosedSurface::CloseTJunctions(double distance, Progress& progress)
+{
   const std::int64_t triangles = this->Mesh->Surface().NumberOfTriangles;
-  return triangles > 0 && distance > 0.0 &&
+  return triangles > 0 && distance > 0.0 && std::isfinite(distance) &&
     withMemory("the edges of the surface's " + std::to_string(triangles) + " triangles",
       static_cast<double>(triangles) * 110.0,
       [&]() { return this->Mesh->CloseTJunctions(distance, progress.Stage()); });
@@ -215,8 +242,8 @@ std::string ClosedSurface::Openness() const
     message
       << ". To close it: Clip Closed Surface in place of Clip, or with a plane that cuts off "
          "the rim of the hole; Capping of sources and extrusions; Clean with a Tolerance where "
-         "seams gape; vtkFillHolesFilter in a Programmable Filter; or Delaunay 3D and Extract "
-         "Surface for the convex hull";
+         "seams gape, after Subdivide if one of their sides has fewer points; vtkFillHolesFilter "
+         "in a Programmable Filter; or Delaunay 3D and Extract Surface for the convex hull";
   }
   return message.str();
 }

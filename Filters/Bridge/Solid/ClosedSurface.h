@@ -34,8 +34,10 @@ public:
   // differ by rounding: by less than 1e-9 of the longest side of the polygons' bounds; if that
   // leaves edges open and the coordinates are float, by less than 4 of their rounding errors. After
   // each of both, if edges are still open, triangles are cut at T-junctions if that closes the
-  // surface (see TJunctions.h). Throws Failure if the input has no polygons, coordinates that are
-  // not finite, or edges of an odd number of triangles, and Cancelled.
+  // surface (see TJunctions.h); at last also at those that gape by up to 1e-5, 1e-4, 1e-3 or 1e-2
+  // of the longest side, the least of these that closes it. Throws Failure if the input has no
+  // polygons, coordinates that are not finite, or edges of an odd number of triangles, and
+  // Cancelled.
   ClosedSurface(vtkPolyData* input, Progress& progress, double end);
 
   // A warning that counts T-junctions that were closed; empty if there were none.
@@ -52,6 +54,8 @@ public:
 
 private:
   bool CloseNear(vtkPolyData* input, double distance, Progress& progress, double begin, double end);
+  bool CloseGaps(Progress& progress, double begin, double end);
+  bool CloseTJunctions(double distance, Progress& progress);
   void ReadPolygons(vtkPolyData* input, Progress& progress, double begin, double end);
   void ReadTriangles(vtkCellArray* triangles, Progress& progress);
   std::string Openness() const;
@@ -59,6 +63,7 @@ private:
   std::int64_t NumberOfPoints;
   std::array<double, 6> Box{};
   double Rounding = 0.0; // what coordinates are multiples of
+  bool HasGaps = false;  // that were closed
   std::optional<ClosedMesh> Mesh;
 };
 

@@ -65,6 +65,24 @@ void addTriangles(const TriangleSurface& surface, Progress& progress, ClosedMesh
     slow);
 }
 
+// How far points are off the sides of triangles that they cut, at most.
+double widestGap(
+  ConstPointSpan<3> points, const std::int64_t* triangles, const std::vector<TJunction>& junctions)
+{
+  double widest = 0.0;
+  for (const TJunction& junction : junctions)
+  {
+    const double* a = points[triangles[junction.Side]];
+    const double* b = points[triangles[nextSide(junction.Side)]];
+    const double* x = points[junction.Point];
+    const auto off = [&](std::size_t axis) {
+      return x[axis] - a[axis] - junction.Place * (b[axis] - a[axis]);
+    };
+    widest = std::max(widest, std::hypot(off(0), off(1), off(2)));
+  }
+  return widest;
+}
+
 } // namespace
 
 ClosedMesh::ClosedMesh(const TriangleSurface& surface, const Context& context)
@@ -219,7 +237,7 @@ void ClosedMesh::DropRepeated(const Context& context)
   drop(ways.front());
 }
 
-bool ClosedMesh::CloseTJunctions(double rounding, const Context& context)
+bool ClosedMesh::CloseTJunctions(double distance, const Context& context)
 {
   Progress progress(context);
   progress.BeginStage(0.3);
@@ -229,7 +247,7 @@ bool ClosedMesh::CloseTJunctions(double rounding, const Context& context)
     const TriangleSurface surface = this->Surface();
     const std::vector<OpenSide> open = openSidesOf(surface, {}, progress);
     progress.BeginStage(0.5);
-    junctions = findTJunctions(surface.Points, open, rounding, progress);
+    junctions = findTJunctions(surface.Points, open, distance, progress);
   }
   progress.BeginStage(0.6);
   if (junctions.empty())
@@ -250,6 +268,7 @@ bool ClosedMesh::CloseTJunctions(double rounding, const Context& context)
   if (this->Closed)
   {
     this->NumberOfTJunctions = split.NumberOfTJunctions();
+    this->Gap = widestGap(this->Points(), before.data(), junctions);
     progress.EndSlice(1);
     return true;
   }

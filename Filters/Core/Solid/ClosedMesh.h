@@ -64,10 +64,12 @@ public:
   void CountEdges(const Context& context = Context());
 
   // After CountEdges(): if edges are open, cuts triangles at T-junctions (see TJunctions.h).
-  // Returns whether the mesh is closed; if not, it is unchanged. Memory: up to 110 bytes a
-  // triangle.
-  bool CloseTJunctions(double rounding, const Context& context = Context());
+  // Returns whether the mesh is closed; if not, it is unchanged. Points may be off their edges by a
+  // distance, to which the cut triangles then bend. Memory: up to 110 bytes a triangle.
+  bool CloseTJunctions(double distance, const Context& context = Context());
   std::int64_t TJunctions() const { return this->NumberOfTJunctions; }
+  // How far the farthest of their points was off its edge.
+  double WidestGap() const { return this->Gap; }
 
   // The numbers of edges of one triangle, and of three or another odd number.
   std::int64_t OpenEdges() const { return this->NumberOpen; }
@@ -105,6 +107,7 @@ private:
   std::int64_t NumberOpen = 0;
   std::int64_t NumberNonManifold = 0;
   std::int64_t NumberOfTJunctions = 0;
+  double Gap = 0.0;
   bool Closed = false;
   bool Oriented = false;
 };

@@ -136,6 +136,27 @@ TEST(ClosedMesh, TJunctionsAreClosed)
   }
 }
 
+// The longer sides bend to points that are off them, but not farther than the distance.
+TEST(ClosedMesh, GapingTJunctions)
+{
+  constexpr double gap = 3e-3;
+  const Mesh box = makeRefinedBox(3, 2).Mapped([](const Point<3>& x) {
+    const bool isFine = x[1] == 0.0 && std::abs(6.0 * x[0] - 3.0) < 0.1;
+    return isFine && x[2] == 1.0 ? Point<3>{ x[0], x[1] - gap, x[2] } : x;
+  });
+  ClosedMesh mesh(box.Surface());
+  EXPECT_FALSE(mesh.IsClosed());
+  EXPECT_FALSE(mesh.CloseTJunctions(0.9 * gap));
+  EXPECT_EQ(mesh.WidestGap(), 0.0);
+  ASSERT_TRUE(mesh.CloseTJunctions(1.1 * gap));
+  EXPECT_EQ(mesh.TJunctions(), 12);
+  EXPECT_NEAR(mesh.WidestGap(), gap, 1e-15);
+  EXPECT_TRUE(mesh.Orient());
+  // A bump over two triangles of each face: a third of a height times an area.
+  EXPECT_GT(std::abs(copyOf(mesh.Surface()).Volume()), 1.0);
+  EXPECT_LT(std::abs(copyOf(mesh.Surface()).Volume()), 1.0 + gap);
+}
+
 TEST(ClosedMesh, NothingIsClosed)
 {
   ClosedMesh mesh(Mesh{}.Surface());
