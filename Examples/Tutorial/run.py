@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Remakes the five tasks of Documentation/Tutorial.md: a picture of each, the film of the morph,
+"""Remakes the six tasks of Documentation/Tutorial.md: a picture of each, the film of the morph,
 and, with --states, the state files beside this script."""
 import math
 import os
@@ -28,6 +28,28 @@ def figure(source, port, name):
     """A number in the field data of an output."""
     source.UpdatePipeline()
     return simple.OutputPort(source, port).FieldData[name].GetRange()[0]
+
+
+def arrows_along_ways(points, stride):
+    """Thin arrows of the displacements of some points."""
+    arrows = simple.Glyph(registrationName="Arrows", Input=points, GlyphType="Arrow")
+    arrows.OrientationArray = ["POINTS", "Displacement"]
+    arrows.ScaleArray = ["POINTS", "Displacement"]
+    arrows.ScaleFactor = 1
+    arrows.GlyphMode = "Every Nth Point"
+    arrows.Stride = stride
+    arrows.GlyphType.TipRadius = 0.04
+    arrows.GlyphType.TipLength = 0.12
+    arrows.GlyphType.ShaftRadius = 0.012
+    return arrows
+
+
+def slice_of(source, name):
+    """Through the middle, with y as its normal."""
+    cut = simple.Slice(registrationName=name, Input=source)
+    cut.SliceType.Origin = [2, 2, 4]
+    cut.SliceType.Normal = [0, 1, 0]
+    return cut
 
 
 def stipple_a_slice(pixels):
@@ -101,15 +123,7 @@ def compare_two_fields(pixels):
                                   Parameter=0, ParticlesPerCell=1, Kernel="CloudInCell",
                                   NumberOfSteps=48)
     particles = simple.OutputPort(morph, 1)
-    arrows = simple.Glyph(registrationName="Arrows", Input=particles, GlyphType="Arrow")
-    arrows.OrientationArray = ["POINTS", "Displacement"]
-    arrows.ScaleArray = ["POINTS", "Displacement"]
-    arrows.ScaleFactor = 1
-    arrows.GlyphMode = "Every Nth Point"
-    arrows.Stride = 611
-    arrows.GlyphType.TipRadius = 0.04
-    arrows.GlyphType.TipLength = 0.12
-    arrows.GlyphType.ShaftRadius = 0.012
+    arrows = arrows_along_ways(particles, 611)
 
     for source, colour in zip(moments, (BLUE, ORANGE)):
         surface = simple.Contour(Input=source, ContourBy=["POINTS", "Smoke"], Isosurfaces=[64])
@@ -125,6 +139,41 @@ def compare_two_fields(pixels):
     look(view, [2, 2, 3.4], [2, -10, 1], [0, 0, 1], 5.2)
     simple.SetActiveSource(morph)
     return view, math.sqrt(figure(morph, 0, "TransportCost"))
+
+
+def two_runs(pixels):
+    """Where the smoke of a run without wind has to go to be that of one with wind."""
+    view = example.new_session([pixels, pixels], "Tutorial")
+    runs = [simple.XMLImageDataReader(registrationName=name, FileName=[path])
+            for name, path in (("Calm", PLUME[1]), ("Wind", os.path.join(HERE, "plume-wind.vti")))]
+    transport = simple.TransportMap(runs[0], registrationName="Differences", Target=runs[1],
+                                    Method="Optimal")
+    cut = slice_of(transport, "Slice")
+    smoke = simple.Threshold(registrationName="Smoke", Input=cut, Scalars=["POINTS", "Smoke"],
+                             ThresholdMethod="Above Upper Threshold", UpperThreshold=64)
+    arrows = arrows_along_ways(smoke, 4)
+
+    shown = simple.Show(cut, view)
+    shown.Ambient, shown.Diffuse = 1, 0
+    simple.ColorBy(shown, ("POINTS", "CostDensity"))
+    colours = simple.GetColorTransferFunction("CostDensity")
+    colours.ApplyPreset("X Ray", True)
+    legend = simple.GetScalarBar(colours, view)
+    legend.Title, legend.ComponentTitle = "cost, m²", ""
+    legend.WindowLocation = "Lower Left Corner"
+    legend.TitleColor = legend.LabelColor = [0, 0, 0]
+    shown.SetScalarBarVisibility(view, True)
+    for source, colour in zip((cut, slice_of(runs[1], "Slice of Wind")), (BLUE, ORANGE)):
+        lines = simple.Contour(Input=source, ContourBy=["POINTS", "Smoke"], Isosurfaces=[64])
+        shown = simple.Show(lines, view)
+        example.paint(shown, colour)
+        shown.LineWidth = 3
+    shown = simple.Show(arrows, view)
+    example.paint(shown, [0.1, 0.6, 0.2])
+    shown.Position = [0, -2, 0]  # in front of the slice
+    look(view, [2.1, 2, 4.1], [0, -10, 0], [0, 0, 1], 4)
+    simple.SetActiveSource(transport)
+    return view, math.sqrt(figure(transport, 0, "TransportCost"))
 
 
 def areas_of_people(pixels):
@@ -206,6 +255,9 @@ def main():
 
     view, distance = compare_two_fields(arguments.pixels)
     print("%s: %.3f m" % (keep("compare", view), distance))
+
+    view, distance = two_runs(arguments.pixels)
+    print("%s: %.3f m" % (keep("runs", view), distance))
 
     view, error = areas_of_people(arguments.pixels)
     print("%s: areas within %.2f %%" % (keep("people", view), 100 * error))

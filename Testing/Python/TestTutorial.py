@@ -118,6 +118,20 @@ class States(unittest.TestCase):
         self.assertLess(apart, cost ** 0.5)
         self.assertGreater(simple.FindSource("Arrows").GetDataInformation().GetNumberOfPoints(), 999)
 
+    def test_runs(self):
+        self.check_picture(self.opened("runs"), "tutorial-runs.png")
+        differences = simple.FindSource("Differences")
+        cost, least = (differences.FieldData[name].GetRange()[0]
+                       for name in ("TransportCost", "TransportCostLowerBound"))
+        self.assertAlmostEqual(cost ** 0.5, 0.60, 2)
+        self.assertAlmostEqual(least ** 0.5, 0.598, 3)
+        density = output_of(differences).GetPointData().GetArray("CostDensity")
+        self.assertAlmostEqual(vtk_to_numpy(density).sum(), cost, 9)
+        # On average the smoke moves with the wind, along x.
+        points = output_of(simple.FindSource("Smoke")).GetPointData()
+        ways = vtk_to_numpy(points.GetArray("Displacement"))
+        self.assertGreater(ways[:, 0].mean(), 2 * np.abs(ways[:, 1:].mean(axis=0)).max())
+
     def test_people(self):
         self.check_picture(self.opened("people"), "tutorial-people.png")
         people = simple.FindSource("People")
@@ -153,13 +167,14 @@ class Script(unittest.TestCase):
         self.assertIn("20000 dots, 0.7846 m²", printed)
         self.assertIn("3 time steps", printed)
         self.assertRegex(printed, re.escape("tutorial-compare.png: 1.327 m"))
+        self.assertRegex(printed, re.escape("tutorial-runs.png: 0.599 m"))
         with open(os.path.join(OUTPUT, "tutorial-morph.ogv"), "rb") as film:
             data = film.read()
         self.assertEqual(data[:4], b"OggS")
         self.assertGreater(len(data), 4000)
         self.assertIn("tutorial-people.png: areas within 0.18 %", printed)
         self.assertIn("tutorial-mesh.png: 20000 dots, 2.0394 of ink", printed)
-        for name in ("slice", "compare", "people", "mesh"):
+        for name in ("slice", "compare", "runs", "people", "mesh"):
             shown = picture(os.path.join(SOURCE, "Documentation", "Images",
                                          "tutorial-%s.png" % name))
             drawn = picture(os.path.join(OUTPUT, "tutorial-%s.png" % name))
