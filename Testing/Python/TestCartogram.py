@@ -359,6 +359,10 @@ class TestCartogram(unittest.TestCase):
         no_points.GetCellData().GetArray("Mass").InsertNextValue(1.0)
         short = sixteen()
         short.GetCellData().GetArray("Mass").SetNumberOfTuples(15)
+        nameless = sixteen()
+        nameless.GetCellData().GetArray("Mass").SetName(None)
+        nameless.GetCellData().SetScalars(nameless.GetCellData().GetArray(0))
+        nameless.GetCellData().GetScalars().SetValue(7, -1)
         strips = vtkPolyData()
         strips.DeepCopy(sixteen())
         cells = vtkCellArray()
@@ -377,6 +381,8 @@ class TestCartogram(unittest.TestCase):
                                 "region must end at the point where it begins"),
                 (short, {}, "The cell array 'Mass' of the input has 15 tuples; it must have one for each of the "
                             "16 cells"),
+                (nameless, dict(mass=None), "The mass of the region of cell 7 in the scalars, which have no name, is -1; "
+                                            "masses must be at least 0 and finite"),
                 (map_of(pair, [1.0, 1.0], name=["a", "b"]), {},
                  "The outline of the region 'a' crosses itself, so that its area is not clear; repair it, with "
                  "QGIS's Fix geometries"),

@@ -201,12 +201,13 @@ private:
     {
       this->Mass = this->DefaultMass(cells);
     }
+    const char* name = this->Mass->GetName();
+    this->MassTitle = name ? "'" + std::string(name) + "'" : "the scalars, which have no name,";
     if (this->Mass->GetNumberOfComponents() != 1)
     {
-      fail("MassArray '", this->Mass->GetName(), "' has ", this->Mass->GetNumberOfComponents(),
+      fail("MassArray ", this->MassTitle, " has ", this->Mass->GetNumberOfComponents(),
         " components; it must have one");
     }
-    this->Found.MassName = this->Mass->GetName();
   }
 
   vtkDataArray* DefaultMass(vtkCellData* cells)
@@ -279,8 +280,8 @@ private:
         if (!(mass == before))
         {
           fail("The region ", this->Found.Names[static_cast<std::size_t>(found->second)],
-            " has cells of mass ", before, " and ", mass, " in '", this->Found.MassName,
-            "'; all cells of a region must have its mass, which counts once");
+            " has cells of mass ", before, " and ", mass, " in ", this->MassTitle,
+            "; all cells of a region must have its mass, which counts once");
         }
       }
     }
@@ -291,7 +292,7 @@ private:
     }
     if (!(total > 0.0) || !std::isfinite(total))
     {
-      fail("The masses in '", this->Found.MassName, "' sum to ", total,
+      fail("The masses in ", this->MassTitle, " sum to ", total,
         "; they must sum to a number above 0");
     }
   }
@@ -300,7 +301,7 @@ private:
   {
     if (!(mass >= 0.0) || !std::isfinite(mass))
     {
-      fail("The mass of the region ", region, " in '", this->Found.MassName, "' is ", mass,
+      fail("The mass of the region ", region, " in ", this->MassTitle, " is ", mass,
         "; masses must be at least 0 and finite");
     }
   }
@@ -325,6 +326,7 @@ private:
   Progress& Work;
   bool ByBlock = false;
   vtkDataArray* Mass = nullptr;
+  std::string MassTitle;
   RegionCells Found;
 };
 

@@ -33,7 +33,6 @@ struct RegionCells
   // All blocks as one, with double points and the arrays that all blocks have. Cells are numbered
   // as those of a vtkPolyData: vertices, lines, polygons.
   vtkSmartPointer<vtkPolyData> Data;
-  std::string MassName;
   std::vector<std::int32_t> Regions; // of cells; -1 of vertices
   std::vector<std::string> Names;    // of regions, for messages
   std::vector<double> Masses;        // of regions, at least 0
