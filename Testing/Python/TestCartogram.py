@@ -8,6 +8,7 @@ import unittest
 import numpy as np
 from rt_testing import OUTPUT, SOURCE, Listener, load_plugin, main, positions, producer
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.vtkConstants import VTK_ID_TYPE
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkMultiBlockDataSet, vtkPolyData
 
@@ -209,11 +210,18 @@ class TestCartogram(unittest.TestCase):
         self.assertAlmostEqual(ring_areas(cartogram(data, Blend=0.0)[0].GetRegions())[5], 1, delta=1e-12)
 
     def test_point_data(self):
+        """Points that divide an edge lie between its ends; arrays that they have not do not matter."""
         data = sixteen()
+        count = data.GetNumberOfPoints()
+        ids = numpy_to_vtk(np.arange(count), deep=1, array_type=VTK_ID_TYPE)
+        ghosts = numpy_to_vtk(np.zeros(count, np.uint8), deep=1)
         heights = numpy_to_vtk(positions(data) @ [2.0, 3.0, 0.0], deep=1)
-        heights.SetName("Height")
-        data.GetPointData().AddArray(heights)
+        for array, name in ((ids, "Ids"), (ghosts, "vtkGhostType"), (heights, "Height")):
+            array.SetName(name)
+            data.GetPointData().AddArray(array)
+        data.GetPointData().SetActiveGlobalIds("Ids")
         regions = cartogram(data, Blend=0.0)[0].GetRegions()
+        self.assertGreater(regions.GetNumberOfPoints(), count)
         np.testing.assert_allclose(vtk_to_numpy(regions.GetPointData().GetArray("Height")),
                                    positions(regions) @ [2.0, 3.0, 0.0], atol=1e-9)
 

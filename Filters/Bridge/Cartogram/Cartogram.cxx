@@ -10,6 +10,7 @@
 #include "Bridge/Run/PartText.h"
 #include "Core/Parallel/Progress.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -39,6 +40,18 @@ void reserveCells(vtkCellArray* cells, vtkIdType count, vtkIdType ids)
   if (count > 0 && !cells->AllocateExact(count, ids))
   {
     throw std::bad_alloc();
+  }
+}
+
+// Gives a point on an edge the values of its ends, which may be such points themselves.
+// InterpolateEdge of VTK would need ends in the input, whose arrays may be others.
+void divideEdge(vtkPointData* data, vtkIdType point, const DividingPoint& added)
+{
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    array->InterpolateTuple(point, static_cast<vtkIdType>(added.First), array,
+      static_cast<vtkIdType>(added.Second), array, added.At);
   }
 }
 
@@ -339,9 +352,7 @@ private:
         place[k] = a[k] + added.At * (b[k] - a[k]);
       }
       before.push_back(place);
-      output->GetPointData()->InterpolateEdge(output->GetPointData(),
-        old + static_cast<vtkIdType>(i), static_cast<vtkIdType>(added.First),
-        static_cast<vtkIdType>(added.Second), added.At);
+      divideEdge(output->GetPointData(), old + static_cast<vtkIdType>(i), added);
     }
     for (vtkIdType i = 0; i < points; ++i)
     {
