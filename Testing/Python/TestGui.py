@@ -246,6 +246,20 @@ class Gui(GuiTest):
                       if prop.get("name") == "Domain") for state in saved]
         self.assertEqual([len(prop.findall("Proxy")) for prop in given], [1, 0])
 
+    @unittest.skipUnless(PANEL_WIDGETS, "the plugin's widgets are not built")
+    def test_target_of_a_map(self):
+        """Its array is shown with it alone; equal areas are those of the uniform measure."""
+        target, array, direction, areas = (PANEL + widget for widget in (
+            "Target/1QComboBox0", "TargetArray", "Direction/ComboBox", "EqualizeAreas"))
+        steps = (choose("Filters", "TransportMap"), ADVANCED, (array, "is visible", "false"),
+                 (areas, "is visible", "false"), (direction, "set_string", "DensityToUniform"),
+                 (areas, "is visible", "true"), (target, "set_string", "Photograph"),
+                 (array, "is visible", "true"), (areas, "is visible", "false"), APPLY)
+        saved = self.states_after("gui-target.png", steps, ((target, "set_string", "(none)"), APPLY))
+        given = [next(prop for prop in proxies_of(state)["TransportMap"].iter("Property")
+                      if prop.get("name") == "Target") for state in saved]
+        self.assertEqual([len(prop.findall("Proxy")) for prop in given], [1, 0])
+
     def test_devices(self):
         """Those of the machine are listed once OpenCL is applied. A name that is not in the list, given
         by a script, stays."""
