@@ -161,7 +161,7 @@ class XML(unittest.TestCase):
                 for element in proxy.element.iter():
                     name = element.get("panel_widget")
                     if name not in (None, "input_selector"):
-                        self.assertIn('"%s pq' % name, made)
+                        self.assertIn('"WIDGET %s pq' % name, made)
 
     def test_public_names(self):
         self.assertEqual({proxy.label: proxy.class_name for proxy in proxies()},

@@ -2,6 +2,7 @@
 #include "Bridge/SurfaceSampling/SurfaceSampler.h"
 
 #include "Bridge/Density/CostModel.h"
+#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/StepReport.h"
@@ -23,6 +24,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 namespace RectifiedTransport
 {
@@ -128,7 +130,18 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
     bytes +
       memoryForSurfaceRelaxation(triangles.Points.size(), triangles.NumberOfTriangles,
         relative.Values().AtPoints || relative.Values().OfTriangles, this->NumberOfParticles),
-    [&]() { return relaxOnSurface(triangles, relative.Values(), options, progress.Stage()); });
+    [&]() {
+      try
+      {
+        return relaxOnSurface(triangles, relative.Values(), options, progress.Stage());
+      }
+      catch (const std::invalid_argument&) // all else was checked before
+      {
+        throw Failure("The input surface has no area: each of its " +
+          std::to_string(triangles.NumberOfTriangles) +
+          " triangles is lower than 1e-12 of its length, or nothing beside the bounds");
+      }
+    });
   writeSurfaceParticles(
     given, surface, samples.Places, masses.Total(), progress, ends.data() + 3, output);
   SurfaceSamplingReport report;

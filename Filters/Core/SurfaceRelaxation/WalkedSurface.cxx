@@ -26,10 +26,13 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
 // Triangles lower than this part of their longest sides have no area.
 constexpr double flatHeight = 1e-12;
+// Nor have those so small beside the surface that their squared normals have no inverse.
+constexpr double leastSquaredNormal = 1e-290;
 
 bool isFlat(double squaredNormal, double squaredSides)
 {
-  return !(squaredNormal > flatHeight * flatHeight * squaredSides * squaredSides);
+  return !(squaredNormal > flatHeight * flatHeight * squaredSides * squaredSides) ||
+    squaredNormal < leastSquaredNormal;
 }
 
 std::int64_t cornerOpposite(std::int64_t side)

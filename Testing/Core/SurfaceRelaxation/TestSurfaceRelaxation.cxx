@@ -183,13 +183,19 @@ TEST(SurfaceRelaxation, FlatTriangles)
 // come out over edges of another direction.
 TEST(SurfaceRelaxation, FarCorner)
 {
-  for (const double height : { 1e16, 1e17, 1e20 })
-  {
-    const Mesh box = makeBox(1).Mapped([height](const Point<3>& x) {
+  const auto boxTo = [](double height) {
+    return makeBox(1).Mapped([height](const Point<3>& x) {
       const bool isFar = x[0] > 0.5 && x[1] < 0.5 && x[2] > 0.5;
       return Point<3>{ x[0], x[1], isFar ? height : x[2] };
     });
-    relaxed(box, optionsFor(100));
+  };
+  for (const double height : { 1e16, 1e17, 1e20, 1e40, 1e70 })
+  {
+    relaxed(boxTo(height), optionsFor(100));
+  }
+  for (const double height : { 1e75, 1e80, 1e100 })
+  {
+    EXPECT_THROW(relaxOnSurface(boxTo(height).Surface(), {}, optionsFor(1)), std::invalid_argument);
   }
 }
 

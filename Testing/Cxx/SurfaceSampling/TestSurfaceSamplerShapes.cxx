@@ -254,6 +254,9 @@ void checkErrors(Checks& checks)
   sampler->SetNumberOfParticles(10);
   sampler->SetInputData(makePolygons({ 0, 0, 0, 1, 1, 1, 2, 2, 2 }, { 3, 0, 1, 2 }));
   test.Expect("The input surface has no area", __LINE__);
+  sampler->SetInputData(makePolygons({ 0, 0, 0, 1, 0, 0, 0.5, 1e-13, 0 }, { 3, 0, 1, 2 }));
+  test.Expect(
+    "The input surface has no area: each of its 1 triangles is lower than 1e-12", __LINE__);
   sampler->SetInputData(makePoints({ 0, 0, 0, 1, 1, 1 }));
   test.Expect(
     "The input surface has 2 points and no polygons; it must be a surface of polygons", __LINE__);
