@@ -187,6 +187,13 @@ class TestCartogram(unittest.TestCase):
         self.assertEqual(moved.GetPointData().GetNumberOfArrays(), 1)
         self.assertEqual(moved.GetNumberOfCells(), 16)
         self.assertGreater(abs(positions(moved) - positions(data)).max(), 0.3)
+        # Far away its places are kept.
+        far = vtkPolyData()
+        far.SetPoints(vtkPoints())
+        far.GetPoints().SetData(numpy_to_vtk(np.array([[1.7e308, 0, 0], [0, -1.7e308, 0], [2, 2, 0]]), deep=1))
+        places = positions(cartogram(sixteen(1.0), far)[0].GetOverlay())
+        np.testing.assert_array_equal(places[:2], positions(far)[:2])
+        np.testing.assert_allclose(places[2], [2, 2, 0], atol=1e-3)
         graticule = algorithm.GetGraticule()
         self.assertEqual(graticule.GetNumberOfLines(), 34)
         np.testing.assert_allclose(graticule.GetBounds(), (-0.4, 4.4, -0.4, 4.4, 0, 0), atol=1e-9)

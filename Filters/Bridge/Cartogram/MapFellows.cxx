@@ -144,7 +144,10 @@ void MapFellows::WriteOverlay(Progress& progress) const
         const std::size_t at = before + static_cast<std::size_t>(i);
         const Point<3> place = this->Place.Blended(this->Before[first + at],
           this->Moved[first + at], this->Place.Frame.Distance(this->OverlayBefore[at]));
-        places->SetTypedTuple(i, place.data());
+        // So far away that its index is infinite, its way is less than rounding.
+        const bool isFinite = std::all_of(
+          place.begin(), place.end(), [](double coordinate) { return std::isfinite(coordinate); });
+        places->SetTypedTuple(i, isFinite ? place.data() : this->OverlayBefore[at].data());
       }
     });
     vtkNew<vtkPoints> points;
