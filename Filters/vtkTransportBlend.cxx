@@ -5,25 +5,20 @@
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Inputs/GivenInputs.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/RankExchange.h"
 
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
-#include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkHyperTreeGrid.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <string>
@@ -36,80 +31,6 @@ namespace
 using namespace RectifiedTransport;
 
 const char* const MassModeTexts[] = { "Linear", "Geometric", "Source", "Normalize" };
-
-struct GivenInput
-{
-  vtkDataObject* Data;
-  int Port;
-};
-
-// The leaves of composite data that may be densities, where these are inputs; other data are one.
-// Returns how many leaves are passed over.
-std::int64_t gatherBlocks(
-  vtkDataObject* data, bool blocksAreInputs, std::vector<vtkDataObject*>& blocks)
-{
-  auto* composite = blocksAreInputs ? vtkCompositeDataSet::SafeDownCast(data) : nullptr;
-  if (!composite)
-  {
-    blocks.push_back(data);
-    return 0;
-  }
-  std::int64_t others = 0;
-  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
-  {
-    vtkDataObject* leaf = leaves->GetCurrentDataObject();
-    if (vtkDataSet::SafeDownCast(leaf) || vtkHyperTreeGrid::SafeDownCast(leaf))
-    {
-      blocks.push_back(leaf);
-    }
-    else
-    {
-      ++others;
-    }
-  }
-  return others;
-}
-
-struct GivenInputs
-{
-  std::vector<GivenInput> All;
-  std::int64_t Others = 0; // the leaves that are passed over
-};
-
-GivenInputs gatherInputs(
-  vtkInformationVector** inputVector, int numberOfPorts, bool blocksAreInputs)
-{
-  GivenInputs inputs;
-  for (int port = 0; port < numberOfPorts; ++port)
-  {
-    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
-    {
-      std::vector<vtkDataObject*> blocks;
-      inputs.Others +=
-        gatherBlocks(vtkDataObject::GetData(inputVector[port], i), blocksAreInputs, blocks);
-      for (vtkDataObject* block : blocks)
-      {
-        inputs.All.push_back({ block, port });
-      }
-    }
-  }
-  return inputs;
-}
-
-void requireSameNumber(std::size_t inputs, const Ranks& ranks)
-{
-  const std::vector<std::size_t> all = gatherValues(ranks, inputs);
-  for (std::size_t rank = 1; rank < all.size(); ++rank)
-  {
-    if (all[rank] != all.front())
-    {
-      throw Failure("The number of inputs is " + std::to_string(all.front()) + " on rank 0, but " +
-        std::to_string(all[rank]) + " on rank " + std::to_string(rank) +
-        "; all ranks must have the same inputs and blocks");
-    }
-  }
-}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -196,12 +117,11 @@ int vtkTransportBlend::RequestInformation(
       }
       // The information of other data has no extents.
       this->UpdateInputBeforeData(port, inputVector, outputVector, i);
-      std::vector<vtkDataObject*> blocks;
-      gatherBlocks(vtkDataObject::GetData(input), this->BlocksAreInputs, blocks);
-      for (vtkDataObject* block : blocks)
+      const GivenInputs blocks = gatherBlocks(vtkDataObject::GetData(input), this->BlocksAreInputs);
+      for (const GivenInput& block : blocks.All)
       {
         const int number = static_cast<int>(grids.size());
-        grids.push_back({ this->FindDensityGrid(block, port, number), "" });
+        grids.push_back({ this->FindDensityGrid(block.Data, port, number), "" });
       }
     }
   }
@@ -221,7 +141,11 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
   const GivenInputs given =
     gatherInputs(inputVector, this->GetNumberOfInputPorts(), this->BlocksAreInputs);
   requireSameNumber(given.All.size(), this->GetRanks());
-  this->ReportOtherBlocks(given.Others, given.All.empty());
+  const std::string others = describeOthers(given);
+  if (!others.empty())
+  {
+    this->WarnOnFirstRank(others);
+  }
   std::vector<BlendInput> inputs;
   for (const GivenInput& one : given.All)
   {
@@ -247,22 +171,6 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
     input.Density->SetInputName(input.Name);
   }
   return inputs;
-}
-
-//------------------------------------------------------------------------------
-void vtkTransportBlend::ReportOtherBlocks(std::int64_t others, bool areAll)
-{
-  if (others > 0 && areAll)
-  {
-    throw Failure("The inputs have no image, mesh or grid, but " + std::to_string(others) +
-      (others == 1 ? " block" : " blocks") + " of another type");
-  }
-  if (others > 0)
-  {
-    this->WarnOnFirstRank(std::to_string(others) +
-      (others == 1 ? " block of the inputs is" : " blocks of the inputs are") +
-      " no data set of cells and passed over");
-  }
 }
 
 //------------------------------------------------------------------------------

@@ -45,7 +45,6 @@
 
 #include "vtkTransportAlgorithm.h"
 
-#include <cstdint>
 #include <vector> // for the inputs
 
 namespace RectifiedTransport
@@ -179,11 +178,6 @@ protected:
    * they are at least one in a thousand.
    */
   void WarnOfMaps(const RectifiedTransport::BlendReport& report);
-
-  /**
-   * Warn of blocks that are not data sets with cells. It is an error if no block is one.
-   */
-  void ReportOtherBlocks(std::int64_t others, bool areAll);
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,

@@ -14,28 +14,24 @@ namespace RectifiedTransport
 namespace
 {
 
-DensitySummary summaryOf(const InputDensity& density, Progress& progress)
+DensitySummary summaryOf(const DensityValues& given, std::int64_t count, Progress& progress)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
   const auto readChunk = [&](std::int64_t first, std::int64_t last) {
     std::vector<double> values(static_cast<std::size_t>(last - first));
-    density.Values()->Read(first, last - first, values.data());
+    given.Read(first, last - first, values.data());
     return summarize(values.data(), last - first, first);
   };
   const auto join = [](DensitySummary all, const DensitySummary& chunk) {
     merge(chunk, all);
     return all;
   };
-  return reduceChunks(
-    progress, density.Grid().NumberOfCells(), grain, DensitySummary(), readChunk, join);
+  return reduceChunks(progress, count, grain, DensitySummary(), readChunk, join);
 }
 
-} // namespace
-
-double massOf(InputDensity& density, Progress& progress)
+// Of values with this summary.
+double massOf(InputDensity& density, UnusualValues values, Progress& progress)
 {
-  UnusualValues values = density.Unusual();
-  values.Found = summaryOf(density, progress);
   const double sum = values.Found.Total;
   DensitySummary found;
   found.Total = sum * density.Grid().CellMeasure();
@@ -48,6 +44,30 @@ double massOf(InputDensity& density, Progress& progress)
     density.TellUnusual(values, progress);
   }
   return found.Total;
+}
+
+} // namespace
+
+double massOf(InputDensity& density, Progress& progress)
+{
+  UnusualValues values = density.Unusual();
+  values.Found = summaryOf(*density.Values(), density.Grid().NumberOfCells(), progress);
+  return massOf(density, values, progress);
+}
+
+double requireMass(InputDensity& density, const DensityValues& gathered, Progress& progress)
+{
+  UnusualValues values = density.Unusual();
+  values.Found = summaryOf(gathered, density.Grid().NumberOfCells(), progress);
+  try
+  {
+    requireDensity(values.Found);
+  }
+  catch (const InvalidDensity& invalid)
+  {
+    density.ThrowInvalid(invalid.Summary());
+  }
+  return massOf(density, values, progress);
 }
 
 } // namespace RectifiedTransport

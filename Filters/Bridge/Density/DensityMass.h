@@ -6,6 +6,7 @@
 namespace RectifiedTransport
 {
 
+class DensityValues;
 class InputDensity;
 class Progress;
 
@@ -13,6 +14,9 @@ class Progress;
 // values that are probably not meant. Throws Failure if the mass is beyond the largest double, and
 // Cancelled. If there are wrong values, which the core counts, the result is meaningless.
 double massOf(InputDensity& density, Progress& progress);
+// The same for a density whose values may be distributed over ranks and have been gathered. Wrong
+// values throw Failure. Collective.
+double requireMass(InputDensity& density, const DensityValues& gathered, Progress& progress);
 
 } // namespace RectifiedTransport
 

@@ -3,6 +3,7 @@
 
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkMatrix3x3.h"
 
@@ -265,6 +266,32 @@ ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3
     }
   }
   return withSides(first, sides);
+}
+
+void requireSameBox(const NamedGrid& first, const NamedGrid& other)
+{
+  if (first.Grid == other.Grid)
+  {
+    return;
+  }
+  requireAlike(first, other);
+  const Sides a = sidesOf(first.Grid, first.Grid.Direction());
+  const Sides b = sidesOf(other.Grid, first.Grid.Direction());
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const double ends[] = { a[i].Low, a[i].Low + a[i].Spacing * a[i].Cells };
+    const double others[] = { b[i].Low, b[i].Low + b[i].Spacing * b[i].Cells };
+    const double tolerance = toleranceOf(std::min(ends[0], ends[1]), std::max(ends[0], ends[1]),
+      std::min(std::abs(a[i].Spacing), std::abs(b[i].Spacing)));
+    if (a[i].IsAxis &&
+      (std::abs(ends[0] - others[0]) > tolerance || std::abs(ends[1] - others[1]) > tolerance))
+    {
+      fail(other.Name, " reaches from ", textOf(others[0]), " to ", textOf(others[1]), " along ",
+        "xyz"[i], ", ", first.Name, " from ", textOf(ends[0]), " to ", textOf(ends[1]),
+        "; all must fill the same box (Resample To Image with the same Sampling Bounds makes it "
+        "so)");
+    }
+  }
 }
 
 } // namespace RectifiedTransport

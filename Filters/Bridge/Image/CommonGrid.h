@@ -25,6 +25,10 @@ struct NamedGrid
 // 1e-6 in an element, and for dimensions out of range.
 ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3]);
 
+// Throws Failure unless a grid covers the box of another one, up to the rounding of single
+// precision, along the same axes in the same directions. Their numbers of cells may differ.
+void requireSameBox(const NamedGrid& first, const NamedGrid& other);
+
 } // namespace RectifiedTransport
 
 #endif

@@ -39,6 +39,8 @@ public:
     return this->SquareInUnits(way);
   }
 
+  double LengthFromUnits(double length) const { return std::ldexp(length, this->Exponent); }
+
   // A square in physical units; infinite beyond the largest double.
   double SquareFromUnits(double square) const { return std::ldexp(square, 2 * this->Exponent); }
 

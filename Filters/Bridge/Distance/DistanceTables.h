@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tables of vtkTransportDistance.
+#ifndef RectifiedTransport_DistanceTables_h
+#define RectifiedTransport_DistanceTables_h
+
+#include "Bridge/Distance/DensityDistances.h"
+#include "Bridge/VTKCompatibility.h"
+
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkTable;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// The name of a column for each input; names that occur more than once get a number.
+std::vector<std::string> columnNames(const std::vector<DistanceInput>& inputs);
+
+// A column and a row for each input.
+void writeDistances(const std::vector<DistanceInput>& inputs,
+  const std::vector<DistancePair>& pairs, vtkTable* table);
+
+// A row for each pair: First, Second (numbers of rows of the distances), LowerBound, UpperBound.
+void writeBounds(std::size_t inputs, const std::vector<DistancePair>& pairs, vtkTable* table);
+
+// A row for each input: Name, Time (if inputs have times), TotalMass, Coordinate0 ..., and the
+// field data Stress. Runs as the current stage. Throws Cancelled.
+void writeCoordinates(const std::vector<DistanceInput>& inputs,
+  const std::vector<DistancePair>& pairs, int dimensions, Progress& progress, vtkTable* table);
+
+} // namespace RectifiedTransport
+
+#endif

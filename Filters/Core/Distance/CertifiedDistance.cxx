@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Distance/CertifiedDistance.h"
+
+#include "Core/OptimalMap/OptimalMap.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+OptimalMapOptions optionsOfBounds()
+{
+  OptimalMapOptions options;
+  options.LeastIterations = 1;
+  options.MostIterations = 1;
+  return options;
+}
+
+} // namespace
+
+template <int Dimension>
+SquaredBracket bracketDistance(const DensitySource<Dimension>& a, const DensitySource<Dimension>& b,
+  const Point<Dimension>& sides, const Context& context)
+{
+  constexpr double endOfReading = 0.05;
+  constexpr double endOfLower = 0.4;
+  Progress progress(context);
+  progress.BeginStage(endOfReading);
+  OptimalMap<Dimension> map(PlacedDensity<Dimension>{ a, {}, sides },
+    PlacedDensity<Dimension>{ b, {}, sides }, optionsOfBounds(), progress.Stage());
+  progress.BeginStage(endOfLower);
+  map.Solve(progress.Stage());
+  progress.BeginStage(1.0);
+  SquaredBracket bracket;
+  bracket.Lower = map.LowerBound();
+  // Where they meet, rounding may part them the wrong way.
+  bracket.Upper = std::max(bracket.Lower, map.UpperBound(progress.Stage()));
+  return bracket;
+}
+
+template <int Dimension>
+double memoryForBracket(const GridSize<Dimension>& cells)
+{
+  OptimalMapUse use;
+  use.UpperBound = true;
+  return OptimalMap<Dimension>::MemoryFor(cells, cells, optionsOfBounds(), use);
+}
+
+template SquaredBracket bracketDistance<1>(
+  const DensitySource<1>&, const DensitySource<1>&, const Point<1>&, const Context&);
+template SquaredBracket bracketDistance<2>(
+  const DensitySource<2>&, const DensitySource<2>&, const Point<2>&, const Context&);
+template SquaredBracket bracketDistance<3>(
+  const DensitySource<3>&, const DensitySource<3>&, const Point<3>&, const Context&);
+template double memoryForBracket<1>(const GridSize<1>&);
+template double memoryForBracket<2>(const GridSize<2>&);
+template double memoryForBracket<3>(const GridSize<3>&);
+
+} // namespace RectifiedTransport

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Distance/DensityMoments.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+struct RawMoments
+{
+  double Mass = 0.0;
+  std::array<double, 3> First{};
+  std::array<std::array<double, 3>, 3> Second{};
+
+  void Add(const RawMoments& other)
+  {
+    this->Mass += other.Mass;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      this->First[i] += other.First[i];
+      for (std::size_t j = 0; j < 3; ++j)
+      {
+        this->Second[i][j] += other.Second[i][j];
+      }
+    }
+  }
+};
+
+using Matrix = Eigen::Matrix3d;
+
+Matrix rootOf(const Matrix& matrix)
+{
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(matrix);
+  const Eigen::Vector3d roots = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  return solver.eigenvectors() * roots.asDiagonal() * solver.eigenvectors().transpose();
+}
+
+Matrix matrixOf(const DensityMoments& moments)
+{
+  Matrix matrix;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    for (std::size_t j = 0; j < 3; ++j)
+    {
+      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = moments.Covariance[i][j];
+    }
+  }
+  return matrix;
+}
+
+} // namespace
+
+template <int Dimension>
+DensityMoments momentsOf(const DensityValues& density, const GridSize<Dimension>& cells,
+  const Point<Dimension>& sides, const Context& context)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+  Progress progress(context);
+  progress.BeginStage(1.0);
+  // From the centre of the box, in which numbers do not cancel.
+  const auto readChunk = [&](std::int64_t first, std::int64_t last) {
+    std::vector<double> values(static_cast<std::size_t>(last - first));
+    density.Read(first, last - first, values.data());
+    RawMoments sum;
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      const double mass = values[static_cast<std::size_t>(i - first)];
+      double x[3]{};
+      std::int64_t rest = i;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        const double place = static_cast<double>(rest % cells[axis]) + 0.5;
+        x[axis] = (place / static_cast<double>(cells[axis]) - 0.5) * sides[axis];
+        rest /= cells[axis];
+      }
+      sum.Mass += mass;
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        sum.First[a] += mass * x[a];
+        for (std::size_t b = 0; b <= a; ++b)
+        {
+          sum.Second[a][b] += mass * x[a] * x[b];
+        }
+      }
+    }
+    return sum;
+  };
+  const auto join = [](RawMoments all, const RawMoments& chunk) {
+    all.Add(chunk);
+    return all;
+  };
+  const RawMoments raw =
+    reduceChunks(progress, static_cast<std::int64_t>(numberOfCells<Dimension>(cells)), grain,
+      RawMoments(), readChunk, join);
+  DensityMoments moments;
+  std::array<double, 3> mean{};
+  for (std::size_t axis = 0; axis < Dimension; ++axis)
+  {
+    mean[axis] = raw.First[axis] / raw.Mass;
+    moments.Mean[axis] = mean[axis] + 0.5 * sides[axis];
+  }
+  for (std::size_t a = 0; a < Dimension; ++a)
+  {
+    for (std::size_t b = 0; b <= a; ++b)
+    {
+      const double covariance = raw.Second[a][b] / raw.Mass - mean[a] * mean[b];
+      moments.Covariance[a][b] = moments.Covariance[b][a] = covariance;
+    }
+    // Of the uniform measure on a cell.
+    const double side = sides[a] / static_cast<double>(cells[a]);
+    moments.Covariance[a][a] = std::max(0.0, moments.Covariance[a][a]) + side * side / 12.0;
+  }
+  return moments;
+}
+
+double leastSquaredDistance(const DensityMoments& a, const DensityMoments& b)
+{
+  double square = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double way = a.Mean[axis] - b.Mean[axis];
+    square += way * way;
+  }
+  const Matrix first = matrixOf(a);
+  const Matrix second = matrixOf(b);
+  const Matrix root = rootOf(first);
+  const double cross = rootOf(root * second * root).trace();
+  const double traces = first.trace() + second.trace();
+  // Less what rounding of the moments and roots may add.
+  constexpr double rounding = 1e-7;
+  return std::max(0.0, square + std::max(0.0, traces - 2.0 * cross - rounding * traces));
+}
+
+template DensityMoments momentsOf<1>(
+  const DensityValues&, const GridSize<1>&, const Point<1>&, const Context&);
+template DensityMoments momentsOf<2>(
+  const DensityValues&, const GridSize<2>&, const Point<2>&, const Context&);
+template DensityMoments momentsOf<3>(
+  const DensityValues&, const GridSize<3>&, const Point<3>&, const Context&);
+
+} // namespace RectifiedTransport

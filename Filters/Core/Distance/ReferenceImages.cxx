@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Distance/ReferenceImages.h"
+
+#include "Core/OptimalMap/Masses/CellDensity.h"
+#include "Core/OptimalMap/OptimalMap.h"
+#include "Core/OptimalMap/PointMap.h"
+#include "Core/OptimalMap/PotentialSolver.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/SmallWork.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = 512;
+
+// Of nodes: a map at points needs some iterations on the finest ones.
+SolverOptions optionsOfMaps()
+{
+  SolverOptions options;
+  options.LeastIterations = 4;
+  return options;
+}
+
+template <int Dimension>
+Point<Dimension> sidesOfCells(const Point<Dimension>& sides, const GridSize<Dimension>& cells)
+{
+  Point<Dimension> cell;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    cell[axis] = sides[axis] / static_cast<double>(cells[axis]);
+  }
+  return cell;
+}
+
+} // namespace
+
+template <int Dimension>
+GridSize<Dimension> referenceLattice(const Point<Dimension>& sides)
+{
+  double logarithm = -std::log(ReferenceSamples);
+  for (const double side : sides)
+  {
+    logarithm += std::log(side);
+  }
+  const double cell = std::exp(logarithm / Dimension);
+  GridSize<Dimension> lattice;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double cells = std::clamp(std::round(sides[axis] / cell), 1.0, ReferenceSamples);
+    lattice[axis] = static_cast<std::int64_t>(cells);
+  }
+  return lattice;
+}
+
+template <int Dimension>
+ReferenceImages mapReference(
+  const DensitySource<Dimension>& density, const Point<Dimension>& sides, const Context& context)
+{
+  constexpr double endOfReading = 0.05;
+  constexpr double endOfSolution = 0.75;
+  constexpr double endOfNodes = 0.8;
+  Progress progress(contextForSize(context, numberOfCells<Dimension>(density.Size)));
+  progress.BeginStage(endOfReading);
+  const CellDensity<Dimension> uniform(density.Size);
+  const CellDensity<Dimension> target(density, progress);
+  Point<Dimension> all;
+  all.fill(1.0);
+  PotentialSolver<Dimension> solver(
+    { uniform, {}, all }, { target, {}, all }, sides, optionsOfMaps());
+  solver.Solve(progress, endOfSolution);
+  progress.BeginStage(endOfNodes);
+  const Point<Dimension> cell = sidesOfCells<Dimension>(sides, density.Size);
+  const PointMap<Dimension> map(solver, 0, target, cell, progress);
+  const GridSize<Dimension> lattice = referenceLattice<Dimension>(sides);
+  const Point<Dimension> step = latticeStep<Dimension>(lattice, density.Size);
+  const auto samples = static_cast<std::int64_t>(numberOfCells<Dimension>(lattice));
+  ReferenceImages images{ LargeBuffer<double>(samples * Dimension) };
+  double* coordinates = images.Coordinates.data();
+  progress.BeginStage(1.0);
+  progress.For(
+    samples, grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        Point<Dimension> sample;
+        std::int64_t rest = i;
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          sample[axis] = (static_cast<double>(rest % lattice[axis]) + 0.5) * step[axis];
+          rest /= lattice[axis];
+        }
+        const Point<Dimension> image = map.At(sample.data());
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          coordinates[i * Dimension + axis] = image[axis] * cell[axis];
+        }
+      }
+    },
+    8 * grain);
+  return images;
+}
+
+template <int Dimension>
+double memoryForReference(const GridSize<Dimension>& cells, const Point<Dimension>& sides)
+{
+  OptimalMapOptions options;
+  options.RefineBound = false;
+  return OptimalMap<Dimension>::MemoryFor(cells, cells, options) +
+    sizeof(double) * Dimension * numberOfCells<Dimension>(referenceLattice<Dimension>(sides));
+}
+
+template <int Dimension>
+double meanSquaredDistance(const ReferenceImages& a, const ReferenceImages& b)
+{
+  // A fixed number of partial sums, which the compiler may keep in any width of registers.
+  constexpr std::size_t lanes = 8;
+  std::array<double, lanes> sums{};
+  const double* p = a.Coordinates.data();
+  const double* q = b.Coordinates.data();
+  const std::int64_t count = a.Coordinates.size();
+  const std::int64_t even = count - count % static_cast<std::int64_t>(lanes);
+  for (std::int64_t i = 0; i < even; i += lanes)
+  {
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+    {
+      const double way =
+        p[i + static_cast<std::int64_t>(lane)] - q[i + static_cast<std::int64_t>(lane)];
+      sums[lane] += way * way;
+    }
+  }
+  double sum = 0.0;
+  for (const double part : sums)
+  {
+    sum += part;
+  }
+  for (std::int64_t i = even; i < count; ++i)
+  {
+    sum += (p[i] - q[i]) * (p[i] - q[i]);
+  }
+  return sum / static_cast<double>(count / Dimension);
+}
+
+template GridSize<1> referenceLattice<1>(const Point<1>&);
+template GridSize<2> referenceLattice<2>(const Point<2>&);
+template GridSize<3> referenceLattice<3>(const Point<3>&);
+template ReferenceImages mapReference<1>(const DensitySource<1>&, const Point<1>&, const Context&);
+template ReferenceImages mapReference<2>(const DensitySource<2>&, const Point<2>&, const Context&);
+template ReferenceImages mapReference<3>(const DensitySource<3>&, const Point<3>&, const Context&);
+template double memoryForReference<1>(const GridSize<1>&, const Point<1>&);
+template double memoryForReference<2>(const GridSize<2>&, const Point<2>&);
+template double memoryForReference<3>(const GridSize<3>&, const Point<3>&);
+template double meanSquaredDistance<1>(const ReferenceImages&, const ReferenceImages&);
+template double meanSquaredDistance<2>(const ReferenceImages&, const ReferenceImages&);
+template double meanSquaredDistance<3>(const ReferenceImages&, const ReferenceImages&);
+
+} // namespace RectifiedTransport

@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTransportDistance.h"
+
+#include "Bridge/Density/InputDensity.h"
+#include "Bridge/Distance/DensityDistances.h"
+#include "Bridge/Distance/DistanceTables.h"
+#include "Bridge/Inputs/GivenInputs.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/PropertyCheck.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTable.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+vtkStandardNewMacro(vtkTransportDistance);
+
+namespace
+{
+using namespace RectifiedTransport;
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+const char* const MethodTexts[] = { "Linearized", "Certified" };
+const char* const MassDifferenceTexts[] = { "Normalize", "Error" };
+
+constexpr int MaximumDimensions = 100;
+constexpr double NoTime = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<double> stepsOf(vtkInformationVector* input)
+{
+  vtkInformation* info = input->GetInformationObject(0);
+  const int count = info ? info->Length(Pipeline::TIME_STEPS()) : 0;
+  const double* steps = count > 0 ? info->Get(Pipeline::TIME_STEPS()) : nullptr;
+  return { steps, steps + count };
+}
+} // namespace
+
+struct vtkTransportDistance::vtkInternals
+{
+  DensityDistances Distances;
+  std::map<int, std::string> Names; // by connection
+  std::size_t Step = 0;             // of OverTime, the next one
+  bool HasAll = true;               // whether no input of this run is empty
+  std::vector<double> Told;         // the masses of the last warning
+};
+
+//------------------------------------------------------------------------------
+vtkTransportDistance::vtkTransportDistance()
+  : Method(LINEARIZED)
+  , MassDifference(MASS_NORMALIZE)
+  , OverTime(false)
+  , Dimensions(2)
+  , Internals(new vtkInternals)
+{
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(3);
+  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
+}
+
+//------------------------------------------------------------------------------
+vtkTransportDistance::~vtkTransportDistance() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkTransportDistance::GetMethodAsString()
+{
+  return choiceText(MethodTexts, this->Method);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkTransportDistance::GetMassDifferenceAsString()
+{
+  return choiceText(MassDifferenceTexts, this->MassDifference);
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportDistance::SetInputName(int connection, const char* name)
+{
+  const std::string given = name ? name : "";
+  if (given != this->GetInputName(connection))
+  {
+    this->Internals->Names[connection] = given;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+const char* vtkTransportDistance::GetInputName(int connection)
+{
+  const auto name = this->Internals->Names.find(connection);
+  return name == this->Internals->Names.end() ? "" : name->second.c_str();
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportDistance::ClearInputNames()
+{
+  if (!this->Internals->Names.empty())
+  {
+    this->Internals->Names.clear();
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkTable* vtkTransportDistance::GetDistances()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+vtkTable* vtkTransportDistance::GetBounds()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+vtkTable* vtkTransportDistance::GetCoordinates()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(2));
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportDistance::FillInputPortInformation(int, vtkInformation* info)
+{
+  vtkDensityAlgorithm::FillDensityPortInformation(info);
+  info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportDistance::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportDistance::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  this->Internals->Step = 0;
+  for (int port = 0; port < this->GetNumberOfOutputPorts() && this->OverTime; ++port)
+  {
+    // The tables are of all times.
+    outputVector->GetInformationObject(port)->Remove(Pipeline::TIME_STEPS());
+    outputVector->GetInformationObject(port)->Remove(Pipeline::TIME_RANGE());
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportDistance::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const int result = this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+  const std::vector<double> steps =
+    this->OverTime ? stepsOf(inputVector[0]) : std::vector<double>();
+  const std::size_t step = this->Internals->Step;
+  if (step < steps.size())
+  {
+    inputVector[0]->GetInformationObject(0)->Set(Pipeline::UPDATE_TIME_STEP(), steps[step]);
+    const double part = 1.0 / static_cast<double>(steps.size());
+    this->SetProgressShiftScale(static_cast<double>(step) * part, part);
+  }
+  else
+  {
+    this->SetProgressShiftScale(0.0, 1.0);
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportDistance::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  try
+  {
+    this->RunStep(request, inputVector, outputVector);
+  }
+  catch (...)
+  {
+    request->Remove(Pipeline::CONTINUE_EXECUTING());
+    this->Internals->Step = 0;
+    throw;
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportDistance::RunStep(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  requireChoice("Method", this->Method, MethodTexts);
+  requireChoice("MassDifference", this->MassDifference, MassDifferenceTexts);
+  const std::string rule = "from 1 to " + std::to_string(MaximumDimensions);
+  requireThat(this->Dimensions >= 1 && this->Dimensions <= MaximumDimensions, "Dimensions",
+    this->Dimensions, rule.c_str());
+  constexpr double endOfInputs = 0.5;
+  constexpr double endOfPairs = 0.98;
+  AlgorithmProgress progress(this, this->Threading, this->GetRanks());
+  DensityDistances& distances = this->Internals->Distances;
+  if (this->Internals->Step == 0)
+  {
+    distances.Begin(static_cast<DistanceMethod>(this->Method));
+    this->Internals->HasAll = true;
+  }
+  if (this->OverTime ? !this->AddStep(inputVector, progress, endOfInputs)
+                     : !this->AddInputs(inputVector, progress, endOfInputs))
+  {
+    request->Set(Pipeline::CONTINUE_EXECUTING(), 1);
+    return;
+  }
+  request->Remove(Pipeline::CONTINUE_EXECUTING());
+  const std::vector<DistanceInput>& inputs = distances.Inputs();
+  if (!this->Internals->HasAll)
+  {
+    return;
+  }
+  if (inputs.size() < 2)
+  {
+    throw Failure("There is one density; distances need two or more (more inputs, or OverTime On "
+                  "for the time steps of one)");
+  }
+  this->CheckMasses();
+  const std::vector<DistancePair> pairs = distances.Find(progress, endOfPairs);
+  progress.BeginStage(1.0);
+  if (this->GetRanks().IsFirst())
+  {
+    writeDistances(inputs, pairs, vtkTable::GetData(outputVector, 0));
+    writeBounds(inputs.size(), pairs, vtkTable::GetData(outputVector, 1));
+    writeCoordinates(inputs, pairs, this->Dimensions, progress, vtkTable::GetData(outputVector, 2));
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkTransportDistance::AddInputs(
+  vtkInformationVector** inputVector, RectifiedTransport::Progress& progress, double end)
+{
+  const GivenInputs given = gatherInputs(inputVector, 1, true);
+  requireSameNumber(given.All.size(), this->GetRanks());
+  const std::string others = describeOthers(given);
+  if (!others.empty())
+  {
+    this->WarnOnFirstRank(others);
+  }
+  const std::string all = std::to_string(given.All.size());
+  for (std::size_t i = 0; i < given.All.size() && this->Internals->HasAll; ++i)
+  {
+    const GivenInput& input = given.All[i];
+    const std::string number = std::to_string(i + 1);
+    const std::string named = this->GetInputName(input.Connection);
+    const std::string name = !input.Block.empty() ? input.Block : named;
+    const std::string title =
+      "Input " + number + " of " + all + (name.empty() ? "" : " (" + name + ")");
+    this->Internals->HasAll =
+      this->Add(input.Data, title, name.empty() ? "Input " + number : name, static_cast<int>(i),
+        NoTime, progress, end * static_cast<double>(i + 1) / static_cast<double>(given.All.size()));
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTransportDistance::AddStep(
+  vtkInformationVector** inputVector, RectifiedTransport::Progress& progress, double end)
+{
+  const int connections = inputVector[0]->GetNumberOfInformationObjects();
+  if (connections > 1)
+  {
+    throw Failure("OverTime is on, and there are " + std::to_string(connections) +
+      " inputs; it takes the time steps of one (OverTime Off takes several inputs)");
+  }
+  const std::vector<double> steps = stepsOf(inputVector[0]);
+  if (steps.size() < 2)
+  {
+    throw Failure("OverTime is on, and the input has " + std::string(steps.empty() ? "no" : "one") +
+      " time step" + (steps.empty() ? "s" : "") +
+      "; distances need two or more (OverTime Off takes several inputs)");
+  }
+  const std::size_t step = this->Internals->Step;
+  const std::string name = "t = " + textOf(steps[step]);
+  const std::string title = "Time step " + std::to_string(step + 1) + " of " +
+    std::to_string(steps.size()) + " (" + name + ")";
+  vtkDataObject* data = vtkDataObject::GetData(inputVector[0], 0);
+  this->Internals->HasAll =
+    this->Add(data, title, name, 0, steps[step], progress, end) && this->Internals->HasAll;
+  this->Internals->Step = step + 1 < steps.size() ? step + 1 : 0;
+  return this->Internals->Step == 0;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTransportDistance::Add(vtkDataObject* data, const std::string& title,
+  const std::string& name, int number, double time, RectifiedTransport::Progress& progress,
+  double end)
+{
+  constexpr double partOfReading = 0.2;
+  const double begin = progress.StageEnd();
+  DistanceInput input;
+  try
+  {
+    const std::unique_ptr<InputDensity> density = this->ReadDensity(data, progress, 0, number);
+    if (!density)
+    {
+      return false;
+    }
+    density->SetInputName(title);
+    progress.BeginStage(begin + partOfReading * (end - begin));
+    input = readDistanceInput(*density, progress);
+  }
+  catch (const Failure& failure)
+  {
+    throw Failure(title, failure);
+  }
+  input.Title = title;
+  input.Name = name;
+  input.Time = time;
+  this->Internals->Distances.Add(std::move(input), progress, end);
+  progress.BeginStage(end);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportDistance::CheckMasses()
+{
+  constexpr double rounding = 1e-6;
+  constexpr double worthWarning = 0.01;
+  const std::vector<DistanceInput>& inputs = this->Internals->Distances.Inputs();
+  std::vector<double> masses;
+  for (const DistanceInput& input : inputs)
+  {
+    masses.push_back(input.Mass);
+  }
+  const auto ends = std::minmax_element(masses.begin(), masses.end());
+  const auto textOfMass = [&](std::vector<double>::const_iterator mass) {
+    return textOf(*mass) + " (" + inputs[static_cast<std::size_t>(mass - masses.begin())].Title +
+      ")";
+  };
+  const double excess = *ends.second / *ends.first - 1.0;
+  const std::string text = "The masses of the densities differ: they are from " +
+    textOfMass(ends.first) + " to " + textOfMass(ends.second);
+  if (this->MassDifference == MASS_ERROR && excess > rounding)
+  {
+    throw Failure(text + "; MassDifference Normalize divides each by its mass");
+  }
+  if (excess > worthWarning && masses != this->Internals->Told)
+  {
+    this->WarnOnFirstRank(text + "; each is divided by its mass");
+  }
+  this->Internals->Told = masses;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportDistance::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << this->GetMethodAsString() << "\n";
+  os << indent << "MassDifference: " << this->GetMassDifferenceAsString() << "\n";
+  os << indent << "OverTime: " << (this->OverTime ? "On" : "Off") << "\n";
+  os << indent << "Dimensions: " << this->Dimensions << "\n";
+  os << indent << "InputNames:";
+  for (const auto& name : this->Internals->Names)
+  {
+    os << " " << name.first << " " << name.second;
+  }
+  os << "\n";
+}
+VTK_ABI_NAMESPACE_END
