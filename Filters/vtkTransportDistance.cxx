@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -107,6 +108,12 @@ void vtkTransportDistance::ClearInputNames()
     this->Internals->Names.clear();
     this->Modified();
   }
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkTransportDistance::GetNumberOfSolutions()
+{
+  return static_cast<vtkIdType>(this->Internals->Distances.NumberOfSolutions());
 }
 
 //------------------------------------------------------------------------------
@@ -339,8 +346,9 @@ void vtkTransportDistance::CheckMasses()
   }
   const auto ends = std::minmax_element(masses.begin(), masses.end());
   const auto textOfMass = [&](std::vector<double>::const_iterator mass) {
-    return textOf(*mass) + " (" + inputs[static_cast<std::size_t>(mass - masses.begin())].Title +
-      ")";
+    std::ostringstream number;
+    number << *mass;
+    return number.str() + " in " + inputs[static_cast<std::size_t>(mass - masses.begin())].Title;
   };
   const double excess = *ends.second / *ends.first - 1.0;
   const std::string text = "The masses of the densities differ: they are from " +
@@ -364,6 +372,7 @@ void vtkTransportDistance::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MassDifference: " << this->GetMassDifferenceAsString() << "\n";
   os << indent << "OverTime: " << (this->OverTime ? "On" : "Off") << "\n";
   os << indent << "Dimensions: " << this->Dimensions << "\n";
+  os << indent << "NumberOfSolutions: " << this->GetNumberOfSolutions() << "\n";
   os << indent << "InputNames:";
   for (const auto& name : this->Internals->Names)
   {

@@ -137,6 +137,12 @@ public:
   ///@}
 
   /**
+   * How many maps (Linearized) and pairs (Certified) have been solved since the filter was made.
+   * What is kept is not solved again.
+   */
+  vtkIdType GetNumberOfSolutions();
+
+  /**
    * The matrix of distances, output port 0.
    */
   vtkTable* GetDistances();

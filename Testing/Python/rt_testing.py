@@ -110,6 +110,8 @@ def connect_inputs(algorithm, shape=(4, 3), number=50, cells=True):
             algorithm.SetInputData(port, image if kind in ("vtkImageData", "vtkDataSet") else
                                    surface_for(algorithm) if kind == "vtkPolyData" else
                                    points_in(image, number))
+            if hasattr(algorithm, "GetMassDifference"):  # of two and more densities
+                algorithm.AddInputDataObject(port, density_image(shape, cells, seed=5))
 
 
 def quick_algorithm(filter_, *inputs, **properties):
@@ -155,7 +157,9 @@ def digest(data):
         attributes = data.GetAttributes(owner)
         for i in range(attributes.GetNumberOfArrays() if attributes else 0):
             sha.update(attributes.GetArrayName(i).encode())
-            sha.update(vtk_to_numpy(attributes.GetArray(i)).tobytes())
+            array = attributes.GetAbstractArray(i)
+            sha.update(vtk_to_numpy(array).tobytes() if array.IsNumeric() else
+                       "".join(array.GetValue(j) + "\0" for j in range(array.GetNumberOfValues())).encode())
     return sha.hexdigest()
 
 

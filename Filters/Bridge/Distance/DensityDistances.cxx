@@ -244,6 +244,7 @@ void DensityDistances::MakeMaps(Progress& progress, double end)
   {
     this->Maps[this->Given[this->Waiting[i]].Key] = made[i];
   }
+  this->Solutions += count;
   this->Waiting.clear();
 }
 
@@ -350,6 +351,7 @@ void DensityDistances::FindMissing(Progress& progress, double end)
         found[place] = this->FindPair<D>(missing[static_cast<std::size_t>(own[place])], context);
       });
   });
+  this->Solutions += isCertified ? static_cast<std::int64_t>(missing.size()) : 0;
   const std::vector<Bytes> all = ranks.Gather(toBytes(found));
   for (std::size_t rank = 0; rank < all.size(); ++rank)
   {

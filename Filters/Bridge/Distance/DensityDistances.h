@@ -48,6 +48,9 @@ public:
   void Add(DistanceInput input, Progress& progress, double end);
   const std::vector<DistanceInput>& Inputs() const { return this->Given; }
 
+  // How many maps and pairs of Certified have been found, on all ranks.
+  std::int64_t NumberOfSolutions() const { return this->Solutions; }
+
   // The pairs (0, 1), (0, 2) ... (1, 2) ... of the densities. Progress reaches `end`. Collective.
   // Throws Failure and Cancelled.
   std::vector<DistancePair> Find(Progress& progress, double end);
@@ -68,6 +71,7 @@ private:
   template <int D>
   std::array<double, D> Sides() const;
 
+  std::int64_t Solutions = 0;
   DistanceMethod Method = DistanceMethod::Linearized;
   std::vector<DistanceInput> Given;
   std::vector<std::size_t> Waiting; // inputs of which there is no map yet

@@ -31,7 +31,7 @@ std::vector<std::string> linesOf(const std::string& text)
   {
     line.erase(0, line.find_first_not_of(' '));
     const std::string name = line.substr(0, line.find(':'));
-    if (isOurs && name != "TableBuildTime")
+    if (isOurs && name != "TableBuildTime" && name != "NumberOfSolutions")
     {
       lines.push_back(line);
     }
