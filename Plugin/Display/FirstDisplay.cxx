@@ -3,6 +3,7 @@
 
 #include "Display/DotDisplay.h"
 #include "Display/HintElements.h"
+#include "Display/ScatterDisplay.h"
 
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
@@ -283,7 +284,12 @@ void applyFirstDisplay(vtkSMSourceProxy* producer, int port, vtkSMProxy* proxy)
   auto* representation = vtkSMPVRepresentationProxy::SafeDownCast(proxy);
   if (!representation)
   {
-    return; // of a view that is not a render view
+    // Of a view that is not a render view.
+    if (vtkPVXMLElement* element = elementFor(producer, port))
+    {
+      showScatter(element, producer, port, proxy);
+    }
+    return;
   }
   if (vtkPVXMLElement* element = elementFor(producer, port))
   {

@@ -6,7 +6,9 @@
 // port, dimension (of the data) and property with value say when it applies, each if given. type is
 // the type of the representation, or Dots (see DotDisplay.h). array colours it, by categories if
 // they are 1, on a logarithmic scale if the highest value is more than `log` times the lowest; an
-// empty name colours by none.
+// empty name colours by none. In a chart,
+//   <FirstDisplay port="2" type="Scatter" x="Coordinate0" y="Coordinate1"/>
+// shows the rows of a table as points (see ScatterDisplay.h).
 #ifndef RectifiedTransport_FirstDisplay_h
 #define RectifiedTransport_FirstDisplay_h
 
