@@ -67,6 +67,7 @@ void showScatter(
   {
     setTexts(view, "BottomAxisTitle", { x });
     setTexts(view, "LeftAxisTitle", { y });
+    vtkSMPropertyHelper(view, "ShowLegend", true).Set(0);
     view->UpdateVTKObjects();
   }
 }
