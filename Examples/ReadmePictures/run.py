@@ -137,6 +137,7 @@ def main():
     draw_example(path("districts"), "Districts", "districts.png")
     draw_example(path("area-errors"), "AreaErrors", "area-errors.png", "--pixels", "720")
     draw_example(path("map-target"), "FieldDifference", "field-difference.png")
+    draw_example(path("distances"), "PlumeEnsemble", "plume-ensemble.png")
     draw_example(path("cells"), "Figure5Cells", "figure5-cells.png", "--sites", "256",
                  "--resolution", "512", "--pixels", "1020")
     draw_example(path("cells-shapes"), "PowerCells", "power-cells-random.png", "--sites", "150")

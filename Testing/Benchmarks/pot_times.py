@@ -64,7 +64,7 @@ def beside_arrays():
     for side in 32, 48, 64, 256, 1024:
         a, b = ring_and_discs(side)
         found, took = seconds(arrays.distance, a, b, spacing=1 / side, Threading="Serial")
-        print(f"{side}²: from {found.lower:.6f}, estimate {found.estimate:.6f} in {took:.3f} s", end="")
+        print(f"{side}²: from {found.lower:.6f} to {found.upper:.6f} in {took:.3f} s", end="")
         if side <= 64:
             centres = centres_of(side)
             cost, took = seconds(lambda: ot.emd2(share(a), share(b), ot.dist(centres, centres),

@@ -173,6 +173,13 @@ class Examples(ExampleTest):
         self.assertGreater(costs[0], 1.2 * costs[1])
         self.check_picture("field-difference.png")
 
+    def test_plume_ensemble(self):
+        """Distances find the order of the winds, differences of values do not."""
+        (by_distance, by_values), = (table for table in tables(self.ran("PlumeEnsemble")))
+        self.assertGreater(first(by_distance[1]), 0.95)
+        self.assertLess(first(by_values[1]), 0.8)
+        self.check_picture("plume-ensemble.png")
+
     def test_sample_volume(self):
         self.ran("SampleVolume")
         self.check_picture("particles-brain-t1.png")

@@ -93,10 +93,10 @@ class RanksTable(unittest.TestCase):
 
     def test_rows_are_on_the_first_rank(self):
         first, *others = run(3)
-        names = [name for name in first if name.startswith("quality")]
-        self.assertGreater(len(names), 5)
+        names = [name for name in first if name.startswith(("quality", "distances"))]
+        self.assertGreater(len(names), 15)
         for name in names:
-            self.assertEqual(len(first[name]["points"][0]), 1)
+            self.assertEqual(len(first[name]["points"][0]), 1 if name.startswith("quality") else 3)
             self.assertTrue(all(not rank[name]["points"][0] for rank in others))
 
     def test_folds_and_blocks(self):

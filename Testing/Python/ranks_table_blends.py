@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rows of TestRanksTable.py: filters that take several densities."""
 from paraview import servermanager, simple
-from ranks_rows import give, give_both, with_ghosts
+from ranks_rows import give, give_both, give_tables, with_ghosts
 
 
 def morph(**properties):
@@ -17,6 +17,29 @@ def barycenter(**properties):
 def transport_map(**properties):
     simple.SetActiveSource(None)
     return simple.TransportMap(**properties)
+
+
+def give_distances():
+    """More pairs than ranks and fewer; points and cells, other resolutions, a mesh, kept ones."""
+    whole = [-4, 8, 0, 7, 0, 10]
+    images = [simple.Wavelet(WholeExtent=whole, Center=[x, 1, 2], Maximum=300) for x in range(5)]
+    simple.SetActiveSource(None)
+    usual = dict(NegativeValues="Clamp")
+    for method in ("Linearized", "Certified"):
+        give_tables("distances two " + method, simple.TransportDistance(
+            Input=images[:2], Method=method, **usual))
+        several = simple.TransportDistance(Input=images[:4], Method=method, **usual)
+        give_tables("distances " + method, several)
+        several.Input = images[::-1]
+        give_tables("distances and one more " + method, several)
+        flat = [simple.ExtractSubset(Input=image, VOI=[-4, 8, 3, 3, 0, 10]) for image in images[:3]]
+        give_tables("distances flat " + method, simple.TransportDistance(
+            Input=[with_ghosts(flat[0], 1), *flat], Method=method, **usual))
+        cells = [simple.PointDatatoCellData(Input=image, ProcessAllArrays=1) for image in images[:3]]
+        mesh = simple.Threshold(Input=cells[0], Scalars=["CELLS", "RTData"], LowerThreshold=0,
+                                UpperThreshold=1000)
+        give_tables("distances mesh " + method, simple.TransportDistance(
+            Input=[mesh, *cells], Method=method, **usual))
 
 
 def give_targets():

@@ -7,7 +7,7 @@ import sys
 from paraview import simple
 from ranks_rows import (RANK, gathered, give, give_row, redistributed, refined, tiles, turned,
                         with_ghosts)
-from ranks_table_blends import give_blends, give_targets
+from ranks_table_blends import give_blends, give_distances, give_targets
 from ranks_table_counted import give_counted
 from ranks_table_missing import give_missing
 from ranks_table_points import give_qualities, give_splats
@@ -237,6 +237,7 @@ def main(path):
     give_counted(image)
     give_blends()
     give_targets()
+    give_distances()
     with open("%s.%d" % (path, RANK), "wb") as file:
         pickle.dump(gathered, file)
     print("WROTE", RANK, flush=True)

@@ -29,6 +29,7 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
          "Districts": ["--pixels", "600"],
          "AreaErrors": ["--cells", "128", "--pixels", "480"],
          "FieldDifference": ["--size", "64", "--panel", "160"],
+         "PlumeEnsemble": ["--size", "48", "--panel", "120"],
          "StippleSurface": ["--dots", "3000", "--panel", "300"],
          "ClosedSurfaces": ["--panel", "160"],
          "SampleVolume": ["--particles", "50000", "--pixels", "400"],
@@ -65,7 +66,7 @@ need_meshes = unittest.skipUnless(
     "needs the meshes that Testing/run.sh fetches")
 # examples that make their input
 OWN = {"AreaErrors", "Arrays", "Districts", "FieldDifference", "Figure2Paths", "Figure5Cells", "InSitu",
-       "PowerCells", "RasterWithGaps"}
+       "PlumeEnsemble", "PowerCells", "RasterWithGaps"}
 
 
 def command(example, *arguments):

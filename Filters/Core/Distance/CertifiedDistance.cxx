@@ -28,6 +28,7 @@ SquaredBracket bracketDistance(const DensitySource<Dimension>& a, const DensityS
 {
   constexpr double endOfReading = 0.05;
   constexpr double endOfLower = 0.4;
+  constexpr double enough = 0.02; // a per cent of the distance
   Progress progress(context);
   progress.BeginStage(endOfReading);
   OptimalMap<Dimension> map(PlacedDensity<Dimension>{ a, {}, sides },
@@ -38,7 +39,8 @@ SquaredBracket bracketDistance(const DensitySource<Dimension>& a, const DensityS
   SquaredBracket bracket;
   bracket.Lower = map.LowerBound();
   // Where they meet, rounding may part them the wrong way.
-  bracket.Upper = std::max(bracket.Lower, map.UpperBound(progress.Stage()));
+  bracket.Upper =
+    std::max(bracket.Lower, map.UpperBound(progress.Stage(), (1.0 + enough) * bracket.Lower));
   return bracket;
 }
 

@@ -269,7 +269,7 @@ double OptimalMap<Dimension>::LowerBound() const
 }
 
 template <int Dimension>
-double OptimalMap<Dimension>::UpperBound(const Context& context) const
+double OptimalMap<Dimension>::UpperBound(const Context& context, double enough) const
 {
   if (!this->Self->HaveSameGrid())
   {
@@ -279,7 +279,7 @@ double OptimalMap<Dimension>::UpperBound(const Context& context) const
   Progress progress(contextForSize(context, this->Self->Nodes()));
   double least = std::numeric_limits<double>::infinity();
   auto map = NodeMap<Dimension>::On(this->Self->Solver.Grid());
-  for (int side = 0; side < 2; ++side)
+  for (int side = 0; side < 2 && least > enough; ++side)
   {
     progress.BeginStage(0.5 * (side + 1));
     writeGradientMap<Dimension>(this->Self->Solver.Side(side).Potential.data(), map, progress);
