@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -34,6 +33,7 @@ const char* const MethodTexts[] = { "Linearized", "Certified" };
 const char* const MassDifferenceTexts[] = { "Normalize", "Error" };
 
 constexpr int MaximumDimensions = 100;
+constexpr int MaximumNumberOfNames = 1000000; // bounds the memory that SetInputName allocates
 constexpr double NoTime = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> stepsOf(vtkInformationVector* input)
@@ -48,10 +48,10 @@ std::vector<double> stepsOf(vtkInformationVector* input)
 struct vtkTransportDistance::vtkInternals
 {
   DensityDistances Distances;
-  std::map<int, std::string> Names; // by connection
-  std::size_t Step = 0;             // of OverTime, the next one
-  bool HasAll = true;               // whether no input of this run is empty
-  std::vector<double> Told;         // the masses of the last warning
+  std::vector<std::string> Names; // by connection
+  std::size_t Step = 0;           // of OverTime, the next one
+  bool HasAll = true;             // whether no input of this run is empty
+  std::vector<double> Told;       // the masses of the last warning
 };
 
 //------------------------------------------------------------------------------
@@ -83,12 +83,42 @@ const char* vtkTransportDistance::GetMassDifferenceAsString()
 }
 
 //------------------------------------------------------------------------------
+void vtkTransportDistance::SetNumberOfInputNames(int count)
+{
+  if (count < 0 || count > MaximumNumberOfNames)
+  {
+    vtkErrorMacro(<< "The number of input names is " << count << "; it must be from 0 to "
+                  << MaximumNumberOfNames);
+    return;
+  }
+  if (count != this->GetNumberOfInputNames())
+  {
+    this->Internals->Names.resize(static_cast<std::size_t>(count));
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportDistance::GetNumberOfInputNames()
+{
+  return static_cast<int>(this->Internals->Names.size());
+}
+
+//------------------------------------------------------------------------------
 void vtkTransportDistance::SetInputName(int connection, const char* name)
 {
-  const std::string given = name ? name : "";
-  if (given != this->GetInputName(connection))
+  if (connection < 0 || connection >= MaximumNumberOfNames)
   {
-    this->Internals->Names[connection] = given;
+    vtkErrorMacro(<< "The number of a connection is " << connection << "; it must be from 0 to "
+                  << MaximumNumberOfNames - 1);
+    return;
+  }
+  this->SetNumberOfInputNames(std::max(connection + 1, this->GetNumberOfInputNames()));
+  std::string& known = this->Internals->Names[static_cast<std::size_t>(connection)];
+  const std::string given = name ? name : "";
+  if (known != given)
+  {
+    known = given;
     this->Modified();
   }
 }
@@ -96,18 +126,9 @@ void vtkTransportDistance::SetInputName(int connection, const char* name)
 //------------------------------------------------------------------------------
 const char* vtkTransportDistance::GetInputName(int connection)
 {
-  const auto name = this->Internals->Names.find(connection);
-  return name == this->Internals->Names.end() ? "" : name->second.c_str();
-}
-
-//------------------------------------------------------------------------------
-void vtkTransportDistance::ClearInputNames()
-{
-  if (!this->Internals->Names.empty())
-  {
-    this->Internals->Names.clear();
-    this->Modified();
-  }
+  return connection >= 0 && connection < this->GetNumberOfInputNames()
+    ? this->Internals->Names[static_cast<std::size_t>(connection)].c_str()
+    : "";
 }
 
 //------------------------------------------------------------------------------
@@ -374,10 +395,10 @@ void vtkTransportDistance::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Dimensions: " << this->Dimensions << "\n";
   os << indent << "NumberOfSolutions: " << this->GetNumberOfSolutions() << "\n";
   os << indent << "InputNames:";
-  for (const auto& name : this->Internals->Names)
+  for (const std::string& name : this->Internals->Names)
   {
-    os << " " << name.first << " " << name.second;
+    os << " '" << name << "'";
   }
-  os << "\n";
+  os << (this->Internals->Names.empty() ? " automatic\n" : "\n");
 }
 VTK_ABI_NAMESPACE_END

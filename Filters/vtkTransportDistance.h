@@ -128,12 +128,20 @@ public:
 
   ///@{
   /**
-   * The name of the input of a connection, for the columns. Without a name it is `Input` and its
-   * number from 1. The name of a block comes before that of its connection.
+   * How many connections have names. The count is at most 1000000. By default none.
+   */
+  void SetNumberOfInputNames(int count);
+  int GetNumberOfInputNames();
+  ///@}
+
+  ///@{
+  /**
+   * The name of the input of a connection, for the columns. The list grows as needed. Without a
+   * name it is `Input` and its number from 1. The name of a block comes before that of its
+   * connection.
    */
   void SetInputName(int connection, const char* name);
   const char* GetInputName(int connection);
-  void ClearInputNames();
   ///@}
 
   /**

@@ -344,7 +344,7 @@ class Names(unittest.TestCase):
         self.assertEqual(names(algorithm), ["Input 1", "wind", "wind (2)", "Input 4"])
         labels = algorithm.GetCoordinates().GetColumnByName("Name")
         self.assertEqual([labels.GetValue(i) for i in range(4)], names(algorithm))
-        algorithm.ClearInputNames()
+        algorithm.SetNumberOfInputNames(0)
         algorithm.Update()
         self.assertEqual(names(algorithm)[1:3], ["Input 2", "Input 3"])
 

@@ -22,6 +22,7 @@ CORE = {
     "Quality": {"Parallel", "Geometry", "Tables", "Flow"},
     "PowerCells": {"Parallel", "Algebra", "Geometry", "Tables"},
     "Relaxation": {"Parallel", "Algebra", "Geometry", "Tables", "Flow", "PowerCells"},
+    "Distance": {"Parallel", "Tables", "OptimalMap"},
     "Seeds": {"Parallel", "Geometry"},
     "Splat": {"Parallel", "Geometry"},
     "Overlap": {"Parallel", "Geometry"},
@@ -57,6 +58,7 @@ BRIDGE = {
     "Resampling": BLOCKS | {"Blocks", "Meshes", "Lattices"},
     "Inputs": BLOCKS | {"Blocks", "Resampling"},
     "Blend": WORKERS | {"Splat"},
+    "Distance": WORKERS,
     **{folder: WORKERS | {"Blocks"} for folder in ("Cartogram", "SiteCells")},
     **{folder: WORKERS for folder in ("Flow", "Quality", "Relaxation", "Seeds", "Splat")},
     **{folder: WORKERS | {"Surface"}
