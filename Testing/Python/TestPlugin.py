@@ -53,7 +53,9 @@ class Plugin(unittest.TestCase):
     def test_integration_is_advanced(self):
         warp = simple.DensityEqualizingWarp(  # it has all of them
             simple.Plane(), Density=producer(simple, density_image()))
-        for name in (name for name, prop in PROPERTIES.items() if prop.advanced):
+        names = simple.TransportDistance().GetProperty("InputNames")
+        self.assertEqual(names.GetPanelVisibility(), "advanced")
+        for name in (name for name, prop in PROPERTIES.items() if prop.advanced and name != "InputNames"):
             self.assertEqual(warp.GetProperty(name).GetPanelVisibility(), "advanced")
 
     def test_array_is_chosen_from_points_and_cells(self):

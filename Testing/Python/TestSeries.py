@@ -135,7 +135,8 @@ def of_two_inputs(filter_):
     arrays = {name: ["CELLS", "Density"] for name in ("DensityArray", "TargetArray")
               if name in PROPERTIES[filter_.label]}
     given = {"Equal-Mass Cells": dict(Measure="Density", Resolution=192),
-             "Density Barycenter": dict(Weights=[3, 1])}.get(filter_.label, {})
+             "Density Barycenter": dict(Weights=[3, 1]),
+             "Transport Distance": dict(InputNames=["one", "other"])}.get(filter_.label, {})
 
     def make(one, other):
         by_name = {}

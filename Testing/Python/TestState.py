@@ -24,7 +24,9 @@ def sources():
     sheet = simple.Calculator(Input=plane, ResultArrayName="Height", Function="2+coordsX")
     sphere = simple.Sphere()
     regions = simple.Calculator(Input=plane, AttributeType="Cell Data", ResultArrayName="Mass", Function="3")
-    return {"density": density, "densities": parts, "image": parts[0], "mesh": seeds,
+    alike = [parts[0], *(simple.Calculator(Input=parts[0], ResultArrayName="Lit", Function=function)
+                         for function in ("coordsX", "coordsY"))]
+    return {"density": density, "densities": parts, "alike": alike, "image": parts[0], "mesh": seeds,
             "points": particles, "disk": sheet, "solid": sphere, "map": regions}
 
 
@@ -35,6 +37,8 @@ def pipeline():
         inputs = {kind: (lambda source=source: source) for kind, source in given.items()}
         if "Target" in filter_.inputs:  # small ones, that differ
             inputs.update(Input=lambda: given["densities"][0], Target=lambda: given["densities"][1])
+        if filter_.label == "Transport Distance":  # of one box
+            inputs.update(Input=lambda: given["alike"])
         # Dimensions count where there is no reference.
         filter_.make(simple, inputs, optional="Reference" not in filter_.optional,
                      registrationName=filter_.label, **filter_.saved)

@@ -132,7 +132,7 @@ FILTERS = [
            panel=["Method", "OverTime", "MassDifference", "Dimensions", "InputNames", *DENSITY_PANEL,
                   "Threading"],
            refused=("Dimensions", 0, 3),
-           saved=dict(Method="Certified", MassDifference="Normalize", Dimensions=3, InvertDensity=1),
+           saved=dict(Method="Certified", Dimensions=3, InvertDensity=1),
            choices={"Method": ["Linearized", "Certified"]},
            shown=[("View", {"type": "None", "port": "0"}), ("View", {"type": "None", "port": "1"}),
                   ("View", {"type": "XYPointChartView", "port": "2"}),
