@@ -47,6 +47,21 @@ class FirstDisplay(unittest.TestCase):
                 with self.subTest(dimension=dimension, filter=source.GetXMLLabel()):
                     self.assert_like(self.shown(source), kind, "Density")
 
+    def test_distances_are_a_scatter_plot(self):
+        """The points of the densities, one axis over the other, and nothing else of the table."""
+        inputs = [producer(simple, density_image((12, 10), seed=seed)) for seed in range(4)]
+        distances = simple.TransportDistance(Input=inputs)
+        distances.UpdatePipeline()
+        chart = simple.CreateView("XYPointChartView")
+        self.addCleanup(simple.Delete, chart)
+        shown = simple.Show(simple.OutputPort(distances, 2), chart)
+        self.assertEqual(shown.UseIndexForXAxis, 0)
+        self.assertEqual(shown.XArrayName, "Coordinate0")
+        self.assertEqual(list(shown.SeriesVisibility), ["Coordinate1"])
+        self.assertEqual((chart.BottomAxisTitle, chart.LeftAxisTitle), ("Coordinate0", "Coordinate1"))
+        bounds = simple.Show(simple.OutputPort(distances, 1), chart)
+        self.assertEqual(bounds.UseIndexForXAxis, 1)
+
     def test_solid_is_a_volume(self):
         solid = simple.SolidDensity(simple.Sphere(), Resolution=12)
         self.assert_like(self.shown(solid), "Volume", "Density")
