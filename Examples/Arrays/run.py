@@ -138,11 +138,11 @@ def main():
     back = arrays.transport_map(smooth, Direction="DensityToUniform")
 
     print("\nW2 in pixels, of densities of %d\u00b2" % size)
-    print("  pair          at least  estimate")
+    print("  pair          at least  at most")
     for name, first, second in (("ring, discs", a, b), ("ring, star", a, c), ("discs, star", b, c),
                                 ("ring, itself", a, a)):
         found = arrays.distance(first, second)
-        print("  %-12s  %-8.3f  %.3f" % (name, found.lower, found.estimate))
+        print("  %-12s  %-8.3f  %.3f" % (name, found.lower, found.upper))
 
     coloured = COLOURS[parts.labels % len(COLOURS)]
     picture = montage([
