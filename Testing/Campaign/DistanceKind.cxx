@@ -27,6 +27,12 @@ void drawDistance(Settings& settings)
     "MassDifference", &Distance::SetMassDifference, { 0, 1 }, { -1, 2 }, 0.1);
   settings.Draw<Distance, int>(
     "Dimensions", &Distance::SetDimensions, { 1, 2, 3, 100 }, { 0, -1, 101 }, 0.5);
+  settings.Draw<Distance, vtkTypeBool>("OverTime", &Distance::SetOverTime, { 0, 1 }, {}, 0.05);
+  if (settings.GetRandom().Chance(0.2))
+  {
+    settings.Add("InputNames", "'' 'other'",
+      [](vtkAlgorithm* filter) { Distance::SafeDownCast(filter)->SetInputName(1, "other"); });
+  }
   drawThreading<Distance>(settings);
   drawDensitySettings(settings);
 }
@@ -50,9 +56,10 @@ State expectDistance(vtkAlgorithm* filter, const Inputs& inputs)
   {
     state = worse(state, densityState(filter, input));
   }
-  const bool refuses =
-    Distance::SafeDownCast(filter)->GetMassDifference() != Distance::MASS_NORMALIZE;
-  return worse(state, refuses ? State::Odd : State::Sound);
+  auto* distance = Distance::SafeDownCast(filter);
+  const bool mayRefuse =
+    distance->GetMassDifference() != Distance::MASS_NORMALIZE || distance->GetOverTime();
+  return worse(state, mayRefuse ? State::Odd : State::Sound);
 }
 
 void checkDistance(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
@@ -100,6 +107,7 @@ void checkDistance(vtkAlgorithm* filter, const Inputs& inputs, Findings& finding
 void quickDistance(RandomSource&, vtkAlgorithm* filter)
 {
   Distance::SafeDownCast(filter)->SetDimensions(2);
+  Distance::SafeDownCast(filter)->OverTimeOff();
 }
 
 } // namespace

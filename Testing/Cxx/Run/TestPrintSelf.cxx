@@ -68,7 +68,7 @@ bool agree(const std::string& one, const std::string& other)
 }
 
 // What is printed, but is no property that is set.
-const std::set<std::string> readOnly{ "DensityPort", "TableBuildTime" };
+const std::set<std::string> readOnly{ "DensityPort", "NumberOfSolutions", "TableBuildTime" };
 
 void checkKind(Checks& checks, const Campaign::FilterKind& kind)
 {
