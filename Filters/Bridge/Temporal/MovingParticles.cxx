@@ -48,14 +48,15 @@ Point<D> cornerOf(std::int64_t cell, const GridSize<D>& size)
 }
 
 template <int D>
-StepParticles<D> placeParticles(const StepDensity& step, int perCell, const Ranks& ranks)
+StepParticles<D> placeParticles(
+  const StepDensity& step, const PivotLattice<D>& lattice, const Ranks& ranks)
 {
-  const GridSize<D> size = step.Grid.Size<D>();
-  const PivotLattice<D> lattice = pivotLattice<D>(size, perCell);
+  const GridSize<D>& size = lattice.Lattice;
+  const auto perCell = static_cast<std::int64_t>(lattice.Places.size());
   const std::int64_t cells = step.Grid.NumberOfCells();
   const RankShare share(cells * perCell, ranks);
   const double* density = step.Values->GetPointer(0);
-  const double measure = step.Grid.CellMeasure() / perCell;
+  const double measure = step.Grid.CellMeasure() / static_cast<double>(perCell);
   StepParticles<D> particles;
   for (std::int64_t n = share.First; n < share.First + share.Count; ++n)
   {
@@ -102,6 +103,8 @@ public:
     : First(from)
     , Second(to)
     , Settings(settings)
+    , FirstLattice(pivotLattice<D>(from.Grid.Size<D>(), settings.ParticlesPerCell))
+    , SecondLattice(pivotLattice<D>(to.Grid.Size<D>(), settings.ParticlesPerCell))
     , Work(progress)
   {
   }
@@ -109,28 +112,43 @@ public:
   MovingParticles Make(double end)
   {
     const Ranks& ranks = this->Work.Group();
-    auto first = placeParticles<D>(this->First, this->Settings.ParticlesPerCell, ranks);
-    auto second = placeParticles<D>(this->Second, this->Settings.ParticlesPerCell, ranks);
+    auto first = placeParticles<D>(this->First, this->FirstLattice, ranks);
+    auto second = placeParticles<D>(this->Second, this->SecondLattice, ranks);
     this->Allocate(first, second, ranks);
     this->Write(this->First.Grid, first.Span(), this->Made.From, 0);
     this->Write(this->Second.Grid, second.Span(), this->Made.To, first.Count());
+    this->Made.Sizes.From = cloudsInCells<D>(this->FirstLattice, this->First.Grid, first.Count());
+    this->Made.Sizes.To = this->Made.Sizes.From;
+    const auto ofSecond = cloudsInCells<D>(this->SecondLattice, this->Second.Grid, second.Count());
     if (this->First.Mass > 0.0 && this->Second.Mass > 0.0)
     {
       this->Move(first, second, end);
       this->Write(this->Second.Grid, first.Span(), this->Made.To, 0);
       this->Write(this->First.Grid, second.Span(), this->Made.From, first.Count());
       this->FindCost();
+      append(cloudsAtImages<D>(this->SecondLattice, this->Second.Grid, this->First.Grid,
+               second.Numbers, second.Span(), this->Work),
+        this->Made.Sizes.From);
+      this->Made.Sizes.To = cloudsAtImages<D>(this->FirstLattice, this->First.Grid,
+        this->Second.Grid, first.Numbers, first.Span(), this->Work);
     }
     else
     {
+      append(ofSecond, this->Made.Sizes.From);
       this->Write(this->First.Grid, first.Span(), this->Made.To, 0);
       this->Write(this->Second.Grid, second.Span(), this->Made.From, first.Count());
     }
+    append(ofSecond, this->Made.Sizes.To);
     this->Work.BeginStage(end);
     return std::move(this->Made);
   }
 
 private:
+  static void append(const std::vector<float>& more, std::vector<float>& to)
+  {
+    to.insert(to.end(), more.begin(), more.end());
+  }
+
   void Allocate(const StepParticles<D>& first, const StepParticles<D>& second, const Ranks& ranks)
   {
     const std::int64_t count = first.Count() + second.Count();
@@ -193,6 +211,8 @@ private:
   const StepDensity& First;
   const StepDensity& Second;
   const MovingSettings Settings;
+  const PivotLattice<D> FirstLattice;
+  const PivotLattice<D> SecondLattice;
   Progress& Work;
   MovingParticles Made;
 };

@@ -3,6 +3,8 @@
 #ifndef RectifiedTransport_MovingParticles_h
 #define RectifiedTransport_MovingParticles_h
 
+#include "Bridge/Temporal/MovedClouds.h"
+
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
 
@@ -25,6 +27,7 @@ struct MovingParticles
   vtkSmartPointer<vtkDoubleArray> To;
   vtkSmartPointer<vtkDoubleArray> Masses; // where they are not faded
   std::vector<std::int64_t> Numbers;      // among those of all ranks; empty on a single rank
+  CloudSizes Sizes;                       // empty for points
   std::int64_t OfFirst = 0;               // how many are of the first step
   double Cost = 0.0;                      // the mean over the first step's mass of |To - From|^2
   double Bound = 0.0;                     // of the least cost; 0 without an optimal map

@@ -308,7 +308,16 @@ void TemporalInterpolation::WriteImage(const Interval& interval, const TemporalS
   const std::vector<std::int64_t>& numbers = interval.Particles.Numbers;
   const std::int64_t* order = ranks.AreSeveral() ? numbers.data() + this->Begin : nullptr;
   const double* masses = this->Masses->GetPointer(0);
-  splatDistributed(this->Points, masses, 0.0, order, target, box, progress, density);
+  const CloudSizes& sizes = interval.Particles.Sizes;
+  if (settings.Splat.Kernel == SplatKernel::CloudInCell && !sizes.IsEmpty())
+  {
+    splatClouds({ this->Points, masses, sizes, this->Begin, part }, geometry,
+      std::max(interval.First->Mass, interval.Second->Mass), box, progress, density);
+  }
+  else
+  {
+    splatDistributed(this->Points, masses, 0.0, order, target, box, progress, density);
+  }
   output.Image->GetAttributes(ownerOf(geometry))->SetScalars(density);
   if (settings.Carries)
   {
