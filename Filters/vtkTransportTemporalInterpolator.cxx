@@ -23,6 +23,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -59,10 +60,12 @@ struct vtkTransportTemporalInterpolator::vtkInternals
   bool IsSeries = false; // else Times is the time of the one input
   KeptSteps Steps;
   TemporalInterpolation Interpolation;
-  int Passes = 0;       // of this execution that are done
-  int Agreed = -1;      // the step that all ranks request next; -1 in the first pass
-  int Requested = 0;    // the step that the input is of
-  bool Changed = false; // whether something before the filter has
+  int AllPasses = 1;     // that it is going to take
+  int Passes = 0;        // of this execution that are done
+  int Agreed = -1;       // the step that all ranks request next; -1 in the first pass
+  int Requested = 0;     // the step that the input is of
+  bool Changed = false;  // whether something before the filter has
+  bool IsWarned = false; // that there are no two steps
 
   double TimeOf(vtkInformation* request, vtkInformationVector* outputs) const
   {
@@ -139,7 +142,8 @@ int vtkTransportTemporalInterpolator::RequestInformation(
 {
   vtkInformation* input = inputVector[0]->GetInformationObject(0);
   StepTimes& times = this->Internals->Times;
-  times = StepTimes(input);
+  const StepTimes before = std::exchange(times, StepTimes(input));
+  this->Internals->IsWarned = this->Internals->IsWarned && times == before;
   this->Internals->IsSeries = times.Count() > 0;
   this->Internals->Passes = 0;
   this->Internals->Agreed = -1;
@@ -184,14 +188,19 @@ int vtkTransportTemporalInterpolator::MissingStep(double time)
   {
     needed = { std::max(0, chained - 1), chained };
   }
+  int missing = -1;
   for (const int step : needed)
   {
-    if (!this->Internals->Steps.Has(times[step]))
+    if (this->Internals->Steps.Has(times[step]))
     {
-      return step;
+      this->Internals->Steps.Use(times[step]);
+    }
+    else if (missing < 0)
+    {
+      missing = step;
     }
   }
-  return -1;
+  return missing;
 }
 
 //------------------------------------------------------------------------------
@@ -303,9 +312,16 @@ void vtkTransportTemporalInterpolator::RunPass(
   }
   own.Changed = !own.IsSeries; // without steps nothing tells which time the data are of
   own.Steps.Keep(own.Times[own.Requested], vtkDataObject::GetData(inputVector[0], 0));
-  AlgorithmProgress progress(this, this->Threading, ranks);
   const TimePlace place = own.Times.Find(time);
-  ++own.Passes;
+  if (own.Passes++ == 0)
+  {
+    // A chain requests one step after the other; else one may be missing yet.
+    const int more = settings.Chains ? place.Second - own.Requested : this->MissingStep(time) >= 0;
+    own.AllPasses = 1 + std::max(0, more);
+  }
+  const double part = 1.0 / own.AllPasses;
+  this->SetProgressShiftScale(std::min(1.0 - part, part * (own.Passes - 1)), part);
+  AlgorithmProgress progress(this, this->Threading, ranks);
   own.Agreed = -1;
   do
   {
@@ -317,8 +333,6 @@ void vtkTransportTemporalInterpolator::RunPass(
     if (own.Agreed >= 0)
     {
       request->Set(Pipeline::CONTINUE_EXECUTING(), 1);
-      const double parts = own.Passes + place.Second + 1.0 - own.Agreed;
-      this->SetProgressShiftScale(own.Passes / parts, 1.0 / parts);
       return;
     }
   } while (settings.Chains && this->ExtendChain(place.Second, progress));
@@ -378,6 +392,10 @@ bool vtkTransportTemporalInterpolator::ExtendChain(int last, RectifiedTransport:
       " has no mass, and Chain follows particles through all steps; "
       "Chain Off lets mass appear and disappear");
   }
+  if (next > 0)
+  {
+    requireOneSpace(before, step);
+  }
   constexpr double partOfChain = 0.7;
   if (chain.Extend(next > 0 ? before.Density.get() : nullptr, *step.Density, progress,
         progress.StageEnd() + 0.5 * (partOfChain - progress.StageEnd())))
@@ -408,6 +426,16 @@ void vtkTransportTemporalInterpolator::Interpolate(
   if (place.Second == place.First)
   {
     moment.Second = moment.First;
+    if (!(moment.First.Density->Mass > 0.0))
+    {
+      moment.First.Input->ThrowInvalid({}); // of a series, some steps may have no mass
+    }
+    if (!std::exchange(own.IsWarned, true))
+    {
+      this->WarnOnFirstRank(std::string("The input has ") +
+        (own.IsSeries ? "one time step" : "no time steps") +
+        ": no mass moves; the density comes out as it is (two or more time steps are a series)");
+    }
   }
   const TemporalOutput output{ outputVector->GetInformationObject(0),
     vtkImageData::GetData(outputVector, 0), vtkPolyData::GetData(outputVector, 1) };

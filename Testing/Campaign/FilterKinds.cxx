@@ -13,6 +13,7 @@ const std::vector<FilterKind>& filterKinds()
     addOtherKinds(all);
     addSurfaceKinds(all);
     addMapKinds(all);
+    all.push_back(temporalKind());
     return all;
   }();
   return kinds;

@@ -18,6 +18,7 @@ vtkSmartPointer<vtkAlgorithm> make()
 inline void leaveAsItIs(RandomSource&, vtkAlgorithm*) {}
 
 FilterKind transportMapKind();
+FilterKind temporalKind();
 void addTransportKinds(std::vector<FilterKind>& kinds);
 void addBlendKinds(std::vector<FilterKind>& kinds);
 void addOtherKinds(std::vector<FilterKind>& kinds);

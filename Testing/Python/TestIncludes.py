@@ -57,6 +57,7 @@ BRIDGE = {
     "Resampling": BLOCKS | {"Blocks", "Meshes", "Lattices"},
     "Inputs": BLOCKS | {"Blocks", "Resampling"},
     "Blend": WORKERS | {"Splat"},
+    "Temporal": WORKERS | {"Splat", "Blend"},
     **{folder: WORKERS | {"Blocks"} for folder in ("Cartogram", "SiteCells")},
     **{folder: WORKERS for folder in ("Flow", "Quality", "Relaxation", "Seeds", "Splat")},
     **{folder: WORKERS | {"Surface"}

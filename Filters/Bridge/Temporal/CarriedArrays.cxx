@@ -68,6 +68,15 @@ vtkSmartPointer<vtkDoubleArray> placesOf(const ImageGrid& grid)
   return places;
 }
 
+vtkSmartPointer<vtkDoubleArray> doublesOf(vtkPointData* values, const std::string& name)
+{
+  vtkDataArray* array = values->GetArray(name.c_str());
+  auto doubles =
+    newArray<vtkDoubleArray>(name, array->GetNumberOfComponents(), array->GetNumberOfTuples());
+  doubles->DeepCopy(array);
+  return doubles;
+}
+
 // Between two values, of which one alone counts at its end.
 double between(double first, double second, double part)
 {
@@ -156,8 +165,11 @@ void CarriedArrays::MakeOf(int owner, const CarryingImage& first, const Carrying
     {
       continue; // ids, between which there is nothing
     }
-    this->Arrays.push_back({ name, owner, { from, atTo->GetArray(name.c_str()) },
-      { firstInPlace->GetArray(name.c_str()), secondInPlace->GetArray(name.c_str()) } });
+    const auto like = vtkSmartPointer<vtkDataArray>::Take(from->NewInstance());
+    like->SetNumberOfComponents(from->GetNumberOfComponents());
+    like->CopyComponentNames(from);
+    this->Arrays.push_back({ name, owner, like, { doublesOf(atFrom, name), doublesOf(atTo, name) },
+      { doublesOf(firstInPlace, name), doublesOf(secondInPlace, name) } });
   }
 }
 
@@ -196,10 +208,10 @@ void CarriedArrays::WriteOne(const Carried& carried, const Moment& moment,
   const int components = first->GetNumberOfComponents();
   const std::int64_t particles = moment.Points->GetNumberOfTuples();
   const TupleBox all = tuplesOf(target.Geometry.Extent(), carried.Owner, target.Geometry.Extent());
-  const auto made = vtkSmartPointer<vtkDataArray>::Take(first->NewInstance());
+  const auto made = vtkSmartPointer<vtkDataArray>::Take(carried.Like->NewInstance());
   made->SetName(carried.Name.c_str());
   made->SetNumberOfComponents(components);
-  made->CopyComponentNames(first);
+  made->CopyComponentNames(carried.Like);
   withMemory("the array " + carried.Name, 8.0 * static_cast<double>(wanted.Count()) * components,
     [&]() { made->SetNumberOfTuples(wanted.Count()); });
   const auto moments = newArray<vtkDoubleArray>("Moments", 1, particles);
@@ -207,21 +219,29 @@ void CarriedArrays::WriteOne(const Carried& carried, const Moment& moment,
   for (int c = 0; c < components; ++c)
   {
     double* moved = moments->GetPointer(0);
-    for (std::int64_t i = 0; i < particles; ++i)
-    {
-      moved[i] = moment.Masses[i] *
-        between(first->GetComponent(i, c), second->GetComponent(i, c), moment.Part);
-    }
-    progress.Check();
+    const double* a = first->GetPointer(c) + components * moment.Begin;
+    const double* b = second->GetPointer(c) + components * moment.Begin;
+    progress.For(particles, grain, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        moved[i] = moment.Masses[i] * between(a[components * i], b[components * i], moment.Part);
+      }
+    });
     splatDistributed(moment.Points, moved, 0.0, moment.Numbers, target, wanted, progress, sums);
+    const double* here = firstHere->GetPointer(c);
+    const double* later = secondHere->GetPointer(c);
+    double* sum = sums->GetPointer(0);
+    progress.For(wanted.Count(), grain, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const std::int64_t place = components * all.NumberOf(wanted.CellOf(i));
+        const double weight = mass->GetValue(i);
+        sum[i] = weight > 0.0 ? sum[i] / weight : between(here[place], later[place], moment.Part);
+      }
+    });
     for (std::int64_t i = 0; i < wanted.Count(); ++i)
     {
-      const vtkIdType place = all.NumberOf(wanted.CellOf(i));
-      const double here = mass->GetValue(i);
-      const double value = here > 0.0 ? sums->GetValue(i) / here
-                                      : between(firstHere->GetComponent(place, c),
-                                          secondHere->GetComponent(place, c), moment.Part);
-      made->SetComponent(i, c, valueFor(made, value));
+      made->SetComponent(i, c, valueFor(made, sum[i]));
     }
   }
   output->GetAttributes(carried.Owner)->AddArray(made);

@@ -58,6 +58,7 @@ public:
     double Part;            // of the interval
     vtkDoubleArray* Points; // of the particles
     const double* Masses;
+    std::int64_t Begin;          // the first point's place among the particles of Make
     const std::int64_t* Numbers; // as splatDistributed takes them
   };
   // Adds the arrays on an extent of the image. Runs as the current stage. Collective.
@@ -65,11 +66,12 @@ public:
     const Extent& wanted, Progress& progress, vtkImageData* output) const;
 
 private:
-  using Ends = std::array<vtkSmartPointer<vtkDataArray>, 2>; // in the first and the second image
+  using Ends = std::array<vtkSmartPointer<vtkDoubleArray>, 2>; // in the first and the second image
   struct Carried
   {
     std::string Name;
-    int Owner; // vtkDataObject::POINT or CELL
+    int Owner;                          // vtkDataObject::POINT or CELL
+    vtkSmartPointer<vtkDataArray> Like; // for the type and the names of components
     Ends OfParticles;
     Ends InPlace; // of the tuples of the whole geometry
   };

@@ -46,12 +46,11 @@ int ownerOf(const ImageGrid& grid)
   return grid.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
 }
 
-ImageGrid gridBetween(const TemporalMoment& moment)
+ImageGrid gridBetween(const TemporalStep& first, const TemporalStep& second)
 {
   constexpr int any[3] = { 0, 0, 0 };
-  return commonGrid({ { moment.First.Density->Grid, moment.First.Title },
-                      { moment.Second.Density->Grid, moment.Second.Title } },
-    any);
+  return commonGrid(
+    { { first.Density->Grid, first.Title }, { second.Density->Grid, second.Title } }, any);
 }
 
 double massAt(const TemporalMoment& moment)
@@ -126,12 +125,17 @@ std::string describeEmpty(const TemporalMoment& moment)
 
 } // namespace
 
+void requireOneSpace(const TemporalStep& first, const TemporalStep& second)
+{
+  gridBetween(first, second);
+}
+
 std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment,
   const TemporalSettings& settings, Progress& progress, const TemporalOutput& output)
 {
   constexpr double partOfMap = 0.8;
   constexpr double partOfParticles = 0.9;
-  const ImageGrid between = gridBetween(moment);
+  const ImageGrid between = gridBetween(moment.First, moment.Second);
   std::vector<std::string> warnings;
   Interval& interval = this->Find(moment, settings, progress, partOfMap, warnings);
   const bool isStep = !settings.Chains && (moment.Part <= 0.0 || moment.Part >= 1.0);
@@ -201,7 +205,7 @@ TemporalInterpolation::Interval& TemporalInterpolation::Find(const TemporalMomen
   {
     progress.BeginStage(end);
     interval.Arrays.Make(carryingImage(moment.First), carryingImage(moment.Second),
-      interval.Particles, gridBetween(moment), progress);
+      interval.Particles, gridBetween(moment.First, moment.Second), progress);
     warnings.push_back(describeMissing(moment, interval.Arrays));
   }
   interval.Carries = settings.Carries;
@@ -321,8 +325,8 @@ void TemporalInterpolation::WriteImage(const Interval& interval, const TemporalS
   output.Image->GetAttributes(ownerOf(geometry))->SetScalars(density);
   if (settings.Carries)
   {
-    interval.Arrays.Write({ part, this->Points, masses, order }, geometry, settings.Splat, wanted,
-      progress, output.Image);
+    interval.Arrays.Write({ part, this->Points, masses, this->Begin, order }, geometry,
+      settings.Splat, wanted, progress, output.Image);
   }
 }
 

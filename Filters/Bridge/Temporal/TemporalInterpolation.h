@@ -64,6 +64,9 @@ struct TemporalOutput
   vtkPolyData* Particles;
 };
 
+// Throws Failure for steps of different axes, planes or directions.
+void requireOneSpace(const TemporalStep& first, const TemporalStep& second);
+
 class TemporalInterpolation
 {
 public:
