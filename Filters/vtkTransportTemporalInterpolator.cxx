@@ -463,6 +463,5 @@ void vtkTransportTemporalInterpolator::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ParticlesPerCell: " << this->ParticlesPerCell << "\n";
   os << indent << "Kernel: " << this->GetKernelAsString() << "\n";
   os << indent << "Radius: " << this->Radius << "\n";
-  os << indent << "NumberOfMaps: " << this->GetNumberOfMaps() << "\n";
 }
 VTK_ABI_NAMESPACE_END
