@@ -149,6 +149,10 @@ int vtkCollectiveAlgorithm::ProcessData(
   }
   this->EndRun();
   this->Whole->Separate().End();
+  if (request->Get(vtkStreamingDemandDrivenPipeline::CONTINUE_EXECUTING()))
+  {
+    return result; // the outputs are made in a later pass
+  }
   return RectifiedTransport::clearUnmetRequests(outputVector) ? result : 0;
 }
 

@@ -14,6 +14,7 @@ const std::vector<FilterKind>& filterKinds()
     addSurfaceKinds(all);
     addMapKinds(all);
     all.push_back(distanceKind());
+    all.push_back(temporalKind());
     return all;
   }();
   return kinds;

@@ -19,6 +19,7 @@ inline void leaveAsItIs(RandomSource&, vtkAlgorithm*) {}
 
 FilterKind transportMapKind();
 FilterKind distanceKind();
+FilterKind temporalKind();
 void addTransportKinds(std::vector<FilterKind>& kinds);
 void addBlendKinds(std::vector<FilterKind>& kinds);
 void addOtherKinds(std::vector<FilterKind>& kinds);

@@ -22,6 +22,7 @@ from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkDataObject, vtkImage
                                            vtkMultiBlockDataSet, vtkPolyData)
 import rectifiedtransport as rt
 from rt_filters import FILTERS
+from rt_series import Series
 from rt_testing import region_map
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -196,7 +197,7 @@ class Devices:
     keep.__func__.CallDataType = "string0"
 
 
-def run(filter_class, *inputs, array=None, **properties):
+def run(filter_class, *inputs, array=None, time=None, **properties):
     """The outputs of a filter; inputs are those of its ports, None for none."""
     algorithm = filter_class()
     Devices.ask(algorithm)
@@ -205,6 +206,9 @@ def run(filter_class, *inputs, array=None, **properties):
     for port, data in enumerate(inputs):
         for part in data if isinstance(data, list) else [data]:
             if part is None:
+                continue
+            if isinstance(part, Series):
+                algorithm.SetInputConnection(port, part.GetOutputPort())
                 continue
             if isinstance(data, list):
                 algorithm.AddInputDataObject(port, part)
@@ -219,7 +223,10 @@ def run(filter_class, *inputs, array=None, **properties):
         else:
             setter = getattr(algorithm, "Set" + name)
             setter(*value) if isinstance(value, tuple) else setter(value)
-    algorithm.Update()
+    if time is None:
+        algorithm.Update()
+    else:
+        algorithm.UpdateTimeStep(time)
     return [algorithm.GetOutputDataObject(p) for p in range(algorithm.GetNumberOfOutputPorts())]
 
 
@@ -322,6 +329,20 @@ def distance_runs():
         [image((23, 17, 19), direction=TURN, seed=s) for s in range(3)]], dict(Method=1)
     yield "distances of other sizes", distance, [
         [image(cells=False), image(cells=False, seed=5)]], dict(Component=0, Dimensions=1)
+
+
+def temporal_runs():
+    temporal = rt.vtkTransportTemporalInterpolator
+    for shape in ((200,), (47, 61), (19, 17, 23)):
+        for method in range(2):
+            steps = [values(shape, seed).reshape(shape) for seed in range(3)]
+            yield f"temporal {method} {len(shape)}D", temporal, [Series(steps)], dict(time=1.3, Method=method)
+    steps = [{"Values": values((47, 61), seed).reshape(47, 61), "Other": values((47, 61), seed + 5).reshape(47, 61)}
+             for seed in range(3)]
+    for kernel, name in enumerate(KERNELS):
+        yield f"temporal {name}", temporal, [Series(steps, points=True)], dict(
+            time=0.4, Kernel=kernel, ParticlesPerCell=kernel + 1, Radius=1.5)
+    yield "temporal chain", temporal, [Series(steps)], dict(time=1.5, Chain=1)
 
 
 def warp_runs():
@@ -482,7 +503,7 @@ def digests():
     vtkObject.GlobalWarningDisplayOff()
     found = {}
     ran = set()
-    for runs in (sampler_runs, optimal_runs, map_runs, distance_runs, warp_runs, blend_runs, splat_runs, other_runs,
+    for runs in (sampler_runs, optimal_runs, map_runs, distance_runs, temporal_runs, warp_runs, blend_runs, splat_runs, other_runs,
                  parameterization_runs, surface_runs, relaxation_runs):
         for name, filter_class, inputs, properties in runs():
             assert name not in found, name

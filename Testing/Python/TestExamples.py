@@ -180,6 +180,15 @@ class Examples(ExampleTest):
         self.assertLess(first(by_values[1]), 0.8)
         self.check_picture("plume-ensemble.png")
 
+    def test_between_steps(self):
+        """Mass that moves is nearer to the steps that were left out than a cross-fade, by both measures."""
+        rows, = tables(self.ran("BetweenSteps"))
+        for column in (2, 3):
+            plume, faded_plume, pair, faded_pair = (float(row[column]) for row in rows)
+            self.assertLess(plume, 0.6 * faded_plume)
+            self.assertLess(pair, 0.9 * faded_pair)
+        self.check_picture("between-steps.png")
+
     def test_sample_volume(self):
         self.ran("SampleVolume")
         self.check_picture("particles-brain-t1.png")

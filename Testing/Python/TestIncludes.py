@@ -59,6 +59,7 @@ BRIDGE = {
     "Inputs": BLOCKS | {"Blocks", "Resampling"},
     "Blend": WORKERS | {"Splat"},
     "Distance": WORKERS,
+    "Temporal": WORKERS | {"Splat", "Blend"},
     **{folder: WORKERS | {"Blocks"} for folder in ("Cartogram", "SiteCells")},
     **{folder: WORKERS for folder in ("Flow", "Quality", "Relaxation", "Seeds", "Splat")},
     **{folder: WORKERS | {"Surface"}

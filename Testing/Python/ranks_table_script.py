@@ -11,6 +11,7 @@ from ranks_table_blends import give_blends, give_distances, give_targets
 from ranks_table_counted import give_counted
 from ranks_table_missing import give_missing
 from ranks_table_points import give_qualities, give_splats
+from ranks_table_temporal import give_temporal
 from rt_testing import load_plugin, producer
 from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -238,6 +239,7 @@ def main(path):
     give_blends()
     give_targets()
     give_distances()
+    give_temporal()
     with open("%s.%d" % (path, RANK), "wb") as file:
         pickle.dump(gathered, file)
     print("WROTE", RANK, flush=True)

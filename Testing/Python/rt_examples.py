@@ -30,6 +30,7 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
          "AreaErrors": ["--cells", "128", "--pixels", "480"],
          "FieldDifference": ["--size", "64", "--panel", "160"],
          "PlumeEnsemble": ["--size", "48", "--panel", "120"],
+         "BetweenSteps": ["--size", "40", "--every", "12", "--panel", "96"],
          "StippleSurface": ["--dots", "3000", "--panel", "300"],
          "ClosedSurfaces": ["--panel", "160"],
          "SampleVolume": ["--particles", "50000", "--pixels", "400"],
@@ -65,8 +66,8 @@ need_meshes = unittest.skipUnless(
     os.path.isfile(os.path.join(SOURCE, "build-meshes", "complete")),
     "needs the meshes that Testing/run.sh fetches")
 # examples that make their input
-OWN = {"AreaErrors", "Arrays", "Districts", "FieldDifference", "Figure2Paths", "Figure5Cells", "InSitu",
-       "PlumeEnsemble", "PowerCells", "RasterWithGaps"}
+OWN = {"AreaErrors", "Arrays", "BetweenSteps", "Districts", "FieldDifference", "Figure2Paths", "Figure5Cells",
+       "InSitu", "PlumeEnsemble", "PowerCells", "RasterWithGaps"}
 
 
 def command(example, *arguments):

@@ -73,6 +73,11 @@ DensityImage::DensityImage(
 
 DensityImage::~DensityImage() = default;
 
+std::string DensityImage::NameOfArray() const
+{
+  return this->Array->GetName() ? this->Array->GetName() : "";
+}
+
 std::uint64_t DensityImage::Fingerprint(Progress& progress) const
 {
   return fingerprint({ this->Sources.begin(), this->Sources.end() }, progress);

@@ -23,6 +23,7 @@ public:
   DensityImage(vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules);
   ~DensityImage() override;
 
+  std::string NameOfArray() const override;
   void Prepare(FlowTables tables, Progress& progress) override;
   const DensityValues* Values() const override { return this->Reader.get(); }
   vtkSmartPointer<vtkImageData> ImageIn(const Extent& extent) const override;

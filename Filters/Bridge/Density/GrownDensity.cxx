@@ -82,6 +82,7 @@ public:
     this->Inner->FindEmptyDensity();
   }
 
+  std::string NameOfArray() const override { return this->Inner->NameOfArray(); }
   void Prepare(FlowTables tables, Progress& progress) override
   {
     this->Inner->Prepare(tables, progress);

@@ -49,6 +49,8 @@ public:
   const ImageGrid& Grid() const { return this->Geometry; }
   // Its name in messages.
   const std::string& GetName() const { return this->Name; }
+  // The name of its array; empty if it has none.
+  virtual std::string NameOfArray() const = 0;
   const Times& GetTimes() const { return this->Changed; }
   // The content without the hash.
   const Content& GetReading() const { return this->Reading; }

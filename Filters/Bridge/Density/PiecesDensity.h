@@ -21,6 +21,7 @@ public:
   ~PiecesDensity() override;
 
   // For whole tables it gathers the whole image on each rank; otherwise no rank gets all of it.
+  std::string NameOfArray() const override { return this->ArrayName; }
   void Prepare(FlowTables tables, Progress& progress) override;
   const DensityValues* Values() const override;
   void ReleaseGathered() override { this->Gathered.reset(); }

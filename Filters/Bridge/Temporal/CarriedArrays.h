@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The other arrays of two images, whose values move along with the mass.
+#ifndef RectifiedTransport_CarriedArrays_h
+#define RectifiedTransport_CarriedArrays_h
+
+#include "Bridge/Ranks/TupleBoxes.h"
+#include "Bridge/Splat/MassSplat.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/ImageGrid.h"
+
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkImageData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class Progress;
+struct MovingParticles;
+
+// The image of a step, and the name of its density's array, which is not carried.
+struct CarryingImage
+{
+  vtkSmartPointer<vtkImageData> Image;
+  ImageGrid Grid; // with the density's association
+  std::string Density;
+};
+
+// Whether an array of an image may be carried: numeric, with a name, and neither the density nor
+// ghosts.
+bool isCarried(const CarryingImage& image, int owner, vtkAbstractArray* array);
+
+// A value is the mean, by mass, of those of the particles around a cell or point. Each of them
+// moves linearly in time from the value where the particle begins to that where it ends. Where
+// there is no mass, the value at the place itself does so.
+class CarriedArrays
+{
+public:
+  // Of arrays that both images have with one type and number of components, except ids of points.
+  // Runs as the current stage. Throws Failure and Cancelled.
+  void Make(const CarryingImage& first, const CarryingImage& second,
+    const MovingParticles& particles, const ImageGrid& geometry, Progress& progress);
+  // The names of arrays that one of the two lacks.
+  const std::vector<std::string>& Missing() const { return this->Lacking; }
+  bool IsEmpty() const { return this->Arrays.empty(); }
+
+  struct Moment
+  {
+    double Part;            // of the interval
+    vtkDoubleArray* Points; // of the particles
+    const double* Masses;
+    std::int64_t Begin;          // the first point's place among the particles of Make
+    const std::int64_t* Numbers; // as splatDistributed takes them
+  };
+  // Adds the arrays on an extent of the image. Runs as the current stage. Collective.
+  void Write(const Moment& moment, const ImageGrid& geometry, const SplatOptions& splat,
+    const Extent& wanted, Progress& progress, vtkImageData* output) const;
+
+private:
+  using Ends = std::array<vtkSmartPointer<vtkDoubleArray>, 2>; // in the first and the second image
+  struct Carried
+  {
+    std::string Name;
+    int Owner;                          // vtkDataObject::POINT or CELL
+    vtkSmartPointer<vtkDataArray> Like; // for the type and the names of components
+    Ends OfParticles;
+    Ends InPlace; // of the tuples of the whole geometry
+  };
+  void MakeOf(int owner, const CarryingImage& first, const CarryingImage& second,
+    const MovingParticles& particles, const ImageGrid& geometry, Progress& progress);
+  void WriteOne(const Carried& carried, const Moment& moment, const SplatTarget& target,
+    const TupleBox& wanted, vtkDoubleArray* mass, Progress& progress, vtkImageData* output) const;
+
+  std::vector<Carried> Arrays;
+  std::vector<std::string> Lacking;
+};
+
+} // namespace RectifiedTransport
+
+#endif

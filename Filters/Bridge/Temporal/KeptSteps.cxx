@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Temporal/KeptSteps.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkDataObject.h"
+#include "vtkDemandDrivenPipeline.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+vtkMTimeType inputTime(vtkAlgorithm* filter)
+{
+  vtkAlgorithm* producer = filter->GetInputAlgorithm();
+  auto* pipeline =
+    vtkDemandDrivenPipeline::SafeDownCast(producer ? producer->GetExecutive() : nullptr);
+  return pipeline ? pipeline->GetPipelineMTime() : 0;
+}
+
+} // namespace
+
+bool KeptSteps::ForgetOutdated(vtkAlgorithm* filter)
+{
+  if (inputTime(filter) == this->Changed)
+  {
+    return false;
+  }
+  for (KeptStep& step : this->Steps)
+  {
+    step.IsKept = false;
+    step.Data = nullptr;
+  }
+  this->Stamp(filter);
+  return true;
+}
+
+void KeptSteps::Stamp(vtkAlgorithm* filter)
+{
+  this->Changed = inputTime(filter);
+}
+
+int KeptSteps::Find(double time) const
+{
+  const auto found = std::find_if(this->Steps.begin(), this->Steps.end(),
+    [time](const KeptStep& step) { return step.IsKept && step.Time == time; });
+  return found == this->Steps.end() ? -1 : static_cast<int>(found - this->Steps.begin());
+}
+
+int KeptSteps::Use(double time)
+{
+  const int place = this->Find(time);
+  (*this)[place].Used = ++this->Clock;
+  return place;
+}
+
+void KeptSteps::Keep(double time, vtkDataObject* data)
+{
+  // One of this time, kept or outdated, has the density that is probably the same.
+  auto place = std::find_if(this->Steps.begin(), this->Steps.end(),
+    [time](const KeptStep& step) { return step.Used > 0 && step.Time == time; });
+  if (place == this->Steps.end())
+  {
+    place = std::min_element(this->Steps.begin(), this->Steps.end(),
+      [](const KeptStep& a, const KeptStep& b) { return a.Used < b.Used; });
+    *place = KeptStep();
+  }
+  place->IsKept = true;
+  place->Time = time;
+  place->Data = data ? vtkSmartPointer<vtkDataObject>::Take(data->NewInstance()) : nullptr;
+  if (data)
+  {
+    place->Data->ShallowCopy(data);
+  }
+  place->Used = ++this->Clock;
+}
+
+} // namespace RectifiedTransport

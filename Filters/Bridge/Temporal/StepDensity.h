@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The density of one step of a series, read once.
+#ifndef RectifiedTransport_StepDensity_h
+#define RectifiedTransport_StepDensity_h
+
+#include "Bridge/Density/ContentHash.h"
+#include "Core/Geometry/ImageGrid.h"
+#include "Core/Tables/Density.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkSmartPointer.h"
+
+#include <memory>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+class InputDensity;
+class Progress;
+
+struct StepDensity
+{
+  std::string ArrayName;
+  ImageGrid Grid;
+  ContentHash Content;
+  // Of all cells, axis 0 of index space fastest; on each rank.
+  vtkSmartPointer<vtkDoubleArray> Values;
+  double Mass = 0.0; // density times cell measure, summed; may be 0
+
+  template <int D>
+  DensityArray<D, double> Density() const
+  {
+    return { this->Values->GetPointer(0), this->Grid.Size<D>() };
+  }
+  // Whether a map to or from the other density serves this one.
+  bool IsSameAs(const StepDensity& other) const
+  {
+    return this->Content == other.Content && this->Grid == other.Grid;
+  }
+};
+
+// Returns `before`, which may be nullptr, if it is of the same density; else reads it. Runs as the
+// current stage. Collective. Throws Failure for values that are no density, and Cancelled.
+std::shared_ptr<const StepDensity> readStepDensity(
+  InputDensity& density, std::shared_ptr<const StepDensity> before, Progress& progress);
+
+} // namespace RectifiedTransport
+
+#endif

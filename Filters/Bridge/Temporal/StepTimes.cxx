@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Temporal/StepTimes.h"
+
+#include "Bridge/Run/PropertyCheck.h"
+
+#include "vtkInformation.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+
+namespace RectifiedTransport
+{
+
+StepTimes::StepTimes(vtkInformation* input)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const int count = input ? input->Length(Pipeline::TIME_STEPS()) : 0;
+  const double* times = count > 0 ? input->Get(Pipeline::TIME_STEPS()) : nullptr;
+  std::copy_if(times, times + count, std::back_inserter(this->Times),
+    [](double time) { return !std::isnan(time); });
+  std::sort(this->Times.begin(), this->Times.end());
+  this->Times.erase(std::unique(this->Times.begin(), this->Times.end()), this->Times.end());
+}
+
+TimePlace StepTimes::Find(double time) const
+{
+  TimePlace place;
+  if (this->Count() < 2)
+  {
+    return place;
+  }
+  const auto after = std::upper_bound(this->Times.begin(), this->Times.end(), time);
+  place.First = std::clamp(static_cast<int>(after - this->Times.begin()) - 1, 0, this->Count() - 2);
+  place.Second = place.First + 1;
+  const double begin = (*this)[place.First];
+  place.Part = std::clamp((time - begin) / ((*this)[place.Second] - begin), 0.0, 1.0);
+  return place;
+}
+
+double StepTimes::Clamp(double time) const
+{
+  return std::clamp(time, this->Times.front(), this->Times.back());
+}
+
+std::vector<double> StepTimes::Resampled(int each) const
+{
+  std::vector<double> all;
+  for (int step = 0; step + 1 < this->Count(); ++step)
+  {
+    const double begin = (*this)[step];
+    const double length = (*this)[step + 1] - begin;
+    for (int part = 0; part < each; ++part)
+    {
+      all.push_back(begin + length * part / each);
+    }
+  }
+  if (this->Count() > 0)
+  {
+    all.push_back(this->Times.back());
+  }
+  return all;
+}
+
+std::string StepTimes::Title(int step) const
+{
+  return "Time step " + std::to_string(step + 1) + " of " + std::to_string(this->Count()) +
+    " (t = " + textOf((*this)[step]) + ")";
+}
+
+} // namespace RectifiedTransport

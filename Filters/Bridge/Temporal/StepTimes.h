@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The times of a series' steps, and between which of them a time is.
+#ifndef RectifiedTransport_StepTimes_h
+#define RectifiedTransport_StepTimes_h
+
+#include "Bridge/VTKCompatibility.h"
+
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkInformation;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// A time within an interval between two consecutive steps; of one step, both are that one.
+struct TimePlace
+{
+  int First = 0;
+  int Second = 0;
+  double Part = 0.0; // 0 at the first step, 1 at the second one
+};
+
+class StepTimes
+{
+public:
+  // Of no steps.
+  StepTimes() = default;
+  // The TIME_STEPS that an input announces, in ascending order, without repeated and NaN ones;
+  // `input` may be nullptr.
+  explicit StepTimes(vtkInformation* input);
+  // Of one step.
+  explicit StepTimes(double time)
+    : Times{ time }
+  {
+  }
+
+  bool operator==(const StepTimes& other) const { return this->Times == other.Times; }
+  int Count() const { return static_cast<int>(this->Times.size()); }
+  double operator[](int step) const { return this->Times[static_cast<std::size_t>(step)]; }
+  // There is at least one step. A time before the first one or after the last one is that one; at a
+  // step, the place is in the interval that begins there, if there is one.
+  TimePlace Find(double time) const;
+  double Clamp(double time) const;
+  // `each` equal parts of every interval.
+  std::vector<double> Resampled(int each) const;
+  // "Time step 3 of 10 (t = 0.2)".
+  std::string Title(int step) const;
+
+private:
+  std::vector<double> Times;
+};
+
+} // namespace RectifiedTransport
+
+#endif

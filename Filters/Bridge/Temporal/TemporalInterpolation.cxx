@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Temporal/TemporalInterpolation.h"
+
+#include "Bridge/Blend/ParticlePositions.h"
+#include "Bridge/Density/CostBound.h"
+#include "Bridge/Density/InputDensity.h"
+#include "Bridge/Image/CommonGrid.h"
+#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Points/ParticleCells.h"
+#include "Bridge/Ranks/ParticleExchange.h"
+#include "Bridge/Ranks/PlaceOwners.h"
+#include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Splat/DistributedSplat.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/RankExchange.h"
+
+#include "vtkCellArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+
+std::string densityName(const StepDensity& density)
+{
+  return density.ArrayName.empty() ? "Density" : density.ArrayName;
+}
+
+int ownerOf(const ImageGrid& grid)
+{
+  return grid.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
+}
+
+ImageGrid gridBetween(const TemporalStep& first, const TemporalStep& second)
+{
+  constexpr int any[3] = { 0, 0, 0 };
+  return commonGrid(
+    { { first.Density->Grid, first.Title }, { second.Density->Grid, second.Title } }, any);
+}
+
+double massAt(const TemporalMoment& moment)
+{
+  return (1.0 - moment.Part) * moment.First.Density->Mass +
+    moment.Part * moment.Second.Density->Mass;
+}
+
+vtkSmartPointer<vtkDoubleArray> velocitiesOf(
+  const MovingParticles& particles, double length, Progress& progress)
+{
+  const std::int64_t values = 3 * particles.Count();
+  auto velocities = newArray<vtkDoubleArray>("Velocity", 3, particles.Count());
+  double* v = velocities->GetPointer(0);
+  const double* from = particles.From->GetPointer(0);
+  const double* to = particles.To->GetPointer(0);
+  progress.For(values, grain, [=](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      v[i] = length > 0.0 ? (to[i] - from[i]) / length : 0.0;
+    }
+  });
+  return velocities;
+}
+
+// The tuples [begin, begin + count) of an array; itself for all of them.
+vtkSmartPointer<vtkDoubleArray> partOf(
+  vtkDoubleArray* array, std::int64_t begin, std::int64_t count)
+{
+  auto part = vtkSmartPointer<vtkDoubleArray>::New();
+  if (begin == 0 && count == array->GetNumberOfTuples())
+  {
+    part->ShallowCopy(array);
+    return part;
+  }
+  const int components = array->GetNumberOfComponents();
+  part = newArray<vtkDoubleArray>(array->GetName(), components, count);
+  std::copy_n(array->GetPointer(begin * components), count * components, part->GetPointer(0));
+  return part;
+}
+
+CarryingImage carryingImage(const TemporalStep& step)
+{
+  const StepDensity& density = *step.Density;
+  return { step.Input->ImageIn(density.Grid.Extent()), density.Grid, density.ArrayName };
+}
+
+std::string describeMissing(const TemporalMoment& moment, const CarriedArrays& arrays)
+{
+  std::string names;
+  for (const std::string& name : arrays.Missing())
+  {
+    names += (names.empty() ? "'" : ", '") + name + "'";
+  }
+  return names.empty()
+    ? ""
+    : moment.First.Title + " and the next one do not both have, of one type: " + names +
+      "; between them there is no such array (all steps should have the same arrays)";
+}
+
+std::string describeEmpty(const TemporalMoment& moment)
+{
+  const bool isFirst = !(moment.First.Density->Mass > 0.0);
+  const bool isSecond = !(moment.Second.Density->Mass > 0.0);
+  if (isFirst == isSecond)
+  {
+    return isFirst ? moment.First.Title + " and the next one have no mass" : "";
+  }
+  return (isFirst ? moment.First.Title : moment.Second.Title) + " has no mass: that of " +
+    (isFirst ? "the next step appears" : "the step before disappears") + " where it is";
+}
+
+} // namespace
+
+void requireOneSpace(const TemporalStep& first, const TemporalStep& second)
+{
+  gridBetween(first, second);
+}
+
+std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment,
+  const TemporalSettings& settings, Progress& progress, const TemporalOutput& output)
+{
+  constexpr double partOfMap = 0.8;
+  constexpr double partOfParticles = 0.9;
+  const ImageGrid between = gridBetween(moment.First, moment.Second);
+  std::vector<std::string> warnings;
+  Interval& interval = this->Find(moment, settings, progress, partOfMap, warnings);
+  const bool isStep = !settings.Chains && (moment.Part <= 0.0 || moment.Part >= 1.0);
+  const TemporalStep& nearest = moment.Part < 1.0 ? moment.First : moment.Second;
+  const ImageGrid& geometry = isStep ? nearest.Density->Grid : between;
+  applyGrid(geometry, output.Image);
+  announceGrid(geometry, output.Announced);
+  progress.BeginStage(partOfParticles);
+  this->WriteParticles(interval, geometry, moment.Part, progress, output);
+  progress.BeginStage(1.0);
+  if (isStep)
+  {
+    WriteStep(nearest, settings.Carries, progress, output);
+  }
+  else
+  {
+    this->WriteImage(interval, settings, geometry, moment.Part, progress, output);
+  }
+  const MovingParticles& particles = interval.Particles;
+  for (vtkDataObject* part :
+    { static_cast<vtkDataObject*>(output.Image), static_cast<vtkDataObject*>(output.Particles) })
+  {
+    addFieldValue(part, "TotalMass", massAt(moment));
+    addFieldValue(part, "TransportCost", particles.Cost);
+    if (particles.HasBound)
+    {
+      addCostBound(part, particles.Bound, particles.Cost, between);
+    }
+  }
+  return warnings;
+}
+
+TemporalInterpolation::Interval& TemporalInterpolation::Find(const TemporalMoment& moment,
+  const TemporalSettings& settings, Progress& progress, double end,
+  std::vector<std::string>& warnings)
+{
+  const auto found =
+    std::find_if(this->Intervals.begin(), this->Intervals.end(), [&](const Interval& interval) {
+      return interval.First->IsSameAs(*moment.First.Density) &&
+        interval.Second->IsSameAs(*moment.Second.Density) && interval.Settings == settings.Moving &&
+        interval.Chains == settings.Chains && interval.Length == moment.Length &&
+        interval.Ranks == progress.Group().Count();
+    });
+  // What a chain makes of an interval depends on the intervals before it.
+  const bool isKept = onAllRanks(progress.Group(), found != this->Intervals.end()) &&
+    !(settings.Chains &&
+      found->Particles.From !=
+        this->Chained.Between(moment.First.Number, moment.Second.Number, progress.Group()).From);
+  if (isKept)
+  {
+    this->Intervals.splice(this->Intervals.begin(), this->Intervals, found);
+  }
+  else
+  {
+    constexpr std::size_t kept = 2;
+    while (this->Intervals.size() >= kept)
+    {
+      this->Intervals.pop_back(); // before the memory of the next one
+    }
+    Interval interval;
+    this->Make(moment, settings, progress, end, interval);
+    warnings = { interval.Particles.Warning, describeEmpty(moment) };
+    this->Intervals.push_front(std::move(interval));
+  }
+  Interval& interval = this->Intervals.front();
+  if (settings.Carries && !interval.Carries)
+  {
+    progress.BeginStage(end);
+    interval.Arrays.Make(carryingImage(moment.First), carryingImage(moment.Second),
+      interval.Particles, gridBetween(moment.First, moment.Second), progress);
+    warnings.push_back(describeMissing(moment, interval.Arrays));
+  }
+  interval.Carries = settings.Carries;
+  warnings.erase(std::remove(warnings.begin(), warnings.end(), ""), warnings.end());
+  return interval;
+}
+
+void TemporalInterpolation::Make(const TemporalMoment& moment, const TemporalSettings& settings,
+  Progress& progress, double end, Interval& interval)
+{
+  constexpr double partOfMap = 0.98;
+  const double begin = progress.StageEnd();
+  interval.First = moment.First.Density;
+  interval.Second = moment.Second.Density;
+  interval.Settings = settings.Moving;
+  interval.Chains = settings.Chains;
+  interval.Length = moment.Length;
+  interval.Ranks = progress.Group().Count();
+  if (settings.Chains)
+  {
+    interval.Particles =
+      this->Chained.Between(moment.First.Number, moment.Second.Number, progress.Group());
+  }
+  else
+  {
+    interval.Particles = makeParticles(*moment.First.Density, *moment.Second.Density,
+      settings.Moving, progress, begin + partOfMap * (end - begin));
+    this->CountMap();
+    if (!interval.Particles.Warning.empty())
+    {
+      interval.Particles.Warning = moment.Second.Title + ": " + interval.Particles.Warning;
+    }
+  }
+  progress.BeginStage(end);
+  interval.Velocities = velocitiesOf(interval.Particles, moment.Length, progress);
+}
+
+void TemporalInterpolation::WriteParticles(const Interval& interval, const ImageGrid& geometry,
+  double part, Progress& progress, const TemporalOutput& output)
+{
+  struct End
+  {
+    double Weight;
+  };
+  const MovingParticles& particles = interval.Particles;
+  const std::int64_t all = particles.Count();
+  // At its ends an interval has the particles of one step alone.
+  this->Begin = !interval.Chains && part >= 1.0 ? particles.OfFirst : 0;
+  const std::int64_t count = (part <= 0.0 ? particles.OfFirst : all) - this->Begin;
+  const double chainMass = (1.0 - part) * interval.First->Mass + part * interval.Second->Mass;
+  const double ofFirst = interval.Chains ? chainMass : 1.0 - part;
+  this->Points = newArray<vtkDoubleArray>("Points", 3, count);
+  this->Masses = newArray<vtkDoubleArray>("Mass", 1, count);
+  const std::vector<vtkSmartPointer<vtkDoubleArray>> ends = {
+    partOf(particles.From, this->Begin, count), partOf(particles.To, this->Begin, count)
+  };
+  writeMeans(ends, std::array<End, 2>{ { { 1.0 - part }, { part } } }, progress,
+    { this->Points->GetPointer(0), count });
+  const double* masses = particles.Masses->GetPointer(this->Begin);
+  double* now = this->Masses->GetPointer(0);
+  const std::int64_t second = particles.OfFirst - this->Begin;
+  progress.For(count, grain, [=](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      now[i] = masses[i] * (i < second ? ofFirst : part);
+    }
+  });
+  vtkNew<vtkPoints> points;
+  points->SetData(this->Points);
+  output.Particles->SetPoints(points);
+  vtkPointData* data = output.Particles->GetPointData();
+  data->AddArray(this->Masses);
+  data->SetVectors(partOf(interval.Velocities, this->Begin, count));
+  if (interval.Chains)
+  {
+    auto ids = newArray<vtkIdTypeArray>("SeedId", 1, count);
+    std::copy_n(particles.Numbers.begin(), count, ids->GetPointer(0));
+    data->AddArray(ids);
+  }
+  const Ranks& ranks = progress.Group();
+  if (ranks.AreSeveral())
+  {
+    moveToOwners(output.Particles, 1, PlaceOwners(geometry, nullptr, ranks), ranks, progress);
+    return;
+  }
+  if (!this->Vertices || this->Vertices->GetNumberOfCells() != count)
+  {
+    this->Vertices = newParticleCells(count, 1, progress);
+  }
+  output.Particles->SetVerts(this->Vertices);
+}
+
+void TemporalInterpolation::WriteImage(const Interval& interval, const TemporalSettings& settings,
+  const ImageGrid& geometry, double part, Progress& progress, const TemporalOutput& output)
+{
+  const Ranks& ranks = progress.Group();
+  Extent wanted = extentToGive(geometry.Extent(), output.Announced, ranks);
+  const TupleBox box = tuplesOf(wanted, ownerOf(geometry), geometry.Extent());
+  const SplatTarget target{ geometry, settings.Splat, true };
+  requireFiniteDensity(std::max(interval.First->Mass, interval.Second->Mass), target,
+    "The particles' masses", "or the cells larger");
+  output.Image->SetExtent(wanted.data());
+  auto density = newArray<vtkDoubleArray>(densityName(*interval.First), 1, box.Count());
+  const std::vector<std::int64_t>& numbers = interval.Particles.Numbers;
+  const std::int64_t* order = ranks.AreSeveral() ? numbers.data() + this->Begin : nullptr;
+  const double* masses = this->Masses->GetPointer(0);
+  const CloudSizes& sizes = interval.Particles.Sizes;
+  if (settings.Splat.Kernel == SplatKernel::CloudInCell && !sizes.IsEmpty())
+  {
+    splatClouds({ this->Points, masses, sizes, this->Begin, part }, geometry,
+      std::max(interval.First->Mass, interval.Second->Mass), box, progress, density);
+  }
+  else
+  {
+    splatDistributed(this->Points, masses, 0.0, order, target, box, progress, density);
+  }
+  output.Image->GetAttributes(ownerOf(geometry))->SetScalars(density);
+  if (settings.Carries)
+  {
+    interval.Arrays.Write({ part, this->Points, masses, this->Begin, order }, geometry,
+      settings.Splat, wanted, progress, output.Image);
+  }
+}
+
+void TemporalInterpolation::WriteStep(
+  const TemporalStep& step, bool carries, Progress& progress, const TemporalOutput& output)
+{
+  const StepDensity& density = *step.Density;
+  const Extent& whole = density.Grid.Extent();
+  Extent wanted = extentToGive(whole, output.Announced, progress.Group());
+  const int owner = ownerOf(density.Grid);
+  const TupleBox box = tuplesOf(wanted, owner, whole);
+  const TupleBox all = tuplesOf(whole, owner, whole);
+  output.Image->SetExtent(wanted.data());
+  auto values = newArray<vtkDoubleArray>(densityName(density), 1, box.Count());
+  double* to = values->GetPointer(0);
+  const double* from = density.Values->GetPointer(0);
+  progress.For(box.Count(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      to[i] = from[all.NumberOf(box.CellOf(i))];
+    }
+  });
+  output.Image->GetAttributes(owner)->SetScalars(values);
+  if (!carries)
+  {
+    return;
+  }
+  const CarryingImage image{ step.Input->ImageIn(wanted), density.Grid, density.ArrayName };
+  for (const int type : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    vtkDataSetAttributes* attributes = image.Image->GetAttributes(type);
+    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+    {
+      if (isCarried(image, type, attributes->GetAbstractArray(i)))
+      {
+        output.Image->GetAttributes(type)->AddArray(attributes->GetAbstractArray(i));
+      }
+    }
+  }
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,467 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTransportTemporalInterpolator.h"
+
+#include "Bridge/Density/InputDensity.h"
+#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Settings/SplatSettings.h"
+#include "Bridge/Temporal/KeptSteps.h"
+#include "Bridge/Temporal/StepTimes.h"
+#include "Bridge/Temporal/TemporalInterpolation.h"
+#include "Core/Parallel/RankExchange.h"
+
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+vtkStandardNewMacro(vtkTransportTemporalInterpolator);
+
+namespace
+{
+using namespace RectifiedTransport;
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+const char* const TemporalMethodTexts[] = { "Optimal", "RectifiedFlow" };
+
+// Bound the list of time steps, which hosts display.
+constexpr int MaximumResample = 1000000;
+constexpr double MaximumTimeSteps = 1e7;
+
+// The time that is requested of an output; the first step's, or 0, without a request. A time
+// outside the steps is that of the next one.
+double requestedTime(
+  vtkInformation* request, vtkInformationVector* outputVector, const StepTimes& times)
+{
+  const int port = std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT()));
+  vtkInformation* output = outputVector->GetInformationObject(port);
+  const bool isGiven = output->Has(Pipeline::UPDATE_TIME_STEP());
+  const double first = times.Count() > 0 ? times[0] : 0.0;
+  const double time = isGiven ? output->Get(Pipeline::UPDATE_TIME_STEP()) : first;
+  return times.Count() > 0 && !std::isnan(time) ? times.Clamp(time) : time;
+}
+} // namespace
+
+struct vtkTransportTemporalInterpolator::vtkInternals
+{
+  StepTimes Times;       // of the input, as announced
+  bool IsSeries = false; // else Times is the time of the one input
+  KeptSteps Steps;
+  TemporalInterpolation Interpolation;
+  int AllPasses = 1;     // that it is going to take
+  int Passes = 0;        // of this execution that are done
+  int Agreed = -1;       // the step that all ranks request next; -1 in the first pass
+  int Requested = 0;     // the step that the input is of
+  bool Changed = false;  // whether something before the filter has
+  bool IsWarned = false; // that there are no two steps
+
+  double TimeOf(vtkInformation* request, vtkInformationVector* outputs) const
+  {
+    return requestedTime(request, outputs, this->IsSeries ? this->Times : StepTimes());
+  }
+};
+
+//------------------------------------------------------------------------------
+vtkTransportTemporalInterpolator::vtkTransportTemporalInterpolator()
+  : Method(OPTIMAL)
+  , Resample(0)
+  , Chain(false)
+  , CarryArrays(true)
+  , ParticlesPerCell(1)
+  , Kernel(CLOUD_IN_CELL)
+  , Radius(1.0)
+  , Internals(new vtkInternals)
+{
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(2);
+  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
+}
+
+//------------------------------------------------------------------------------
+vtkTransportTemporalInterpolator::~vtkTransportTemporalInterpolator() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkTransportTemporalInterpolator::GetMethodAsString()
+{
+  return choiceText(TemporalMethodTexts, this->Method);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkTransportTemporalInterpolator::GetKernelAsString()
+{
+  return choiceText(KernelTexts, this->Kernel);
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkTransportTemporalInterpolator::GetNumberOfMaps()
+{
+  return static_cast<vtkIdType>(this->Internals->Interpolation.NumberOfMaps());
+}
+
+//------------------------------------------------------------------------------
+vtkImageData* vtkTransportTemporalInterpolator::GetDensity()
+{
+  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkTransportTemporalInterpolator::GetParticles()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportTemporalInterpolator::FillInputPortInformation(int, vtkInformation* info)
+{
+  vtkDensityAlgorithm::FillDensityPortInformation(info);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportTemporalInterpolator::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkImageData" : "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportTemporalInterpolator::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkInformation* input = inputVector[0]->GetInformationObject(0);
+  StepTimes& times = this->Internals->Times;
+  const StepTimes before = std::exchange(times, StepTimes(input));
+  this->Internals->IsWarned = this->Internals->IsWarned && times == before;
+  this->Internals->IsSeries = times.Count() > 0;
+  this->Internals->Passes = 0;
+  this->Internals->Agreed = -1;
+  const bool resamples = this->Resample > 0 && this->Resample <= MaximumResample &&
+    static_cast<double>(this->Resample) * times.Count() <= MaximumTimeSteps;
+  for (int port = 0; port < this->GetNumberOfOutputPorts() && times.Count() > 0; ++port)
+  {
+    vtkInformation* output = outputVector->GetInformationObject(port);
+    const double range[2] = { times[0], times[times.Count() - 1] };
+    output->Set(Pipeline::TIME_RANGE(), range, 2);
+    output->Remove(Pipeline::TIME_STEPS());
+    if (resamples)
+    {
+      const std::vector<double> steps = times.Resampled(this->Resample);
+      output->Set(Pipeline::TIME_STEPS(), steps.data(), static_cast<int>(steps.size()));
+    }
+  }
+  announceSubExtents(outputVector->GetInformationObject(0));
+  vtkDataObject* data = vtkDataObject::GetData(input);
+  if (data && !vtkImageData::SafeDownCast(data))
+  {
+    // The information of other data has no extents.
+    this->UpdateInputBeforeData(0, inputVector, outputVector);
+  }
+  const ImageGrid grid = this->AnnouncedDensityGrid(input, 0, KeptSteps::Most);
+  if (!grid.IsEmpty())
+  {
+    announceGrid(grid, outputVector->GetInformationObject(0));
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// The first step that a time needs and that is not kept; -1 for none.
+int vtkTransportTemporalInterpolator::MissingStep(double time)
+{
+  const StepTimes& times = this->Internals->Times;
+  const TimePlace place = times.Find(time);
+  std::array<int, 2> needed = { place.First, place.Second };
+  const int chained = this->Internals->Interpolation.Chain().Count();
+  if (this->Chain && chained <= place.Second)
+  {
+    needed = { std::max(0, chained - 1), chained };
+  }
+  int missing = -1;
+  for (const int step : needed)
+  {
+    if (this->Internals->Steps.Has(times[step]))
+    {
+      this->Internals->Steps.Use(times[step]);
+    }
+    else if (missing < 0)
+    {
+      missing = step;
+    }
+  }
+  return missing;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportTemporalInterpolator::RequestStep(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkInternals& own = *this->Internals;
+  vtkInformation* input = inputVector[0]->GetInformationObject(0);
+  const double time = own.TimeOf(request, outputVector);
+  if (!input || !own.IsSeries || std::isnan(time))
+  {
+    return;
+  }
+  if (own.Agreed < 0)
+  {
+    own.Changed = own.Steps.ForgetOutdated(this) || own.Changed;
+  }
+  const int missing = own.Agreed >= 0 ? own.Agreed : this->MissingStep(time);
+  // Without one that is missing, what the input is of already.
+  own.Requested = std::clamp(missing >= 0 ? missing : own.Requested, 0, own.Times.Count() - 1);
+  input->Set(Pipeline::UPDATE_TIME_STEP(), own.Times[own.Requested]);
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportTemporalInterpolator::RequestUpdateTime(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->RequestStep(request, inputVector, outputVector);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportTemporalInterpolator::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->RequestStep(request, inputVector, outputVector);
+  return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportTemporalInterpolator::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkInternals& own = *this->Internals;
+  const auto end = [&]() {
+    request->Remove(Pipeline::CONTINUE_EXECUTING());
+    own.Passes = 0;
+    own.Agreed = -1;
+    this->SetProgressShiftScale(0.0, 1.0);
+  };
+  try
+  {
+    this->RunPass(request, inputVector, outputVector);
+  }
+  catch (...)
+  {
+    end();
+    throw;
+  }
+  if (own.Agreed < 0)
+  {
+    own.Steps.Stamp(this);
+    end();
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+RectifiedTransport::TemporalSettings vtkTransportTemporalInterpolator::GetSettings()
+{
+  requireChoice("Method", this->Method, TemporalMethodTexts);
+  requireThat(this->Resample >= 0 && this->Resample <= MaximumResample, "Resample", this->Resample,
+    "from 0 (any time) to 1000000");
+  const double steps = static_cast<double>(this->Resample) * this->Internals->Times.Count();
+  if (steps > MaximumTimeSteps)
+  {
+    throw Failure("Resample is " + std::to_string(this->Resample) + ", which would make about " +
+      textOf(steps) + " time steps; it must make at most 10000000");
+  }
+  requireThat(
+    this->ParticlesPerCell >= 1, "ParticlesPerCell", this->ParticlesPerCell, "at least 1");
+  TemporalSettings settings{};
+  settings.Moving = { this->ParticlesPerCell, this->Method == OPTIMAL };
+  settings.Chains = this->Chain != 0;
+  settings.Carries = this->CarryArrays != 0;
+  settings.Splat = splatOptions(this->Kernel, this->Radius);
+  return settings;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportTemporalInterpolator::RunPass(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkInternals& own = *this->Internals;
+  const TemporalSettings settings = this->GetSettings();
+  const Ranks& ranks = this->GetRanks();
+  const double time = own.TimeOf(request, outputVector);
+  requireThat(!std::isnan(time), "The pipeline's time", time, "a number");
+  ChainedParticles& chain = own.Interpolation.Chain();
+  chain.SetSettings(settings.Moving, ranks.Count());
+  if (!own.IsSeries)
+  {
+    own.Times = StepTimes(time);
+    own.Requested = 0;
+  }
+  if (!onAllRanks(ranks, !own.Changed))
+  {
+    chain.Recheck();
+  }
+  own.Changed = !own.IsSeries; // without steps nothing tells which time the data are of
+  own.Steps.Keep(own.Times[own.Requested], vtkDataObject::GetData(inputVector[0], 0));
+  const TimePlace place = own.Times.Find(time);
+  if (own.Passes++ == 0)
+  {
+    // A chain requests one step after the other; else one may be missing yet.
+    const int more = settings.Chains ? place.Second - own.Requested : this->MissingStep(time) >= 0;
+    own.AllPasses = 1 + std::max(0, more);
+  }
+  const double part = 1.0 / own.AllPasses;
+  this->SetProgressShiftScale(std::min(1.0 - part, part * (own.Passes - 1)), part);
+  AlgorithmProgress progress(this, this->Threading, ranks);
+  own.Agreed = -1;
+  do
+  {
+    // Ranks may have kept different steps.
+    for (const int missing : gatherValues(ranks, this->MissingStep(time)))
+    {
+      own.Agreed = missing >= 0 && (own.Agreed < 0 || missing < own.Agreed) ? missing : own.Agreed;
+    }
+    if (own.Agreed >= 0)
+    {
+      request->Set(Pipeline::CONTINUE_EXECUTING(), 1);
+      return;
+    }
+  } while (settings.Chains && this->ExtendChain(place.Second, progress));
+  request->Remove(Pipeline::CONTINUE_EXECUTING());
+  this->Interpolate(time, progress, outputVector);
+}
+
+//------------------------------------------------------------------------------
+// Returns false if the step has no points.
+bool vtkTransportTemporalInterpolator::ReadStep(
+  int step, RectifiedTransport::Progress& progress, RectifiedTransport::TemporalStep& read)
+{
+  vtkInternals& own = *this->Internals;
+  read.Number = step;
+  read.Title = own.Times.Title(step);
+  const int place = own.Steps.Use(own.Times[step]);
+  KeptStep& kept = own.Steps[place];
+  try
+  {
+    read.Input = this->ReadDensity(kept.Data, progress, 0, place);
+    if (!read.Input)
+    {
+      return false;
+    }
+    read.Input->SetInputName(read.Title);
+    kept.Density = readStepDensity(*read.Input, kept.Density, progress);
+  }
+  catch (const Failure& failure)
+  {
+    throw Failure(read.Title, failure);
+  }
+  read.Density = kept.Density;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+// Returns whether there is more to do.
+bool vtkTransportTemporalInterpolator::ExtendChain(int last, RectifiedTransport::Progress& progress)
+{
+  vtkInternals& own = *this->Internals;
+  ChainedParticles& chain = own.Interpolation.Chain();
+  const int next = chain.Count();
+  if (next > last)
+  {
+    return false;
+  }
+  TemporalStep before;
+  TemporalStep step;
+  if ((next > 0 && !this->ReadStep(next - 1, progress, before)) ||
+    !this->ReadStep(next, progress, step))
+  {
+    return false;
+  }
+  if (!(step.Density->Mass > 0.0))
+  {
+    throw Failure(step.Title +
+      " has no mass, and Chain follows particles through all steps; "
+      "Chain Off lets mass appear and disappear");
+  }
+  if (next > 0)
+  {
+    requireOneSpace(before, step);
+  }
+  constexpr double partOfChain = 0.7;
+  if (chain.Extend(next > 0 ? before.Density.get() : nullptr, *step.Density, progress,
+        progress.StageEnd() + 0.5 * (partOfChain - progress.StageEnd())))
+  {
+    own.Interpolation.CountMap();
+  }
+  if (!chain.Warning().empty())
+  {
+    this->WarnOnFirstRank(step.Title + ": " + chain.Warning());
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportTemporalInterpolator::Interpolate(
+  double time, RectifiedTransport::Progress& progress, vtkInformationVector* outputVector)
+{
+  vtkInternals& own = *this->Internals;
+  const TimePlace place = own.Times.Find(time);
+  TemporalMoment moment;
+  moment.Part = place.Part;
+  moment.Length = own.Times[place.Second] - own.Times[place.First];
+  if (!this->ReadStep(place.First, progress, moment.First) ||
+    (place.Second != place.First && !this->ReadStep(place.Second, progress, moment.Second)))
+  {
+    return;
+  }
+  if (place.Second == place.First)
+  {
+    moment.Second = moment.First;
+    if (!(moment.First.Density->Mass > 0.0))
+    {
+      moment.First.Input->ThrowInvalid({}); // of a series, some steps may have no mass
+    }
+    if (!std::exchange(own.IsWarned, true))
+    {
+      this->WarnOnFirstRank(std::string("The input has ") +
+        (own.IsSeries ? "one time step" : "no time steps") +
+        ": no mass moves; the density comes out as it is (two or more time steps are a series)");
+    }
+  }
+  const TemporalOutput output{ outputVector->GetInformationObject(0),
+    vtkImageData::GetData(outputVector, 0), vtkPolyData::GetData(outputVector, 1) };
+  for (const std::string& warning :
+    own.Interpolation.Run(moment, this->GetSettings(), progress, output))
+  {
+    this->WarnOnFirstRank(warning);
+  }
+  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkDataObject::GetData(outputVector, i)
+      ->GetInformation()
+      ->Set(vtkDataObject::DATA_TIME_STEP(), time);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportTemporalInterpolator::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << this->GetMethodAsString() << "\n";
+  os << indent << "Resample: " << this->Resample << "\n";
+  os << indent << "Chain: " << (this->Chain ? "On" : "Off") << "\n";
+  os << indent << "CarryArrays: " << (this->CarryArrays ? "On" : "Off") << "\n";
+  os << indent << "ParticlesPerCell: " << this->ParticlesPerCell << "\n";
+  os << indent << "Kernel: " << this->GetKernelAsString() << "\n";
+  os << indent << "Radius: " << this->Radius << "\n";
+}
+VTK_ABI_NAMESPACE_END

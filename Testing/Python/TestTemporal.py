@@ -1,0 +1,494 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Transport Temporal Interpolator: a series at its steps and between them, its particles, the arrays that
+it carries, and series that are not as they should be."""
+import os
+import unittest
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+from rt_series import Series
+from rt_testing import OUTPUT, Listener, digest, load_plugin, main, positions
+
+simple = load_plugin()
+import rectifiedtransport
+
+N = 48
+
+
+def blob(x, y, width=5.0, n=N, height=1.0):
+    c = np.arange(n) + 0.5
+    values = height * np.exp(-((c[None, :] - x) ** 2 + (c[:, None] - y) ** 2) / (2 * width ** 2))
+    return np.where(values > 1e-4 * height, values, 0)
+
+
+def interpolator(series, **properties):
+    algorithm = rectifiedtransport.vtkRectifiedTransport.vtkTransportTemporalInterpolator()
+    algorithm.SetInputConnection(series.GetOutputPort())
+    for name, value in properties.items():
+        getattr(algorithm, "Set" + name)(value)
+    return algorithm
+
+
+def values(algorithm, name="rho", points=False):
+    image = algorithm.GetDensity()
+    array = (image.GetPointData() if points else image.GetCellData()).GetArray(name)
+    return None if array is None else vtk_to_numpy(array).copy()
+
+
+def particles(algorithm, name):
+    return vtk_to_numpy(algorithm.GetParticles().GetPointData().GetArray(name)).copy()
+
+
+def centroid(density, n=N):
+    c = np.arange(n) + 0.5
+    density = density.reshape(n, n)
+    return np.array([(density.sum(0) * c).sum(), (density.sum(1) * c).sum()]) / density.sum()
+
+
+MOVING = [blob(12, 14), blob(30, 22, 5, height=1.5), blob(34, 34, 6)]
+
+
+class Times(unittest.TestCase):
+    def test_at_steps_the_input_comes_out(self):
+        for kind in ("f4", "f8", "u1"):
+            steps = [(200 * step / step.max()).astype(kind) for step in MOVING]
+            for method in (0, 1):
+                algorithm = interpolator(Series(steps), Method=method)
+                for time, step in enumerate(steps):
+                    algorithm.UpdateTimeStep(time)
+                    self.assertTrue((values(algorithm) == step.ravel()).all(), (kind, method, time))
+                    self.assertAlmostEqual(particles(algorithm, "Mass").sum() / step.sum(dtype=float), 1, 12)
+                    self.assertEqual(algorithm.GetDensity().GetInformation().Get(
+                        vtkImageData.DATA_TIME_STEP()), time)
+
+    def test_between_steps_mass_moves(self):
+        for method in (0, 1):
+            algorithm = interpolator(Series(MOVING, times=[1, 3, 4]), Method=method)
+            for time in (1.25, 2, 2.9):
+                part = (time - 1) / 2
+                algorithm.UpdateTimeStep(time)
+                density = values(algorithm)
+                mass = (1 - part) * MOVING[0].sum() + part * MOVING[1].sum()
+                self.assertAlmostEqual(density.sum() / mass, 1, 9)
+                self.assertAlmostEqual(particles(algorithm, "Mass").sum() / mass, 1, 9)
+                field = algorithm.GetDensity().GetFieldData().GetArray("TotalMass").GetValue(0)
+                self.assertAlmostEqual(field / mass, 1, 9)
+                expected = (1 - part) * centroid(MOVING[0]) + part * centroid(MOVING[1])
+                np.testing.assert_allclose(centroid(density), expected, atol=0.15)
+                # One blob, not two: nothing has cross-faded.
+                faded = (1 - part) * MOVING[0] + part * MOVING[1]
+                truth = blob(*expected, 5, height=1 + 0.5 * part).ravel()
+                self.assertLess(np.linalg.norm(density - truth), 0.3 * np.linalg.norm(faded.ravel() - truth))
+            velocities = particles(algorithm, "Velocity")
+            self.assertEqual(algorithm.GetParticles().GetPointData().GetVectors().GetName(), "Velocity")
+            mean = np.average(velocities, axis=0, weights=particles(algorithm, "Mass"))
+            np.testing.assert_allclose(mean[:2], (centroid(MOVING[1]) - centroid(MOVING[0])) / 2, atol=0.1)
+
+    def test_a_map_that_spreads_leaves_no_stripes(self):
+        algorithm = interpolator(Series([blob(24, 24, 4), blob(24, 24, 7, height=16 / 49)]))
+        algorithm.UpdateTimeStep(0.5)
+        truth = blob(24, 24, 5.5, height=16 / 5.5 ** 2).ravel()
+        self.assertLess(np.abs(values(algorithm) - truth).max(), 0.06 * truth.max())
+
+    def test_near_a_step_is_near_that_step(self):
+        algorithm = interpolator(Series(MOVING))
+        for step in (0, 1, 2):
+            for time in (step - 1e-9, step + 1e-9):
+                algorithm.UpdateTimeStep(time)
+                self.assertLess(np.abs(values(algorithm) - MOVING[step].ravel()).max(), 1e-6)
+
+    def test_times_outside_are_the_ends(self):
+        algorithm = interpolator(Series(MOVING))
+        for time, step in ((-7, 0), (99, 2)):
+            algorithm.UpdateTimeStep(time)
+            self.assertTrue((values(algorithm) == MOVING[step].ravel()).all())
+
+    def test_the_range_is_continuous_or_resampled(self):
+        algorithm = interpolator(Series(MOVING, times=[0, 1, 3]))
+        algorithm.UpdateInformation()
+        for port in (0, 1):
+            info = algorithm.GetOutputInformation(port)
+            self.assertEqual(list(info.Get(Pipeline.TIME_RANGE())), [0, 3])
+            self.assertFalse(info.Has(Pipeline.TIME_STEPS()))
+        algorithm.SetResample(4)
+        algorithm.UpdateInformation()
+        for port in (0, 1):
+            steps = algorithm.GetOutputInformation(port).Get(Pipeline.TIME_STEPS())
+            np.testing.assert_allclose(steps, [0, 0.25, 0.5, 0.75, 1, 1.5, 2, 2.5, 3])
+
+    def test_two_intervals_are_kept(self):
+        series = Series([*MOVING, MOVING[0]])
+        algorithm = interpolator(series)
+        for time in (0.5, 0.7, 1.5, 0.2, 1.1, 0.9):
+            algorithm.UpdateTimeStep(time)
+        self.assertEqual(algorithm.GetNumberOfMaps(), 2)
+        self.assertEqual(series.asked, [0, 1, 2])
+        algorithm.UpdateTimeStep(2.5)
+        self.assertEqual(algorithm.GetNumberOfMaps(), 3)
+
+    def test_playing_backwards_gives_the_same(self):
+        times = np.linspace(0, 2, 9)
+        forward = interpolator(Series(MOVING))
+        found = []
+        for time in times:
+            forward.UpdateTimeStep(time)
+            found.append(digest(forward.GetDensity()))
+        backward = interpolator(Series(MOVING))
+        for time, before in zip(times[::-1], found[::-1]):
+            backward.UpdateTimeStep(time)
+            self.assertEqual(digest(backward.GetDensity()), before)
+
+    def test_threads_do_not_change_a_bit(self):
+        found = set()
+        for threading in (1, 2, 3):
+            algorithm = interpolator(Series(MOVING), Threading=threading)
+            algorithm.UpdateTimeStep(0.3)
+            found.add(digest(algorithm.GetDensity()) + digest(algorithm.GetParticles()))
+        self.assertEqual(len(found), 1)
+
+    def test_a_change_of_the_input_counts(self):
+        series = Series(MOVING)
+        algorithm = interpolator(series)
+        algorithm.UpdateTimeStep(1)
+        series.steps[1] = {"rho": 2 * MOVING[1]}
+        series.Modified()
+        algorithm.UpdateTimeStep(1)
+        self.assertTrue((values(algorithm) == 2 * MOVING[1].ravel()).all())
+
+    def test_properties_act(self):
+        def run(**properties):
+            algorithm = interpolator(Series(MOVING), **properties)
+            algorithm.UpdateTimeStep(0.4)
+            return digest(algorithm.GetDensity()) + digest(algorithm.GetParticles())
+        runs = [run(), run(Method=1), run(Chain=1), run(ParticlesPerCell=4), run(ParticlesPerCell=3), run(Kernel=1),
+                run(Kernel=2), run(Kernel=3), run(Kernel=3, Radius=2), run(InvertDensity=1)]
+        self.assertEqual(len(set(runs)), len(runs))
+
+    def test_points_lines_and_volumes(self):
+        line = [blob(10, 10)[10], blob(30, 10)[10]]
+        volume = [np.multiply.outer(blob(x, x, 2, 16)[int(x)], blob(x, 6, 2, 16)) for x in (5, 9)]
+        for steps, points in ((line, False), (MOVING, True), (volume, False), (volume, True)):
+            algorithm = interpolator(Series(steps, points=points))
+            algorithm.UpdateTimeStep(0.5)
+            density = values(algorithm, points=points)
+            self.assertAlmostEqual(density.sum() / (0.5 * (steps[0].sum() + steps[1].sum())), 1, 9)
+            algorithm.UpdateTimeStep(1)
+            self.assertTrue((values(algorithm, points=points) == steps[1].ravel()).all())
+
+
+class Chains(unittest.TestCase):
+    def test_particles_keep_their_identity(self):
+        for method in (0, 1):
+            algorithm = interpolator(Series(MOVING), Chain=1, Method=method)
+            at = {}
+            for time in (0, 0.5, 1, 1.5, 2):
+                algorithm.UpdateTimeStep(time)
+                self.assertTrue((particles(algorithm, "SeedId") == np.arange(N * N)).all())
+                at[time] = positions(algorithm.GetParticles())
+                mass = particles(algorithm, "Mass")
+                self.assertEqual(len(set(mass)), 1)
+                if time == int(time):
+                    self.assertAlmostEqual(mass.sum() / MOVING[int(time)].sum(), 1, 9)
+                    # The masses of blocks are those of the step.
+                    blocks = [v.reshape(6, 8, 6, 8).sum((1, 3)) for v in (values(algorithm), MOVING[int(time)])]
+                    self.assertLess(np.linalg.norm(blocks[0] - blocks[1]), 0.02 * np.linalg.norm(blocks[1]))
+            np.testing.assert_allclose(at[0.5], 0.5 * (at[0] + at[1]), atol=1e-9)
+            np.testing.assert_allclose(at[1.5], 0.5 * (at[1] + at[2]), atol=1e-9)
+
+    def test_a_late_time_is_as_after_those_before_it(self):
+        late = interpolator(Series(MOVING), Chain=1)
+        late.UpdateTimeStep(1.75)
+        played = interpolator(Series(MOVING), Chain=1)
+        for time in (0, 1.5, 0.25, 1.75):
+            played.UpdateTimeStep(time)
+        self.assertEqual(digest(late.GetParticles()), digest(played.GetParticles()))
+        self.assertEqual(played.GetNumberOfMaps(), 3)  # the samples of the first step count
+
+    def test_a_change_of_an_early_step_counts(self):
+        series = Series(MOVING)
+        algorithm = interpolator(series, Chain=1)
+        algorithm.UpdateTimeStep(1.5)
+        before = digest(algorithm.GetParticles())
+        series.Modified()
+        algorithm.UpdateTimeStep(1.5)
+        self.assertEqual(algorithm.GetNumberOfMaps(), 3)
+        series.steps[0] = {"rho": blob(8, 20)}
+        series.Modified()
+        algorithm.UpdateTimeStep(1.5)
+        self.assertNotEqual(digest(algorithm.GetParticles()), before)
+        fresh = interpolator(series, Chain=1)
+        fresh.UpdateTimeStep(1.5)
+        self.assertEqual(digest(algorithm.GetParticles()), digest(fresh.GetParticles()))
+
+
+class Carrying(unittest.TestCase):
+    def steps(self):
+        c = np.arange(N) + 0.5
+        return [{"rho": density, "x": np.broadcast_to(c - centroid(density)[0], (N, N)).copy(),
+                 "label": np.full((N, N), 7, "i4"),
+                 "vector": np.stack([np.full((N, N), float(i))] * 3, -1)} for i, density in enumerate(MOVING)]
+
+    def test_arrays_move_along(self):
+        algorithm = interpolator(Series(self.steps()))
+        algorithm.UpdateTimeStep(0.5)
+        density, x = values(algorithm), values(algorithm, "x")
+        here = np.tile(np.arange(N) + 0.5, N) - centroid(density)[0]
+        filled = density > 0.1 * density.max()
+        # What is at a blob's centre is at its centre on the way, which is far from there in both images.
+        self.assertLess(np.abs(x - here)[filled].max(), 0.6)
+        self.assertEqual(values(algorithm, "label").dtype, np.int32)
+        self.assertTrue((values(algorithm, "label") == 7).all())
+        np.testing.assert_allclose(values(algorithm, "vector"), 0.5, atol=1e-12)
+
+    def test_at_steps_they_are_those_of_the_input(self):
+        steps = self.steps()
+        algorithm = interpolator(Series(steps))
+        for time in (1, 2, 0):
+            algorithm.UpdateTimeStep(time)
+            for name in ("x", "label"):
+                self.assertTrue((values(algorithm, name) == steps[time][name].ravel()).all())
+
+    def test_off_gives_the_density_alone(self):
+        algorithm = interpolator(Series(self.steps()), CarryArrays=0)
+        for time in (0, 0.5):
+            algorithm.UpdateTimeStep(time)
+            self.assertEqual(algorithm.GetDensity().GetCellData().GetNumberOfArrays(), 1)
+        algorithm.SetCarryArrays(1)
+        algorithm.Update()
+        self.assertEqual(algorithm.GetDensity().GetCellData().GetNumberOfArrays(), 4)
+        self.assertEqual(algorithm.GetNumberOfMaps(), 1)
+
+    def test_an_array_that_a_step_lacks(self):
+        steps = self.steps()
+        del steps[1]["x"]
+        algorithm = interpolator(Series(steps))
+        listener = Listener(algorithm)
+        algorithm.UpdateTimeStep(0.5)
+        self.assertIsNone(values(algorithm, "x"))
+        self.assertIsNotNone(values(algorithm, "label"))
+        self.assertEqual(listener.errors, [])
+        self.assertEqual(len(listener.warnings), 1)
+        self.assertIn("Time step 1 of 3 (t = 0) and the next one do not both have", listener.warnings[0])
+        self.assertIn("'x'", listener.warnings[0])
+
+
+class Odd(unittest.TestCase):
+    def error(self, series, time, **properties):
+        algorithm = interpolator(series, **properties)
+        listener = Listener(algorithm)
+        algorithm.UpdateTimeStep(time)
+        self.assertEqual(len(listener.errors), 2, listener.errors)  # the second is the executive's
+        self.assertEqual(algorithm.GetDensity().GetNumberOfPoints(), 0)
+        self.assertEqual(algorithm.GetParticles().GetNumberOfPoints(), 0)
+        return listener.errors[0], algorithm
+
+    def test_no_input(self):
+        algorithm = rectifiedtransport.vtkRectifiedTransport.vtkTransportTemporalInterpolator()
+        listener = Listener(algorithm)
+        algorithm.Update()
+        self.assertEqual(len(listener.errors), 1)
+
+    def test_nan_in_one_step(self):
+        steps = [step.copy() for step in MOVING]
+        steps[1][3, 4] = np.nan
+        text, algorithm = self.error(Series(steps), 1.5)
+        self.assertIn("Time step 2 of 3 (t = 1): The density array 'rho' has 1 value that is NaN or infinite", text)
+        algorithm.SetNaNValuesToEmpty()  # as it advises
+        listener = Listener(algorithm)
+        algorithm.UpdateTimeStep(1.5)
+        self.assertEqual(listener.errors, [])
+        self.assertGreater(algorithm.GetDensity().GetNumberOfPoints(), 0)
+
+    def test_after_an_error_other_times_work(self):
+        steps = [*MOVING, -MOVING[0]]
+        text, algorithm = self.error(Series(steps), 2.5)
+        self.assertIn("Time step 4 of 4 (t = 3): The density array 'rho' has", text)
+        algorithm.UpdateTimeStep(0.5)
+        self.assertGreater(algorithm.GetDensity().GetNumberOfPoints(), 0)
+
+    def test_a_step_that_lacks_the_density(self):
+        series = Series([MOVING[0], {"other": MOVING[1]}])
+        algorithm = interpolator(series)
+        algorithm.SetInputArrayToProcess(0, 0, 0, 1, "rho")
+        listener = Listener(algorithm)
+        algorithm.UpdateTimeStep(0.5)
+        self.assertEqual(len(listener.errors), 2)  # the second is the executive's
+        self.assertIn("Time step 2 of 2 (t = 1): The input image has no density array 'rho'; it has", listener.errors[0])
+
+    def test_a_step_without_mass(self):
+        empty = np.zeros((N, N))
+        algorithm = interpolator(Series([empty, MOVING[0], empty, empty]))
+        listener = Listener(algorithm)
+        for time, factor in ((0, 0), (0.25, 0.25), (1, 1), (1.5, 0.5), (2, 0), (2.5, 0)):
+            algorithm.UpdateTimeStep(time)
+            np.testing.assert_allclose(values(algorithm), factor * MOVING[0].ravel(), atol=1e-12)
+            self.assertTrue((particles(algorithm, "Velocity") == 0).all())
+        self.assertEqual(listener.errors, [])
+        self.assertTrue(any("Time step 1 of 4 (t = 0) has no mass: that of the next step appears where it is" in text
+                            for text in listener.warnings), listener.warnings)
+        text, algorithm = self.error(Series([MOVING[0], empty, MOVING[1]]), 1.5, Chain=1)
+        self.assertIn("Time step 2 of 3 (t = 1) has no mass, and Chain follows particles through all steps; Chain Off", text)
+        algorithm.SetChain(0)  # as it advises
+        algorithm.UpdateTimeStep(1.5)
+        self.assertGreater(algorithm.GetDensity().GetNumberOfPoints(), 0)
+
+    def test_one_step_and_none(self):
+        for times in ([5], []):
+            for chain in (0, 1):
+                algorithm = interpolator(Series([MOVING[0]], times=times), Chain=chain)
+                listener = Listener(algorithm)
+                for time in (5, 3, 8):
+                    algorithm.UpdateTimeStep(time)
+                    if not chain:
+                        self.assertTrue((values(algorithm) == MOVING[0].ravel()).all())
+                    self.assertTrue((particles(algorithm, "Velocity") == 0).all())
+                self.assertEqual(listener.errors, [])
+                self.assertEqual(len(listener.warnings), 1, listener.warnings)
+                self.assertIn("no mass moves; the density comes out as it is", listener.warnings[0])
+
+    def test_repeated_and_unordered_times(self):
+        algorithm = interpolator(Series([MOVING[2], MOVING[0], MOVING[0], MOVING[1]], times=[2, 0, 0, 1]), Resample=2)
+        algorithm.UpdateInformation()
+        steps = algorithm.GetOutputInformation(0).Get(Pipeline.TIME_STEPS())
+        np.testing.assert_allclose(steps, [0, 0.5, 1, 1.5, 2])
+        plain = interpolator(Series(MOVING))
+        for time in (0, 0.5, 1.5, 2):
+            algorithm.UpdateTimeStep(time)
+            plain.UpdateTimeStep(time)
+            self.assertEqual(digest(algorithm.GetDensity()), digest(plain.GetDensity()))
+
+    def test_grids_that_change(self):
+        fine = blob(60, 60, 10, 96)
+        series = Series([MOVING[0], fine], spacing=1.0)
+        image = series.image
+
+        def half(step):
+            made = image(step)
+            if step == 1:
+                made.SetSpacing(0.5, 0.5, 1)
+            return made
+        series.image = half
+        algorithm = interpolator(series)
+        algorithm.UpdateTimeStep(0.5)
+        self.assertEqual(algorithm.GetDensity().GetDimensions(), (97, 97, 1))
+        mass = 0.5 * (MOVING[0].sum() + fine.sum() / 4)
+        self.assertAlmostEqual(values(algorithm).sum() / 4 / mass, 1, 9)
+        algorithm.UpdateTimeStep(0)
+        self.assertEqual(algorithm.GetDensity().GetDimensions(), (49, 49, 1))
+        self.assertTrue((values(algorithm) == MOVING[0].ravel()).all())
+        algorithm.UpdateTimeStep(1)
+        self.assertTrue((values(algorithm) == fine.ravel()).all())
+
+    def test_boxes_that_differ(self):
+        algorithm = interpolator(Series([MOVING[0], MOVING[0]], origins=[0.0, 10.0]))
+        algorithm.UpdateTimeStep(0.5)
+        self.assertEqual(algorithm.GetDensity().GetBounds()[:2], (0, N + 10))
+        place = np.average(positions(algorithm.GetParticles()), axis=0, weights=particles(algorithm, "Mass"))
+        np.testing.assert_allclose(place[:2], centroid(MOVING[0]) + [5, 0], atol=0.05)
+
+    def test_directions_that_differ(self):
+        series = Series(MOVING)
+        image = series.image
+
+        def turned(step):
+            made = image(step)
+            if step == 1:
+                made.SetDirectionMatrix(0, -1, 0, 1, 0, 0, 0, 0, 1)
+            return made
+        series.image = turned
+        text, _ = self.error(series, 0.5)
+        self.assertIn("Time step 2 of 3 (t = 1)", text)
+        self.assertIn("direction", text)
+
+    def test_properties_out_of_range(self):
+        for name, value, rule in (("Resample", -1, "Resample is -1; it must be from 0 (any time) to 1000000"),
+                                  ("ParticlesPerCell", 0, "ParticlesPerCell is 0; it must be at least 1"),
+                                  ("Radius", 0, "Radius is 0"), ("Method", 2, "Method is 2; it must be 0 (Optimal)"),
+                                  ("Kernel", 9, "Kernel is 9")):
+            text, _ = self.error(Series(MOVING), 0.5, **{name: value})
+            self.assertIn(rule, text)
+
+    def test_abort(self):
+        algorithm = interpolator(Series(MOVING))
+        algorithm.AddObserver("ProgressEvent", lambda caller, event: caller.SetAbortExecute(1))
+        algorithm.UpdateTimeStep(0.5)
+        self.assertEqual(algorithm.GetDensity().GetNumberOfPoints(), 0)
+        algorithm.RemoveAllObservers()
+        algorithm.SetAbortExecute(0)
+        algorithm.Modified()
+        algorithm.UpdateTimeStep(0.5)
+        self.assertGreater(algorithm.GetDensity().GetNumberOfPoints(), 0)
+
+    def test_progress_moves(self):
+        for properties in ({}, {"Chain": 1}):
+            algorithm = interpolator(Series(MOVING), **properties)
+            seen = []
+            algorithm.AddObserver("ProgressEvent", lambda caller, event: seen.append(caller.GetProgress()))
+            algorithm.UpdateTimeStep(1.5)
+            self.assertGreater(len(seen), 3)
+            self.assertEqual(seen, sorted(seen))
+
+
+class InParaView(unittest.TestCase):
+    def reader(self, name, steps):
+        folder = os.path.join(OUTPUT, name)
+        os.makedirs(folder, exist_ok=True)
+        series = Series(steps)
+        for step in range(len(steps)):
+            writer = vtkXMLImageDataWriter()
+            writer.SetFileName(os.path.join(folder, "%d.vti" % step))
+            writer.SetInputData(series.image(step))
+            writer.SetDataModeToBinary()
+            writer.Write()
+        path = os.path.join(folder, "series.pvd")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write('<VTKFile type="Collection" version="0.1"><Collection>%s</Collection></VTKFile>' % "".join(
+                '<DataSet timestep="%d" file="%d.vti"/>' % (step, step) for step in range(len(steps))))
+        return simple.PVDReader(FileName=path)
+
+    def density(self, proxy, time, points=False):
+        proxy.UpdatePipeline(time)
+        data = proxy.GetClientSideObject().GetOutputDataObject(0)
+        return vtk_to_numpy((data.GetPointData() if points else data.GetCellData()).GetArray("rho"))
+
+    def test_files_and_a_filter_downstream(self):
+        proxy = simple.TransportTemporalInterpolator(self.reader("temporal", MOVING), DensityArray=["CELLS", "rho"])
+        downstream = simple.CellDatatoPointData(proxy)
+        calculator = simple.Calculator(proxy, AttributeType="Cell Data", ResultArrayName="rho", Function="2*rho")
+        for time in (0.5, 1, 0.75, 0):
+            twice = self.density(calculator, time).copy()
+            np.testing.assert_allclose(twice, 2 * self.density(proxy, time))
+            downstream.UpdatePipeline(time)
+            self.assertEqual(downstream.GetDataInformation().GetNumberOfPoints(), (N + 1) ** 2)
+        self.assertTrue((self.density(proxy, 2) == MOVING[2].ravel()).all())
+
+    def test_any_data_set(self):
+        reader = self.reader("temporal-mesh", MOVING)
+        mesh = simple.Threshold(reader, Scalars=["CELLS", "rho"], LowerThreshold=1e-6, UpperThreshold=1e6)
+        proxy = simple.TransportTemporalInterpolator(mesh, DensityArray=["CELLS", "rho"], DensityResolution=64)
+        for time in (0.5, 1, 1.5):
+            proxy.UpdatePipeline(time)
+            data = proxy.GetClientSideObject().GetOutputDataObject(0)
+            low, part = int(time), time - int(time)
+            mass = (1 - part) * MOVING[low].sum() + part * MOVING[min(2, low + 1)].sum()
+            cell = np.prod([s for s in data.GetSpacing()[:2]])
+            self.assertAlmostEqual(vtk_to_numpy(data.GetCellData().GetArray("rho")).sum() * cell / mass, 1, 2)
+
+    def test_paths(self):
+        proxy = simple.TransportTemporalInterpolator(self.reader("temporal-paths", MOVING), DensityArray=["CELLS", "rho"],
+                                                     Chain=1, Resample=2)
+        proxy.UpdatePipelineInformation()
+        self.assertEqual(list(proxy.TimestepValues), [0, 0.5, 1, 1.5, 2])
+        paths = simple.TemporalParticlesToPathlines(simple.OutputPort(proxy, 1), MaskPoints=100, MaxTrackLength=10,
+                                                    IdChannelArray="SeedId", MaxStepDistance=[N, N, N])
+        for time in proxy.TimestepValues:
+            paths.UpdatePipeline(time)
+        self.assertGreater(paths.GetDataInformation().GetNumberOfCells(), 10)
+
+
+if __name__ == "__main__":
+    main()
