@@ -129,6 +129,29 @@ int vtkCollectiveAlgorithm::ProcessInformation(
 int vtkCollectiveAlgorithm::ProcessData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  int result = this->ProcessPass(request, inputVector, outputVector);
+  while (request->Get(Pipeline::CONTINUE_EXECUTING()))
+  {
+    request->Remove(Pipeline::CONTINUE_EXECUTING());
+    this->RequestUpdateExtent(request, inputVector, outputVector);
+    if (!RectifiedTransport::updateInput(this, 0, 0))
+    {
+      this->AbandonPasses();
+      const double time =
+        inputVector[0]->GetInformationObject(0)->Get(Pipeline::UPDATE_TIME_STEP());
+      RectifiedTransport::fail("The input could not be made at the time ", time,
+        "; mend the error of the filter or reader before this one");
+    }
+    result = this->ProcessPass(request, inputVector, outputVector);
+  }
+  return RectifiedTransport::clearUnmetRequests(outputVector) ? result : 0;
+}
+
+//------------------------------------------------------------------------------
+int vtkCollectiveAlgorithm::ProcessPass(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
   RectifiedTransport::clearImages(outputVector);
   this->Run = this->Whole->BeginRun(this, inputVector);
   if (this->Run)
@@ -149,12 +172,11 @@ int vtkCollectiveAlgorithm::ProcessData(
   }
   this->EndRun();
   this->Whole->Separate().End();
-  if (request->Get(vtkStreamingDemandDrivenPipeline::CONTINUE_EXECUTING()))
-  {
-    return result; // the outputs are made in a later pass
-  }
-  return RectifiedTransport::clearUnmetRequests(outputVector) ? result : 0;
+  return result;
 }
+
+//------------------------------------------------------------------------------
+void vtkCollectiveAlgorithm::AbandonPasses() {}
 
 //------------------------------------------------------------------------------
 int vtkCollectiveAlgorithm::GatherAndRun(

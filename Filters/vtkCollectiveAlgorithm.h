@@ -192,9 +192,18 @@ protected:
    * Fill the outputs. An exception becomes one error and empty outputs, an abort empty outputs.
    * Without other ranks piece 0 holds all data of a filter whose inputs have no pieces: for other
    * pieces this is not called, and the outputs are empty.
+   *
+   * If it sets CONTINUE_EXECUTING in the request, RequestUpdateExtent is called again, the input of
+   * port 0 is updated and RequestData called once more. VTK's executives, which do that for other
+   * filters, never end where a filter upstream fails meanwhile (VTK 9.1 to 9.6).
    */
   virtual int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) = 0;
+
+  /**
+   * No further pass comes, as the input could not be made. By default nothing.
+   */
+  virtual void AbandonPasses();
 
   int Threading;
 
@@ -204,6 +213,8 @@ private:
   int ProcessTimeDependentInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   int ProcessData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+  int ProcessPass(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   int GatherAndRun(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);

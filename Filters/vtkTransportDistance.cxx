@@ -216,10 +216,16 @@ int vtkTransportDistance::RequestData(
   catch (...)
   {
     request->Remove(Pipeline::CONTINUE_EXECUTING());
-    this->Internals->Step = 0;
+    this->AbandonPasses();
     throw;
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportDistance::AbandonPasses()
+{
+  this->Internals->Step = 0;
 }
 
 //------------------------------------------------------------------------------

@@ -177,6 +177,7 @@ protected:
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
+  void AbandonPasses() override;
 
   int Method;
   int MassDifference;

@@ -245,27 +245,31 @@ int vtkTransportTemporalInterpolator::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkInternals& own = *this->Internals;
-  const auto end = [&]() {
-    request->Remove(Pipeline::CONTINUE_EXECUTING());
-    own.Passes = 0;
-    own.Agreed = -1;
-    this->SetProgressShiftScale(0.0, 1.0);
-  };
   try
   {
     this->RunPass(request, inputVector, outputVector);
   }
   catch (...)
   {
-    end();
+    request->Remove(Pipeline::CONTINUE_EXECUTING());
+    this->AbandonPasses();
     throw;
   }
   if (own.Agreed < 0)
   {
     own.Steps.Stamp(this);
-    end();
+    request->Remove(Pipeline::CONTINUE_EXECUTING());
+    this->AbandonPasses();
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportTemporalInterpolator::AbandonPasses()
+{
+  this->Internals->Passes = 0;
+  this->Internals->Agreed = -1;
+  this->SetProgressShiftScale(0.0, 1.0);
 }
 
 //------------------------------------------------------------------------------

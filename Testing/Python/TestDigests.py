@@ -503,8 +503,8 @@ def digests():
     vtkObject.GlobalWarningDisplayOff()
     found = {}
     ran = set()
-    for runs in (sampler_runs, optimal_runs, map_runs, distance_runs, temporal_runs, warp_runs, blend_runs, splat_runs, other_runs,
-                 parameterization_runs, surface_runs, relaxation_runs):
+    for runs in (sampler_runs, optimal_runs, map_runs, distance_runs, temporal_runs, warp_runs, blend_runs,
+                 splat_runs, other_runs, parameterization_runs, surface_runs, relaxation_runs):
         for name, filter_class, inputs, properties in runs():
             assert name not in found, name
             if Devices.asked and not Devices.serve(filter_class):

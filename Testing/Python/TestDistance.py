@@ -4,9 +4,9 @@ inputs."""
 import unittest
 
 import numpy as np
+from rt_series import Series
 from rt_testing import Listener, density_image, digest, load_plugin, main, producer
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkTable
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
@@ -241,31 +241,12 @@ class Masses(unittest.TestCase):
         self.assertFalse(errors_of(algorithm_of([image(a), image(a)], MassDifference=1))[0])
 
 
-class Series(VTKPythonAlgorithmBase):
+def moving(times, bad=None):
     """A bell that moves with time; one step may be bad."""
-
-    def __init__(self, steps, bad=None):
-        VTKPythonAlgorithmBase.__init__(self, nInputPorts=0, nOutputPorts=1, outputType="vtkImageData")
-        self.steps, self.bad, self.asked = list(steps), bad, []
-
-    def RequestInformation(self, request, inputs, outputs):
-        info = outputs.GetInformationObject(0)
-        info.Set(vtkStreamingDemandDrivenPipeline.TIME_STEPS(), self.steps, len(self.steps))
-        info.Set(vtkStreamingDemandDrivenPipeline.TIME_RANGE(), [self.steps[0], self.steps[-1]], 2)
-        info.Set(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT(), 0, SIDE, 0, SIDE, 0, 0)
-        return 1
-
-    def RequestData(self, request, inputs, outputs):
-        info = outputs.GetInformationObject(0)
-        time = info.Get(vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP())
-        self.asked.append(time)
-        values = bell(10 + 4 * time, 20)
-        if time == self.bad:
-            values[3, 4] = np.nan
-        output = info.Get(vtkTable.DATA_OBJECT())
-        output.ShallowCopy(image(values))
-        output.GetInformation().Set(vtkTable.DATA_TIME_STEP(), time)
-        return 1
+    steps = [bell(10 + 4 * time, 20) for time in times]
+    if bad is not None:
+        steps[list(times).index(bad)][3, 4] = np.nan
+    return Series(steps, times, spacing=image(steps[0]).GetSpacing())
 
 
 class OverTime(unittest.TestCase):
@@ -278,7 +259,7 @@ class OverTime(unittest.TestCase):
 
     def test_steps(self):
         for method in (0, 1):
-            series = Series(self.STEPS)
+            series = moving(self.STEPS)
             algorithm = self.over(series, Method=method)
             progress = []
             algorithm.AddObserver("ProgressEvent", lambda *_: progress.append(algorithm.GetProgress()))
@@ -295,7 +276,7 @@ class OverTime(unittest.TestCase):
 
     def test_runs_once(self):
         """Whatever time is asked for, and through a filter after it."""
-        series = Series(self.STEPS)
+        series = moving(self.STEPS)
         algorithm = self.over(series)
         for time in (0, 2, 1):
             algorithm.UpdateTimeStep(time)
@@ -308,24 +289,37 @@ class OverTime(unittest.TestCase):
         self.assertEqual(algorithm.GetNumberOfSolutions(), len(self.STEPS))
 
     def test_errors(self):
-        errors, _ = errors_of(self.over(Series(self.STEPS, bad=1)))
+        errors, _ = errors_of(self.over(moving(self.STEPS, bad=1)))
         self.assertIn("Time step 3 of 5 (t = 1)", errors[0])
         self.assertIn("NaN or infinite", errors[0])
-        errors, _ = errors_of(self.over(Series([3])))
+        errors, _ = errors_of(self.over(moving([3])))
         self.assertIn("one time step", errors[0])
         errors, _ = errors_of(algorithm_of(bells((10, 20)), OverTime=1))
         self.assertIn("no time steps", errors[0])
         errors, _ = errors_of(algorithm_of(bells((10, 20), (12, 20)), OverTime=1))
         self.assertIn("there are 2 inputs", errors[0])
 
+    def test_a_reader_that_fails(self):
+        """VTK's own way to run a filter for several times would not end."""
+        series = moving(self.STEPS)
+        algorithm = self.over(series)
+        series.broken = 1
+        errors, _ = errors_of(algorithm)
+        self.assertIn("The input could not be made at the time 1; mend the error", "".join(errors))
+        self.assertEqual(series.asked, self.STEPS[:3])
+        series.broken = None
+        series.Modified()
+        algorithm.Update()
+        self.assertEqual(algorithm.GetDistances().GetNumberOfRows(), len(self.STEPS))
+
     def test_again_after_an_error(self):
-        series = Series(self.STEPS, bad=2)
+        series = moving(self.STEPS, bad=2)
         algorithm = self.over(series)
         listener = Listener(algorithm)
         algorithm.Update()
         self.assertTrue(listener.errors)
         self.assertEqual(algorithm.GetDistances().GetNumberOfRows(), 0)
-        series.bad, series.asked = None, []
+        series.steps, series.asked = moving(self.STEPS).steps, []
         series.Modified()
         algorithm.Update()
         self.assertEqual(series.asked, self.STEPS)

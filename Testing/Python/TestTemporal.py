@@ -303,6 +303,22 @@ class Odd(unittest.TestCase):
         self.assertEqual(listener.errors, [])
         self.assertGreater(algorithm.GetDensity().GetNumberOfPoints(), 0)
 
+    def test_a_reader_that_fails(self):
+        """VTK's own way to run a filter for several times would not end."""
+        for chain in (0, 1):
+            series = Series(MOVING)
+            series.broken = 1
+            algorithm = interpolator(series, Chain=chain)
+            listener = Listener(algorithm)
+            algorithm.UpdateTimeStep(0.5)
+            self.assertIn("The input could not be made at the time 1; mend the error", "".join(listener.errors))
+            self.assertEqual(algorithm.GetDensity().GetNumberOfPoints(), 0)
+            self.assertEqual(series.asked, [0, 1])
+            series.broken = None
+            series.Modified()
+            algorithm.UpdateTimeStep(0.5)
+            self.assertGreater(algorithm.GetDensity().GetNumberOfPoints(), 0)
+
     def test_after_an_error_other_times_work(self):
         steps = [*MOVING, -MOVING[0]]
         text, algorithm = self.error(Series(steps), 2.5)

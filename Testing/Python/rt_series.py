@@ -8,7 +8,10 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline 
 
 
 class Series(VTKPythonAlgorithmBase):
-    """Images of cells (or points), of dictionaries of arrays: the first one is the density."""
+    """Images of cells (or points), of dictionaries of arrays: the first one is the density. At the time
+    `broken`, if any, it fails."""
+
+    broken = None
 
     def __init__(self, steps, times=None, points=False, spacing=1.0, origins=None):
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkImageData")
@@ -21,7 +24,7 @@ class Series(VTKPythonAlgorithmBase):
         arrays, image = self.steps[step], vtkImageData()
         shape = next(iter(arrays.values())).shape[:next(iter(arrays.values())).ndim][::-1]
         image.SetDimensions([n + (0 if self.points else 1) for n in shape] + [1] * (3 - len(shape)))
-        image.SetSpacing(self.spacing, self.spacing, self.spacing)
+        image.SetSpacing(np.broadcast_to(self.spacing, 3))
         image.SetOrigin(self.origins[step], 0, 0)
         for name, values in arrays.items():
             flat = np.ascontiguousarray(values).reshape(int(np.prod(shape)), -1)
@@ -43,6 +46,8 @@ class Series(VTKPythonAlgorithmBase):
         info = outputs.GetInformationObject(0)
         time = info.Get(Pipeline.UPDATE_TIME_STEP()) if self.times else 0
         self.asked.append(time)
+        if time == self.broken:
+            return 0
         step = int(np.argmin(np.abs(np.array(self.times) - time))) if self.times else 0
         vtkImageData.GetData(outputs).ShallowCopy(self.image(step))
         vtkImageData.GetData(outputs).GetInformation().Set(vtkImageData.DATA_TIME_STEP(), time)

@@ -71,4 +71,17 @@ void EarlyUpdate::Run(vtkAlgorithm* filter, int port, int connection, vtkInforma
   this->Updated[{ port, connection }] = { producer, outputPort, pipeline->GetPipelineMTime() };
 }
 
+bool updateInput(vtkAlgorithm* filter, int port, int connection)
+{
+  int outputPort = 0;
+  vtkAlgorithm* producer = filter->GetInputAlgorithm(port, connection, outputPort);
+  auto* pipeline = Pipeline::SafeDownCast(producer ? producer->GetExecutive() : nullptr);
+  if (!pipeline)
+  {
+    return false;
+  }
+  const RequestedTimes kept(producer);
+  return pipeline->Update(outputPort) != 0;
+}
+
 } // namespace RectifiedTransport

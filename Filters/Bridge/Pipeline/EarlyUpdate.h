@@ -49,6 +49,9 @@ private:
   std::map<std::pair<int, int>, Update> Updated; // the last of each port and connection
 };
 
+// Updates the producer of an input, of what is requested from it now. Returns whether it could.
+bool updateInput(vtkAlgorithm* filter, int port, int connection);
+
 } // namespace RectifiedTransport
 
 #endif
