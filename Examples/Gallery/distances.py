@@ -26,4 +26,4 @@ ColorBy(shown, ("POINTS", "Coordinate0"))
 shown.SetScalarBarVisibility(view, False)
 view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, 0, 10], [0, 0, 0], [0, 1, 0]
 view.CameraParallelProjection = 1
-view.CameraParallelScale = 11
+view.CameraParallelScale = 9.5
