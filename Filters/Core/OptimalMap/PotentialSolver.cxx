@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace RectifiedTransport
@@ -163,6 +165,16 @@ PotentialSolver<Dimension>::PotentialSolver(const BoxedDensity<Dimension>& sourc
       hasMassEverywhere(target))
   , Nodes{}
 {
+  constexpr double most = 1e120; // beyond, squared sides of cells vanish beside others
+  const auto [shortest, longest] = std::minmax_element(sides.begin(), sides.end());
+  if (!(*longest <= most * *shortest))
+  {
+    std::ostringstream text;
+    text << "The longest side of the domain is " << *longest / *shortest
+         << " times the shortest one; an optimal map needs one that is at most " << most
+         << " times as long";
+    throw std::invalid_argument(text.str());
+  }
 }
 
 template <int Dimension>

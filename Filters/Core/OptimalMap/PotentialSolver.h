@@ -60,6 +60,7 @@ template <int Dimension>
 class PotentialSolver
 {
 public:
+  // Throws std::invalid_argument if a side is more than 1e120 times as long as another one.
   PotentialSolver(const BoxedDensity<Dimension>& source, const BoxedDensity<Dimension>& target,
     const Point<Dimension>& sides, const SolverOptions& options);
 

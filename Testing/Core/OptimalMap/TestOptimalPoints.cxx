@@ -404,6 +404,14 @@ TYPED_TEST(OptimalPoints, AreRefusedWhereNothingCanBeMoved)
   wrong.Values[3] = std::numeric_limits<double>::quiet_NaN();
   const auto bad = wrong.Source();
   EXPECT_THROW(OptimalMap<D>(bad, sides), InvalidDensity);
+  if (D > 1)
+  {
+    Point<D> thin = sides;
+    thin[0] = 1e-130;
+    EXPECT_NE(
+      refusal([&]() { OptimalMap<D>(density.Source(), thin); }).find("longest side of the domain"),
+      std::string::npos);
+  }
   const TestDensity<D> other = twoGaussians<D>(evenSize<D>(9));
   EXPECT_NE(refusal([&]() { solvedPair<D>(density, other).UpperBound(); }).find("same number"),
     std::string::npos);
