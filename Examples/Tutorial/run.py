@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Remakes the six tasks of Documentation/Tutorial.md: a picture of each, the film of the morph,
+"""Remakes the seven tasks of Documentation/Tutorial.md: a picture of each, the film of the morph,
 and, with --states, the state files beside this script."""
 import math
 import os
@@ -176,6 +176,27 @@ def two_runs(pixels):
     return view, math.sqrt(figure(transport, 0, "TransportCost"))
 
 
+def between_two_steps(pixels, frames):
+    """A series of two steps, with others between them that its mass moves through."""
+    view = example.new_session([pixels, pixels], "Tutorial")
+    plume = simple.XMLImageDataReader(registrationName="Plume", FileName=PLUME)
+    between = simple.TransportTemporalInterpolator(plume, registrationName="Between",
+                                                   Resample=frames - 1)
+    between.DensityArray = ["POINTS", "Smoke"]
+    surface = simple.Contour(registrationName="Surface", Input=between)
+    surface.ContourBy = ["POINTS", "Smoke"]
+    surface.Isosurfaces = [64]
+
+    scene = simple.GetAnimationScene()
+    scene.UpdateAnimationUsingDataTimeSteps()
+    scene.PlayMode = "Snap To TimeSteps"
+    shown = simple.Show(surface, view)
+    example.paint(shown, [0.75, 0.8, 0.9])
+    look(view, [2, 2, 3.4], [2, -10, 1], [0, 0, 1], 5.2)
+    simple.SetActiveSource(between)
+    return view, between
+
+
 def areas_of_people(pixels):
     """A map whose states have the areas of their people, as it is when it is first shown."""
     view = example.new_session([pixels, pixels], "Tutorial")
@@ -239,19 +260,22 @@ def main():
     view, words = stipple_a_slice(arguments.pixels)
     print("%s: %s" % (keep("slice", view), words))
 
-    view, morph = morph_two_volumes(arguments.pixels, arguments.frames, arguments.resolution)
-    scene, moments = simple.GetAnimationScene(), []
-    for moment in (0, 0.25, 0.5, 0.75, 1):
-        scene.AnimationTime = moment
-        moments.append(("%g" % moment, figures.drawn(example.save_picture, view)))
-    path = example.output(arguments, "tutorial-morph.png")
-    figures.montage(path, [moments], arguments.pixels // 3)
-    film = example.output(arguments, "tutorial-morph.ogv")
-    simple.SaveAnimation(film, view, ImageResolution=[arguments.pixels] * 2, FrameRate=12)
-    if arguments.states:
-        scene.AnimationTime = 0.5
-        example.save_state(os.path.join(HERE, "morph.pvsm"))
-    print("%s, %s: %d time steps" % (film, path, len(morph.TimestepValues)))
+    def keep_film(name, view, source):
+        scene, moments = simple.GetAnimationScene(), []
+        for moment in (0, 0.25, 0.5, 0.75, 1):
+            scene.AnimationTime = moment
+            moments.append(("%g" % moment, figures.drawn(example.save_picture, view)))
+        path = example.output(arguments, "tutorial-%s.png" % name)
+        figures.montage(path, [moments], arguments.pixels // 3)
+        film = example.output(arguments, "tutorial-%s.ogv" % name)
+        simple.SaveAnimation(film, view, ImageResolution=[arguments.pixels] * 2, FrameRate=12)
+        if arguments.states:
+            scene.AnimationTime = 0.5
+            example.save_state(os.path.join(HERE, name + ".pvsm"))
+        print("%s, %s: %d time steps" % (film, path, len(source.TimestepValues)))
+
+    keep_film("morph", *morph_two_volumes(arguments.pixels, arguments.frames, arguments.resolution))
+    keep_film("between", *between_two_steps(arguments.pixels, arguments.frames))
 
     view, distance = compare_two_fields(arguments.pixels)
     print("%s: %.3f m" % (keep("compare", view), distance))

@@ -106,6 +106,19 @@ class States(unittest.TestCase):
         cow = simple.FindSource("Place").GetDataInformation().GetBounds()
         np.testing.assert_allclose(found, cow, atol=5)
 
+    def test_between(self):
+        middle = self.opened("between")
+        between = simple.FindSource("Between")
+        np.testing.assert_allclose(between.TimestepValues, np.arange(25) / 24)
+        scene = simple.GetAnimationScene()
+        self.assertEqual(scene.AnimationTime, 0.5)
+        self.assertGreater(np.abs(means(middle) - 1).max(), 0.2)
+        for moment in (0, 1):
+            scene.AnimationTime = moment
+            between.UpdatePipeline(moment)
+            values = vtk_to_numpy(output_of(between).GetPointData().GetArray("Smoke"))
+            np.testing.assert_array_equal(values, smoke(moment)[0])
+
     def test_compare(self):
         self.check_picture(self.opened("compare"), "tutorial-compare.png")
         morph = simple.FindSource("Between")
@@ -165,13 +178,14 @@ class Script(unittest.TestCase):
              "--output", OUTPUT, "--pixels", "200", "--frames", "3", "--resolution", "24"],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True).stdout
         self.assertIn("20000 dots, 0.7846 m²", printed)
-        self.assertIn("3 time steps", printed)
+        self.assertEqual(printed.count("3 time steps"), 2)
         self.assertRegex(printed, re.escape("tutorial-compare.png: 1.327 m"))
         self.assertRegex(printed, re.escape("tutorial-runs.png: 0.599 m"))
-        with open(os.path.join(OUTPUT, "tutorial-morph.ogv"), "rb") as film:
-            data = film.read()
-        self.assertEqual(data[:4], b"OggS")
-        self.assertGreater(len(data), 4000)
+        for name in ("morph", "between"):
+            with open(os.path.join(OUTPUT, "tutorial-%s.ogv" % name), "rb") as film:
+                data = film.read()
+            self.assertEqual(data[:4], b"OggS")
+            self.assertGreater(len(data), 4000)
         self.assertIn("tutorial-people.png: areas within 0.18 %", printed)
         self.assertIn("tutorial-mesh.png: 20000 dots, 2.0394 of ink", printed)
         for name in ("slice", "compare", "runs", "people", "mesh"):
