@@ -64,6 +64,17 @@ for source in (first, last):
 SetActiveSource(last)
 """ % ASCENT
 
+# Two time steps of smoke, of coarse grids.
+OPEN_STEPS = """
+from paraview.simple import *
+plume = XMLImageDataReader(registrationName='Plume', FileName=%s)
+coarse = ExtractSubset(registrationName='Coarse', Input=plume, VOI=[0, 47, 0, 47, 0, 95],
+                       SampleRateI=4, SampleRateJ=4, SampleRateK=4)
+Show(coarse, GetActiveViewOrCreate('RenderView'))
+ResetCamera()
+SetActiveSource(coarse)
+""" % [os.path.join(SOURCE, "Examples", "Tutorial", "plume-%d.vti" % i) for i in range(2)]
+
 PLAY = ("VCRToolbar/1QToolButton3", "activate", "")
 # In the dialog that asks for the second input: the first source, and OK.
 DENSITY = (("SelectInputDialog/buttonFrame/Density", "set_boolean", "true"),
@@ -315,6 +326,17 @@ SetActiveSource(sampler)
         for steps, times in (((PLAY,), [i / 10 for i in range(11)]), ((delete,), [0, 1, 2])):
             saved = self.state_after("gui-morph-series.png", *make, *steps, script_text=OPEN_SERIES)
             self.assertEqual(numbers(saved, "TimeKeeper", "TimestepValues"), times)
+
+    def test_series_between_its_steps(self):
+        """With Resample the play button runs over times between the steps, to the last one; then back."""
+        resample = PANEL + "Resample/IntRangeWidget/LineEdit"
+        first = ("VCRToolbar/1QToolButton0", "activate", "")
+        make = (choose("Filters", "TransportTemporalInterpolator"), (resample, "set_string", "4"), APPLY)
+        saved = self.states_after("gui-series.png", (*make, PLAY), (first,), script_text=OPEN_STEPS)
+        for state, time in zip(saved, (1, 0)):
+            self.assertEqual(numbers(state, "TransportTemporalInterpolator", "Resample"), [4])
+            self.assertEqual(numbers(state, "TimeKeeper", "TimestepValues"), [0, 0.25, 0.5, 0.75, 1])
+            self.assertEqual(numbers(state, "TimeKeeper", "Time"), [time])
 
     def test_barycenter_of_selected(self):
         """Images that are selected together are its inputs; weights are typed into the panel."""
