@@ -145,9 +145,12 @@ void addCloud(const CloudRow (&rows)[D], const GridSize<D>& size, double mass, b
 }
 
 template <int D>
-void deposit(const MovedClouds& clouds, const ImageGrid& geometry, double scale, Progress& progress,
+void deposit(const MovedClouds& clouds, const ImageGrid& geometry, int exponent, Progress& progress,
   std::atomic<std::int64_t>* cells)
 {
+  // In two steps, neither of which overflows.
+  const double scales[2] = { std::ldexp(1.0, exponent / 2),
+    std::ldexp(1.0, exponent - exponent / 2) };
   const GridSize<D> size = geometry.Size<D>();
   const Point<D> lengths = cellLengths<D>(geometry);
   const bool isAlone = progress.Threads().Concurrency() == 1;
@@ -168,7 +171,7 @@ void deposit(const MovedClouds& clouds, const ImageGrid& geometry, double scale,
             (1.0 - clouds.Part) * from[D * i + axis] + clouds.Part * to[D * i + axis];
           rows[axis] = rowOf(index[axis], length / lengths[axis], size[axis]);
         }
-        addCloud<D>(rows, size, clouds.Masses[i] * scale, isAlone, cells);
+        addCloud<D>(rows, size, clouds.Masses[i] * scales[0] * scales[1], isAlone, cells);
       }
     });
 }
@@ -277,9 +280,8 @@ void splatClouds(const MovedClouds& clouds, const ImageGrid& geometry, double mo
   const TupleBox all = tuplesOf(geometry.Extent(), owner, geometry.Extent());
   withMemory("the sums of the cells", 16.0 * static_cast<double>(cells), [&]() {
     const Counters counters(new std::atomic<std::int64_t>[static_cast<std::size_t>(cells)]());
-    MovedClouds scaled = clouds;
     dispatchDimension(geometry.Dimension(), deposit<1>, deposit<2>, deposit<3>)(
-      scaled, geometry, std::ldexp(1.0, exponent), progress, counters.get());
+      clouds, geometry, exponent, progress, counters.get());
     const std::vector<std::int64_t> sums =
       sumOfRanks(counters.get(), all, wanted, progress.Group());
     double* to = density->GetPointer(0);
