@@ -70,6 +70,10 @@ void checkFilter(Checks& checks, const Campaign::FilterKind& kind)
     const bool takesPoints = portKind(filter, port) == PortKind::Points;
     filter->SetInputConnection(
       port, (takesPoints ? static_cast<vtkAlgorithm*>(points) : image)->GetOutputPort());
+    if (filter->GetInputPortInformation(port)->Has(vtkAlgorithm::INPUT_IS_REPEATABLE()))
+    {
+      filter->AddInputConnection(port, image->GetOutputPort()); // distances need two
+    }
     hasPoints = hasPoints || takesPoints;
     hasImage = hasImage || !takesPoints;
   }
