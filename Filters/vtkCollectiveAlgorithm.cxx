@@ -25,6 +25,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 VTK_ABI_NAMESPACE_BEGIN
 
@@ -91,6 +92,8 @@ vtkTypeBool vtkCollectiveAlgorithm::ProcessRequest(
   catch (...)
   {
     this->IsAlone = false;
+    this->HasNextPass = false;
+    this->EndPasses();
     this->Whole->Separate().End();
     const std::unique_ptr<RectifiedTransport::RankRun> run = std::move(this->Run);
     return RectifiedTransport::handleException(this, outputVector, run.get());
@@ -129,17 +132,14 @@ int vtkCollectiveAlgorithm::ProcessInformation(
 int vtkCollectiveAlgorithm::ProcessData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
   int result = this->ProcessPass(request, inputVector, outputVector);
-  while (request->Get(Pipeline::CONTINUE_EXECUTING()))
+  while (std::exchange(this->HasNextPass, false))
   {
-    request->Remove(Pipeline::CONTINUE_EXECUTING());
     this->RequestUpdateExtent(request, inputVector, outputVector);
     if (!RectifiedTransport::updateInput(this, 0, 0))
     {
-      this->AbandonPasses();
-      const double time =
-        inputVector[0]->GetInformationObject(0)->Get(Pipeline::UPDATE_TIME_STEP());
+      const double time = inputVector[0]->GetInformationObject(0)->Get(
+        vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
       RectifiedTransport::fail("The input could not be made at the time ", time,
         "; mend the error of the filter or reader before this one");
     }
@@ -176,7 +176,7 @@ int vtkCollectiveAlgorithm::ProcessPass(
 }
 
 //------------------------------------------------------------------------------
-void vtkCollectiveAlgorithm::AbandonPasses() {}
+void vtkCollectiveAlgorithm::EndPasses() {}
 
 //------------------------------------------------------------------------------
 int vtkCollectiveAlgorithm::GatherAndRun(

@@ -193,17 +193,22 @@ protected:
    * Without other ranks piece 0 holds all data of a filter whose inputs have no pieces: for other
    * pieces this is not called, and the outputs are empty.
    *
-   * If it sets CONTINUE_EXECUTING in the request, RequestUpdateExtent is called again, the input of
-   * port 0 is updated and RequestData called once more. VTK's executives, which do that for other
-   * filters, never end where a filter upstream fails meanwhile (VTK 9.1 to 9.6).
+   * If it calls RequestNextPass, RequestUpdateExtent is called again, the input of port 0 is
+   * updated and RequestData called once more.
    */
   virtual int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) = 0;
 
   /**
-   * No further pass comes, as the input could not be made. By default nothing.
+   * For RequestData: run once more, of other data. With CONTINUE_EXECUTING VTK's executives do so
+   * for other filters, but never end where a filter upstream fails meanwhile (VTK 9.1 to 9.6).
    */
-  virtual void AbandonPasses();
+  void RequestNextPass() { this->HasNextPass = true; }
+
+  /**
+   * Begin anew with the next pass: there was an error or an abort. By default nothing.
+   */
+  virtual void EndPasses();
 
   int Threading;
 
@@ -223,8 +228,9 @@ private:
   std::unique_ptr<RectifiedTransport::WholeInputs> Whole;
   std::unique_ptr<RectifiedTransport::EarlyUpdate> Early;
   std::unique_ptr<RectifiedTransport::RankRun> Run; // during RequestData and RequestInformation
-  std::map<int, PortPolicyType> Gathered;           // by port; none where ranks share the work
-  bool IsAlone = false;                             // on the first rank, with gathered data
+  bool HasNextPass = false;
+  std::map<int, PortPolicyType> Gathered; // by port; none where ranks share the work
+  bool IsAlone = false;                   // on the first rank, with gathered data
 
   vtkCollectiveAlgorithm(const vtkCollectiveAlgorithm&) = delete;
   void operator=(const vtkCollectiveAlgorithm&) = delete;

@@ -207,30 +207,7 @@ int vtkTransportDistance::RequestUpdateExtent(
 
 //------------------------------------------------------------------------------
 int vtkTransportDistance::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  try
-  {
-    this->RunStep(request, inputVector, outputVector);
-  }
-  catch (...)
-  {
-    request->Remove(Pipeline::CONTINUE_EXECUTING());
-    this->AbandonPasses();
-    throw;
-  }
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-void vtkTransportDistance::AbandonPasses()
-{
-  this->Internals->Step = 0;
-}
-
-//------------------------------------------------------------------------------
-void vtkTransportDistance::RunStep(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireChoice("Method", this->Method, MethodTexts);
   requireChoice("MassDifference", this->MassDifference, MassDifferenceTexts);
@@ -249,14 +226,13 @@ void vtkTransportDistance::RunStep(
   if (this->OverTime ? !this->AddStep(inputVector, progress, endOfInputs)
                      : !this->AddInputs(inputVector, progress, endOfInputs))
   {
-    request->Set(Pipeline::CONTINUE_EXECUTING(), 1);
-    return;
+    this->RequestNextPass();
+    return 1;
   }
-  request->Remove(Pipeline::CONTINUE_EXECUTING());
   const std::vector<DistanceInput>& inputs = distances.Inputs();
   if (!this->Internals->HasAll)
   {
-    return;
+    return 1;
   }
   if (inputs.size() < 2)
   {
@@ -272,6 +248,13 @@ void vtkTransportDistance::RunStep(
     writeBounds(inputs.size(), pairs, vtkTable::GetData(outputVector, 1));
     writeCoordinates(inputs, pairs, this->Dimensions, progress, vtkTable::GetData(outputVector, 2));
   }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportDistance::EndPasses()
+{
+  this->Internals->Step = 0;
 }
 
 //------------------------------------------------------------------------------

@@ -177,7 +177,7 @@ protected:
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
-  void AbandonPasses() override;
+  void EndPasses() override;
 
   int Method;
   int MassDifference;
@@ -187,8 +187,6 @@ protected:
 private:
   struct vtkInternals;
 
-  void RunStep(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector);
   bool AddInputs(
     vtkInformationVector** inputVector, RectifiedTransport::Progress& progress, double end);
   bool AddStep(

@@ -245,27 +245,17 @@ int vtkTransportTemporalInterpolator::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkInternals& own = *this->Internals;
-  try
-  {
-    this->RunPass(request, inputVector, outputVector);
-  }
-  catch (...)
-  {
-    request->Remove(Pipeline::CONTINUE_EXECUTING());
-    this->AbandonPasses();
-    throw;
-  }
+  this->RunPass(request, inputVector, outputVector);
   if (own.Agreed < 0)
   {
     own.Steps.Stamp(this);
-    request->Remove(Pipeline::CONTINUE_EXECUTING());
-    this->AbandonPasses();
+    this->EndPasses();
   }
   return 1;
 }
 
 //------------------------------------------------------------------------------
-void vtkTransportTemporalInterpolator::AbandonPasses()
+void vtkTransportTemporalInterpolator::EndPasses()
 {
   this->Internals->Passes = 0;
   this->Internals->Agreed = -1;
@@ -336,11 +326,10 @@ void vtkTransportTemporalInterpolator::RunPass(
     }
     if (own.Agreed >= 0)
     {
-      request->Set(Pipeline::CONTINUE_EXECUTING(), 1);
+      this->RequestNextPass();
       return;
     }
   } while (settings.Chains && this->ExtendChain(place.Second, progress));
-  request->Remove(Pipeline::CONTINUE_EXECUTING());
   this->Interpolate(time, progress, outputVector);
 }
 

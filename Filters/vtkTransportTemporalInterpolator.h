@@ -199,7 +199,7 @@ protected:
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
-  void AbandonPasses() override;
+  void EndPasses() override;
 
   int Method;
   int Resample;

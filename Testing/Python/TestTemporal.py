@@ -8,6 +8,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+from vtkmodules.vtkFiltersGeneral import vtkTemporalStatistics
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 from rt_series import Series
@@ -274,6 +275,23 @@ class Carrying(unittest.TestCase):
         self.assertEqual(len(listener.warnings), 1)
         self.assertIn("Time step 1 of 3 (t = 0) and the next one do not both have", listener.warnings[0])
         self.assertIn("'x'", listener.warnings[0])
+
+
+class Upstream(unittest.TestCase):
+    def test_filters_of_all_times_downstream(self):
+        """A filter of several times downstream runs each of ours once for each time."""
+        for make in (rectifiedtransport.vtkTransportMap, rectifiedtransport.vtkTransportTemporalInterpolator):
+            series, algorithm = Series(MOVING), make()
+            algorithm.SetInputConnection(series.GetOutputPort())
+            runs = []
+            algorithm.AddObserver("EndEvent", lambda *_, runs=runs: runs.append(1))
+            if make is not rectifiedtransport.vtkTransportMap:
+                algorithm.SetResample(1)
+            statistics = vtkTemporalStatistics()
+            statistics.SetInputConnection(algorithm.GetOutputPort())
+            statistics.Update()
+            self.assertEqual(series.asked, [0, 1, 2])
+            self.assertEqual(len(runs), 3)
 
 
 class Odd(unittest.TestCase):
