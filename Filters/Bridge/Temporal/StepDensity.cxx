@@ -2,7 +2,7 @@
 #include "Bridge/Temporal/StepDensity.h"
 
 #include "Bridge/Density/DensityMass.h"
-#include "Bridge/Run/Memory.h"
+#include "Bridge/Density/WholeValues.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
@@ -30,15 +30,7 @@ void requireValues(InputDensity& density, const StepDensity& step)
 template <int D>
 void read(InputDensity& density, StepDensity& step, Progress& progress)
 {
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-  density.Prepare(FlowTables::Whole, progress);
-  const std::shared_ptr<const DensityValues> whole = density.Source<D>().Whole();
-  const std::int64_t cells = step.Grid.NumberOfCells();
-  step.Values = newArray<vtkDoubleArray>(step.ArrayName, 1, cells);
-  double* values = step.Values->GetPointer(0);
-  progress.For(cells, grain, [&](std::int64_t first, std::int64_t last) {
-    whole->Read(first, last - first, values + first);
-  });
+  step.Values = wholeValues<D>(density, step.ArrayName, progress);
   requireValues(density, step);
   step.Mass = massOf(density, progress);
   density.ReleaseGathered();
