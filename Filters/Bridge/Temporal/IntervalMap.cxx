@@ -22,6 +22,17 @@ constexpr int anyDimensions[3] = { 0, 0, 0 };
 // About what whole tables and the advection of points take.
 constexpr double bytesOfTables = 40.0;
 
+// What a series shows changes no more with better ones.
+OptimalMapOptions optionsOfIntervals()
+{
+  OptimalMapOptions options;
+  options.Tolerance = 1e-2;
+  options.LeastIterations = 2;
+  options.RefineBound = false;
+  options.InterpolatePoints = true;
+  return options;
+}
+
 } // namespace
 
 template <int D>
@@ -51,9 +62,7 @@ void IntervalMap<D>::Solve(double samples, Progress& progress, double end)
   const OptimalMemory memory = memoryOfPair<D>(this->From.Grid.template Size<D>(),
     this->To.Grid.template Size<D>(), { setting, samples }, progress.Group());
   memory.Require();
-  OptimalMapOptions options;
-  options.Tolerance = setting.Tolerance;
-  options.LeastIterations = leastIterations(setting);
+  const OptimalMapOptions options = optionsOfIntervals();
   constexpr double partOfReading = 0.05;
   const double begin = progress.StageEnd();
   progress.BeginStage(begin + partOfReading * (end - begin));

@@ -78,7 +78,7 @@ ReferenceImages mapReference(
   solver.Solve(progress, endOfSolution);
   progress.BeginStage(endOfNodes);
   const Point<Dimension> cell = sidesOfCells<Dimension>(sides, density.Size);
-  const PointMap<Dimension> map(solver, 0, target, cell, progress);
+  const PointMap<Dimension> map(solver, 0, target, cell, PointImages::Inverted, progress);
   const GridSize<Dimension> lattice = referenceLattice<Dimension>(sides);
   const Point<Dimension> step = latticeStep<Dimension>(lattice, density.Size);
   const auto samples = static_cast<std::int64_t>(numberOfCells<Dimension>(lattice));

@@ -31,11 +31,10 @@ ImageCloud<Dimension> sampleImages(
   const PointMap<Dimension>& map, const SolverSide<Dimension>& source, Progress& progress)
 {
   const NodeMap<Dimension>& nodes = map.AtNodes();
-  const GridSize<Dimension>& cells = nodes.Grid.Cells;
   const std::int64_t rows = ImageSamples<Dimension>::NumberOfRows(nodes.Grid);
   std::vector<std::int64_t> begins(static_cast<std::size_t>(rows + 1), 0);
-  const std::int64_t grain = std::max<std::int64_t>(1, 256 / cells[0]);
-  const std::int64_t firstRows = std::max<std::int64_t>(1, (1 << 15) / cells[0]);
+  const std::int64_t grain = std::max<std::int64_t>(1, 256 / nodes.Grid.Cells[0]);
+  const std::int64_t firstRows = std::max<std::int64_t>(1, (1 << 15) / nodes.Grid.Cells[0]);
   progress.For(
     rows, grain,
     [&](std::int64_t first, std::int64_t last) {
@@ -60,8 +59,8 @@ ImageCloud<Dimension> sampleImages(
       {
         std::int64_t i = begins[static_cast<std::size_t>(row)];
         samples.ForRow(row, source.CellsOrNull(),
-          [&](const CellSample<Dimension>& sample, const Point<Dimension>&) {
-            const Point<Dimension> image = map.AtPlace(sample.Place(cells));
+          [&](const CellSample<Dimension>& sample, const Point<Dimension>& atNodes) {
+            const Point<Dimension> image = map.AtSample(sample, atNodes);
             std::copy(image.begin(), image.end(), cloud.Images.data() + i * Dimension);
             cloud.Masses.data()[i] = share * sample.Mass;
             ++i;
@@ -76,11 +75,14 @@ ImageCloud<Dimension> sampleImages(
 
 template <int Dimension>
 CorrectedMap<Dimension>::CorrectedMap(const PotentialSolver<Dimension>& solver, int from,
-  const CellDensity<Dimension>& target, const Point<Dimension>& sides, Progress& progress)
-  : Map(solver, from, target, sides, progress)
+  const CellDensity<Dimension>& target, const Point<Dimension>& sides, PointImages images,
+  Progress& progress)
+  : Map(solver, from, target, sides, images, progress)
 {
   ImageCloud<Dimension> cloud = sampleImages(this->Map, solver.Side(from), progress);
-  this->Correction.emplace(target, sides, 1, cloud.Points(), cloud.Masses.data(), progress);
+  const int cellsANode = images == PointImages::Interpolated ? 2 : 1;
+  this->Correction.emplace(
+    target, sides, cellsANode, cloud.Points(), cloud.Masses.data(), progress);
   this->MeasureBlocks(target, cloud.Points(), cloud.Masses.data(), progress);
 }
 

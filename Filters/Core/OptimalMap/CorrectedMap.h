@@ -6,6 +6,7 @@
 #include "Core/OptimalMap/Masses/MassCorrection.h"
 #include "Core/OptimalMap/PointMap.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace RectifiedTransport
@@ -19,7 +20,8 @@ class CorrectedMap
 public:
   // From one side of a solver to the other, as of PointMap. Throws std::bad_alloc and Cancelled.
   CorrectedMap(const PotentialSolver<Dimension>& solver, int from,
-    const CellDensity<Dimension>& target, const Point<Dimension>& sides, Progress& progress);
+    const CellDensity<Dimension>& target, const Point<Dimension>& sides, PointImages images,
+    Progress& progress);
 
   // From the index space of the one density to that of the other.
   Point<Dimension> At(const double* point) const
@@ -27,6 +29,14 @@ public:
     Point<Dimension> image = this->Map.At(point);
     this->Correction->Move(image.data());
     return image;
+  }
+  // What At corrects is undone, near enough: the image as of PointMap, wherever there is mass.
+  Point<Dimension> Uncorrected(const double* image) const
+  {
+    Point<Dimension> before;
+    std::copy_n(image, Dimension, before.data());
+    this->Correction->Undo(before.data());
+    return before;
   }
   // The relative L2 error of the masses of blocks of 8^d of the target's cells.
   double MassError() const { return this->Error; }

@@ -7,8 +7,6 @@
 #include "Core/OptimalMap/CouplingCost.h"
 #include "Core/OptimalMap/Masses/CellDensity.h"
 #include "Core/OptimalMap/Masses/FinishSamples.h"
-#include "Core/OptimalMap/Masses/MassCorrection.h"
-#include "Core/OptimalMap/Nodes/NodeLevels.h"
 #include "Core/OptimalMap/PairSlack.h"
 #include "Core/OptimalMap/PotentialSolver.h"
 #include "Core/Parallel/Progress.h"
@@ -121,6 +119,11 @@ struct OptimalMap<Dimension>::Implementation
   }
 
   double Nodes() const { return static_cast<double>(this->Solver.Grid().NumberOfNodes()); }
+  // A point takes about as long as ten values of a loop.
+  double ValuesOf(PointSpan<Dimension> points) const
+  {
+    return std::max(this->Nodes(), 10.0 * static_cast<double>(points.size()));
+  }
   BoxedDensity<Dimension> Boxed(std::size_t side) const
   {
     return { this->Densities[side], this->Parts[side][0], this->Parts[side][1] };
@@ -161,13 +164,28 @@ struct OptimalMap<Dimension>::Implementation
     {
       progress.BeginStage(end);
       const auto to = static_cast<std::size_t>(1 - side);
-      map.emplace(this->Solver, side, this->Densities[to], this->CellSides(to), progress);
+      map.emplace(this->Solver, side, this->Densities[to], this->CellSides(to),
+        this->Options.InterpolatePoints ? PointImages::Interpolated : PointImages::Inverted,
+        progress);
     }
     return *map;
+  }
+  // From the target back to the source, without corrected masses, made when it is first wanted.
+  const PointMap<Dimension>& MapBack(Progress& progress)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    if (!this->Back)
+    {
+      this->Back.emplace(this->Solver, 1, this->Densities[0], this->CellSides(0),
+        PointImages::Interpolated, progress);
+    }
+    return *this->Back;
   }
 
   FlowReport Move(int side, const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions,
     const Context& context);
+  FlowReport Undo(
+    const FlowSeeds<Dimension>& points, PointSpan<Dimension> positions, const Context& context);
 
   const std::array<CellDensity<Dimension>, 2> Densities;
   const Point<Dimension> Sides;
@@ -178,6 +196,7 @@ struct OptimalMap<Dimension>::Implementation
   OptimalMapReport Info;
   std::mutex Mutex; // of the maps
   std::array<std::optional<CorrectedMap<Dimension>>, 2> Maps;
+  std::optional<PointMap<Dimension>> Back;
 };
 
 template <int Dimension>
@@ -318,56 +337,6 @@ const GridSize<Dimension>& OptimalMap<Dimension>::NodeCells() const
 }
 
 template <int Dimension>
-double OptimalMap<Dimension>::MemoryFor(const GridSize<Dimension>& source,
-  const GridSize<Dimension>& target, const OptimalMapOptions& options, const OptimalMapUse& use)
-{
-  constexpr double real = sizeof(double);
-  constexpr int threads = 8;
-  std::vector<Point<Dimension>> cellSides;
-  for (const GridSize<Dimension>& size : { source, target })
-  {
-    Point<Dimension> sides;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      sides[axis] = 1.0 / static_cast<double>(size[axis]);
-    }
-    cellSides.push_back(sides);
-  }
-  const NodeGrid<Dimension> grid{ finestNodeCells<Dimension>(cellSides, options.MostNodes) };
-  const double nodes = numberOfCorners<Dimension>(grid.Cells);
-  const double densities =
-    real * (numberOfCells<Dimension>(source) + numberOfCells<Dimension>(target));
-  const double potentials = nodes * real * 6.0; // with hats and cells
-  const double refined = options.RefineBound
-    ? PotentialSolver<Dimension>::MemoryForRefined(grid.Cells, options.MostNodes)
-    : 0.0;
-  const double solving =
-    std::max(nodes * PotentialSolver<Dimension>::BytesANode(threads), potentials + refined);
-  // A map: two gradient maps and minimizers, and what samples and its correction take.
-  const double gradients = nodes * real * (2.0 * Dimension + 1.0);
-  const double correcting =
-    nodes * real * 2.0 * (Dimension + 1.0) + MassCorrection<Dimension>::MemoryFor(target, 1);
-  const double kept = gradients + MassCorrection<Dimension>::MemoryKept(target, 1);
-  const double coupling =
-    use.UpperBound ? nodes * real * Dimension + memoryForCoupling<Dimension>(target, grid) : 0.0;
-  const double after = kept + std::max(MemoryForSamples(target, use), coupling);
-  // Work on lines of nodes holds some, on a line for each thread that has one.
-  constexpr double ofLine = 400.0; // bytes a node
-  const double lines = ofLine * (Dimension == 1 ? 1 : threads) *
-    static_cast<double>(*std::max_element(grid.Cells.begin(), grid.Cells.end()));
-  return densities + lines +
-    std::max(solving, potentials + std::max(gradients + correcting, after));
-}
-
-template <int Dimension>
-double OptimalMap<Dimension>::MemoryForSamples(
-  const GridSize<Dimension>& target, const OptimalMapUse& use)
-{
-  return use.Samples > 0.0 ? memoryForFinishing<Dimension>(target, use.Samples, use.OnSeveralRanks)
-                           : 0.0;
-}
-
-template <int Dimension>
 const GridSize<Dimension>& OptimalMap<Dimension>::Size() const
 {
   return this->Self->Densities[0].Size();
@@ -394,9 +363,7 @@ FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds
 {
   constexpr double endOfMap = 0.4;
   constexpr double endOfPoints = 0.8;
-  // A point takes about as long as ten values of a loop.
-  const double values = std::max(this->Nodes(), 10.0 * static_cast<double>(positions.size()));
-  Progress progress(contextForSize(context, values));
+  Progress progress(contextForSize(context, this->ValuesOf(positions)));
   const CorrectedMap<Dimension>& map = this->MapFrom(side, progress, endOfMap);
   const auto from = static_cast<std::size_t>(side);
   ParticleSource<Dimension> source(seeds, this->Densities[from].Size(), positions.size());
@@ -414,6 +381,23 @@ FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds
 }
 
 template <int Dimension>
+FlowReport OptimalMap<Dimension>::Implementation::Undo(
+  const FlowSeeds<Dimension>& points, PointSpan<Dimension> positions, const Context& context)
+{
+  constexpr double endOfMap = 0.4;
+  Progress progress(contextForSize(context, this->ValuesOf(positions)));
+  const CorrectedMap<Dimension>& map = this->MapFrom(0, progress, endOfMap);
+  const PointMap<Dimension>& back = this->MapBack(progress);
+  ParticleSource<Dimension> source(points, this->Densities[1].Size(), positions.size());
+  progress.BeginStage(1.0, source.Count());
+  forParticles(source, progress, [&](std::int64_t index, const Point<Dimension>& point) {
+    const Point<Dimension> image = back.At(map.Uncorrected(point.data()).data());
+    std::copy(image.begin(), image.end(), positions[index]);
+  });
+  return {};
+}
+
+template <int Dimension>
 FlowReport OptimalMap<Dimension>::Forward(const FlowSeeds<Dimension>& seeds,
   PointSpan<Dimension> positions, const FlowOptions&, const Context& context) const
 {
@@ -424,7 +408,8 @@ template <int Dimension>
 FlowReport OptimalMap<Dimension>::Backward(const FlowSeeds<Dimension>& points,
   PointSpan<Dimension> positions, const FlowOptions&, const Context& context) const
 {
-  return this->Self->Move(1, points, positions, context);
+  return this->Self->Options.InterpolatePoints ? this->Self->Undo(points, positions, context)
+                                               : this->Self->Move(1, points, positions, context);
 }
 
 template <int Dimension>

@@ -40,6 +40,10 @@ struct OptimalMapOptions
   // Takes the bound of twice as many nodes along each axis, if there are not too many then, without
   // iterations on them: its loss is a quarter.
   bool RefineBound = true;
+  // Forward smooths the map and interpolates it between nodes before it corrects masses, and
+  // Backward undoes that, near enough, in a fraction of the time. Else both solve for each image,
+  // and both have corrected masses.
+  bool InterpolatePoints = false;
 };
 
 // What a map is wanted for besides points one by one: it takes memory.

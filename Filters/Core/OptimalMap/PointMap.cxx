@@ -4,10 +4,11 @@
 #include "Core/OptimalMap/Nodes/CostTransform.h"
 #include "Core/Parallel/Progress.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace RectifiedTransport
 {
@@ -26,51 +27,53 @@ NodeMap<Dimension> gradientMap(
   return map;
 }
 
-// Solves by elimination with pivots; false for a singular matrix.
+// Matrix^-1 right; false where the matrix is singular.
 template <int Dimension>
-bool solve(std::array<Point<Dimension>, Dimension> matrix, Point<Dimension> right,
+bool solve(const std::array<Point<Dimension>, Dimension>& matrix, const Point<Dimension>& right,
   Point<Dimension>& solution)
 {
+  using Square = Eigen::Matrix<double, Dimension, Dimension, Eigen::DontAlign>;
+  using Column = Eigen::Matrix<double, Dimension, 1, Eigen::DontAlign>;
   constexpr double raise = 1e-9; // of the diagonal
-  constexpr double smallest = 1e-12;
-  constexpr std::size_t n = Dimension;
-  for (std::size_t i = 0; i < n; ++i)
+  Square square;
+  for (int row = 0; row < Dimension; ++row)
   {
-    matrix[i][i] += raise;
+    for (int column = 0; column < Dimension; ++column)
+    {
+      square(row, column) =
+        matrix[static_cast<std::size_t>(row)][column] + (row == column ? raise : 0.0);
+    }
   }
-  for (std::size_t p = 0; p < n; ++p)
+  const Column found = square.inverse() * Eigen::Map<const Column>(right.data());
+  Eigen::Map<Column>(solution.data()) = found;
+  return found.allFinite();
+}
+
+// The multilinear interpolant of values at a cell's corners, and its derivatives.
+template <int Dimension>
+double interpolate(std::array<double, std::size_t{ 1 } << Dimension> values,
+  const Point<Dimension>& place, Point<Dimension>& slopes)
+{
+  constexpr std::size_t half = (std::size_t{ 1 } << Dimension) / 2;
+  std::array<std::array<double, half>, Dimension> differences;
+  for (std::size_t axis = 0; axis < Dimension; ++axis)
   {
-    std::size_t best = p;
-    for (std::size_t i = p + 1; i < n; ++i)
+    for (std::size_t i = 0; i < half >> axis; ++i)
     {
-      best = std::abs(matrix[i][p]) > std::abs(matrix[best][p]) ? i : best;
-    }
-    if (!(std::abs(matrix[best][p]) > smallest))
-    {
-      return false;
-    }
-    std::swap(matrix[best], matrix[p]);
-    std::swap(right[best], right[p]);
-    for (std::size_t i = p + 1; i < n; ++i)
-    {
-      const double factor = matrix[i][p] / matrix[p][p];
-      for (std::size_t j = p; j < n; ++j)
+      for (std::size_t before = 0; before < axis; ++before)
       {
-        matrix[i][j] -= factor * matrix[p][j];
+        auto& of = differences[before];
+        of[i] = of[2 * i] + place[axis] * (of[2 * i + 1] - of[2 * i]);
       }
-      right[i] -= factor * right[p];
+      differences[axis][i] = values[2 * i + 1] - values[2 * i];
+      values[i] = values[2 * i] + place[axis] * differences[axis][i];
     }
   }
-  for (std::size_t p = n; p-- > 0;)
+  for (std::size_t axis = 0; axis < Dimension; ++axis)
   {
-    solution[p] = right[p];
-    for (std::size_t j = p + 1; j < n; ++j)
-    {
-      solution[p] -= matrix[p][j] * solution[j];
-    }
-    solution[p] /= matrix[p][p];
+    slopes[axis] = differences[axis][0];
   }
-  return true;
+  return values[0];
 }
 
 template <int Dimension>
@@ -88,16 +91,25 @@ Point<Dimension> clampedTo(const Point<Dimension>& point, const GridSize<Dimensi
 
 template <int Dimension>
 PointMap<Dimension>::PointMap(const PotentialSolver<Dimension>& solver, int from,
-  const CellDensity<Dimension>& target, const Point<Dimension>& sides, Progress& progress)
-  : Target(target)
+  const CellDensity<Dimension>& target, const Point<Dimension>& sides, PointImages images,
+  Progress& progress)
+  : Images(images)
+  , Target(target)
   , CellSides(sides)
   , SourcePlacement(solver.Side(from).Placement)
   , TargetPlacement(solver.Side(1 - from).Placement)
   , There(gradientMap(solver.Grid(), solver.Side(from).Potential.data(), progress))
-  , Back(gradientMap(solver.Grid(), solver.Side(1 - from).Potential.data(), progress))
   , Potential(solver.Side(1 - from).Potential.data())
 {
   const SolverSide<Dimension>& other = solver.Side(1 - from);
+  if (images == PointImages::Inverted)
+  {
+    this->Back = gradientMap(solver.Grid(), other.Potential.data(), progress);
+  }
+  else
+  {
+    smoothMap(this->There, progress);
+  }
   const double* hats = other.Hats.data();
   const std::int64_t nodes = other.Hats.size();
   bool hasVoids = target.HasVoids();
@@ -154,7 +166,25 @@ Point<Dimension> PointMap<Dimension>::AtPlace(const Point<Dimension>& place) con
   {
     image = this->LeastCost(place, image);
   }
-  this->Improve(place, image);
+  if (this->Images == PointImages::Inverted)
+  {
+    this->Improve(place, image);
+  }
+  return this->ToTarget(image);
+}
+
+template <int Dimension>
+Point<Dimension> PointMap<Dimension>::AtSample(
+  const CellSample<Dimension>& sample, const Point<Dimension>& image) const
+{
+  return this->Images == PointImages::Interpolated && this->HasMass(image)
+    ? this->ToTarget(image)
+    : this->AtPlace(sample.Place(this->There.Grid.Cells));
+}
+
+template <int Dimension>
+Point<Dimension> PointMap<Dimension>::ToTarget(const Point<Dimension>& image) const
+{
   Point<Dimension> point = this->TargetPlacement.FromNodes(image.data());
   point = clampedTo<Dimension>(point, this->Target.Size());
   if (!this->Target.HasMass(point.data())) // cells that nodes do not resolve
@@ -225,7 +255,7 @@ void PointMap<Dimension>::Improve(const Point<Dimension>& place, Point<Dimension
   constexpr double close = 1e-6; // of a cell
   constexpr double leastDamping = 0.2;
   constexpr double nearer = 0.9;
-  Inverse now = this->InverseAt(image, place);
+  Start now = this->StartOf(image, place);
   for (int step = 0; step < mostSteps && now.Size > close; ++step)
   {
     Point<Dimension> move;
@@ -244,7 +274,7 @@ void PointMap<Dimension>::Improve(const Point<Dimension>& place, Point<Dimension
       next = clampedTo<Dimension>(next, this->Back.Grid.Cells);
       if (this->HasMass(next))
       {
-        const Inverse found = this->InverseAt(next, place);
+        const Start found = this->StartOf(next, place);
         isNearer = found.Size < nearer * now.Size;
         if (isNearer)
         {
@@ -261,56 +291,37 @@ void PointMap<Dimension>::Improve(const Point<Dimension>& place, Point<Dimension
 }
 
 template <int Dimension>
-typename PointMap<Dimension>::Inverse PointMap<Dimension>::InverseAt(
+typename PointMap<Dimension>::Start PointMap<Dimension>::StartOf(
   const Point<Dimension>& image, const Point<Dimension>& place) const
 {
-  const GridSize<Dimension>& cells = this->Back.Grid.Cells;
-  const CellPlace<Dimension> at(image.data(), cells);
-  std::array<std::int64_t, Dimension> strides;
-  std::int64_t node = 0;
-  for (int axis = 0; axis < Dimension; ++axis)
+  constexpr std::size_t corners = std::size_t{ 1 } << Dimension;
+  const CellPlace<Dimension> at(image.data(), this->Back.Grid.Cells);
+  std::array<std::int64_t, corners> nodes{};
+  for (std::size_t corner = 0; corner < corners; ++corner)
   {
-    strides[axis] = this->Back.Grid.Stride(axis);
-    node += at.Cell[axis] * strides[axis];
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const std::int64_t of = at.Cell[axis] + static_cast<std::int64_t>((corner >> axis) & 1);
+      nodes[corner] += of * this->Back.Grid.Stride(axis);
+    }
   }
-  Inverse inverse;
+  Start start;
   double square = 0.0;
   for (int coordinate = 0; coordinate < Dimension; ++coordinate)
   {
-    const double* values = this->Back.Images[static_cast<std::size_t>(coordinate)].data();
-    double value = 0.0;
-    Point<Dimension> slopes{};
-    for (int corner = 0; corner < (1 << Dimension); ++corner)
+    const double* of = this->Back.Images[static_cast<std::size_t>(coordinate)].data();
+    std::array<double, corners> values;
+    for (std::size_t corner = 0; corner < corners; ++corner)
     {
-      std::int64_t of = node;
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        of += ((corner >> axis) & 1) * strides[axis];
-      }
-      double weight = 1.0;
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        weight *= ((corner >> axis) & 1) != 0 ? at.Place[axis] : 1.0 - at.Place[axis];
-      }
-      value += weight * values[of];
-      for (int along = 0; along < Dimension; ++along)
-      {
-        double slope = ((corner >> along) & 1) != 0 ? 1.0 : -1.0;
-        for (int axis = 0; axis < Dimension; ++axis)
-        {
-          slope *= axis == along          ? 1.0
-            : ((corner >> axis) & 1) != 0 ? at.Place[axis]
-                                          : 1.0 - at.Place[axis];
-        }
-        slopes[along] += slope * values[of];
-      }
+      values[corner] = of[nodes[corner]];
     }
-    inverse.Jacobian[static_cast<std::size_t>(coordinate)] = slopes;
-    inverse.Residual[coordinate] = value - place[coordinate];
-    square += inverse.Residual[coordinate] * inverse.Residual[coordinate];
+    const double value = interpolate<Dimension>(
+      values, at.Place, start.Jacobian[static_cast<std::size_t>(coordinate)]);
+    start.Residual[coordinate] = value - place[coordinate];
+    square += start.Residual[coordinate] * start.Residual[coordinate];
   }
-  inverse.Size = std::sqrt(square);
-  return inverse;
+  start.Size = std::sqrt(square);
+  return start;
 }
 
 template class PointMap<1>;

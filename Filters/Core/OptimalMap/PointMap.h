@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A solved map at any points: x - grad potential, improved by Newton's method on the inverse map,
-// and never into a void of the target.
+// A solved map at any points: x - grad potential, which Newton's method on the inverse map may
+// improve, and never into a void of the target.
 #ifndef RectifiedTransport_PointMap_h
 #define RectifiedTransport_PointMap_h
 
@@ -15,6 +15,13 @@ namespace RectifiedTransport
 
 class Progress;
 
+// Of points between nodes.
+enum class PointImages
+{
+  Inverted,    // by Newton's method on the map from the other side
+  Interpolated // in a fraction of the time
+};
+
 // From one side of a solver to the other.
 template <int Dimension>
 class PointMap
@@ -23,7 +30,7 @@ public:
   // The solver's sides and the target must live as long. `sides` are those of the target's cells,
   // in lengths. Throws std::bad_alloc and Cancelled.
   PointMap(const PotentialSolver<Dimension>& solver, int from, const CellDensity<Dimension>& target,
-    const Point<Dimension>& sides, Progress& progress);
+    const Point<Dimension>& sides, PointImages images, Progress& progress);
 
   // In cells of the nodes.
   const NodeMap<Dimension>& AtNodes() const { return this->There; }
@@ -31,27 +38,32 @@ public:
   Point<Dimension> At(const double* point) const;
   // The same from cells of the nodes.
   Point<Dimension> AtPlace(const Point<Dimension>& place) const;
+  // The same of a part of a cell, with what AtNodes interpolates there.
+  Point<Dimension> AtSample(
+    const CellSample<Dimension>& sample, const Point<Dimension>& image) const;
 
 private:
   using Matrix = std::array<Point<Dimension>, Dimension>;
-  struct Inverse
+  bool HasMass(const Point<Dimension>& image) const;
+  Point<Dimension> ToTarget(const Point<Dimension>& image) const;
+  struct Start
   {
     Point<Dimension> Residual;
     Matrix Jacobian;
     double Size; // of the residual
   };
 
-  bool HasMass(const Point<Dimension>& image) const;
   Point<Dimension> LeastCost(const Point<Dimension>& place, const Point<Dimension>& image) const;
   void Improve(const Point<Dimension>& place, Point<Dimension>& image) const;
-  Inverse InverseAt(const Point<Dimension>& image, const Point<Dimension>& place) const;
+  Start StartOf(const Point<Dimension>& image, const Point<Dimension>& place) const;
 
+  const PointImages Images;
   const CellDensity<Dimension>& Target;
   const Point<Dimension> CellSides;
   const CellPlacement<Dimension> SourcePlacement;
   const CellPlacement<Dimension> TargetPlacement;
   NodeMap<Dimension> There;
-  NodeMap<Dimension> Back;
+  NodeMap<Dimension> Back; // with Inverted
   // With voids: the potential of the target, and the node with mass of least cost for each node.
   const double* Potential;
   LargeBuffer<std::int64_t> Minimizers;

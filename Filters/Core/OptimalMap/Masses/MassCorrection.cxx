@@ -6,6 +6,7 @@
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace RectifiedTransport
 {
@@ -108,6 +109,34 @@ void MassCorrection<Dimension>::Move(double* point) const
   for (const NodeMoves<Dimension>& moves : this->Moves)
   {
     this->Step(moves, point);
+  }
+}
+
+// Each move is undone by a fixed-point iteration.
+template <int Dimension>
+void MassCorrection<Dimension>::Undo(double* point) const
+{
+  constexpr int most = 8;
+  constexpr double close = 1e-3; // of a node's cell
+  for (auto moves = this->Moves.rbegin(); moves != this->Moves.rend(); ++moves)
+  {
+    const Point<Dimension> moved = this->Placement.ToNodes(point);
+    Point<Dimension> before = moved;
+    double change = 1.0;
+    for (int iteration = 0; iteration < most && change > close; ++iteration)
+    {
+      const Point<Dimension> move = moves->At(before.data());
+      change = 0.0;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        const double to =
+          std::clamp(moved[axis] - move[axis], 0.0, static_cast<double>(moves->Size()[axis]));
+        change = std::max(change, std::abs(to - before[axis]));
+        before[axis] = to;
+      }
+    }
+    const Point<Dimension> to = this->Placement.FromNodes(before.data());
+    std::copy(to.begin(), to.end(), point);
   }
 }
 

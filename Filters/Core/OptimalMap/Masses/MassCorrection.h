@@ -35,6 +35,8 @@ public:
 
   // Moves other images in the same way.
   void Move(double* point) const;
+  // Moves an image back to where Move moves from, near enough, wherever there is mass.
+  void Undo(double* point) const;
 
   // Bytes that the constructor takes at most, and those of them that an object keeps.
   static double MemoryFor(const GridSize<Dimension>& target, int cellsANode);

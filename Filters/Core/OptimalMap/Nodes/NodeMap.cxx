@@ -9,6 +9,8 @@ namespace RectifiedTransport
 namespace
 {
 
+constexpr std::int64_t mostLines = 128; // that are smoothed together
+
 // One coordinate of the map, of the lines [first, last) along axis 0 of all nodes.
 struct Differences
 {
@@ -68,6 +70,23 @@ struct Differences
   }
 };
 
+// So many lines beside each other, at most mostLines; the nodes of each are a stride apart.
+void smoothLines(double* values, std::int64_t nodes, std::int64_t stride, std::int64_t lines)
+{
+  std::array<double, mostLines> before;
+  std::copy_n(values, lines, before.data());
+  for (std::int64_t node = 1; node + 1 < nodes; ++node)
+  {
+    double* own = values + node * stride;
+    for (std::int64_t i = 0; i < lines; ++i)
+    {
+      const double value = own[i];
+      own[i] = 0.5 * value + 0.25 * (before[static_cast<std::size_t>(i)] + own[i + stride]);
+      before[static_cast<std::size_t>(i)] = value;
+    }
+  }
+}
+
 } // namespace
 
 template <int Dimension>
@@ -94,6 +113,34 @@ void writeGradientMap(const double* potential, NodeMap<Dimension>& map, Progress
   }
 }
 
+template <int Dimension>
+void smoothMap(NodeMap<Dimension>& map, Progress& progress)
+{
+  for (NodeValues& images : map.Images)
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const std::int64_t stride = map.Grid.Stride(axis);
+      const std::int64_t nodes = map.Grid.Cells[axis] + 1;
+      const std::int64_t blocks = (stride + mostLines - 1) / mostLines;
+      const std::int64_t all = images.size() / (nodes * stride) * blocks;
+      const std::int64_t grain =
+        std::max<std::int64_t>(1, 4096 / (nodes * std::min(stride, mostLines)));
+      progress.For(all, grain, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          const std::int64_t begin = i % blocks * mostLines;
+          smoothLines(images.data() + i / blocks * nodes * stride + begin, nodes, stride,
+            std::min(mostLines, stride - begin));
+        }
+      });
+    }
+  }
+}
+
+template void smoothMap<1>(NodeMap<1>&, Progress&);
+template void smoothMap<2>(NodeMap<2>&, Progress&);
+template void smoothMap<3>(NodeMap<3>&, Progress&);
 template void writeGradientMap<1>(const double*, NodeMap<1>&, Progress&);
 template void writeGradientMap<2>(const double*, NodeMap<2>&, Progress&);
 template void writeGradientMap<3>(const double*, NodeMap<3>&, Progress&);

@@ -53,6 +53,12 @@ struct NodeMap
 template <int Dimension>
 void writeGradientMap(const double* potential, NodeMap<Dimension>& map, Progress& progress);
 
+// Averages the images of each node and its neighbours, with weights 1, 2, 1 along each axis: those
+// of a potential that is transformed on nodes form stairs. Nodes at the ends of an axis keep theirs
+// along it. Adds units to the current stage. Throws Cancelled.
+template <int Dimension>
+void smoothMap(NodeMap<Dimension>& map, Progress& progress);
+
 // One of the equal parts of a cell between nodes.
 template <int Dimension>
 struct CellSample

@@ -34,6 +34,7 @@ public:
     });
   }
 
+  const GridSize<Dimension>& Size() const { return this->Cells; }
   Point<Dimension> At(const double* point) const
   {
     const HatsAt<Dimension> hats(point, this->Cells);

@@ -211,6 +211,31 @@ TYPED_TEST(MassCorrections, MoveOtherPointsInTheSameWay)
   EXPECT_EQ(images, others);
 }
 
+TYPED_TEST(MassCorrections, AreUndone)
+{
+  constexpr int D = TypeParam::value;
+  const GridSize<D> size = sizeFor<D>({ 61 }, { 33, 22 }, { 13, 9, 16 });
+  const TestDensity<D> values = twoGaussians<D>(size);
+  const CellDensity<D> target = cellDensity(values);
+  Particles<D> images = samplesOf<D>(distorted(values), 20000);
+  const Particles<D> before = images;
+  const MassCorrection<D> correction = correct<D>(target, unequalSides<D>(), 2, images);
+  double moved = 0.0;
+  double error = 0.0;
+  for (std::size_t i = 0; i < images.size(); ++i)
+  {
+    Point<D> undone = images[i];
+    correction.Undo(undone.data());
+    for (int axis = 0; axis < D; ++axis)
+    {
+      moved = std::max(moved, std::abs(images[i][axis] - before[i][axis]));
+      error = std::max(error, std::abs(undone[axis] - before[i][axis]));
+    }
+  }
+  EXPECT_GT(moved, 0.2) << "cells";
+  EXPECT_LT(error, 0.02) << "cells";
+}
+
 TYPED_TEST(MassCorrections, DoNotDependOnUnitsOfLengthOrMass)
 {
   constexpr int D = TypeParam::value;
