@@ -265,7 +265,6 @@ void OptimalMap<Dimension>::Solve(const Context& context)
                                                        : this->Self->Solver.Bound();
   this->Self->Bound = std::max(0.0, bound);
   this->Self->Info.Iterations = this->Self->Solver.Iterations();
-  this->Self->Info.Residual = this->Self->Solver.Residual();
 }
 
 template <int Dimension>

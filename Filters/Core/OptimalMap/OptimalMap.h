@@ -57,9 +57,6 @@ struct OptimalMapUse
 struct OptimalMapReport
 {
   int Iterations = 0; // on the finest nodes
-  // How far the last pushed-forward density was from the other one: twice the square root of the
-  // integral of |grad p|^2, where -Laplace p is their difference. A length; 0 without iterations.
-  double Residual = 0.0;
 };
 
 // A density on a part of the box in which two densities are.

@@ -363,7 +363,6 @@ double PotentialSolver<Dimension>::Dual(
 template <int Dimension>
 void PotentialSolver<Dimension>::Iterate(Scratch& scratch, bool isFinest, Progress& progress)
 {
-  constexpr double end = 0.95;
   this->Steps = { 1.0, 1.0 };
   const int most = isFinest ? this->Options.MostIterations : this->Options.CoarseIterations;
   const int least = isFinest ? this->Options.LeastIterations : 0;
@@ -373,7 +372,7 @@ void PotentialSolver<Dimension>::Iterate(Scratch& scratch, bool isFinest, Progre
   int iteration = 0;
   for (bool goesOn = true; goesOn && iteration < most; ++iteration)
   {
-    progress.BeginRound(iteration, std::max(1, isFinest ? least : most), begin, end, units);
+    progress.BeginRound(iteration, std::max(1, isFinest ? least : most), begin, 1.0, units);
     const double before = this->BoundNow;
     this->HalfStep(scratch, 0, progress);
     this->HalfStep(scratch, 1, progress);
@@ -384,10 +383,6 @@ void PotentialSolver<Dimension>::Iterate(Scratch& scratch, bool isFinest, Progre
   if (isFinest)
   {
     this->FineIterations = iteration;
-    progress.BeginStage(1.0, units);
-    this->FindDefect(scratch, 0, progress);
-    scratch.Poisson.Solve(scratch.Defect.data(), scratch.P.data(), progress);
-    this->LastResidual = 2.0 * std::sqrt(std::max(0.0, this->Product(scratch, progress)));
   }
 }
 

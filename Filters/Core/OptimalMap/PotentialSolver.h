@@ -75,7 +75,6 @@ public:
   // Bound. Runs as the current stage. Throws std::bad_alloc and Cancelled.
   double RefinedBound(Progress& progress) const;
   int Iterations() const { return this->FineIterations; }
-  double Residual() const { return this->LastResidual; }
 
   // Bytes a node of the finest grid that Solve holds at most.
   static double BytesANode(int threads);
@@ -110,7 +109,6 @@ private:
   double Excess = 0.0;
   double BoundNow = 0.0;
   int FineIterations = 0;
-  double LastResidual = 0.0;
 };
 
 } // namespace RectifiedTransport
