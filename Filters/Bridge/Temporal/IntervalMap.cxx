@@ -10,6 +10,7 @@
 #include "Core/Parallel/Progress.h"
 
 #include <cstddef>
+#include <cstdint>
 
 namespace RectifiedTransport
 {
@@ -23,12 +24,13 @@ constexpr int anyDimensions[3] = { 0, 0, 0 };
 constexpr double bytesOfTables = 40.0;
 
 // What a series shows changes no more with better ones.
-OptimalMapOptions optionsOfIntervals()
+OptimalMapOptions optionsOfIntervals(std::int64_t cells)
 {
+  constexpr std::int64_t few = 1 << 15; // the bound is loose on coarse grids
   OptimalMapOptions options;
   options.Tolerance = 1e-2;
   options.LeastIterations = 2;
-  options.RefineBound = false;
+  options.RefineBound = cells <= few;
   options.InterpolatePoints = true;
   return options;
 }
@@ -62,7 +64,7 @@ void IntervalMap<D>::Solve(double samples, Progress& progress, double end)
   const OptimalMemory memory = memoryOfPair<D>(this->From.Grid.template Size<D>(),
     this->To.Grid.template Size<D>(), { setting, samples }, progress.Group());
   memory.Require();
-  const OptimalMapOptions options = optionsOfIntervals();
+  const OptimalMapOptions options = optionsOfIntervals(box.NumberOfCells());
   constexpr double partOfReading = 0.05;
   const double begin = progress.StageEnd();
   progress.BeginStage(begin + partOfReading * (end - begin));
