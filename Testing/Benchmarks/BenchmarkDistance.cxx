@@ -25,18 +25,7 @@ struct DistancePair
 {
   DistancePair(const std::string& name, std::int64_t side)
   {
-    const std::vector<OptimalPair<D>> pairs = [=]() {
-      if constexpr (D == 2)
-      {
-        return optimalPairs2D(side);
-      }
-      else
-      {
-        return optimalPairs3D(side);
-      }
-    }();
-    const OptimalPair<D> pair = *std::find_if(
-      pairs.begin(), pairs.end(), [&](const OptimalPair<D>& one) { return one.Name == name; });
+    const OptimalPair<D> pair = optimalPair<D>(name, side);
     this->From = pair.Source();
     this->To = pair.Target();
   }

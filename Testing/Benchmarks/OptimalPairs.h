@@ -212,6 +212,23 @@ inline std::vector<OptimalPair<3>> optimalPairs3D(std::int64_t side)
     { "ring_animal", on(ring), on(animal) }, { "cross_blobs", on(cross), on(otherBlobs) } };
 }
 
+template <int Dimension>
+OptimalPair<Dimension> optimalPair(const std::string& name, std::int64_t side)
+{
+  const auto pairs = [=]() {
+    if constexpr (Dimension == 2)
+    {
+      return optimalPairs2D(side);
+    }
+    else
+    {
+      return optimalPairs3D(side);
+    }
+  }();
+  return *std::find_if(
+    pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.Name == name; });
+}
+
 } // namespace RectifiedTransport
 
 #endif
