@@ -12,19 +12,27 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Follows the map from the source, whose images are corrected by two Poisson steps and then shared
-// among the target's cells; what a cell gets beyond its share goes on to cells nearby that got too
-// little, then along a space-filling curve. Uniform parts of cells go by translation, so that the
-// cost of the coupling is known exactly; masses are integers, and what their rounding leaves counts
-// as if it had to cross the whole box. In the squared lengths of the map's spacing; the nodes fill
-// the box of the densities. Both densities have the same size.
+// In squared lengths.
+struct CouplingCost
+{
+  double All = 0.0;
+  // The part of it that images take because they lie between cells, about the same for all maps.
+  double OfSpread = 0.0;
+};
+
+// Follows the map from the source, whose images are corrected (BalancedMap.h) and then shared among
+// the target's cells (ImageShares.h); what a cell gets beyond its share goes on to cells nearby
+// that got too little, then along a space-filling curve (PassRest.h). Uniform parts of cells go by
+// translation, so that the cost of the coupling is known exactly; masses are integers, and what
+// their rounding leaves counts as if it had to cross the whole box. In the squared lengths of the
+// map's spacing; the nodes fill the box of the densities. Both densities have the same size.
 //
 // The same bits for every number of threads. Adds to the units of the current stage about 15 a cell
-// on a line, 50 in the plane and 30 in space, and those of two solutions of NodePoisson. Throws
-// std::invalid_argument for different sizes, std::bad_alloc and Cancelled.
+// on a line, 50 in the plane and 30 in space, and those of two solutions of NodePoisson on nodes
+// two cells apart. Throws std::invalid_argument for different sizes, std::bad_alloc and Cancelled.
 template <int Dimension>
-double couplingCost(const CellDensity<Dimension>& source, const CellDensity<Dimension>& target,
-  const NodeMap<Dimension>& map, Progress& progress);
+CouplingCost couplingCost(const CellDensity<Dimension>& source,
+  const CellDensity<Dimension>& target, NodeMap<Dimension> map, Progress& progress);
 
 // Bytes that it takes at most, about.
 template <int Dimension>

@@ -296,15 +296,17 @@ double OptimalMap<Dimension>::UpperBound(const Context& context, double enough) 
   }
   Progress progress(contextForSize(context, this->Self->Nodes()));
   double least = std::numeric_limits<double>::infinity();
-  auto map = NodeMap<Dimension>::On(this->Self->Solver.Grid());
-  for (int side = 0; side < 2 && least > enough; ++side)
+  bool goesOn = true;
+  for (int side = 0; side < 2 && goesOn; ++side)
   {
     progress.BeginStage(0.5 * (side + 1));
+    auto map = NodeMap<Dimension>::On(this->Self->Solver.Grid());
     writeGradientMap<Dimension>(this->Self->Solver.Side(side).Potential.data(), map, progress);
     const auto from = static_cast<std::size_t>(side);
-    least = std::min(least,
-      couplingCost<Dimension>(
-        this->Self->Densities[from], this->Self->Densities[1 - from], map, progress));
+    const CouplingCost cost = couplingCost<Dimension>(
+      this->Self->Densities[from], this->Self->Densities[1 - from], std::move(map), progress);
+    least = std::min(least, cost.All);
+    goesOn = cost.All - cost.OfSpread > enough;
   }
   return least;
 }

@@ -39,22 +39,28 @@ public:
   }
 
 private:
-  // What each cell got more than its share; the rest of what it got stays.
+  // What each cell got more than its share.
   void FindRest()
   {
     this->Rest = LargeBuffer<std::int64_t>(this->Target.NumberOfCells());
-    for (std::int64_t cell = 0; cell < this->Target.NumberOfCells(); ++cell)
-    {
-      const std::int64_t rest = this->Shares.RestOf(cell, this->Target);
-      this->Rest.data()[cell] = rest;
-      const std::int64_t kept = this->Shares.Got(cell)[0] - std::max<std::int64_t>(rest, 0);
-      if (kept > 0)
-      {
-        this->Sum.Add(
-          this->PartOf(kept, cell) * static_cast<double>(this->Shares.Got(cell)[1 + Dimension]));
-      }
-      this->Work.Add(1);
-    }
+    this->ForCells([this](std::int64_t cell) {
+      this->Rest.data()[cell] = this->Shares.RestOf(cell, this->Target);
+    });
+    this->Sum.Add(static_cast<double>(this->Shares.Cost));
+  }
+
+  // visit(cell) of all cells, in order.
+  template <class Visit>
+  void ForCells(const Visit& visit)
+  {
+    constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+    this->Work.ForInOrder(
+      this->Target.NumberOfCells(), grain, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t cell = first; cell < last; ++cell)
+        {
+          visit(cell);
+        }
+      });
   }
 
   double PartOf(std::int64_t mass, std::int64_t cell) const
@@ -80,7 +86,7 @@ private:
     rest[to] += mass;
     const std::int64_t* got = this->Shares.Got(from);
     const double share = this->PartOf(mass, from);
-    double cost = share * static_cast<double>(got[1 + Dimension]);
+    double cost = 0.0;
     for (int axis = 0; axis < Dimension; ++axis)
     {
       const double scale =
@@ -147,25 +153,51 @@ private:
     };
     GridSize<Dimension> way;
     std::copy_n(offset.begin(), Dimension, way.begin());
-    const std::int64_t* rest = this->Rest.data();
     for (std::int64_t z = begin(2); z < end(2); ++z)
     {
       for (std::int64_t y = begin(1); y < end(1); ++y)
       {
         const std::int64_t row = size[0] * (y + size[1] * z);
-        for (std::int64_t cell = row + begin(0); cell < row + end(0); ++cell)
-        {
-          const std::int64_t other = cell + step;
-          if (rest[cell] > 0 && rest[other] < 0)
-          {
-            this->Pass(cell, other, way, 1.0);
-          }
-          else if (rest[cell] < 0 && rest[other] > 0)
-          {
-            this->Pass(other, cell, way, -1.0);
-          }
-        }
+        this->PassInRow(row + begin(0), row + end(0), step, way);
         this->Work.Add(size[0]);
+      }
+    }
+  }
+
+  void PassInRow(
+    std::int64_t first, std::int64_t last, std::int64_t step, const GridSize<Dimension>& way)
+  {
+    constexpr std::int64_t together = 8;
+    const std::int64_t* rest = this->Rest.data();
+    for (; first + together <= last; first += together)
+    {
+      std::int64_t signs = 0; // Few pairs have two of them: they are looked for by vectors.
+      for (std::int64_t i = 0; i < together; ++i)
+      {
+        signs |= rest[first + i] ^ rest[first + i + step];
+      }
+      if (signs < 0)
+      {
+        this->PassEach(first, first + together, step, way);
+      }
+    }
+    this->PassEach(first, last, step, way);
+  }
+
+  void PassEach(
+    std::int64_t first, std::int64_t last, std::int64_t step, const GridSize<Dimension>& way)
+  {
+    const std::int64_t* rest = this->Rest.data();
+    for (std::int64_t cell = first; cell < last; ++cell)
+    {
+      const std::int64_t other = cell + step;
+      if (rest[cell] > 0 && rest[other] < 0)
+      {
+        this->Pass(cell, other, way, 1.0);
+      }
+      else if (rest[cell] < 0 && rest[other] > 0)
+      {
+        this->Pass(other, cell, way, -1.0);
       }
     }
   }
@@ -179,14 +211,12 @@ private:
       std::int64_t Cell;
     };
     std::vector<Ordered> order;
-    for (std::int64_t cell = 0; cell < this->Target.NumberOfCells(); ++cell)
-    {
+    this->ForCells([&](std::int64_t cell) {
       if (this->Rest.data()[cell] != 0)
       {
         order.push_back({ this->MortonCode(cell), cell });
       }
-      this->Work.Add(1);
-    }
+    });
     sortByKey(order, this->Work);
     std::vector<std::int64_t> open; // all with too much or all with too little
     for (const Ordered& next : order)
@@ -229,11 +259,12 @@ private:
   double TotalCost()
   {
     // What rounding left may have to cross the whole box.
-    for (std::int64_t cell = 0; cell < this->Target.NumberOfCells(); ++cell)
-    {
-      this->Sum.Add(std::abs(static_cast<double>(this->Rest.data()[cell])));
-      this->Work.Add(1);
-    }
+    this->ForCells([this](std::int64_t cell) {
+      if (this->Rest.data()[cell] != 0)
+      {
+        this->Sum.Add(std::abs(static_cast<double>(this->Rest.data()[cell])));
+      }
+    });
     return this->Sum.Value() / integerUnit * this->Shares.SquaredDiagonal;
   }
 

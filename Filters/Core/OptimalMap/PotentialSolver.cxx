@@ -4,6 +4,7 @@
 #include "Core/OptimalMap/Nodes/CostTransform.h"
 #include "Core/OptimalMap/Nodes/NodeLevels.h"
 #include "Core/OptimalMap/Nodes/Prolongation.h"
+#include "Core/OptimalMap/Nodes/PushForward.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/SmallWork.h"
@@ -83,31 +84,6 @@ CellPlacement<Dimension> placementOn(
       static_cast<double>(density.Density.Size()[axis]);
   }
   return placement;
-}
-
-// Adds the masses of the nodes' hats in the image of a density, of which the cells between the
-// nodes have the masses `cells`, null if each has 1.
-template <int Dimension>
-void pushForward(
-  const NodeMap<Dimension>& map, const double* cells, NodeSums<Dimension>& sums, Progress& progress)
-{
-  const std::int64_t row = map.Grid.Cells[0];
-  const std::int64_t rows = std::max<std::int64_t>(1, 1024 / row);
-  constexpr std::int64_t firstCells = std::int64_t{ 1 } << 15;
-  progress.For(
-    map.Grid.NumberOfCells(), rows * row,
-    [&](std::int64_t first, std::int64_t last) {
-      typename NodeSums<Dimension>::Part part(sums);
-      ImageSamples<Dimension> samples(map);
-      for (std::int64_t r = first / row; r < last / row; ++r)
-      {
-        samples.ForRow(
-          r, cells, [&](const CellSample<Dimension>& sample, const Point<Dimension>& image) {
-            part.Add(sample.Mass, image.data());
-          });
-      }
-    },
-    firstCells);
 }
 
 double sumOfProducts(const double* a, const double* b, std::int64_t count, Progress& progress)

@@ -244,6 +244,14 @@ NodeValues hatMasses(const CellDensity<Dimension>& density,
 }
 
 template <int Dimension>
+NodeValues hatSums(const double* values, const GridSize<Dimension>& size,
+  const NodeGrid<Dimension>& grid, Progress& progress)
+{
+  return sumInBins<Dimension>(CellValues{ values }, size,
+    CellPlacement<Dimension>::Filling(size, grid.Cells), grid, true, progress);
+}
+
+template <int Dimension>
 NodeValues hatMasses(const double* cells, const GridSize<Dimension>& size,
   const NodeGrid<Dimension>& grid, Progress& progress)
 {
@@ -314,12 +322,15 @@ template NodeValues hatMasses<2>(
   const CellDensity<2>&, const CellPlacement<2>&, const NodeGrid<2>&, Progress&);
 template NodeValues hatMasses<3>(
   const CellDensity<3>&, const CellPlacement<3>&, const NodeGrid<3>&, Progress&);
+template NodeValues hatSums<1>(const double*, const GridSize<1>&, const NodeGrid<1>&, Progress&);
 template NodeValues hatMasses<1>(const double*, const GridSize<1>&, const NodeGrid<1>&, Progress&);
 template NodeValues coarserCells<1>(
   const double*, const GridSize<1>&, const NodeGrid<1>&, Progress&);
+template NodeValues hatSums<2>(const double*, const GridSize<2>&, const NodeGrid<2>&, Progress&);
 template NodeValues hatMasses<2>(const double*, const GridSize<2>&, const NodeGrid<2>&, Progress&);
 template NodeValues coarserCells<2>(
   const double*, const GridSize<2>&, const NodeGrid<2>&, Progress&);
+template NodeValues hatSums<3>(const double*, const GridSize<3>&, const NodeGrid<3>&, Progress&);
 template NodeValues hatMasses<3>(const double*, const GridSize<3>&, const NodeGrid<3>&, Progress&);
 template NodeValues coarserCells<3>(
   const double*, const GridSize<3>&, const NodeGrid<3>&, Progress&);

@@ -59,6 +59,11 @@ template <int Dimension>
 NodeValues hatMasses(const CellDensity<Dimension>& density,
   const CellPlacement<Dimension>& placement, const NodeGrid<Dimension>& grid, Progress& progress);
 
+// The same sums of any values of the cells of a grid of this size, which fill the box.
+template <int Dimension>
+NodeValues hatSums(const double* values, const GridSize<Dimension>& size,
+  const NodeGrid<Dimension>& grid, Progress& progress);
+
 // The masses of the cells between the nodes, times the number of these cells: 1 is the mean
 // density.
 template <int Dimension>

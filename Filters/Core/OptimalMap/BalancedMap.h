@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Corrections of a map between two densities, so that cells get the masses of the target.
+#ifndef RectifiedTransport_BalancedMap_h
+#define RectifiedTransport_BalancedMap_h
+
+#include "Core/OptimalMap/Masses/CellDensity.h"
+#include "Core/OptimalMap/Nodes/NodeMap.h"
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// Moves the images of the cells' corners, which are given in cells, down the gradients of solutions
+// of Poisson's equation, weighted by the target, for what cells get too much by shareImages. Twice,
+// and on nodes two cells apart: what is wrong within a few cells is left. Both densities have the
+// size of the map's grid. The same bits for every number of threads. Throws std::bad_alloc and
+// Cancelled.
+template <int Dimension>
+void balanceMap(const CellDensity<Dimension>& source, const CellDensity<Dimension>& target,
+  NodeMap<Dimension>& corners, Progress& progress);
+
+// Bytes that it takes at most, about, without the sums of shareImages.
+template <int Dimension>
+double memoryForBalancing(const GridSize<Dimension>& cells);
+
+} // namespace RectifiedTransport
+
+#endif

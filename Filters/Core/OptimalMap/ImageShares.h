@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A coupling of the cells of two densities along a map, whose masses are not yet those of the
+// target.
+#ifndef RectifiedTransport_ImageShares_h
+#define RectifiedTransport_ImageShares_h
+
+#include "Core/OptimalMap/Masses/CellDensity.h"
+#include "Core/OptimalMap/Nodes/IntegerSums.h"
+#include "Core/OptimalMap/Nodes/NodeMap.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// What the cells of the target got from the source, as in IntegerSums.h.
+template <int Dimension>
+struct CellShares
+{
+  const std::int64_t* Got(std::int64_t cell) const { return this->Sums.data() + cell * this->Each; }
+  // What a cell got more than its share.
+  std::int64_t RestOf(std::int64_t cell, const CellDensity<Dimension>& target) const
+  {
+    return this->Got(cell)[0] - toInteger(target.Share(cell) * integerUnit);
+  }
+  GridSize<Dimension> PlaceOf(std::int64_t cell) const
+  {
+    GridSize<Dimension> place;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      place[axis] = cell % this->Size[axis];
+      cell /= this->Size[axis];
+    }
+    return place;
+  }
+
+  GridSize<Dimension> Size;
+  Point<Dimension> Sides{};     // of a cell
+  double SquaredDiagonal = 0.0; // of the box
+  LargeBuffer<std::int64_t> Sums;
+  int Each = 1; // sums a cell: the mass, with costs also its first moments, with ways from
+                // the source in parts of the whole grid
+  // In squared diagonals: of all ways, rounded up; and what of it is because parts of an image go
+  // to several cells.
+  std::int64_t Cost = 0;
+  std::int64_t CostOfSpread = 0;
+};
+
+// The images of the parts of the source's cells (ImageSamples) go to the cells with mass about
+// them. The map is given at the corners of cells, in cells. Both densities have the size of its
+// grid. The same bits for every number of threads. Throws std::bad_alloc and Cancelled.
+template <int Dimension>
+CellShares<Dimension> shareImages(const CellDensity<Dimension>& source,
+  const CellDensity<Dimension>& target, const NodeMap<Dimension>& corners, bool withCosts,
+  Progress& progress);
+
+} // namespace RectifiedTransport
+
+#endif

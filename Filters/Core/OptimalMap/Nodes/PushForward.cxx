@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/Nodes/PushForward.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+void pushForward(
+  const NodeMap<Dimension>& map, const double* cells, NodeSums<Dimension>& sums, Progress& progress)
+{
+  const std::int64_t row = map.Grid.Cells[0];
+  const std::int64_t rows = std::max<std::int64_t>(1, 1024 / row);
+  constexpr std::int64_t firstCells = std::int64_t{ 1 } << 15;
+  progress.For(
+    map.Grid.NumberOfCells(), rows * row,
+    [&](std::int64_t first, std::int64_t last) {
+      typename NodeSums<Dimension>::Part part(sums);
+      ImageSamples<Dimension> samples(map);
+      for (std::int64_t r = first / row; r < last / row; ++r)
+      {
+        samples.ForRow(
+          r, cells, [&](const CellSample<Dimension>& sample, const Point<Dimension>& image) {
+            part.Add(sample.Mass, image.data());
+          });
+      }
+    },
+    firstCells);
+}
+
+template void pushForward<1>(const NodeMap<1>&, const double*, NodeSums<1>&, Progress&);
+template void pushForward<2>(const NodeMap<2>&, const double*, NodeSums<2>&, Progress&);
+template void pushForward<3>(const NodeMap<3>&, const double*, NodeSums<3>&, Progress&);
+
+} // namespace RectifiedTransport
