@@ -17,6 +17,7 @@ OptimalMapOptions optionsOfBounds()
   OptimalMapOptions options;
   options.LeastIterations = 1;
   options.MostIterations = 1;
+  options.ForBounds = true;
   return options;
 }
 

@@ -17,6 +17,7 @@ namespace
 // Images of parts of cells need not lie close: what a cell between them gets too little comes from
 // its neighbours.
 constexpr double fineness = 0.5;
+constexpr double finenessOfLight = 0.25;
 
 // The cells about an image.
 template <int Dimension>
@@ -72,7 +73,8 @@ public:
       rows, each,
       [&](std::int64_t first, std::int64_t last) {
         const IntegerSums::Part part(integers);
-        ImageSamples<Dimension> samples(corners, fineness);
+        const double meanMass = 1.0 / static_cast<double>(count);
+        ImageSamples<Dimension> samples(corners, { fineness, finenessOfLight, meanMass });
         const double scale = integerUnit * (this->Source.IsUniform() ? this->Source.Share(0) : 1.0);
         CostOfImage own;
         for (std::int64_t row = first; row < last; ++row)

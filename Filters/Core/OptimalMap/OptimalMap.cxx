@@ -3,6 +3,7 @@
 
 #include "Core/Flow/FlowArguments.h"
 #include "Core/Flow/ParticleSource.h"
+#include "Core/OptimalMap/BoxCheck.h"
 #include "Core/OptimalMap/CorrectedMap.h"
 #include "Core/OptimalMap/CouplingCost.h"
 #include "Core/OptimalMap/Masses/CellDensity.h"
@@ -47,20 +48,6 @@ void check(const OptimalMapOptions& options)
   {
     throw std::invalid_argument(
       "an optimal map has at most " + std::to_string(options.MostNodes) + " nodes, it needs some");
-  }
-}
-
-template <int Dimension>
-void checkBox(const Point<Dimension>& low, const Point<Dimension>& high)
-{
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    const double side = high[axis] - low[axis];
-    if (!(side > 0.0 && std::isfinite(side * side)))
-    {
-      throw std::invalid_argument("the box of a density has a side of " + std::to_string(side) +
-        ", it must be positive, with a finite square");
-    }
   }
 }
 
@@ -135,6 +122,7 @@ struct OptimalMap<Dimension>::Implementation
     solver.LeastIterations = options.LeastIterations;
     solver.MostIterations = options.MostIterations;
     solver.MostNodes = options.MostNodes;
+    solver.SpareSamples = options.ForBounds;
     return solver;
   }
   Point<Dimension> CellSides(std::size_t side) const

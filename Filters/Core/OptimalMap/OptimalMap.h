@@ -44,6 +44,8 @@ struct OptimalMapOptions
   // Backward undoes that, near enough, in a fraction of the time. Else both solve for each image,
   // and both have corrected masses.
   bool InterpolatePoints = false;
+  // Takes fewer images of cells that have little mass, which bounds do without.
+  bool ForBounds = false;
 };
 
 // What a map is wanted for besides points one by one: it takes memory.

@@ -383,7 +383,18 @@ void costTransform(
   const AxisCosts rowCosts(nodes, grid.Spacing[0], largest);
   rows.For(progress, [&](std::int64_t first, std::int64_t last) {
     LineTransform transform(rowCosts);
-    transform.Transform<-1>(from + first * nodes, to + first * nodes, last - first);
+    if (from != to)
+    {
+      transform.Transform<-1>(from + first * nodes, to + first * nodes, last - first);
+      return;
+    }
+    LargeBuffer<double> scratch(blockLines * nodes);
+    for (std::int64_t line = first; line < last; line += blockLines)
+    {
+      const std::int64_t count = std::min<std::int64_t>(blockLines, last - line);
+      std::copy_n(from + line * nodes, count * nodes, scratch.data());
+      transform.Transform<-1>(scratch.data(), to + line * nodes, count);
+    }
   });
   for (int axis = 1; axis < Dimension; ++axis)
   {

@@ -83,14 +83,22 @@ struct CellSample
   }
 };
 
+// Samples a cell of the nodes that a cell is stretched over along an axis, at least one a cell.
+struct SampleFineness
+{
+  double Each = 1.0;
+  double OfLightCells = 1.0;
+  double LightMass = 0.0; // Cells with less mass are light.
+};
+
 // The images of the cells of rows along axis 0. Each cell is divided into as many samples along an
 // axis as the map stretches it there, at most 64.
 template <int Dimension>
 class ImageSamples
 {
 public:
-  // `fineness` samples a cell of the nodes, at least one a cell. The map must live as long.
-  explicit ImageSamples(const NodeMap<Dimension>& map, double fineness = 1.0)
+  // The map must live as long.
+  explicit ImageSamples(const NodeMap<Dimension>& map, const SampleFineness& fineness = {})
     : Map(map)
     , Fineness(fineness)
     , Nodes(static_cast<std::size_t>(map.Grid.Cells[0] + 1))
@@ -229,11 +237,13 @@ private:
   {
     constexpr double tolerance = 0.02; // of an extent just above a whole number
     CellSample<Dimension> sample{ cell, mass, {}, {} };
+    const double fineness =
+      mass < this->Fineness.LightMass ? this->Fineness.OfLightCells : this->Fineness.Each;
     int parts[3] = { 1, 1, 1 };
     int all = 1;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      const double wanted = std::ceil(this->Extent(axis)[i] * this->Fineness - tolerance);
+      const double wanted = std::ceil(this->Extent(axis)[i] * fineness - tolerance);
       parts[axis] = static_cast<int>(std::clamp(wanted, 1.0, 1.0 * MostSamples));
       sample.Parts[Index(axis)] = parts[axis];
       all *= parts[axis];
@@ -304,7 +314,7 @@ private:
   }
 
   const NodeMap<Dimension>& Map;
-  double Fineness;
+  SampleFineness Fineness;
   std::size_t Nodes;
   std::vector<double> Scratch;
   std::array<std::array<const double*, Lines>, Dimension> Corners{};

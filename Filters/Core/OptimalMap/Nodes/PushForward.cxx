@@ -10,8 +10,8 @@ namespace RectifiedTransport
 {
 
 template <int Dimension>
-void pushForward(
-  const NodeMap<Dimension>& map, const double* cells, NodeSums<Dimension>& sums, Progress& progress)
+void pushForward(const NodeMap<Dimension>& map, const double* cells, const SampleFineness& fineness,
+  NodeSums<Dimension>& sums, Progress& progress)
 {
   const std::int64_t row = map.Grid.Cells[0];
   const std::int64_t rows = std::max<std::int64_t>(1, 1024 / row);
@@ -20,7 +20,7 @@ void pushForward(
     map.Grid.NumberOfCells(), rows * row,
     [&](std::int64_t first, std::int64_t last) {
       typename NodeSums<Dimension>::Part part(sums);
-      ImageSamples<Dimension> samples(map);
+      ImageSamples<Dimension> samples(map, fineness);
       for (std::int64_t r = first / row; r < last / row; ++r)
       {
         samples.ForRow(
@@ -32,8 +32,11 @@ void pushForward(
     firstCells);
 }
 
-template void pushForward<1>(const NodeMap<1>&, const double*, NodeSums<1>&, Progress&);
-template void pushForward<2>(const NodeMap<2>&, const double*, NodeSums<2>&, Progress&);
-template void pushForward<3>(const NodeMap<3>&, const double*, NodeSums<3>&, Progress&);
+template void pushForward<1>(
+  const NodeMap<1>&, const double*, const SampleFineness&, NodeSums<1>&, Progress&);
+template void pushForward<2>(
+  const NodeMap<2>&, const double*, const SampleFineness&, NodeSums<2>&, Progress&);
+template void pushForward<3>(
+  const NodeMap<3>&, const double*, const SampleFineness&, NodeSums<3>&, Progress&);
 
 } // namespace RectifiedTransport

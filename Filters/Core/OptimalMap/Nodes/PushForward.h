@@ -13,8 +13,8 @@ namespace RectifiedTransport
 // nodes have the masses `cells`, null if each has 1. Adds the cells to the units of the current
 // stage. Throws std::bad_alloc and Cancelled.
 template <int Dimension>
-void pushForward(const NodeMap<Dimension>& map, const double* cells, NodeSums<Dimension>& sums,
-  Progress& progress);
+void pushForward(const NodeMap<Dimension>& map, const double* cells, const SampleFineness& fineness,
+  NodeSums<Dimension>& sums, Progress& progress);
 
 } // namespace RectifiedTransport
 
