@@ -3,6 +3,7 @@
 
 #include "Core/OptimalMap/ImageShares.h"
 #include "Core/OptimalMap/Masses/NodeMasses.h"
+#include "Core/OptimalMap/Nodes/NodeLevels.h"
 #include "Core/OptimalMap/Nodes/NodePoisson.h"
 #include "Core/OptimalMap/Nodes/PoissonMoves.h"
 #include "Core/Parallel/Progress.h"
@@ -22,14 +23,16 @@ constexpr std::array<int, 2> iterations = { 6, 4 }; // of each correction
 constexpr double leastWeight = 0.1;                 // of the mean density
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
-// An even number of cells two of the map's cells wide.
+// An even number of cells two of the map's cells wide, where these are few as wide as one.
 template <int Dimension>
-NodeGrid<Dimension> coarserNodes(const NodeGrid<Dimension>& corners)
+NodeGrid<Dimension> nodesOver(const NodeGrid<Dimension>& corners)
 {
+  const bool areFew = numberOfCells<Dimension>(corners.Cells) < fewCells<Dimension>;
+  const std::int64_t pair = areFew ? 2 : 4; // two cells, in those of the map
   NodeGrid<Dimension> nodes;
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    nodes.Cells[axis] = 2 * ((corners.Cells[axis] + 3) / 4);
+    nodes.Cells[axis] = 2 * ((corners.Cells[axis] + pair - 1) / pair);
     nodes.Spacing[axis] = corners.Spacing[axis] * static_cast<double>(corners.Cells[axis]) /
       static_cast<double>(nodes.Cells[axis]);
   }
@@ -45,7 +48,7 @@ public:
     : Source(source)
     , Target(target)
     , Corners(corners)
-    , Nodes(coarserNodes(corners.Grid))
+    , Nodes(nodesOver(corners.Grid))
     , Work(progress)
   {
   }
@@ -132,7 +135,7 @@ double memoryForBalancing(const GridSize<Dimension>& cells)
 {
   constexpr double arrays = 3.0 + Dimension; // excess, target's masses and solution; moves
   constexpr double arraysOfCells = 2.0;      // what they got too much, and its sums along an axis
-  const NodeGrid<Dimension> nodes = coarserNodes<Dimension>({ cells });
+  const NodeGrid<Dimension> nodes = nodesOver<Dimension>({ cells });
   return sizeof(double) *
     (arraysOfCells * numberOfCells<Dimension>(cells) +
       arrays * numberOfCorners<Dimension>(nodes.Cells)) +

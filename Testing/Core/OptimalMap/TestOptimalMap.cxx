@@ -125,4 +125,28 @@ TEST(OptimalMap, BoundsHoldForSeparablePairs3D)
   compareSeparable<3>(16, 12, 24, true);
 }
 
+// What bounds do without changes them little, and leaves the residual unknown.
+TEST(OptimalMap, ForBoundsGivesNearlyTheSameBounds)
+{
+  const TestDensity<2> f = randomCells<2>({ 60, 48 }, 0.1);
+  const TestDensity<2> g = twoGaussians<2>({ 60, 48 });
+  const auto from = f.Source();
+  const auto to = g.Source();
+  const Point<2> sides = { 2.0, 1.5 };
+  std::array<double, 2> bounds{};
+  for (const bool forBounds : { false, true })
+  {
+    OptimalMapOptions options;
+    options.LeastIterations = options.MostIterations = 1;
+    options.ForBounds = forBounds;
+    OptimalMap<2> map(placed<2>(f, from, sides), placed<2>(g, to, sides), options);
+    map.Solve();
+    EXPECT_EQ(map.Report().Residual > 0.0, !forBounds);
+    EXPECT_LT(map.LowerBound(), map.UpperBound());
+    bounds[forBounds ? 1 : 0] = map.LowerBound();
+  }
+  EXPECT_NE(bounds[0], bounds[1]); // fewer samples
+  EXPECT_NEAR(bounds[1] / bounds[0], 1.0, 0.01);
+}
+
 } // namespace RectifiedTransport

@@ -25,8 +25,6 @@ template <int Dimension>
 GridSize<Dimension> finestNodeCells(
   const std::vector<Point<Dimension>>& cellSides, double mostNodes)
 {
-  // Few cells cost little, and a bound is as much better as nodes are closer.
-  constexpr double fewCells = Dimension == 3 ? 0x1p14 : 0x1p11;
   Point<Dimension> wanted;
   double all = 1.0;
   for (int axis = 0; axis < Dimension; ++axis)
@@ -40,7 +38,7 @@ GridSize<Dimension> finestNodeCells(
     all *= wanted[axis];
   }
   double factor = 1.0;
-  for (; all * factor < fewCells; factor *= std::ldexp(1.0, Dimension))
+  for (; all * factor < fewCells<Dimension>; factor *= std::ldexp(1.0, Dimension))
   {
     for (double& cells : wanted)
     {

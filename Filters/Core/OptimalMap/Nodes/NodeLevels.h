@@ -10,6 +10,10 @@
 namespace RectifiedTransport
 {
 
+// Few cells cost little, and a bound is as much better as nodes are closer.
+template <int Dimension>
+constexpr double fewCells = Dimension == 3 ? 0x1p14 : 0x1p11;
+
 // The finest cells between nodes for densities whose cells have these sides, in fractions of the
 // box: as many as cells of the shortest sides would be. While these are few, they are halved along
 // all axes; if they are more than `mostNodes`, there are about so many.

@@ -150,6 +150,10 @@ void expectLeast(const NodeGrid<Dimension>& grid, const std::vector<double>& fro
     largest = std::max(largest, std::abs(value));
   }
   const std::vector<double> to = transformOf<Dimension>(grid, from);
+  std::vector<double> inPlace = from;
+  Progress progress{ Context(SerialExecutor()) };
+  costTransform<Dimension>(grid, inPlace.data(), inPlace.data(), progress);
+  EXPECT_EQ(inPlace, to);
   for (std::int64_t y = 0; y < grid.NumberOfNodes(); ++y)
   {
     EXPECT_NEAR(
