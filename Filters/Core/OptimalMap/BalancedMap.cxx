@@ -134,7 +134,8 @@ template <int Dimension>
 double memoryForBalancing(const GridSize<Dimension>& cells)
 {
   constexpr double arrays = 3.0 + Dimension; // excess, target's masses and solution; moves
-  constexpr double arraysOfCells = 2.0;      // what they got too much, and its sums along an axis
+  // Sums of threads, what cells got too much, and its sums along an axis.
+  constexpr double arraysOfCells = mostArraysOfSums + 2.0;
   const NodeGrid<Dimension> nodes = nodesOver<Dimension>({ cells });
   return sizeof(double) *
     (arraysOfCells * numberOfCells<Dimension>(cells) +

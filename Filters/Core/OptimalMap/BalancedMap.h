@@ -20,7 +20,7 @@ template <int Dimension>
 void balanceMap(const CellDensity<Dimension>& source, const CellDensity<Dimension>& target,
   NodeMap<Dimension>& corners, Progress& progress);
 
-// Bytes that it takes at most, about, without the sums of shareImages.
+// Bytes that it takes at most, about.
 template <int Dimension>
 double memoryForBalancing(const GridSize<Dimension>& cells);
 

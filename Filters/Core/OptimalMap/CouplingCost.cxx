@@ -93,14 +93,13 @@ CouplingCost couplingCost(const CellDensity<Dimension>& source,
 template <int Dimension>
 double memoryForCoupling(const GridSize<Dimension>& size, const NodeGrid<Dimension>& grid)
 {
-  constexpr double arrays = 16.0; // of sums a cell that all threads have besides the first one
-  constexpr double others = 2.0 + Dimension;
-  constexpr double ofCurve = 24.0; // bytes a cell
+  constexpr double real = sizeof(double);
   const double cells = numberOfCells<Dimension>(size);
   const double corners =
-    grid.Cells == size ? 0.0 : Dimension * sizeof(double) * numberOfCorners<Dimension>(size);
-  return cells * (sizeof(std::int64_t) * (arrays + others) + ofCurve) + corners +
-    memoryForBalancing<Dimension>(size);
+    grid.Cells == size ? 0.0 : Dimension * real * numberOfCorners<Dimension>(size);
+  // The sums of all threads; what is passed on takes less.
+  const double sharing = real * (16.0 + Dimension + 1.0) * cells;
+  return corners + std::max(memoryForBalancing<Dimension>(size), sharing);
 }
 
 template CouplingCost couplingCost<1>(

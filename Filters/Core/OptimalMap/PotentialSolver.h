@@ -37,7 +37,7 @@ struct SolverOptions
   int LeastIterations = 0; // on the finest nodes
   int MostIterations = 20;
   double MostNodes = 0x1p24;
-  bool SpareSamples = false;   // of light cells that the map stretches, of densities without voids
+  bool SpareSamples = false; // of light cells that the map stretches, of densities without voids
 };
 
 // One of the two densities on the nodes.

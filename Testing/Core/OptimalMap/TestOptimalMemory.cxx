@@ -74,8 +74,9 @@ TYPED_TEST(OptimalMemory, IsThatForetold)
 }
 #endif
 
-// Each use takes more than a map alone, if there is enough of it.
-TEST(OptimalMapUses, TakeMoreMemory)
+// Samples take more than a map alone, if there are enough of them. An upper bound takes what the
+// solution has released.
+TEST(OptimalMapUses, TakeMemory)
 {
   const GridSize<2> size{ 100, 90 };
   const double alone = OptimalMap<2>::MemoryFor(size, size);
@@ -83,7 +84,7 @@ TEST(OptimalMapUses, TakeMoreMemory)
   const double many = OptimalMap<2>::MemoryFor(size, size, {}, { 1e7 });
   EXPECT_GT(many, 10.0 * alone);
   EXPECT_EQ(OptimalMap<2>::MemoryFor(size, size, {}, { 1e7, true }), many + 2e7 * sizeof(double));
-  EXPECT_GT(OptimalMap<2>::MemoryFor(size, size, {}, { 0.0, false, true }), alone);
+  EXPECT_GE(OptimalMap<2>::MemoryFor(size, size, {}, { 0.0, false, true }), alone);
 }
 
 } // namespace
