@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The distances of Transport Distance on one thread: a map of Linearized, the comparison of two
-// maps, and the bracket of a pair of Certified, with how far it is from the bound of many
-// iterations
-// ("low", "high", "over": parts of the squared distance).
+// maps, and the bracket of a pair of Certified and its lower bound alone, with how far they are
+// from the bound of many iterations ("low", "high", "over": parts of the squared distance).
 #include "BenchmarkInputs.h"
 #include "OptimalPairs.h"
 
@@ -31,10 +30,11 @@ struct DistancePair
   }
 
   // The lower bound of many iterations.
-  double Best() const
+  double Best() const { return this->Lower({}); }
+
+  double Lower(OptimalMapOptions options, int iterations = 20) const
   {
-    OptimalMapOptions options;
-    options.LeastIterations = options.MostIterations = 20;
+    options.LeastIterations = options.MostIterations = iterations;
     const auto source = this->From.Source();
     const auto target = this->To.Source();
     OptimalMap<D> map({ DensitySource<D>(this->From.Size, source), {}, this->Unit },
@@ -92,6 +92,21 @@ void bracketPair(benchmark::State& state, const std::string& name)
 }
 
 template <int D>
+void boundPair(benchmark::State& state, const std::string& name)
+{
+  const DistancePair<D> pair(name, state.range(0));
+  const OpenMPThreads threads(1);
+  OptimalMapOptions options;
+  options.ForBounds = true;
+  double bound = 0.0;
+  for (auto _ : state)
+  {
+    bound = pair.Lower(options, 1);
+  }
+  state.counters["low"] = 1.0 - bound / pair.Best();
+}
+
+template <int D>
 void addDistances(const std::string& name, const std::vector<std::int64_t>& sides)
 {
   const std::string start = "Distance" + std::to_string(D) + "D/";
@@ -106,6 +121,7 @@ void addDistances(const std::string& name, const std::vector<std::int64_t>& side
     add("map", mapDistance<D>);
     add("compare", compareMaps<D>);
     add("bracket", bracketPair<D>);
+    add("lower_bound", boundPair<D>);
   }
 }
 

@@ -103,7 +103,8 @@ public:
   // Not above the least cost of any map or coupling of the densities; at least 0.
   double LowerBound() const;
   // Not below the least cost: the cost of a coupling along the map, or of one along the inverse map
-  // if that is less and the first is above `enough`. Densities must have the same size and box.
+  // if that is less. The second is tried only if the first is above `enough`, even without what it
+  // costs that images lie between cells. Densities must have the same size and box.
   // Throws std::invalid_argument.
   double UpperBound(const Context& context = Context(), double enough = 0.0) const;
   // Of pairs of points and images: how much more they cost, halved, than the bound allows for where
