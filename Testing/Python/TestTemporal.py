@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Transport Temporal Interpolator: a series at its steps and between them, its particles, the arrays that
-it carries, and series that are not as they should be."""
+"""Transport Temporal Interpolator: a series at its steps and between them, its particles and the arrays
+that it carries. Series that are not as they should be: TestTemporalOdd.py."""
 import os
 import unittest
 
@@ -9,48 +9,11 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 from vtkmodules.vtkFiltersGeneral import vtkTemporalStatistics
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from rt_series import Series
-from rt_testing import OUTPUT, Listener, digest, load_plugin, main, positions
-
-simple = load_plugin()
-import rectifiedtransport
-
-N = 48
-
-
-def blob(x, y, width=5.0, n=N, height=1.0):
-    c = np.arange(n) + 0.5
-    values = height * np.exp(-((c[None, :] - x) ** 2 + (c[:, None] - y) ** 2) / (2 * width ** 2))
-    return np.where(values > 1e-4 * height, values, 0)
-
-
-def interpolator(series, **properties):
-    algorithm = rectifiedtransport.vtkRectifiedTransport.vtkTransportTemporalInterpolator()
-    algorithm.SetInputConnection(series.GetOutputPort())
-    for name, value in properties.items():
-        getattr(algorithm, "Set" + name)(value)
-    return algorithm
-
-
-def values(algorithm, name="rho", points=False):
-    image = algorithm.GetDensity()
-    array = (image.GetPointData() if points else image.GetCellData()).GetArray(name)
-    return None if array is None else vtk_to_numpy(array).copy()
-
-
-def particles(algorithm, name):
-    return vtk_to_numpy(algorithm.GetParticles().GetPointData().GetArray(name)).copy()
-
-
-def centroid(density, n=N):
-    c = np.arange(n) + 0.5
-    density = density.reshape(n, n)
-    return np.array([(density.sum(0) * c).sum(), (density.sum(1) * c).sum()]) / density.sum()
-
-
-MOVING = [blob(12, 14), blob(30, 22, 5, height=1.5), blob(34, 34, 6)]
+from rt_series import Series, write_series
+from rt_temporal import (MOVING, N, blob, centroid, interpolator, particles, rectifiedtransport, simple,
+                         values)
+from rt_testing import OUTPUT, Listener, digest, main, positions
 
 
 class Times(unittest.TestCase):
@@ -94,6 +57,20 @@ class Times(unittest.TestCase):
         algorithm.UpdateTimeStep(0.5)
         truth = blob(24, 24, 5.5, height=16 / 5.5 ** 2).ravel()
         self.assertLess(np.abs(values(algorithm) - truth).max(), 0.06 * truth.max())
+
+    def test_units_of_lengths_do_not_matter(self):
+        """To the last bit in units that are powers of two; in others as far as rounding leaves the map."""
+        spreading = [blob(20, 24, 4), blob(26, 24, 7)]
+        for method, share in ((0, 1e-3), (1, 1e-12)):
+            found = {}
+            for spacing in (1.0, 2.0 ** -200, 2.0 ** 200, 1e-60, 1e60):
+                algorithm = interpolator(Series(spreading, spacing=(spacing, spacing, 1)), Method=method)
+                algorithm.UpdateTimeStep(0.5)
+                found[spacing] = values(algorithm)
+            for spacing in (2.0 ** -200, 2.0 ** 200):
+                self.assertTrue((found[spacing] == found[1.0]).all(), spacing)
+            for spacing in (1e-60, 1e60):
+                self.assertLess(np.abs(found[spacing] - found[1.0]).sum(), share * found[1.0].sum())
 
     def test_near_a_step_is_near_that_step(self):
         algorithm = interpolator(Series(MOVING))
@@ -294,195 +271,9 @@ class Upstream(unittest.TestCase):
             self.assertEqual(len(runs), 3)
 
 
-class Odd(unittest.TestCase):
-    def error(self, series, time, **properties):
-        algorithm = interpolator(series, **properties)
-        listener = Listener(algorithm)
-        algorithm.UpdateTimeStep(time)
-        self.assertEqual(len(listener.errors), 2, listener.errors)  # the second is the executive's
-        self.assertEqual(algorithm.GetDensity().GetNumberOfPoints(), 0)
-        self.assertEqual(algorithm.GetParticles().GetNumberOfPoints(), 0)
-        return listener.errors[0], algorithm
-
-    def test_no_input(self):
-        algorithm = rectifiedtransport.vtkRectifiedTransport.vtkTransportTemporalInterpolator()
-        listener = Listener(algorithm)
-        algorithm.Update()
-        self.assertEqual(len(listener.errors), 1)
-
-    def test_nan_in_one_step(self):
-        steps = [step.copy() for step in MOVING]
-        steps[1][3, 4] = np.nan
-        text, algorithm = self.error(Series(steps), 1.5)
-        self.assertIn("Time step 2 of 3 (t = 1): The density array 'rho' has 1 value that is NaN or infinite", text)
-        algorithm.SetNaNValuesToEmpty()  # as it advises
-        listener = Listener(algorithm)
-        algorithm.UpdateTimeStep(1.5)
-        self.assertEqual(listener.errors, [])
-        self.assertGreater(algorithm.GetDensity().GetNumberOfPoints(), 0)
-
-    def test_a_reader_that_fails(self):
-        """VTK's own way to run a filter for several times would not end."""
-        for chain in (0, 1):
-            series = Series(MOVING)
-            series.broken = 1
-            algorithm = interpolator(series, Chain=chain)
-            listener = Listener(algorithm)
-            algorithm.UpdateTimeStep(0.5)
-            self.assertIn("The input could not be made at the time 1; mend the error", "".join(listener.errors))
-            self.assertEqual(algorithm.GetDensity().GetNumberOfPoints(), 0)
-            self.assertEqual(series.asked, [0, 1])
-            series.broken = None
-            series.Modified()
-            algorithm.UpdateTimeStep(0.5)
-            self.assertGreater(algorithm.GetDensity().GetNumberOfPoints(), 0)
-
-    def test_after_an_error_other_times_work(self):
-        steps = [*MOVING, -MOVING[0]]
-        text, algorithm = self.error(Series(steps), 2.5)
-        self.assertIn("Time step 4 of 4 (t = 3): The density array 'rho' has", text)
-        algorithm.UpdateTimeStep(0.5)
-        self.assertGreater(algorithm.GetDensity().GetNumberOfPoints(), 0)
-
-    def test_a_step_that_lacks_the_density(self):
-        series = Series([MOVING[0], {"other": MOVING[1]}])
-        algorithm = interpolator(series)
-        algorithm.SetInputArrayToProcess(0, 0, 0, 1, "rho")
-        listener = Listener(algorithm)
-        algorithm.UpdateTimeStep(0.5)
-        self.assertEqual(len(listener.errors), 2)  # the second is the executive's
-        self.assertIn("Time step 2 of 2 (t = 1): The input image has no density array 'rho'; it has", listener.errors[0])
-
-    def test_a_step_without_mass(self):
-        empty = np.zeros((N, N))
-        algorithm = interpolator(Series([empty, MOVING[0], empty, empty]))
-        listener = Listener(algorithm)
-        for time, factor in ((0, 0), (0.25, 0.25), (1, 1), (1.5, 0.5), (2, 0), (2.5, 0)):
-            algorithm.UpdateTimeStep(time)
-            np.testing.assert_allclose(values(algorithm), factor * MOVING[0].ravel(), atol=1e-12)
-            self.assertTrue((particles(algorithm, "Velocity") == 0).all())
-        self.assertEqual(listener.errors, [])
-        self.assertTrue(any("Time step 1 of 4 (t = 0) has no mass: that of the next step appears where it is" in text
-                            for text in listener.warnings), listener.warnings)
-        text, algorithm = self.error(Series([MOVING[0], empty, MOVING[1]]), 1.5, Chain=1)
-        self.assertIn("Time step 2 of 3 (t = 1) has no mass, and Chain follows particles through all steps; Chain Off", text)
-        algorithm.SetChain(0)  # as it advises
-        algorithm.UpdateTimeStep(1.5)
-        self.assertGreater(algorithm.GetDensity().GetNumberOfPoints(), 0)
-
-    def test_one_step_and_none(self):
-        for times in ([5], []):
-            for chain in (0, 1):
-                algorithm = interpolator(Series([MOVING[0]], times=times), Chain=chain)
-                listener = Listener(algorithm)
-                for time in (5, 3, 8):
-                    algorithm.UpdateTimeStep(time)
-                    if not chain:
-                        self.assertTrue((values(algorithm) == MOVING[0].ravel()).all())
-                    self.assertTrue((particles(algorithm, "Velocity") == 0).all())
-                self.assertEqual(listener.errors, [])
-                self.assertEqual(len(listener.warnings), 1, listener.warnings)
-                self.assertIn("no mass moves; the density comes out as it is", listener.warnings[0])
-
-    def test_repeated_and_unordered_times(self):
-        algorithm = interpolator(Series([MOVING[2], MOVING[0], MOVING[0], MOVING[1]], times=[2, 0, 0, 1]), Resample=2)
-        algorithm.UpdateInformation()
-        steps = algorithm.GetOutputInformation(0).Get(Pipeline.TIME_STEPS())
-        np.testing.assert_allclose(steps, [0, 0.5, 1, 1.5, 2])
-        plain = interpolator(Series(MOVING))
-        for time in (0, 0.5, 1.5, 2):
-            algorithm.UpdateTimeStep(time)
-            plain.UpdateTimeStep(time)
-            self.assertEqual(digest(algorithm.GetDensity()), digest(plain.GetDensity()))
-
-    def test_grids_that_change(self):
-        fine = blob(60, 60, 10, 96)
-        series = Series([MOVING[0], fine], spacing=1.0)
-        image = series.image
-
-        def half(step):
-            made = image(step)
-            if step == 1:
-                made.SetSpacing(0.5, 0.5, 1)
-            return made
-        series.image = half
-        algorithm = interpolator(series)
-        algorithm.UpdateTimeStep(0.5)
-        self.assertEqual(algorithm.GetDensity().GetDimensions(), (97, 97, 1))
-        mass = 0.5 * (MOVING[0].sum() + fine.sum() / 4)
-        self.assertAlmostEqual(values(algorithm).sum() / 4 / mass, 1, 9)
-        algorithm.UpdateTimeStep(0)
-        self.assertEqual(algorithm.GetDensity().GetDimensions(), (49, 49, 1))
-        self.assertTrue((values(algorithm) == MOVING[0].ravel()).all())
-        algorithm.UpdateTimeStep(1)
-        self.assertTrue((values(algorithm) == fine.ravel()).all())
-
-    def test_boxes_that_differ(self):
-        algorithm = interpolator(Series([MOVING[0], MOVING[0]], origins=[0.0, 10.0]))
-        algorithm.UpdateTimeStep(0.5)
-        self.assertEqual(algorithm.GetDensity().GetBounds()[:2], (0, N + 10))
-        place = np.average(positions(algorithm.GetParticles()), axis=0, weights=particles(algorithm, "Mass"))
-        np.testing.assert_allclose(place[:2], centroid(MOVING[0]) + [5, 0], atol=0.05)
-
-    def test_directions_that_differ(self):
-        series = Series(MOVING)
-        image = series.image
-
-        def turned(step):
-            made = image(step)
-            if step == 1:
-                made.SetDirectionMatrix(0, -1, 0, 1, 0, 0, 0, 0, 1)
-            return made
-        series.image = turned
-        text, _ = self.error(series, 0.5)
-        self.assertIn("Time step 2 of 3 (t = 1)", text)
-        self.assertIn("direction", text)
-
-    def test_properties_out_of_range(self):
-        for name, value, rule in (("Resample", -1, "Resample is -1; it must be from 0 (any time) to 1000000"),
-                                  ("ParticlesPerCell", 0, "ParticlesPerCell is 0; it must be at least 1"),
-                                  ("Radius", 0, "Radius is 0"), ("Method", 2, "Method is 2; it must be 0 (Optimal)"),
-                                  ("Kernel", 9, "Kernel is 9")):
-            text, _ = self.error(Series(MOVING), 0.5, **{name: value})
-            self.assertIn(rule, text)
-
-    def test_abort(self):
-        algorithm = interpolator(Series(MOVING))
-        algorithm.AddObserver("ProgressEvent", lambda caller, event: caller.SetAbortExecute(1))
-        algorithm.UpdateTimeStep(0.5)
-        self.assertEqual(algorithm.GetDensity().GetNumberOfPoints(), 0)
-        algorithm.RemoveAllObservers()
-        algorithm.SetAbortExecute(0)
-        algorithm.Modified()
-        algorithm.UpdateTimeStep(0.5)
-        self.assertGreater(algorithm.GetDensity().GetNumberOfPoints(), 0)
-
-    def test_progress_moves(self):
-        for properties in ({}, {"Chain": 1}):
-            algorithm = interpolator(Series(MOVING), **properties)
-            seen = []
-            algorithm.AddObserver("ProgressEvent", lambda caller, event: seen.append(caller.GetProgress()))
-            algorithm.UpdateTimeStep(1.5)
-            self.assertGreater(len(seen), 3)
-            self.assertEqual(seen, sorted(seen))
-
-
 class InParaView(unittest.TestCase):
     def reader(self, name, steps):
-        folder = os.path.join(OUTPUT, name)
-        os.makedirs(folder, exist_ok=True)
-        series = Series(steps)
-        for step in range(len(steps)):
-            writer = vtkXMLImageDataWriter()
-            writer.SetFileName(os.path.join(folder, "%d.vti" % step))
-            writer.SetInputData(series.image(step))
-            writer.SetDataModeToBinary()
-            writer.Write()
-        path = os.path.join(folder, "series.pvd")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write('<VTKFile type="Collection" version="0.1"><Collection>%s</Collection></VTKFile>' % "".join(
-                '<DataSet timestep="%d" file="%d.vti"/>' % (step, step) for step in range(len(steps))))
-        return simple.PVDReader(FileName=path)
+        return simple.PVDReader(FileName=write_series(os.path.join(OUTPUT, name), Series(steps)))
 
     def density(self, proxy, time, points=False):
         proxy.UpdatePipeline(time)

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A source of images with time steps."""
+"""A source of images with time steps, and files of them."""
+import os
+
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 
 class Series(VTKPythonAlgorithmBase):
@@ -52,3 +55,21 @@ class Series(VTKPythonAlgorithmBase):
         vtkImageData.GetData(outputs).ShallowCopy(self.image(step))
         vtkImageData.GetData(outputs).GetInformation().Set(vtkImageData.DATA_TIME_STEP(), time)
         return 1
+
+
+def write_series(folder, series):
+    """The images in files. Returns the path of the .pvd file that has their times."""
+    os.makedirs(folder, exist_ok=True)
+    rows = []
+    for step, time in enumerate(series.times):
+        writer = vtkXMLImageDataWriter()
+        writer.SetFileName(os.path.join(folder, "%d.vti" % step))
+        writer.SetInputData(series.image(step))
+        writer.SetDataModeToBinary()
+        writer.Write()
+        rows.append('<DataSet timestep="%r" file="%d.vti"/>' % (time, step))
+    path = os.path.join(folder, "series.pvd")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write('<VTKFile type="Collection" version="0.1"><Collection>%s</Collection></VTKFile>' %
+                   "".join(rows))
+    return path

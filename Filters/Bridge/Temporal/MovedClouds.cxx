@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -33,6 +34,16 @@ Point<D> cellLengths(const ImageGrid& grid)
   {
     lengths[axis] /= static_cast<double>(size[axis]);
   }
+  return lengths;
+}
+
+// The lengths of the cells of a step, in those of another grid.
+template <int D>
+Point<D> lengthsInCells(const ImageGrid& step, const ImageGrid& grid)
+{
+  Point<D> lengths = cellLengths<D>(step);
+  const Point<D> units = cellLengths<D>(grid);
+  std::transform(lengths.begin(), lengths.end(), units.begin(), lengths.begin(), std::divides<>());
   return lengths;
 }
 
@@ -152,7 +163,8 @@ void deposit(const MovedClouds& clouds, const ImageGrid& geometry, int exponent,
   const double scales[2] = { std::ldexp(1.0, exponent / 2),
     std::ldexp(1.0, exponent - exponent / 2) };
   const GridSize<D> size = geometry.Size<D>();
-  const Point<D> lengths = cellLengths<D>(geometry);
+  const Point<D> lengths[2] = { lengthsInCells<D>(clouds.FirstGrid, geometry),
+    lengthsInCells<D>(clouds.SecondGrid, geometry) };
   const bool isAlone = progress.Threads().Concurrency() == 1;
   const double* x = clouds.Points->GetPointer(0);
   const float* from = clouds.Sizes.From.data() + D * clouds.First;
@@ -165,11 +177,12 @@ void deposit(const MovedClouds& clouds, const ImageGrid& geometry, int exponent,
         geometry.ToIndex<D>(x + 3 * i, index);
         geometry.ClampToDomain<D>(index);
         CloudRow rows[D];
+        const Point<D>& unit = lengths[clouds.First + i < clouds.OfFirst ? 0 : 1];
         for (int axis = 0; axis < D; ++axis)
         {
           const double length =
             (1.0 - clouds.Part) * from[D * i + axis] + clouds.Part * to[D * i + axis];
-          rows[axis] = rowOf(index[axis], length / lengths[axis], size[axis]);
+          rows[axis] = rowOf(index[axis], length * unit[axis], size[axis]);
         }
         addCloud<D>(rows, size, clouds.Masses[i] * scales[0] * scales[1], isAlone, cells);
       }
@@ -209,16 +222,10 @@ std::vector<std::int64_t> sumOfRanks(const std::atomic<std::int64_t>* cells, con
 } // namespace
 
 template <int D>
-std::vector<float> cloudsInCells(
-  const PivotLattice<D>& lattice, const ImageGrid& here, std::int64_t count)
+std::vector<float> cloudsInCells(const PivotLattice<D>& lattice, std::int64_t count)
 {
-  const Point<D> lengths = cellLengths<D>(here);
-  std::vector<float> sizes(static_cast<std::size_t>(D * count));
-  for (std::size_t i = 0; i < sizes.size(); ++i)
-  {
-    sizes[i] = static_cast<float>(lengths[static_cast<int>(i % D)] * partOfCell<D>(lattice));
-  }
-  return sizes;
+  return std::vector<float>(
+    static_cast<std::size_t>(D * count), static_cast<float>(partOfCell<D>(lattice)));
 }
 
 template <int D>
@@ -238,8 +245,7 @@ std::vector<float> cloudsAtImages(const PivotLattice<D>& lattice, const ImageGri
     where[static_cast<std::size_t>(allNumbers[i])] = static_cast<std::int64_t>(i);
   }
   const GridSize<D>& size = lattice.Lattice;
-  const Point<D> from = cellLengths<D>(here);
-  const Point<D> to = cellLengths<D>(there);
+  const Point<D> unit = lengthsInCells<D>(there, here);
   const double part = partOfCell<D>(lattice);
   std::vector<float> sizes(static_cast<std::size_t>(D * images.size()));
   progress.For(images.size(), grain, [&](std::int64_t first, std::int64_t last) {
@@ -253,15 +259,14 @@ std::vector<float> cloudsAtImages(const PivotLattice<D>& lattice, const ImageGri
         const std::int64_t at = rest % size[axis];
         const auto distance = [&](std::int64_t neighbour) {
           return std::abs(all[static_cast<std::size_t>(D * neighbour + axis)] - images[i][axis]) *
-            to[axis] / from[axis];
+            unit[axis];
         };
         const std::int64_t before = at > 0 ? where[static_cast<std::size_t>(number - step)] : none;
         const std::int64_t after =
           at + 1 < size[axis] ? where[static_cast<std::size_t>(number + step)] : none;
         const double factor = stretch(before == none ? 0.0 : distance(before),
           after == none ? 0.0 : distance(after), before != none, after != none);
-        sizes[static_cast<std::size_t>(D * i + axis)] =
-          static_cast<float>(factor * from[axis] * part);
+        sizes[static_cast<std::size_t>(D * i + axis)] = static_cast<float>(factor * part);
         rest /= size[axis];
         step *= size[axis];
       }
@@ -291,12 +296,9 @@ void splatClouds(const MovedClouds& clouds, const ImageGrid& geometry, double mo
   });
 }
 
-template std::vector<float> cloudsInCells<1>(
-  const PivotLattice<1>&, const ImageGrid&, std::int64_t);
-template std::vector<float> cloudsInCells<2>(
-  const PivotLattice<2>&, const ImageGrid&, std::int64_t);
-template std::vector<float> cloudsInCells<3>(
-  const PivotLattice<3>&, const ImageGrid&, std::int64_t);
+template std::vector<float> cloudsInCells<1>(const PivotLattice<1>&, std::int64_t);
+template std::vector<float> cloudsInCells<2>(const PivotLattice<2>&, std::int64_t);
+template std::vector<float> cloudsInCells<3>(const PivotLattice<3>&, std::int64_t);
 template std::vector<float> cloudsAtImages<1>(const PivotLattice<1>&, const ImageGrid&,
   const ImageGrid&, const std::vector<std::int64_t>&, ConstPointSpan<1>, Progress&);
 template std::vector<float> cloudsAtImages<2>(const PivotLattice<2>&, const ImageGrid&,

@@ -19,7 +19,8 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Lengths of clouds along the axes of index space, of all particles; interleaved.
+// Lengths of clouds along the axes of index space, of all particles; interleaved. In lengths of the
+// cells of the particle's own step, so that no unit of physical lengths is beyond a float.
 struct CloudSizes
 {
   std::vector<float> From;
@@ -39,8 +40,7 @@ std::vector<float> cloudsAtImages(const PivotLattice<D>& lattice, const ImageGri
   Progress& progress);
 // Where they begin.
 template <int D>
-std::vector<float> cloudsInCells(
-  const PivotLattice<D>& lattice, const ImageGrid& here, std::int64_t count);
+std::vector<float> cloudsInCells(const PivotLattice<D>& lattice, std::int64_t count);
 
 struct MovedClouds
 {
@@ -49,6 +49,10 @@ struct MovedClouds
   const CloudSizes& Sizes;
   std::int64_t First; // the number of the first point among the sizes
   double Part;        // of the way
+  // The grids of the two steps. Before this number among the sizes, particles are of the first one.
+  const ImageGrid& FirstGrid;
+  const ImageGrid& SecondGrid;
+  std::int64_t OfFirst;
 };
 
 // Writes the density of clouds on the wanted tuples of a grid. Clouds beyond the border are cut

@@ -117,9 +117,9 @@ public:
     this->Allocate(first, second, ranks);
     this->Write(this->First.Grid, first.Span(), this->Made.From, 0);
     this->Write(this->Second.Grid, second.Span(), this->Made.To, first.Count());
-    this->Made.Sizes.From = cloudsInCells<D>(this->FirstLattice, this->First.Grid, first.Count());
+    this->Made.Sizes.From = cloudsInCells<D>(this->FirstLattice, first.Count());
     this->Made.Sizes.To = this->Made.Sizes.From;
-    const auto ofSecond = cloudsInCells<D>(this->SecondLattice, this->Second.Grid, second.Count());
+    const auto ofSecond = cloudsInCells<D>(this->SecondLattice, second.Count());
     if (this->First.Mass > 0.0 && this->Second.Mass > 0.0)
     {
       this->Move(first, second, end);

@@ -315,8 +315,9 @@ void TemporalInterpolation::WriteImage(const Interval& interval, const TemporalS
   const CloudSizes& sizes = interval.Particles.Sizes;
   if (settings.Splat.Kernel == SplatKernel::CloudInCell && !sizes.IsEmpty())
   {
-    splatClouds({ this->Points, masses, sizes, this->Begin, part }, geometry,
-      std::max(interval.First->Mass, interval.Second->Mass), box, progress, density);
+    splatClouds({ this->Points, masses, sizes, this->Begin, part, interval.First->Grid,
+                  interval.Second->Grid, interval.Particles.OfFirst },
+      geometry, std::max(interval.First->Mass, interval.Second->Mass), box, progress, density);
   }
   else
   {
