@@ -3,6 +3,7 @@
 
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Pipeline/ConsumerExtents.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/SplatSettings.h"
@@ -432,10 +433,15 @@ void vtkTransportTemporalInterpolator::Interpolate(
   }
   const TemporalOutput output{ outputVector->GetInformationObject(0),
     vtkImageData::GetData(outputVector, 0), vtkPolyData::GetData(outputVector, 1) };
+  const std::array<int, 6> announced = announcedGrid(output.Announced, true).Extent();
   for (const std::string& warning :
     own.Interpolation.Run(moment, this->GetSettings(), progress, output))
   {
     this->WarnOnFirstRank(warning);
+  }
+  if (!this->GetRanks().AreSeveral())
+  {
+    announceToViews(output.Announced, announced);
   }
   for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
   {

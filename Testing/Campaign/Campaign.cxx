@@ -28,6 +28,7 @@ const char* const usage =
   "usage: campaign [--first N] [--count N] [--seed S] [--backend NAME] [--threads N] [--case N]\n"
   "                [--crafted FOLDER]\n"
   "  --case N   runs one case and prints its steps and findings\n"
+  "  --filter NAME   runs only the cases of a filter, as the output names it\n"
   "  --crafted FOLDER   cases of broken inputs, whose files are written there\n";
 
 struct Arguments
@@ -36,6 +37,7 @@ struct Arguments
   std::uint64_t Count = 100;
   std::uint64_t Seed = 1;
   std::string Backend;
+  std::string Filter; // the only one
   std::string Folder; // of crafted files; without one cases are random pipelines
   int Threads = 1;
   bool PrintsLog = false;
@@ -54,6 +56,11 @@ bool parse(int argc, char* argv[], Arguments& arguments)
     if (name == "--backend")
     {
       arguments.Backend = value;
+      continue;
+    }
+    if (name == "--filter")
+    {
+      arguments.Filter = value;
       continue;
     }
     if (name == "--crafted")
@@ -140,6 +147,11 @@ int main(int argc, char* argv[])
   const std::uint64_t count = arguments.PrintsLog ? 1 : arguments.Count;
   for (std::uint64_t number = arguments.First; number < arguments.First + count; ++number)
   {
+    if (!arguments.Filter.empty() &&
+      arguments.Filter != Campaign::filterOfCase(arguments.Seed, number))
+    {
+      continue;
+    }
     Campaign::startWatch(60);
     const std::clock_t start = std::clock();
     const Campaign::CaseResult result = arguments.Folder.empty()

@@ -22,7 +22,11 @@ void connect(vtkAlgorithm* filter, const Inputs& inputs)
     filter->RemoveAllInputConnections(static_cast<int>(port));
     for (const Input& input : inputs[port])
     {
-      if (input.Data)
+      if (input.Series)
+      {
+        filter->AddInputConnection(static_cast<int>(port), input.Series->GetOutputPort());
+      }
+      else if (input.Data)
       {
         filter->AddInputDataObject(static_cast<int>(port), input.Data);
       }
@@ -30,13 +34,23 @@ void connect(vtkAlgorithm* filter, const Inputs& inputs)
   }
 }
 
+RandomSource randomOf(std::uint64_t seed, std::uint64_t number)
+{
+  return RandomSource(seed * 0x9e3779b97f4a7c15 + number * 0xd1342543de82ef95);
+}
+
+const FilterKind& drawKind(RandomSource& random)
+{
+  const auto last = static_cast<std::int64_t>(filterKinds().size()) - 1;
+  return filterKinds()[static_cast<std::size_t>(random.Whole(0, last))];
+}
+
 class CaseRun
 {
 public:
   CaseRun(std::uint64_t seed, std::uint64_t number)
-    : Random(seed * 0x9e3779b97f4a7c15 + number * 0xd1342543de82ef95)
-    , Kind(filterKinds()[static_cast<std::size_t>(
-        this->Random.Whole(0, static_cast<std::int64_t>(filterKinds().size()) - 1))])
+    : Random(randomOf(seed, number))
+    , Kind(drawKind(this->Random))
     , Properties(this->Random)
   {
     this->Result.Filter = this->Kind.Name;
@@ -330,6 +344,12 @@ private:
 };
 
 } // namespace
+
+std::string filterOfCase(std::uint64_t seed, std::uint64_t number)
+{
+  RandomSource random = randomOf(seed, number);
+  return drawKind(random).Name;
+}
 
 CaseResult runCase(std::uint64_t seed, std::uint64_t number)
 {

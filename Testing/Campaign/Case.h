@@ -23,6 +23,8 @@ struct CaseResult
   int Limits = 0; // of memory that ended a run
 };
 
+// The filter of a random case.
+std::string filterOfCase(std::uint64_t seed, std::uint64_t number);
 CaseResult runCase(std::uint64_t seed, std::uint64_t number);
 
 } // namespace Campaign

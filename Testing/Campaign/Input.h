@@ -5,6 +5,7 @@
 
 #include "RandomSource.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
@@ -50,6 +51,10 @@ struct Input
   vtkSmartPointer<vtkDataArray> Values;
   bool OnPoints = true;
   bool IsPlain = true; // one data set of the right type
+  // Of a series all of its steps, of which the first has the data above, and the source of them.
+  std::vector<Input> Steps;
+  std::vector<double> Times; // of the steps, as announced: in any order, at times repeated or NaN
+  vtkSmartPointer<vtkAlgorithm> Series;
 
   void Worsen(State state) { this->Condition = worse(this->Condition, state); }
   void Describe(const std::string& text) { this->Text += (this->Text.empty() ? "" : ", ") + text; }
@@ -90,7 +95,7 @@ void drawGhosts(RandomSource& random, vtkDataSetAttributes* attributes, vtkIdTyp
 // In place of a plain input at times nothing, another type, or a composite data set.
 void drawUnusual(RandomSource& random, Input& input);
 
-// Writes over some values or points of an input, in place.
+// Writes over some values or points of an input, in place; of a series, of one of its steps.
 void changeInPlace(RandomSource& random, Input& input);
 
 // A number that may be none.

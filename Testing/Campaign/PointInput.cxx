@@ -163,6 +163,13 @@ Input drawPoints(RandomSource& random, vtkImageData* about, vtkIdType most)
 
 void changeInPlace(RandomSource& random, Input& input)
 {
+  if (input.Series)
+  {
+    const auto last = static_cast<std::int64_t>(input.Steps.size()) - 1;
+    changeInPlace(random, input.Steps[static_cast<std::size_t>(random.Whole(0, last))]);
+    input.Series->Modified();
+    return;
+  }
   auto* set = vtkPointSet::SafeDownCast(input.Data);
   if (set && set->GetNumberOfPoints() > 0)
   {

@@ -44,6 +44,7 @@ void drawUnusual(RandomSource& random, Input& input)
   }
   input.IsPlain = false;
   input.Values = nullptr;
+  input.Series = nullptr;
   input.Condition = State::Open;
   switch (random.Whole(0, 5))
   {

@@ -4,11 +4,12 @@
 backends and instruction sets.
 
 usage: python3 run.py [--first N] [--count N] [--seed S] [--jobs N] [--limit SECONDS] [--crafted]
-                     [--once] PROGRAM
+                     [--once] [--filter NAME] PROGRAM
 
 With --crafted the cases are inputs that are broken on purpose, through all filters: files that
 VTK's readers read, and data objects with the same defects. Where a reader itself ends the program,
 the case is counted and left out. --once runs each case under the last setting alone, for sanitizers.
+--filter runs only the cases of one filter, as the table names it.
 
 PROGRAM (Campaign.cxx) runs the cases and looks at each output. This script compares what comes out
 under every setting, to the last bit, and goes on where PROGRAM does not: a case that crashes or
@@ -46,8 +47,9 @@ class Case:
         self.findings = []
 
 
-def run_cases(program, setting, seed, first, count, limit, crafted):
-    """The cases of a block, and the ends of processes: [(case, text)]. Crafted: the folder of files."""
+def run_cases(program, setting, seed, first, count, limit, crafted, only):
+    """The cases of a block, and the ends of processes: [(case, text)]. Crafted: the folder of files.
+    Only: the name of a filter."""
     _, instructions, backend, threads = setting
     environment = dict(os.environ, RECTIFIEDTRANSPORT_ISA=instructions, OMP_NUM_THREADS=str(threads),
                        OMP_WAIT_POLICY="passive", OMP_DYNAMIC="false",
@@ -57,6 +59,8 @@ def run_cases(program, setting, seed, first, count, limit, crafted):
     while first < end:
         command = [program, "--first", str(first), "--count", str(end - first), "--seed", str(seed),
                    "--backend", backend, "--threads", str(threads)]
+        if only:
+            command += ["--filter", only]
         if crafted:
             folder = os.path.join(crafted, f"{backend}-{threads}-{first}")
             os.makedirs(folder)
@@ -80,7 +84,7 @@ def run_cases(program, setting, seed, first, count, limit, crafted):
             elif line:
                 cases.append(Case(line))
                 first = cases[-1].number + 1
-        if code in (0, 1) and first == end:
+        if code in (0, 1) and (first == end or only):
             break
         if code is None or code == -signal.SIGPROF:
             how = "did not end"
@@ -170,6 +174,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--limit", type=int, default=600, help="seconds for a block of cases")
     parser.add_argument("--crafted", action="store_true", help="broken inputs")
+    parser.add_argument("--filter", help="its random cases alone")
     parser.add_argument("--once", action="store_true", help="under the last setting alone")
     parser.add_argument("program")
     arguments = parser.parse_args()
@@ -180,8 +185,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder, \
             concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         jobs = [[pool.submit(run_cases, arguments.program, setting, arguments.seed, first, count,
-                             arguments.limit, arguments.crafted and folder) for setting in settings]
-                for first, count in blocks]
+                             arguments.limit, arguments.crafted and folder, arguments.filter)
+                 for setting in settings] for first, count in blocks]
         for block in jobs:
             campaign.judge([job.result() for job in block])
     campaign.summarize()

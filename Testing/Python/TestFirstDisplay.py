@@ -47,6 +47,12 @@ class FirstDisplay(unittest.TestCase):
                 with self.subTest(dimension=dimension, filter=source.GetXMLLabel()):
                     self.assert_like(self.shown(source), kind, "Density")
 
+    def test_series_in_space_is_a_volume(self):
+        for dimension, kind in ((2, "Slice"), (3, "Volume")):
+            with self.subTest(dimension=dimension):
+                self.assert_like(self.shown(simple.TransportTemporalInterpolator(self.image(dimension))), kind,
+                                 "Density")
+
     def test_distances_are_a_scatter_plot(self):
         """The points of the densities, one axis over the other, and nothing else of the table."""
         inputs = [producer(simple, density_image((12, 10), seed=seed)) for seed in range(4)]

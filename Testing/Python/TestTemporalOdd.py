@@ -111,6 +111,21 @@ class Odd(unittest.TestCase):
             plain.UpdateTimeStep(time)
             self.assertEqual(digest(algorithm.GetDensity()), digest(plain.GetDensity()))
 
+    def test_times_at_the_ends_of_numbers(self):
+        """Times that are not finite count as none; between the largest ones parts are what they are."""
+        algorithm = interpolator(Series(MOVING, times=[-1.5e308, 1.5e308, np.inf]), Resample=2)
+        plain = interpolator(Series(MOVING[:2], times=[0, 1]))
+        plain.UpdateTimeStep(0.5)
+        algorithm.UpdateTimeStep(0)
+        np.testing.assert_allclose(values(algorithm), values(plain), atol=1e-12)
+        self.assertEqual(list(algorithm.GetOutputInformation(0).Get(Pipeline.TIME_STEPS())), [-1.5e308, 0, 1.5e308])
+        text, algorithm = self.error(Series(MOVING[:2], times=[0, 1e-307]), 0)
+        self.assertIn("Time step 1 of 2 (t = 0) and the next one are 1e-307 apart in time, so that velocities pass "
+                      "the largest double; the steps must be further apart", text)
+        algorithm = interpolator(Series(MOVING[:2], times=[0, 1e-300]))
+        algorithm.UpdateTimeStep(5e-301)
+        self.assertTrue(np.isfinite(particles(algorithm, "Velocity")).all())
+
     def test_grids_that_change(self):
         fine = blob(60, 60, 10, 96)
         series = Series([MOVING[0], fine], spacing=1.0)

@@ -20,11 +20,15 @@ squared = ((points - [2 + 2 * time, 3, 4 + time]) ** 2).sum(1)
 output.PointData.append(np.where(squared < 20, np.exp(-squared / 6) * (1 + time), 0), "smoke")
 output.PointData.append(points[:, 0] * time, "other")
 """
+# The second step has smaller cells.
+FINER = STEP + """
+output.VTKObject.SetSpacing([0.5 if time == 1 else 1.0] * 3)
+"""
 
 
-def series(image):
+def series(image, script=STEP):
     simple.SetActiveSource(None)
-    return simple.ProgrammableFilter(Input=image, RequestInformationScript=TIMES, Script=STEP,
+    return simple.ProgrammableFilter(Input=image, RequestInformationScript=TIMES, Script=script,
                                      CopyArrays=0)
 
 
@@ -36,7 +40,7 @@ def give_temporal():
     cells = simple.PointDatatoCellData(Input=moving, ProcessAllArrays=1)
     flat = series(simple.ExtractSubset(Input=image, VOI=[-4, 8, 3, 3, 0, 10]))
     inputs = {"points": (moving, "POINTS"), "cells": (cells, "CELLS"), "flat": (flat, "POINTS"),
-              "wider": (series(with_ghosts(image, 2)), "POINTS")}
+              "wider": (series(with_ghosts(image, 2)), "POINTS"), "finer": (series(image, FINER), "POINTS")}
     choices = [dict(), dict(Chain=1), dict(Method="RectifiedFlow"), dict(Kernel="Gaussian", ParticlesPerCell=2)]
     for name, (source, owner) in inputs.items():
         for choice in choices if name == "points" else choices[:2]:

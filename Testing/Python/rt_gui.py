@@ -76,12 +76,13 @@ class GuiTest(unittest.TestCase):
         return os.path.join(self.home, name)
 
     def played(self, picture, *steps, plugin=os.environ["RT_PLUGIN"], options=LOADED):
-        """Plays steps without an error."""
+        """Plays steps without an error. Returns ParaView's output."""
         log = play(self.home, steps, plugin, os.path.join(OUTPUT, picture), options)
         shown = "\n".join(line for line in log.splitlines() if "Available widget" not in line)[-3000:]
         self.assertTrue(re.search(r"Success =\s+true", log), shown)
         for word in ("ERR|", "pqGenericPropertyWidgetDecorator"):
             self.assertFalse(word in log, shown)
+        return log
 
     def states_after(self, picture, *parts, script_text=None):
         """The states that ParaView saves after each part of a play, begun by a script."""

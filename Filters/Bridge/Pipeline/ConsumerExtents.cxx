@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Pipeline/ConsumerExtents.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
+#include "vtkInformationExecutivePortKey.h"
 #include "vtkInformationExecutivePortVectorKey.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationIntegerVectorKey.h"
@@ -36,6 +38,16 @@ bool isWithin(const int* part, const int* whole)
   return isEmpty ||
     (part[0] >= whole[0] && part[1] <= whole[1] && part[2] >= whole[2] && part[3] <= whole[3] &&
       part[4] >= whole[4] && part[5] <= whole[5]);
+}
+
+std::array<int, 6> wholeExtent(vtkInformation* output)
+{
+  std::array<int, 6> extent{ 0, -1, 0, -1, 0, -1 };
+  if (output->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    output->Get(Pipeline::WHOLE_EXTENT(), extent.data());
+  }
+  return extent;
 }
 
 void clearUpdateExtent(vtkInformation* output)
@@ -144,6 +156,38 @@ bool announceEmptyExtents(vtkInformationVector* outputs)
     }
   }
   return isComplete;
+}
+
+void announceToViews(vtkInformation* output, const std::array<int, 6>& before)
+{
+  const std::array<int, 6> whole = wholeExtent(output);
+  if (whole == before || !isStructured(output))
+  {
+    return;
+  }
+  const int* made =
+    vtkDataObject::GetData(output)->GetInformation()->Get(vtkDataObject::DATA_EXTENT());
+  const auto request = [made](vtkInformation* information) {
+    information->Set(Pipeline::UPDATE_EXTENT(), made, 6);
+    information->Remove(Pipeline::COMBINED_UPDATE_EXTENT()); // else the executive would restore it
+  };
+  const bool isComplete = visitConsumers(output, [&](vtkInformation* next) {
+    vtkExecutive* executive = vtkExecutive::PRODUCER()->GetExecutive(next);
+    const int* requested = next->Get(Pipeline::UPDATE_EXTENT());
+    if (executive->GetAlgorithm()->IsA("vtkPVPostFilter") && wholeExtent(next) == before)
+    {
+      next->CopyEntry(output, Pipeline::WHOLE_EXTENT());
+      request(next);
+    }
+    else if (requested && !isWithin(requested, made))
+    {
+      clearUpdateExtent(next);
+    }
+  });
+  if (isComplete)
+  {
+    request(output);
+  }
 }
 
 bool updateConsumerInformation(vtkInformation* output)

@@ -11,6 +11,8 @@
 
 #include "Bridge/VTKCompatibility.h"
 
+#include <array>
+
 VTK_ABI_NAMESPACE_BEGIN
 class vtkInformation;
 class vtkInformationVector;
@@ -27,6 +29,12 @@ bool announceEmptyExtents(vtkInformationVector* outputs);
 // Empties the update extents downstream of structured outputs that hold less than the requested
 // extent (pieces after the first), for this update only. Returns as above.
 bool clearUnmetRequests(vtkInformationVector* outputs);
+
+// Makes ParaView show the whole of an image whose extent is another one than was announced, as
+// where the grid of a series changes: after every filter ParaView has one that passes data on, and
+// views draw what that one announces, of the first time step. `before`: the whole extent that the
+// output had before this execution.
+void announceToViews(vtkInformation* output, const std::array<int, 6>& before);
 
 // Calls UpdateInformation of all filters downstream of a structured output whose extent changed
 // within an update. Returns false if some of them cannot be reached.

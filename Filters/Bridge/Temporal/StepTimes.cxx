@@ -20,7 +20,7 @@ StepTimes::StepTimes(vtkInformation* input)
   const int count = input ? input->Length(Pipeline::TIME_STEPS()) : 0;
   const double* times = count > 0 ? input->Get(Pipeline::TIME_STEPS()) : nullptr;
   std::copy_if(times, times + count, std::back_inserter(this->Times),
-    [](double time) { return !std::isnan(time); });
+    [](double time) { return std::isfinite(time); });
   std::sort(this->Times.begin(), this->Times.end());
   this->Times.erase(std::unique(this->Times.begin(), this->Times.end()), this->Times.end());
 }
@@ -36,7 +36,12 @@ TimePlace StepTimes::Find(double time) const
   place.First = std::clamp(static_cast<int>(after - this->Times.begin()) - 1, 0, this->Count() - 2);
   place.Second = place.First + 1;
   const double begin = (*this)[place.First];
-  place.Part = std::clamp((time - begin) / ((*this)[place.Second] - begin), 0.0, 1.0);
+  const double end = (*this)[place.Second];
+  // Of the largest numbers the difference is none, but that of their halves is.
+  const double part = std::isfinite(end - begin)
+    ? (time - begin) / (end - begin)
+    : (0.5 * time - 0.5 * begin) / (0.5 * end - 0.5 * begin);
+  place.Part = std::clamp(part, 0.0, 1.0);
   return place;
 }
 
@@ -51,10 +56,13 @@ std::vector<double> StepTimes::Resampled(int each) const
   for (int step = 0; step + 1 < this->Count(); ++step)
   {
     const double begin = (*this)[step];
-    const double length = (*this)[step + 1] - begin;
+    const double end = (*this)[step + 1];
+    const double length = end - begin;
     for (int part = 0; part < each; ++part)
     {
-      all.push_back(begin + length * part / each);
+      all.push_back(std::isfinite(length)
+          ? begin + length * part / each
+          : 2.0 * (0.5 * begin + (0.5 * end - 0.5 * begin) * part / each));
     }
   }
   if (this->Count() > 0)

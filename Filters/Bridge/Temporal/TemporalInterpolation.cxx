@@ -10,8 +10,10 @@
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/PlaceOwners.h"
 #include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
@@ -25,6 +27,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -59,20 +62,50 @@ double massAt(const TemporalMoment& moment)
     moment.Part * moment.Second.Density->Mass;
 }
 
-vtkSmartPointer<vtkDoubleArray> velocitiesOf(
-  const MovingParticles& particles, double length, Progress& progress)
+// The part of an image that this rank gives. Where the grid changes, requests are of another one.
+Extent extentOfRank(const Extent& whole, vtkInformation* announced, const Ranks& ranks)
 {
+  const Extent wanted = extentToGive(whole, announced, ranks);
+  Extent all = wanted;
+  for (const Extent& other : gatherValues(ranks, wanted))
+  {
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      all[i] = i % 2 == 0 ? std::min(all[i], other[i]) : std::max(all[i], other[i]);
+    }
+  }
+  return all == whole ? wanted
+                      : dividedExtent(whole, ranks.Count())[static_cast<std::size_t>(ranks.Own())];
+}
+
+vtkSmartPointer<vtkDoubleArray> velocitiesOf(
+  const MovingParticles& particles, const TemporalMoment& moment, Progress& progress)
+{
+  const double length = moment.Length;
   const std::int64_t values = 3 * particles.Count();
   auto velocities = newArray<vtkDoubleArray>("Velocity", 3, particles.Count());
   double* v = velocities->GetPointer(0);
   const double* from = particles.From->GetPointer(0);
   const double* to = particles.To->GetPointer(0);
-  progress.For(values, grain, [=](std::int64_t first, std::int64_t last) {
+  std::atomic<bool> areFinite{ true };
+  progress.For(values, grain, [&](std::int64_t first, std::int64_t last) {
+    bool isFinite = true;
     for (std::int64_t i = first; i < last; ++i)
     {
       v[i] = length > 0.0 ? (to[i] - from[i]) / length : 0.0;
+      isFinite = isFinite && std::isfinite(v[i]);
+    }
+    if (!isFinite)
+    {
+      areFinite = false;
     }
   });
+  if (!onAllRanks(progress.Group(), areFinite))
+  {
+    throw Failure(moment.First.Title + " and the next one are " + textOf(length) +
+      " apart in time, so that velocities pass the largest double; the steps must be further "
+      "apart");
+  }
   return velocities;
 }
 
@@ -142,7 +175,6 @@ std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment
   const TemporalStep& nearest = moment.Part < 1.0 ? moment.First : moment.Second;
   const ImageGrid& geometry = isStep ? nearest.Density->Grid : between;
   applyGrid(geometry, output.Image);
-  announceGrid(geometry, output.Announced);
   progress.BeginStage(partOfParticles);
   this->WriteParticles(interval, geometry, moment.Part, progress, output);
   progress.BeginStage(1.0);
@@ -154,6 +186,7 @@ std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment
   {
     this->WriteImage(interval, settings, geometry, moment.Part, progress, output);
   }
+  announceGrid(geometry, output.Announced); // which extents to give depends on that before
   const MovingParticles& particles = interval.Particles;
   for (vtkDataObject* part :
     { static_cast<vtkDataObject*>(output.Image), static_cast<vtkDataObject*>(output.Particles) })
@@ -240,7 +273,7 @@ void TemporalInterpolation::Make(const TemporalMoment& moment, const TemporalSet
     }
   }
   progress.BeginStage(end);
-  interval.Velocities = velocitiesOf(interval.Particles, moment.Length, progress);
+  interval.Velocities = velocitiesOf(interval.Particles, moment, progress);
 }
 
 void TemporalInterpolation::WriteParticles(const Interval& interval, const ImageGrid& geometry,
@@ -302,7 +335,7 @@ void TemporalInterpolation::WriteImage(const Interval& interval, const TemporalS
   const ImageGrid& geometry, double part, Progress& progress, const TemporalOutput& output)
 {
   const Ranks& ranks = progress.Group();
-  Extent wanted = extentToGive(geometry.Extent(), output.Announced, ranks);
+  Extent wanted = extentOfRank(geometry.Extent(), output.Announced, ranks);
   const TupleBox box = tuplesOf(wanted, ownerOf(geometry), geometry.Extent());
   const SplatTarget target{ geometry, settings.Splat, true };
   requireFiniteDensity(std::max(interval.First->Mass, interval.Second->Mass), target,
@@ -336,7 +369,7 @@ void TemporalInterpolation::WriteStep(
 {
   const StepDensity& density = *step.Density;
   const Extent& whole = density.Grid.Extent();
-  Extent wanted = extentToGive(whole, output.Announced, progress.Group());
+  Extent wanted = extentOfRank(whole, output.Announced, progress.Group());
   const int owner = ownerOf(density.Grid);
   const TupleBox box = tuplesOf(wanted, owner, whole);
   const TupleBox all = tuplesOf(whole, owner, whole);
