@@ -1,34 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The wrong changes that the tests have to notice.
-
-Each names a file, a piece of text that stands there once, and what is wrong instead: an expression
-(E), whole statements (S), or, with MUTANT for the condition that switches it on, any text that has
-to compile both ways (T). X replaces text of the plugin's XML, which takes a build of its own. Where
-«» stand in the text, only what is between them is replaced.
-"""
-from collections import namedtuple
-
-Mutation = namedtuple("Mutation", "kind file right wrong")
-
-
-def E(file, right, wrong):
-    return Mutation("E", file, right, wrong)
-
-
-def S(file, right, wrong):
-    return Mutation("S", file, right, wrong)
-
-
-def T(file, right, wrong):
-    return Mutation("T", file, right, wrong)
-
-
-def X(file, right, wrong):
-    return Mutation("X", file, right, wrong)
-
-
-CORE = "Filters/Core/"
-BRIDGE = "Filters/Bridge/"
+"""The wrong changes that the tests have to notice."""
+from mutation import BRIDGE, CORE, E, S, X
+from mutations_surfaces import SURFACES
 
 # These once passed all tests.
 SURVIVED = [
@@ -129,41 +102,6 @@ OTHERS = [
     E(CORE + "Geometry/BoxTree.h", "withEqual ? «value(item) <= pivot»",
       "value(item) < pivot || &item == items + first"),
     E(CORE + "Flow/WeightedMean.cxx", "begin += «block»", "block + 1"),
-    # maps of disks
-    E(CORE + "Parameterization/SquareCorners.cxx", "return «length(a) > length(b)»", "length(a) < length(b)"),
-    E(CORE + "Parameterization/SquareCorners.cxx",
-      "«places.Steps(arc.From, next->first) + next->second > steps»", "true"),
-    E(CORE + "Parameterization/IntrinsicDelaunay.cxx", "{ side / 3, «other / 3» }", "side / 3"),
-    S(CORE + "Algebra/SparseCholesky.cxx", "  «Current = nullptr;»\n}", ";"),
-    E(CORE + "Parameterization/ConformalMap.cxx", "dirichletEnergy(triangles, «values[1]»)", "values[0]"),
-    E(CORE + "Parameterization/MassRaster.cxx", "polygon.Area() > «accuracy * cells * length»", "1e-14"),
-    E(CORE + "Parameterization/MassRaster.cxx", "if («rows[0] < firstRow»)", "false"),
-    E(CORE + "Parameterization/MapDistortion.cxx", "sum += «weight»", "1.0 / static_cast<double>(ascending.size())"),
-    S(CORE + "Parameterization/MapRegions.cxx", "taken.insert(groupOf[neighbour]);", ";"),
-    E(CORE + "Parameterization/LocalMap.cxx", "isFree && «(sides >> axis & 1) == 0»", "sides == 0"),
-    E(CORE + "Parameterization/AreaPolish.cxx", "«right[m] -= this->Smoothing * value * (a[axis] - b[axis])»",
-      "right[m] += this->Smoothing * value * (a[axis] - b[axis])"),
-    E(CORE + "Parameterization/AreaPolish.cxx", "«this->Energy(this->Moved) < before»", "true"),
-    S(CORE + "Parameterization/FlipRepair.cxx", "addRing(parts, isIn, points);", ";"),
-    E(CORE + "Parameterization/AreaPreservingMap.cxx", "std::clamp(position, «inside», 1.0", "0.0"),
-    E(CORE + "Parameterization/AreaPreservingMap.cxx", "map.Distortion.Area95 > «distant»", "1e9"),
-    # particles on surfaces
-    E(CORE + "SurfaceSampling/Turn.cxx", "«std::abs(turn) > bound * (std::abs(left) + std::abs(right))»",
-      "true"),
-    E(CORE + "SurfaceSampling/FlatLocator.cxx",
-      "return last >= 0.0 && «(first > 0.0 || next > 0.0 || last > 0.0)»", "true"),
-    E(CORE + "SurfaceSampling/FlatLocator.cxx", "best = «triangle < best && this->Contains(triangle, point)»",
-      "this->Contains(triangle, point)"),
-    E(CORE + "SurfaceSampling/FlatLocator.cxx", "if («gaps[child] <= best.Squared»)",
-      "gaps[child] <= 0.5 * best.Squared"),
-    E(CORE + "SurfaceSampling/SurfaceSamples.cxx", "samples.PatchError > «SurfaceSamples::AcceptableError»", "1e9"),
-    E(CORE + "SurfaceSampling/SurfaceSamples.cxx", "options.Pattern, «lengthsOf(aspectRatio)»",
-      "Point<2>({ 1.0, 1.0 })"),
-    E(BRIDGE + "SurfaceSampling/SurfaceMasses.cxx", "if («ghosts && (ghosts[cell] & ghostCell)»)", "false"),
-    E(BRIDGE + "SurfaceSampling/SurfaceParticles.cxx", "cell[i] = input.InputCellOf(«surface.InputCellOf(place.Triangle)»)",
-      "surface.CellOf(place.Triangle)"),
-    E(BRIDGE + "SurfaceSampling/SurfaceParticles.cxx", "found.Cell = «this->Surface.CellOf(on.Triangle)»",
-      "static_cast<vtkIdType>(on.Triangle)"),
     # the bridge
     E(CORE + "Geometry/ImageGrid.cxx", "grid.SetAxis(i, this->PointExtent[2 * i] + «0.5»", "0.0"),
     E(BRIDGE + "SiteCells/SiteLabels.cxx", "«now.Bits != 0 && now.Bits == before.Bits»",
@@ -206,30 +144,6 @@ OTHERS = [
     E("Filters/vtkUniformSeedSource.cxx", "«this->NumberOfPoints >= 1», \"NumberOfPoints\"",
       "this->NumberOfPoints != 0"),
     S(BRIDGE + "Pipeline/OutputInformation.cxx", "image->GetPointData()->Initialize();", ";"),
-    # disks and their parameterization
-    E(CORE + "Mesh/DiskMesh.cxx", "if («reached != valence[static_cast<std::size_t>(point)]»)",
-      "reached > valence[static_cast<std::size_t>(point)]"),
-    E(CORE + "Mesh/DiskMesh.cxx", "this->TotalArea += «area»", "1.0"),
-    E(BRIDGE + "Surface/TriangulatedSurface.cxx", "before += «cells->GetNumberOfCells()»", "0"),
-    E(BRIDGE + "Surface/TriangulatedSurface.cxx", "cell < this->FirstPolygon ? «cell» :", "0"),
-    S(BRIDGE + "Surface/TriangulatedSurface.cxx", "stages.Next(part);\n  this->CopyCellData(input, progress);",
-      ";"),
-    E(BRIDGE + "Parameterization/AreaPreservingParameterization.cxx",
-      "[&](std::int64_t triangle) { return «surface.CellOf(triangle)»; }, progress);",
-      "static_cast<vtkIdType>(triangle)"),
-    E(BRIDGE + "Parameterization/AreaPreservingParameterization.cxx",
-      "if («!surface.IsRepaired()»)", "true"),
-    S(CORE + "Mesh/FlatTriangles.cxx", "this->Edited.Origins[f] = this->Edited.Origins[g];", ";"),
-    E(CORE + "Mesh/FlatTriangles.cxx", "«!this->IsJoined(lastSide(side), across)»", "true"),
-    E(CORE + "Mesh/RepairedDisk.cxx", "if («this->Repairs().FlatTriangles > 0»)", "false"),
-    E(CORE + "Mesh/SurfaceRepair.cxx", "counts.UnusedPoints += «used ? 0 : 1»;", "0"),
-    E(BRIDGE + "Surface/PolygonCutter.cxx", "«!this->IsSamePlace(kept.back(), corner)»", "true"),
-    S(BRIDGE + "Parameterization/AreaPreservingParameterization.cxx",
-      'data->SetActiveTCoords("AreaPreserving");',
-      'data->SetTCoords(data->GetArray("AreaPreserving"));'),
-    E(BRIDGE + "Parameterization/AreaPreservingParameterization.cxx",
-      "«flipped > this->Collapsed» ||", "flipped > this->Collapsed + 1"),
-    S(BRIDGE + "Settings/CornerSettings.cxx", "known = point;", ";"),
     # the plugin's XML: a domain, a range in the text, a decorator, a hint, an enumeration
     X("Plugin/TransportSampler.xml", 'name="FlowTime" command="SetFlowTime" number_of_elements="1"\n'
       '        default_values="1">\n        <DoubleRangeDomain name="range" min="0" max="«1»"/>', "2"),
@@ -410,31 +324,6 @@ OTHERS = [
     E(CORE + "Equalize/MoveLimits.cxx", "round >= projections && «moved.Folded <= folded»", "true"),
     S(CORE + "Equalize/AreaProjection.cxx", "this->Lattice.KeepOnSides(cornerRow, row.After);", ";"),
     E(BRIDGE + "Run/StepReport.h", "if (!(flow.AreaError > «options.AreaTolerance»))", "10.0"),
-    # cartograms
-    E(CORE + "Cartogram/RegionMap.cxx", "this->Holes[ring] = «around[i] % 2 == 1»;", "around[i] > 0"),
-    E(CORE + "Cartogram/RegionMap.cxx", "first->second + («isUp ? k : parts - k») - 1", "k"),
-    E(CORE + "Cartogram/RegionMap.cxx", "const bool isUp = «a != b ? a < b : from < to»;", "from < to"),
-    E(CORE + "Cartogram/RegionRaster.cxx", "mixed[i].Cell, { owner, 1.0, «1.0» }", "0.5"),
-    E(CORE + "Cartogram/RegionRaster.cxx", "«first < this->Last» && last > this->First;", "first + 1 < this->Last"),
-    E(CORE + "Cartogram/RegionValues.cxx", "shares[i].Signed * «rest»;", "0.0"),
-    E(CORE + "Cartogram/RegionValues.cxx", "std::max(«most * plain», lowest[i])", "plain"),
-    E(CORE + "Cartogram/Cartogram.cxx", "«plain * std::sqrt(this->Masses[i] / plain)» :", "this->Masses[i]"),
-    E(CORE + "Cartogram/Cartogram.cxx", "(isCoarse ? coarser : «finer»)", "1.0"),
-    E(CORE + "Cartogram/Cartogram.cxx", "std::clamp(«std::sqrt(densities.Largest / densities.Least)», 1.0", "1.0"),
-    E(CORE + "Cartogram/RegionValues.cxx", "«worst > targets.Tolerance»)", "false"),
-    E(CORE + "Overlap/RegionCoverage.h", "std::abs(covered - whole) > tolerance ? covered : «whole»;", "covered"),
-    E(CORE + "Cartogram/Cartogram.cxx", "moved[i][axis] + («this->Fellows[i][axis] - clamped[i][axis]»)", "0.0"),
-    E(CORE + "Cartogram/Cartogram.cxx", "if («this->Found.Folded == 0»)", "true"),
-    E(CORE + "Cartogram/RaiseMasses.cxx", "leastShare * others / («1.0 - leastShare * count»)", "1.0"),
-    E(CORE + "Cartogram/Cartogram.cxx", "this->Options.SeaValue * «this->Box.Cell» * this", "1.0"),
-    E(CORE + "Cartogram/Cartogram.cxx", "std::sqrt(«std::max(1.0, this->CellsAbout(middle).Largest)»)", "1.0"),
-    S(BRIDGE + "Cartogram/Cartogram.cxx", "this->Kept = { std::move(content), {} };",
-      "this->Kept.Content = std::move(content);"),
-    S(BRIDGE + "Cartogram/Cartogram.cxx", "content.AddNumbers(&this->Worker.Options.Margin, 1);", ";"),
-    E(BRIDGE + "Cartogram/Cartogram.cxx", "leastRegionDensity * total * «area»;", "0.05"),
-    E(BRIDGE + "Cartogram/RegionCells.cxx", "isComposite && «blocks.size() > 1»;", "true"),
-    S(BRIDGE + "Cartogram/MapFellows.cxx", "before += static_cast<std::size_t>(count);", ";"),
-    S(BRIDGE + "Cartogram/OverlayParts.cxx", "made->GetPointData()->PassData(input->GetPointData());", ";"),
     # devices
     S(CORE + "Device/Device.cxx", "this->Taken += bytes;", ";"),
     E(CORE + "Device/Device.cxx", "i < counted ? «(static_cast<std::size_t>(number) + i) % counted» : i",
@@ -484,38 +373,35 @@ OTHERS = [
     E(BRIDGE + "Density/PairMap.cxx", "(*end)[axis] = part * «scale.ToUnits(lengths[axis])»;", "1.0"),
     E(BRIDGE + "Blend/DensityBlend.cxx", "«now.Weights == this->FoundFor.Weights» &&", "true"),
     E(BRIDGE + "Density/CostBound.h", "std::sqrt(cost) <= «nothing * cell»;", "0.0"),
-    # points on surfaces
-    E(CORE + "SurfaceRelaxation/SurfaceRelaxation.cxx", "return («mirrorWeight» * fourth", "0.0"),
-    E(CORE + "SurfaceRelaxation/SurfaceRelaxation.cxx", "share * «std::sqrt(mostCrowded / own.Weight[lane])»",
-      "1.0"),
-    E(CORE + "SurfaceRelaxation/StratifiedStart.cxx", "if («even[2] * most < density»)", "true"),
-    E(CORE + "SurfaceRelaxation/StratifiedStart.cxx", "const bool takesSparse = «owed >= 1.0»;", "false"),
-    E(CORE + "SurfaceRelaxation/DensityLevels.cxx", "return «dot(way, way) * high < this->MassOfDot»;", "true"),
-    E(CORE + "SurfaceRelaxation/DensityLevels.cxx", "((«isEmpty || part.Mass >= fewestDots * this->MassOfDot») &&",
+    # distances
+    E(CORE + "Distance/ClassicalScaling.cxx", "return entry < 0.0 ? «-1.0» : 1.0;", "1.0"),
+    E(CORE + "Distance/ClassicalScaling.cxx", "const double factor = signOf(vector) * «std::sqrt(value)»;", "value"),
+    E(CORE + "Distance/DensityMoments.cxx", "moments.Covariance[a][a]) + «side * side / 12.0»;", "0.0"),
+    E(CORE + "Distance/CertifiedDistance.cxx", "map.UpperBound(progress.Stage(), «(1.0 + enough) * bracket.Lower»)",
+      "2.0 * bracket.Lower"),
+    E(CORE + "Distance/ReferenceImages.cxx", "coordinates[i * Dimension + axis] = image[axis] * «cell[axis]»;",
+      "cell[0]"),
+    E(CORE + "Distance/ReferenceImages.cxx", "std::round(«sides[axis] / cell»), 1.0", "sides[0] / cell"),
+    E(BRIDGE + "Distance/DensityDistances.cxx", "return «b < a» ? std::make_pair(b, a)", "false"),
+    E(BRIDGE + "Distance/DensityDistances.cxx", "known[missing[«rank + i * all.size()»]]",
+      "rank * theirs.size() + i"),
+    S(BRIDGE + "Distance/DensityDistances.cxx", "pair.Upper = std::max(pair.Upper, pair.Lower);", ";"),
+    E(BRIDGE + "Distance/DistanceTables.cxx", "matrix[i * inputs + j] = «matrix[j * inputs + i]» = pair->Distance",
+      "matrix[i * inputs + j]"),
+    E(BRIDGE + "Distance/DistanceTables.cxx", "for (int number = 2; «!taken.insert(name).second»; ++number)",
+      "!taken.insert(name).second && number < 3"),
+    # series
+    E(BRIDGE + "Temporal/MovedClouds.cxx", "return more < 2.0 * less ? 0.5 * (less + more) : «less»;", "more"),
+    E(BRIDGE + "Temporal/MovedClouds.cxx", "lengths[«clouds.First + i < clouds.OfFirst» ? 0 : 1]", "true"),
+    S(BRIDGE + "Temporal/StepTimes.cxx",
+      "this->Times.erase(std::unique(this->Times.begin(), this->Times.end()), this->Times.end());", ";"),
+    E(BRIDGE + "Temporal/KeptSteps.cxx", "return «a.Used < b.Used»;", "a.Used > b.Used"),
+    E(BRIDGE + "Temporal/StepDensity.cxx", "before->ArrayName == step.ArrayName && «before->Grid == step.Grid»;",
       "true"),
-    E(CORE + "SurfaceRelaxation/DensityLevels.cxx", "const std::int64_t with = «isEmpty» ?", "false"),
-    S(CORE + "SurfaceRelaxation/DensityLevels.cxx", "this->Levels[t] = smooth.data()[t];", "this->SetLevel(t);"),
-    E(CORE + "SurfaceRelaxation/SurfaceBoundary.cxx",
-      "const double place = «std::clamp(dot(from, edge) / dot(edge, edge), 0.0, 1.0)»;", "0.5"),
-    E(CORE + "SurfaceRelaxation/DotTree.cxx", "< «squaredDotReach» * a.Spacing", "(0.5 * squaredDotReach)"),
-    S(CORE + "SurfaceRelaxation/WalkedSurface.cxx", "left = along * edge;\n      from = through;",
-      "left = 0.0 * edge;\n      from = through;"),
-    S(CORE + "SurfaceRelaxation/WalkedSurface.cxx", "place = kept;", ";"),
-    E(BRIDGE + "Surface/WholeSurface.cxx", "return «(ghosts[this->Cells->InputCellOf(triangle)] & ghostCell) != 0»;",
-      "false"),
-    # seams
-    E(CORE + "Seams/SeamShortening.cxx", "if («loops.size() == 2»)", "false"),
-    E(CORE + "Seams/SeamSearch.cxx", "«neighbours > (joins ? 1 : 0)» ? beside", "false"),
-    E(CORE + "Seams/SeamSearch.cxx", "!path.empty() && «length >= least»;", "true"),
-    E(CORE + "Seams/SqueezedPoints.cxx", "if («density >= limits.Prominence * pass» &&", "true"),
-    E(CORE + "Seams/CutSurface.cxx", "best = «last->Unevenness < best->Unevenness» ?", "false"),
-    E(CORE + "Seams/CutSurface.cxx", "if («unevenness < opened.Unevenness»)", "true"),
-    E(CORE + "Seams/SquareAtlas.cxx", "y += height + «margin»;", "0.0"),
-    E(CORE + "Seams/CutSurfaceMap.cxx", "= «areaUnevenness(this->Disk, this->Conformal.Positions) >= uneven»;", "false"),
-    E(CORE + "Seams/CutSurfaceMap.cxx", "if («this->FlipsOf(found) > 0 || found.Distortion.Area95 > wrong»)", "false"),
-    E(CORE + "Parameterization/EvenEmbedding.cxx", "const double part = «before / length»;",
-      "0.5 * before / length"),
-    S(CORE + "Parameterization/EvenEmbedding.cxx", "embedding.ChangeWeights();", ";"),
-    E(CORE + "Seams/CutSurfaceMap.cxx", "const double scale = «1.0 / std::sqrt(map.Coverage)»;", "1.0"),
-    E(BRIDGE + "Surface/OpenedSurface.cxx", "if («longest < least»)", "least > 1e100"),
+    E(BRIDGE + "Temporal/ChainedParticles.cxx", "if («!(this->Settings == settings)» ||", "false"),
+    E(BRIDGE + "Temporal/TemporalInterpolation.cxx", "«interval.Length == moment.Length» &&", "true"),
+    E(BRIDGE + "Temporal/TemporalInterpolation.cxx", "now[i] = masses[i] * («i < second» ? ofFirst : part);", "true"),
+    E(BRIDGE + "Temporal/CarriedArrays.cxx", "weight > 0.0 ? sum[i] / weight : «between(here[place], later[place], moment.Part)»;",
+      "0.0"),
 ]
+OTHERS += SURFACES
