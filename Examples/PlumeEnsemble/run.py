@@ -34,7 +34,7 @@ def ensemble(size, members, seed):
     random = np.random.default_rng(seed)
     winds = random.permutation(np.linspace(*WINDS, members))
     plumes = [plume(size, np.radians(wind), np.array([0.12, 0.5]) + random.uniform(-0.04, 0.04, 2),
-                    random.uniform(0.44, 0.66), random.uniform(0, 6))
+                    random.uniform(0.4, 0.56), random.uniform(0, 6))
               for wind in winds]
     return winds, plumes
 
@@ -91,7 +91,7 @@ def draw_points(path, points, winds, pixels):
 
 
 def overlay(plumes, winds, panel):
-    """Every eighth plume by its wind, in the colour of this, as ink on white."""
+    """Every sixth plume by its wind, in the colour of this, as ink on white."""
     picture = np.full((*plumes[0].shape, 3), 255.0)
     for member in np.argsort(winds)[::max(1, len(winds) // 6)]:
         share = plumes[member] / np.quantile(plumes[member], 0.99)

@@ -395,7 +395,7 @@ OTHERS = [
     E(BRIDGE + "Temporal/MovedClouds.cxx", "lengths[«clouds.First + i < clouds.OfFirst» ? 0 : 1]", "true"),
     S(BRIDGE + "Temporal/StepTimes.cxx",
       "this->Times.erase(std::unique(this->Times.begin(), this->Times.end()), this->Times.end());", ";"),
-    E(BRIDGE + "Temporal/KeptSteps.cxx", "return «a.Used < b.Used»;", "a.Used > b.Used"),
+    S(BRIDGE + "Temporal/KeptSteps.cxx", "step.IsKept = false;", ";"),
     E(BRIDGE + "Temporal/StepDensity.cxx", "before->ArrayName == step.ArrayName && «before->Grid == step.Grid»;",
       "true"),
     E(BRIDGE + "Temporal/ChainedParticles.cxx", "if («!(this->Settings == settings)» ||", "false"),

@@ -58,6 +58,12 @@ class Times(unittest.TestCase):
         truth = blob(24, 24, 5.5, height=16 / 5.5 ** 2).ravel()
         self.assertLess(np.abs(values(algorithm) - truth).max(), 0.06 * truth.max())
 
+    def test_where_mass_comes_apart_there_is_none(self):
+        algorithm = interpolator(Series([blob(24, 24, 3), blob(8, 24, 3) + blob(40, 24, 3)]))
+        algorithm.UpdateTimeStep(0.5)
+        density = values(algorithm).reshape(N, N)
+        self.assertLess(density[:, 22:26].sum(), 0.002 * density.sum())
+
     def test_units_of_lengths_do_not_matter(self):
         """To the last bit in units that are powers of two; in others as far as rounding leaves the map."""
         spreading = [blob(20, 24, 4), blob(26, 24, 7)]
@@ -137,6 +143,22 @@ class Times(unittest.TestCase):
         algorithm.UpdateTimeStep(1)
         self.assertTrue((values(algorithm) == 2 * MOVING[1].ravel()).all())
 
+    def test_a_change_of_the_times_or_the_spacing_alone_counts(self):
+        series = Series(MOVING)
+        algorithm = interpolator(series)
+        algorithm.UpdateTimeStep(0.5)
+        velocities = particles(algorithm, "Velocity")
+        series.times = [0.0, 10.0, 20.0]
+        series.Modified()
+        algorithm.UpdateTimeStep(5)
+        np.testing.assert_allclose(particles(algorithm, "Velocity"), velocities / 10, atol=1e-12)
+        mass = particles(algorithm, "Mass").sum()
+        series.spacing = (2.0, 3.0, 1.0)
+        series.Modified()
+        algorithm.UpdateTimeStep(5)
+        self.assertAlmostEqual(particles(algorithm, "Mass").sum() / mass, 6, 9)
+        self.assertEqual(algorithm.GetDensity().GetBounds()[:4], (0, 2 * N, 0, 3 * N))
+
     def test_properties_act(self):
         def run(**properties):
             algorithm = interpolator(Series(MOVING), **properties)
@@ -185,6 +207,16 @@ class Chains(unittest.TestCase):
             played.UpdateTimeStep(time)
         self.assertEqual(digest(late.GetParticles()), digest(played.GetParticles()))
         self.assertEqual(played.GetNumberOfMaps(), 3)  # the samples of the first step count
+
+    def test_a_change_of_a_property_counts(self):
+        algorithm = interpolator(Series(MOVING), Chain=1)
+        algorithm.UpdateTimeStep(1.5)
+        for name, value in (("Method", 1), ("ParticlesPerCell", 2)):
+            getattr(algorithm, "Set" + name)(value)
+            algorithm.UpdateTimeStep(1.5)
+            fresh = interpolator(Series(MOVING), Chain=1, Method=1, ParticlesPerCell=algorithm.GetParticlesPerCell())
+            fresh.UpdateTimeStep(1.5)
+            self.assertEqual(digest(algorithm.GetParticles()), digest(fresh.GetParticles()), name)
 
     def test_a_change_of_an_early_step_counts(self):
         series = Series(MOVING)

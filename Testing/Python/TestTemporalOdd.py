@@ -148,6 +148,22 @@ class Odd(unittest.TestCase):
         algorithm.UpdateTimeStep(1)
         self.assertTrue((values(algorithm) == fine.ravel()).all())
 
+    def test_coarser_cells_leave_no_stripes(self):
+        """Each step's particles have the size of its own cells, whichever of both is the finer one."""
+        fine, coarse = blob(60, 60, 10, 96), blob(30, 30)
+        for steps, spacings in (([fine, coarse], (0.5, 1)), ([coarse, fine], (1, 0.5))):
+            series = Series(steps)
+            image = series.image
+
+            def spaced(step, image=image, spacings=spacings):
+                made = image(step)
+                made.SetSpacing(spacings[step], spacings[step], 1)
+                return made
+            series.image = spaced
+            algorithm = interpolator(series)
+            algorithm.UpdateTimeStep(0.5)
+            self.assertLess(np.abs(values(algorithm) - fine.ravel()).max(), 0.1)
+
     def test_boxes_that_differ(self):
         algorithm = interpolator(Series([MOVING[0], MOVING[0]], origins=[0.0, 10.0]))
         algorithm.UpdateTimeStep(0.5)

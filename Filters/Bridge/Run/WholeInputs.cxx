@@ -294,7 +294,13 @@ void WholeInputs::Require(
       {
         continue;
       }
-      requireWholeExtent(input, "Input port " + std::to_string(port));
+      // Sources announce the grid of the first time step; that of a later one may be smaller.
+      const bool mayChange = input->Length(Pipeline::TIME_STEPS()) > 1 &&
+        !isPieceOfRanks(this->Piece, this->NumberOfPieces);
+      if (!mayChange)
+      {
+        requireWholeExtent(input, "Input port " + std::to_string(port));
+      }
       vtkDataObject* whole = this->CompositeAt(port, i);
       if (vtkDataObject* data = whole ? whole : vtkDataObject::GetData(input))
       {

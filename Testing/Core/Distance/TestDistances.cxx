@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -99,6 +100,33 @@ TEST(Distances, AreThoseOfWidths)
   const SquaredBracket found = bracket<2>(narrow, wide);
   EXPECT_LE(found.Lower, 1.01 * least);
   EXPECT_GE(found.Upper, 0.99 * least);
+}
+
+// Whatever the cells: each of them is spread, too.
+TEST(DensityMoments, AreThoseOfABox)
+{
+  const std::vector<double> ones(2 * 5, 1.0);
+  const DensityMoments found =
+    momentsOf<2>(DensityArray<2, double>(ones.data(), { 2, 5 }), { 2, 5 }, { 3.0, 4.0 });
+  EXPECT_NEAR(found.Mean[0], 1.5, 1e-12);
+  EXPECT_NEAR(found.Mean[1], 2.0, 1e-12);
+  EXPECT_NEAR(found.Covariance[0][0], 9.0 / 12.0, 1e-12);
+  EXPECT_NEAR(found.Covariance[1][1], 16.0 / 12.0, 1e-12);
+  EXPECT_NEAR(found.Covariance[0][1], 0.0, 1e-12);
+}
+
+// Shapes that turn and merge, for which the first coupling is far from enough.
+TEST(Distances, HaveBoundsThatAreNear)
+{
+  const TestDensity<2> one = bell<2>(48, evenPoint<2>(0.5), 0.05);
+  TestDensity<2> two = bell<2>(48, { 0.3, 0.35 }, 0.03);
+  const TestDensity<2> other = bell<2>(48, { 0.75, 0.6 }, 0.04);
+  for (std::size_t i = 0; i < two.Values.size(); ++i)
+  {
+    two.Values[i] += 0.6 * other.Values[i];
+  }
+  const SquaredBracket found = bracket<2>(one, two);
+  EXPECT_LE(found.Upper, 1.05 * found.Lower);
 }
 
 TEST(Distances, OfADensityAndItselfAreNothing)
