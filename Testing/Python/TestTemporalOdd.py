@@ -150,8 +150,8 @@ class Odd(unittest.TestCase):
 
     def test_coarser_cells_leave_no_stripes(self):
         """Each step's particles have the size of its own cells, whichever of both is the finer one."""
-        fine, coarse = blob(60, 60, 10, 96), blob(30, 30)
-        for steps, spacings in (([fine, coarse], (0.5, 1)), ([coarse, fine], (1, 0.5))):
+        fine, coarse = blob(90, 90, 15, 144), blob(30, 30)
+        for steps, spacings in (([fine, coarse], (1 / 3, 1)), ([coarse, fine], (1, 1 / 3))):
             series = Series(steps)
             image = series.image
 
