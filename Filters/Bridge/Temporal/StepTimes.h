@@ -28,7 +28,7 @@ class StepTimes
 public:
   // Of no steps.
   StepTimes() = default;
-  // The TIME_STEPS that an input announces, in ascending order, without repeated and not finite ones;
+  // The finite TIME_STEPS that an input announces, in ascending order, without repeated ones;
   // `input` may be nullptr.
   explicit StepTimes(vtkInformation* input);
   // Of one step.
