@@ -301,7 +301,7 @@ void vtkTransportTemporalInterpolator::RunPass(
     own.Times = StepTimes(time);
     own.Requested = 0;
   }
-  if (!onAllRanks(ranks, !own.Changed))
+  if (!onAllRanks(ranks, own.IsSeries && !own.Changed))
   {
     chain.Recheck();
   }

@@ -100,6 +100,18 @@ class Odd(unittest.TestCase):
                 self.assertEqual(len(listener.warnings), 1, listener.warnings)
                 self.assertIn("no mass moves; the density comes out as it is", listener.warnings[0])
 
+    def test_no_times_after_a_series(self):
+        """Nothing of the series is left, whether it could be followed to its end or not."""
+        for steps, times in ((MOVING, None), ([MOVING[0], np.zeros((N, N))], None), (MOVING[:1], [np.nan])):
+            algorithm = interpolator(Series(steps, times=times), Chain=1)
+            algorithm.UpdateTimeStep(0.5)
+            single = Series([blob(30, 10)], times=[])
+            algorithm.SetInputConnection(single.GetOutputPort())
+            algorithm.UpdateTimeStep(0.5)
+            fresh = interpolator(single, Chain=1)
+            fresh.UpdateTimeStep(0.5)
+            self.assertEqual(digest(algorithm.GetParticles()), digest(fresh.GetParticles()))
+
     def test_repeated_and_unordered_times(self):
         algorithm = interpolator(Series([MOVING[2], MOVING[0], MOVING[0], MOVING[1]], times=[2, 0, 0, 1]), Resample=2)
         algorithm.UpdateInformation()
