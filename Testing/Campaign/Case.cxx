@@ -34,6 +34,27 @@ void connect(vtkAlgorithm* filter, const Inputs& inputs)
   }
 }
 
+// Filters of VTK downstream keep the extent that was announced, which is that of one step.
+bool changesGrid(const Inputs& inputs)
+{
+  for (const auto& port : inputs)
+  {
+    for (const Input& input : port)
+    {
+      for (const Input& step : input.Steps)
+      {
+        const int* first = vtkImageData::SafeDownCast(input.Steps[0].Data)->GetExtent();
+        const int* extent = vtkImageData::SafeDownCast(step.Data)->GetExtent();
+        if (input.Series && !std::equal(first, first + 6, extent))
+        {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
 RandomSource randomOf(std::uint64_t seed, std::uint64_t number)
 {
   return RandomSource(seed * 0x9e3779b97f4a7c15 + number * 0xd1342543de82ef95);
@@ -226,7 +247,8 @@ private:
   // A filter downstream requests what this one has made already.
   void RunDownstream()
   {
-    if (this->Last.IsEmpty || !this->ArePlain || !this->Random.Chance(0.3))
+    if (this->Last.IsEmpty || !this->ArePlain || !this->Random.Chance(0.3) ||
+      changesGrid(this->GivenInputs))
     {
       return;
     }
