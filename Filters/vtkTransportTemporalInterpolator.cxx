@@ -61,12 +61,13 @@ struct vtkTransportTemporalInterpolator::vtkInternals
   bool IsSeries = false; // else Times is the time of the one input
   KeptSteps Steps;
   TemporalInterpolation Interpolation;
-  int AllPasses = 1;     // that it is going to take
-  int Passes = 0;        // of this execution that are done
-  int Agreed = -1;       // the step that all ranks request next; -1 in the first pass
-  int Requested = 0;     // the step that the input is of
-  bool Changed = false;  // whether something before the filter has
-  bool IsWarned = false; // that there are no two steps
+  int AllPasses = 1;            // that it is going to take
+  int Passes = 0;               // of this execution that are done
+  int Agreed = -1;              // the step that all ranks request next; -1 in the first pass
+  int Requested = 0;            // the step that the input is of
+  bool Changed = false;         // whether something before the filter has
+  bool IsWarned = false;        // that there are no two steps
+  vtkMTimeType ChangedTime = 0; // of the filter at its last execution
 
   double TimeOf(vtkInformation* request, vtkInformationVector* outputs) const
   {
@@ -301,6 +302,10 @@ void vtkTransportTemporalInterpolator::RunPass(
     own.Times = StepTimes(time);
     own.Requested = 0;
   }
+  // Properties change what is read of a step, too.
+  const vtkMTimeType changed = this->GetMTime();
+  own.Changed = own.Changed || (own.Passes == 0 && changed != own.ChangedTime);
+  own.ChangedTime = changed;
   if (!onAllRanks(ranks, own.IsSeries && !own.Changed))
   {
     chain.Recheck();

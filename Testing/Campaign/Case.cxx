@@ -45,7 +45,9 @@ bool changesGrid(const Inputs& inputs)
       {
         const int* first = vtkImageData::SafeDownCast(input.Steps[0].Data)->GetExtent();
         const int* extent = vtkImageData::SafeDownCast(step.Data)->GetExtent();
-        if (input.Series && !std::equal(first, first + 6, extent))
+        const bool isSame =
+          std::equal(first, first + 6, extent) && step.OnPoints == input.Steps[0].OnPoints;
+        if (input.Series && !isSame)
         {
           return true;
         }

@@ -221,6 +221,15 @@ class Chains(unittest.TestCase):
             fresh.UpdateTimeStep(1.5)
             self.assertEqual(digest(algorithm.GetParticles()), digest(fresh.GetParticles()), name)
 
+    def test_a_change_of_what_is_read_counts(self):
+        algorithm = interpolator(Series(MOVING), Chain=1)
+        algorithm.UpdateTimeStep(1.5)
+        algorithm.SetInvertDensity(1)
+        algorithm.UpdateTimeStep(1.5)
+        fresh = interpolator(Series(MOVING), Chain=1, InvertDensity=1)
+        fresh.UpdateTimeStep(1.5)
+        self.assertEqual(digest(algorithm.GetParticles()), digest(fresh.GetParticles()))
+
     def test_a_change_of_an_early_step_counts(self):
         series = Series(MOVING)
         algorithm = interpolator(series, Chain=1)
