@@ -353,7 +353,7 @@ OTHERS = [
     E(BRIDGE + "Device/SharedDevices.cxx", "this->Opened && «name == this->Name»", "true"),
     E("Filters/vtkTransportAlgorithm.cxx", "«first != all.end()»)", "false"),
     # optimal maps
-    E(CORE + "OptimalMap/Masses/NodeMasses.cxx", "share * «(1.0 - middle)»;", "0.5"),
+    E(CORE + "OptimalMap/Masses/AxisShares.h", "share * «(1.0 - middle)»;", "0.5"),
     E(CORE + "OptimalMap/Masses/NodeMasses.cxx", "(lumped - «side * side / 12.0»)", "0.0"),
     E(CORE + "OptimalMap/Nodes/NodeMap.h", "image[axis] = begin[axis] + «a * step[axis]»;", "0.0"),
     E(CORE + "OptimalMap/PotentialSolver.cxx", "if («gain > 0.0»)", "true"),
