@@ -27,8 +27,8 @@ struct ImageCloud
 };
 
 template <int Dimension>
-ImageCloud<Dimension> sampleImages(
-  const PointMap<Dimension>& map, const SolverSide<Dimension>& source, Progress& progress)
+ImageCloud<Dimension> sampleImages(const PointMap<Dimension>& map,
+  const SolverSide<Dimension>& source, const SampleFineness& fineness, Progress& progress)
 {
   const NodeMap<Dimension>& nodes = map.AtNodes();
   const std::int64_t rows = ImageSamples<Dimension>::NumberOfRows(nodes.Grid);
@@ -38,7 +38,7 @@ ImageCloud<Dimension> sampleImages(
   progress.For(
     rows, grain,
     [&](std::int64_t first, std::int64_t last) {
-      ImageSamples<Dimension> samples(nodes);
+      ImageSamples<Dimension> samples(nodes, fineness);
       for (std::int64_t row = first; row < last; ++row)
       {
         std::int64_t& count = begins[static_cast<std::size_t>(row + 1)];
@@ -54,7 +54,7 @@ ImageCloud<Dimension> sampleImages(
   progress.For(
     rows, grain,
     [&](std::int64_t first, std::int64_t last) {
-      ImageSamples<Dimension> samples(nodes);
+      ImageSamples<Dimension> samples(nodes, fineness);
       for (std::int64_t row = first; row < last; ++row)
       {
         std::int64_t i = begins[static_cast<std::size_t>(row)];
@@ -79,8 +79,12 @@ CorrectedMap<Dimension>::CorrectedMap(const PotentialSolver<Dimension>& solver, 
   Progress& progress)
   : Map(solver, from, target, sides, images, progress)
 {
-  ImageCloud<Dimension> cloud = sampleImages(this->Map, solver.Side(from), progress);
-  const int cellsANode = images == PointImages::Interpolated ? 2 : 1;
+  // Nodes farther apart are content with fewer samples; in the plane, MassError is not.
+  const bool areFew = images == PointImages::Interpolated;
+  const int cellsANode = areFew ? 2 : 1;
+  SampleFineness fineness;
+  fineness.Each = fineness.OfLightCells = areFew && Dimension == 3 ? 0.75 : 1.0;
+  ImageCloud<Dimension> cloud = sampleImages(this->Map, solver.Side(from), fineness, progress);
   this->Correction.emplace(
     target, sides, cellsANode, cloud.Points(), cloud.Masses.data(), progress);
   this->MeasureBlocks(target, cloud.Points(), cloud.Masses.data(), progress);
