@@ -353,6 +353,9 @@ OTHERS = [
     E(BRIDGE + "Device/SharedDevices.cxx", "this->Opened && «name == this->Name»", "true"),
     E("Filters/vtkTransportAlgorithm.cxx", "«first != all.end()»)", "false"),
     # optimal maps
+    S(CORE + "OptimalMap/PointMap.cxx", "smoothMap(this->There, progress);", ";"),
+    E(CORE + "OptimalMap/OptimalMap.cxx", "back.At(«map.Uncorrected(point.data()).data()»)", "point.data()"),
+    E(CORE + "OptimalMap/Masses/MassCorrection.cxx", "moved[axis] - «move[axis]»", "0.5 * move[axis]"),
     E(CORE + "OptimalMap/Masses/AxisShares.h", "share * «(1.0 - middle)»;", "0.5"),
     E(CORE + "OptimalMap/Masses/NodeMasses.cxx", "(lumped - «side * side / 12.0»)", "0.0"),
     E(CORE + "OptimalMap/Nodes/NodeMap.h", "image[axis] = begin[axis] + «a * step[axis]»;", "0.0"),

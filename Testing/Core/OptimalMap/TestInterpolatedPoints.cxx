@@ -98,6 +98,24 @@ TYPED_TEST(InterpolatedPoints, AreNearTheOptimumAndComeBack)
   EXPECT_LT(roughness<D>(images, sideFor<D>()), (D == 1 ? 1.1 : 0.95) * least);
 }
 
+// Steps of the target within few cells, which the correction of masses follows.
+TYPED_TEST(InterpolatedPoints, ComeBackFromWhereMassesWereCorrected)
+{
+  constexpr int D = TypeParam::value;
+  const GridSize<D> size = evenSize<D>(sideFor<D>());
+  const TestDensity<D> target = sampleDensity<D>(size, [](const Point<D>& p) {
+    return std::fmod(p[0] * static_cast<double>(sideFor<D>()), 8.0) < 4.0 ? 1.0 : 3.0;
+  });
+  const OptimalMap<D> map = solvedPair<D>(uniformDensity<D>(size), target, interpolated());
+  const Points<D> seeds = latticePoints<D>(size, sideFor<D>());
+  Points<D> images(seeds.size());
+  map.Forward(seeds, images);
+  map.Backward(images, images);
+  EXPECT_LT(std::sqrt(meanSquare<D>(seeds, images, size)) * static_cast<double>(size[0]),
+    D == 2 ? 0.08 : 0.04)
+    << "cells";
+}
+
 TYPED_TEST(InterpolatedPoints, AreOnMassBothWays)
 {
   constexpr int D = TypeParam::value;
