@@ -319,8 +319,10 @@ void vtkTransportTemporalInterpolator::RunPass(
     const int more = settings.Chains ? place.Second - own.Requested : this->MissingStep(time) >= 0;
     own.AllPasses = 1 + std::max(0, more);
   }
-  const double part = 1.0 / own.AllPasses;
-  this->SetProgressShiftScale(std::min(1.0 - part, part * (own.Passes - 1)), part);
+  // A step that changed where it lies makes more passes than were counted.
+  const double begin = own.Passes > 1 ? this->GetProgress() : 0.0;
+  const int rest = std::max(1, own.AllPasses - own.Passes + 1);
+  this->SetProgressShiftScale(begin, (1.0 - begin) / rest);
   AlgorithmProgress progress(this, this->Threading, ranks);
   own.Agreed = -1;
   do

@@ -158,6 +158,8 @@ class Campaign:
         print("| " + " | ".join(head) + " |\n" + "|---" * len(head) + "|")
         rows = sorted(self.by_filter.items())
         totals = [sum(row[i] for _, row in rows) for i in range(6)]
+        if totals[0] == 0:
+            sys.exit("no case ran: names for --filter are those of the first column, as Sampler")
         for name, row in rows + [("all", totals)]:
             mean = f"{row[5] / max(1, row[0]):.1f}"
             print("| " + " | ".join([name] + [str(value) for value in row[:5]] + [mean]) + " |")
