@@ -23,20 +23,12 @@ constexpr std::array<int, 2> iterations = { 6, 4 }; // of each correction
 constexpr double leastWeight = 0.1;                 // of the mean density
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
-// An even number of cells two of the map's cells wide, where these are few as wide as one.
+// Cells between nodes are two cells wide, where these are few one.
 template <int Dimension>
-NodeGrid<Dimension> nodesOver(const NodeGrid<Dimension>& corners)
+NodeGrid<Dimension> balancingNodes(const NodeGrid<Dimension>& corners)
 {
   const bool areFew = numberOfCells<Dimension>(corners.Cells) < fewCells<Dimension>;
-  const std::int64_t pair = areFew ? 2 : 4; // two cells, in those of the map
-  NodeGrid<Dimension> nodes;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    nodes.Cells[axis] = 2 * ((corners.Cells[axis] + pair - 1) / pair);
-    nodes.Spacing[axis] = corners.Spacing[axis] * static_cast<double>(corners.Cells[axis]) /
-      static_cast<double>(nodes.Cells[axis]);
-  }
-  return nodes;
+  return nodesOver<Dimension>(corners.Cells, corners.Spacing, areFew ? 1 : 2);
 }
 
 template <int Dimension>
@@ -48,7 +40,7 @@ public:
     : Source(source)
     , Target(target)
     , Corners(corners)
-    , Nodes(nodesOver(corners.Grid))
+    , Nodes(balancingNodes(corners.Grid))
     , Work(progress)
   {
   }
@@ -136,7 +128,7 @@ double memoryForBalancing(const GridSize<Dimension>& cells)
   constexpr double arrays = 3.0 + Dimension; // excess, target's masses and solution; moves
   // Sums of threads, what cells got too much, and its sums along an axis.
   constexpr double arraysOfCells = mostArraysOfSums + 2.0;
-  const NodeGrid<Dimension> nodes = nodesOver<Dimension>({ cells });
+  const NodeGrid<Dimension> nodes = balancingNodes<Dimension>({ cells });
   return sizeof(double) *
     (arraysOfCells * numberOfCells<Dimension>(cells) +
       arrays * numberOfCorners<Dimension>(nodes.Cells)) +

@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <utility>

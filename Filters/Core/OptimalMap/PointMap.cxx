@@ -255,7 +255,7 @@ void PointMap<Dimension>::Improve(const Point<Dimension>& place, Point<Dimension
   constexpr double close = 1e-6; // of a cell
   constexpr double leastDamping = 0.2;
   constexpr double nearer = 0.9;
-  Start now = this->StartOf(image, place);
+  Inverse now = this->InverseAt(image, place);
   for (int step = 0; step < mostSteps && now.Size > close; ++step)
   {
     Point<Dimension> move;
@@ -274,7 +274,7 @@ void PointMap<Dimension>::Improve(const Point<Dimension>& place, Point<Dimension
       next = clampedTo<Dimension>(next, this->Back.Grid.Cells);
       if (this->HasMass(next))
       {
-        const Start found = this->StartOf(next, place);
+        const Inverse found = this->InverseAt(next, place);
         isNearer = found.Size < nearer * now.Size;
         if (isNearer)
         {
@@ -291,7 +291,7 @@ void PointMap<Dimension>::Improve(const Point<Dimension>& place, Point<Dimension
 }
 
 template <int Dimension>
-typename PointMap<Dimension>::Start PointMap<Dimension>::StartOf(
+typename PointMap<Dimension>::Inverse PointMap<Dimension>::InverseAt(
   const Point<Dimension>& image, const Point<Dimension>& place) const
 {
   constexpr std::size_t corners = std::size_t{ 1 } << Dimension;
@@ -305,7 +305,7 @@ typename PointMap<Dimension>::Start PointMap<Dimension>::StartOf(
       nodes[corner] += of * this->Back.Grid.Stride(axis);
     }
   }
-  Start start;
+  Inverse inverse;
   double square = 0.0;
   for (int coordinate = 0; coordinate < Dimension; ++coordinate)
   {
@@ -316,12 +316,12 @@ typename PointMap<Dimension>::Start PointMap<Dimension>::StartOf(
       values[corner] = of[nodes[corner]];
     }
     const double value = interpolate<Dimension>(
-      values, at.Place, start.Jacobian[static_cast<std::size_t>(coordinate)]);
-    start.Residual[coordinate] = value - place[coordinate];
-    square += start.Residual[coordinate] * start.Residual[coordinate];
+      values, at.Place, inverse.Jacobian[static_cast<std::size_t>(coordinate)]);
+    inverse.Residual[coordinate] = value - place[coordinate];
+    square += inverse.Residual[coordinate] * inverse.Residual[coordinate];
   }
-  start.Size = std::sqrt(square);
-  return start;
+  inverse.Size = std::sqrt(square);
+  return inverse;
 }
 
 template class PointMap<1>;

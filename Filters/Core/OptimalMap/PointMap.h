@@ -44,18 +44,18 @@ public:
 
 private:
   using Matrix = std::array<Point<Dimension>, Dimension>;
-  bool HasMass(const Point<Dimension>& image) const;
-  Point<Dimension> ToTarget(const Point<Dimension>& image) const;
-  struct Start
+  struct Inverse
   {
     Point<Dimension> Residual;
     Matrix Jacobian;
     double Size; // of the residual
   };
 
+  bool HasMass(const Point<Dimension>& image) const;
+  Point<Dimension> ToTarget(const Point<Dimension>& image) const;
   Point<Dimension> LeastCost(const Point<Dimension>& place, const Point<Dimension>& image) const;
   void Improve(const Point<Dimension>& place, Point<Dimension>& image) const;
-  Start StartOf(const Point<Dimension>& image, const Point<Dimension>& place) const;
+  Inverse InverseAt(const Point<Dimension>& image, const Point<Dimension>& place) const;
 
   const PointImages Images;
   const CellDensity<Dimension>& Target;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/OptimalMap/Masses/MassCorrection.h"
 
+#include "Core/OptimalMap/Nodes/NodeLevels.h"
 #include "Core/OptimalMap/Nodes/NodePoisson.h"
 #include "Core/OptimalMap/Nodes/NodeSums.h"
 #include "Core/Parallel/Progress.h"
@@ -20,21 +21,6 @@ constexpr int steps = 2;
 constexpr int iterations = 6;
 constexpr double leastWeight = 0.3; // of the mean density
 
-template <int Dimension>
-NodeGrid<Dimension> nodesFor(
-  const GridSize<Dimension>& size, const Point<Dimension>& sides, int cellsANode)
-{
-  NodeGrid<Dimension> grid;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    const std::int64_t cells = (size[axis] + cellsANode - 1) / cellsANode;
-    grid.Cells[axis] = std::max<std::int64_t>(2, cells + cells % 2);
-    grid.Spacing[axis] =
-      sides[axis] * static_cast<double>(size[axis]) / static_cast<double>(grid.Cells[axis]);
-  }
-  return grid;
-}
-
 } // namespace
 
 template <int Dimension>
@@ -43,7 +29,7 @@ MassCorrection<Dimension>::MassCorrection(const CellDensity<Dimension>& target,
   Progress& progress)
   : Target(target)
 {
-  const NodeGrid<Dimension> grid = nodesFor<Dimension>(target.Size(), sides, cellsANode);
+  const NodeGrid<Dimension> grid = nodesOver<Dimension>(target.Size(), sides, cellsANode);
   this->Placement = CellPlacement<Dimension>::Filling(target.Size(), grid.Cells);
   if (images.size() == 0)
   {
@@ -143,7 +129,7 @@ void MassCorrection<Dimension>::Undo(double* point) const
 template <int Dimension>
 double MassCorrection<Dimension>::MemoryFor(const GridSize<Dimension>& target, int cellsANode)
 {
-  const NodeGrid<Dimension> grid = nodesFor<Dimension>(target, Point<Dimension>{}, cellsANode);
+  const NodeGrid<Dimension> grid = nodesOver<Dimension>(target, Point<Dimension>{}, cellsANode);
   return numberOfCorners<Dimension>(grid.Cells) * sizeof(double) * (3.0 + mostArraysOfSums) +
     NodePoisson<Dimension>::MemoryFor(grid, true) + MemoryKept(target, cellsANode);
 }
@@ -151,7 +137,7 @@ double MassCorrection<Dimension>::MemoryFor(const GridSize<Dimension>& target, i
 template <int Dimension>
 double MassCorrection<Dimension>::MemoryKept(const GridSize<Dimension>& target, int cellsANode)
 {
-  const NodeGrid<Dimension> grid = nodesFor<Dimension>(target, Point<Dimension>{}, cellsANode);
+  const NodeGrid<Dimension> grid = nodesOver<Dimension>(target, Point<Dimension>{}, cellsANode);
   return numberOfCorners<Dimension>(grid.Cells) * sizeof(double) * steps * Dimension;
 }
 

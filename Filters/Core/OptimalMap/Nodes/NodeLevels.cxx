@@ -76,6 +76,24 @@ std::vector<GridSize<Dimension>> nodeLevels(const GridSize<Dimension>& finest)
   return levels;
 }
 
+template <int Dimension>
+NodeGrid<Dimension> nodesOver(
+  const GridSize<Dimension>& size, const Point<Dimension>& sides, int cellsANode)
+{
+  NodeGrid<Dimension> grid;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const std::int64_t cells = (size[axis] + cellsANode - 1) / cellsANode;
+    grid.Cells[axis] = std::max<std::int64_t>(2, cells + cells % 2);
+    grid.Spacing[axis] =
+      sides[axis] * static_cast<double>(size[axis]) / static_cast<double>(grid.Cells[axis]);
+  }
+  return grid;
+}
+
+template NodeGrid<1> nodesOver<1>(const GridSize<1>&, const Point<1>&, int);
+template NodeGrid<2> nodesOver<2>(const GridSize<2>&, const Point<2>&, int);
+template NodeGrid<3> nodesOver<3>(const GridSize<3>&, const Point<3>&, int);
 template GridSize<1> finestNodeCells<1>(const std::vector<Point<1>>&, double);
 template GridSize<2> finestNodeCells<2>(const std::vector<Point<2>>&, double);
 template GridSize<3> finestNodeCells<3>(const std::vector<Point<3>>&, double);

@@ -26,6 +26,12 @@ GridSize<Dimension> finestNodeCells(
 template <int Dimension>
 std::vector<GridSize<Dimension>> nodeLevels(const GridSize<Dimension>& finest);
 
+// One cell between nodes for each block of `cellsANode` cells a side, of a grid of cells of these
+// sides; an even number along each axis.
+template <int Dimension>
+NodeGrid<Dimension> nodesOver(
+  const GridSize<Dimension>& size, const Point<Dimension>& sides, int cellsANode);
+
 } // namespace RectifiedTransport
 
 #endif
