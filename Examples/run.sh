@@ -15,16 +15,31 @@ build_release
 
 output="$root/Examples/output"
 mkdir -p "$output"
+failed=()
+
+# draw NAME COMMAND...: one that fails is named at the end, and the others are drawn.
+draw()
+{
+  local name="$1"
+  shift
+  say "$name"
+  with_display "$@" < /dev/null || {
+    [ $? != 130 ] || exit 130 # interrupted
+    failed+=("$name")
+  }
+}
+
 for script in "$root"/Examples/*/run.py; do
-  say "$(basename "$(dirname "$script")")"
-  with_display pvpython "$script" --output "$output" < /dev/null
+  draw "$(basename "$(dirname "$script")")" pvpython "$script" --output "$output"
 done
-say "StippleImage in C++"
-with_display "$build/bin/StippleImage" "$root/Testing/Data/raccoon.png" \
-  "$output/stipple-cxx.png" < /dev/null
-say "LiveStippling, driving itself"
-with_display env OMP_WAIT_POLICY=passive "$build/bin/LiveStippling" --drive 300 \
-  --picture "$output/live-stippling.png" < /dev/null
+draw "StippleImage in C++" "$build/bin/StippleImage" "$root/Testing/Data/raccoon.png" \
+  "$output/stipple-cxx.png"
+draw "LiveStippling, driving itself" env OMP_WAIT_POLICY=passive "$build/bin/LiveStippling" \
+  --drive 300 --picture "$output/live-stippling.png"
 
 say "The pictures are in $output:"
 ls "$output"
+if [ ${#failed[@]} -gt 0 ]; then
+  say "Failed, see above: $(printf '%s, ' "${failed[@]}" | sed 's/, $//')" >&2
+  exit 1
+fi

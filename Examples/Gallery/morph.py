@@ -17,11 +17,12 @@ for i, colour in enumerate(([0.2, 0.5, 0.75], [0.45, 0.4, 0.65], [0.85, 0.4, 0.3
     surface = Contour(morph, registrationName="Surface%d" % i)
     surface.ContourBy = ["POINTS", "Density"]
     surface.Isosurfaces = [0.5]
-    shown = Show(surface, view)
+    placed = Transform(surface, registrationName="Placed%d" % i, Transform="Transform")
+    placed.Transform.Translate = [-1.6 * i, -i, 0]
+    shown = Show(placed, view)
     shown.ColorArrayName = [None, ""]
     shown.AmbientColor = shown.DiffuseColor = colour
     shown.Specular = 0.3
-    shown.Position = [-1.6 * i, -i, 0]
 
 view.CameraFocalPoint = [-1.6, -0.95, 0]
 view.CameraPosition = [-4.5, 3.5, -13]

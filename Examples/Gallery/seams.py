@@ -20,21 +20,20 @@ chart.UpdatePipeline()
 view = GetActiveViewOrCreate("RenderView")
 view.UseColorPaletteForBackground = 0
 view.Background = [0.97, 0.96, 0.94]
-for port, place, size in (0, [0, 0, 0], 1), (1, [1.35, -1, 0], 2):
-    part = OutputPort(chart, port)
+flat = Transform(OutputPort(chart, 1), registrationName="Flat", Transform="Transform")
+flat.Transform.Translate, flat.Transform.Scale = [1.35, -1, 0], [2, 2, 2]
+for name, part in ("Seams", chart), ("Borders", flat):
     shown = Show(part, view)
     shown.SetRepresentationType("Checkerboard")
     shown.Ambient = 0.25
     ColorBy(shown, ("CELLS", "Component"))
     shown.SetScalarBarVisibility(view, False)
-    seams = FeatureEdges(part, registrationName="Seams%d" % port, BoundaryEdges=1, FeatureEdges=0,
+    seams = FeatureEdges(part, registrationName=name, BoundaryEdges=1, FeatureEdges=0,
                          NonManifoldEdges=0, ManifoldEdges=0)
     cuts = Show(seams, view)
     cuts.ColorArrayName = [None, ""]
     cuts.AmbientColor = cuts.DiffuseColor = [0.8, 0.1, 0.1]
     cuts.LineWidth = 5
-    for display in shown, cuts:
-        display.Position, display.Scale = place, 3 * [size]
 colours = GetColorTransferFunction("Component")
 colours.ColorSpace = "RGB"
 colours.RGBPoints = [0, 0.45, 0.75, 0.95, 1, 0.98, 0.8, 0.4, 2, 0.55, 0.85, 0.6]

@@ -24,11 +24,12 @@ shown = Show(OutputPort(lands, 0), view)
 borders = Show(OutputPort(lands, 2), view)
 borders.AmbientColor = borders.DiffuseColor = [0.05, 0.07, 0.12]
 borders.LineWidth = 2
-specks = Show(lights, view)
+above = Transform(lights, registrationName="Above", Transform="Transform")
+above.Transform.Translate = [0, 0, 1]
+specks = Show(above, view)
 specks.ColorArrayName = [None, ""]
 specks.AmbientColor = specks.DiffuseColor = [1, 0.97, 0.85]
 specks.GaussianRadius = 0.2
-specks.Position = [0, 0, 1]
 
 view.InteractionMode = "2D"
 view.CameraParallelProjection = 1

@@ -168,9 +168,8 @@ def two_runs(pixels):
         shown = simple.Show(lines, view)
         example.paint(shown, colour)
         shown.LineWidth = 3
-    shown = simple.Show(arrows, view)
-    example.paint(shown, [0.1, 0.6, 0.2])
-    shown.Position = [0, -2, 0]  # in front of the slice
+    before = example.moved(arrows, 0, -2, 0)  # in front of the slice
+    example.paint(simple.Show(before, view), [0.1, 0.6, 0.2])
     look(view, [2.1, 2, 4.1], [0, -10, 0], [0, 0, 1], 4)
     simple.SetActiveSource(transport)
     return view, math.sqrt(figure(transport, 0, "TransportCost"))

@@ -129,12 +129,12 @@ private:
     polygon->Initialize(
       static_cast<int>(ring->GetNumberOfIds()), ring->GetPointer(0), this->Points);
     vtkNew<vtkIdList> corners;
-    polygon->Triangulate(corners);
+    vtkNew<vtkPoints> places;
+    polygon->Triangulate(0, corners, places);
     auto triangles = vtkSmartPointer<vtkCellArray>::New();
     for (vtkIdType i = 0; i + 2 < corners->GetNumberOfIds(); i += 3)
     {
-      triangles->InsertNextCell({ ring->GetId(corners->GetId(i)),
-        ring->GetId(corners->GetId(i + 1)), ring->GetId(corners->GetId(i + 2)) });
+      triangles->InsertNextCell(3, corners->GetPointer(i));
     }
     return triangles;
   }

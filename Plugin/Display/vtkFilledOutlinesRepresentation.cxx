@@ -6,7 +6,7 @@
 
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
-#include "vtkCompositePolyDataMapper2.h"
+#include "vtkCompositePolyDataMapper.h"
 #include "vtkInformationRequestKey.h"
 #include "vtkInformationVector.h"
 #include "vtkMatrix4x4.h"

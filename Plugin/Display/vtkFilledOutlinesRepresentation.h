@@ -17,7 +17,7 @@
 #include "vtkNew.h"
 
 class vtkActor;
-class vtkCompositePolyDataMapper2;
+class vtkCompositePolyDataMapper;
 class vtkPolyDataAlgorithm;
 
 class vtkFilledOutlinesRepresentation : public vtkGeometryRepresentationWithFaces
@@ -43,7 +43,7 @@ private:
   bool HasEdges() const;
 
   vtkNew<vtkActor> Outlines;
-  vtkNew<vtkCompositePolyDataMapper2> OutlineMapper;
+  vtkNew<vtkCompositePolyDataMapper> OutlineMapper;
   vtkPolyDataAlgorithm* LinesOfPieces;
 
   vtkFilledOutlinesRepresentation(const vtkFilledOutlinesRepresentation&) = delete;

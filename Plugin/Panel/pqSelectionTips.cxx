@@ -2,6 +2,9 @@
 #include "pqSelectionTips.h"
 
 #include "pqCoreUtilities.h"
+#if __has_include("pqProxyAction.h")
+#include "pqProxyAction.h"
+#endif
 #include "pqProxyGroupMenuManager.h"
 
 #include "vtkPVXMLElement.h"
@@ -18,6 +21,16 @@
 namespace
 {
 
+// ParaView 5.13 has it for actions of all menus, and its menus have it no more from 6.1 on.
+vtkSMProxy* prototypeOf(QAction* action, [[maybe_unused]] pqProxyGroupMenuManager* manager)
+{
+#if __has_include("pqProxyAction.h")
+  return pqProxyAction::GetProxyPrototype(action);
+#else
+  return manager->getPrototype(action);
+#endif
+}
+
 QString tipOf(vtkSMProxy* prototype)
 {
   vtkSMProperty* input = prototype ? prototype->GetProperty("Input") : nullptr;
@@ -26,7 +39,7 @@ QString tipOf(vtkSMProxy* prototype)
   return tip ? tip->GetAttributeOrEmpty("text") : QString();
 }
 
-// Without a session, getPrototype crashes.
+// Without a session, prototypeOf crashes.
 bool isConnected()
 {
   return vtkSMProxyManager::IsInitialized() &&
@@ -83,7 +96,7 @@ void pqSelectionTips::follow(QAction* action, pqProxyGroupMenuManager* manager)
   QObject::connect(action, &QAction::changed, this, [action, manager]() {
     if (!action->isEnabled() && isConnected())
     {
-      const QString tip = tipOf(manager->getPrototype(action));
+      const QString tip = tipOf(prototypeOf(action, manager));
       if (!tip.isEmpty() && action->statusTip() != tip)
       {
         action->setStatusTip(tip);

@@ -129,11 +129,13 @@ class InAView(Places):
         shown = self.show(producer(simple, outlines()), EDGED)
         shown.EdgeColor = [0, 0, 1]
         self.assert_line(self.pixels(), OUTER[0], OUTER[1], BLUE)
-        shown.Position = [0, 0.5, 0]
+        # Called Position before ParaView 5.13.
+        place = "Translation" if "Translation" in shown.ListProperties() else "Position"
+        setattr(shown, place, [0, 0.5, 0])
         pixels = self.pixels()
         self.assert_line(pixels, (1, 1.5), (8, 1.5), BLUE)
         self.assert_colours(pixels, {(4.5, 1.75): RED, (4.5, 1.25): WHITE})
-        shown.Position = [0, 0, 0]
+        setattr(shown, place, [0, 0, 0])
         shown.Visibility = 0
         self.assertTrue((self.pixels() == 255).all())
         shown.Visibility = 1
