@@ -113,6 +113,7 @@ int vtkBlueNoiseRelaxation::RequestData(
   relaxation.Options.Tolerance = this->Tolerance;
   const BlueNoiseRelaxation::Report report =
     relaxation.Run(*density, input, counted, this->GetFlowCache(), progress, output);
+  addReadings(output, { density->HowRead() });
   addFieldValues(output, "Energy", report.Energy);
   addFieldValue(output, "OutsidePoints", static_cast<double>(report.PointsMoved));
   if (isWorthWarning(report.PointsMoved, counted.Count()))

@@ -7,6 +7,7 @@
 #include "Bridge/Pipeline/EarlyUpdate.h"
 #include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Pipeline/RequestedTimes.h"
+#include "Bridge/Points/IgnoredFlags.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/ExceptionBarrier.h"
@@ -132,6 +133,7 @@ int vtkCollectiveAlgorithm::ProcessInformation(
 int vtkCollectiveAlgorithm::ProcessData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  RectifiedTransport::warnOfIgnoredFlags(this, inputVector);
   int result = this->ProcessPass(request, inputVector, outputVector);
   while (std::exchange(this->HasNextPass, false))
   {

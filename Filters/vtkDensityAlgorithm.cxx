@@ -39,7 +39,7 @@ struct vtkDensityAlgorithm::vtkInternals
 
 //------------------------------------------------------------------------------
 vtkDensityAlgorithm::vtkDensityAlgorithm(int densityPort)
-  : Component(-1)
+  : Component(COMPONENT_AUTO)
   , InvertDensity(false)
   , NegativeValues(NEGATIVE_VALUES_ERROR)
   , NaNValues(NAN_VALUES_ERROR)

@@ -6,7 +6,7 @@
  * The density is an array of a data set, or of the data sets of a composite one. Choose it with
  * SetInputArrayToProcess(0, ...) and the port of the data. Without a choice it is the active
  * scalars of the points, else those of the cells, else the only array that is neither ids nor
- * flags.
+ * flags. Text that holds numbers alone is a density where it is chosen by its name.
  *
  * The density of a vtkImageData is piecewise constant on cells. Cell arrays are used as they are.
  * The values of a point array are those of the dual cells: the domain is the image's bounds plus
@@ -87,13 +87,26 @@ public:
     NEGATIVE_VALUES_CLAMP = 1
   };
 
+  /**
+   * What Component may be besides an index.
+   */
+  enum ComponentType
+  {
+    COMPONENT_AUTO = -1,
+    COMPONENT_LUMINANCE = -2,
+    COMPONENT_MAGNITUDE = -3
+  };
+
   ///@{
   /**
-   * The component of the array that is the density: an index from 0, or -1 (default) for the
-   * luminance. With 3 or 4 components the luminance is 0.2126 R + 0.7152 G + 0.0722 B (Rec. 709);
-   * with 1 or 2 it is the first component. The last of 2 or 4 components is alpha: the picture is
-   * composited over white, which is 255 for unsigned char, else the largest value of the array. An
-   * array of more than 4 components needs an index.
+   * The component of the array that is the density: an index from 0, -1 (Auto, default), -2
+   * (luminance) or -3 (magnitude). Auto takes the luminance of unsigned integers of 8 or 16 bits,
+   * as photographs have them, and the magnitude of all other arrays of several components. With 3
+   * or 4 components the luminance is 0.2126 R + 0.7152 G + 0.0722 B (Rec. 709); with 2 it is the
+   * first component. The last of 2 or 4 components is alpha: the picture is composited over white,
+   * which is 255 for unsigned char, else the largest value of the array. More than 4 components
+   * have no luminance. The magnitude is the Euclidean norm of all components. The field data
+   * DensityComponent of the output are the choice that was taken.
    */
   vtkSetMacro(Component, int);
   vtkGetMacro(Component, int);
@@ -102,8 +115,8 @@ public:
   ///@{
   /**
    * Use (white - value) as the density, so that dark ink is mass. White is 255 for unsigned char,
-   * else the largest value of the array (of the component, if Component is an index). Off by
-   * default.
+   * else the largest value of the array (of the component, if Component is an index). Of the
+   * magnitude it is the largest one. Off by default.
    */
   vtkSetMacro(InvertDensity, vtkTypeBool);
   vtkGetMacro(InvertDensity, vtkTypeBool);
@@ -134,7 +147,8 @@ public:
   ///@{
   /**
    * What NaN is. Error (default): stop with a message that counts them. Empty: it marks missing
-   * data; the cell is empty, as a blanked one is. Of a colour, NaN in any component counts. In
+   * data; the cell is empty, as a blanked one is. Of a colour and of the magnitude, NaN in any
+   * component counts. In
    * other data than images, so are the cells of a point whose value is missing.
    */
   vtkSetMacro(NaNValues, int);
@@ -148,8 +162,8 @@ public:
   /**
    * The smallest and the largest valid value of the array. Values outside mark missing data: their
    * cells are empty. Values are compared as they are in the array, before InvertDensity; of a
-   * colour, each component but alpha. An end of 1e299 or more, of either sign, is no bound;
-   * infinite values are then errors. Default -1e+299 1e+299.
+   * colour, each component but alpha; of the magnitude, each component. An end of 1e299 or more, of
+   * either sign, is no bound; infinite values are then errors. Default -1e+299 1e+299.
    */
   vtkSetVector2Macro(ValidRange, double);
   vtkGetVector2Macro(ValidRange, double);

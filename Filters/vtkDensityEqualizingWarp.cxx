@@ -116,6 +116,7 @@ int vtkDensityEqualizingWarp::RequestData(
   output->GetCellData()->PassData(input->GetCellData());
   const DensityEqualizingWarp::Report report =
     warp.Run(*density, input, this->GetFlowCache(), progress, output);
+  addReadings(output, { density->HowRead() });
   this->EndDevice(device);
   const std::int64_t outside = sumOverRanks(ranks, report.Outside);
   const std::int64_t points = sumOverRanks<std::int64_t>(ranks, input->GetNumberOfPoints());

@@ -230,6 +230,11 @@ int vtkEqualMassCells::RequestData(
     }
     report =
       cells.Run(input, *density, this->GetFlowCache(), this->Internals->Labels, progress, outputs);
+    for (vtkDataObject* output :
+      { static_cast<vtkDataObject*>(labels), static_cast<vtkDataObject*>(outputs.Sites) })
+    {
+      addReadings(output, { density->HowRead() });
+    }
   }
   else
   {

@@ -40,6 +40,22 @@ void requireDimensions(const int dimensions[3])
       "; it must be at least 1 along every axis");
   }
 }
+
+vtkSmartPointer<vtkDataArray> chosenMasses(vtkInformation* choice, vtkPointSet* points)
+{
+  const int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
+  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
+  {
+    throw Failure("The field association of the mass array is " + std::to_string(association) +
+      "; it must be 0 (points)");
+  }
+  const char* name = choice->Get(vtkDataObject::FIELD_NAME());
+  if (!name && choice->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+  {
+    return findMasses(points, choice->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
+  }
+  return findMasses(points, std::string(name ? name : ""));
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -142,24 +158,6 @@ int vtkMassSplatter::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
-vtkDataArray* vtkMassSplatter::FindMasses(vtkPointSet* points)
-{
-  vtkInformation* choice = this->GetInputArrayInformation(0);
-  const int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
-  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
-  {
-    throw Failure("The field association of the mass array is " + std::to_string(association) +
-      "; it must be 0 (points)");
-  }
-  const char* name = choice->Get(vtkDataObject::FIELD_NAME());
-  if (!name && choice->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
-  {
-    return findMasses(points, choice->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
-  }
-  return findMasses(points, std::string(name ? name : ""));
-}
-
-//------------------------------------------------------------------------------
 int vtkMassSplatter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -173,8 +171,9 @@ int vtkMassSplatter::RequestData(
   vtkPointSet* input = pointSetOf(inputVector[0]);
   auto* reference = requireBlock<vtkImageData>(
     vtkDataObject::GetData(inputVector[1]), "The Reference", "a vtkImageData");
-  vtkDataArray* masses =
-    input && input->GetNumberOfPoints() > 0 ? this->FindMasses(input) : nullptr;
+  const vtkSmartPointer<vtkDataArray> masses = input && input->GetNumberOfPoints() > 0
+    ? chosenMasses(this->GetInputArrayInformation(0), input)
+    : nullptr;
   vtkImageData* output = vtkImageData::GetData(outputVector);
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
   const bool hasReference = inputVector[1]->GetNumberOfInformationObjects() > 0;

@@ -10,11 +10,12 @@
  *
  * Input 0 is the points, any vtkPointSet. Their masses are the point array that
  * `SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name)` chooses, with
- * one component of any numeric type. Without a name, or with "None" if there is no such array, each
- * point has mass 1. Masses may be negative. Points that vtkGhostType marks as duplicates or hidden
- * have no mass. Input 1, optional, is the Reference, a vtkImageData in 1D, 2D or 3D, with any
- * origin, spacing, direction and extent; only its geometry is used. Without it, the bounds of the
- * points are cut into `Dimensions` cells. An axis along which the points have no extent is no axis.
+ * one component of any numeric type, or text that holds numbers alone. Without a name, or with
+ * "None" if there is no such array, each point has mass 1. Masses may be negative. Points that
+ * vtkGhostType marks as duplicates or hidden have no mass. Input 1, optional, is the Reference, a
+ * vtkImageData in 1D, 2D or 3D, with any origin, spacing, direction and extent; only its geometry
+ * is used. Without it, the bounds of the points are cut into `Dimensions` cells. An axis along
+ * which the points have no extent is no axis.
  *
  * Output: a vtkImageData with the array `Density` (double, active scalars): mass per length, area
  * or volume or, with `DivideByVolume` off, mass. It has the field data of the points,
@@ -72,9 +73,7 @@ struct MassSplatter;
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkDataArray;
 class vtkImageData;
-class vtkPointSet;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkMassSplatter : public vtkCollectiveAlgorithm
 {
@@ -220,7 +219,6 @@ protected:
 
 private:
   RectifiedTransport::MassSplatter GetSplatter();
-  vtkDataArray* FindMasses(vtkPointSet* points);
 
   vtkMassSplatter(const vtkMassSplatter&) = delete;
   void operator=(const vtkMassSplatter&) = delete;

@@ -217,6 +217,15 @@ int vtkTransportMap::RequestData(
     return runToTarget(map, pair, wanted, this->GetFlowCache(), *this->ToTarget, progress, output);
   };
   const TransportMap::Report result = run();
+  std::vector<DensityReading> readings;
+  for (const auto& one : densities)
+  {
+    if (one)
+    {
+      readings.push_back(one->HowRead());
+    }
+  }
+  addReadings(output, readings);
   this->EndDevice(device);
   // The association of the density may not be known before the data.
   announceGrid(result.Grid, outputInformation);

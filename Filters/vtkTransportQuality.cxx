@@ -122,6 +122,7 @@ int vtkTransportQuality::RequestData(
   addColumn<vtkDoubleArray>(output, "TransportCost", quality.TransportCost);
   addColumn<vtkDoubleArray>(output, "SmallestSpacing", quality.SmallestSpacing);
   addColumn<vtkDoubleArray>(output, "MeanSpacing", quality.MeanSpacing);
+  addReadings(output, { density->HowRead() });
   return 1;
 }
 

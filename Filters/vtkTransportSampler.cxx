@@ -117,6 +117,7 @@ int vtkTransportSampler::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const TransportSampler::Report report =
     sampler.Run(*density, seeds, this->GetFlowCache(), progress, output);
+  addReadings(output, { density->HowRead() });
   this->EndDevice(device);
   this->WarnOfMap(report.Transport);
   this->WarnOfSteps(report.Flow, sampler.Flow, FlowDirection::Forward);

@@ -13,6 +13,9 @@
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <string>
 
 vtkStandardNewMacro(vtkSMDensityArrayDomain);
@@ -30,8 +33,14 @@ struct Choice
   std::string Name;
 };
 
-// How an array of the data is used: a vtkDataSetAttributes::AttributeTypes, or -1.
-int attributeOf(vtkPVDataInformation* data, int association, const std::string& name)
+struct ArrayUse
+{
+  int Attribute = -1; // a vtkDataSetAttributes::AttributeTypes
+  int Components = 1;
+  bool IsText = false;
+};
+
+ArrayUse useOf(vtkPVDataInformation* data, int association, const std::string& name)
 {
   vtkPVDataSetAttributesInformation* arrays = data->GetAttributeInformation(association);
   for (int i = 0; arrays && i < arrays->GetNumberOfArrays(); ++i)
@@ -39,39 +48,42 @@ int attributeOf(vtkPVDataInformation* data, int association, const std::string& 
     vtkPVArrayInformation* array = arrays->GetArrayInformation(i);
     if (array && array->GetName() && name == array->GetName())
     {
-      return arrays->IsArrayAnAttribute(i);
+      const int type = array->GetDataType();
+      return { arrays->IsArrayAnAttribute(i), array->GetNumberOfComponents(),
+        type == VTK_STRING || type == VTK_VARIANT };
     }
   }
-  return -1;
+  return {};
 }
 
-// The active scalars, or else the first array that all blocks have, or else the first one; neither
-// ids nor flags.
+// An array of one component before one of several. Then the active scalars, or else the first array
+// that all blocks have, or else the first one. Neither ids, flags nor text.
 Choice choose(vtkSMArrayListDomain* list, vtkPVDataInformation* data)
 {
-  Choice first;
-  Choice partial;
+  constexpr int ranks = 6;
+  std::array<Choice, ranks> first;
   for (unsigned int i = 0; i < list->GetNumberOfStrings(); ++i)
   {
     const std::string name = list->GetString(i);
-    const int association = list->GetDomainAssociation(i);
-    const int attribute = attributeOf(data, association, name);
-    if (attribute == vtkDataSetAttributes::GLOBALIDS ||
-      attribute == vtkDataSetAttributes::PEDIGREEIDS || RectifiedTransport::isIdName(name))
+    const ArrayUse use = useOf(data, list->GetDomainAssociation(i), name);
+    if (use.Attribute == vtkDataSetAttributes::GLOBALIDS ||
+      use.Attribute == vtkDataSetAttributes::PEDIGREEIDS || use.IsText ||
+      RectifiedTransport::isIdName(name))
     {
       continue;
     }
-    if (attribute == vtkDataSetAttributes::SCALARS)
+    const std::size_t rest = use.Attribute == vtkDataSetAttributes::SCALARS ? 0
+      : list->IsArrayPartial(i)                                             ? 2
+                                                                            : 1;
+    Choice& choice = first[rest + (use.Components > 1 ? ranks / 2 : 0)];
+    if (choice.Association < 0)
     {
-      return { list->GetFieldAssociation(i), name };
-    }
-    Choice& rest = list->IsArrayPartial(i) ? partial : first;
-    if (rest.Association < 0)
-    {
-      rest = { list->GetFieldAssociation(i), name };
+      choice = { list->GetFieldAssociation(i), name };
     }
   }
-  return first.Association < 0 ? partial : first;
+  const auto found = std::find_if(
+    first.begin(), first.end(), [](const Choice& choice) { return choice.Association >= 0; });
+  return found == first.end() ? Choice() : *found;
 }
 
 } // namespace
@@ -112,7 +124,7 @@ int vtkSMDensityArrayDomain::SetDefaultValues(vtkSMProperty* property, bool useU
   {
     helper.Set(nameElement - 1, std::to_string(choice.Association).c_str());
   }
-  helper.Set(nameElement, choice.Name.c_str()); // none where all are ids or flags
+  helper.Set(nameElement, choice.Name.c_str()); // none where all are ids, flags or text
   return 1;
 }
 

@@ -4,8 +4,9 @@
  * @brief   which arrays of an input may be its density, and which one is at first
  *
  * The list of an input's arrays, in XML the element DensityArrayDomain, without the ghost flags. At
- * first it takes the active scalars of the points, else of the cells, else the first array that all
- * blocks have, else the first one, but never ids or flags, such as GlobalNodeId.
+ * first it takes an array of one component, else one of several: the active scalars of the points,
+ * else of the cells, else the first array that all blocks have, else the first one. It never takes
+ * ids or flags, such as GlobalNodeId, nor text, which the user may choose.
  *
  * Where the panel changes the input, as the Domain of Equal-Mass Cells, it takes the first array of
  * the new input if that has not the chosen one.
@@ -25,7 +26,7 @@ public:
 
   /**
    * Sets the association and the name, elements 3 and 4 of the property; no name where there are
-   * only ids and flags. Returns 0 where there are no arrays yet.
+   * only ids, flags and text. Returns 0 where there are no arrays yet.
    */
   int SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues) override;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqDensityComponentWidget.h"
 
+#include "Bridge/Settings/ComponentChoice.h"
+
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
 #include "pqServerManagerModel.h"
@@ -100,9 +102,19 @@ void pqDensityComponentWidget::updateList()
 {
   const QSignalBlocker blocker(this->List);
   this->List->clear();
-  this->List->addItem(tr("Luminance"), -1);
   vtkPVArrayInformation* array = chosenArray(this->proxy()->GetProperty("DensityArray"));
   const int count = array ? array->GetNumberOfComponents() : 0;
+  const int automatic = array ? RectifiedTransport::automaticComponent(array->GetDataType(), count)
+                              : RectifiedTransport::AutoComponent;
+  this->List->addItem(automatic == RectifiedTransport::Magnitude ? tr("Auto (magnitude)")
+      : automatic == RectifiedTransport::Luminance               ? tr("Auto (luminance)")
+                                                                 : tr("Auto"),
+    RectifiedTransport::AutoComponent);
+  if (count <= RectifiedTransport::MostColorComponents)
+  {
+    this->List->addItem(tr("Luminance"), RectifiedTransport::Luminance);
+  }
+  this->List->addItem(tr("Magnitude"), RectifiedTransport::Magnitude);
   for (int i = 0; i < count; ++i)
   {
     const QString name = array->GetComponentName(i);

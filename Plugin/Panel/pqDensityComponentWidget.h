@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A list of what can be the density of an array of several components: the luminance, then each
-// component by its name. For an integer property beside a property DensityArray.
+// A list of what can be the density of an array of several components: Auto, with what it takes of
+// this array, the luminance, the magnitude, then each component by its name. For an integer
+// property beside a property DensityArray.
 #ifndef pqDensityComponentWidget_h
 #define pqDensityComponentWidget_h
 

@@ -11,12 +11,28 @@ from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 Numbers = Union[float, Sequence[float]]  # one for all axes, or one for each of x, y(, z)
 
 
+def numbers_of_text(array, name):
+    """Texts that are numbers, as files give them, as doubles."""
+    made = np.empty(array.shape)
+    for place, value in np.ndenumerate(array):
+        try:
+            if "_" in str(value):
+                raise ValueError  # that float would leave out
+            made[place] = float(value)
+        except (TypeError, ValueError):
+            raise TypeError("%s has values of type %s; they must be real numbers, and %r at %s is none"
+                            % (name, array.dtype, value, list(place))) from None
+    return made
+
+
 def real_numbers(values, name):
     """An array that VTK takes: a copy only if the memory's order or the type asks for it."""
     if isinstance(values, np.ma.MaskedArray):
         raise TypeError("%s is a masked array; give %s.filled(numpy.nan) with NaNValues='Empty', or "
                         "other values for what is masked" % (name, name))
     array = np.asarray(values)
+    if array.dtype.kind in "OSUT":
+        array = numbers_of_text(array, name)
     if array.dtype.kind not in "biuf":
         raise TypeError("%s has values of type %s; they must be real numbers" % (name, array.dtype))
     if array.dtype.kind == "b":

@@ -120,7 +120,8 @@ def stipple(image: ArrayLike, n: int, iterations: int = 50, *, invert: bool = Tr
     """
     picture, shape = image_of(image, "image", colours=True)
     kind = filters.vtkDensityAlgorithm
-    properties = {"InvertDensity": bool(invert), **properties}
+    # Component -2 is the luminance of every type; Auto takes it of small integers alone.
+    properties = {"InvertDensity": bool(invert), "Component": -2, **properties}
     sampler = _sampler(picture, n, properties, kind)
     update(sampler, {"image": shape})
     if index(iterations) == 0:

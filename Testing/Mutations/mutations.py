@@ -293,7 +293,12 @@ OTHERS = [
     # missing data
     E(BRIDGE + "Settings/MissingData.h", "value < this->Low || «value > this->High»", "false"),
     E(BRIDGE + "Settings/MissingData.h", "validRange[1] < «Unbounded»", "1e3 * Unbounded"),
-    E(BRIDGE + "Density/DensityReader.cxx", "const int colours = components >= 3 ? «3» : 1;", "1"),
+    E(BRIDGE + "Density/DensityReader.cxx", "? components : components >= 3 ? «3» : 1;", "1"),
+    E(BRIDGE + "Settings/ComponentChoice.h", "type == VTK_UNSIGNED_CHAR || «type == VTK_UNSIGNED_SHORT»",
+      "false"),
+    E(BRIDGE + "Run/NumbersOfText.cxx", "read.ec == std::errc() && «read.ptr == last»", "true"),
+    E(BRIDGE + "Points/IgnoredFlags.cxx", "if («array && !vtkUnsignedCharArray::SafeDownCast(array)»)",
+      "false"),
     E(BRIDGE + "Density/DensityReader.cxx", "(«hasAlpha && missing.AreNaN» &&", "false"),
     E(BRIDGE + "Density/FilledCells.cxx", "this->Cells.Add(«static_cast<double>(filled)»);",
       "static_cast<double>(count)"),

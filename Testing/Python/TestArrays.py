@@ -319,6 +319,17 @@ class Memory(unittest.TestCase):
                 same(arrays.relax(given, numbers, 3), relaxed)
         same(arrays.relax([[3, 4], [9, 8]], numbers, 3), arrays.relax([[3., 4.], [9., 8.]], numbers, 3))
 
+    def test_texts_that_are_numbers(self):
+        """Columns of files, and integers that are too large for numpy's types."""
+        expected = arrays.sample(FLAT, 50)
+        for kind in ("U", "S", object):
+            same(arrays.sample(FLAT.astype(kind), 50), expected)
+        same(arrays.sample(FLAT.astype("U").astype(object), 50), expected)
+        large = np.array([[10 ** 20, 2 * 10 ** 20], [3 * 10 ** 20, 0]])
+        self.assertEqual(large.dtype, object)
+        same(arrays.sample(large, 50), arrays.sample(large.astype(float), 50))
+        same(arrays.sample([[" 1e2", "3 "], ["+4", ".5"]], 50), arrays.sample([[100, 3], [4, 0.5]], 50))
+
     def test_results_live_on(self):
         """Later runs and the end of the filter leave results alone."""
         results = [arrays.morph(FLAT, OTHER, t) for t in (0.2, 0.7)]

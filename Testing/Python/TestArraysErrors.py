@@ -49,6 +49,8 @@ class Refused(unittest.TestCase):
                     (ValueError, "no values: its shape is (0, 5)", np.ones((0, 5))),
                     (TypeError, "of type complex128; they must be real", np.ones((4, 5), complex)),
                     (TypeError, "of type <U1; they must be real", np.full((4, 5), "a")),
+                    (TypeError, "'n/a' at [0, 1] is none", np.array([["1", "n/a"], ["2", "?"]])),
+                    (TypeError, "'1_0' at [1, 0] is none", np.array([["1", "2"], ["1_0", "3"]])),
                     (TypeError, "of type object; they must be real", np.full((4, 5), None)),
                     (TypeError, "masked array", np.ma.masked_equal(np.ones((4, 5)), 1)),
                     (ValueError, "[2, 3]", nan), (ValueError, "total mass of zero", np.zeros((4, 5))),
@@ -110,7 +112,7 @@ class Refused(unittest.TestCase):
                 (ValueError, "mass in 4 of 2 x 2 pixels", arrays.cells, (SITES, np.ones((2, 2))), {}),
                 (ValueError, "MaximumIterations is -1", arrays.relax, (SITES, FLAT, -1), {}),
                 (TypeError, "has no property 'Method'", arrays.stipple, (FLAT, 9), {"Method": "Optimal"}),
-                (ValueError, "Component is -1, but the density array 'image' has 5 components",
+                (ValueError, "Component is -2, but the density array 'image' has 5 components",
                  arrays.stipple, (np.ones((4, 4, 5)), 9), {})):
             self.refused(error, text, function, *arguments, **properties)
 

@@ -175,7 +175,11 @@ class Morph(Blend):
         alone = [density_image(values=vtk_to_numpy(image.GetCellData().GetArray("Colour"))[:, 1])
                  for image in self.images[:2]]
         np.testing.assert_array_equal(run(morph), morph_of(*alone))
-        morph.Component = -1
+        morph.Component = -3
+        norms = [density_image(values=np.linalg.norm(
+            vtk_to_numpy(image.GetCellData().GetArray("Colour")), axis=1)) for image in self.images[:2]]
+        np.testing.assert_allclose(run(morph), morph_of(*norms), rtol=1e-9)
+        morph.Component = -2
         grey = [density_image(values=vtk_to_numpy(image.GetCellData().GetArray("Colour"))
                               @ [0.2126, 0.7152, 0.0722]) for image in self.images[:2]]
         np.testing.assert_allclose(run(morph), morph_of(*grey), rtol=1e-9)

@@ -148,15 +148,16 @@ class Gui(GuiTest):
 
     @unittest.skipUnless(PANEL_WIDGETS, "the plugin is built without its own widgets")
     def test_component(self):
-        """A list of the luminance and the components of the array, by name."""
+        """A list of what Auto takes, the luminance, the magnitude and the components of the array, by
+        name."""
         script = OPEN.replace(ASCENT, PHOTOGRAPH).replace(
             "photograph.Update", "photograph.ReadAsImageStack = 0\nphotograph.Update")
         component = PANEL + "Component/ComboBox"
         sampler = choose("Filters", "TransportSampler")
         for steps, expected in (((), -1), (((component, "set_string", "Y"),), 1)):
             saved = self.state_after(
-                "gui-component.png", sampler, (component, "is currentText", "Luminance"),
-                (component, "is count", "4"), *steps, APPLY, script_text=script)
+                "gui-component.png", sampler, (component, "is currentText", "Auto (luminance)"),
+                (component, "is count", "6"), *steps, APPLY, script_text=script)
             self.assertEqual(numbers(saved, "TransportSampler", "Component"), [expected])
 
     def window(self, picture, *steps, script_text=OPEN, **options):

@@ -175,7 +175,7 @@ class OneThing(unittest.TestCase):
             self.assert_same(ways, np.zeros((1, 1)), mapped, DensityResolution=33, **rule)
 
     def test_colours(self):
-        """A component without a valid value, but alpha by range."""
+        """A component without a valid value, but alpha by range; of a magnitude each component."""
         colours = values_of((12, 10, 4))
         colours[..., 3] = 40
 
@@ -186,12 +186,14 @@ class OneThing(unittest.TestCase):
                 array.transpose(1, 0, 2).reshape(-1, 4)))
             return data
         flags = HIDDEN_CELL * hole((12, 10)).astype(np.uint8)
-        for invert in (0, 1):
-            expected = mapped(hide(image(colours, 3), flags), EmptyCells=1, InvertDensity=invert)
-            for data, own in ((image(colours, math.nan), dict(NaNValues=1)),
-                              (image(colours, math.nan, 3), dict(NaNValues=1)),
-                              (image(colours, 1e20, 2), dict(ValidRange=(0, 31)))):
-                self.assertEqual(mapped(data, EmptyCells=1, InvertDensity=invert, **own), expected)
+        for component, highest in ((-2, 31), (-3, 40)):
+            for invert in (0, 1):
+                rules = dict(Component=component, EmptyCells=1, InvertDensity=invert)
+                expected = mapped(hide(image(colours, 3), flags), **rules)
+                for data, own in ((image(colours, math.nan), dict(NaNValues=1)),
+                                  (image(colours, math.nan, 3), dict(NaNValues=1)),
+                                  (image(colours, 1e20, 2), dict(ValidRange=(0, highest)))):
+                    self.assertEqual(mapped(data, **rules, **own), expected)
         # One component is judged by itself.
         data = image(colours, math.nan)
         self.assertEqual(mapped(data, Component=0), mapped(image(colours, 3), Component=0))

@@ -41,7 +41,8 @@ def image_of(values, cells=True):
 
 
 def hide(data, flags, points=False):
-    array = numpy_to_vtk(flat(flags), deep=1)
+    # The product of an enumerator and bytes is int64 with numpy 2, and no flags.
+    array = numpy_to_vtk(flat(flags).astype(np.uint8), deep=1)
     array.SetName("vtkGhostType")
     (data.GetPointData() if points else data.GetCellData()).AddArray(array)
     return data

@@ -186,6 +186,9 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
   std::vector<FlowReport> flows;
   std::transform(this->Maps.begin(), this->Maps.end(), std::back_inserter(flows),
     [](const LinearizedMap& map) { return map.Flow(); });
+  std::vector<DensityReading> readings;
+  std::transform(inputs.begin(), inputs.end(), std::back_inserter(readings),
+    [](const BlendInput& input) { return input.Density->HowRead(); });
   const auto movedOnRanks = static_cast<double>(sumOverRanks(ranks, movedInAll));
   for (vtkDataObject* part :
     { static_cast<vtkDataObject*>(output.Density), static_cast<vtkDataObject*>(output.Particles) })
@@ -198,6 +201,7 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
     addFieldValue(part, "TotalMass", mass);
     addFieldValue(part, "MovedParticles", movedOnRanks);
     addSteps(part, flows);
+    addReadings(part, readings);
   }
   report.Particles = count;
   report.Moved = sumOverRanks(ranks, report.Moved);

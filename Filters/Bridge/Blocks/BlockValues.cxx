@@ -3,6 +3,7 @@
 
 #include "Bridge/Density/DensityFailure.h"
 #include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/DensityInspection.h"
@@ -29,6 +30,19 @@ namespace
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 constexpr vtkIdType cellsBetweenPolls = vtkIdType{ 1 } << 16;
 constexpr unsigned char unused = 1; // of values that are not read
+
+std::string nameOf(const DensityBlock& block)
+{
+  return describeArray(block.Array) + " of the " + block.Name;
+}
+
+DensityRules rulesOf(const DensityBlock& block, const DensityRules& rules)
+{
+  DensityRules taken = rules;
+  taken.Component = takenComponent(nameOf(block), rules.Component, block.Array->GetDataType(),
+    block.Array->GetNumberOfComponents());
+  return taken;
+}
 
 } // namespace
 
@@ -72,24 +86,23 @@ public:
   BlockReading(const DensityBlock& block, bool onPoints, const MassCells& cells,
     const DensityRules& rules, Progress& progress)
     : Array(block.Array)
-    , Clamps(rules.ClampNegative && !rules.Invert)
-    , Missing(rules.Missing)
-    , Reader(makeDensityReader(block.Array, rules))
+    , Rules(rulesOf(block, rules))
+    , Reader(makeDensityReader(block.Array, this->Rules))
   {
     this->Read.Set = block.Data;
-    this->Read.ArrayName = describeArray(block.Array) + " of the " + block.Name;
+    this->Read.ArrayName = nameOf(block);
     this->Read.OnPoints = onPoints;
     this->Read.Cells = cells;
-    requireComponent(this->Read.Name(), rules.Component, block.Array->GetNumberOfComponents());
     this->FindCounted(block, progress);
     this->Reader->SetBlanks(this->Flags.data(), unused);
   }
 
+  bool NeedsWhite() const { return needsWhite(this->Rules, this->Array->GetNumberOfComponents()); }
   // For white.
   double FindLargest()
   {
     LargestValue& white = this->Read.Known.White;
-    if (this->Array->GetDataType() == VTK_UNSIGNED_CHAR)
+    if (hasDisplayedWhite(this->Rules, this->Array->GetDataType()))
     {
       white.Value = std::numeric_limits<unsigned char>::max();
     }
@@ -115,7 +128,7 @@ public:
     const DensitySummary found = summarize(values, count, 0);
     if (found.NotFinite > 0 || found.Negative > 0)
     {
-      throwInvalidDensity(this->Read.Name(), found, this->Missing);
+      throwInvalidDensity(this->Read.Name(), found, this->Rules.Missing);
     }
     this->Read.Known.Found = found;
     for (std::int64_t i = 0; i < count; ++i)
@@ -125,7 +138,7 @@ public:
         this->Read.LeastCounted = std::min(this->Read.LeastCounted, values[i]);
       }
     }
-    if (this->Clamps)
+    if (this->Rules.ClampNegative && !this->Rules.Invert)
     {
       this->Read.Known.Clamped = findLowest(this->Array, *this->Reader, count, progress);
     }
@@ -137,7 +150,7 @@ private:
   std::vector<unsigned char> FindMissing(Progress& progress) const
   {
     std::vector<unsigned char> missing;
-    if (this->Missing.Are())
+    if (this->Rules.Missing.Are())
     {
       missing.resize(static_cast<std::size_t>(this->Array->GetNumberOfTuples()));
       progress.For(static_cast<std::int64_t>(missing.size()), grain,
@@ -202,12 +215,34 @@ private:
   }
 
   vtkDataArray* Array;
-  const bool Clamps;
-  const MissingValues Missing;
+  const DensityRules Rules;
   std::unique_ptr<DensityReader> Reader;
   std::vector<unsigned char> Flags; // of the values
   BlockValues Read;
 };
+
+int takenComponent(const std::vector<DensityBlock>& blocks, int component)
+{
+  DensityRules rules;
+  rules.Component = component;
+  const DensityBlock* first = nullptr;
+  int taken = 0;
+  for (const DensityBlock& block : blocks)
+  {
+    const int own = rulesOf(block, rules).Component;
+    if (first && block.Array->GetNumberOfComponents() > 1 && own != taken)
+    {
+      fail("Component -1 (Auto) takes the ", own == Luminance ? "luminance" : "magnitude",
+        " of the ", nameOf(block), ", but not of the ", nameOf(*first), "; set Component");
+    }
+    if (!first && block.Array->GetNumberOfComponents() > 1)
+    {
+      first = &block;
+      taken = own;
+    }
+  }
+  return first ? taken : rulesOf(blocks.front(), rules).Component;
+}
 
 std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, bool onPoints,
   const MassCells& cells, const DensityRules& rules, Progress& progress)
@@ -220,7 +255,8 @@ std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, boo
       static_cast<double>(block.Data->GetNumberOfCells()),
       [&]() { readings.emplace_back(block, onPoints, cells, rules, progress); });
   }
-  if (needsWhite(rules, blocks.front().Array->GetNumberOfComponents()))
+  if (std::any_of(readings.begin(), readings.end(),
+        [](const BlockReading& reading) { return reading.NeedsWhite(); }))
   {
     double white = -std::numeric_limits<double>::infinity();
     for (BlockReading& reading : readings)

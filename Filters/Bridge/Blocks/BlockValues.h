@@ -83,6 +83,11 @@ private:
   vtkIdType Open = 0;
 };
 
+// What the property Component takes of blocks that all have an array: an index, Luminance or
+// Magnitude. Throws Failure if a block does not have it, or Auto takes different ones of several
+// components.
+int takenComponent(const std::vector<DensityBlock>& blocks, int component);
+
 // Cells count if they carry mass and neither they nor their points are blanked or without a valid
 // value. Throws Failure for values of counted cells that are no density, and Cancelled.
 std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, bool onPoints,

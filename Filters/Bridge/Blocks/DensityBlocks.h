@@ -7,6 +7,7 @@
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Ranks.h"
 
+#include "vtkDataArray.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
@@ -15,7 +16,6 @@
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkDataArray;
 class vtkDataObject;
 class vtkDataSet;
 VTK_ABI_NAMESPACE_END
@@ -29,10 +29,11 @@ class Ranks;
 struct DensityBlock
 {
   vtkSmartPointer<vtkDataSet> Data;
-  std::string Name;              // that messages call it by
-  std::int64_t Number;           // among the leaves of a composite data set
-  std::uint64_t Time;            // of the data object that the block is of
-  vtkDataArray* Array = nullptr; // the density; set by those who know its name, none: no mass
+  std::string Name;    // that messages call it by
+  std::int64_t Number; // among the leaves of a composite data set
+  std::uint64_t Time;  // of the data object that the block is of
+  // The density; set by those who know its name, none: no mass.
+  vtkSmartPointer<vtkDataArray> Array;
 };
 
 // Blocks whose arrays have one name and association. At least one block has an array; those without

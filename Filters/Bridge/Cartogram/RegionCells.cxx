@@ -5,6 +5,7 @@
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/NumbersOfText.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkAppendPolyData.h"
@@ -187,11 +188,14 @@ private:
     const std::string& chosen = this->Arrays.Mass;
     if (!chosen.empty() && chosen != "None")
     {
-      this->Mass = cells->GetArray(chosen.c_str());
+      const NumbersOfText numbers = numbersOf(cells->GetAbstractArray(chosen.c_str()), false,
+        [this](vtkIdType cell) { return "of the region " + this->NameOf(cell); });
+      this->Mass = numbers.Array;
       if (!this->Mass)
       {
         fail("MassArray '", chosen, "' is no numeric cell array ",
           this->Blocks.size() > 1 ? "of all blocks of the input" : "of the input",
+          !numbers.Wrong.empty() ? " (" + numbers.Wrong + ")" : "",
           this->Found.Data->GetPointData()->HasArray(chosen.c_str())
             ? " but a point array; Point Data to Cell Data makes a cell array of it"
             : "; choose one that has the mass of each region");
@@ -306,6 +310,14 @@ private:
     }
   }
 
+  std::string NameOf(vtkIdType cell)
+  {
+    vtkAbstractArray* key =
+      this->Found.Data->GetCellData()->GetAbstractArray(this->Arrays.Region.c_str());
+    vtkAbstractArray* name = key ? key : this->NameArray();
+    return name ? "'" + textOf(name, cell) + "'" : "of cell " + std::to_string(cell);
+  }
+
   // Names for messages.
   vtkAbstractArray* NameArray()
   {
@@ -325,7 +337,7 @@ private:
   const RegionArrays& Arrays;
   Progress& Work;
   bool ByBlock = false;
-  vtkDataArray* Mass = nullptr;
+  vtkSmartPointer<vtkDataArray> Mass;
   std::string MassTitle;
   RegionCells Found;
 };

@@ -28,28 +28,37 @@ void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const s
   }
 }
 
-void requireComponent(const std::string& name, int component, int count)
+int takenComponent(const std::string& name, int component, int type, int count)
 {
-  constexpr int mostColours = 4;
-  if (component >= -1 && component < count && (component >= 0 || count <= mostColours))
+  const int automatic = automaticComponent(type, count);
+  const int wanted = component == AutoComponent ? automatic : component;
+  const bool mayBeColour = count <= MostColorComponents;
+  if ((wanted >= 0 && wanted < count) || wanted == Magnitude ||
+    (wanted == Luminance && mayBeColour))
   {
-    return;
+    return count == 1 && wanted == Luminance ? 0 : wanted;
   }
   const std::string indices = count == 1 ? "0" : "an index from 0 to " + std::to_string(count - 1);
   fail("Component is ", component, ", but the ", name, " has ", count,
     count == 1 ? " component" : " components", "; it must be ",
-    count <= mostColours ? "-1 (luminance) or " : "", indices);
+    automatic == AutoComponent ? "" : "-1 (Auto), ", mayBeColour ? "-2 (luminance), " : "",
+    "-3 (magnitude) or ", indices);
 }
 
-bool isColour(const DensityRules& rules, int components)
+bool isOfSeveral(const DensityRules& rules)
 {
-  return rules.Component < 0 && components > 1;
+  return rules.Component < 0;
 }
 
 bool needsWhite(const DensityRules& rules, int components)
 {
-  const bool alpha = rules.Component < 0 && (components == 2 || components == 4);
+  const bool alpha = rules.Component == Luminance && (components == 2 || components == 4);
   return rules.Invert || alpha;
+}
+
+bool hasDisplayedWhite(const DensityRules& rules, int type)
+{
+  return type == VTK_UNSIGNED_CHAR && rules.Component != Magnitude;
 }
 
 void throwInvalidDensity(const std::string& name, const DensitySummary& summary,

@@ -25,14 +25,15 @@ std::string describeArray(vtkDataArray* array);
 // Throws Failure unless an array has one tuple for each point or cell of its data set, `what`.
 void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const std::string& what);
 
-// Throws Failure if an array of `count` components does not have this Component.
-void requireComponent(const std::string& name, int component, int count);
+// What the property Component takes of an array of a VTK type with `count` components: an index,
+// Luminance or Magnitude. Throws Failure if the array does not have it.
+int takenComponent(const std::string& name, int component, int type, int count);
 
-// Whether the density is the luminance of several components.
-bool isColour(const DensityRules& rules, int components);
-
-// Whether the largest displayed value is needed.
+// Of rules with the component that is taken. Whether the density is that of several components;
+// whether the largest displayed value is needed; whether it is that of the type, 255.
+bool isOfSeveral(const DensityRules& rules);
 bool needsWhite(const DensityRules& rules, int components);
+bool hasDisplayedWhite(const DensityRules& rules, int type);
 
 // Throws the Failure for values that are no density; `hasEmpty` is part of the reason.
 [[noreturn]] void throwInvalidDensity(const std::string& name, const DensitySummary& summary,

@@ -53,11 +53,8 @@ DensityImage::DensityImage(
   , Array(array)
 {
   requireTuples(array, image, onPoints, "input image");
-  requireComponent(this->GetName(), rules.Component, array->GetNumberOfComponents());
   this->Geometry = gridOf(image, onPoints);
   requireCells(this->Geometry);
-  this->Reader = makeDensityReader(array, rules);
-  this->FindBlanks(image);
   this->FillValues = fillValuesOf(image->GetFieldData());
 
   const auto time = [](vtkObject* object) {
@@ -69,6 +66,8 @@ DensityImage::DensityImage(
     static_cast<std::uint64_t>(image->vtkObject::GetMTime()) };
   this->SetForm({ array->GetDataType(), array->GetNumberOfComponents(), this->Sources[1] != nullptr,
     this->Sources[2] != nullptr });
+  this->Reader = makeDensityReader(array, this->Rules);
+  this->FindBlanks(image);
 }
 
 DensityImage::~DensityImage() = default;
@@ -149,7 +148,7 @@ LargestValue DensityImage::FindWhite(Progress& progress)
   {
     return {};
   }
-  if (this->Array->GetDataType() == VTK_UNSIGNED_CHAR)
+  if (hasDisplayedWhite(this->Rules, this->Array->GetDataType()))
   {
     LargestValue displayed;
     displayed.Value = std::numeric_limits<unsigned char>::max();

@@ -49,17 +49,61 @@ double positivePart(double value)
   return value < 0.0 ? 0.0 : value;
 }
 
+// The Euclidean norm of tuple i.
+template <class Tuples>
+double magnitude(const Tuples& begin, int components, std::int64_t i)
+{
+  double sum = 0.0;
+  for (int c = 0; c < components; ++c)
+  {
+    const double value = static_cast<double>(begin(i, c));
+    sum += value * value;
+  }
+  // Squares that neither overflow nor lose digits near 0. NaN and zeros go the other way.
+  constexpr double least = 1e-280;
+  if (sum >= least && sum <= std::numeric_limits<double>::max())
+  {
+    return std::sqrt(sum);
+  }
+  double largest = 0.0;
+  for (int c = 0; c < components; ++c)
+  {
+    largest = std::max(largest, std::abs(static_cast<double>(begin(i, c))));
+  }
+  if (std::isnan(sum) || std::isinf(largest) || largest == 0.0)
+  {
+    return sum;
+  }
+  double scaled = 0.0;
+  for (int c = 0; c < components; ++c)
+  {
+    const double value = static_cast<double>(begin(i, c)) / largest;
+    scaled += value * value;
+  }
+  return largest * std::sqrt(scaled);
+}
+
 // The loops over tuples; begin(i, c) is component c of tuple i.
 template <class Tuples>
 void readTuples(const Tuples& begin, int components, std::int64_t count, const DensityRules& rules,
   double white, double* __restrict values)
 {
-  if (rules.Component >= 0 || components == 1)
+  if (rules.Component != Luminance)
   {
-    const int c = rules.Component < 0 ? 0 : rules.Component;
-    for (std::int64_t i = 0; i < count; ++i)
+    const int c = rules.Component;
+    if (c == Magnitude)
     {
-      values[i] = static_cast<double>(begin(i, c));
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        values[i] = magnitude(begin, components, i);
+      }
+    }
+    else
+    {
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        values[i] = static_cast<double>(begin(i, c));
+      }
     }
     if (rules.Invert)
     {
@@ -104,8 +148,8 @@ void readTuples(const Tuples& begin, int components, std::int64_t count, const D
   }
 }
 
-// Whether a tuple has no valid value of the component, or of the colour. Alpha is no value, but NaN
-// would make the density NaN.
+// Whether a tuple has no valid value of the component, of a colour's components or of any of the
+// magnitude's. Alpha is no value, but NaN would make the density NaN.
 template <class Tuples>
 bool isMissing(
   const Tuples& begin, int components, std::int64_t i, int component, const MissingValues& missing)
@@ -114,14 +158,14 @@ bool isMissing(
   {
     return missing.Has(static_cast<double>(begin(i, component)));
   }
-  const int colours = components >= 3 ? 3 : 1;
+  const int valued = component == Magnitude ? components : components >= 3 ? 3 : 1;
   bool is = false;
-  for (int c = 0; c < colours; ++c)
+  for (int c = 0; c < valued; ++c)
   {
     is = is || missing.Has(static_cast<double>(begin(i, c)));
   }
-  const bool hasAlpha = components == colours + 1;
-  return is || (hasAlpha && missing.AreNaN && std::isnan(static_cast<double>(begin(i, colours))));
+  const bool hasAlpha = components == valued + 1;
+  return is || (hasAlpha && missing.AreNaN && std::isnan(static_cast<double>(begin(i, valued))));
 }
 
 // A reader of arrays whose tuples `Tuples` visits in runs, see BlockOfTuples.
@@ -173,7 +217,8 @@ public:
     LargestValue found;
     this->Run.VisitTuples(first, count, [&](const auto& begin, int components) {
       const int component = this->Rules.Component;
-      const int end = component < 0 ? components : component + 1;
+      const int low = std::max(component, 0);
+      const int end = component == Luminance ? components : low + 1;
       LargestValue largest;
       for (std::int64_t i = 0; i < count; ++i)
       {
@@ -183,9 +228,10 @@ public:
         {
           continue;
         }
-        for (int c = std::max(component, 0); c < end; ++c)
+        for (int c = low; c < end; ++c)
         {
-          const double value = static_cast<double>(begin(i, c));
+          const double value = component == Magnitude ? magnitude(begin, components, i)
+                                                      : static_cast<double>(begin(i, c));
           if (value > largest.Value && value <= std::numeric_limits<double>::max())
           {
             largest = { value, 1, first + i, largest.Value };

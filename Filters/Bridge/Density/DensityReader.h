@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_DensityReader_h
 #define RectifiedTransport_DensityReader_h
 
+#include "Bridge/Settings/ComponentChoice.h"
 #include "Bridge/Settings/MissingData.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Tables/Density.h"
@@ -21,8 +22,8 @@ namespace RectifiedTransport
 // How the values of an array become a density; see vtkDensityAlgorithm.
 struct DensityRules
 {
-  int Component = -1;  // an index, or -1 for luminance
-  bool Invert = false; // white - value
+  int Component = AutoComponent; // an index or a ComponentChoice
+  bool Invert = false;           // white - value
   bool ClampNegative = false;
   MissingValues Missing;
   EmptyRule Empty; // what cells without a value, blanked ones among them, count as
@@ -61,8 +62,8 @@ public:
   // that make the density must be valid; alpha must not be NaN.
   virtual void FindEmpty(std::int64_t first, std::int64_t count, unsigned char* empty) const = 0;
 
-  // The largest value of the component, or of all components (luminance), in cells that are not
-  // empty.
+  // The largest value of the component, of all components (luminance) or of the magnitude, in cells
+  // that are not empty.
   virtual LargestValue Largest(std::int64_t first, std::int64_t count) const = 0;
 
   // Reads the same, but leaves negative values as they are.
@@ -80,6 +81,7 @@ protected:
   unsigned char Mask = 0;
 };
 
+// `rules` have the component that is taken, not Auto.
 std::unique_ptr<DensityReader> makeDensityReader(vtkDataArray* array, const DensityRules& rules);
 
 } // namespace RectifiedTransport

@@ -2,7 +2,10 @@
 #include "Bridge/Density/InputDensity.h"
 
 #include "Bridge/Density/DensityFailure.h"
+#include "Bridge/Run/FieldValue.h"
 #include "Core/Parallel/Progress.h"
+
+#include "vtkStringArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +32,34 @@ std::uint64_t number(T value)
 
 } // namespace
 
+DensityReading readingBy(const DensityRules& rules, const std::string& arrayName, int components)
+{
+  return { arrayName, components, rules.Component, rules.Invert,
+    { std::max(rules.Missing.Low, -Unbounded), std::min(rules.Missing.High, Unbounded) } };
+}
+
+void addReadings(vtkDataObject* output, const std::vector<DensityReading>& readings)
+{
+  vtkNew<vtkStringArray> names;
+  names->SetName("DensityArrayName");
+  vtkNew<vtkDoubleArray> ranges;
+  ranges->SetName("DensityRange");
+  ranges->SetNumberOfComponents(2);
+  std::vector<double> components;
+  std::vector<double> inverted;
+  for (const DensityReading& reading : readings)
+  {
+    names->InsertNextValue(reading.ArrayName);
+    components.push_back(reading.Component);
+    inverted.push_back(reading.IsInverted ? 1.0 : 0.0);
+    ranges->InsertNextTuple(reading.Range.data());
+  }
+  output->GetFieldData()->AddArray(names);
+  addFieldValues(output, "DensityComponent", components);
+  addFieldValues(output, "DensityInverted", inverted);
+  output->GetFieldData()->AddArray(ranges);
+}
+
 InputDensity::InputDensity(const std::string& name, const DensityRules& rules)
   : Rules(rules)
   , Name(name)
@@ -39,6 +70,7 @@ InputDensity::InputDensity(const InputDensity& inner, const ImageGrid& grown,
   const std::array<std::int64_t, 3>& margin, const EmptyRule& rule)
   : Geometry(grown)
   , Rules(inner.Rules)
+  , Read(inner.Read)
   , Changed(inner.Changed)
   , Name(inner.Name)
   , MayBeEmpty(true)
@@ -57,6 +89,9 @@ InputDensity::~InputDensity() = default;
 
 void InputDensity::SetForm(const ArrayForm& form)
 {
+  this->Rules.Component =
+    takenComponent(this->Name, this->Rules.Component, form.Type, form.Components);
+  this->Read = readingBy(this->Rules, this->NameOfArray(), form.Components);
   const GridSize<3> size = this->Geometry.Size<3>();
   this->MayBeEmpty = this->Rules.Missing.Are() || form.HasPointGhosts ||
     (form.HasCellGhosts && !this->Geometry.IsOnPoints());
@@ -64,7 +99,7 @@ void InputDensity::SetForm(const ArrayForm& form)
   const EmptyRule rule = this->MayBeEmpty ? this->Rules.Empty : EmptyRule();
   this->Reading = { 0, number(form.Type), number(form.Components),
     number(this->Geometry.Dimension()), number(size[0]), number(size[1]), number(size[2]),
-    number(this->Rules.Component + 2),
+    number(this->Rules.Component),
     number(this->Rules.Invert) + 2 * number(this->Rules.ClampNegative) +
       4 * number(this->Rules.Missing.AreNaN),
     number(this->Geometry.IsOnPoints()),
@@ -102,7 +137,7 @@ std::vector<std::string> InputDensity::Describe(const UnusualValues& values) con
   }
   return describeUnusual(values,
     { this->Name, this->Name, this->Name, this->Geometry.IsOnPoints() ? "points" : "cells",
-      this->Geometry.NumberOfCells(), this->Rules.Invert, isColour(this->Rules, this->Components()),
+      this->Geometry.NumberOfCells(), this->Rules.Invert, isOfSeveral(this->Rules),
       this->FillValues });
 }
 

@@ -21,6 +21,7 @@
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkDataObject;
 class vtkImageData;
 class vtkPointData;
 VTK_ABI_NAMESPACE_END
@@ -30,6 +31,20 @@ namespace RectifiedTransport
 
 class ImagePieces;
 class Progress;
+
+// How an array became a density.
+struct DensityReading
+{
+  std::string ArrayName; // empty for an array without a name
+  int Components = 1;    // of the array
+  int Component = 0;     // that is taken: an index, Luminance or Magnitude
+  bool IsInverted = false;
+  std::array<double, 2> Range{}; // ValidRange
+};
+DensityReading readingBy(const DensityRules& rules, const std::string& arrayName, int components);
+// The field data DensityArrayName, DensityComponent, DensityInverted and DensityRange of an output:
+// one tuple for each density.
+void addReadings(vtkDataObject* output, const std::vector<DensityReading>& readings);
 
 // If the values are distributed over ranks, Prepare, GetContent and methods marked so are
 // collective.
@@ -51,6 +66,7 @@ public:
   const std::string& GetName() const { return this->Name; }
   // The name of its array; empty if it has none.
   virtual std::string NameOfArray() const = 0;
+  const DensityReading& HowRead() const { return this->Read; }
   const Times& GetTimes() const { return this->Changed; }
   // The content without the hash.
   const Content& GetReading() const { return this->Reading; }
@@ -118,7 +134,7 @@ protected:
   // For another density on its grid grown by `margin` cells, which this rule fills.
   InputDensity(const InputDensity& inner, const ImageGrid& grown,
     const std::array<std::int64_t, 3>& margin, const EmptyRule& rule);
-  // Once, with the grid.
+  // Once, with the grid. Finds the component that is taken. Throws Failure without one.
   void SetForm(const ArrayForm& form);
   int Components() const { return static_cast<int>(this->Reading[2]); }
   bool NeedsWhite() const;
@@ -133,7 +149,8 @@ protected:
   virtual std::vector<std::string> Describe(const UnusualValues& values) const;
 
   ImageGrid Geometry;
-  const DensityRules Rules;
+  DensityRules Rules;
+  DensityReading Read; // from SetForm on
   Times Changed{};
   UnusualValues Known;
   double Empty = 0.0;

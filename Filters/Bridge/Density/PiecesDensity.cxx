@@ -115,7 +115,6 @@ PiecesDensity::PiecesDensity(std::unique_ptr<const ImagePieces> pieces, const st
     throw Failure("The " + this->GetName() +
       " has not the same type and number of components on all ranks; it must have");
   }
-  requireComponent(this->GetName(), rules.Component, form.Components);
   // Times differ among the ranks: only contents are compared.
   static std::atomic<std::uint64_t> count{ 0 };
   this->Changed = { ++count, 0, 0, 0 };

@@ -20,6 +20,7 @@ template <int D>
 DistanceInput read(InputDensity& density, Progress& progress)
 {
   DistanceInput input;
+  input.Reading = density.HowRead();
   input.Grid = density.Grid();
   input.Values = wholeValues<D>(density, "Density", progress);
   density.ReleaseGathered();

@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_DistanceInput_h
 #define RectifiedTransport_DistanceInput_h
 
+#include "Bridge/Density/InputDensity.h"
 #include "Core/Distance/DensityMoments.h"
 #include "Core/Geometry/ImageGrid.h"
 
@@ -18,7 +19,6 @@
 namespace RectifiedTransport
 {
 
-class InputDensity;
 class Progress;
 
 // What the distances of a density depend on: its values, on which grid of which box.
@@ -43,6 +43,7 @@ struct DistanceInput
   std::string Title; // in messages
   std::string Name;  // of its column
   double Time = std::numeric_limits<double>::quiet_NaN();
+  DensityReading Reading;
   ImageGrid Grid;
   double Mass = 0.0;      // density times cell measure
   DensityKey Key;         // Sides are set later, those of one box for all

@@ -131,6 +131,12 @@ void writeCoordinates(const std::vector<DistanceInput>& inputs,
     masses->SetValue(static_cast<vtkIdType>(i), inputs[i].Mass);
   }
   addFieldValue(table, "Stress", points.Stress);
+  std::vector<DensityReading> readings;
+  for (const DistanceInput& input : inputs)
+  {
+    readings.push_back(input.Reading);
+  }
+  addReadings(table, readings);
 }
 
 } // namespace RectifiedTransport

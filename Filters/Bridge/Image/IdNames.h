@@ -3,15 +3,31 @@
 #ifndef RectifiedTransport_IdNames_h
 #define RectifiedTransport_IdNames_h
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 
 namespace RectifiedTransport
 {
 
+// Whether files of maps number their features so: "FID", "OBJECTID", "objectid_1", "gid", "GEOID".
+inline bool isFeatureIdName(const std::string& name)
+{
+  std::string plain = name.substr(0, name.find_last_not_of("_0123456789") + 1);
+  std::transform(plain.begin(), plain.end(), plain.begin(),
+    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string names[] = { "fid", "gid", "oid", "uid", "geoid", "objectid", "featureid" };
+  return std::find(std::begin(names), std::end(names), plain) != std::end(names);
+}
+
 // Whether this is a name of ids ("ids", "GlobalNodeId", "cell_id", "ElementIDs"), or of flags and
 // ids that VTK and VisIt add ("vtkGhostType", "avtGhostZones").
 inline bool isIdName(const std::string& name)
 {
+  if (isFeatureIdName(name))
+  {
+    return true;
+  }
   const auto isUpper = [](char c) { return c >= 'A' && c <= 'Z'; };
   const auto isLetter = [&](char c) { return isUpper(c) || (c >= 'a' && c <= 'z'); };
   if (name.compare(0, 3, "vtk") == 0 || name.compare(0, 3, "avt") == 0)

@@ -11,6 +11,7 @@
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/NumbersOfText.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 
@@ -37,23 +38,56 @@ bool hasElements(vtkDataObject* data)
       data->GetNumberOfElements(vtkDataObject::CELL) > 0);
 }
 
-// `what` names the data set.
-vtkDataArray* requireArray(
+// What a data set has, for messages.
+std::string describeArrays(vtkDataSet* data)
+{
+  return "; it has " + listArrays(data->GetPointData(), "point") + " and " +
+    listArrays(data->GetCellData(), "cell");
+}
+
+// The array as numbers; nullptr for nullptr. `what` names the data set.
+vtkSmartPointer<vtkDataArray> numbersIn(
+  vtkAbstractArray* array, const DensityChoice& choice, vtkDataSet* data, const std::string& what)
+{
+  const NumbersOfText numbers = numbersOf(array, choice.Rules.Missing.AreNaN);
+  if (array && !numbers.Array)
+  {
+    const char* name = array->GetName();
+    throw Failure("The density array '" + std::string(name ? name : "") + "' is not numeric (" +
+      what + ": " + numbers.Wrong + ")" + describeArrays(data));
+  }
+  return numbers.Array;
+}
+
+vtkSmartPointer<vtkDataArray> requireArray(
   const DensityChoice& choice, vtkDataSet* data, const std::string& what, int& association)
 {
-  vtkAbstractArray* chosen = choice.FindArray(data, association);
-  vtkDataArray* array = vtkDataArray::SafeDownCast(chosen);
+  const auto array = numbersIn(choice.FindArray(data, association), choice, data, what);
   if (!array)
   {
     const bool isNamed = !choice.ArrayName.empty();
-    throw Failure((chosen       ? "The density array '" + choice.ArrayName + "' is not numeric"
-                      : isNamed ? "The " + what + " has no density array '" + choice.ArrayName + "'"
-                                : "The " + what + " has no active scalars for a density") +
-      "; it has " + listArrays(data->GetPointData(), "point") + " and " +
-      listArrays(data->GetCellData(), "cell") +
+    throw Failure("The " + what +
+      (isNamed ? " has no density array '" + choice.ArrayName + "'"
+               : " has no active scalars for a density") +
+      describeArrays(data) +
       (isNamed || !hasIds(data) ? "" : " (ids and flags are a density only where they are named)"));
   }
   return array;
+}
+
+// A data set whose array of text is replaced by the numbers that it holds; others as they are.
+template <class Data>
+vtkSmartPointer<Data> withNumbers(Data* data, vtkDataArray* array, bool onPoints)
+{
+  const char* name = array ? array->GetName() : nullptr;
+  if (!name || attributesOf(data, onPoints)->GetArray(name))
+  {
+    return data;
+  }
+  const auto made = vtkSmartPointer<Data>::Take(data->NewInstance());
+  made->ShallowCopy(data);
+  attributesOf(made, onPoints)->AddArray(array);
+  return made;
 }
 
 // Of a density on several ranks.
@@ -70,29 +104,32 @@ constexpr const char* inputImage = "input image";
 std::unique_ptr<InputDensity> readImage(const DensityChoice& choice, vtkImageData* image)
 {
   int association = 0;
-  vtkDataArray* array = requireArray(choice, image, inputImage, association);
+  const auto array = requireArray(choice, image, inputImage, association);
+  const bool onPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
   return std::make_unique<DensityImage>(
-    image, array, association == vtkDataObject::FIELD_ASSOCIATION_POINTS, choice.Rules);
+    withNumbers(image, array, onPoints), array, onPoints, choice.Rules);
 }
 
 std::unique_ptr<InputDensity> readPieces(
   const DensityChoice& choice, vtkImageData* image, const Ranks& ranks)
 {
-  auto pieces = std::make_unique<const ImagePieces>(image, ranks);
-  if (isEmpty(pieces->Whole()))
-  {
-    return nullptr;
-  }
   // The array, by its association and its name; empty on ranks without points.
   std::string chosen;
+  vtkSmartPointer<vtkImageData> own = image;
   if (image && image->GetNumberOfPoints() > 0)
   {
     int association = 0;
-    vtkDataArray* array = requireArray(choice, image, inputImage, association);
+    const auto array = requireArray(choice, image, inputImage, association);
     const bool onPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
     requireTuples(array, image, onPoints, inputImage);
     requireName(array);
     chosen = (onPoints ? "the point array " : "the cell array ") + std::string(array->GetName());
+    own = withNumbers(image, array, onPoints);
+  }
+  auto pieces = std::make_unique<const ImagePieces>(own, ranks);
+  if (isEmpty(pieces->Whole()))
+  {
+    return nullptr;
   }
   const std::string common =
     requireSameOnRanks(ranks, chosen, "The density is ", "it must be the same array on all");
@@ -120,7 +157,7 @@ void reportOthers(const DensityChoice& choice, const OtherLeaves& others, const 
 
 struct FoundArray
 {
-  vtkDataArray* Array = nullptr;
+  vtkSmartPointer<vtkDataArray> Array;
   std::size_t Block = 0;
   int Association = 0;
 };
@@ -152,7 +189,9 @@ FoundArray findArray(const DensityChoice& choice, const std::vector<DensityBlock
       catch (const Failure&)
       {
         // Blocks may lack an array that is named; others may have no array to choose from.
-        if (choice.ArrayName.empty() && hasArrays(blocks[b].Data))
+        int association = 0;
+        if (choice.ArrayName.empty() ? hasArrays(blocks[b].Data)
+                                     : choice.FindArray(blocks[b].Data, association) != nullptr)
         {
           throw;
         }
@@ -163,15 +202,17 @@ FoundArray findArray(const DensityChoice& choice, const std::vector<DensityBlock
 }
 
 // That of another block, by its name or, if it has none, by how the first one was chosen.
-vtkDataArray* arrayLike(const FoundArray& found, const DensityChoice& choice, vtkDataSet* data)
+vtkSmartPointer<vtkDataArray> arrayLike(
+  const FoundArray& found, const DensityChoice& choice, const DensityBlock& block)
 {
   const bool onPoints = found.Association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
   if (const char* name = found.Array->GetName())
   {
-    return attributesOf(data, onPoints)->GetArray(name);
+    return numbersIn(
+      attributesOf(block.Data, onPoints)->GetAbstractArray(name), choice, block.Data, block.Name);
   }
   int association = 0;
-  vtkDataArray* array = vtkDataArray::SafeDownCast(choice.FindArray(data, association));
+  auto* array = vtkDataArray::SafeDownCast(choice.FindArray(block.Data, association));
   return array && !array->GetName() && association == found.Association ? array : nullptr;
 }
 
@@ -207,7 +248,8 @@ DensityBlocks chooseArrays(
       continue;
     }
     DensityBlock block = blocks[b];
-    block.Array = b == found.Block ? found.Array : arrayLike(found, choice, block.Data);
+    block.Array = b == found.Block ? found.Array : arrayLike(found, choice, block);
+    block.Data = withNumbers(block.Data.Get(), block.Array, chosen.OnPoints);
     ++all;
     without += block.Array ? 0 : 1;
     if (dimensions[b] == chosen.Dimension)
@@ -242,6 +284,19 @@ std::string kindOf(vtkDataObject* input, const Ranks& ranks)
   return requireSameOnRanks(ranks, kind, "The density is ");
 }
 
+// Several values a point need not be a vector, but times or bands.
+void warnOfAuto(const DensityChoice& choice, const DensityReading& reading)
+{
+  const int count = reading.Components;
+  const bool isVector = count <= 3 || count == 6 || count == 9; // a tensor
+  if (choice.Rules.Component == AutoComponent && reading.Component == Magnitude && !isVector)
+  {
+    choice.Warn("Component -1 (Auto) takes the magnitude of the " + std::to_string(count) +
+      " components of the density array '" + reading.ArrayName +
+      "'; if they are no vector, set Component");
+  }
+}
+
 } // namespace
 
 std::unique_ptr<InputDensity> DensityInput::Read(
@@ -273,6 +328,7 @@ std::unique_ptr<InputDensity> DensityInput::Read(
   }
   if (density)
   {
+    warnOfAuto(choice, density->HowRead());
     // Once for each change of a density: what does not change it may run the filter, too.
     density->SetListener([this, warn = choice.Warn](const std::vector<std::string>& lines,
                            const InputDensity::Content& content) {

@@ -102,7 +102,7 @@ std::optional<std::vector<Part>> partsOf(
   for (const DensityBlock& block : blocks)
   {
     auto* image = vtkImageData::SafeDownCast(block.Data);
-    first = first ? first : block.Array;
+    first = first ? first : block.Array.Get();
     if (!image || (block.Array && !areOfOneKind(block.Array, first)))
     {
       return std::nullopt;

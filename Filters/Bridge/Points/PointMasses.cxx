@@ -5,6 +5,7 @@
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Run/NumbersOfText.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 
@@ -106,21 +107,22 @@ private:
   RangeOfMasses Found;
 };
 
-vtkDataArray* requireMasses(vtkPointSet* points, vtkAbstractArray* found, const std::string& text)
+vtkSmartPointer<vtkDataArray> requireMasses(
+  vtkPointSet* points, vtkAbstractArray* found, const std::string& text)
 {
-  vtkDataArray* array = vtkDataArray::SafeDownCast(found);
-  if (!array)
+  const NumbersOfText numbers = numbersOf(found);
+  if (!numbers.Array)
   {
-    throw Failure(
-      text + " is not numeric; the input has " + listArrays(points->GetPointData(), "point"));
+    throw Failure(text + " is not numeric (" + numbers.Wrong + "); the input has " +
+      listArrays(points->GetPointData(), "point"));
   }
-  requireScalars(array, text, points->GetNumberOfPoints(), "points");
-  return array;
+  requireScalars(numbers.Array, text, points->GetNumberOfPoints(), "points");
+  return numbers.Array;
 }
 
 } // namespace
 
-vtkDataArray* findMasses(vtkPointSet* points, int attribute)
+vtkSmartPointer<vtkDataArray> findMasses(vtkPointSet* points, int attribute)
 {
   vtkAbstractArray* found = points->GetPointData()->GetAbstractAttribute(attribute);
   if (!found)
@@ -133,7 +135,7 @@ vtkDataArray* findMasses(vtkPointSet* points, int attribute)
   return requireMasses(points, found, "The mass array '" + std::string(name ? name : "") + "'");
 }
 
-vtkDataArray* findMasses(vtkPointSet* points, const std::string& name)
+vtkSmartPointer<vtkDataArray> findMasses(vtkPointSet* points, const std::string& name)
 {
   vtkAbstractArray* found =
     name.empty() ? nullptr : points->GetPointData()->GetAbstractArray(name.c_str());

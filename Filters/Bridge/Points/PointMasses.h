@@ -21,11 +21,12 @@ namespace RectifiedTransport
 {
 
 // The point array of masses of that name; nullptr for an empty name, and for "None" if there is no
-// such array. Throws Failure if it is missing, not numeric or has several components.
-vtkDataArray* findMasses(vtkPointSet* points, const std::string& name);
+// such array. Text that holds numbers alone becomes numbers. Throws Failure if it is missing, not
+// numeric or has several components.
+vtkSmartPointer<vtkDataArray> findMasses(vtkPointSet* points, const std::string& name);
 
 // The active attribute of the points, of vtkDataSetAttributes::AttributeTypes.
-vtkDataArray* findMasses(vtkPointSet* points, int attribute);
+vtkSmartPointer<vtkDataArray> findMasses(vtkPointSet* points, int attribute);
 
 class PointMasses
 {

@@ -11,6 +11,7 @@
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Run/NumbersOfText.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Quality/GridBlocks.h"
@@ -40,18 +41,19 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
   throw Failure("The array '" + std::string(name) + "' of the particles " + what);
 }
 
-// A numeric array of the particles, nullptr if there is none of that name.
-vtkDataArray* findArray(vtkPointSet* particles, const char* name, int components)
+// An array of numbers of the particles, nullptr if there is none of that name.
+vtkSmartPointer<vtkDataArray> findArray(vtkPointSet* particles, const char* name, int components)
 {
   vtkAbstractArray* found = particles->GetPointData()->GetAbstractArray(name);
-  auto* array = vtkDataArray::SafeDownCast(found);
+  const NumbersOfText numbers = numbersOf(found);
+  const vtkSmartPointer<vtkDataArray>& array = numbers.Array;
   if (found && (!array || array->GetNumberOfComponents() != components))
   {
     const int count = array ? array->GetNumberOfComponents() : 0;
     const std::string has =
       "has " + std::to_string(count) + (count == 1 ? " component" : " components");
     fail(name,
-      (array ? has : "is not numeric") + "; it must be numeric and have " +
+      (array ? has : "is not numeric (" + numbers.Wrong + ")") + "; it must be numeric and have " +
         std::to_string(components));
   }
   if (array && array->GetNumberOfTuples() != particles->GetNumberOfPoints())
@@ -82,16 +84,17 @@ public:
     this->Points.emplace(this->Particles->GetPoints()->GetData(), this->Counted, this->Work);
     ParticleSample sample;
     sample.Points = { this->Points->data(), this->Counted.Count() };
-    vtkDataArray* masses = this->Find("Mass", 1);
-    if (masses)
+    this->MassArray = this->Find("Mass", 1);
+    if (this->MassArray)
     {
-      this->Masses.emplace(masses, this->Counted, this->Work);
+      this->Masses.emplace(this->MassArray, this->Counted, this->Work);
       sample.Masses = this->Masses->data();
     }
     this->CheckMasses(sample.Masses);
-    if (vtkDataArray* displacements = this->Find("Displacement", 3))
+    this->DisplacementArray = this->Find("Displacement", 3);
+    if (this->DisplacementArray)
     {
-      this->Displacements.emplace(displacements, this->Counted, this->Work);
+      this->Displacements.emplace(this->DisplacementArray, this->Counted, this->Work);
       sample.Displacements = { this->Displacements->data(), this->Counted.Count() };
       this->CheckDisplacements();
     }
@@ -101,10 +104,11 @@ public:
 private:
   // Of this rank's particles, nullptr where it has none. Throws Failure where only some ranks have
   // the array.
-  vtkDataArray* Find(const char* name, int components) const
+  vtkSmartPointer<vtkDataArray> Find(const char* name, int components) const
   {
     const bool hasAny = this->Counted.Count() > 0;
-    vtkDataArray* array = hasAny ? findArray(this->Particles, name, components) : nullptr;
+    const vtkSmartPointer<vtkDataArray> array =
+      hasAny ? findArray(this->Particles, name, components) : nullptr;
     const bool areAllWithout = onAllRanks(this->Group, !array);
     if (!onAllRanks(this->Group, array || !hasAny) && !areAllWithout)
     {
@@ -175,6 +179,8 @@ private:
   const Ranks& Group;
   Progress& Work;
   vtkPointSet* Particles;
+  vtkSmartPointer<vtkDataArray> MassArray;
+  vtkSmartPointer<vtkDataArray> DisplacementArray;
   std::optional<DoubleTuples> Points;
   std::optional<DoubleTuples> Masses;
   std::optional<DoubleTuples> Displacements;

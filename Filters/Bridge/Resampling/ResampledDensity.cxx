@@ -89,11 +89,11 @@ void addBlock(const BlockValues& block, const Found& part, std::int64_t Found::*
 }
 
 std::vector<std::string> describeBlocks(const std::vector<BlockValues>& blocks,
-  const ImageGrid& grid, const DensityRules& rules, int components, Progress& progress)
+  const ImageGrid& grid, const DensityRules& rules, Progress& progress)
 {
   UnusualValues all;
   ValuePlaces places{ {}, {}, {}, blocks.front().IsOnPoints() ? "points" : "cells", 0, rules.Invert,
-    isColour(rules, components), fillValuesOf(blocks.front().Data()->GetFieldData()) };
+    isOfSeveral(rules), fillValuesOf(blocks.front().Data()->GetFieldData()) };
   for (const BlockValues& block : blocks)
   {
     const UnusualValues& known = block.Unusual();
@@ -129,6 +129,7 @@ public:
     , Made(made)
   {
     this->Empty = made.Empty;
+    this->Read = made.How;
   }
 
   void SampleArrays(const Extent& /*extent*/, ConstPointSpan<3> particles, Progress& progress,
@@ -211,6 +212,8 @@ void ResampledDensity::Resample(
     : blocks.OnPoints             ? this->Lattice->DividedGrid(resolution)
                                   : this->Lattice->Grid();
   const std::vector<DensityBlock> read = withMass(blocks.All);
+  DensityRules taken = rules;
+  taken.Component = takenComponent(read, rules.Component);
   this->Meshes = readBlocks(read, blocks.OnPoints, cells, rules, progress);
   if (this->Lattice && !this->Lattice->HasEachOnce(this->Meshes, progress))
   {
@@ -227,7 +230,9 @@ void ResampledDensity::Resample(
     numberOfValues(grid) * sizeof(double));
   this->Image = vtkSmartPointer<vtkImageData>::New();
   applyGrid(grid, this->Image);
-  const char* name = read.front().Array->GetName();
+  vtkDataArray* first = read.front().Array;
+  const char* name = first->GetName();
+  this->How = readingBy(taken, name ? name : "", first->GetNumberOfComponents());
   const auto density = newArray<vtkDoubleArray>(
     name ? name : "Density", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
   this->Lost = this->ValuesOn(grid, this->Meshes, progress, density->GetPointer(0));
@@ -236,8 +241,7 @@ void ResampledDensity::Resample(
     this->FillEmpty(grid, rules.Empty, progress, density->GetPointer(0));
   }
   this->Image->GetCellData()->SetScalars(density);
-  this->Unusual = describeBlocks(
-    this->Meshes, grid, rules, read.front().Array->GetNumberOfComponents(), progress);
+  this->Unusual = describeBlocks(this->Meshes, grid, taken, progress);
 }
 
 // The mean of the blocks' densities over each cell of the grid.

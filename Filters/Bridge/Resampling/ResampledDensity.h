@@ -47,6 +47,7 @@ private:
   void FillEmpty(const ImageGrid& grid, const EmptyRule& rule, Progress& progress, double* values);
 
   DataContent Content; // of the last Read
+  DensityReading How;  // of resampled data
   vtkSmartPointer<vtkImageData> Image;
   // If the image was resampled: the data sets with mass, the lattice of their cells if they form
   // one, and findings about values that are probably not meant.

@@ -47,7 +47,9 @@ void requireExtent(vtkDataObject* data, const std::string& name)
     findExtentOf<vtkExplicitStructuredGrid>(data, extent);
   if (has && !isReadable(extent.data()))
   {
-    throw Failure(name + " has the extent " + textOfExtent(extent.data()) +
+    std::string first = name;
+    first[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(first[0])));
+    throw Failure(first + " has the extent " + textOfExtent(extent.data()) +
       "; each axis must end no earlier than it begins and have at most " + std::to_string(most) +
       " points");
   }
@@ -76,34 +78,42 @@ bool isReadable(const int* extent)
   return is;
 }
 
-void requireExtents(vtkDataObject* data, const std::string& name)
+void visitLeaves(vtkDataObject* data, const std::string& name, const VisitLeaf& visit)
 {
   auto* composite = vtkCompositeDataSet::SafeDownCast(data);
   if (!composite)
   {
-    std::string first = name;
-    first[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(first[0])));
-    requireExtent(data, first);
+    visit(data, name);
     return;
   }
   const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
   for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
   {
-    requireExtent(leaves->GetCurrentDataObject(),
-      "Block " + std::to_string(leaves->GetCurrentFlatIndex()) + " of " + name);
+    visit(leaves->GetCurrentDataObject(),
+      "block " + std::to_string(leaves->GetCurrentFlatIndex()) + " of " + name);
   }
 }
 
-void requireExtents(vtkAlgorithm* filter, vtkInformationVector** inputVector)
+void visitLeaves(vtkAlgorithm* filter, vtkInformationVector** inputVector, const VisitLeaf& visit)
 {
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
   {
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
     {
-      requireExtents(
-        vtkDataObject::GetData(inputVector[port], i), "input port " + std::to_string(port));
+      visitLeaves(
+        vtkDataObject::GetData(inputVector[port], i), "input port " + std::to_string(port), visit);
     }
   }
+}
+
+void requireExtents(vtkDataObject* data, const std::string& name)
+{
+  visitLeaves(data, name, requireExtent);
+}
+
+void requireExtents(vtkAlgorithm* filter, vtkInformationVector** inputVector)
+{
+  visitLeaves(filter, inputVector, requireExtent);
 }
 
 } // namespace RectifiedTransport

@@ -4,6 +4,7 @@
 
 #include "Bridge/VTKCompatibility.h"
 
+#include <functional>
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -14,6 +15,12 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
+
+// Calls visit for a data object, which may be nullptr, or for each block of a composite one; for
+// all inputs of a filter. Messages call it `name`.
+using VisitLeaf = std::function<void(vtkDataObject* leaf, const std::string& name)>;
+void visitLeaves(vtkDataObject* data, const std::string& name, const VisitLeaf& visit);
+void visitLeaves(vtkAlgorithm* filter, vtkInformationVector** inputVector, const VisitLeaf& visit);
 
 // Throws Failure if the extent of an image or a structured grid, or of such a block, ends before it
 // begins, or is longer than VTK can count points. VTK would count points and cells that do not

@@ -6,6 +6,7 @@
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Run/NumbersOfText.h"
 #include "Bridge/Surface/PlacedTriangles.h"
 #include "Core/Parallel/Reduction.h"
 
@@ -106,12 +107,13 @@ void requireDensity(const DensityRange& range, vtkDataArray* array)
 
 SurfaceDensity::SurfaceDensity(
   vtkPolyData* surface, vtkAbstractArray* found, bool onPoints, const std::string& name)
-  : Values(vtkDataArray::SafeDownCast(found))
-  , OnPoints(onPoints)
+  : OnPoints(onPoints)
 {
+  const NumbersOfText numbers = numbersOf(found);
+  this->Values = numbers.Array;
   if (!this->Values)
   {
-    throw Failure((found ? "The density array '" + name + "' is not numeric"
+    throw Failure((found ? "The density array '" + name + "' is not numeric (" + numbers.Wrong + ")"
                          : "The input surface has no density array '" + name + "'") +
       "; it has " + listArrays(surface->GetPointData(), "point") + " and " +
       listArrays(surface->GetCellData(), "cell"));

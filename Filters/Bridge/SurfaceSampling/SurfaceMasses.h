@@ -8,11 +8,13 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/SurfaceRelaxation/SurfaceRelaxation.h"
 
+#include "vtkDataArray.h"
+#include "vtkSmartPointer.h"
+
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractArray;
-class vtkDataArray;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
@@ -26,8 +28,9 @@ class SurfaceDensity
 {
 public:
   SurfaceDensity() = default; // 1 everywhere
-  // Throws Failure for an array that is missing (`found` is nullptr), not numeric, of several
-  // components or of another length; `name` is the requested name.
+  // Text that holds numbers alone becomes numbers. Throws Failure for an array that is missing
+  // (`found` is nullptr), not numeric, of several components or of another length; `name` is the
+  // requested name.
   SurfaceDensity(
     vtkPolyData* surface, vtkAbstractArray* found, bool onPoints, const std::string& name);
 
@@ -36,7 +39,7 @@ public:
   bool IsOnPoints() const { return this->OnPoints; }
 
 private:
-  vtkDataArray* Values = nullptr;
+  vtkSmartPointer<vtkDataArray> Values;
   bool OnPoints = true;
 };
 

@@ -193,6 +193,7 @@ std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment
   {
     addFieldValue(part, "TotalMass", massAt(moment));
     addFieldValue(part, "TransportCost", particles.Cost);
+    addReadings(part, { moment.First.Input->HowRead() });
     if (particles.HasBound)
     {
       addCostBound(part, particles.Bound, particles.Cost, between);

@@ -12,6 +12,7 @@
 namespace
 {
 
+constexpr int luminance = -2;
 constexpr int width = 19;
 constexpr int height = 11;
 
@@ -22,6 +23,7 @@ Points pointsOf(vtkImageData* image, bool invert)
   vtkNew<vtkTransportSampler> sampler;
   sampler->SetInputData(image);
   sampler->SetNumberOfParticles(400);
+  sampler->SetComponent(luminance);
   sampler->SetInvertDensity(invert);
   return sampleCoordinates(sampler);
 }
@@ -73,6 +75,7 @@ void checkWhitePaper(Checks& checks)
     Messages messages(sampler);
     sampler->SetInputData(makeImage(
       width, height, 1, false, [=](vtkIdType i) { return i < 3 ? 0.1 * white : white; }, 4));
+    sampler->SetComponent(luminance);
     sampler->InvertDensityOn();
     sampler->SetNumberOfParticles(50);
     sampler->Update();
@@ -119,6 +122,7 @@ void checkColours(Checks& checks)
     vtkNew<vtkTransportSampler> sampler;
     Messages messages(sampler);
     sampler->SetInputData(makeImage(width, height, 1, false, bumpy, components));
+    sampler->SetComponent(luminance);
     sampler->SetNumberOfParticles(50);
     sampler->Update();
     const bool isColour = components <= 4;
@@ -127,7 +131,9 @@ void checkColours(Checks& checks)
     if (!messages.Errors.empty())
     {
       const std::string last = std::to_string(components - 1);
-      CHECK(checks, contains(messages.Errors[0], "must be an index from 0 to " + last));
+      CHECK(checks,
+        contains(
+          messages.Errors[0], "must be -1 (Auto), -3 (magnitude) or an index from 0 to " + last));
     }
   }
 }

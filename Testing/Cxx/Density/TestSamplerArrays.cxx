@@ -21,6 +21,7 @@
 #include "vtkUnsignedShortArray.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace
 {
@@ -68,6 +69,9 @@ void checkTypes(Checks& checks)
   CHECK(checks, pointsOf(makeImage<vtkBitArray>(width, height, 1, false, bit)) == pointsOf(bit));
 }
 
+constexpr int luminanceOf = -2;
+constexpr int magnitudeOf = -3;
+
 // Value i of an array of many components; the largest is 255.
 double colour(vtkIdType i)
 {
@@ -96,24 +100,121 @@ void checkColours(Checks& checks)
   }
   // Luminance
   const Points grey = pointsOf([](vtkIdType i) { return luminance(i, 3); });
-  CHECK_NEAR(checks, largestDifference(pointsOf(image(3)), grey), 0.0, rounding);
+  CHECK_NEAR(checks, largestDifference(pointsOf(image(3), luminanceOf), grey), 0.0, rounding);
   // Alpha over white, which is the largest value here and that of unsigned char.
   const Points greyAlpha = pointsOf([](vtkIdType i) {
     const double opacity = colour(2 * i + 1) / 255;
     return opacity * colour(2 * i) + (1 - opacity) * 255;
   });
-  CHECK_NEAR(checks, largestDifference(pointsOf(image(2)), greyAlpha), 0.0, rounding);
+  CHECK_NEAR(checks, largestDifference(pointsOf(image(2), luminanceOf), greyAlpha), 0.0, rounding);
   const Points colourAlpha = pointsOf([](vtkIdType i) {
     const double opacity = colour(4 * i + 3) / 255;
     return opacity * luminance(i, 4) + (1 - opacity) * 255;
   });
-  CHECK_NEAR(checks, largestDifference(pointsOf(image(4)), colourAlpha), 0.0, rounding);
+  CHECK_NEAR(
+    checks, largestDifference(pointsOf(image(4), luminanceOf), colourAlpha), 0.0, rounding);
   // Inverted
   const Points inverted = pointsOf([](vtkIdType i) { return 255 - luminance(i, 3); });
-  CHECK_NEAR(checks, largestDifference(pointsOf(image(3), -1, true), inverted), 0.0, rounding);
+  CHECK_NEAR(
+    checks, largestDifference(pointsOf(image(3), luminanceOf, true), inverted), 0.0, rounding);
   const Points invertedAlpha =
     pointsOf([](vtkIdType i) { return colour(4 * i + 3) / 255 * (255 - luminance(i, 4)); });
-  CHECK_NEAR(checks, largestDifference(pointsOf(image(4), -1, true), invertedAlpha), 0.0, rounding);
+  CHECK_NEAR(
+    checks, largestDifference(pointsOf(image(4), luminanceOf, true), invertedAlpha), 0.0, rounding);
+}
+
+// What the output says was read of an array whose component 0, 1 ... of tuple i is value(i, 0) ...
+struct Found
+{
+  double Component;
+  double Mass;
+};
+
+template <class ArrayT, class Value>
+Found readAs(int components, int component, const Value& value, bool invert = false)
+{
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputData(makeImage<ArrayT>(
+    width, height, 1, false,
+    [&](vtkIdType i) { return value(i / components, static_cast<int>(i % components)); },
+    components));
+  sampler->SetNumberOfParticles(10);
+  sampler->SetComponent(component);
+  sampler->SetInvertDensity(invert);
+  sampler->Update();
+  vtkPolyData* output = sampler->GetOutput();
+  return { fieldValue(output, "DensityComponent"), fieldValue(output, "TotalMass") };
+}
+
+double massOf(const std::function<double(vtkIdType)>& density)
+{
+  double mass = 0.0;
+  for (vtkIdType i = 0; i < vtkIdType{ width } * height; ++i)
+  {
+    mass += density(i);
+  }
+  return mass;
+}
+
+// Auto takes the luminance of photographs and the magnitude of all else.
+void checkAuto(Checks& checks)
+{
+  const auto value = [](vtkIdType i, int c) { return static_cast<double>((7 * i + 11 * c) % 23); };
+  const auto is = [&](Found found, int component, const std::function<double(vtkIdType)>& density) {
+    const double mass = massOf(density);
+    CHECK(checks, found.Component == component);
+    CHECK_NEAR(checks, found.Mass, mass, 1e-12 * mass);
+  };
+  for (const int n : { 2, 3, 4, 6, 9 })
+  {
+    const auto norm = [&](vtkIdType i) {
+      double sum = 0.0;
+      for (int c = 0; c < n; ++c)
+      {
+        sum += value(i, c) * value(i, c);
+      }
+      return std::sqrt(sum);
+    };
+    is(readAs<vtkDoubleArray>(n, -1, value), magnitudeOf, norm);
+    is(readAs<vtkFloatArray>(n, -1, value), magnitudeOf, norm);
+    is(readAs<vtkSOADataArrayTemplate<float>>(n, -1, value), magnitudeOf, norm);
+    is(readAs<vtkIntArray>(n, -1, value), magnitudeOf, norm);
+    is(readAs<vtkSignedCharArray>(n, -1, value), magnitudeOf, norm);
+    is(readAs<vtkShortArray>(n, -1, value), magnitudeOf, norm);
+    is(readAs<vtkUnsignedLongLongArray>(n, -1, value), magnitudeOf, norm);
+    is(readAs<vtkUnsignedCharArray>(n, magnitudeOf, value), magnitudeOf, norm);
+    is(readAs<vtkDoubleArray>(n, 1, value), 1, [&](vtkIdType i) { return value(i, 1); });
+    double largest = 0.0;
+    massOf([&](vtkIdType i) { return largest = std::max(largest, norm(i)); });
+    is(readAs<vtkUnsignedCharArray>(n, magnitudeOf, value, true), magnitudeOf,
+      [&](vtkIdType i) { return largest - norm(i); });
+  }
+  const auto grey = [&](vtkIdType i) {
+    return (2126 * value(i, 0) + 7152 * value(i, 1) + 722 * value(i, 2)) / 10000;
+  };
+  is(readAs<vtkUnsignedCharArray>(3, -1, value), luminanceOf, grey);
+  is(readAs<vtkUnsignedShortArray>(3, -1, value), luminanceOf, grey);
+  is(readAs<vtkDoubleArray>(3, luminanceOf, value), luminanceOf, grey);
+  const auto first = [&](vtkIdType i) { return value(i, 0); };
+  for (const int component : { -1, luminanceOf, 0 })
+  {
+    is(readAs<vtkDoubleArray>(1, component, value), 0, first);
+  }
+  const auto negative = [](vtkIdType i, int) { return i % 2 == 0 ? 3.0 : -3.0; };
+  is(readAs<vtkDoubleArray>(1, magnitudeOf, negative), magnitudeOf, [](vtkIdType) { return 3.0; });
+}
+
+// Squares past the largest double or below the least one do not harm.
+void checkMagnitudes(Checks& checks)
+{
+  for (const double unit : { 1e-200, 1e-160, 1.0, 1e160, 1e200 })
+  {
+    const auto value = [unit](vtkIdType i, int c) {
+      return i == 0 ? 0.0 : c == 0 ? 3 * unit : c == 1 ? -4 * unit : 0.0;
+    };
+    const double mass = (width * height - 1) * 5 * unit;
+    CHECK_NEAR(checks, readAs<vtkDoubleArray>(3, -1, value).Mass, mass, 1e-12 * mass);
+  }
 }
 
 // The white of unsigned char is 255 whatever the values are; of other types it is the largest one,
@@ -153,6 +254,7 @@ void checkWhitePaper(Checks& checks)
   vtkNew<vtkTransportSampler> sampler;
   Messages messages(sampler);
   sampler->SetInputData(makeImage<vtkFloatArray>(width, height, 1, false, paper, 3));
+  sampler->SetComponent(luminanceOf);
   sampler->InvertDensityOn();
   sampler->Update();
   CHECK(checks, messages.Errors.empty());
@@ -266,7 +368,8 @@ void checkNamelessBlocks(Checks& checks)
 
 int TestSamplerArrays(int, char*[])
 {
-  return runChecks({ checkTypes, checkColours<vtkUnsignedCharArray>, checkColours<vtkFloatArray>,
-    checkColours<vtkSOADataArrayTemplate<short>>, checkColours<vtkIntArray>, checkWhite, checkGreys,
-    checkWhitePaper, checkChoice, checkOnlyArray, checkClamp, checkNamelessBlocks });
+  return runChecks({ checkTypes, checkAuto, checkMagnitudes, checkColours<vtkUnsignedCharArray>,
+    checkColours<vtkFloatArray>, checkColours<vtkSOADataArrayTemplate<short>>,
+    checkColours<vtkIntArray>, checkWhite, checkGreys, checkWhitePaper, checkChoice, checkOnlyArray,
+    checkClamp, checkNamelessBlocks });
 }

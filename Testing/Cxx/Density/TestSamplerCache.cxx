@@ -60,7 +60,7 @@ int TestSamplerCache(int, char*[])
   expectAfterEach(checks, build, true,
     { { "InvertDensity", [&]() { s->InvertDensityOn(); } },
       { "NegativeValues", [&]() { s->SetNegativeValuesToClamp(); } },
-      { "Component", [&]() { s->SetComponent(0); } } },
+      { "Component", [&]() { s->SetComponent(-3); } } },
     __LINE__);
   auto* values = vtkDoubleArray::SafeDownCast(image->GetCellData()->GetScalars());
   values->SetValue(3, 50.0);

@@ -257,7 +257,8 @@ void checkWhatIsEqual(Checks& checks)
 
   CHECK(checks, !shares(makeOther()));
   CHECK(checks, !shares(makeBumpy<vtkFloatArray>()));
-  CHECK(checks, !shares(image, 0));
+  CHECK(checks, shares(image, 0)); // what Auto takes
+  CHECK(checks, !shares(image, -3));
   CHECK(checks, !shares(makeImage(13, 10, 1, true, bumpy, 2), 0));
   CHECK(checks, !shares(makeImage(10, 13, 1, true, bumpy))); // as many cells
   CHECK(checks, !shares(makeImage(12, 9, 1, false, bumpy))); // the same cells, about points

