@@ -145,18 +145,22 @@ void checkBlend(vtkAlgorithm* filter, const Inputs& inputs, const std::vector<do
     {
       if (blend->GetMassMode() == Blend::MASS_GEOMETRIC)
       {
-        expected *= std::pow(massOf(input), weights[at]);
+        expected *= std::pow(massOf(filter, input), weights[at]);
       }
       else if (blend->GetMassMode() == Blend::MASS_LINEAR)
       {
-        expected += massOf(input) * weights[at];
+        expected += massOf(filter, input) * weights[at];
       }
       ++at;
     }
   }
   const bool source = blend->GetMassMode() == Blend::MASS_SOURCE;
   const bool one = blend->GetMassMode() == Blend::MASS_NORMALIZE;
-  findings.Near(total, source ? massOf(inputs[0][0]) : one ? 1.0 : expected, 1e-9, "TotalMass");
+  findings.Near(total,
+    source  ? massOf(filter, inputs[0][0])
+      : one ? 1.0
+            : expected,
+    1e-9, "TotalMass");
 }
 
 //------------------------------------------------------------------------------

@@ -98,8 +98,8 @@ void checkDistance(vtkAlgorithm* filter, const Inputs& inputs, Findings& finding
     const Input& input = inputs[0][static_cast<std::size_t>(i)];
     if (densityState(filter, input) == State::Sound)
     {
-      findings.Near(
-        coordinates->GetValueByName(i, "TotalMass").ToDouble(), massOf(input), 1e-9, "TotalMass");
+      findings.Near(coordinates->GetValueByName(i, "TotalMass").ToDouble(), massOf(filter, input),
+        1e-9, "TotalMass");
     }
   }
 }

@@ -19,7 +19,8 @@ bool isOnProcessor()
 void drawDensitySettings(Settings& settings)
 {
   using T = vtkDensityAlgorithm;
-  settings.Draw<T, int>("Component", &T::SetComponent, { -1, 0, 0, 1, 3, 4, -2, 100 }, {}, 0.2);
+  settings.Draw<T, int>(
+    "Component", &T::SetComponent, { -1, -1, 0, 1, 3, -3, -2, 100, -4 }, {}, 0.3);
   settings.Draw<T, vtkTypeBool>("InvertDensity", &T::SetInvertDensity, { 0, 1 }, {}, 0.2);
   settings.Draw<T, int>("NegativeValues", &T::SetNegativeValues, { 0, 1 }, { -1, 2 }, 0.3);
   settings.Draw<T, int>("NaNValues", &T::SetNaNValues, { 0, 1 }, { -1, 2 }, 0.2);
@@ -54,6 +55,10 @@ void drawChoice(RandomSource& random, Settings& settings, int port, int index, I
   const bool named = random.Chance(0.3);
   if (!named)
   {
+    if (input.Texts)
+    {
+      input.Worsen(State::Odd); // another array may be the only one of numbers
+    }
     settings.Add("Array", "scalars", [=](vtkAlgorithm* filter) {
       filter->SetInputArrayToProcess(index, port, 0,
         vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);

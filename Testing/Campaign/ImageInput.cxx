@@ -2,6 +2,7 @@
 #include "Input.h"
 
 #include "vtkCellData.h"
+#include "vtkDoubleArray.h"
 #include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -126,6 +127,30 @@ void drawPlace(RandomSource& random, const ImageRules& rules, vtkImageData* imag
   }
 }
 
+// The values as text, which must be named.
+void drawTexts(RandomSource& random, vtkDataSetAttributes* attributes, Input& input)
+{
+  vtkNew<vtkDoubleArray> numbers;
+  numbers->DeepCopy(input.Values);
+  input.Values = numbers;
+  input.Texts = vtkSmartPointer<vtkStringArray>::New();
+  input.Texts->SetName(numbers->GetName());
+  input.Texts->SetNumberOfComponents(numbers->GetNumberOfComponents());
+  for (vtkIdType i = 0; i < numbers->GetNumberOfValues(); ++i)
+  {
+    const std::string blank = random.Of({ "", "", "", " ", "\t" });
+    input.Texts->InsertNextValue(blank + textOf(numbers->GetValue(i)) + blank);
+  }
+  input.Describe("as text");
+  if (random.Chance(0.1) && numbers->GetNumberOfValues() > 0)
+  {
+    input.Texts->SetValue(random.Whole(0, numbers->GetNumberOfValues() - 1),
+      random.Of({ "n/a", "1,5", "0x1", "1_0", "-", "+-1", "1e" }));
+    input.Worsen(State::Faulty);
+  }
+  attributes->AddArray(input.Texts);
+}
+
 void drawDensity(RandomSource& random, vtkImageData* image, Input& input)
 {
   input.OnPoints = random.Chance(0.5);
@@ -145,12 +170,14 @@ void drawDensity(RandomSource& random, vtkImageData* image, Input& input)
   {
     array->SetName("Values");
   }
-  attributes->SetScalars(array);
   input.Values = array;
-  if (components != 1)
+  if (random.Chance(0.04))
   {
-    input.Worsen(State::Odd); // it depends on Component
+    array->SetName("Values");
+    drawTexts(random, attributes, input);
+    return;
   }
+  attributes->SetScalars(array);
 }
 
 // Arrays that nobody asked for, of names that an output may have.

@@ -12,6 +12,7 @@
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
 
 #include <string>
 #include <vector>
@@ -49,6 +50,7 @@ struct Input
   std::string Text;
   // The array that the filter is to read and how it is chosen; nullptr for the default.
   vtkSmartPointer<vtkDataArray> Values;
+  vtkSmartPointer<vtkStringArray> Texts; // if the data have text, which holds Values
   bool OnPoints = true;
   bool IsPlain = true; // one data set of the right type
   // Of a series all of its steps, of which the first has the data above, and the source of them.

@@ -26,6 +26,66 @@ void Findings::Near(double a, double b, double tolerance, const std::string& wha
   this->That(a == b || std::abs(a - b) <= tolerance * size, text.str());
 }
 
+namespace
+{
+
+constexpr int automatic = -1;
+constexpr int luminance = -2;
+constexpr int magnitude = -3;
+
+// Whether there is such a component, or another value of all of them.
+bool hasComponent(int component, vtkDataArray* array)
+{
+  const int count = array->GetNumberOfComponents();
+  const bool isByte =
+    array->GetDataType() == VTK_UNSIGNED_CHAR || array->GetDataType() == VTK_UNSIGNED_SHORT;
+  return component == magnitude || (component >= 0 && component < count) ||
+    (component == luminance && count <= 4) || (component == automatic && (count <= 4 || !isByte));
+}
+
+// Of a magnitude each component counts.
+bool isAnyOutside(vtkDataArray* array, vtkIdType i, const double* range)
+{
+  bool is = false;
+  for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+  {
+    const double value = array->GetComponent(i, c);
+    is = is || value < range[0] || value > range[1];
+  }
+  return is;
+}
+
+// Whether the value is the luminance of several components, whose colours only the filter knows.
+bool isColour(int component, vtkDataArray* array)
+{
+  const bool isByte =
+    array->GetDataType() == VTK_UNSIGNED_CHAR || array->GetDataType() == VTK_UNSIGNED_SHORT;
+  return array->GetNumberOfComponents() > 1 &&
+    (component == luminance || (component == automatic && isByte));
+}
+
+} // namespace
+
+double valueAt(vtkAlgorithm* filter, const Input& input, vtkIdType i)
+{
+  const int component = vtkDensityAlgorithm::SafeDownCast(filter)->GetComponent();
+  vtkDataArray* array = input.Values;
+  const int count = array->GetNumberOfComponents();
+  if (component >= 0 || (count == 1 && component != magnitude))
+  {
+    return array->GetComponent(i, std::max(component, 0));
+  }
+  double squares = 0.0;
+  double norm = 0.0; // whose squares may overflow
+  for (int c = 0; c < count; ++c)
+  {
+    const double value = array->GetComponent(i, c);
+    squares += value * value;
+    norm = std::hypot(norm, value);
+  }
+  return squares > 1e-280 && std::isfinite(squares) ? std::sqrt(squares) : norm;
+}
+
 State densityState(vtkAlgorithm* filter, const Input& input)
 {
   auto* reader = vtkDensityAlgorithm::SafeDownCast(filter);
@@ -34,18 +94,22 @@ State densityState(vtkAlgorithm* filter, const Input& input)
   {
     return worse(input.Condition, reader->GetInvertDensity() ? State::Odd : State::Sound);
   }
-  if (reader->GetComponent() < -1 || reader->GetComponent() > 0)
+  if (!hasComponent(reader->GetComponent(), array))
   {
     return State::Faulty;
+  }
+  if (isColour(reader->GetComponent(), array))
+  {
+    return State::Odd;
   }
   double sum = 0.0;
   double largest = 0.0;
   const double* valid = reader->GetValidRange();
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
-    const double value = array->GetComponent(i, 0);
+    const double value = valueAt(filter, input, i);
     if ((std::isnan(value) && reader->GetNaNValues() != vtkDensityAlgorithm::NAN_VALUES_ERROR) ||
-      value < valid[0] || value > valid[1])
+      isAnyOutside(array, i, valid))
     {
       return State::Odd; // nothing may be left
     }
@@ -65,12 +129,12 @@ State densityState(vtkAlgorithm* filter, const Input& input)
   return usual ? State::Sound : State::Odd;
 }
 
-double massOf(const Input& input)
+double massOf(vtkAlgorithm* filter, const Input& input)
 {
   double sum = 0.0;
   for (vtkIdType i = 0; i < input.Values->GetNumberOfTuples(); ++i)
   {
-    sum += std::max(input.Values->GetComponent(i, 0), 0.0);
+    sum += std::max(valueAt(filter, input, i), 0.0);
   }
   return sum * cellMeasure(vtkImageData::SafeDownCast(input.Data));
 }

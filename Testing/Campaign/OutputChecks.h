@@ -19,7 +19,9 @@ namespace Campaign
 State densityState(vtkAlgorithm* filter, const Input& input);
 
 // The mass of a sound density, summed in a plain way.
-double massOf(const Input& input);
+double massOf(vtkAlgorithm* filter, const Input& input);
+// A value of its density, by the filter's Component: not a colour's.
+double valueAt(vtkAlgorithm* filter, const Input& input, vtkIdType i);
 
 // The product of the spacings along the axes of more than one point.
 double cellMeasure(vtkImageData* image);

@@ -195,10 +195,18 @@ void changeInPlace(RandomSource& random, Input& input)
   {
     const vtkIdType i = random.Whole(0, array->GetNumberOfTuples() - 1);
     array->SetComponent(i, 0, random.Chance(0.95) ? static_cast<double>(random.Whole(0, 1)) : -1.0);
+    if (input.Texts)
+    {
+      input.Texts->SetValue(i * array->GetNumberOfComponents(), textOf(array->GetComponent(i, 0)));
+    }
     // Who writes in place may say so of the array or of the data set.
     if (random.Chance(0.5))
     {
       array->Modified();
+      if (input.Texts)
+      {
+        input.Texts->Modified();
+      }
     }
     else
     {

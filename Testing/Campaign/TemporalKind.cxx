@@ -237,7 +237,7 @@ State stepState(vtkAlgorithm* filter, const Input& step, bool mayBeEmpty)
   const State state = densityState(filter, step);
   auto* reader = vtkDensityAlgorithm::SafeDownCast(filter);
   const bool isRead = step.Condition == State::Sound && step.Values &&
-    reader->GetComponent() <= 0 && reader->GetComponent() >= -1;
+    reader->GetComponent() < step.Values->GetNumberOfComponents() && reader->GetComponent() >= -3;
   if (state != State::Faulty || !mayBeEmpty || !isRead)
   {
     return state;
@@ -245,7 +245,7 @@ State stepState(vtkAlgorithm* filter, const Input& step, bool mayBeEmpty)
   bool isZero = true;
   for (vtkIdType i = 0; i < step.Values->GetNumberOfTuples(); ++i)
   {
-    isZero = isZero && step.Values->GetComponent(i, 0) == 0.0;
+    isZero = isZero && valueAt(filter, step, i) == 0.0;
   }
   // Negative values may be cut off, to none.
   return isZero                                                                 ? State::Sound
@@ -297,12 +297,13 @@ void checkTemporal(vtkAlgorithm* filter, const Inputs& inputs, Findings& finding
   const Input& before = moment.Steps.size() > 1 ? **(moment.Steps.end() - 2) : last;
   findings.Near(sumOf(mass), total, 1e-9, "sum of Mass");
   // Sums are rounded as parts of the larger of both masses.
-  if (total == 0.0 || total > 1e-6 * std::max(massOf(before), massOf(last)))
+  if (total == 0.0 || total > 1e-6 * std::max(massOf(filter, before), massOf(filter, last)))
   {
     findings.Near(sumOf(density) * cellMeasure(image), total, 1e-9, "sum of the density");
   }
-  findings.Near(
-    total, (1.0 - moment.Part) * massOf(before) + moment.Part * massOf(last), 1e-9, "TotalMass");
+  findings.Near(total,
+    (1.0 - moment.Part) * massOf(filter, before) + moment.Part * massOf(filter, last), 1e-9,
+    "TotalMass");
   if (temporal->GetChain() || (moment.Part > 0.0 && moment.Part < 1.0))
   {
     return;
@@ -311,7 +312,7 @@ void checkTemporal(vtkAlgorithm* filter, const Inputs& inputs, Findings& finding
   bool isSame = density->GetNumberOfTuples() == step.Values->GetNumberOfTuples();
   for (vtkIdType i = 0; isSame && i < density->GetNumberOfTuples(); ++i)
   {
-    isSame = density->GetComponent(i, 0) == std::max(step.Values->GetComponent(i, 0), 0.0);
+    isSame = density->GetComponent(i, 0) == std::max(valueAt(filter, step, i), 0.0);
   }
   findings.That(isSame, "at a step its density");
 }

@@ -133,7 +133,7 @@ void checkSampler(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings
   const bool sound = densityState(filter, inputs[0][0]) == State::Sound;
   if (sound)
   {
-    findings.Near(total, massOf(inputs[0][0]), 1e-9, "TotalMass");
+    findings.Near(total, massOf(filter, inputs[0][0]), 1e-9, "TotalMass");
     requireInside(output, inputs[0][0], findings);
   }
   if (sampler->GetOutputPaths())
@@ -287,7 +287,7 @@ void checkQuality(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings
     "SmallestSpacing <= MeanSpacing");
   if (densityState(filter, inputs[1][0]) == State::Sound)
   {
-    findings.Near(value("TotalMass"), massOf(inputs[1][0]), 1e-9, "TotalMass");
+    findings.Near(value("TotalMass"), massOf(filter, inputs[1][0]), 1e-9, "TotalMass");
   }
 }
 
@@ -315,13 +315,13 @@ Inputs drawRelaxationInputs(RandomSource& random, Settings& settings)
 }
 
 // Whether one value has most of the mass.
-bool isConcentrated(const Input& density)
+bool isConcentrated(vtkAlgorithm* filter, const Input& density)
 {
   double sum = 0.0;
   double largest = 0.0;
   for (vtkIdType i = 0; density.Values && i < density.Values->GetNumberOfTuples(); ++i)
   {
-    const double value = std::max(density.Values->GetComponent(i, 0), 0.0);
+    const double value = std::max(valueAt(filter, density, i), 0.0);
     sum += value;
     largest = std::max(largest, value);
   }
@@ -335,7 +335,7 @@ State expectRelaxation(vtkAlgorithm* filter, const Inputs& inputs)
   const int dimension = vtkImageData::SafeDownCast(inputs[1][0].Data)->GetDataDimension();
   const bool isPossible = dimension >= 2 && dimension <= (byTransport ? 2 : 3);
   // Of points that are not where the mass is cells of equal mass may not be found.
-  const bool isSound = isPossible && !(byTransport && isConcentrated(inputs[1][0]));
+  const bool isSound = isPossible && !(byTransport && isConcentrated(filter, inputs[1][0]));
   return worse(expectWarp(filter, inputs),
     isSound        ? State::Sound
       : isPossible ? State::Odd

@@ -92,7 +92,7 @@ void checkMap(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
   const State state = densityState(filter, input);
   if (state == State::Sound)
   {
-    findings.Near(total, massOf(input), 1e-9, "TotalMass");
+    findings.Near(total, massOf(filter, input), 1e-9, "TotalMass");
   }
   const int* asked = map->GetSampleDimensions();
   if (asked[0] == 0 && asked[1] == 0 && asked[2] == 0)

@@ -264,7 +264,8 @@ class Mass(unittest.TestCase):
         cells = self.cells(image, 20, Resolution=40)
         luminance = values @ [.2126, .7152, .0722]
         for properties, density in (
-                ({}, luminance), ({"InvertDensity": 1}, 255 - luminance),
+                ({"DensityArray": ["CELLS", "Density"]}, luminance),
+                ({"InvertDensity": 1}, 255 - luminance),
                 ({"InvertDensity": 0, "Component": 2}, values[:, 2]),
                 ({"DensityArray": ["CELLS", "Other"], "Component": -1}, np.arange(1200.))):
             for name, value in properties.items():

@@ -33,10 +33,10 @@ MAPS = ["Auto", "On", "Off"]
 KERNELS = ["CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian"]
 # From VTK 9.6 on vtkPolygon cuts quadrilaterals along other diagonals.
 FROM_VTK_9_6 = {"parameterization of quads": "6b8a014f15186cae", "surface of quads": "7cbad78545c10703"}
-# Numbers that other tests look at: left out, as no bits of a result.
+# What other tests look at: left out, as no bits of a result.
 COUNTS = {"MovedParticles", "MovedSamples", "OutsideSeeds", "OutsidePoints", "OutsideSites",
           "SitesWithoutMass", "StepsTaken", "AreaErrorEstimate", "EqualAreaPasses", "FoldedCells",
-          "LargestBlockError"}
+          "LargestBlockError", "DensityArrayName", "DensityComponent", "DensityInverted", "DensityRange"}
 
 
 class Digest:

@@ -67,8 +67,8 @@ def set_all(filter_, properties):
 
 def fields(data):
     arrays = data.GetFieldData()
-    return {arrays.GetArrayName(i): list(vtk_to_numpy(arrays.GetArray(i)))
-            for i in range(arrays.GetNumberOfArrays())}
+    return {arrays.GetArrayName(i): vtk_to_numpy(arrays.GetArray(i)).tolist()
+            for i in range(arrays.GetNumberOfArrays()) if arrays.GetArray(i)}
 
 
 def points(data, name):

@@ -127,7 +127,8 @@ def give(name, proxy, port=0, time=None):
     proxy.UpdatePipeline(*([] if time is None else [time]))
     data = proxy.GetClientSideObject().GetOutputDataObject(port)
     fields = {array.GetName(): array.GetTuple(0) for array in (
-        data.GetFieldData().GetArray(i) for i in range(data.GetFieldData().GetNumberOfArrays()))}
+        data.GetFieldData().GetArray(i) for i in range(data.GetFieldData().GetNumberOfArrays()))
+        if array}  # text has no tuples
     gathered[name] = {"fields": fields, "points": digests(data, vtkDataObject.POINT),
                       "cells": digests(data, vtkDataObject.CELL)}
 
