@@ -231,7 +231,7 @@ class Regions(unittest.TestCase):
         values.SetName("pop")
         data.GetCellData().SetScalars(values)
         _, listener = self.check(data, 36, warnings=1)
-        self.assertIn("2 lines of the input are not closed and carry no mass", listener.warnings[0])
+        self.assertIn("2 lines of the input are not closed (the first is cell 2) and carry no mass", listener.warnings[0])
 
     def test_lines_on_a_straight_line_stay_lines(self):
         self.check(data_of([[(0, 0), (1, 1), (3, 3)]], [2], True), 2 * 6 * 2 ** 0.5)

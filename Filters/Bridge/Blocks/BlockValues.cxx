@@ -54,6 +54,8 @@ BlockValues BlockValues::Changed(const Change& change) const
   changed.OnPoints = this->OnPoints;
   changed.Cells = this->Cells;
   changed.Open = this->Open;
+  changed.FirstOpen = this->FirstOpen;
+  changed.NameOfBlock = this->NameOfBlock;
   const std::int64_t count = this->Density.size();
   withMemory("the values of the " + this->ArrayName,
     static_cast<double>(count) * sizeof(double) + static_cast<double>(this->Roles.size()), [&]() {
@@ -90,6 +92,7 @@ public:
     , Reader(makeDensityReader(block.Array, this->Rules))
   {
     this->Read.Set = block.Data;
+    this->Read.NameOfBlock = block.Name;
     this->Read.ArrayName = nameOf(block);
     this->Read.OnPoints = onPoints;
     this->Read.Cells = cells;
@@ -188,7 +191,7 @@ private:
       }
       if (mass.AreClosedLines && !mass.Find(data, cell, points))
       {
-        ++this->Read.Open;
+        this->Read.FirstOpen = this->Read.Open++ == 0 ? cell : this->Read.FirstOpen;
         continue;
       }
       if (blanked.MayHavePoints() || onPoints)

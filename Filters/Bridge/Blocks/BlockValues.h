@@ -55,6 +55,9 @@ public:
   bool AreClosedLines() const { return this->Cells.AreClosedLines; }
   // The number of lines that are not closed, if the others are around regions.
   vtkIdType OpenLines() const { return this->Open; }
+  vtkIdType FirstOpenLine() const { return this->FirstOpen; } // its cell, or -1
+  // What messages call the block.
+  const std::string& BlockName() const { return this->NameOfBlock; }
 
 private:
   friend class BlockReading;
@@ -81,6 +84,8 @@ private:
   mutable std::vector<Role> Roles; // of the cells
   MassCells Cells;
   vtkIdType Open = 0;
+  vtkIdType FirstOpen = -1;
+  std::string NameOfBlock;
 };
 
 // What the property Component takes of blocks that all have an array: an index, Luminance or

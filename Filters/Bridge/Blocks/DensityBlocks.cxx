@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blocks/DensityBlocks.h"
 
+#include "Bridge/Blocks/BlockName.h"
 #include "Bridge/Blocks/HyperTreeCells.h"
 #include "Bridge/Blocks/RefinedGrids.h"
 #include "Bridge/Points/CellTypes.h"
@@ -38,18 +39,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-std::string nameOfBlock(vtkCompositeDataIterator* leaves)
-{
-  std::string name = "block " + std::to_string(leaves->GetCurrentFlatIndex());
-  vtkInformation* information =
-    leaves->HasCurrentMetaData() ? leaves->GetCurrentMetaData() : nullptr;
-  if (information && information->Has(vtkCompositeDataSet::NAME()))
-  {
-    name += " ('" + std::string(information->Get(vtkCompositeDataSet::NAME())) + "')";
-  }
-  return name + " of the input";
-}
 
 // The newest of a data object's own and of all that are in it, whose arrays count.
 std::uint64_t timeOf(vtkDataObject* data)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Inputs/GivenInputs.h"
 
+#include "Bridge/Blocks/BlockName.h"
 #include "Bridge/Run/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 
@@ -37,7 +38,9 @@ GivenInputs gatherBlocks(vtkDataObject* data, bool blocksAreInputs)
     }
     else
     {
-      ++given.Others;
+      given.FirstOther = given.Others++ == 0
+        ? std::string(leaf->GetClassName()) + ", " + nameOfBlock(leaves)
+        : given.FirstOther;
     }
   }
   return given;
@@ -53,6 +56,7 @@ GivenInputs gatherInputs(
     {
       GivenInputs given =
         gatherBlocks(vtkDataObject::GetData(inputVector[port], i), blocksAreInputs);
+      all.FirstOther = all.Others == 0 ? given.FirstOther : all.FirstOther;
       all.Others += given.Others;
       for (GivenInput& input : given.All)
       {
@@ -81,15 +85,16 @@ void requireSameNumber(std::size_t inputs, const Ranks& ranks)
 
 std::string describeOthers(const GivenInputs& given)
 {
+  const std::string first = " (the first a " + given.FirstOther + ")";
   if (given.Others > 0 && given.All.empty())
   {
     throw Failure("The inputs have no image, mesh or grid, but " + std::to_string(given.Others) +
-      (given.Others == 1 ? " block" : " blocks") + " of another type");
+      (given.Others == 1 ? " block" : " blocks") + " of another type" + first);
   }
   return given.Others == 0 ? ""
                            : std::to_string(given.Others) +
-      (given.Others == 1 ? " block of the inputs is" : " blocks of the inputs are") +
-      " no data set of cells and passed over";
+      (given.Others == 1 ? " block of the inputs" : " blocks of the inputs") + first +
+      (given.Others == 1 ? " is" : " are") + " no data set of cells and passed over";
 }
 
 } // namespace RectifiedTransport

@@ -33,6 +33,7 @@ struct GivenInputs
 {
   std::vector<GivenInput> All;
   std::int64_t Others = 0; // the leaves that are no data sets with cells and are passed over
+  std::string FirstOther;  // the class and the name of the first one
 };
 
 // The leaves of composite data that may be densities, where these are inputs; other data are one.

@@ -128,6 +128,7 @@ CellSize CellPieces<D>::SizeOf(vtkIdType cell)
   {
     size = {};
     size.LeftOut = 1;
+    size.FirstLeftOut = cell;
     this->AddBoxAround(cell, size);
   }
   return size;

@@ -31,12 +31,16 @@ struct CellSize
   std::int64_t LeftOut = 0;     // cells that VTK could not divide into simplices
   double LeftOutIntegral = 0.0; // at most: of the boxes around these
   double LeftOutMeasure = 0.0;
+  vtkIdType FirstLeftOut = -1; // and its block
+  std::size_t Block = 0;
 };
 
 inline CellSize operator+(const CellSize& a, const CellSize& b)
 {
+  const CellSize& first = a.LeftOut > 0 ? a : b;
   return { a.Integral + b.Integral, a.Measure + b.Measure, a.Wide + b.Wide, a.LeftOut + b.LeftOut,
-    a.LeftOutIntegral + b.LeftOutIntegral, a.LeftOutMeasure + b.LeftOutMeasure };
+    a.LeftOutIntegral + b.LeftOutIntegral, a.LeftOutMeasure + b.LeftOutMeasure, first.FirstLeftOut,
+    first.Block };
 }
 
 // For one thread.

@@ -32,21 +32,23 @@ template <int D>
 CellSize sizeOf(const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress)
 {
   CellSize size;
-  for (const BlockValues& block : blocks)
+  for (std::size_t b = 0; b < blocks.size(); ++b)
   {
-    size = size +
-      reduceChunks(
-        progress, block.Data()->GetNumberOfCells(), grain, CellSize(),
-        [&](std::int64_t first, std::int64_t last) {
-          CellPieces<D> pieces(block, grid);
-          CellSize part;
-          for (std::int64_t cell = first; cell < last; ++cell)
-          {
-            part = block.IsDivided(cell) ? part + pieces.SizeOf(cell) : part;
-          }
-          return part;
-        },
-        std::plus<>());
+    const BlockValues& block = blocks[b];
+    CellSize ofBlock = reduceChunks(
+      progress, block.Data()->GetNumberOfCells(), grain, CellSize(),
+      [&](std::int64_t first, std::int64_t last) {
+        CellPieces<D> pieces(block, grid);
+        CellSize part;
+        for (std::int64_t cell = first; cell < last; ++cell)
+        {
+          part = block.IsDivided(cell) ? part + pieces.SizeOf(cell) : part;
+        }
+        return part;
+      },
+      std::plus<>());
+    ofBlock.Block = b;
+    size = size + ofBlock;
   }
   return size;
 }
@@ -157,14 +159,22 @@ double integrate(const std::vector<BlockValues>& blocks, const ImageGrid& grid, 
   return size.Integral;
 }
 
+// "(the first is cell 3)", or "cell 3 of block 1 of the input".
+std::string firstText(const std::vector<BlockValues>& blocks, std::size_t block, vtkIdType cell)
+{
+  return " (the first is cell " + std::to_string(cell) +
+    (blocks.size() > 1 ? " of " + blocks[block].BlockName() : "") + ")";
+}
+
 template <int D>
 std::vector<std::string> warningsOf(const CellSize& size, const std::vector<BlockValues>& blocks)
 {
   std::vector<std::string> warnings;
   if (size.LeftOut > 0)
   {
-    warnings.push_back(std::to_string(size.LeftOut) +
-      " cells of the input could not be divided into simplices and carry no mass: at most " +
+    warnings.push_back(std::to_string(size.LeftOut) + (size.LeftOut == 1 ? " cell" : " cells") +
+      " of the input" + firstText(blocks, size.Block, size.FirstLeftOut) +
+      " could not be divided into simplices and carry no mass: at most " +
       percent(size.LeftOutIntegral, size.LeftOutIntegral + size.Integral) + " of the mass, and " +
       percent(size.LeftOutMeasure, size.LeftOutMeasure + size.Measure) + " of the " +
       (D == 3      ? "volume"
@@ -173,15 +183,17 @@ std::vector<std::string> warningsOf(const CellSize& size, const std::vector<Bloc
       ", are in the boxes around them");
   }
   vtkIdType open = 0;
-  for (const BlockValues& block : blocks)
+  std::string first;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
   {
-    open += block.OpenLines();
+    first = open == 0 ? firstText(blocks, b, blocks[b].FirstOpenLine()) : first;
+    open += blocks[b].OpenLines();
   }
   if (open > 0)
   {
     warnings.push_back(std::to_string(open) +
-      (open == 1 ? " line of the input is not closed and carries no mass"
-                 : " lines of the input are not closed and carry no mass") +
+      (open == 1 ? " line of the input is not closed" + first + " and carries no mass"
+                 : " lines of the input are not closed" + first + " and carry no mass") +
       "; lines around regions must end where they begin");
   }
   return warnings;

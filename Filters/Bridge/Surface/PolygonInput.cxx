@@ -44,9 +44,10 @@ void cutStrip(vtkIdType count, const vtkIdType* points, vtkCellArray* triangles)
 }
 
 // Appends the triangles of polygons and strips, one by one: from VTK 9.6 on vtkTriangleFilter cuts
-// quadrilaterals whose edges cross without a word. Returns how many triangles are missing.
+// quadrilaterals whose edges cross without a word. Returns how many triangles are missing, and
+// `firstMissing` is the first polygon that misses some.
 std::int64_t cutEach(vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips,
-  Progress& progress, vtkCellArray* triangles)
+  Progress& progress, vtkCellArray* triangles, std::int64_t& firstMissing)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 8;
   constexpr std::int64_t units = std::int64_t{ 1 } << 12; // of polygons, some milliseconds
@@ -67,6 +68,7 @@ std::int64_t cutEach(vtkPoints* points, vtkCellArray* polygons, vtkCellArray* st
           }
           else if (!cutter.Cut(ids->GetNumberOfIds(), ids->GetPointer(0), triangles))
           {
+            firstMissing = missing == 0 ? cell : firstMissing;
             missing += ids->GetNumberOfIds() - 2;
           }
         }
@@ -148,12 +150,14 @@ vtkSmartPointer<vtkCellArray> triangulate(
     static_cast<double>(expected) * 4.0 * sizeof(vtkIdType));
   auto triangles = vtkSmartPointer<vtkCellArray>::New();
   triangles->AllocateExact(static_cast<vtkIdType>(expected), static_cast<vtkIdType>(3 * expected));
-  const std::int64_t missing = cutEach(points, polygons, strips, progress, triangles);
+  std::int64_t first = 0;
+  const std::int64_t missing = cutEach(points, polygons, strips, progress, triangles, first);
   if (missing != 0)
   {
     throw Failure("The input surface has polygons that cannot be cut into triangles: " +
-      std::to_string(missing) +
-      " triangles are missing; polygons must be simple: edges must not cross, and no corner be "
+      std::to_string(missing) + " triangles are missing (the first of polygon " +
+      std::to_string(first) +
+      ", counted from 0); polygons must be simple: edges must not cross, and no corner be "
       "there twice");
   }
   return triangles;

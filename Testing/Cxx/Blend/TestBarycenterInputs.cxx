@@ -185,14 +185,19 @@ void checkErrors(Checks& checks)
   setSimplest(barycenter);
   barycenter->SetInputDataObject(blocks);
   ErrorTest(checks, barycenter)
-    .Expect("The inputs have no image, mesh or grid, but 2 blocks of another type", __LINE__);
+    .Expect("The inputs have no image, mesh or grid, but 2 blocks of another type (the first a "
+            "vtkTable, block 1 of the input)",
+      __LINE__);
   blocks->SetBlock(1, in.A);
   blocks->SetBlock(2, in.B);
   blocks->Modified();
   Messages messages(barycenter);
   CHECK(checks, runDensity(barycenter) == runDensity(makeBarycenter({ in.A, in.B })));
   CHECK(checks, messages.Errors.empty());
-  CHECK(checks, messages.Warnings.size() == 1);
+  CHECK(checks,
+    messages.Warnings.size() == 1 &&
+      contains(messages.Warnings[0],
+        "1 block of the inputs (the first a vtkTable, block 1 of the input) is no data set"));
   CHECK(checks, contains(messages.Warnings.front(), "1 block of the inputs is no data set"));
 }
 

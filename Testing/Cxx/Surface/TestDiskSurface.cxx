@@ -191,7 +191,11 @@ void checkFailures(Checks& checks)
   sheet = makeFlatSheet(2, 2, false);
   sheet->GetPoints()->SetPoint(8, 1, 2, 0);
   sheet->GetPoints()->SetPoint(7, 2, 2, 0);
-  expect(sheet, "The input surface has polygons that cannot be cut into triangles: ", __LINE__);
+  expect(sheet,
+    "The input surface has polygons that cannot be cut into triangles: 2 triangles are missing "
+    "(the "
+    "first of polygon 3, counted from 0); ",
+    __LINE__);
   sheet = makeFlatSheet(2, 2, false);
   sheet->GetCellData()->AddArray(makeNumbers("Short", 3));
   expect(sheet,
