@@ -3,6 +3,7 @@
 
 #include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Cartogram/Cartogram.h"
+#include "Bridge/Cartogram/MapProjection.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/MissingData.h"
@@ -52,6 +53,7 @@ struct vtkCartogram::vtkInternals
 vtkCartogram::vtkCartogram()
   : Resolution(1024)
   , Margin(0.1)
+  , Projection(PROJECTION_NONE)
   , EmptyCells(EMPTY_CELLS_MEAN)
   , EmptyValue(0.0)
   , Tolerance(0.01)
@@ -68,6 +70,12 @@ vtkCartogram::vtkCartogram()
 
 //------------------------------------------------------------------------------
 vtkCartogram::~vtkCartogram() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkCartogram::GetProjectionAsString()
+{
+  return choiceText(ProjectionTexts, this->Projection);
+}
 
 //------------------------------------------------------------------------------
 const char* vtkCartogram::GetEmptyCellsAsString()
@@ -104,6 +112,7 @@ int vtkCartogram::FillInputPortInformation(int port, vtkInformation* info)
     return 1;
   }
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
 }
@@ -140,6 +149,7 @@ int vtkCartogram::RequestData(
   requireThat(this->Resolution >= 16 && this->Resolution <= 16384, "Resolution", this->Resolution,
     "from 16 to 16384");
   requireThat(this->Margin >= 0.0 && this->Margin <= 10.0, "Margin", this->Margin, "from 0 to 10");
+  requireChoice("Projection", this->Projection, ProjectionTexts);
   const EmptyRule sea = emptyRule(this->EmptyCells, this->EmptyValue);
   requireThat(this->Tolerance > 0.0 && this->Tolerance <= 1.0, "Tolerance", this->Tolerance,
     "above 0 and at most 1");
@@ -157,6 +167,7 @@ int vtkCartogram::RequestData(
   worker.Options.SeaValue = sea.Value;
   worker.Options.Tolerance = this->Tolerance;
   worker.Options.MaximumPasses = this->MaximumIterations;
+  worker.IsInDegrees = this->Projection == PROJECTION_EQUAL_AREA;
   worker.LeastShare = this->LeastShare;
   worker.Blend = this->Blend;
   worker.Arrays.Mass = arrayName(this->GetInputArrayInformation(0), "MassArray");
@@ -191,6 +202,7 @@ void vtkCartogram::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Resolution: " << this->Resolution << "\n";
   os << indent << "Margin: " << this->Margin << "\n";
+  os << indent << "Projection: " << this->GetProjectionAsString() << "\n";
   os << indent << "EmptyCells: " << this->GetEmptyCellsAsString() << "\n";
   os << indent << "EmptyValue: " << this->EmptyValue << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";

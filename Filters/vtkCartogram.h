@@ -10,26 +10,29 @@
  * areas are within Tolerance. The raster is square and larger than the map; the ground around the
  * regions, the sea, has their mean density, so that land and sea keep their areas.
  *
- * Input 0: the regions, a vtkPolyData or a composite of them (as ParaView's GDAL Vector Reader
- * gives a map): polygons, or lines that end where they begin, in one plane of any direction. Input
- * array 0 (cells) is the mass of the region that a cell belongs to; by default the active scalars,
- * else the only numeric cell array. Input array 1 (cells, optional) says which cells are one
- * region: those with one value, which may be text. Without it each block is a region, or each cell
- * if the input is no composite. The mass of a region counts once, and all its cells must have it. A
- * ring inside an odd number of rings of its region is a hole. Coordinates must be those of a map
- * projection that keeps areas.
+ * Input 0: the regions, a vtkPolyData, a vtkUnstructuredGrid (as Threshold gives one) or a
+ * composite of them (as ParaView's GDAL Vector Reader gives a map): polygons, or lines that end
+ * where they begin, in one plane of any direction. What is inside an outline that crosses itself is
+ * said by the even-odd rule. Open lines, such as rivers, move along; they have no share of the
+ * area. Input array 0 (cells) is the mass of the region that a cell belongs to; by default the
+ * active scalars, else the only numeric cell array. Input array 1 (cells, optional) says which
+ * cells are one region: those with one value, which may be text. Without it each block is a region,
+ * or each cell if the input is no composite. The mass of a region counts once, and all its cells
+ * must have it. A ring inside an odd number of rings of its region is a hole. Coordinates must be
+ * those of a map projection that keeps areas, or degrees of longitude and latitude with Projection
+ * EqualArea.
  *
  * Input 1 (optional): the overlay, any vtkPointSet, such as rivers and cities, or a composite of
  * them, that moves along.
  *
  * Output 0, "Regions": a vtkPolyData with the cells of the input, all blocks together, lines first,
- * in their order and direction. Long edges are divided; both sides of a border stay the same. Point
- * data are interpolated, cell data kept. Cell data `AreaError` is a region's share of the area
- * divided by its share of the mass, less 1; `TargetArea` its area without error; `MassPerArea` its
- * mass by its area in the input. Field data
- * `AreaErrors` has the largest absolute error after each pass, `EnlargedRegions` how many regions
- * LeastShare enlarged. Output 1, "Graticule": lines of a regular grid over the map, moved. Output
- * 2, "Overlay": the overlay with all its data, moved.
+ * in their order and direction; of an unstructured grid, vertices first, then lines, then polygons.
+ * Long edges are divided; both sides of a border stay the same. Point data are interpolated, cell
+ * data kept. Cell data `AreaError` is a region's share of the area divided by its share of the
+ * mass, less 1; `TargetArea` its area without error; `MassPerArea` its mass by its area in the
+ * input. Field data `AreaErrors` has the largest absolute error after each pass, `EnlargedRegions`
+ * how many regions LeastShare enlarged. Output 1, "Graticule": lines of a regular grid over the
+ * map, moved. Output 2, "Overlay": the overlay with all its data, moved.
  *
  * Cost: O(Resolution^2 + points * steps) a pass. Memory: about 80 bytes a cell of the raster.
  *
@@ -80,6 +83,29 @@ public:
    */
   vtkSetMacro(Margin, double);
   vtkGetMacro(Margin, double);
+  ///@}
+
+  /**
+   * What Projection may be.
+   */
+  enum ProjectionType
+  {
+    PROJECTION_NONE = 0,
+    PROJECTION_EQUAL_AREA = 1
+  };
+
+  ///@{
+  /**
+   * What is done to the coordinates first. None (default): nothing. EqualArea: they are longitudes
+   * and latitudes in degrees, and become kilometres of Lambert's cylindrical equal-area projection,
+   * with the least bending of shapes at the middle of the map's latitudes. All outputs are in this
+   * projection.
+   */
+  vtkSetMacro(Projection, int);
+  vtkGetMacro(Projection, int);
+  void SetProjectionToNone() { this->SetProjection(PROJECTION_NONE); }
+  void SetProjectionToEqualArea() { this->SetProjection(PROJECTION_EQUAL_AREA); }
+  const char* GetProjectionAsString();
   ///@}
 
   ///@{
@@ -171,6 +197,7 @@ protected:
 
   int Resolution;
   double Margin;
+  int Projection;
   int EmptyCells;
   double EmptyValue;
   double Tolerance;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input.h"
 
+#include "vtkAppendFilter.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -8,6 +9,7 @@
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkStringArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <array>
 #include <cmath>
@@ -165,6 +167,8 @@ public:
   MapWriter(RandomSource& random, Input& input)
     : Random(random)
     , AreLines(random.Chance(0.4))
+    , AreGrids(random.Chance(0.2))
+    , HasRiver(random.Chance(0.2))
     , Turn(random.Chance(0.2))
     , Size(random.Of({ 1.0, 1.0, 1.0, 1e5, 1e-5 }))
     , Shift(random.Of({ 0.0, 0.0, -3.0, 1e3 }))
@@ -173,9 +177,17 @@ public:
     {
       input.Describe("in another plane");
     }
+    if (this->AreGrids)
+    {
+      input.Describe("as grids");
+    }
+    if (this->HasRiver)
+    {
+      input.Describe("with a river");
+    }
   }
 
-  vtkSmartPointer<vtkPolyData> Write(const std::vector<Region>& regions, int first)
+  vtkSmartPointer<vtkPointSet> Write(const std::vector<Region>& regions, int first)
   {
     const auto data = vtkSmartPointer<vtkPolyData>::New();
     vtkNew<vtkPoints> points;
@@ -185,6 +197,14 @@ public:
     vtkNew<vtkStringArray> names;
     masses->SetName("Mass");
     names->SetName("Land");
+    const auto addRiver = [&](bool isHere) { // lines are numbered before polygons
+      if (this->HasRiver && isHere)
+      {
+        masses->InsertNextValue(std::nan(""));
+        names->InsertNextValue("river");
+      }
+    };
+    addRiver(!this->AreLines);
     for (const Region& region : regions)
     {
       const std::string name = "land " + std::to_string(first++);
@@ -210,11 +230,30 @@ public:
         names->InsertNextValue(name);
       }
     }
+    addRiver(this->AreLines);
+    vtkNew<vtkCellArray> river;
+    vtkCellArray* const lines = this->AreLines ? cells.Get() : river.Get();
+    if (this->HasRiver)
+    {
+      const vtkIdType ends[2] = { 0, this->AddPoint(points, this->Random.Real(-1.0, 3.0), 0.3) };
+      lines->InsertNextCell(2, ends);
+    }
     data->SetPoints(points);
-    this->AreLines ? data->SetLines(cells) : data->SetPolys(cells);
+    data->SetLines(lines);
+    if (!this->AreLines)
+    {
+      data->SetPolys(cells);
+    }
     data->GetCellData()->AddArray(masses);
     data->GetCellData()->AddArray(names);
-    return data;
+    if (!this->AreGrids)
+    {
+      return data;
+    }
+    vtkNew<vtkAppendFilter> append;
+    append->AddInputData(data);
+    append->Update();
+    return append->GetOutput();
   }
 
 private:
@@ -228,6 +267,8 @@ private:
 
   RandomSource& Random;
   const bool AreLines;
+  const bool AreGrids;
+  const bool HasRiver;
   const bool Turn;
   const double Size;
   const double Shift;

@@ -6,8 +6,11 @@
 
 #include "vtkCartogram.h"
 #include "vtkCellData.h"
+#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +36,8 @@ void drawCartogram(Settings& settings)
     "LeastShare", &T::SetLeastShare, { 0.0, 0.01, 0.2, 1.0 }, { -0.1, 1.1, NaN, Infinity }, 0.3);
   settings.Draw<T, double>(
     "Blend", &T::SetBlend, { 0.0, 0.5, 1.0, 5e-324 }, { -0.1, 1.1, NaN, Infinity }, 0.3);
+  settings.Draw<T, int>("Projection", &T::SetProjection,
+    { T::PROJECTION_NONE, T::PROJECTION_EQUAL_AREA }, { -1, 2 }, 0.3);
   drawEmptySettings<T>(settings);
   drawThreading<T>(settings);
 }
@@ -65,9 +70,39 @@ Inputs drawCartogramInputs(RandomSource& random, Settings& settings)
   return inputs;
 }
 
-State expectCartogram(vtkAlgorithm*, const Inputs& inputs)
+bool isOnEarth(vtkDataObject* data)
+{
+  double bounds[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+  if (auto* set = vtkPointSet::SafeDownCast(data))
+  {
+    set->ComputeBounds();
+    set->GetBounds(bounds);
+  }
+  else if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+    for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+    {
+      if (!isOnEarth(leaves->GetCurrentDataObject()))
+      {
+        return false;
+      }
+    }
+  }
+  return std::max(-bounds[0], bounds[1]) <= 360.0 && std::max(-bounds[2], bounds[3]) <= 90.0;
+}
+
+State expectCartogram(vtkAlgorithm* filter, const Inputs& inputs)
 {
   State state = inputs[0][0].Condition;
+  const bool isProjected = vtkCartogram::SafeDownCast(filter)->GetProjection() != 0;
+  for (const std::vector<Input>& ofPort : inputs)
+  {
+    if (isProjected && !ofPort.empty() && !isOnEarth(ofPort[0].Data))
+    {
+      state = worse(state, State::Faulty);
+    }
+  }
   if (!inputs[1].empty() && inputs[1][0].Condition != State::Empty)
   {
     state = worse(state, inputs[1][0].Condition);

@@ -319,6 +319,8 @@ def other_runs():
         Resolution=90, Shape=1)
     yield from mass_cells_runs()
     yield "cartogram", rt.vtkCartogram, [region_map(), points_in(image())], dict(Resolution=64)
+    yield "cartogram of degrees", rt.vtkCartogram, [region_map()], dict(
+        Resolution=64, Projection=1, EmptyCells=2)
     yield "solid", solid, [box_of_triangles()], dict(Resolution=24)
     yield "solid turned", solid, [box_of_triangles(True)], dict(Resolution=17, Supersampling=5,
                                                                 Association=1)

@@ -209,11 +209,11 @@ FILTERS = [
            choices={"Method": ["GaussianBlueNoise", "OptimalTransport"]}),
     Filter("Cartogram", "vtkCartogram", {"Input": "map"}, {"Overlay": "mesh"},
            ["Regions", "Graticule", "Overlay"],
-           panel=["Overlay", "MassArray", "RegionArray", "Tolerance", "LeastShare", "Blend", "Resolution",
-                  "Margin", "EmptyCells", "EmptyValue", "MaximumIterations", "Threading"],
+           panel=["Overlay", "MassArray", "RegionArray", "Projection", "Tolerance", "LeastShare", "Blend",
+                  "Resolution", "Margin", "EmptyCells", "EmptyValue", "MaximumIterations", "Threading"],
            refused=("Blend", -0.5, 1), quick=dict(Resolution=64),
-           saved=dict(Resolution=60, Tolerance=0.05, LeastShare=0.001, Blend=0.5, Margin=0.2,
-                      EmptyCells="Value", EmptyValue=0.5, MaximumIterations=3),
+           saved=dict(Resolution=60, Projection="EqualArea", Tolerance=0.05, LeastShare=0.001, Blend=0.5,
+                      Margin=0.2, EmptyCells="Value", EmptyValue=0.5, MaximumIterations=3),
            always_shown=("Tolerance",),  # of another meaning than that of flows
            defaults={"EmptyCells": "Mean"}, slow_at_highest=("Resolution",),
            shown=[("FirstDisplay", {"port": "0", "type": "Filled Outlines With Edges",
@@ -257,6 +257,7 @@ PROPERTIES = {
     "Device": Property(["CPU", "OpenCL"], advanced=True),
     "DeviceName": Property(advanced=True, shown_by=("Device",)),  # both change the time alone
     "Threading": Property(["Auto", "VTK", "OpenMP", "Serial"], advanced=True),
+    "Projection": Property(["None", "EqualArea"]),
     "Direction": Property(["UniformToDensity", "DensityToUniform"]),
     "EqualizeAreas": Property(shown_by=("Direction",), differing=(0, 1)),
     "MassDifference": Property(["Normalize", "Error"]),

@@ -3,11 +3,14 @@
 
 #include "Bridge/Cartogram/MapFellows.h"
 #include "Bridge/Cartogram/MapPlace.h"
+#include "Bridge/Cartogram/MapProjection.h"
+#include "Bridge/Cartogram/MapWarnings.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PartText.h"
+#include "Core/Cartogram/RegionRaster.h"
 #include "Core/Parallel/Progress.h"
 
 #include "vtkAbstractArray.h"
@@ -71,21 +74,32 @@ public:
   std::vector<std::string> Run()
   {
     this->ReadPoints();
+    if (!this->Cells.OpenLines.empty())
+    {
+      this->Warnings.push_back(this->Cells.OpenLines);
+    }
     this->FindFrame();
     this->Work.Check();
     this->MakeMap();
     this->MassesBefore = this->Cells.Masses;
     this->CheckMasses();
     this->Box = boxAround(this->Map, this->Worker.Options);
-    this->WarnOfDegrees();
+    if (!this->Worker.IsInDegrees && looksLikeDegrees(this->Places))
+    {
+      this->Warnings.push_back(
+        "The coordinates look like degrees of longitude and latitude, in which areas are wrong; "
+        "set "
+        "Projection to EqualArea, or project the map with the Calculator or QGIS");
+    }
     for (Point<2>& place : this->Map.Points())
     {
       place = this->Box.ToIndex(place);
     }
     this->Work.Check();
-    const MapPlace place{ *this->Frame, this->Box, this->Worker.Blend };
+    const MapPlace place{ this->Projection, *this->Frame, this->Box, this->Worker.Blend };
     MapFellows fellows(place, this->Map, this->Outputs.Overlay, this->Work);
     CartogramStart start = this->FindStart();
+    this->RequireMemory();
     this->Work.BeginStage(0.98);
     this->Result = runCartogram(this->Map, this->Cells.Masses, this->Box, this->Worker.Options,
       fellows.Points(), start, this->Work.Stage());
@@ -95,7 +109,8 @@ public:
       fail("The outline of the region ", this->Cells.Names[Index(this->Result.Crossing.front())],
         " crosses itself, so that its area is not clear; repair it, with QGIS's Fix geometries");
     }
-    this->Warn();
+    addWarnings(this->Result, this->Cells.Names, this->Map.Rings(), this->Worker.Options.Tolerance,
+      this->Warnings);
     this->WriteRegions(place);
     this->Work.BeginStage(1.0);
     fellows.WriteGraticule(this->Outputs.Graticule);
@@ -114,8 +129,20 @@ private:
     visitPoints(this->Cells.Data, "input", this->Work, [this](std::int64_t i, const double* x) {
       this->Places[Index(i)] = { x[0], x[1], x[2] };
     });
+    if (this->Worker.IsInDegrees)
+    {
+      this->Projection = MapProjection(this->Places);
+      for (Point<3>& place : this->Places)
+      {
+        place = this->Projection.Project(place);
+      }
+    }
   }
 
+  bool IsOpen(vtkIdType cell) const { return this->Cells.Regions[Index(cell)] < 0; }
+
+  // visit(cell, ids, count) of lines and polygons; the ids have the first point of a closed line at
+  // the end again, which is not counted.
   template <class Visit>
   void VisitCells(const Visit& visit) const
   {
@@ -127,9 +154,8 @@ private:
       for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i, ++cell)
       {
         cells->GetCellAtId(i, ids);
-        // A line ends where it begins.
-        const vtkIdType count = ids->GetNumberOfIds() - (cells == data->GetLines() ? 1 : 0);
-        visit(cell, ids, count);
+        const bool isClosedLine = cells == data->GetLines() && !this->IsOpen(cell);
+        visit(cell, ids, ids->GetNumberOfIds() - (isClosedLine ? 1 : 0));
       }
     }
   }
@@ -138,9 +164,9 @@ private:
   {
     RingPlane plane;
     std::vector<Point<3>> ring;
-    this->VisitCells([&](vtkIdType, vtkIdList* ids, vtkIdType count) {
+    this->VisitCells([&](vtkIdType cell, vtkIdList* ids, vtkIdType count) {
       ring.clear();
-      for (vtkIdType i = 0; i < count; ++i)
+      for (vtkIdType i = 0; !this->IsOpen(cell) && i < count; ++i)
       {
         ring.push_back(this->Places[Index(ids->GetId(i))]);
       }
@@ -172,10 +198,11 @@ private:
     }
     this->VisitCells([&](vtkIdType cell, vtkIdList* ids, vtkIdType count) {
       std::vector<std::int64_t> ring(ids->begin(), ids->begin() + count);
-      this->Map.AddRing(this->Cells.Regions[Index(cell)], ring);
+      this->IsOpen(cell) ? this->Map.AddLine(ring)
+                         : this->Map.AddRing(this->Cells.Regions[Index(cell)], ring);
     });
     this->Work.BeginStage(0.07);
-    this->Map.FindHoles(this->Work.Stage());
+    this->Added = this->Map.FindHoles(this->Work.Stage());
     this->Before = this->Map.Areas(static_cast<std::int32_t>(this->Cells.Masses.size()));
     this->Land = std::accumulate(this->Before.begin(), this->Before.end(), 0.0);
     std::int64_t empty = 0;
@@ -230,24 +257,13 @@ private:
     }
   }
 
-  void WarnOfDegrees()
+  void RequireMemory() const
   {
-    constexpr double wide = 20.0;
-    const double side = this->Box.Cell * static_cast<double>(this->Box.Side) /
-      (1.0 + 2.0 * this->Worker.Options.Margin);
-    bool isOnEarth = true;
-    double farthest = 0.0;
-    for (const Point<3>& place : this->Places)
-    {
-      isOnEarth = isOnEarth && std::abs(place[0]) <= 180.001 && std::abs(place[1]) <= 90.001;
-      farthest = std::max(farthest, std::abs(place[1]));
-    }
-    if (isOnEarth && (side > wide || farthest > wide))
-    {
-      this->Warnings.push_back(
-        "The coordinates look like degrees of longitude and latitude, in which areas are wrong; "
-        "project the map to an equal-area projection first, with the Calculator or QGIS");
-    }
+    constexpr double bytesOfCell = 76.0; // of a density and its flow
+    const auto side = static_cast<double>(this->Box.Side);
+    const std::string text = std::to_string(this->Box.Side);
+    requireMemory("a raster of " + text + " x " + text + " cells (see Resolution)",
+      bytesOfCell * side * side + RegionRaster::BytesOf(this->Map, this->Box.Side));
   }
 
   CartogramStart FindStart()
@@ -265,6 +281,7 @@ private:
       content.AddNumber(static_cast<std::uint64_t>(region + 1));
     }
     content.AddNumber(static_cast<std::uint64_t>(this->Worker.Options.Resolution));
+    content.AddNumber(this->Worker.IsInDegrees ? 1 : 0);
     content.AddNumbers(&this->Worker.Options.Margin, 1);
     this->Work.BeginStage(this->Work.StageEnd());
     if (content.IsSameAs(this->Kept.Content, this->Work))
@@ -274,58 +291,6 @@ private:
     content.Keep(this->Work);
     this->Kept = { std::move(content), {} }; // an abort may follow
     return {};
-  }
-
-  void Warn()
-  {
-    const CartogramResult& result = this->Result;
-    const auto regions = static_cast<std::int64_t>(this->Cells.Masses.size());
-    constexpr double overlap = 1e-4;
-    if (result.Overlap > overlap)
-    {
-      this->Warnings.push_back("Regions overlap by " + percentText(result.Overlap) +
-        " of their area (most at the region " + this->Cells.Names[Index(result.Overlapping)] +
-        "), which counts for each of them; their areas there are not what their masses ask");
-    }
-    if (result.Folded > 0)
-    {
-      this->Warnings.push_back("A pass would turn over " +
-        describePart(result.Folded, this->Map.Rings(), "outlines") +
-        " even with 4096 steps and is left out; raise Resolution or LeastShare");
-    }
-    std::int64_t missed = 0;
-    std::size_t worst = 0;
-    for (std::size_t i = 0; i < result.Errors.size(); ++i)
-    {
-      missed += std::abs(result.Errors[i]) > this->Worker.Options.Tolerance ? 1 : 0;
-      worst = std::abs(result.Errors[i]) > std::abs(result.Errors[worst]) ? i : worst;
-    }
-    if (missed == 0)
-    {
-      return;
-    }
-    std::ostringstream text;
-    text << describePart(missed, regions, "regions") << " miss Tolerance";
-    if (!result.OutOfReach.empty())
-    {
-      text << "; the raster cannot hold the region" << (result.OutOfReach.size() > 1 ? "s" : "");
-      constexpr std::size_t most = 5;
-      for (std::size_t i = 0; i < std::min(most, result.OutOfReach.size()); ++i)
-      {
-        const std::size_t region = Index(result.OutOfReach[i]);
-        text << (i == 0 ? " " : ", ") << this->Cells.Names[region] << " (off by "
-             << percentText(std::abs(result.Errors[region])) << ")";
-      }
-      text << (result.OutOfReach.size() > most ? ", ..." : "")
-           << ": raise Resolution, or enlarge small regions with LeastShare";
-    }
-    else
-    {
-      text << " (the region " << this->Cells.Names[worst] << " by "
-           << percentText(std::abs(result.Errors[worst]))
-           << "); raise MaximumIterations or Resolution";
-    }
-    this->Warnings.push_back(text.str());
   }
 
   void WriteRegions(const MapPlace& where)
@@ -340,10 +305,11 @@ private:
     output->GetPointData()->CopyData(input->GetPointData(), 0, old, 0);
     constexpr std::int64_t work = 8; // units, of the arrays of a point
     this->Work.BeginStage(0.99, work * (points - old) + points);
-    for (std::size_t i = 0; i < this->Result.Added.size(); ++i)
+    this->Added.insert(this->Added.end(), this->Result.Added.begin(), this->Result.Added.end());
+    for (std::size_t i = 0; i < this->Added.size(); ++i)
     {
       this->Work.Add(work);
-      const DividingPoint& added = this->Result.Added[i];
+      const DividingPoint& added = this->Added[i];
       const Point<3>& a = before[Index(added.First)];
       const Point<3>& b = before[Index(added.Second)];
       Point<3> place;
@@ -394,13 +360,14 @@ private:
     vtkNew<vtkIdList> ids;
     this->VisitCells([&](vtkIdType cell, vtkIdList* given, vtkIdType count) {
       const bool isLine = cell < input->GetNumberOfVerts() + input->GetNumberOfLines();
+      const bool isClosedLine = isLine && !this->IsOpen(cell);
       const std::int64_t corners = this->Map.CountOf(ring);
-      ids->SetNumberOfIds(corners + (isLine ? 1 : 0));
+      ids->SetNumberOfIds(corners + (isClosedLine ? 1 : 0));
       for (std::int64_t i = 0; i < corners; ++i)
       {
         ids->SetId(i, this->Map.CornerOf(ring, i));
       }
-      if (isLine)
+      if (isClosedLine)
       {
         // The last point may be another one in the same place.
         const vtkIdType last = given->GetId(count);
@@ -414,6 +381,7 @@ private:
     output->SetPolys(polygons);
     output->GetCellData()->PassData(input->GetCellData());
     const double total = std::accumulate(this->Cells.Masses.begin(), this->Cells.Masses.end(), 0.0);
+    const double land = this->Land * this->Result.Growth;
     vtkNew<vtkDoubleArray> errors;
     vtkNew<vtkDoubleArray> targets;
     vtkNew<vtkDoubleArray> densities;
@@ -431,8 +399,7 @@ private:
       const std::int32_t region = this->Cells.Regions[Index(cell)];
       const bool isRegion = region >= 0;
       errors->SetValue(cell, isRegion ? this->Result.Errors[Index(region)] : 0.0);
-      targets->SetValue(
-        cell, isRegion ? this->Cells.Masses[Index(region)] / total * this->Land : 0.0);
+      targets->SetValue(cell, isRegion ? this->Cells.Masses[Index(region)] / total * land : 0.0);
       densities->SetValue(
         cell, isRegion ? this->MassesBefore[Index(region)] / this->Before[Index(region)] : 0.0);
     }
@@ -445,8 +412,10 @@ private:
   const CartogramOutputs& Outputs;
   std::vector<std::string> Warnings;
   std::vector<Point<3>> Places; // of the input's points
+  MapProjection Projection;
   std::optional<PlaneFrame> Frame;
   RegionMap Map;
+  std::vector<DividingPoint> Added; // to the input's points
   CartogramBox Box{};
   std::vector<double> MassesBefore; // of the regions
   std::vector<double> Before;       // areas of the regions

@@ -40,6 +40,7 @@ struct CartogramWorker
 {
   CartogramOptions Options;
   RegionArrays Arrays;
+  bool IsInDegrees; // project to equal areas
   double LeastShare;
   double Blend;
 

@@ -97,8 +97,14 @@ MapFellows::MapFellows(const MapPlace& place, const RegionMap& map,
     visitPoints(part.Input, "Overlay", progress, [&](std::int64_t i, const double* x) {
       const auto at = static_cast<std::size_t>(i);
       this->OverlayBefore[before + at] = { x[0], x[1], x[2] };
-      this->Moved[moved + at] = place.ToIndex({ x[0], x[1], x[2] });
     });
+    place.Projection.Require(this->OverlayBefore, before, "Overlay");
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      Point<3>& projected = this->OverlayBefore[before + i];
+      projected = place.Projection.Project(projected);
+      this->Moved[moved + i] = place.ToIndex(projected);
+    }
   }
   this->Before = this->Moved;
 }

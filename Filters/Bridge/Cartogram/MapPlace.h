@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_MapPlace_h
 #define RectifiedTransport_MapPlace_h
 
+#include "Bridge/Cartogram/MapProjection.h"
 #include "Bridge/Points/PlaneFrame.h"
 #include "Core/Cartogram/Cartogram.h"
 
@@ -11,6 +12,7 @@ namespace RectifiedTransport
 
 struct MapPlace
 {
+  MapProjection Projection; // to the space of the frame
   PlaneFrame Frame;
   CartogramBox Box;
   double Blend; // the part of the way from before to after

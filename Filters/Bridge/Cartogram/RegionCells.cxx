@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Cartogram/RegionCells.h"
 
+#include "Bridge/Cartogram/RegionBlocks.h"
 #include "Bridge/Image/DefaultArray.h"
-#include "Bridge/Points/CellCheck.h"
-#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/NumbersOfText.h"
 
 #include "vtkAbstractArray.h"
-#include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -24,7 +22,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -34,72 +31,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-constexpr const char* blockNumbers = "vtkCartogramBlock"; // a cell array, while blocks become one
-
-vtkPolyData* polyDataOf(const DensityBlock& block)
-{
-  auto* data = vtkPolyData::SafeDownCast(block.Data);
-  if (!data)
-  {
-    fail("The ", block.Name, " is a ", block.Data->GetClassName(),
-      "; regions must be polygons or closed lines of a vtkPolyData, as Extract Surface makes of "
-      "it");
-  }
-  if (data->GetNumberOfStrips() > 0)
-  {
-    fail("The ", block.Name,
-      " has triangle strips; regions must be polygons or closed lines, as Triangulate makes of "
-      "them");
-  }
-  requireReadableCells(data, block.Name);
-  requireTuples(data, block.Name);
-  return data;
-}
-
-vtkSmartPointer<vtkPolyData> numberedBlock(const DensityBlock& block, std::size_t i)
-{
-  vtkPolyData* data = polyDataOf(block);
-  const auto numbered = vtkSmartPointer<vtkPolyData>::New();
-  numbered->ShallowCopy(data);
-  vtkNew<vtkIdTypeArray> number;
-  number->SetName(blockNumbers);
-  number->SetNumberOfTuples(data->GetNumberOfCells());
-  number->FillValue(static_cast<vtkIdType>(i));
-  numbered->GetCellData()->AddArray(number);
-  return numbered;
-}
-
-// Group by group, and these again, as vtkAppendPolyData cannot be aborted.
-vtkSmartPointer<vtkPolyData> joinBlocks(const std::vector<DensityBlock>& blocks, Progress& progress)
-{
-  constexpr std::size_t most = 64;
-  std::vector<vtkSmartPointer<vtkPolyData>> parts;
-  progress.BeginStage(0.015, 2 * static_cast<std::int64_t>(blocks.size()));
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-  {
-    progress.EndSlice(1);
-    parts.push_back(numberedBlock(blocks[i], i));
-  }
-  do
-  {
-    std::vector<vtkSmartPointer<vtkPolyData>> joined;
-    for (std::size_t first = 0; first < parts.size(); first += most)
-    {
-      vtkNew<vtkAppendPolyData> append;
-      append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-      for (std::size_t i = first; i < std::min(parts.size(), first + most); ++i)
-      {
-        append->AddInputData(parts[i]);
-      }
-      append->Update();
-      joined.emplace_back(append->GetOutput());
-      progress.EndSlice(append->GetNumberOfInputConnections(0));
-    }
-    parts = std::move(joined);
-  } while (parts.size() > 1);
-  return parts.front();
-}
 
 std::string textOf(vtkAbstractArray* array, vtkIdType cell)
 {
@@ -127,7 +58,7 @@ bool isClosed(vtkPolyData* data, vtkIdList* line)
   double end[3];
   data->GetPoint(line->GetId(0), begin);
   data->GetPoint(line->GetId(last), end);
-  return std::memcmp(begin, end, sizeof(begin)) == 0;
+  return std::equal(begin, begin + 3, end);
 }
 
 class RegionReading
@@ -139,47 +70,60 @@ public:
     , Arrays(arrays)
     , Work(progress)
   {
-    this->Found.Data = joinBlocks(blocks, progress);
+    this->Joined = joinRegionBlocks(blocks, progress);
+    this->Found.Data = this->Joined.Data;
     this->ByBlock = isComposite && blocks.size() > 1;
   }
 
   RegionCells Read()
   {
-    this->RequireClosedLines();
+    this->FindOpenLines();
     this->Work.Check();
     this->FindMass();
     this->FindRegions();
-    this->Found.Data->GetCellData()->RemoveArray(blockNumbers);
     return std::move(this->Found);
   }
 
 private:
-  void RequireClosedLines()
+  // What does not end where it begins bounds no region.
+  void FindOpenLines()
   {
     vtkPolyData* data = this->Found.Data;
     const vtkIdType vertices = data->GetNumberOfVerts();
-    std::int64_t open = 0;
-    vtkIdType first = -1;
     vtkNew<vtkIdList> ids;
     vtkCellArray* lines = data->GetLines();
+    this->IsOpen.assign(static_cast<std::size_t>(data->GetNumberOfCells()), 0);
+    std::int64_t open = 0;
+    std::string first;
     for (vtkIdType line = 0; line < lines->GetNumberOfCells(); ++line)
     {
       lines->GetCellAtId(line, ids);
       if (!isClosed(data, ids))
       {
-        first = open++ == 0 ? vertices + line : first;
+        first = open++ == 0 ? this->TitleOf(vertices + line) : first;
+        this->IsOpen[static_cast<std::size_t>(vertices + line)] = 1;
       }
     }
-    if (open > 0)
+    const std::int64_t all = lines->GetNumberOfCells();
+    const std::string text = std::to_string(open) + " of " + std::to_string(all) +
+      " lines of the input do not close (the first is " + first + ")";
+    if (open == all && data->GetNumberOfPolys() == 0)
     {
-      fail(open, " of ", lines->GetNumberOfCells(),
-        " lines of the input do not close (the first is cell ", first,
-        "); the outline of a region must end at the point where it begins");
+      fail(all == 0 ? "The input has no regions; they must be polygons or closed lines"
+                    : text + "; the outline of a region must end at the point where it begins");
     }
-    if (lines->GetNumberOfCells() + data->GetNumberOfPolys() == 0)
-    {
-      fail("The input has no regions; they must be polygons or closed lines");
-    }
+    this->Found.OpenLines = open == 0 ? ""
+                                      : text +
+        "; they move along and have no share of the area, as the outline of a region ends at the "
+        "point where it begins";
+  }
+
+  // A cell of the input, by its number there.
+  std::string TitleOf(vtkIdType cell) const
+  {
+    const auto at = static_cast<std::size_t>(cell);
+    return "cell " + std::to_string(this->Joined.Numbers[at]) +
+      (this->Blocks.size() > 1 ? " of " + this->Blocks[this->Joined.Blocks[at]].Name : "");
   }
 
   void FindMass()
@@ -225,8 +169,7 @@ private:
     for (int i = 0; i < cells->GetNumberOfArrays(); ++i)
     {
       vtkDataArray* array = cells->GetArray(i);
-      if (array && array->GetName() && !isIds(cells, array) &&
-        std::strcmp(array->GetName(), blockNumbers) != 0)
+      if (array && array->GetName() && !isIds(cells, array))
       {
         only = array;
         ++count;
@@ -253,7 +196,6 @@ private:
         this->Blocks.size() > 1 ? "of all blocks of the input" : "of the input");
     }
     vtkAbstractArray* name = key ? key : this->NameArray();
-    vtkDataArray* block = cells->GetArray(blockNumbers);
     std::map<std::string, std::int32_t> numbers;
     const vtkIdType count = data->GetNumberOfCells();
     this->Found.Regions.assign(static_cast<std::size_t>(count), -1);
@@ -262,7 +204,11 @@ private:
     for (vtkIdType cell = data->GetNumberOfVerts(); cell < count; ++cell)
     {
       this->Work.Add(work);
-      const auto blockOfCell = static_cast<std::size_t>(block->GetComponent(cell, 0));
+      if (this->IsOpen[static_cast<std::size_t>(cell)] != 0)
+      {
+        continue;
+      }
+      const std::size_t blockOfCell = this->Joined.Blocks[static_cast<std::size_t>(cell)];
       std::string text = key ? textOf(key, cell)
         : this->ByBlock      ? std::to_string(blockOfCell)
                              : std::to_string(cell);
@@ -274,7 +220,7 @@ private:
       {
         this->Found.Names.push_back(name ? "'" + textOf(name, cell) + "'"
             : this->ByBlock              ? "of " + this->Blocks[blockOfCell].Name
-                                         : "of cell " + text);
+                                         : "of " + this->TitleOf(cell));
         this->Found.Masses.push_back(mass);
         this->Require(mass, this->Found.Names.back());
       }
@@ -315,7 +261,7 @@ private:
     vtkAbstractArray* key =
       this->Found.Data->GetCellData()->GetAbstractArray(this->Arrays.Region.c_str());
     vtkAbstractArray* name = key ? key : this->NameArray();
-    return name ? "'" + textOf(name, cell) + "'" : "of cell " + std::to_string(cell);
+    return name ? "'" + textOf(name, cell) + "'" : "of " + this->TitleOf(cell);
   }
 
   // Names for messages.
@@ -337,6 +283,8 @@ private:
   const RegionArrays& Arrays;
   Progress& Work;
   bool ByBlock = false;
+  RegionBlocks Joined;
+  std::vector<unsigned char> IsOpen; // of cells
   vtkSmartPointer<vtkDataArray> Mass;
   std::string MassTitle;
   RegionCells Found;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The regions of a map in the vtkCells of a vtkPolyData: polygons and closed lines.
+// The regions of a map: polygons and closed lines.
 #ifndef RectifiedTransport_RegionCells_h
 #define RectifiedTransport_RegionCells_h
 
@@ -33,16 +33,17 @@ struct RegionCells
   // All blocks as one, with double points and the arrays that all blocks have. Cells are numbered
   // as those of a vtkPolyData: vertices, lines, polygons.
   vtkSmartPointer<vtkPolyData> Data;
-  std::vector<std::int32_t> Regions; // of cells; -1 of vertices
+  std::vector<std::int32_t> Regions; // of cells; -1 of vertices and of open lines
   std::vector<std::string> Names;    // of regions, for messages
   std::vector<double> Masses;        // of regions, at least 0
+  std::string OpenLines;             // a warning, if there are some
 };
 
 // Blocks are those of the input, `isComposite` if it is a composite. Without a chosen mass array it
 // is the cells' active scalars, else their only numeric array. Cells with one value of the region
 // array are one region; without one those of a block, if there are several, else each cell. Throws
-// Failure for blocks of other types, no or bad masses, masses that differ in a region, strips, and
-// lines that do not close; and Cancelled. Takes the progress to 0.02.
+// Failure as joinRegionBlocks, and for no regions, no or bad masses, and masses that differ in a
+// region; and Cancelled. Takes the progress to 0.02.
 RegionCells readRegions(const std::vector<DensityBlock>& blocks, bool isComposite,
   const RegionArrays& arrays, Progress& progress);
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Cartogram/Cartogram.h"
 
+#include "Core/Cartogram/EdgeLengths.h"
 #include "Core/Cartogram/RegionRaster.h"
 #include "Core/Cartogram/RegionValues.h"
+#include "Core/Cartogram/Sea.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parallel/Progress.h"
 
@@ -20,12 +22,9 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr double nothing = 1e-7; // of the mean density: the ground in SeaDensity Zero
 // Where densities span more than this, the first pass takes their roots: borders of strong contrast
 // would cross.
 constexpr double wideSpan = 99.9;
-constexpr double edgesOfSide = 512.0; // the longest edges are this part of the box
-constexpr double mostParts = 8.0;     // of a longest edge, where densities differ
 // What areas may be off by in a pass that another one follows, in the tolerance of the last one.
 constexpr double coarser = 4.0;
 
@@ -72,19 +71,22 @@ public:
       this->Start.Raster = this->RasterNow();
     }
     std::shared_ptr<const RegionRaster> raster = this->Start.Raster;
-    this->Found.Overlap = raster->Overlap(this->Found.Overlapping) / sumOf(this->Areas);
+    this->FindOverlaps(*raster);
     this->FindCrossing(raster->Covered());
     if (!this->Found.Crossing.empty())
     {
       return std::move(this->Found);
     }
+    this->Around.emplace(this->Options, this->Box, *raster, this->Masses, this->Areas);
+    this->Found.Growth = this->Around->Growth();
     this->Work.BeginStage(0.12);
     this->FillGrowth(*raster);
     this->Work.BeginStage(0.15);
-    this->DivideFinely();
+    this->Divide([this](const Point<2>& middle) { return this->Lengths().WhereItGrows(middle); });
     constexpr double finest = 1.0 / 64.0;
     double finer = 1.0;
     double stuckBefore = std::numeric_limits<double>::infinity();
+    double foretoldBefore = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < this->Options.MaximumPasses; ++pass)
     {
       // How many passes follow is not known.
@@ -99,7 +101,7 @@ public:
       if (pass > 0)
       {
         this->BeginPart(0.05, end);
-        this->DivideByContrast();
+        this->Divide([this](const Point<2>& middle) { return this->Lengths().ByContrast(middle); });
       }
       const bool mayFollow = pass + 1 < this->Options.MaximumPasses;
       CartogramPass found;
@@ -127,19 +129,54 @@ public:
       }
       // What is stuck, at its least density, gets better by its neighbours' parts of border cells.
       const double tolerance = this->Options.Tolerance;
-      const bool isDone = done.LargestError <= tolerance ||
+      const bool isDone =
+        (done.LargestError <= tolerance && this->Around->LeavesLand(this->Areas)) ||
         (!isTempered && others <= tolerance && stuck > 0.5 * stuckBefore);
-      if (isDone || !mayFollow)
+      const bool isForetold = !isTempered && this->Found.Overlap > leastOverlap &&
+        found.ForetoldError > tolerance && found.ForetoldError > 0.5 * foretoldBefore &&
+        this->IsAsForetold(values);
+      if (isDone || isForetold || !mayFollow)
       {
         this->NameOutOfReach(values);
         break;
       }
+      foretoldBefore = isTempered ? foretoldBefore : found.ForetoldError;
       stuckBefore = stuck > 0.0 ? stuck : std::numeric_limits<double>::infinity();
     }
     return std::move(this->Found);
   }
 
 private:
+  void FindOverlaps(const RegionRaster& raster)
+  {
+    std::vector<double>& overlaps = this->Found.Overlaps;
+    this->Found.Overlap = raster.Overlap(overlaps) / sumOf(this->Areas);
+    this->Found.Overlapping = static_cast<std::int32_t>(
+      std::max_element(overlaps.begin(), overlaps.end()) - overlaps.begin());
+    for (std::size_t i = 0; i < overlaps.size(); ++i)
+    {
+      overlaps[i] /= this->Areas[i];
+    }
+  }
+
+  // Whether areas are what the raster foretells of regions on each other, whose areas cannot all be
+  // right: no other pass makes them better.
+  bool IsAsForetold(const RegionValues& values) const
+  {
+    double total = 0.0;
+    for (std::size_t i = 0; i < this->Masses.size(); ++i)
+    {
+      total += this->Masses[i] * (1.0 + values.Errors[i]);
+    }
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < this->Masses.size(); ++i)
+    {
+      const double foretold = (1.0 + values.Errors[i]) * sumOf(this->Masses) / total;
+      farthest = std::max(farthest, std::abs((1.0 + this->Found.Errors[i]) / foretold - 1.0));
+    }
+    return farthest <= 2.0 * this->Options.Tolerance;
+  }
+
   // What runs the other way round counts in areas, not in what rasters cover.
   void FindCrossing(const std::vector<double>& covered)
   {
@@ -159,8 +196,6 @@ private:
     const double start = this->Work.StageEnd();
     this->Work.BeginStage(start + part * (end - start));
   }
-
-  double LongestEdge() const { return static_cast<double>(this->Box.Side) / edgesOfSide; }
 
   std::shared_ptr<const RegionRaster> RasterNow()
   {
@@ -184,29 +219,6 @@ private:
     return most > wideSpan * std::max(least, leastRegionDensity * this->MeanDensity());
   }
 
-  double SeaOf(const std::vector<double>& masses) const
-  {
-    const double mean = sumOf(masses) / sumOf(this->Areas);
-    switch (this->Options.Sea)
-    {
-      case SeaDensity::Least:
-      {
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < masses.size(); ++i)
-        {
-          least = std::min(least, masses[i] / this->Areas[i]);
-        }
-        return std::max(least, nothing * mean);
-      }
-      case SeaDensity::Value:
-        return std::max(this->Options.SeaValue * this->Box.Cell * this->Box.Cell, nothing * mean);
-      case SeaDensity::Zero:
-        return nothing * mean;
-      default:
-        return mean;
-    }
-  }
-
   // How many times as dense as all regions together cells are, at least 1.
   void FillGrowth(const RegionRaster& raster)
   {
@@ -219,53 +231,7 @@ private:
     raster.Fill(growth, 1.0, this->Cells, this->Work.Stage());
   }
 
-  // Edges are short where regions grow.
-  void DivideFinely()
-  {
-    this->Divide([this](const Point<2>& middle) {
-      return this->LongestEdge() / std::sqrt(std::max(1.0, this->CellsAbout(middle).Largest));
-    });
-  }
-
-  // Edges are short where densities differ from cell to cell, as points beside each other then move
-  // differently.
-  void DivideByContrast()
-  {
-    this->Divide([this](const Point<2>& middle) {
-      const Range densities = this->CellsAbout(middle);
-      return this->LongestEdge() /
-        std::clamp(std::sqrt(densities.Largest / densities.Least), 1.0, mostParts);
-    });
-  }
-
-  struct Range
-  {
-    double Least;
-    double Largest;
-  };
-
-  // Of the 3 x 3 cells about a place.
-  Range CellsAbout(const Point<2>& place) const
-  {
-    const std::int64_t side = this->Box.Side;
-    std::int64_t at[2];
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      at[axis] =
-        std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(place[axis])), 0, side - 1);
-    }
-    Range range{ HUGE_VAL, 0.0 };
-    for (std::int64_t y = std::max<std::int64_t>(0, at[1] - 1); y < std::min(side, at[1] + 2); ++y)
-    {
-      for (std::int64_t x = std::max<std::int64_t>(0, at[0] - 1); x < std::min(side, at[0] + 2);
-           ++x)
-      {
-        const double cell = this->Cells[static_cast<std::size_t>(y * side + x)];
-        range = { std::min(range.Least, cell), std::max(range.Largest, cell) };
-      }
-    }
-    return range;
-  }
+  EdgeLengths Lengths() const { return { this->Cells, this->Box.Side }; }
 
   template <class LongestAt>
   void Divide(const LongestAt& longestAt)
@@ -303,17 +269,25 @@ private:
       const double plain = this->Areas[i] * mean;
       masses[i] = takesRoots ? plain * std::sqrt(this->Masses[i] / plain) : this->Masses[i];
     }
-    const double sea = this->SeaOf(masses);
+    const double sea = this->Around->DensityOf(raster, masses, this->Areas, takesRoots);
     const double least = leastRegionDensity * sumOf(masses) / sumOf(this->Areas);
     this->BeginPart(0.1, end);
     RegionValues values = findRegionValues(
       raster, { masses, this->Areas, sea, least, this->Options.Tolerance }, this->Work.Stage());
-    this->BeginPart(0.1, end);
-    raster.Fill(values.Densities, sea, this->Cells, this->Work.Stage());
-    if (!values.Exponents.empty())
-    {
+    const auto fill = [&](double around) {
       this->BeginPart(0.1, end);
-      raster.Scale(values.Exponents, least, this->Cells, this->Work.Stage());
+      raster.Fill(values.Densities, around, this->Cells, this->Work.Stage());
+      if (!values.Exponents.empty())
+      {
+        this->BeginPart(0.1, end);
+        raster.Scale(values.Exponents, least, this->Cells, this->Work.Stage());
+      }
+    };
+    fill(sea);
+    if (this->Options.Sea == SeaDensity::Mean && this->Found.Overlap > leastOverlap)
+    {
+      // Ground that regions share has the mass of all of them, and their areas count it for each.
+      fill(raster.MeanOnLand(this->Cells));
     }
     return values;
   }
@@ -342,7 +316,7 @@ private:
       const FlowReport report =
         this->Flow->Backward(ConstPointSpan<2>(before), points, options, this->Work.Stage());
       pass.NumberOfSteps = report.NumberOfSteps;
-      this->Found.Folded = this->TurnedRings(ringAreas);
+      this->CountTurnedRings(ringAreas);
       if (this->Found.Folded == 0)
       {
         break;
@@ -373,16 +347,18 @@ private:
   }
 
   // Rings that had an area and have none, or a negative one.
-  std::int64_t TurnedRings(const std::vector<double>& before) const
+  void CountTurnedRings(const std::vector<double>& before)
   {
     constexpr double rounding = 1e-9;
     const std::vector<double> now = this->RingAreas();
-    std::int64_t turned = 0;
+    this->Found.Folded = 0;
     for (std::size_t ring = 0; ring < now.size(); ++ring)
     {
-      turned += before[ring] > rounding && !(now[ring] > 0.0) ? 1 : 0;
+      if (before[ring] > rounding && !(now[ring] > 0.0) && this->Found.Folded++ == 0)
+      {
+        this->Found.FirstFolded = this->Map.RegionOf(static_cast<std::int64_t>(ring));
+      }
     }
-    return turned;
   }
 
   void MoveFellows(const FlowOptions& options)
@@ -435,7 +411,8 @@ private:
   {
     for (std::size_t i = 0; i < this->Found.Errors.size(); ++i)
     {
-      if (values.Least[i] != 0 && std::abs(this->Found.Errors[i]) > this->Options.Tolerance)
+      if (values.Least[i] != 0 && std::abs(this->Found.Errors[i]) > this->Options.Tolerance &&
+        !(this->Found.Overlaps[i] > this->Options.Tolerance))
       {
         this->Found.OutOfReach.push_back(static_cast<std::int32_t>(i));
       }
@@ -451,6 +428,7 @@ private:
   CartogramStart& Start;
   Progress Work;
   std::vector<double> Areas; // of the regions, in cells
+  std::optional<Sea> Around;
   std::vector<double> Cells; // of the raster
   std::optional<RectifiedFlow<2>> Flow;
   CartogramResult Found;

@@ -23,12 +23,15 @@ class RegionRaster;
 // What a region has at least, of the mean density of all regions.
 constexpr double leastRegionDensity = 1e-4;
 
+// Regions that overlap by less, of all their area, count as regions side by side.
+constexpr double leastOverlap = 1e-4;
+
 // The density of the ground around the regions.
 enum class SeaDensity
 {
   Mean,  // of the regions, in every pass: they keep their area
   Least, // of the regions' densities
-  Value, // a given one
+  Value, // a given one, in the map as it is
   Zero   // 1e-7 of the mean: regions take all of the box
 };
 
@@ -80,11 +83,14 @@ struct CartogramResult
   std::vector<CartogramPass> Passes;
   std::vector<double> Errors; // of regions, relative, with sign
   // Regions whose least density is too much for them at this resolution, and which therefore miss
-  // the tolerance.
+  // the tolerance. Those that lie on others are not among them.
   std::vector<std::int32_t> OutOfReach;
   std::int64_t Folded = 0;      // rings that turned over in a pass that was left out; 0 else
+  std::int32_t FirstFolded = 0; // the region of the first of them
+  double Growth = 1.0;          // what the area of all regions is to be multiplied by
   double Overlap = 0.0;         // of regions, before, by all their area
   std::int32_t Overlapping = 0; // a region with most of it
+  std::vector<double> Overlaps; // of each region, by its area
   // Points that divide the map's edges, as it numbers them, and the places of all points before.
   std::vector<DividingPoint> Added;
   std::vector<Point<2>> Before;

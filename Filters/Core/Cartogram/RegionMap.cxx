@@ -73,6 +73,12 @@ double RegionMap::WindingArea(std::int64_t ring) const
 
 double RegionMap::AreaOf(std::int64_t ring) const
 {
+  const auto crossed = this->Crossed.find(this->RegionOf(ring));
+  if (this->IsOpen(ring) || crossed != this->Crossed.end())
+  {
+    const bool isFirst = crossed != this->Crossed.end() && crossed->second.front() == ring;
+    return isFirst ? this->CrossedArea(crossed->second) : 0.0;
+  }
   const double area = this->WindingArea(ring);
   return (this->Turned[Index(ring)] != 0) != this->IsHole(ring) ? -area : area;
 }
@@ -82,6 +88,10 @@ std::vector<double> RegionMap::Areas(std::int32_t regions) const
   std::vector<double> areas(static_cast<std::size_t>(regions), 0.0);
   for (std::int64_t ring = 0; ring < this->Rings(); ++ring)
   {
+    if (this->IsOpen(ring))
+    {
+      continue;
+    }
     const double area = this->AreaOf(ring);
     areas[Index(this->RegionOf(ring))] += this->IsHole(ring) ? -area : area;
   }
@@ -93,16 +103,21 @@ std::vector<std::vector<std::int64_t>> RegionMap::RingsOfRegions() const
   std::vector<std::vector<std::int64_t>> rings;
   for (std::int64_t ring = 0; ring < this->Rings(); ++ring)
   {
+    if (this->IsOpen(ring))
+    {
+      continue;
+    }
     rings.resize(std::max(rings.size(), Index(this->RegionOf(ring)) + 1));
     rings[Index(this->RegionOf(ring))].push_back(ring);
   }
   return rings;
 }
 
-void RegionMap::FindHoles(const Context& context)
+std::vector<DividingPoint> RegionMap::FindHoles(const Context& context)
 {
   Progress progress(context);
-  progress.BeginStage(1.0, 2 * this->Edges());
+  progress.BeginStage(1.0, 4 * this->Edges());
+  EdgeParts parts;
   std::vector<RingShape> shapes;
   for (std::int64_t ring = 0; ring < this->Rings(); ++ring)
   {
@@ -125,7 +140,9 @@ void RegionMap::FindHoles(const Context& context)
       this->Holes[ring] = around[i] % 2 == 1;
       this->Turned[ring] = (this->WindingArea(rings[i]) < 0.0) != this->IsHole(rings[i]);
     }
+    this->FindParts(rings, parts, progress);
   }
+  return parts.empty() ? std::vector<DividingPoint>() : this->DivideAtCrossings(parts, progress);
 }
 
 RegionMap::RingShape RegionMap::ShapeOf(std::int64_t ring) const
@@ -187,7 +204,7 @@ void RegionMap::CountAround(std::int64_t outer, const std::vector<std::int64_t>&
   }
   std::sort(middles.begin(), middles.end(),
     [](const Middle& a, const Middle& b) { return a.Place[1] < b.Place[1]; });
-  this->VisitSides(outer, [&](std::int64_t from, std::int64_t to) {
+  this->VisitCorners(outer, [&](std::int64_t, std::int64_t from, std::int64_t to) {
     const Point<2>& a = this->Places[Index(from)];
     const Point<2>& b = this->Places[Index(to)];
     const double low = std::min(a[1], b[1]);
@@ -217,48 +234,86 @@ void RegionMap::CountAround(std::int64_t outer, const std::vector<std::int64_t>&
 std::vector<DividingPoint> RegionMap::Divide(
   const std::function<double(const Point<2>&)>& longestAt, const Context& context)
 {
+  Progress progress(context);
+  progress.BeginStage(1.0, this->Edges());
+  const auto equalParts = [&](const Point<2>& low, const Point<2>& high, std::vector<double>& at) {
+    const double longest = longestAt({ 0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]) });
+    const auto parts = static_cast<std::int64_t>(
+      std::ceil(std::hypot(high[0] - low[0], high[1] - low[1]) / longest - 1e-9));
+    for (std::int64_t k = 1; k < parts; ++k)
+    {
+      at.push_back(static_cast<double>(k) / static_cast<double>(parts));
+    }
+  };
+  return this->DivideEdges(
+    equalParts, [this](std::int64_t corner, double) { return this->Sides[Index(corner)]; },
+    progress);
+}
+
+bool RegionMap::IsUp(std::int64_t from, std::int64_t to) const
+{
+  const Point<2>& a = this->Places[Index(from)];
+  const Point<2>& b = this->Places[Index(to)];
+  return a != b ? a < b : from < to;
+}
+
+std::vector<DividingPoint> RegionMap::DivideEdges(
+  const std::function<void(const Point<2>&, const Point<2>&, std::vector<double>&)>& atOf,
+  const std::function<Side(std::int64_t, double)>& sideOf, Progress& progress)
+{
   std::unordered_map<Edge, std::int64_t, EdgeHash> firsts; // of the new points, from the lower end
   std::vector<DividingPoint> added;
   std::vector<std::int64_t> corners;
   std::vector<std::int64_t> begins{ 0 };
-  Progress progress(context);
-  progress.BeginStage(1.0, this->Edges());
+  std::vector<Side> sides;
+  std::vector<double> at;
   for (std::int64_t ring = 0; ring < this->Rings(); ++ring)
   {
-    this->VisitSides(ring, [&](std::int64_t from, std::int64_t to) {
+    this->VisitCorners(ring, [&](std::int64_t corner, std::int64_t from, std::int64_t to) {
       progress.Add(1);
       corners.push_back(from);
-      const Point<2> a = this->Places[Index(from)];
-      const Point<2> b = this->Places[Index(to)];
-      const bool isUp = a != b ? a < b : from < to;
-      const Point<2> low = isUp ? a : b;
-      const Point<2> high = isUp ? b : a;
-      const double longest = longestAt({ 0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]) });
-      const auto parts = static_cast<std::int64_t>(
-        std::ceil(std::hypot(high[0] - low[0], high[1] - low[1]) / longest - 1e-9));
+      const bool isUp = this->IsUp(from, to);
+      const Edge edge = isUp ? Edge{ from, to } : Edge{ to, from };
+      const Point<2> low = this->Places[Index(edge.Low)];
+      const Point<2> high = this->Places[Index(edge.High)];
+      at.clear();
+      atOf(low, high, at);
+      const auto parts = static_cast<std::int64_t>(at.size()) + 1;
+      for (std::int64_t k = 0; !this->Crossed.empty() && k < parts; ++k)
+      {
+        const std::int64_t part = isUp ? k : parts - 1 - k;
+        const double begin = part > 0 ? at[Index(part) - 1] : 0.0;
+        const double end = part + 1 < parts ? at[Index(part)] : 1.0;
+        sides.push_back(sideOf(corner, 0.5 * (begin + end)));
+      }
       if (parts <= 1)
       {
         return;
       }
-      const Edge edge = isUp ? Edge{ from, to } : Edge{ to, from };
       const auto [first, isNew] =
         firsts.insert({ edge, static_cast<std::int64_t>(this->Places.size()) });
       for (std::int64_t k = 1; isNew && k < parts; ++k)
       {
-        const double at = static_cast<double>(k) / static_cast<double>(parts);
-        added.push_back({ edge.Low, edge.High, at });
+        const double place = at[Index(k) - 1];
+        added.push_back({ edge.Low, edge.High, place });
         this->Places.push_back(
-          { low[0] + at * (high[0] - low[0]), low[1] + at * (high[1] - low[1]) });
+          { low[0] + place * (high[0] - low[0]), low[1] + place * (high[1] - low[1]) });
       }
       for (std::int64_t k = 1; k < parts; ++k)
       {
         corners.push_back(first->second + (isUp ? k : parts - k) - 1);
       }
     });
+    if (this->IsOpen(ring) && this->CountOf(ring) > 0)
+    {
+      corners.push_back(this->CornerOf(ring, this->CountOf(ring) - 1));
+      sides.resize(this->Crossed.empty() ? 0 : corners.size(), Side::None);
+    }
     begins.push_back(static_cast<std::int64_t>(corners.size()));
   }
   this->Corners = std::move(corners);
   this->Begins = std::move(begins);
+  this->Sides = std::move(sides);
   return added;
 }
 

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace RectifiedTransport
@@ -25,8 +26,9 @@ struct DividingPoint
 };
 
 // Points and regions are numbered from 0. Rings may share points, and a region may have several
-// rings: a ring in an odd number of others of its region is a hole. Rings may run in either
-// direction, touch themselves, and go to a hole and back.
+// rings: what is inside an odd number of them, or of the turns of one that crosses itself, belongs
+// to it. Rings may run in either direction, touch themselves, and go to a hole and back. Open lines
+// belong to no region; they are numbered among the rings.
 class RegionMap
 {
 public:
@@ -35,8 +37,11 @@ public:
   std::int64_t AddPoint(const Point<2>& place);
   // The points of a ring in their order, the first one not again at the end.
   void AddRing(std::int32_t region, const std::vector<std::int64_t>& points);
-  // After all rings: finds the holes. Throws Cancelled.
-  void FindHoles(const Context& context = Context());
+  // The points of an open line in their order.
+  void AddLine(const std::vector<std::int64_t>& points) { this->AddRing(noRegion, points); }
+  // After all rings: finds the holes. Where rings of a region cross themselves or each other, their
+  // edges are divided, as Divide does it. Throws Cancelled.
+  std::vector<DividingPoint> FindHoles(const Context& context = Context());
 
   std::vector<Point<2>>& Points() { return this->Places; }
   const std::vector<Point<2>>& Points() const { return this->Places; }
@@ -44,6 +49,7 @@ public:
   std::int64_t Edges() const { return static_cast<std::int64_t>(this->Corners.size()); }
   std::int64_t Rings() const { return static_cast<std::int64_t>(this->Regions.size()); }
   std::int32_t RegionOf(std::int64_t ring) const { return this->Regions[Index(ring)]; }
+  bool IsOpen(std::int64_t ring) const { return this->RegionOf(ring) == noRegion; }
   bool IsHole(std::int64_t ring) const { return this->Holes[Index(ring)] != 0; }
   // Whether the points of a ring have its region on the right.
   bool IsTurned(std::int64_t ring) const { return this->Turned[Index(ring)] != 0; }
@@ -65,11 +71,20 @@ public:
   void VisitEdges(std::int64_t ring, const Visit& visit) const
   {
     const bool isTurned = this->Turned[Index(ring)] != 0;
-    this->VisitSides(ring,
-      [&](std::int64_t from, std::int64_t to) { isTurned ? visit(to, from) : visit(from, to); });
+    const bool isCrossed = this->IsCrossed(ring);
+    this->VisitCorners(ring, [&](std::int64_t corner, std::int64_t from, std::int64_t to) {
+      const Side side = isCrossed ? this->Sides[Index(corner)]
+        : isTurned                ? Side::Right
+                                  : Side::Left;
+      if (side != Side::None)
+      {
+        side == Side::Right ? visit(to, from) : visit(from, to);
+      }
+    });
   }
 
-  // The area within a ring; negative if it has turned over since FindHoles.
+  // The area within a ring; negative if it has turned over since FindHoles. If rings of a region
+  // cross, the first one has all of its area.
   double AreaOf(std::int64_t ring) const;
   // Of regions, without their holes.
   std::vector<double> Areas(std::int32_t regions) const;
@@ -96,22 +111,52 @@ private:
     }
   };
 
+  static constexpr std::int32_t noRegion = -1;
+
+  // Where the region is beside an edge of rings that cross.
+  enum class Side : signed char
+  {
+    Left,
+    Right,
+    None // on both sides or on none
+  };
+  // A part of an edge between two crossings, from its lower end at 0 to the upper one at 1; ends
+  // are in the order of their coordinates.
+  struct EdgePart
+  {
+    double From;
+    double To;
+    RegionMap::Side Side;
+  };
+  using EdgeParts = std::map<std::int64_t, std::vector<EdgePart>>; // by corners
+
   static std::size_t Index(std::int64_t i) { return static_cast<std::size_t>(i); }
-  // visit(from, to) of the edges of a ring, in its order and direction.
+  // visit(corner, from, to) of the edges of a ring, in its order and direction.
   template <class Visit>
-  void VisitSides(std::int64_t ring, const Visit& visit) const
+  void VisitCorners(std::int64_t ring, const Visit& visit) const
   {
     const std::int64_t begin = this->Begins[Index(ring)];
     const std::int64_t end = this->Begins[Index(ring) + 1];
-    for (std::int64_t i = begin; i < end; ++i)
+    const std::int64_t last = this->IsOpen(ring) ? end - 1 : end; // one beyond
+    for (std::int64_t i = begin; i < last; ++i)
     {
-      visit(this->Corners[Index(i)], this->Corners[Index(i + 1 < end ? i + 1 : begin)]);
+      visit(i, this->Corners[Index(i)], this->Corners[Index(i + 1 < end ? i + 1 : begin)]);
     }
   }
+  bool IsCrossed(std::int64_t ring) const { return this->Crossed.count(this->RegionOf(ring)) > 0; }
+  bool IsUp(std::int64_t from, std::int64_t to) const;
   double WindingArea(std::int64_t ring) const;
+  double CrossedArea(const std::vector<std::int64_t>& rings) const;
   RingShape ShapeOf(std::int64_t ring) const;
   void CountAround(std::int64_t outer, const std::vector<std::int64_t>& rings,
     const std::vector<RingShape>& shapes, std::vector<int>& around, Progress& progress) const;
+  void FindParts(const std::vector<std::int64_t>& rings, EdgeParts& parts, Progress& progress);
+  std::vector<DividingPoint> DivideAtCrossings(const EdgeParts& parts, Progress& progress);
+  // Divides edges where atOf(lower end, upper end, places) says, in rising order. Of the parts of
+  // an edge from a corner, sideOf(corner, place within) says the side.
+  std::vector<DividingPoint> DivideEdges(
+    const std::function<void(const Point<2>&, const Point<2>&, std::vector<double>&)>& atOf,
+    const std::function<Side(std::int64_t, double)>& sideOf, Progress& progress);
 
   std::vector<Point<2>> Places;
   std::vector<std::int64_t> Corners; // of all rings
@@ -119,6 +164,8 @@ private:
   std::vector<std::int32_t> Regions;
   std::vector<unsigned char> Holes;
   std::vector<unsigned char> Turned; // whether a ring has its region on the right
+  std::map<std::int32_t, std::vector<std::int64_t>> Crossed; // regions whose rings cross
+  std::vector<Side> Sides; // of the edges from corners, if rings cross
 };
 
 } // namespace RectifiedTransport

@@ -54,6 +54,7 @@ Rows rowsOf(const RegionMap& map, const std::vector<std::int64_t>& rings, std::i
 RegionRaster::RegionRaster(
   const RegionMap& map, std::int32_t regions, std::int64_t side, const Context& context)
   : CellsOfSide(side)
+  , Together(regions)
   , Whole(static_cast<std::size_t>(regions), 0.0)
 {
   std::vector<std::vector<std::int64_t>> ringsOf = map.RingsOfRegions();
@@ -97,9 +98,9 @@ RegionRaster::RegionRaster(
       }
       coverage.FinishSigned([&](std::int64_t cell, double area) {
         std::int32_t& owner = this->Owners[static_cast<std::size_t>(cell)];
-        if (area == 1.0 && owner < 0)
+        if (area == 1.0)
         {
-          owner = region;
+          owner = owner < 0 ? region : this->Together.With(owner, region);
         }
         else
         {
@@ -112,16 +113,62 @@ RegionRaster::RegionRaster(
   }
   this->Begins.push_back(static_cast<std::int64_t>(this->Shares.size()));
   progress.Check();
+  this->KeepSets();
+}
+
+double RegionRaster::BytesOf(const RegionMap& map, std::int64_t side)
+{
+  // Of a region's share: in the raster, sorted in its band, and twice while factors are searched.
+  constexpr double bytesOfShare = sizeof(Share) + sizeof(CellShare) + 6 * sizeof(double);
+  double crossed = 0.0; // cells, by edges
+  for (std::int64_t ring = 0; ring < map.Rings(); ++ring)
+  {
+    map.VisitEdges(ring, [&](std::int64_t from, std::int64_t to) {
+      const Point<2>& a = map.Points()[static_cast<std::size_t>(from)];
+      const Point<2>& b = map.Points()[static_cast<std::size_t>(to)];
+      crossed += 1.0 + std::abs(b[0] - a[0]) + std::abs(b[1] - a[1]);
+    });
+  }
+  const auto cells = static_cast<double>(side) * static_cast<double>(side);
+  return cells * sizeof(std::int32_t) + crossed * bytesOfShare;
+}
+
+// The sets that cells have in the end, and how many cells have each.
+void RegionRaster::KeepSets()
+{
+  std::vector<unsigned char> isUsed(static_cast<std::size_t>(this->Together.End()), 0);
+  const auto visit = [this](const auto& use) {
+    for (std::vector<std::int32_t>* sets : { &this->Owners, &this->SetsOfMixed })
+    {
+      for (std::int32_t& set : *sets)
+      {
+        if (set >= 0)
+        {
+          use(set);
+        }
+      }
+    }
+  };
+  visit([&](std::int32_t set) { isUsed[static_cast<std::size_t>(set)] = 1; });
+  const std::vector<std::int32_t> numbers = this->Together.Keep(isUsed);
+  visit([&](std::int32_t& set) { set = numbers[static_cast<std::size_t>(set)]; });
+  this->WholeOfSets.assign(
+    static_cast<std::size_t>(this->Together.End() - this->Together.First()), 0);
   for (const std::int32_t owner : this->Owners)
   {
-    if (owner >= 0)
+    if (owner >= this->Together.First())
+    {
+      ++this->WholeOfSets[static_cast<std::size_t>(owner - this->Together.First())];
+    }
+    else if (owner >= 0)
     {
       this->Whole[static_cast<std::size_t>(owner)] += 1.0;
     }
   }
 }
 
-// Of a band. Cells of an owner and others are mixed.
+// Of a band. Cells of an owner and others are mixed. A set is in the place of a region, until it is
+// put where it belongs.
 void RegionRaster::AddMixed(std::vector<CellShare>& mixed)
 {
   const std::size_t parts = mixed.size();
@@ -142,15 +189,23 @@ void RegionRaster::AddMixed(std::vector<CellShare>& mixed)
     if (i == 0 || mixed[i].Cell != mixed[i - 1].Cell)
     {
       this->Mixed.push_back(mixed[i].Cell);
+      this->SetsOfMixed.push_back(-1);
       this->Begins.push_back(static_cast<std::int64_t>(this->Shares.size()));
     }
-    this->Shares.push_back(mixed[i].Share);
+    if (mixed[i].Share.Region >= this->Together.First())
+    {
+      this->SetsOfMixed.back() = mixed[i].Share.Region;
+    }
+    else
+    {
+      this->Shares.push_back(mixed[i].Share);
+    }
   }
 }
 
-double restOf(const RegionRaster::Share* shares, std::int64_t count)
+double restOf(std::int32_t set, const RegionRaster::Share* shares, std::int64_t count)
 {
-  double rest = 1.0;
+  double rest = set >= 0 ? 0.0 : 1.0;
   for (std::int64_t i = 0; i < count; ++i)
   {
     rest -= shares[i].Part;
@@ -161,11 +216,35 @@ double restOf(const RegionRaster::Share* shares, std::int64_t count)
 std::vector<double> RegionRaster::Covered() const
 {
   std::vector<double> covered = this->Whole;
-  for (const Share& share : this->Shares)
+  const auto addSet = [&](std::int32_t set, double cells) {
+    this->Together.VisitRegions(
+      set, [&](std::int32_t region) { covered[static_cast<std::size_t>(region)] += cells; });
+  };
+  for (std::int32_t set = this->Together.First(); set < this->Together.End(); ++set)
   {
-    covered[static_cast<std::size_t>(share.Region)] += share.Part;
+    addSet(set, static_cast<double>(this->WholeCellsOfSet(set)));
   }
+  this->VisitMixed([&](std::int32_t set, const Share* shares, std::int64_t count) {
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      covered[static_cast<std::size_t>(shares[i].Region)] += shares[i].Part;
+    }
+    if (set >= 0)
+    {
+      addSet(set, 1.0);
+    }
+  });
   return covered;
+}
+
+double RegionRaster::Rest() const
+{
+  double rest = static_cast<double>(std::count(this->Owners.begin(), this->Owners.end(), -1) -
+    static_cast<std::ptrdiff_t>(this->Mixed.size()));
+  this->VisitMixed([&](std::int32_t set, const Share* shares, std::int64_t count) {
+    rest += restOf(set, shares, count);
+  });
+  return rest;
 }
 
 template <class Visit>
@@ -176,10 +255,24 @@ void RegionRaster::ForMixed(Progress& progress, const Visit& visit) const
     for (std::int64_t i = first; i < last; ++i)
     {
       const auto at = static_cast<std::size_t>(i);
-      visit(this->Mixed[at], this->Shares.data() + this->Begins[at],
+      visit(this->Mixed[at], this->SetsOfMixed[at], this->Shares.data() + this->Begins[at],
         this->Begins[at + 1] - this->Begins[at]);
     }
   });
+}
+
+// The values of regions, and the sums of those of each set.
+std::vector<double> RegionRaster::SumsOfSets(const std::vector<double>& values) const
+{
+  std::vector<double> sums = values;
+  for (std::int32_t set = this->Together.First(); set < this->Together.End(); ++set)
+  {
+    double sum = 0.0;
+    this->Together.VisitRegions(
+      set, [&](std::int32_t region) { sum += values[static_cast<std::size_t>(region)]; });
+    sums.push_back(sum);
+  }
+  return sums;
 }
 
 void RegionRaster::Fill(const std::vector<double>& values, double around,
@@ -191,21 +284,24 @@ void RegionRaster::Fill(const std::vector<double>& values, double around,
   progress.BeginStage(1.0, all + mixed);
   cells.clear();
   cells.reserve(this->Owners.size());
+  const std::vector<double> sums = this->SumsOfSets(values);
   progress.ForInOrder(all, grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       const std::int32_t owner = this->Owners[static_cast<std::size_t>(i)];
-      cells.push_back(owner < 0 ? around : values[static_cast<std::size_t>(owner)]);
+      cells.push_back(owner < 0 ? around : sums[static_cast<std::size_t>(owner)]);
     }
   });
-  this->ForMixed(progress, [&](std::int64_t cell, const Share* shares, std::int64_t count) {
-    double value = around * restOf(shares, count);
-    for (std::int64_t k = 0; k < count; ++k)
-    {
-      value += shares[k].Part * values[static_cast<std::size_t>(shares[k].Region)];
-    }
-    cells[static_cast<std::size_t>(cell)] = value;
-  });
+  this->ForMixed(
+    progress, [&](std::int64_t cell, std::int32_t set, const Share* shares, std::int64_t count) {
+      double value =
+        set >= 0 ? sums[static_cast<std::size_t>(set)] : around * restOf(set, shares, count);
+      for (std::int64_t k = 0; k < count; ++k)
+      {
+        value += shares[k].Part * values[static_cast<std::size_t>(shares[k].Region)];
+      }
+      cells[static_cast<std::size_t>(cell)] = value;
+    });
 }
 
 void RegionRaster::Scale(const std::vector<double>& exponents, double least,
@@ -215,8 +311,9 @@ void RegionRaster::Scale(const std::vector<double>& exponents, double least,
   const auto all = static_cast<std::int64_t>(this->Owners.size());
   const auto mixed = static_cast<std::int64_t>(this->Mixed.size());
   progress.BeginStage(1.0, all + mixed);
-  std::vector<double> factors(exponents.size());
-  std::transform(exponents.begin(), exponents.end(), factors.begin(),
+  const std::vector<double> sums = this->SumsOfSets(exponents);
+  std::vector<double> factors(sums.size());
+  std::transform(sums.begin(), sums.end(), factors.begin(),
     [](double exponent) { return exponential(exponent); });
   const auto scale = [least](double factor, double& cell) {
     cell = std::max(std::min(least, cell), factor * cell);
@@ -231,35 +328,74 @@ void RegionRaster::Scale(const std::vector<double>& exponents, double least,
       }
     }
   });
-  this->ForMixed(progress, [&](std::int64_t cell, const Share* shares, std::int64_t count) {
-    double exponent = 0.0;
-    for (std::int64_t k = 0; k < count; ++k)
-    {
-      exponent += shares[k].Part * exponents[static_cast<std::size_t>(shares[k].Region)];
-    }
-    scale(exponential(exponent), cells[static_cast<std::size_t>(cell)]);
-  });
+  this->ForMixed(
+    progress, [&](std::int64_t cell, std::int32_t set, const Share* shares, std::int64_t count) {
+      double exponent = set >= 0 ? sums[static_cast<std::size_t>(set)] : 0.0;
+      for (std::int64_t k = 0; k < count; ++k)
+      {
+        exponent += shares[k].Part * exponents[static_cast<std::size_t>(shares[k].Region)];
+      }
+      scale(exponential(exponent), cells[static_cast<std::size_t>(cell)]);
+    });
 }
 
-double RegionRaster::Overlap(std::int32_t& region) const
+double RegionRaster::Overlap(std::vector<double>& ofRegions) const
 {
   constexpr double rounding = 1e-9;
   double sum = 0.0;
-  std::vector<double> own(this->Whole.size(), 0.0);
-  this->VisitMixed([&](const Share* shares, std::int64_t count) {
-    double covered = 0.0;
+  ofRegions.assign(this->Whole.size(), 0.0);
+  const auto addSet = [&](std::int32_t set, double more) {
+    this->Together.VisitRegions(
+      set, [&](std::int32_t region) { ofRegions[static_cast<std::size_t>(region)] += more; });
+  };
+  for (std::int32_t set = this->Together.First(); set < this->Together.End(); ++set)
+  {
+    const auto cells = static_cast<double>(this->WholeCellsOfSet(set));
+    const double more = cells * static_cast<double>(this->Together.CountOf(set) - 1);
+    addSet(set, more);
+    sum += more;
+  }
+  this->VisitMixed([&](std::int32_t set, const Share* shares, std::int64_t count) {
+    double covered = set >= 0 ? static_cast<double>(this->Together.CountOf(set)) : 0.0;
     for (std::int64_t i = 0; i < count; ++i)
     {
       covered += shares[i].Part;
     }
-    for (std::int64_t i = 0; covered > 1.0 + rounding && i < count; ++i)
+    if (!(covered > 1.0 + rounding))
     {
-      own[static_cast<std::size_t>(shares[i].Region)] += covered - 1.0;
+      return;
     }
-    sum += covered > 1.0 + rounding ? covered - 1.0 : 0.0;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      ofRegions[static_cast<std::size_t>(shares[i].Region)] += covered - 1.0;
+    }
+    if (set >= 0)
+    {
+      addSet(set, covered - 1.0);
+    }
+    sum += covered - 1.0;
   });
-  region = static_cast<std::int32_t>(std::max_element(own.begin(), own.end()) - own.begin());
   return sum;
+}
+
+double RegionRaster::MeanOnLand(const std::vector<double>& cells) const
+{
+  double mass = 0.0;
+  double area = 0.0;
+  for (std::size_t i = 0; i < this->Owners.size(); ++i)
+  {
+    mass += this->Owners[i] >= 0 ? cells[i] : 0.0;
+    area += this->Owners[i] >= 0 ? 1.0 : 0.0;
+  }
+  for (std::size_t i = 0; i < this->Mixed.size(); ++i)
+  {
+    const double part = 1.0 -
+      restOf(this->SetsOfMixed[i], this->Shares.data() + this->Begins[i],
+        this->Begins[i + 1] - this->Begins[i]);
+    mass += part * cells[static_cast<std::size_t>(this->Mixed[i])];
+    area += part;
+  }
+  return mass / area;
 }
 
 } // namespace RectifiedTransport

@@ -4,6 +4,7 @@
 #define RectifiedTransport_RegionRaster_h
 
 #include "Core/Cartogram/RegionMap.h"
+#include "Core/Cartogram/RegionSets.h"
 #include "Core/Geometry/GridSize.h"
 #include "Core/Parallel/Context.h"
 
@@ -22,6 +23,10 @@ public:
   RegionRaster(const RegionMap& map, std::int32_t regions, std::int64_t side,
     const Context& context = Context());
 
+  // The bytes that a raster takes, and the values of its regions: at most, unless many sets of
+  // regions cover cells together.
+  static double BytesOf(const RegionMap& map, std::int64_t side);
+
   struct Share
   {
     std::int32_t Region;
@@ -38,17 +43,28 @@ public:
   {
     return this->Whole[static_cast<std::size_t>(region)];
   }
+  // The sets of regions that cover cells together, each of them wholly, and how many cells have no
+  // others.
+  const RegionSets& Sets() const { return this->Together; }
+  std::int64_t WholeCellsOfSet(std::int32_t set) const
+  {
+    return this->WholeOfSets[static_cast<std::size_t>(set - this->Together.First())];
+  }
   // All that regions cover, in cells.
   std::vector<double> Covered() const;
+  // What no region covers, in cells.
+  double Rest() const;
   // Of all regions, in the other cells.
   std::int64_t NumberOfShares() const { return static_cast<std::int64_t>(this->Shares.size()); }
-  // visit(shares, count) of each of the other cells that regions cover.
+  // visit(set, shares, count) of each of the other cells that regions cover: a set whose regions
+  // cover it wholly, or -1, and the shares of others.
   template <class Visit>
   void VisitMixed(const Visit& visit) const
   {
     for (std::size_t i = 0; i + 1 < this->Begins.size(); ++i)
     {
-      visit(this->Shares.data() + this->Begins[i], this->Begins[i + 1] - this->Begins[i]);
+      visit(this->SetsOfMixed[i], this->Shares.data() + this->Begins[i],
+        this->Begins[i + 1] - this->Begins[i]);
     }
   }
   // The mean of the regions' values in each cell; the rest of it has the value `around`. Throws
@@ -59,8 +75,11 @@ public:
   // `least`, or the cell as it is if that is less. Throws as Fill.
   void Scale(const std::vector<double>& exponents, double least, std::vector<double>& cells,
     const Context& context = Context()) const;
-  // What regions cover together beyond whole cells, in cells, and the region with most of it.
-  double Overlap(std::int32_t& region) const;
+  // What regions cover together beyond whole cells, in cells; `ofRegions` gets what each of them
+  // shares with others.
+  double Overlap(std::vector<double>& ofRegions) const;
+  // The mean of what cells have where there are regions.
+  double MeanOnLand(const std::vector<double>& cells) const;
 
 private:
   struct CellShare
@@ -69,20 +88,25 @@ private:
     RegionRaster::Share Share;
   };
   void AddMixed(std::vector<CellShare>& mixed);
-  // visit(cell, shares, count), in parallel.
+  void KeepSets();
+  std::vector<double> SumsOfSets(const std::vector<double>& values) const;
+  // visit(cell, set, shares, count), in parallel.
   template <class Visit>
   void ForMixed(Progress& progress, const Visit& visit) const;
 
   std::int64_t CellsOfSide;
-  std::vector<std::int32_t> Owners; // of cells, or -1
+  RegionSets Together;
+  std::vector<std::int32_t> Owners; // of cells: sets, or -1
   std::vector<double> Whole;
-  std::vector<std::int64_t> Mixed; // numbers of the other cells
+  std::vector<std::int64_t> WholeOfSets;
+  std::vector<std::int64_t> Mixed;       // numbers of the other cells
+  std::vector<std::int32_t> SetsOfMixed; // or -1
   std::vector<std::int64_t> Begins;
   std::vector<Share> Shares;
 };
 
 // The part of a cell that regions leave.
-double restOf(const RegionRaster::Share* shares, std::int64_t count);
+double restOf(std::int32_t set, const RegionRaster::Share* shares, std::int64_t count);
 
 } // namespace RectifiedTransport
 

@@ -10,7 +10,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <unordered_map>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -39,8 +41,20 @@ System systemOf(const RegionRaster& raster, Progress& progress)
   {
     entry(region, region) = raster.WholeCells(region);
   }
-  raster.VisitMixed([&](const RegionRaster::Share* shares, std::int64_t count) {
-    const double rest = restOf(shares, count);
+  const RegionSets& sets = raster.Sets();
+  std::vector<double> cellsOf; // of sets, mixed ones included
+  for (std::int32_t set = sets.First(); set < sets.End(); ++set)
+  {
+    cellsOf.push_back(static_cast<double>(raster.WholeCellsOfSet(set)));
+  }
+  struct Beside // a share of a region in cells of a set
+  {
+    double Part = 0.0;
+    double Signed = 0.0;
+  };
+  std::map<std::pair<std::int32_t, std::int32_t>, Beside> besides; // by set and region
+  raster.VisitMixed([&](std::int32_t set, const RegionRaster::Share* shares, std::int64_t count) {
+    const double rest = restOf(set, shares, count);
     for (std::int64_t i = 0; i < count; ++i)
     {
       progress.Add(count);
@@ -49,8 +63,34 @@ System systemOf(const RegionRaster& raster, Progress& progress)
       {
         entry(shares[i].Region, shares[k].Region) += shares[i].Signed * shares[k].Part;
       }
+      if (set >= 0)
+      {
+        Beside& beside = besides[{ set, shares[i].Region }];
+        beside.Part += shares[i].Part;
+        beside.Signed += shares[i].Signed;
+      }
+    }
+    if (set >= 0)
+    {
+      cellsOf[static_cast<std::size_t>(set - sets.First())] += 1.0;
     }
   });
+  for (std::int32_t set = sets.First(); set < sets.End(); ++set)
+  {
+    progress.Check();
+    const double cells = cellsOf[static_cast<std::size_t>(set - sets.First())];
+    sets.VisitRegions(set, [&](std::int32_t row) {
+      sets.VisitRegions(set, [&](std::int32_t column) { entry(row, column) += cells; });
+    });
+  }
+  for (const auto& [place, beside] : besides)
+  {
+    const std::int32_t region = place.second;
+    sets.VisitRegions(place.first, [&, &share = beside](std::int32_t other) {
+      entry(other, region) += share.Part;
+      entry(region, other) += share.Signed;
+    });
+  }
   std::vector<Eigen::Triplet<double, std::int32_t>> triplets;
   for (const auto& [place, value] : entries)
   {
@@ -71,17 +111,36 @@ public:
     , Targets(targets)
     , Values(values)
     , Parts(targets.Masses.size())
+    , SetsOf(targets.Masses.size())
   {
-    raster.VisitMixed([&](const RegionRaster::Share* shares, std::int64_t count) {
-      double density = targets.Around * restOf(shares, count);
-      for (std::int64_t i = 0; i < count; ++i)
-      {
-        const auto region = static_cast<std::size_t>(shares[i].Region);
-        density += shares[i].Part * values.Densities[region];
-        this->Parts[region].push_back({ this->Cells.size(), shares[i].Part, shares[i].Signed });
-      }
-      this->Cells.push_back({ density, std::min(density, targets.Least) });
-    });
+    const RegionSets& sets = raster.Sets();
+    for (std::int32_t set = sets.First(); set < sets.End(); ++set)
+    {
+      double density = 0.0;
+      sets.VisitRegions(set, [&](std::int32_t region) {
+        density += values.Densities[static_cast<std::size_t>(region)];
+        this->SetsOf[static_cast<std::size_t>(region)].push_back(this->Sets.size());
+      });
+      this->Sets.push_back(
+        { density, density * static_cast<double>(raster.WholeCellsOfSet(set)), 0.0, 1.0 });
+    }
+    raster.VisitMixed(
+      [&](std::int32_t number, const RegionRaster::Share* shares, std::int64_t count) {
+        const std::ptrdiff_t set = number >= 0 ? number - sets.First() : -1;
+        double density = set >= 0 ? this->Sets[static_cast<std::size_t>(set)].Density
+                                  : targets.Around * restOf(number, shares, count);
+        for (std::int64_t i = 0; i < count; ++i)
+        {
+          const auto region = static_cast<std::size_t>(shares[i].Region);
+          density += shares[i].Part * values.Densities[region];
+          this->Parts[region].push_back({ this->Cells.size(), shares[i].Part, shares[i].Signed });
+        }
+        this->Cells.push_back({ density, std::min(density, targets.Least), set });
+        if (set >= 0)
+        {
+          this->Sets[static_cast<std::size_t>(set)].Mass += density;
+        }
+      });
     values.Exponents.assign(targets.Masses.size(), 0.0);
   }
 
@@ -107,10 +166,19 @@ public:
   }
 
 private:
+  // Its cells have their own densities times a factor.
+  struct Set
+  {
+    double Density; // of cells without other regions
+    double Mass;    // of all cells
+    double Exponent;
+    double Factor;
+  };
   struct Cell
   {
     double Density;
     double Least;
+    std::ptrdiff_t Set; // or -1
   };
   struct CellPart
   {
@@ -131,9 +199,21 @@ private:
     const double least = std::min(this->Targets.Least, density);
     const double whole = this->Raster.WholeCells(static_cast<std::int32_t>(region));
     Mass mass{ whole * std::max(scaled, least), scaled > least ? whole * scaled : 0.0 };
+    for (const std::size_t set : this->SetsOf[region])
+    {
+      const double all = this->Sets[set].Mass * this->Sets[set].Factor;
+      mass = { mass.Now + all, mass.Slope + all };
+    }
     for (const CellPart& part : this->Parts[region])
     {
       const Cell& cell = this->Cells[part.Cell];
+      if (cell.Set >= 0)
+      {
+        const double now = cell.Density * this->Sets[static_cast<std::size_t>(cell.Set)].Factor;
+        mass.Now += part.Signed * now;
+        mass.Slope += part.Signed * part.Part * now;
+        continue;
+      }
       mass.Now += part.Signed * std::max(cell.Density, cell.Least);
       mass.Slope += cell.Density > cell.Least ? part.Signed * part.Part * cell.Density : 0.0;
     }
@@ -158,7 +238,18 @@ private:
       std::clamp(exponent + std::clamp(step, -longest, longest), -farthest, farthest);
     for (const CellPart& part : this->Parts[region])
     {
-      this->Cells[part.Cell].Density *= exponential(part.Part * (next - exponent));
+      Cell& cell = this->Cells[part.Cell];
+      const double before = cell.Density;
+      cell.Density *= exponential(part.Part * (next - exponent));
+      if (cell.Set >= 0)
+      {
+        this->Sets[static_cast<std::size_t>(cell.Set)].Mass += cell.Density - before;
+      }
+    }
+    for (const std::size_t set : this->SetsOf[region])
+    {
+      this->Sets[set].Exponent += next - exponent;
+      this->Sets[set].Factor = exponential(this->Sets[set].Exponent);
     }
     exponent = next;
     return error;
@@ -167,33 +258,21 @@ private:
   const RegionRaster& Raster;
   const RegionTargets& Targets;
   RegionValues& Values;
+  std::vector<Set> Sets;   // of two regions or more
   std::vector<Cell> Cells; // that are mixed
   std::vector<std::vector<CellPart>> Parts;
+  std::vector<std::vector<std::size_t>> SetsOf; // regions
 };
 
-} // namespace
-
-RegionValues findRegionValues(
-  const RegionRaster& raster, const RegionTargets& targets, const Context& context)
+// The densities of regions, from bounds of them. Returns the largest error.
+double solveForDensities(const RegionRaster& raster, const RegionTargets& targets,
+  const std::vector<double>& lowest, const std::vector<double>& highest, RegionValues& found,
+  Progress& progress)
 {
   constexpr int mostSweeps = 200;
   constexpr double smallestChange = 1e-5;
-  constexpr double most = 4.0;
-  Progress progress(context);
-  progress.BeginStage(1.0, 2 * raster.NumberOfShares());
   const System system = systemOf(raster, progress);
   const auto regions = static_cast<std::size_t>(raster.Regions());
-  RegionValues found{ std::vector<double>(regions), {}, std::vector<double>(regions),
-    std::vector<unsigned char>(regions) };
-  std::vector<double> lowest(regions);
-  std::vector<double> highest(regions);
-  for (std::size_t i = 0; i < regions; ++i)
-  {
-    const double plain = targets.Masses[i] / targets.Areas[i];
-    lowest[i] = std::min(targets.Least, plain);
-    highest[i] = std::max(most * plain, lowest[i]);
-    found.Densities[i] = std::max(plain, lowest[i]);
-  }
   const auto massOf = [&](std::size_t region) {
     double mass = targets.Around * system.Rest[region];
     for (Matrix::InnerIterator entry(system.Common, static_cast<Eigen::Index>(region)); entry;
@@ -231,7 +310,43 @@ RegionValues findRegionValues(
     found.Least[i] = found.Densities[i] <= lowest[i] * (1.0 + rounding);
     worst = std::max(worst, std::abs(found.Errors[i]));
   }
-  if (worst > targets.Tolerance)
+  return worst;
+}
+
+// Whether many regions lie on each other: the system would have an entry for each two of them.
+bool isCrowded(const RegionSets& sets)
+{
+  constexpr std::int64_t mostPairs = std::int64_t{ 1 } << 22;
+  std::int64_t pairs = 0;
+  for (std::int32_t set = sets.First(); set < sets.End(); ++set)
+  {
+    pairs += sets.CountOf(set) * sets.CountOf(set);
+  }
+  return pairs > mostPairs;
+}
+
+} // namespace
+
+RegionValues findRegionValues(
+  const RegionRaster& raster, const RegionTargets& targets, const Context& context)
+{
+  constexpr double most = 4.0;
+  Progress progress(context);
+  progress.BeginStage(1.0, 2 * raster.NumberOfShares());
+  const auto regions = static_cast<std::size_t>(raster.Regions());
+  RegionValues found{ std::vector<double>(regions), {}, std::vector<double>(regions),
+    std::vector<unsigned char>(regions) };
+  std::vector<double> lowest(regions);
+  std::vector<double> highest(regions);
+  for (std::size_t i = 0; i < regions; ++i)
+  {
+    const double plain = targets.Masses[i] / targets.Areas[i];
+    lowest[i] = std::min(targets.Least, plain);
+    highest[i] = std::max(most * plain, lowest[i]);
+    found.Densities[i] = std::max(plain, lowest[i]);
+  }
+  if (isCrowded(raster.Sets()) ||
+    solveForDensities(raster, targets, lowest, highest, found, progress) > targets.Tolerance)
   {
     FactorSearch(raster, targets, found).Run(progress);
   }

@@ -182,6 +182,8 @@ TEST(Cartogram, Seas)
     expectRight(made, masses, 0.02);
     const std::vector<double> areas = made.Map.Areas(16);
     land[static_cast<int>(sea)] = std::accumulate(areas.begin(), areas.end(), 0.0) / 16384.0;
+    // What is foretold of the land.
+    EXPECT_NEAR(land[static_cast<int>(sea)] * 1.44 / made.Result.Growth, 1.0, 0.011);
   }
   EXPECT_NEAR(land[0], 1.0 / 1.44, 0.01);
   EXPECT_GT(land[1], land[0]);
@@ -304,15 +306,69 @@ TEST(Cartogram, MoreStepsWhereOutlinesTurnOver)
   }
 }
 
+// A figure of eight has its area by the even-odd rule, and gets its share.
 TEST(Cartogram, CrossingOutline)
 {
   RegionMap map;
   addRing(map, 0, rectangle(5, 0, 8, 3));
-  addRing(map, 1, { { 0, 0 }, { 3, 3 }, { 3, 0 }, { 0, 2 } });
+  addRing(map, 1, { { 0, 0 }, { 3, 3 }, { 3, 0 }, { 0, 3 } });
   map.FindHoles();
-  const Made made = make(std::move(map), { 1.0, 1.0 }, coarse());
-  EXPECT_EQ(made.Result.Crossing, std::vector<std::int32_t>{ 1 });
-  EXPECT_TRUE(made.Result.Passes.empty());
+  const std::vector<double> masses{ 1.0, 2.0 };
+  const Made made = make(std::move(map), masses, coarse());
+  const std::vector<double> areas = made.Map.Areas(2);
+  EXPECT_NEAR(areas[1] / areas[0], 2.0, 0.03);
+  EXPECT_NEAR(made.Before[1] / made.Before[0], 0.5, 1e-12);
+  EXPECT_EQ(made.Result.Folded, 0);
+}
+
+// Squares in the same place have one area, whatever their masses: no pass can change that, and few
+// are made.
+TEST(Cartogram, RegionsOnEachOther)
+{
+  for (const double mass : { 2.0, 1.0 })
+  {
+    RegionMap map;
+    addRing(map, 0, rectangle(0, 0, 4, 4));
+    addRing(map, 1, rectangle(0, 0, 4, 4));
+    addRing(map, 2, rectangle(4, 0, 8, 4));
+    map.FindHoles();
+    const std::vector<double> masses{ 1.0, mass, 1.0 };
+    const Made made = make(std::move(map), masses, coarse());
+    const std::vector<double> areas = made.Map.Areas(3);
+    EXPECT_LE(made.Result.Passes.size(), 3U);
+    EXPECT_NEAR(made.Result.Overlap, 1.0 / 3.0, 0.01);
+    EXPECT_NEAR(made.Result.Overlaps[1], 1.0, 0.02);
+    EXPECT_EQ(made.Result.Overlaps[2], 0.0);
+    EXPECT_DOUBLE_EQ(areas[0], areas[1]);
+    EXPECT_TRUE(made.Result.OutOfReach.empty());
+    // The land keeps its area.
+    EXPECT_NEAR((areas[0] + areas[2]) / (made.Before[0] + made.Before[2]), 1.0, 0.02);
+    if (mass == 1.0) // as a map has a region twice
+    {
+      expectRight(made, masses, 0.01);
+    }
+  }
+}
+
+// Contours, each in the one before.
+TEST(Cartogram, NestedRegions)
+{
+  RegionMap map;
+  std::vector<double> masses;
+  for (std::int32_t i = 0; i < 25; ++i)
+  {
+    const double half = 500.0 + 20.0 * i;
+    addRing(map, i, rectangle(-half, -half, half, half));
+    masses.push_back(1.0 + i);
+  }
+  map.FindHoles();
+  const Made made = make(std::move(map), masses, coarse());
+  EXPECT_GT(made.Result.Overlap, 0.9);
+  EXPECT_LE(made.Result.Passes.size(), 10U);
+  for (std::int64_t ring = 0; ring < made.Map.Rings(); ++ring)
+  {
+    EXPECT_GT(made.Map.AreaOf(ring), 0.0);
+  }
 }
 
 TEST(Cartogram, Cancelled)

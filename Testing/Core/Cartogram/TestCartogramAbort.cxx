@@ -45,15 +45,15 @@ std::int64_t pollsOf(const std::function<void(const Context&)>& run)
   return polls.Count;
 }
 
-// Wherever it is cancelled it ends at once.
-void expectToEnd(const std::function<void(const Context&)>& run)
+// Wherever it is cancelled it ends at once, but for loops that poll `loops` times as they end.
+void expectToEnd(const std::function<void(const Context&)>& run, std::int64_t loops = 0)
 {
   const std::int64_t all = pollsOf(run);
   for (const std::int64_t last : { std::int64_t{ 0 }, all / 3, all / 2, all - 1 })
   {
     Polls polls(last);
     EXPECT_THROW(run(polls.Work), Cancelled) << last << " of " << all;
-    EXPECT_LE(polls.Count, last + 2);
+    EXPECT_LE(polls.Count, last + 2 + loops);
   }
 }
 
@@ -94,7 +94,8 @@ TEST(CartogramAbort, HolesTakeAsMuchWorkAsEdges)
   {
     EXPECT_TRUE(map.IsHole(ring)) << ring;
   }
-  expectToEnd([&](const Context& context) { map.FindHoles(context); });
+  constexpr std::int64_t mergesOfSweep = 3; // of 300,000 heights, sorted 65,536 at once
+  expectToEnd([&](const Context& context) { map.FindHoles(context); }, mergesOfSweep);
 }
 
 TEST(CartogramAbort, Divides)

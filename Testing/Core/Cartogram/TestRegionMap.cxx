@@ -63,6 +63,98 @@ TEST(RegionMap, WayToAHoleAndBack)
   EXPECT_DOUBLE_EQ(map.Areas(1)[0], 12.0);
 }
 
+// By the even-odd rule, whatever runs in which direction.
+TEST(RegionMap, OutlinesThatCross)
+{
+  struct Case
+  {
+    std::vector<Ring> Rings;
+    double Area;
+    std::size_t Added; // points that divide edges
+  };
+  const Ring eight{ { 0, 0 }, { 2, 2 }, { 2, 0 }, { 0, 2 } };
+  const Ring star{ { 0, 3 }, { 6, 3 }, { 1, 0 }, { 3, 5 }, { 5, 0 } }; // its middle is outside
+  const Case cases[] = {
+    { { eight }, 2.0, 2 }, { { eight, rectangle(5, 0, 6, 1) }, 3.0, 2 },
+    { { rectangle(0, 0, 3, 3), rectangle(2, 1, 5, 2) }, 9.0 - 1.0 + 2.0, 4 },
+    { { rectangle(0, 0, 8, 8), { { 1, 1 }, { 3, 3 }, { 3, 1 }, { 1, 3 } } }, 64.0 - 2.0, 2 },
+    { { star }, 6.8838709677419354, 10 }, // a sum over lines, too
+  };
+  for (const Case& sample : cases)
+  {
+    for (const bool isTurned : { false, true })
+    {
+      RegionMap map;
+      for (Ring ring : sample.Rings)
+      {
+        if (isTurned)
+        {
+          std::reverse(ring.begin(), ring.end());
+        }
+        addRing(map, 0, ring);
+      }
+      addRing(map, 1, rectangle(10, 0, 11, 1));
+      const auto points = static_cast<std::int64_t>(map.Points().size());
+      const std::vector<DividingPoint> added = map.FindHoles();
+      EXPECT_EQ(added.size(), sample.Added);
+      EXPECT_EQ(map.Points().size(), static_cast<std::size_t>(points) + added.size());
+      EXPECT_NEAR(map.Areas(2)[0], sample.Area, 1e-12);
+      EXPECT_EQ(map.Areas(2)[1], 1.0);
+      map.Divide([](const Point<2>&) { return 0.1; });
+      EXPECT_NEAR(map.Areas(2)[0], sample.Area, 1e-12);
+    }
+  }
+}
+
+// A figure of eight divides the edge of its neighbour where it divides its own.
+TEST(RegionMap, CrossingsOnBorders)
+{
+  RegionMap map;
+  addRing(map, 0, { { 0, 0 }, { 4, 0 }, { 4, 4 }, { 3, -1 }, { 0, 4 } });
+  addRing(map, 1, { { 0, 0 }, { 4, 0 }, { 2, -5 } });
+  EXPECT_FALSE(map.FindHoles().empty());
+  std::set<std::pair<Point<2>, Point<2>>> edges;
+  map.VisitEdges(0, [&](std::int64_t from, std::int64_t to) {
+    edges.insert(std::minmax(
+      map.Points()[static_cast<std::size_t>(from)], map.Points()[static_cast<std::size_t>(to)]));
+  });
+  int shared = 0;
+  map.VisitEdges(1, [&](std::int64_t from, std::int64_t to) {
+    shared += static_cast<int>(edges.count(std::minmax(
+      map.Points()[static_cast<std::size_t>(from)], map.Points()[static_cast<std::size_t>(to)])));
+  });
+  EXPECT_EQ(shared, 3);
+}
+
+// They are divided as borders in the same places, and are no part of a region.
+TEST(RegionMap, OpenLines)
+{
+  RegionMap map;
+  addRing(map, 0, rectangle(0, 0, 2, 1));
+  std::vector<std::int64_t> line;
+  for (const Point<2>& place : { Point<2>{ -1, 0 }, { 0, 0 }, { 2, 0 }, { 5, 3 } })
+  {
+    line.push_back(map.AddPoint(place));
+  }
+  map.AddLine(line);
+  map.AddLine({});
+  EXPECT_TRUE(map.FindHoles().empty());
+  EXPECT_TRUE(map.IsOpen(1) && map.IsOpen(2) && !map.IsOpen(0));
+  EXPECT_EQ(map.Areas(1), std::vector<double>{ 2.0 });
+  EXPECT_EQ(map.RingsOfRegions().size(), 1U);
+  map.Divide([](const Point<2>&) { return 0.5; });
+  EXPECT_EQ(map.CountOf(0), 12);
+  EXPECT_EQ(map.CountOf(1), 2 + 4 + 9 + 1);
+  EXPECT_EQ(map.CornerOf(1, 0), line.front());
+  EXPECT_EQ(map.CornerOf(1, map.CountOf(1) - 1), line.back());
+  EXPECT_EQ(map.CountOf(2), 0);
+  for (std::int64_t i = 0; i <= 4; ++i)
+  {
+    EXPECT_EQ(map.Points()[static_cast<std::size_t>(map.CornerOf(0, i))],
+      map.Points()[static_cast<std::size_t>(map.CornerOf(1, 2 + i))]);
+  }
+}
+
 TEST(RegionMap, AreasAreSignedAfterwards)
 {
   RegionMap map = squares(1);

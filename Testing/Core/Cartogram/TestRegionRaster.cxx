@@ -47,8 +47,8 @@ TEST(RegionRaster, CoversAreas)
     covered[static_cast<std::size_t>(region)] = raster.WholeCells(region);
     EXPECT_GT(raster.WholeCells(region), 10.0);
   }
-  raster.VisitMixed([&](const RegionRaster::Share* shares, std::int64_t count) {
-    double sum = restOf(shares, count);
+  raster.VisitMixed([&](std::int32_t set, const RegionRaster::Share* shares, std::int64_t count) {
+    double sum = restOf(set, shares, count);
     for (std::int64_t i = 0; i < count; ++i)
     {
       covered[static_cast<std::size_t>(shares[i].Region)] += shares[i].Part;
@@ -60,8 +60,8 @@ TEST(RegionRaster, CoversAreas)
   {
     EXPECT_NEAR(covered[i], areas[i], 1e-10);
   }
-  std::int32_t region = 0;
-  EXPECT_NEAR(raster.Overlap(region), 0.0, 1e-10);
+  std::vector<double> overlaps;
+  EXPECT_NEAR(raster.Overlap(overlaps), 0.0, 1e-10);
   // The sum of the cells.
   std::vector<double> values{ 1, 2, 3, 4, 5, 6, 7, 8, 9 };
   std::vector<double> cells;
@@ -99,8 +99,8 @@ TEST(RegionRaster, Bands)
   {
     EXPECT_NEAR(covered[i], areas[i], 1e-9 * areas[i]) << i;
   }
-  std::int32_t region = 0;
-  EXPECT_EQ(raster.Overlap(region), 0.0);
+  std::vector<double> overlaps;
+  EXPECT_EQ(raster.Overlap(overlaps), 0.0);
 }
 
 TEST(RegionRaster, Overlap)
@@ -109,9 +109,61 @@ TEST(RegionRaster, Overlap)
   addRing(map, 0, rectangle(5.0, 5.0, 15.0, 15.0));
   addRing(map, 1, rectangle(12.5, 5.0, 25.0, 15.0));
   map.FindHoles();
-  std::int32_t region = -1;
-  EXPECT_NEAR(rasterOf(map, 2).Overlap(region), 20.0 + 10.0 * 0.5, 1e-9);
-  EXPECT_GE(region, 0);
+  std::vector<double> overlaps;
+  EXPECT_NEAR(rasterOf(map, 2).Overlap(overlaps), 20.0 + 10.0 * 0.5, 1e-9);
+  EXPECT_NEAR(overlaps[0], 25.0, 1e-9);
+  EXPECT_NEAR(overlaps[1], 25.0, 1e-9);
+}
+
+// Squares in each other, with sides between cells, and one that has half of a cell of all of them.
+RegionMap nested(std::int32_t count)
+{
+  RegionMap map;
+  for (std::int32_t i = 0; i < count; ++i)
+  {
+    const double low = 2.3 + 1.7 * i;
+    addRing(map, i, rectangle(low, low, 38.0 - low, 38.0 - low));
+  }
+  addRing(map, count, rectangle(19.5, 19.0, 45.0, 20.0));
+  map.FindHoles();
+  return map;
+}
+
+// Cells that many regions cover together hold the number of their set.
+TEST(RegionRaster, SetsOfRegions)
+{
+  constexpr std::int32_t count = 9;
+  const RegionMap map = nested(count);
+  const RegionRaster raster = rasterOf(map, count + 1);
+  EXPECT_LE(raster.Sets().End() - raster.Sets().First(), 2 * count);
+  EXPECT_LE(raster.NumberOfShares(), 2000);
+  const std::vector<double> areas = map.Areas(count + 1);
+  const std::vector<double> covered = raster.Covered();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < areas.size(); ++i)
+  {
+    const double inside = i == count ? 20.5 : areas[i];
+    EXPECT_NEAR(covered[i], inside, 1e-9) << i;
+    sum += inside;
+  }
+  const double land = areas[0] + 4.3; // of the last region, what the first leaves
+  EXPECT_NEAR(raster.Rest(), side * side - land, 1e-9);
+  std::vector<double> overlaps;
+  EXPECT_NEAR(raster.Overlap(overlaps), sum - land, 1e-9);
+  // A cell has the sum of the values of its regions.
+  const std::vector<double> values{ 1, 2, 3, 4, 5, 6, 7, 8, 9, 10 };
+  std::vector<double> cells;
+  raster.Fill(values, 0.5, cells);
+  EXPECT_NEAR(cells[15 * side + 20], 36.0 + 0.1 * 9.0, 1e-12);
+  EXPECT_EQ(cells[19 * side + 20], 55.0);
+  EXPECT_DOUBLE_EQ(cells[19 * side + 19], 50.0);
+  double expected = 0.5 * raster.Rest();
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    expected += values[i] * covered[i];
+  }
+  EXPECT_NEAR(std::accumulate(cells.begin(), cells.end(), 0.0), expected, 1e-9);
+  EXPECT_NEAR(raster.MeanOnLand(cells), (expected - 0.5 * raster.Rest()) / land, 0.02);
 }
 
 // The integral of the raster over each region: cell by cell, with the parts that each region has.
@@ -140,16 +192,17 @@ std::vector<double> massesIn(
   return masses;
 }
 
-// A ring that crosses itself: one part of it counts as negative.
+// A ring that has turned over counts as negative.
 TEST(RegionRaster, CountsWhatIsTurnedOver)
 {
   RegionMap map;
-  addRing(map, 0, { { 5, 5 }, { 30, 20 }, { 30, 5 }, { 5, 15 } });
+  addRing(map, 0, rectangle(5, 5, 30, 20));
   map.FindHoles();
+  std::swap(map.Points()[2], map.Points()[3]); // now it crosses itself
   const RegionRaster raster = rasterOf(map, 1);
   double sum = raster.WholeCells(0);
   double least = 0.0;
-  raster.VisitMixed([&](const RegionRaster::Share* shares, std::int64_t) {
+  raster.VisitMixed([&](std::int32_t, const RegionRaster::Share* shares, std::int64_t) {
     sum += shares->Signed;
     least = std::min(least, shares->Signed);
     EXPECT_GE(shares->Part, 0.0);
@@ -157,6 +210,20 @@ TEST(RegionRaster, CountsWhatIsTurnedOver)
   EXPECT_NEAR(sum, map.Areas(1)[0], 1e-9);
   EXPECT_NEAR(least, -1.0, 1e-12);
   EXPECT_GT(raster.Covered()[0], sum + 10.0);
+}
+
+// A pair of triangles that meet in a point, by the even-odd rule.
+TEST(RegionRaster, FigureOfEight)
+{
+  RegionMap map;
+  addRing(map, 0, { { 5, 5 }, { 30, 20 }, { 30, 5 }, { 5, 20 } });
+  map.FindHoles();
+  const RegionRaster raster = rasterOf(map, 1);
+  EXPECT_NEAR(raster.Covered()[0], 25.0 * 15.0 / 2.0, 1e-9);
+  EXPECT_NEAR(map.Areas(1)[0], 25.0 * 15.0 / 2.0, 1e-9);
+  raster.VisitMixed([&](std::int32_t, const RegionRaster::Share* shares, std::int64_t) {
+    EXPECT_GT(shares->Signed, 0.0);
+  });
 }
 
 // A thin strip between dense regions, a quarter of a cell wide: even with no density of its own it
@@ -190,6 +257,27 @@ TEST(RegionValues, FactorsForThinRegions)
   EXPECT_EQ(most.Least[1], 1);
   EXPECT_EQ(most.Least[0], 0);
   EXPECT_GT(most.Errors[1], 1.0);
+}
+
+// Squares in each other: an outer one has less than the inner one, and all have their masses.
+TEST(RegionValues, FactorsOfSets)
+{
+  RegionMap map;
+  addRing(map, 0, rectangle(2.3, 2.3, 35.2, 35.2));
+  addRing(map, 1, rectangle(8.5, 8.5, 30.1, 30.1));
+  addRing(map, 2, rectangle(8.5, 8.5, 20.0, 30.1));
+  addRing(map, 3, rectangle(25.6, 25.0, 38.0, 38.0));
+  map.FindHoles();
+  const RegionRaster raster = rasterOf(map, 4);
+  const std::vector<double> areas = map.Areas(4);
+  const std::vector<double> masses{ 1500.0, 400.0, 300.0, 200.0 };
+  const RegionValues values = findRegionValues(raster, { masses, areas, 1.0, 1e-4, 1e-3 });
+  const std::vector<double> found = massesIn(raster, values, 1.0, 1e-4);
+  for (std::size_t i = 0; i < masses.size(); ++i)
+  {
+    EXPECT_NEAR(values.Errors[i], 0.0, 1e-3) << i;
+    EXPECT_NEAR(found[i] / masses[i] - 1.0, values.Errors[i], 1e-9) << i;
+  }
 }
 
 // The integral of the raster over each region is its mass.

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Longitudes and latitudes in degrees to a map projection that keeps areas.
+#ifndef RectifiedTransport_MapProjection_h
+#define RectifiedTransport_MapProjection_h
+
+#include "Core/Geometry/Points.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// Indexed by the enumeration of vtkCartogram.
+constexpr const char* ProjectionTexts[] = { "None", "EqualArea" };
+
+// None, or Lambert's cylindrical equal-area projection: x = R cos(p) lambda, y = R sin(phi) /
+// cos(p), with the least bending of shapes at the latitude p; kilometres of a sphere with the
+// earth's area.
+class MapProjection
+{
+public:
+  MapProjection() = default;
+  // At the mean of the southernmost and the northernmost latitude. Throws Failure for places that
+  // are no longitudes and latitudes.
+  explicit MapProjection(const std::vector<Point<3>>& places);
+
+  // Keeps the third coordinate.
+  Point<3> Project(const Point<3>& place) const;
+  // Throws Failure, if there is a projection, for places of `what` from one on that are no
+  // longitudes and latitudes.
+  void Require(const std::vector<Point<3>>& places, std::size_t first, const char* what) const;
+
+private:
+  double Cosine = 0.0; // of the latitude p; 0: none
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Cartogram/MapWarnings.h"
+
+#include "Bridge/Run/PartText.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+std::size_t indexOf(std::int32_t region)
+{
+  return static_cast<std::size_t>(region);
+}
+
+// The regions that miss the tolerance, and why.
+class MissedRegions
+{
+public:
+  MissedRegions(
+    const CartogramResult& result, const std::vector<std::string>& names, double tolerance)
+    : Result(result)
+    , Names(names)
+  {
+    for (std::size_t i = 0; i < result.Errors.size(); ++i)
+    {
+      const bool isMissed = std::abs(result.Errors[i]) > tolerance;
+      this->Count += isMissed ? 1 : 0;
+      this->AreOnOthers = this->AreOnOthers || (isMissed && result.Overlaps[i] > tolerance);
+      this->Worst =
+        std::abs(result.Errors[i]) > std::abs(result.Errors[this->Worst]) ? i : this->Worst;
+    }
+  }
+
+  void Add(std::vector<std::string>& warnings) const
+  {
+    if (this->Count == 0)
+    {
+      return;
+    }
+    const auto regions = static_cast<std::int64_t>(this->Names.size());
+    const std::string part = describePart(this->Count, regions, "regions") + " miss Tolerance";
+    warnings.push_back(part + (this->Result.OutOfReach.empty() ? this->Farthest() : this->Small()));
+  }
+
+private:
+  std::string Farthest() const
+  {
+    return " (the region " + this->Names[this->Worst] + " by " +
+      percentText(std::abs(this->Result.Errors[this->Worst])) + "); " +
+      (this->AreOnOthers
+          ? "regions on each other cannot all have their areas: leave one of them in "
+            "each place, with Threshold"
+          : "raise MaximumIterations or Resolution");
+  }
+
+  std::string Small() const
+  {
+    constexpr std::size_t most = 5;
+    const std::vector<std::int32_t>& small = this->Result.OutOfReach;
+    std::ostringstream text;
+    text << "; the raster cannot hold the region" << (small.size() > 1 ? "s" : "");
+    for (std::size_t i = 0; i < std::min(most, small.size()); ++i)
+    {
+      text << (i == 0 ? " " : ", ") << this->Names[indexOf(small[i])] << " (off by "
+           << percentText(std::abs(this->Result.Errors[indexOf(small[i])])) << ")";
+    }
+    text << (small.size() > most ? ", ..." : "")
+         << ": raise Resolution, or enlarge small regions with LeastShare";
+    return text.str();
+  }
+
+  const CartogramResult& Result;
+  const std::vector<std::string>& Names;
+  std::int64_t Count = 0;
+  std::size_t Worst = 0;
+  bool AreOnOthers = false;
+};
+
+} // namespace
+
+bool looksLikeDegrees(const std::vector<Point<3>>& places)
+{
+  constexpr double wide = 20.0;
+  Point<2> low{ HUGE_VAL, HUGE_VAL };
+  Point<2> high{ -HUGE_VAL, -HUGE_VAL };
+  for (const Point<3>& place : places)
+  {
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      low[axis] = std::min(low[axis], place[axis]);
+      high[axis] = std::max(high[axis], place[axis]);
+    }
+  }
+  const bool isOnEarth =
+    low[0] >= -180.001 && high[0] <= 180.001 && low[1] >= -90.001 && high[1] <= 90.001;
+  const bool isWide = std::max(high[0] - low[0], high[1] - low[1]) > wide;
+  const bool areLatitudes = low[1] > wide || high[1] < -wide;
+  return isOnEarth && (isWide || areLatitudes);
+}
+
+void addWarnings(const CartogramResult& result, const std::vector<std::string>& names,
+  std::int64_t rings, double tolerance, std::vector<std::string>& warnings)
+{
+  if (result.Overlap > leastOverlap)
+  {
+    warnings.push_back("Regions overlap by " + percentText(result.Overlap) +
+      " of their area (most at the region " + names[indexOf(result.Overlapping)] +
+      "), which counts for each of them; their areas there are not what their masses ask");
+  }
+  if (result.Folded > 0)
+  {
+    warnings.push_back("A pass would turn over " + describePart(result.Folded, rings, "outlines") +
+      " (the first of the region " + names[indexOf(result.FirstFolded)] +
+      ") even with 4096 steps and is left out; raise Resolution or LeastShare");
+  }
+  MissedRegions(result, names, tolerance).Add(warnings);
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Cartogram/RegionBlocks.h"
+
+#include "Bridge/Points/CellCheck.h"
+#include "Bridge/Points/CopiedTuples.h"
+#include "Bridge/Run/Failure.h"
+
+#include "vtkAppendPolyData.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkCellTypes.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Cell arrays, while blocks become one.
+constexpr const char* blockNumbers = "vtkCartogramBlock";
+constexpr const char* cellNumbers = "vtkCartogramCell";
+
+[[noreturn]] void failStrips(const DensityBlock& block)
+{
+  fail("The ", block.Name,
+    " has triangle strips; regions must be polygons or closed lines, as Triangulate makes of them");
+}
+
+// Where vtkCells of a type stand in a vtkPolyData: 0 vertices, 1 lines, 2 polygons; -1 nowhere.
+int kindOf(int type)
+{
+  switch (type)
+  {
+    case VTK_EMPTY_CELL:
+    case VTK_VERTEX:
+    case VTK_POLY_VERTEX:
+      return 0;
+    case VTK_LINE:
+    case VTK_POLY_LINE:
+      return 1;
+    case VTK_TRIANGLE:
+    case VTK_PIXEL:
+    case VTK_QUAD:
+    case VTK_POLYGON:
+      return 2;
+    default:
+      return -1;
+  }
+}
+
+// The vtkCells of an unstructured grid, which Threshold, Append Datasets, Merge Blocks and others
+// make of polygons and lines. `numbers` gets theirs in the grid.
+vtkSmartPointer<vtkPolyData> polyDataOf(const DensityBlock& block, vtkUnstructuredGrid* grid,
+  std::vector<vtkIdType>& numbers, Progress& progress)
+{
+  constexpr vtkIdType betweenPolls = vtkIdType{ 1 } << 16;
+  std::array<vtkNew<vtkCellArray>, 3> cells;
+  std::array<std::vector<vtkIdType>, 3> numbersOfKinds;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    if (cell % betweenPolls == 0)
+    {
+      progress.Check();
+    }
+    const int type = grid->GetCellType(cell);
+    const int kind = kindOf(type);
+    if (type == VTK_TRIANGLE_STRIP)
+    {
+      failStrips(block);
+    }
+    if (kind < 0)
+    {
+      fail("Cell ", cell, " of the ", block.Name, " is a ",
+        vtkCellTypes::GetClassNameFromTypeId(type),
+        "; regions must be polygons or closed lines, as Extract Surface makes of it");
+    }
+    grid->GetCellPoints(cell, ids);
+    if (type == VTK_PIXEL) // has its last two points the other way round
+    {
+      const vtkIdType third = ids->GetId(2);
+      ids->SetId(2, ids->GetId(3));
+      ids->SetId(3, third);
+    }
+    cells[static_cast<std::size_t>(kind)]->InsertNextCell(ids);
+    numbersOfKinds[static_cast<std::size_t>(kind)].push_back(cell);
+  }
+  const auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(grid->GetPoints());
+  data->GetPointData()->PassData(grid->GetPointData());
+  data->SetVerts(cells[0]);
+  data->SetLines(cells[1]);
+  data->SetPolys(cells[2]);
+  for (const std::vector<vtkIdType>& ofKind : numbersOfKinds)
+  {
+    numbers.insert(numbers.end(), ofKind.begin(), ofKind.end());
+  }
+  data->GetCellData()->CopyAllOn();
+  copyTuples(
+    { grid->GetCellData(), grid->GetNumberOfCells(), "cell", block.Name.c_str() },
+    static_cast<std::int64_t>(numbers.size()),
+    [&](vtkIdType i) { return numbers[static_cast<std::size_t>(i)]; }, data->GetCellData(),
+    progress);
+  return data;
+}
+
+vtkSmartPointer<vtkPolyData> polyDataOf(
+  const DensityBlock& block, std::vector<vtkIdType>& numbers, Progress& progress)
+{
+  auto* const grid = vtkUnstructuredGrid::SafeDownCast(block.Data);
+  auto* const data = vtkPolyData::SafeDownCast(block.Data);
+  if (!grid && !data)
+  {
+    fail("The ", block.Name, " is a ", block.Data->GetClassName(),
+      "; regions must be polygons or closed lines, as Extract Surface makes of it");
+  }
+  if (data && data->GetNumberOfStrips() > 0)
+  {
+    failStrips(block);
+  }
+  requireReadableCells(block.Data, block.Name);
+  requireTuples(block.Data, block.Name);
+  if (grid)
+  {
+    return polyDataOf(block, grid, numbers, progress);
+  }
+  const auto copy = vtkSmartPointer<vtkPolyData>::New();
+  copy->ShallowCopy(data);
+  numbers.resize(static_cast<std::size_t>(data->GetNumberOfCells()));
+  std::iota(numbers.begin(), numbers.end(), vtkIdType{ 0 });
+  return copy;
+}
+
+vtkSmartPointer<vtkPolyData> numberedBlock(
+  const DensityBlock& block, std::size_t i, Progress& progress)
+{
+  std::vector<vtkIdType> numbers;
+  vtkSmartPointer<vtkPolyData> data = polyDataOf(block, numbers, progress);
+  const auto count = static_cast<vtkIdType>(numbers.size());
+  for (const char* name : { blockNumbers, cellNumbers })
+  {
+    vtkNew<vtkIdTypeArray> array;
+    array->SetName(name);
+    array->SetNumberOfTuples(count);
+    for (vtkIdType cell = 0; cell < count; ++cell)
+    {
+      array->SetValue(cell,
+        name == blockNumbers ? static_cast<vtkIdType>(i) : numbers[static_cast<std::size_t>(cell)]);
+    }
+    data->GetCellData()->AddArray(array);
+  }
+  return data;
+}
+
+// Group by group, and these again, as vtkAppendPolyData cannot be aborted.
+vtkSmartPointer<vtkPolyData> joinedData(const std::vector<DensityBlock>& blocks, Progress& progress)
+{
+  constexpr std::size_t most = 64;
+  std::vector<vtkSmartPointer<vtkPolyData>> parts;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+  {
+    progress.BeginStage(0.01 * static_cast<double>(i + 1) / static_cast<double>(blocks.size()));
+    parts.push_back(numberedBlock(blocks[i], i, progress));
+  }
+  progress.BeginStage(0.015, static_cast<std::int64_t>(blocks.size()));
+  do
+  {
+    std::vector<vtkSmartPointer<vtkPolyData>> joined;
+    for (std::size_t first = 0; first < parts.size(); first += most)
+    {
+      vtkNew<vtkAppendPolyData> append;
+      append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+      for (std::size_t i = first; i < std::min(parts.size(), first + most); ++i)
+      {
+        append->AddInputData(parts[i]);
+      }
+      append->Update();
+      joined.emplace_back(append->GetOutput());
+      progress.EndSlice(append->GetNumberOfInputConnections(0));
+    }
+    parts = std::move(joined);
+  } while (parts.size() > 1);
+  return parts.front();
+}
+
+} // namespace
+
+RegionBlocks joinRegionBlocks(const std::vector<DensityBlock>& blocks, Progress& progress)
+{
+  RegionBlocks joined;
+  joined.Data = joinedData(blocks, progress);
+  vtkCellData* cells = joined.Data->GetCellData();
+  auto* const numbersOfBlocks = vtkIdTypeArray::SafeDownCast(cells->GetArray(blockNumbers));
+  auto* const numbers = vtkIdTypeArray::SafeDownCast(cells->GetArray(cellNumbers));
+  for (vtkIdType cell = 0; cell < joined.Data->GetNumberOfCells(); ++cell)
+  {
+    joined.Blocks.push_back(static_cast<std::size_t>(numbersOfBlocks->GetValue(cell)));
+    joined.Numbers.push_back(numbers->GetValue(cell));
+  }
+  cells->RemoveArray(blockNumbers);
+  cells->RemoveArray(cellNumbers);
+  return joined;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The blocks of a map as one vtkPolyData.
+#ifndef RectifiedTransport_RegionBlocks_h
+#define RectifiedTransport_RegionBlocks_h
+
+#include "Bridge/Blocks/DensityBlocks.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/Progress.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <cstddef>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+struct RegionBlocks
+{
+  // With double points and the arrays that all blocks have. Its vtkCells are numbered as those of a
+  // vtkPolyData: vertices, lines, polygons, each block by block.
+  vtkSmartPointer<vtkPolyData> Data;
+  std::vector<std::size_t> Blocks; // of vtkCells
+  std::vector<vtkIdType> Numbers;  // of vtkCells in their block
+};
+
+// Of blocks that are vtkPolyData, or vtkUnstructuredGrid with vtkCells that a vtkPolyData may have.
+// Throws Failure for others, for triangle strips and for data that cannot be read; and Cancelled.
+// Takes the progress to 0.015.
+RegionBlocks joinRegionBlocks(const std::vector<DensityBlock>& blocks, Progress& progress);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Cartogram/RegionSets.h"
+
+#include <algorithm>
+#include <limits>
+#include <new>
+
+namespace RectifiedTransport
+{
+
+std::int32_t RegionSets::FindWith(std::int32_t set, std::int32_t region)
+{
+  const std::int64_t key = static_cast<std::int64_t>(set) << 32 | region;
+  const auto [found, isNew] = this->Numbers.insert({ key, this->End() });
+  if (isNew)
+  {
+    if (this->End() == std::numeric_limits<std::int32_t>::max())
+    {
+      throw std::bad_alloc();
+    }
+    this->Pairs.push_back({ set, region });
+  }
+  this->Last = { set, region };
+  this->NumberOfLast = found->second;
+  return this->NumberOfLast;
+}
+
+std::vector<std::int32_t> RegionSets::Keep(const std::vector<unsigned char>& isUsed)
+{
+  const std::int32_t end = this->End();
+  std::vector<std::int32_t> numbers(static_cast<std::size_t>(end), -1);
+  for (std::int32_t region = 0; region < this->Regions; ++region)
+  {
+    numbers[static_cast<std::size_t>(region)] = region;
+  }
+  std::int32_t kept = this->Regions;
+  for (std::int32_t set = this->Regions; set < end; ++set)
+  {
+    if (isUsed[static_cast<std::size_t>(set)] == 0)
+    {
+      continue;
+    }
+    numbers[static_cast<std::size_t>(set)] = kept++;
+    std::int32_t part = set;
+    while (part >= this->Regions)
+    {
+      const Pair& pair = this->Pairs[static_cast<std::size_t>(part - this->Regions)];
+      this->Members.push_back(pair.Region);
+      part = pair.Set;
+    }
+    this->Members.push_back(part);
+    std::reverse(this->Members.begin() + static_cast<std::ptrdiff_t>(this->Begins.back()),
+      this->Members.end());
+    this->Begins.push_back(this->Members.size());
+  }
+  this->Pairs = {};
+  this->Numbers = {};
+  return numbers;
+}
+
+} // namespace RectifiedTransport

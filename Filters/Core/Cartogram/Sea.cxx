@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Cartogram/Sea.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr double nothing = 1e-7; // of the mean density: the ground in SeaDensity Zero
+
+double sumOf(const std::vector<double>& values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+double densityBefore(const CartogramOptions& options, const CartogramBox& box, double mean,
+  const std::vector<double>& masses, const std::vector<double>& areas)
+{
+  double density = 0.0;
+  if (options.Sea == SeaDensity::Least)
+  {
+    density = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < masses.size(); ++i)
+    {
+      density = std::min(density, masses[i] / areas[i]);
+    }
+  }
+  else if (options.Sea == SeaDensity::Value)
+  {
+    density = options.SeaValue * box.Cell * box.Cell;
+  }
+  return std::max(density, nothing * mean);
+}
+
+} // namespace
+
+Sea::Sea(const CartogramOptions& options, const CartogramBox& box, const RegionRaster& raster,
+  const std::vector<double>& masses, const std::vector<double>& areas)
+  : Options(options)
+  , Mean(sumOf(masses) / sumOf(areas))
+{
+  if (options.Sea == SeaDensity::Mean)
+  {
+    return;
+  }
+  const double all = static_cast<double>(box.Side) * static_cast<double>(box.Side);
+  const double rest = raster.Rest();
+  const double covered = all - rest;
+  this->Land = sumOf(areas);
+  this->Mass = rest * densityBefore(options, box, this->Mean, masses, areas);
+  this->GrowthOfLand = this->Mean * covered / (this->Mean * covered + this->Mass) * all / covered;
+}
+
+double Sea::DensityOf(const RegionRaster& raster, const std::vector<double>& masses,
+  const std::vector<double>& areas, bool takesRoots) const
+{
+  const double mean = sumOf(masses) / sumOf(areas);
+  const double rest = this->Options.Sea == SeaDensity::Mean ? 0.0 : raster.Rest();
+  if (!(rest > 0.0))
+  {
+    return mean;
+  }
+  const double plain = rest * this->Mean;
+  const double mass = takesRoots ? plain * std::sqrt(this->Mass / plain) : this->Mass;
+  return std::max(mass / rest, nothing * mean);
+}
+
+bool Sea::LeavesLand(const std::vector<double>& areas) const
+{
+  return this->Options.Sea == SeaDensity::Mean ||
+    std::abs(sumOf(areas) / (this->Land * this->GrowthOfLand) - 1.0) <= this->Options.Tolerance;
+}
+
+} // namespace RectifiedTransport

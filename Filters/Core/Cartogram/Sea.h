@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ground around the regions of a map, as a density of a raster.
+#ifndef RectifiedTransport_Sea_h
+#define RectifiedTransport_Sea_h
+
+#include "Core/Cartogram/Cartogram.h"
+#include "Core/Cartogram/RegionRaster.h"
+
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// The sea keeps the mass that its density gives it in the map as it is, and the land gets the rest
+// of the box. With the mean density, that of each pass, both keep their areas.
+class Sea
+{
+public:
+  // Of the map as it is: masses and areas, in cells, of the regions.
+  Sea(const CartogramOptions& options, const CartogramBox& box, const RegionRaster& raster,
+    const std::vector<double>& masses, const std::vector<double>& areas);
+
+  // What the area of all regions is to be multiplied by.
+  double Growth() const { return this->GrowthOfLand; }
+  // The density of a pass, in mass per cell; `takesRoots` if its masses are plain masses times
+  // roots of what they are to be.
+  double DensityOf(const RegionRaster& raster, const std::vector<double>& masses,
+    const std::vector<double>& areas, bool takesRoots) const;
+  // Whether all regions together have the area that the sea leaves.
+  bool LeavesLand(const std::vector<double>& areas) const;
+
+private:
+  const CartogramOptions& Options;
+  double Mean;       // the density of all regions
+  double Mass = 0.0; // of the sea
+  double Land = 0.0; // before
+  double GrowthOfLand = 1.0;
+};
+
+} // namespace RectifiedTransport
+
+#endif
