@@ -34,7 +34,7 @@
  * how many regions LeastShare enlarged. Output 1, "Graticule": lines of a regular grid over the
  * map, moved. Output 2, "Overlay": the overlay with all its data, moved.
  *
- * Cost: O(Resolution^2 + points * steps) a pass. Memory: about 80 bytes a cell of the raster.
+ * Cost: O(Resolution^2 + points * steps) a pass. Memory: about 50 bytes a cell of the raster.
  *
  * @sa vtkDensityEqualizingWarp vtkEqualMassCells
  */

@@ -259,7 +259,7 @@ private:
 
   void RequireMemory() const
   {
-    constexpr double bytesOfCell = 76.0; // of a density and its flow
+    constexpr double bytesOfCell = 40.0; // of a density and its flow
     const auto side = static_cast<double>(this->Box.Side);
     const std::string text = std::to_string(this->Box.Side);
     requireMemory("a raster of " + text + " x " + text + " cells (see Resolution)",
