@@ -66,8 +66,29 @@ def velocity_is_no_colour(check):
             result = untold(alone)
             check.assertAlmostEqual(result.field("TotalMass") / norms, 1, 9)
             check.assertEqual(result.field("DensityComponent"), -3)
-            names = result.data.GetFieldData().GetAbstractArray("DensityArrayName")
-            check.assertEqual(names.GetValue(0), "U")
+    given = source(alone)
+    dots = simple.SampleDensity(given, NumberOfParticles=100)
+    for filter_, port, densities in (
+            (dots, 0, 1), (simple.TransportMap(given), 0, 1), (simple.TransportMap(given, Target=given), 0, 2),
+            (simple.DensityEqualizingWarp(dots, Density=given), 0, 1),
+            (simple.RelaxBlueNoise(dots, Density=given, MaximumIterations=1), 0, 1),
+            (simple.TransportQuality(dots, Density=given), 0, 1),
+            (simple.EqualMassCells(dots, Domain=given, Measure="Density"), 0, 1),
+            (simple.EqualMassCells(dots, Domain=given, Measure="Density"), 1, 1),
+            (simple.MorphDensities(given, Target=given), 0, 2),
+            (simple.MorphDensities(given, Target=given), 1, 2),
+            (simple.DensityBarycenter(Input=[given]), 0, 1),
+            (simple.TransportDistance(Input=[given, given]), 2, 2),
+            (simple.TransportTemporalInterpolator(given), 0, 1)):
+        filter_.InvertDensity = 1
+        filter_.UpdatePipeline()
+        fields = filter_.GetClientSideObject().GetOutputDataObject(port).GetFieldData()
+        read = {name: [fields.GetAbstractArray("Density" + name).GetVariantValue(i).ToString()
+                       for i in range(fields.GetAbstractArray("Density" + name).GetNumberOfValues())]
+                for name in ("ArrayName", "Component", "Inverted", "Range")}
+        check.assertEqual(read, {"ArrayName": densities * ["U"], "Component": densities * ["-3"],
+                                 "Inverted": densities * ["1"],
+                                 "Range": densities * ["-1e+299", "1e+299"]}, filter_)
 
 
 @case(116)
