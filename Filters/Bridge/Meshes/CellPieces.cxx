@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Meshes/CellPieces.h"
 
-#include "Core/Overlap/OverlapLines.h"
-
 #include "vtkCellType.h"
 #include "vtkDataSet.h"
 #include "vtkGenericCell.h"
@@ -70,7 +68,7 @@ bool CellPieces<D>::VisitSimplices(vtkIdType cell, const Visit& visit)
 }
 
 template <int D>
-void CellPieces<D>::AddTo(const GridSlab<D>& slab, vtkIdType cell, [[maybe_unused]] bool alongLines)
+void CellPieces<D>::AddTo(const GridSlab<D>& slab, vtkIdType cell)
 {
   MultilinearBox<D> box;
   if (this->FindBox(cell, box))
@@ -78,17 +76,8 @@ void CellPieces<D>::AddTo(const GridSlab<D>& slab, vtkIdType cell, [[maybe_unuse
     addOverlaps<D>(box, slab);
     return;
   }
-  this->VisitSimplices(cell, [&](const LinearSimplex<D>& simplex) {
-    if constexpr (D == 3)
-    {
-      if (alongLines)
-      {
-        addAlongLines(simplex, slab);
-        return;
-      }
-    }
-    addOverlaps<D>(simplex, slab);
-  });
+  this->VisitSimplices(
+    cell, [&](const LinearSimplex<D>& simplex) { addOverlaps<D>(simplex, slab); });
 }
 
 template <int D>
@@ -111,7 +100,6 @@ CellSize CellPieces<D>::SizeOf(vtkIdType cell)
     {
       size.Measure *= box.High[a] - box.Low[a];
     }
-    size.Wide = size.Measure;
     size.Integral = size.Measure * meanOf(box.Values);
     return size;
   }
@@ -119,10 +107,6 @@ CellSize CellPieces<D>::SizeOf(vtkIdType cell)
     const double measure = measureOf<D>(simplex);
     size.Measure += measure;
     size.Integral += measure * meanOf(simplex.Values);
-    if constexpr (D == 3)
-    {
-      size.Wide += isWideAlongLines(simplex) ? measure : 0.0;
-    }
   });
   if (!divided)
   {

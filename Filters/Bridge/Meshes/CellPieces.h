@@ -27,7 +27,6 @@ struct CellSize
 {
   double Integral = 0.0; // of the density
   double Measure = 0.0;
-  double Wide = 0.0;            // of the measure, that of simplices which several lines cross
   std::int64_t LeftOut = 0;     // cells that VTK could not divide into simplices
   double LeftOutIntegral = 0.0; // at most: of the boxes around these
   double LeftOutMeasure = 0.0;
@@ -38,7 +37,7 @@ struct CellSize
 inline CellSize operator+(const CellSize& a, const CellSize& b)
 {
   const CellSize& first = a.LeftOut > 0 ? a : b;
-  return { a.Integral + b.Integral, a.Measure + b.Measure, a.Wide + b.Wide, a.LeftOut + b.LeftOut,
+  return { a.Integral + b.Integral, a.Measure + b.Measure, a.LeftOut + b.LeftOut,
     a.LeftOutIntegral + b.LeftOutIntegral, a.LeftOutMeasure + b.LeftOutMeasure, first.FirstLeftOut,
     first.Block };
 }
@@ -53,8 +52,8 @@ public:
   CellPieces(const CellPieces&) = delete;
   CellPieces& operator=(const CellPieces&) = delete;
 
-  // Adds the integrals over a cell of dimension D; over simplices along lines or exactly.
-  void AddTo(const GridSlab<D>& slab, vtkIdType cell, bool alongLines);
+  // Adds the integrals over a cell of dimension D.
+  void AddTo(const GridSlab<D>& slab, vtkIdType cell);
 
   CellSize SizeOf(vtkIdType cell);
 

@@ -14,10 +14,8 @@
 #include "vtkDataSet.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <functional>
-#include <numeric>
 #include <sstream>
 
 namespace RectifiedTransport
@@ -92,8 +90,7 @@ void addEdges(const std::vector<BlockValues>& blocks, const RegionBatch& batch, 
 
 template <int D>
 void addBlocks(const std::vector<BlockValues>& blocks, const std::vector<Bins<vtkIdType>>& cells,
-  const MeshSlabs<D>& slabs, const ImageGrid& grid, bool alongLines, Progress& progress,
-  double* sums)
+  const MeshSlabs<D>& slabs, const ImageGrid& grid, Progress& progress, double* sums)
 {
   std::fill_n(sums, grid.NumberOfCells(), 0.0);
   constexpr std::int64_t cellsBetweenPolls = 256;
@@ -113,7 +110,7 @@ void addBlocks(const std::vector<BlockValues>& blocks, const std::vector<Bins<vt
             {
               return;
             }
-            pieces.AddTo(slab, cell, alongLines);
+            pieces.AddTo(slab, cell);
           }
         }
       }
@@ -206,25 +203,7 @@ std::vector<std::string> resample(
   const MeshSlabs<D> slabs(grid.Size<D>());
   const std::vector<Bins<vtkIdType>> cells = cellsOfSlabs<D>(blocks, grid, slabs, 0.0, progress);
   CellSize size = sizeOf<D>(blocks, grid, progress);
-  constexpr double mostlyWide = 0.9;
-  constexpr double tolerance = 1e-3; // of the mass, for lines
-  bool alongLines = D == 3 && size.Wide >= mostlyWide * size.Measure;
-  addBlocks<D>(blocks, cells, slabs, grid, alongLines, progress, sums);
-  if (alongLines)
-  {
-    // Much of the mass may be in simplices that lines miss.
-    const double found = reduceChunks(
-      progress, grid.NumberOfCells(), grain, 0.0,
-      [sums](std::int64_t first, std::int64_t last) {
-        return std::accumulate(sums + first, sums + last, 0.0);
-      },
-      std::plus<>());
-    alongLines = std::abs(found - size.Integral) <= tolerance * size.Integral;
-    if (!alongLines)
-    {
-      addBlocks<D>(blocks, cells, slabs, grid, false, progress, sums);
-    }
-  }
+  addBlocks<D>(blocks, cells, slabs, grid, progress, sums);
   if constexpr (D == 2)
   {
     addRegions(blocks, slabs, grid, progress, sums, size);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Overlap/Overlap.h"
 
+#include "Core/Geometry/CutPolygon.h"
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -49,92 +53,300 @@ double determinant(const std::array<Point<3>, 4>& v)
     e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-// Bisects the simplex at edges that cross planes between grid cells, until each part is in one grid
-// cell.
+// The faces of a simplex of positive determinant, counterclockwise seen from outside.
+constexpr std::size_t faceCorners[4][3] = { { 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } };
+constexpr std::size_t edgeCorners[3][2] = { { 0, 1 }, { 1, 2 }, { 2, 0 } };
+
+// The area of a triangle's shadow along axis 0, positive where its corners run counterclockwise.
+double shadowOf(const CutPolygon& piece, int i, int j, int k)
+{
+  const Corner& a = piece[i];
+  const Corner& b = piece[j];
+  const Corner& c = piece[k];
+  return 0.5 * ((b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]));
+}
+
+// The length of that of a segment.
+double shadowOf(const CutPolygon& piece, int i, int j)
+{
+  return piece[j][1] - piece[i][1];
+}
+
+// Integrates over the cells of one row of the grid after another, by the divergence theorem. Over a
+// piece of a face within one cell stands a prism along axis 0, up to the end of the simplex. It
+// adds to the piece's own cell the integral up to the cell's end, and to the later cells of the row
+// that of the linear function over the piece's shadow along axis 0. With the sign of the face's
+// side, these sum to the integral over the simplex. Faces along axis 0 have no shadow. The error is
+// that of rounding.
 template <int D>
-class Bisection
+class SimplexSweep
 {
 public:
-  explicit Bisection(const GridSlab<D>& slab)
-    : Slab(slab)
+  // `cells`: those of the grid that the simplex reaches, along each axis.
+  SimplexSweep(
+    const LinearSimplex<D>& simplex, const std::array<CellRange, D>& cells, const GridSlab<D>& slab)
+    : Cells(cells)
+    , Slab(slab)
+    , Columns(cells[0].Last - cells[0].First + 1)
+    , Sums(static_cast<std::size_t>(this->Columns + 2))
   {
+    this->SetFunction(simplex);
+    this->SetFaces(simplex);
   }
 
-  void Add(const LinearSimplex<D>& simplex, double measure) const
+  void Run()
   {
-    std::int64_t cell = 0;
-    std::int64_t most = 0;
-    int across = 0;
-    double plane = 0.0;
-    for (int a = D - 1; a >= 0; --a)
+    const CellRange& last = this->Cells[D - 1];
+    const CellRange inSlab{ std::max(last.First, this->Slab.First),
+      std::min(last.Last, this->Slab.Last - 1) };
+    if constexpr (D == 2)
     {
-      double low = simplex.Vertices[0][a];
-      double high = low;
-      for (std::size_t i = 1; i <= D; ++i)
-      {
-        low = std::min(low, simplex.Vertices[i][a]);
-        high = std::max(high, simplex.Vertices[i][a]);
-      }
-      const CellRange cells = cellsBetween(low, high);
-      const std::int64_t begin = a == D - 1 ? this->Slab.First : 0;
-      const std::int64_t end = a == D - 1 ? this->Slab.Last : this->Slab.Size[a];
-      if (cells.Last < begin || cells.First >= end)
-      {
-        return;
-      }
-      if (cells.Last - cells.First > most)
-      {
-        most = cells.Last - cells.First;
-        across = a;
-        plane = static_cast<double>(cells.First + (most + 1) / 2);
-      }
-      cell = cell * this->Slab.Size[a] + cells.First;
+      this->AddRows(this->Faces, inSlab, this->Slab.Sums);
     }
-    if (most > 0)
+    else
     {
-      this->Divide(simplex, measure, across, plane);
-      return;
+      for (std::int64_t layer = inSlab.First; layer <= inSlab.Last; ++layer)
+      {
+        Polygons inLayer;
+        for (std::size_t face = 0; face <= D; ++face)
+        {
+          std::array<CutPolygon, 2> parts;
+          inLayer[face] =
+            slabOf<2>(this->Faces[face], static_cast<double>(layer - last.First), parts);
+        }
+        this->AddRows(inLayer, this->Cells[1],
+          this->Slab.Sums + layer * this->Slab.Size[1] * this->Slab.Size[0]);
+      }
     }
-    double sum = 0.0;
-    for (const double value : simplex.Values)
-    {
-      sum += value;
-    }
-    this->Slab.Sums[cell] += measure * sum / (D + 1);
   }
 
 private:
-  void Divide(const LinearSimplex<D>& simplex, double measure, int axis, double plane) const
+  using Polygons = std::array<CutPolygon, D + 1>; // segments in 2D
+
+  struct CellSums
   {
-    std::size_t low = 0;
-    std::size_t high = 0;
-    for (std::size_t i = 1; i <= D; ++i)
+    double Volume = 0.0;   // of prisms that begin in the cell, up to its end
+    double Integral = 0.0; // over these
+    double Shadows = 0.0;  // the areas of the shadows of pieces before the cell
+    double Beyond = 0.0;   // the integral over these shadows, at 0 along axis 0
+  };
+
+  // Coordinates count from the first cell that is reached: they are as small as can be.
+  Corner Local(const Point<D>& x) const
+  {
+    Corner local{};
+    for (std::size_t a = 0; a < D; ++a)
     {
-      low = simplex.Vertices[i][axis] < simplex.Vertices[low][axis] ? i : low;
-      high = simplex.Vertices[i][axis] > simplex.Vertices[high][axis] ? i : high;
+      local[a] = x[a] - static_cast<double>(this->Cells[a].First);
     }
-    const Point<D>& a = simplex.Vertices[low];
-    const Point<D>& b = simplex.Vertices[high];
-    const double part = (plane - a[axis]) / (b[axis] - a[axis]);
-    Point<D> between;
-    for (int i = 0; i < D; ++i)
-    {
-      between[i] = a[i] + part * (b[i] - a[i]);
-    }
-    between[axis] = plane;
-    const double value = simplex.Values[low] + part * (simplex.Values[high] - simplex.Values[low]);
-    LinearSimplex<D> half = simplex;
-    half.Vertices[high] = between;
-    half.Values[high] = value;
-    this->Add(half, measure * part);
-    half = simplex;
-    half.Vertices[low] = between;
-    half.Values[low] = value;
-    this->Add(half, measure * (1.0 - part));
+    return local;
   }
 
+  // By Cramer's rule.
+  void SetFunction(const LinearSimplex<D>& simplex)
+  {
+    const double volume = determinant(simplex.Vertices);
+    this->Side = volume > 0.0 ? -1.0 : 1.0;
+    const Corner origin = this->Local(simplex.Vertices[0]);
+    const auto range = std::minmax_element(simplex.Values.begin(), simplex.Values.end());
+    this->Least = *range.first;
+    this->Most = *range.second;
+    this->Constant = simplex.Values[0];
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      std::array<Point<D>, D + 1> replaced = simplex.Vertices;
+      for (std::size_t i = 0; i <= D; ++i)
+      {
+        replaced[i][a] = simplex.Values[i];
+      }
+      this->Slope[a] = determinant(replaced) / volume;
+      this->Constant -= this->Slope[a] * origin[a];
+    }
+  }
+
+  void SetFaces(const LinearSimplex<D>& simplex)
+  {
+    for (const Point<D>& vertex : simplex.Vertices)
+    {
+      this->End = std::max(this->End, this->Local(vertex)[0]);
+    }
+    for (std::size_t face = 0; face <= D; ++face)
+    {
+      CutPolygon& polygon = this->Faces[face];
+      for (std::size_t i = 0; i < D; ++i)
+      {
+        const std::size_t corner = D == 3 ? faceCorners[face][i] : edgeCorners[face][i];
+        polygon.Add(this->Local(simplex.Vertices[corner]));
+      }
+      double shadow = 0.0;
+      if constexpr (D == 2)
+      {
+        shadow = shadowOf(polygon, 0, 1);
+      }
+      else
+      {
+        shadow = shadowOf(polygon, 0, 1, 2);
+      }
+      if (shadow == 0.0)
+      {
+        polygon.Size = 0;
+      }
+    }
+  }
+
+  // Of a layer. Parts do not depend on which rows are asked for.
+  void AddRows(const Polygons& faces, const CellRange& rows, double* layer)
+  {
+    PolygonSlabs<1> parts[D + 1];
+    for (std::size_t face = 0; face <= D; ++face)
+    {
+      parts[face].Begin(faces[face], 0.0);
+    }
+    for (std::int64_t row = this->Cells[1].First; row <= rows.Last; ++row)
+    {
+      double low = this->End;
+      double high = 0.0;
+      for (PolygonSlabs<1>& ofFace : parts)
+      {
+        const CutPolygon& part = ofFace.UpTo(static_cast<double>(row + 1 - this->Cells[1].First));
+        if (row < rows.First || part.Size == 0)
+        {
+          continue;
+        }
+        const std::array<double, 2> range = part.Range(0);
+        low = std::min(low, range[0]);
+        high = std::max(high, range[1]);
+        forSlabs<0>(part, this->Columns,
+          [this](std::int64_t column, const CutPolygon& piece) { this->AddPiece(column, piece); });
+      }
+      if (low < high)
+      {
+        this->FinishRow(cellsBetween(std::max(low, 0.0), high), layer + row * this->Slab.Size[0]);
+      }
+    }
+  }
+
+  // The end of a cell, or of the simplex.
+  double EndOf(std::int64_t column) const
+  {
+    return std::min(static_cast<double>(column + 1), this->End);
+  }
+
+  // Column -1: before the first one.
+  void AddPiece(std::int64_t column, const CutPolygon& piece)
+  {
+    const double end = this->EndOf(column);
+    double lengths[CutPolygon::Most];
+    double starts[CutPolygon::Most]; // the function at 0 along axis 0
+    double means[CutPolygon::Most];  // and its mean from the corner to the end
+    for (int i = 0; i < piece.Size; ++i)
+    {
+      const Corner& x = piece[i];
+      lengths[i] = end - x[0];
+      starts[i] =
+        this->Constant + this->Slope[1] * x[1] + (D > 2 ? this->Slope[D - 1] * x[2] : 0.0);
+      means[i] = starts[i] + this->Slope[0] * (0.5 * (x[0] + end));
+    }
+    CellSums sums;
+    const auto add = [&](auto... corner) {
+      const double shadow = shadowOf(piece, corner...);
+      const double length = (lengths[corner] + ...);
+      sums.Volume += shadow * length;
+      sums.Shadows += shadow;
+      if (this->Least < this->Most)
+      {
+        const double products = ((lengths[corner] * means[corner]) + ...);
+        sums.Integral += shadow * (products + length * (means[corner] + ...));
+        sums.Beyond += shadow * (starts[corner] + ...);
+      }
+    };
+    if constexpr (D == 2)
+    {
+      if (piece.Size == 2)
+      {
+        add(0, 1);
+      }
+    }
+    else
+    {
+      for (int i = 2; i < piece.Size; ++i)
+      {
+        add(0, i - 1, i);
+      }
+    }
+    // Of the means of a linear function and of a product of two over a simplex.
+    constexpr double ofOne = 1.0 / D;
+    constexpr double ofTwo = 1.0 / (D * (D + 1));
+    CellSums& next = this->Sums[static_cast<std::size_t>(column + 1)];
+    next.Shadows += this->Side * sums.Shadows;
+    next.Beyond += this->Side * ofOne * sums.Beyond;
+    if (column >= 0)
+    {
+      CellSums& own = this->Sums[static_cast<std::size_t>(column)];
+      own.Volume += this->Side * ofOne * sums.Volume;
+      own.Integral += this->Side * ofTwo * sums.Integral;
+    }
+  }
+
+  // Adds to the cells that the row's part of the simplex reaches; others have rounding errors.
+  void FinishRow(const CellRange& reached, double* row)
+  {
+    CellSums before;
+    const std::int64_t last = std::min(reached.Last, this->Columns - 1);
+    if (reached.First > last)
+    {
+      return;
+    }
+    for (std::int64_t column = reached.First; column <= last; ++column)
+    {
+      const CellSums& sums = this->Sums[static_cast<std::size_t>(column)];
+      const auto begin = static_cast<double>(column);
+      const double end = this->EndOf(column);
+      before.Shadows += sums.Shadows;
+      before.Beyond += sums.Beyond;
+      const double volume = std::max(sums.Volume + (end - begin) * before.Shadows, 0.0);
+      const double slope = before.Shadows * this->Slope[0] * (0.5 * (begin + end));
+      const double integral = sums.Integral + (end - begin) * (before.Beyond + slope);
+      // The function of a simplex that is nearly flat may be very steep.
+      row[this->Cells[0].First + column] +=
+        std::max(this->Least * volume, std::min(integral, this->Most * volume));
+    }
+    std::fill(this->Sums.begin() + reached.First, this->Sums.begin() + last + 3, CellSums());
+  }
+
+  const std::array<CellRange, D>& Cells;
   const GridSlab<D>& Slab;
+  const std::int64_t Columns;
+  std::vector<CellSums> Sums; // of a row
+  Polygons Faces;
+  double Side;  // of prisms where a face's corners run counterclockwise, seen against axis 0
+  double Least; // value
+  double Most;
+  double Constant;
+  Point<D> Slope;
+  double End = 0.0; // of the simplex along axis 0
 };
+
+// The cells that a simplex reaches, which may be beyond the grid by one cell.
+template <int D>
+std::array<CellRange, D> cellsOf(const LinearSimplex<D>& simplex, const GridSlab<D>& slab)
+{
+  std::array<CellRange, D> cells;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    double low = simplex.Vertices[0][a];
+    double high = low;
+    for (std::size_t i = 1; i <= D; ++i)
+    {
+      low = std::min(low, simplex.Vertices[i][a]);
+      high = std::max(high, simplex.Vertices[i][a]);
+    }
+    // Far ones may exceed every integer.
+    const auto beyond = static_cast<double>(slab.Size[a] + 1);
+    cells[a] = cellsBetween(std::clamp(low, -1.0, beyond), std::clamp(high, -1.0, beyond));
+  }
+  return cells;
+}
 
 } // namespace
 
@@ -149,9 +361,45 @@ template <int D>
 void addOverlaps(const LinearSimplex<D>& simplex, const GridSlab<D>& slab)
 {
   const double measure = measureOf<D>(simplex);
-  if (measure > 0.0)
+  if (!(measure > 0.0))
   {
-    Bisection<D>(slab).Add(simplex, measure);
+    return;
+  }
+  if constexpr (D == 1)
+  {
+    const std::size_t low = simplex.Vertices[0][0] < simplex.Vertices[1][0] ? 0 : 1;
+    const std::size_t high = 1 - low;
+    addOverlaps<1>(MultilinearBox<1>{ simplex.Vertices[low], simplex.Vertices[high],
+                     { simplex.Values[low], simplex.Values[high] } },
+      slab);
+  }
+  else
+  {
+    std::array<CellRange, D> cells = cellsOf<D>(simplex, slab);
+    std::int64_t only = 0;
+    bool isInOne = true;
+    for (std::size_t a = D; a-- > 0;)
+    {
+      CellRange& range = cells[a];
+      isInOne = isInOne && range.First == range.Last;
+      const std::int64_t begin = a == D - 1 ? slab.First : 0;
+      const std::int64_t end = a == D - 1 ? slab.Last : slab.Size[a];
+      if (range.Last < begin || range.First >= end)
+      {
+        return;
+      }
+      only = only * slab.Size[a] + range.First;
+      range = { std::max<std::int64_t>(range.First, 0), std::min(range.Last, slab.Size[a] - 1) };
+    }
+    if (isInOne)
+    {
+      const double sum = std::accumulate(simplex.Values.begin(), simplex.Values.end(), 0.0);
+      slab.Sums[only] += measure * sum / (D + 1);
+    }
+    else
+    {
+      SimplexSweep<D>(simplex, cells, slab).Run();
+    }
   }
 }
 

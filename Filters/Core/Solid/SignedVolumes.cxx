@@ -53,21 +53,9 @@ void SignedVolumes::Begin(std::int64_t layer)
 void SignedVolumes::Add(const std::array<Corner, 3>& triangle, int weight)
 {
   const CutPolygon whole(triangle);
-  const std::array<double, 2> range = whole.Range(2);
-  CutPolygon parts[2];
-  CutPolygon outside;
-  const CutPolygon* polygon = &whole;
-  if (range[0] < this->Layer)
-  {
-    cutPolygon<2>(*polygon, this->Layer, outside, parts[0]);
-    polygon = &parts[0];
-  }
-  if (range[1] > this->Layer + 1.0)
-  {
-    cutPolygon<2>(*polygon, this->Layer + 1.0, parts[1], outside);
-    polygon = &parts[1];
-  }
-  forSlabs<1>(*polygon, this->Rows, [this, weight](std::int64_t row, const CutPolygon& part) {
+  std::array<CutPolygon, 2> parts;
+  const CutPolygon& polygon = slabOf<2>(whole, this->Layer, parts);
+  forSlabs<1>(polygon, this->Rows, [this, weight](std::int64_t row, const CutPolygon& part) {
     if (row >= this->FirstRow && row < this->FirstRow + this->NumberOfRows)
     {
       this->AddToRow(row - this->FirstRow, part, static_cast<double>(-weight));

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts of triangles by planes and lines along the axes. Both triangles of an edge compute a cut of
-// it from the same numbers in the same order: they agree to the last bit.
+// Cuts of triangles by planes across axis 2, and of these cuts by lines along axis 0. Both
+// triangles of an edge compute a cut of it from the same numbers in the same order: they agree to
+// the last bit.
 #ifndef RectifiedTransport_SurfaceCuts_h
 #define RectifiedTransport_SurfaceCuts_h
 
+#include "Core/Geometry/CutPolygon.h"
 #include "Core/Mesh/TriangleSurface.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 namespace RectifiedTransport
 {
-
-using Corner = std::array<double, 3>;
 
 inline std::array<Corner, 3> cornersOf(const TriangleSurface& surface, std::int64_t triangle)
 {
@@ -25,111 +24,6 @@ inline std::array<Corner, 3> cornersOf(const TriangleSurface& surface, std::int6
     corners[static_cast<std::size_t>(i)] = { point[0], point[1], point[2] };
   }
   return corners;
-}
-
-// A convex polygon: a triangle, or what planes along the axes leave of it.
-struct CutPolygon
-{
-  static constexpr int Most = 9; // of a triangle, one more for each side of a box
-  std::array<Corner, Most> Corners;
-  int Size = 0;
-
-  CutPolygon() = default;
-  explicit CutPolygon(const std::array<Corner, 3>& triangle)
-    : Size(3)
-  {
-    this->Corners[0] = triangle[0];
-    this->Corners[1] = triangle[1];
-    this->Corners[2] = triangle[2];
-  }
-  void Add(const Corner& corner) { this->Corners[static_cast<std::size_t>(this->Size++)] = corner; }
-  const Corner& operator[](int i) const { return this->Corners[static_cast<std::size_t>(i)]; }
-
-  // The lowest and highest coordinate.
-  std::array<double, 2> Range(int axis) const
-  {
-    const auto a = static_cast<std::size_t>(axis);
-    std::array<double, 2> range{ HUGE_VAL, -HUGE_VAL };
-    for (int i = 0; i < this->Size; ++i)
-    {
-      range[0] = std::min(range[0], (*this)[i][a]);
-      range[1] = std::max(range[1], (*this)[i][a]);
-    }
-    return range;
-  }
-};
-
-// Cuts a polygon by the plane at a value of an axis into what is below and what is above; corners
-// on the plane belong to both.
-template <int Axis>
-void cutPolygon(const CutPolygon& polygon, double value, CutPolygon& below, CutPolygon& above)
-{
-  below.Size = 0;
-  above.Size = 0;
-  const Corner* last = &polygon.Corners[static_cast<std::size_t>(polygon.Size - 1)];
-  for (int i = 0; i < polygon.Size; ++i)
-  {
-    const Corner* next = &polygon.Corners[static_cast<std::size_t>(i)];
-    const double a = (*last)[Axis];
-    const double b = (*next)[Axis];
-    if ((a < value && b > value) || (a > value && b < value))
-    {
-      const Corner& low = a < b ? *last : *next;
-      const Corner& high = a < b ? *next : *last;
-      const double t = (value - low[Axis]) / (high[Axis] - low[Axis]);
-      Corner cut;
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        cut[k] = low[k] + t * (high[k] - low[k]);
-      }
-      cut[Axis] = value;
-      below.Add(cut);
-      above.Add(cut);
-    }
-    if (b <= value)
-    {
-      below.Add(*next);
-    }
-    if (b >= value)
-    {
-      above.Add(*next);
-    }
-    last = next;
-  }
-}
-
-// Calls visit(i, part) for the parts of a polygon in the slabs i <= coordinate <= i + 1 of an axis,
-// i from 0 to below `slabs`, in ascending order, and visit(-1, part) for one below 0. The cuts do
-// not depend on `slabs`.
-template <int Axis, class Visit>
-void forSlabs(const CutPolygon& polygon, std::int64_t slabs, const Visit& visit)
-{
-  const std::array<double, 2> range = polygon.Range(Axis);
-  if (range[0] >= static_cast<double>(slabs))
-  {
-    return;
-  }
-  auto i = range[0] < 0.0 ? std::int64_t{ -1 } : static_cast<std::int64_t>(range[0]);
-  if (range[1] <= static_cast<double>(i + 1)) // as of most small triangles
-  {
-    visit(i, polygon);
-    return;
-  }
-  CutPolygon rests[2];
-  const CutPolygon* rest = &polygon;
-  for (int turn = 0; i < slabs; ++i, turn = 1 - turn)
-  {
-    const auto end = static_cast<double>(i + 1);
-    if (range[1] <= end)
-    {
-      visit(i, *rest);
-      return;
-    }
-    CutPolygon below;
-    cutPolygon<Axis>(*rest, end, below, rests[turn]);
-    visit(i, below);
-    rest = &rests[turn];
-  }
 }
 
 // A corner of the polygon in which a plane across axis 2 intersects the surface.

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Simplices and boxes to grids: sums and moments, single cells against sampling, meshes without
-// gaps, slabs.
+// gaps, flat and large ones, slabs.
 #include "Core/Overlap/Overlap.h"
 
-#include "Core/Overlap/OverlapLines.h"
 #include "TestDimensions.h"
 
 #include <Eigen/LU>
@@ -12,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -239,85 +239,168 @@ TYPED_TEST(Overlap, BeyondTheGridIsNotAdded)
   }
 }
 
-// The six tetrahedra of a box that meet along a diagonal.
-std::vector<LinearSimplex<3>> tetrahedraOf(const Point<3>& low, const Point<3>& high)
+// A simplex from the low to the high corner of a box, along one axis after the other: those of all
+// orders of the axes fill the box, with diagonals in its faces and through it.
+template <int D>
+LinearSimplex<D> pathSimplex(
+  const Point<D>& low, const Point<D>& high, const std::array<int, D>& order)
 {
-  std::vector<LinearSimplex<3>> tetrahedra;
-  std::array<int, 3> order{ 0, 1, 2 };
-  do
+  LinearSimplex<D> simplex;
+  Point<D> corner = low;
+  for (std::size_t i = 0; i <= D; ++i)
   {
-    LinearSimplex<3> simplex;
-    Point<3> corner = low;
-    for (std::size_t i = 0; i < 4; ++i)
+    simplex.Vertices[i] = corner;
+    if (i < D)
     {
-      simplex.Vertices[i] = corner;
-      simplex.Values[i] = 1.0 + corner[0] - 0.5 * corner[1] + 0.25 * corner[2];
-      if (i < 3)
-      {
-        corner[static_cast<std::size_t>(order[i])] = high[static_cast<std::size_t>(order[i])];
-      }
+      corner[order[i]] = high[order[i]];
     }
-    tetrahedra.push_back(simplex);
-  } while (std::next_permutation(order.begin(), order.end()));
-  return tetrahedra;
+  }
+  return simplex;
 }
 
-TEST(OverlapLines, LeaveNoGaps)
+template <int D>
+double linearAt(const Point<D>& x)
 {
-  const GridSize<3> size{ 24, 20, 18 };
-  std::vector<double> sums(static_cast<std::size_t>(numberOfCells<3>(size)), 0.0);
-  const GridSlab<3> slab{ size, 0, size[2], sums.data() };
-  int wide = 0;
-  // Steps at fractions of the grid's, and at its own planes.
-  for (const auto& [lowZ, highZ] : { std::pair(0.0, 6.0), std::pair(6.0, 18.0) })
+  double value = 9.0;
+  for (int a = 0; a < D; ++a)
   {
-    for (const auto& [lowX, highX] : { std::pair(0.0, 10.625), std::pair(10.625, 24.0) })
+    value += (a - 0.75) * 0.25 * x[a];
+  }
+  return value;
+}
+
+// Visits the simplices of boxes that share faces, some of which are planes of the grid. `mirrored`:
+// the axes, as bits, along which the diagonals run downwards.
+template <int D, class Visit>
+void visitSimplicesOfBoxes(const GridSize<D>& size, unsigned int mirrored, const Visit& visit)
+{
+  std::array<double, 4> steps{ 0.0, 1.0 / 3.0, 0.5, 1.0 };
+  const std::size_t boxes = D == 1 ? 3 : D == 2 ? 9 : 27;
+  for (std::size_t box = 0; box < boxes; ++box)
+  {
+    Point<D> low;
+    Point<D> high;
+    std::array<int, D> order;
+    std::size_t rest = box;
+    for (int a = 0; a < D; ++a, rest /= 3)
     {
-      for (const LinearSimplex<3>& simplex :
-        tetrahedraOf({ lowX, 0.0, lowZ }, { highX, 20.0, highZ }))
+      order[a] = a;
+      low[a] = steps[rest % 3] * static_cast<double>(size[a]);
+      high[a] = steps[rest % 3 + 1] * static_cast<double>(size[a]);
+      if ((mirrored >> a & 1U) != 0)
       {
-        wide += isWideAlongLines(simplex) ? 1 : 0;
-        addAlongLines(simplex, slab);
+        std::swap(low[a], high[a]);
+      }
+    }
+    do
+    {
+      visit(pathSimplex<D>(low, high, order));
+    } while (std::next_permutation(order.begin(), order.end()));
+  }
+}
+
+// Faces along each axis, and diagonals of all directions: each place is counted once.
+TYPED_TEST(Overlap, OfBoxesOfSimplicesIsExactInEachCell)
+{
+  constexpr int D = TypeParam::value;
+  const GridSize<D> size = someSize<D>();
+  for (unsigned int mirrored = 0; mirrored < 1U << D; ++mirrored)
+  {
+    for (const bool isConstant : { true, false })
+    {
+      std::vector<double> sums(static_cast<std::size_t>(numberOfCells<D>(size)), 0.0);
+      visitSimplicesOfBoxes<D>(size, mirrored, [&](LinearSimplex<D> simplex) {
+        for (std::size_t i = 0; i <= D; ++i)
+        {
+          simplex.Values[i] = isConstant ? 3.0 : linearAt<D>(simplex.Vertices[i]);
+        }
+        addOverlaps<D>(simplex, { size, 0, size[D - 1], sums.data() });
+      });
+      for (std::size_t cell = 0; cell < sums.size(); ++cell)
+      {
+        Point<D> centre;
+        auto rest = static_cast<std::int64_t>(cell);
+        for (int a = 0; a < D; ++a)
+        {
+          centre[a] = static_cast<double>(rest % size[a]) + 0.5;
+          rest /= size[a];
+        }
+        EXPECT_NEAR(sums[cell], isConstant ? 3.0 : linearAt<D>(centre), 1e-13);
       }
     }
   }
-  EXPECT_EQ(wide, 24);
-  std::size_t cell = 0;
-  for (int k = 0; k < 18; ++k)
-  {
-    for (int j = 0; j < 20; ++j)
-    {
-      for (int i = 0; i < 24; ++i, ++cell)
-      {
-        // The lines' offset from the middles of their shares moves the values by little.
-        const double expected = 1.0 + (i + 0.5) - 0.5 * (j + 0.5) + 0.25 * (k + 0.5);
-        EXPECT_NEAR(sums[cell], expected, 0.004);
-      }
-    }
-  }
 }
 
-TEST(OverlapLines, NearlyConserveWideTetrahedra)
+// Cutting a simplex at an edge changes nothing in any cell.
+TYPED_TEST(Overlap, OfHalvesIsThatOfTheSimplex)
 {
-  const GridSize<3> size{ 40, 40, 40 };
-  std::mt19937 engine(19);
-  int wide = 0;
-  double worst = 0.0;
+  constexpr int D = TypeParam::value;
+  const GridSize<D> size = someSize<D>();
+  std::mt19937 engine(23);
   for (int i = 0; i < 100; ++i)
   {
-    const LinearSimplex<3> simplex = randomSimplex<3>(size, 0.9, engine);
-    if (isWideAlongLines(simplex))
+    const LinearSimplex<D> simplex = randomSimplex<D>(size, i % 2 == 0 ? 0.9 : 0.2, engine);
+    std::array<LinearSimplex<D>, 2> halves{ simplex, simplex };
+    constexpr double part = 0.375;
+    Point<D> between;
+    for (int a = 0; a < D; ++a)
     {
-      std::vector<double> sums(static_cast<std::size_t>(numberOfCells<3>(size)), 0.0);
-      addAlongLines(simplex, { size, 0, 25, sums.data() });
-      addAlongLines(simplex, { size, 25, 40, sums.data() });
-      const double expected = measureOf<3>(simplex) * meanOf<3>(simplex);
-      worst = std::max(worst, std::abs(sumOf(sums) / expected - 1.0));
-      ++wide;
+      between[a] = (1.0 - part) * simplex.Vertices[0][a] + part * simplex.Vertices[1][a];
+    }
+    for (std::size_t half = 0; half < 2; ++half)
+    {
+      halves[half].Vertices[half] = between;
+      halves[half].Values[half] = (1.0 - part) * simplex.Values[0] + part * simplex.Values[1];
+    }
+    const std::vector<double> whole = overlapsOf<D>(simplex, size);
+    const std::vector<double> first = overlapsOf<D>(halves[0], size);
+    const std::vector<double> second = overlapsOf<D>(halves[1], size);
+    for (std::size_t cell = 0; cell < whole.size(); ++cell)
+    {
+      EXPECT_NEAR(first[cell] + second[cell], whole[cell], 1e-12);
+      EXPECT_EQ(whole[cell] == 0.0, first[cell] == 0.0 && second[cell] == 0.0);
     }
   }
-  EXPECT_GT(wide, 80);
-  EXPECT_LT(worst, 0.05);
+}
+
+// Four points in a plane up to rounding: a function between them may be as steep as 1e300.
+TEST(Overlap, OfFlatTetrahedraIsBounded)
+{
+  const GridSize<3> size{ 12, 9, 7 };
+  for (const double height : { 1e-3, 1e-9, 1e-15, 1e-200, 1e-310 })
+  {
+    LinearSimplex<3> simplex{
+      { { { 2.5, 1.0, 1.0 }, { 2.5, 7.0, 1.5 }, { 2.5, 2.0, 6.5 }, { 2.5 + height, 4.0, 3.0 } } },
+      { 1.0, 2.0, 1.0, 5.0 }
+    };
+    const double expected = measureOf<3>(simplex) * meanOf<3>(simplex);
+    EXPECT_NEAR(sumOf(overlapsOf<3>(simplex, size)), expected, 1e-6 * expected + 1e-13);
+    std::swap(simplex.Vertices[1], simplex.Vertices[3]);
+    for (Point<3>& vertex : simplex.Vertices) // in another plane
+    {
+      vertex[0] += 0.75 * vertex[1] - 0.5 * vertex[2];
+    }
+    for (const double value : overlapsOf<3>(simplex, size))
+    {
+      EXPECT_GE(value, 0.0);
+      EXPECT_LE(value, 5.0 * height + 1e-13);
+    }
+  }
+}
+
+// The work grows with the cells that faces cross.
+TEST(Overlap, OfLargeTetrahedraIsQuick)
+{
+  const GridSize<3> size{ 256, 256, 256 };
+  std::vector<double> sums(static_cast<std::size_t>(numberOfCells<3>(size)), 0.0);
+  const std::clock_t start = std::clock();
+  visitSimplicesOfBoxes<3>(size, 0, [&](LinearSimplex<3> simplex) {
+    simplex.Values.fill(2.0);
+    addOverlaps<3>(simplex, { size, 0, size[2], sums.data() });
+  });
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  EXPECT_NEAR(sumOf(sums) / sums.size(), 2.0, 2e-12);
+  EXPECT_LT(seconds, 20.0); // .3 s in an optimized build; dividing them at all cells takes minutes
 }
 
 } // namespace

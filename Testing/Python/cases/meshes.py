@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes and grids of flow and finite elements, adaptive ones among them."""
+import time
+
 import numpy as np
 from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules.vtkCommonDataModel import (VTK_HEXAHEDRON, VTK_POLYHEDRON, VTK_PYRAMID, VTK_QUAD,
@@ -189,6 +191,35 @@ def latitudes_from_north_to_south(check):
     grid = rectilinear(np.linspace(-10, 10, 6), np.linspace(60, 0, 7), [0], values)
     found = expect_mass(check, grid, 15 * 4 * 10.0).places()
     check.assertGreaterEqual(found[:, 1].min(), 50 - 60 / 256)
+
+
+@case(121)
+def boxes_whose_diagonals_lie_along_an_axis(check):
+    """A box of cubes, each of them six tetrahedra, two prisms along an axis or a polyhedron.
+
+    Source: FEniCS/dolfinx and mfem/mfem threads on resampling box meshes (minutes for a small mesh).
+    Right: value x volume up to rounding, and as quick as if no face lay along an axis.
+    """
+    count = 3
+    places = np.stack(np.meshgrid(*3 * [np.arange(count + 1) / count], indexing="ij"), -1).reshape(-1, 3)
+    steps = np.array([(count + 1) ** 2, count + 1, 1])  # of the numbers of points along the axes
+    lows = np.array(list(np.ndindex(count, count, count))) @ steps
+    corners = [sum(steps[axis] for axis in range(3) if corner >> axis & 1) for corner in range(8)]
+
+    def cells(kind, parts):
+        return [(kind, [low + corners[corner] for corner in part]) for low in lows for part in parts]
+    prisms = [[[a ^ turn for a in side] + [a ^ turn ^ 1 << axis for a in side]
+               for side in ([0, 1 << (axis + 1) % 3, 7 ^ 1 << axis], [0, 7 ^ 1 << axis, 1 << (axis + 2) % 3])]
+              for axis in range(3) for turn in (0, 1 << (axis + 1) % 3)]
+    meshes = [cells(VTK_TETRA, tetrahedra_of_a_cube())] + [cells(VTK_WEDGE, parts) for parts in prisms]
+    values = np.arange(1.0, count**3 + 1)
+    begin = time.process_time()
+    for all_cells in meshes:
+        expect_mass(check, mesh(places, all_cells, np.repeat(values, len(all_cells) // count**3)),
+                    values.mean(), 1e-12, DensityResolution=70)
+    faces = [[[low + corners[point] for point in face] for face in BOX_FACES] for low in lows]
+    expect_mass(check, polyhedra(places, faces, values), values.mean(), 1e-12, DensityResolution=70)
+    check.assertLess(time.process_time() - begin, 10)
 
 
 @case(53)
