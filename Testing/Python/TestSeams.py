@@ -3,13 +3,16 @@
 several components. Areas are kept as on disks, no triangle is turned over, points on seams are copies, and
 components have squares of their own. Disks are as they are without Seams, to the bit."""
 import os
+import time
 import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonComputationalGeometry import vtkParametricMobius, vtkParametricTorus
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData
+from vtkmodules.vtkFiltersModeling import vtkLinearSubdivisionFilter
 from vtkmodules.vtkFiltersSources import (vtkCubeSource, vtkParametricFunctionSource, vtkPlaneSource, vtkSphereSource,
                                           vtkSuperquadricSource)
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
@@ -78,11 +81,50 @@ def areas(points, triangles):
     return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
 
 
+def of_triangles(places, triangles):
+    data = vtkPolyData()
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    for place in places:
+        points.InsertNextPoint(*place)
+    data.SetPoints(points)
+    data.SetPolys(vtkCellArray())
+    for triangle in triangles:
+        data.GetPolys().InsertNextCell(3, [int(point) for point in triangle])
+    return data
+
+
+def projective_plane():
+    """Six points, each two of which an edge joins, in ten triangles: divided three times."""
+    subdivide = vtkLinearSubdivisionFilter()
+    subdivide.SetNumberOfSubdivisions(3)
+    subdivide.SetInputData(of_triangles(
+        np.random.default_rng(3).standard_normal((6, 3)),
+        [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5), (0, 5, 1), (1, 2, 4), (2, 3, 5), (3, 4, 1), (4, 5, 2),
+         (5, 1, 3)]))
+    return made(subdivide)
+
+
+def sheet(n, holes=0):
+    """A wavy sheet of n x n squares, with holes x holes square holes of a third of their distance."""
+    v, u = np.mgrid[0:n + 1, 0:n + 1] / n
+    places = np.c_[u.ravel(), v.ravel(), 0.2 * (np.sin(5 * u) * np.cos(4 * v)).ravel()]
+    j, i = np.mgrid[0:n, 0:n]
+    each = n // holes if holes else 1
+    hole = (i % each * 3 // each == 1) & (j % each * 3 // each == 1) if holes else np.zeros((n, n), bool)
+    a = (j * (n + 1) + i)[~hole]
+    triangles = np.concatenate([np.c_[a, a + 1, a + n + 2], np.c_[a, a + n + 2, a + n + 1]])
+    used = np.unique(triangles)
+    return places[used], np.searchsorted(used, triangles)
+
+
 SURFACES = {
     "sphere": sphere,
     "torus": lambda: parametric(vtkParametricTorus(), 48, 24),
     "tube": lambda: sphere(30, StartPhi=30, EndPhi=150),
     "Moebius band": lambda: parametric(vtkParametricMobius(), 60, 8),
+    "projective plane": projective_plane,
+    "sheet with 25 holes": lambda: of_triangles(*sheet(45, 5)),
     "spot": spot,
     "superquadric with its seam": lambda: made(vtkSuperquadricSource(), PhiResolution=32, ThetaResolution=32),
     "several": several,
@@ -178,6 +220,48 @@ class Seams(unittest.TestCase):
         np.testing.assert_array_equal(point_array(output, "AreaPreservingExact")[24], [0, 0])
         self.assertEqual(output.GetNumberOfCells(), 12)
         self.assertEqual(cell_array(output, "Component").max(), 0)
+
+    def test_two_hundred_holes(self):
+        """A triangle takes at most three times as long as one of a sheet with none, and few are flipped."""
+        seconds = []
+        for count in (0, 14):
+            places, triangles = sheet(84, count)
+            begin = time.process_time()
+            (surface, _), reported = mapped(of_triangles(places, triangles))
+            seconds.append((time.process_time() - begin) / len(triangles))
+            self.assertEqual((reported.errors, reported.warnings), ([], []))
+            self.assertLessEqual(cell_array(surface, "Flipped").sum(), 0.01 * len(triangles))
+            self.assertLess(surface.GetFieldData().GetArray("AreaDistortionRMS").GetValue(0), 0.05)
+        self.assertLess(seconds[1], 5 * seconds[0])  # 2 on an idle machine, 30 and more along seams
+
+    def test_repeated_triangles(self):
+        """A triangle that is there twice counts once, in either direction, with points of its own or not."""
+        places, triangles = sheet(10)
+        alone, _ = mapped(of_triangles(places, triangles))
+        own = len(places) + np.arange(3)
+        for repeated, more in ((triangles[77], 0), (triangles[77][::-1], 0), (triangles[0][[1, 2, 0]], 0),
+                               (own, 3)):
+            data = of_triangles(np.concatenate([places, places[triangles[77]][:more]]),
+                                np.concatenate([triangles, [repeated]]))
+            for seams in "Auto", "None":
+                with self.subTest(repeated=repeated, seams=seams):
+                    (surface, _), reported = mapped(data, Seams=seams)
+                    self.assertEqual(reported.errors, [])
+                    self.assertIn("1 repeated triangle left out", reported.warnings[0])
+                    np.testing.assert_array_equal(point_array(surface, "AreaPreservingExact")[:len(places)],
+                                                  point_array(alone[0], "AreaPreservingExact"))
+                    first = 0 if repeated[0] == triangles[0][1] else 77
+                    for name in "AreaDistortion", "AngleDistortion", "Flipped":
+                        values = cell_array(surface, name)
+                        np.testing.assert_array_equal(values[:-1], cell_array(alone[0], name))
+                        self.assertEqual(values[-1], values[first])
+            for method in "Relaxation", "Flow":
+                sampled = simple.SampleSurface(producer(simple, data), NumberOfParticles=200, Method=method)
+                sampled.UpdatePipeline()
+                output = sampled.GetClientSideObject().GetOutput()
+                self.assertAlmostEqual(output.GetFieldData().GetArray("TotalMass").GetValue(0),
+                                       areas(places, triangles).sum(), 12)
+                self.assertLess(vtk_to_numpy(output.GetPointData().GetArray("CellId")).max(), len(triangles))
 
     def test_sheets_part(self):
         """Two spheres, and a triangle at an edge of each."""

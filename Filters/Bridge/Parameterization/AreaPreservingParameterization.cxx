@@ -115,6 +115,19 @@ public:
       });
   }
 
+  // Repeated triangles have the values of the first ones.
+  void Repeat(const std::vector<RepeatedTriangle>& repeated, vtkIdType firstCell)
+  {
+    for (const RepeatedTriangle& one : repeated)
+    {
+      const vtkIdType cell = firstCell + static_cast<vtkIdType>(one.Triangle);
+      const vtkIdType from = firstCell + static_cast<vtkIdType>(one.First);
+      this->Area->SetValue(cell, this->Area->GetValue(from));
+      this->Angle->SetValue(cell, this->Angle->GetValue(from));
+      this->Flipped->SetValue(cell, this->Flipped->GetValue(from));
+    }
+  }
+
   void Attach(vtkCellData* cells) const
   {
     cells->AddArray(this->Area);
@@ -158,6 +171,7 @@ MapDistortion measureCells(const DiskSurface& surface, const AreaPreservingMap& 
       return surface.FirstCell() + static_cast<vtkIdType>(given.Given(triangle));
     },
     progress);
+  distortions.Repeat(surface.Repaired().Repeated(), surface.FirstCell());
   return measureDistortion(triangles, map.Positions, progress.Stage());
 }
 
@@ -318,6 +332,7 @@ ParameterizationReport AreaPreservingParameterization::MapOpened(
       return surface.FirstCell() + static_cast<vtkIdType>(given.Given(triangle));
     },
     progress);
+  distortions.Repeat(cut.Repeated(), surface.FirstCell());
   const MapDistortion figures = measureDistortion(triangles, scaled, progress.Stage());
   progress.BeginStage(1.0);
   surface.PlaceFlatCells(map.Positions);

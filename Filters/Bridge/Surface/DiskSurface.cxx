@@ -124,6 +124,7 @@ std::string DiskSurface::RepairWarning() const
   counts.UnusedPoints = repairs.UnusedPoints;
   counts.FlatTriangles = repairs.FlatTriangles + this->Input->FlatTriangles();
   counts.MergedPoints = repairs.MergedPoints;
+  counts.Repeated = repairs.Repeated;
   counts.TJunctions = this->Input->TJunctions();
   return repairWarning(counts);
 }

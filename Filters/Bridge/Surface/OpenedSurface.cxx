@@ -225,6 +225,7 @@ std::string OpenedSurface::RepairWarning() const
   counts.UnusedPoints = cuts.UnusedPoints;
   counts.FlatTriangles = cuts.FlatTriangles + this->Input.FlatTriangles();
   counts.MergedPoints = cuts.MergedPoints;
+  counts.Repeated = cuts.Repeated;
   counts.TJunctions = this->Input.TJunctions();
   counts.PartedEdges = cuts.NonManifoldEdges;
   return repairWarning(counts);

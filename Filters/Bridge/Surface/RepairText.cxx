@@ -19,6 +19,7 @@ std::string repairWarning(const RepairCounts& counts)
   add(counts.UnusedPoints, "point", " in no polygon left out");
   add(counts.FlatTriangles, "triangle", " without area left out");
   add(counts.MergedPoints, "point", " merged with others at their places");
+  add(counts.Repeated, "repeated triangle", " left out");
   std::ostringstream closed;
   closed << " closed";
   if (counts.Gap > 0.0)

@@ -15,6 +15,7 @@ struct RepairCounts
   std::int64_t UnusedPoints = 0;  // of no polygon
   std::int64_t FlatTriangles = 0; // without area
   std::int64_t MergedPoints = 0;
+  std::int64_t Repeated = 0; // triangles with the points of one before
   std::int64_t TJunctions = 0;
   double Gap = 0.0;             // of T-junctions, at most; 0 if only rounding makes them
   std::int64_t PartedEdges = 0; // of more than two triangles

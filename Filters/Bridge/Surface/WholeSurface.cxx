@@ -5,6 +5,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/PolygonInput.h"
+#include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/TJunctions.h"
 #include "Core/Mesh/UnitScale.h"
 #include "Core/Parallel/Reduction.h"
@@ -18,6 +19,8 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -37,10 +40,12 @@ WholeSurface::WholeSurface(vtkPolyData* input, Progress& progress, double end)
   this->Cells.emplace(input, stages, 0.6);
   const std::int64_t triangles = this->Cells->NumberOfTriangles();
   withMemory("the surface's " + std::to_string(triangles) + " triangles",
-    static_cast<double>(triangles) * 40.0, [&]() {
+    static_cast<double>(triangles) * 80.0 + static_cast<double>(this->Coordinates.size()) * 16.0,
+    [&]() {
       stages.Next(0.8);
       this->Corners = this->Cells->Corners(progress);
       this->LeaveOutGhosts(input, progress);
+      this->LeaveOutRepeated(stages);
       const double rounding = roundingOfCorners(this->Surface(), progress);
       this->ScalePoints(progress);
       this->RoundingOfPoints = rounding / this->Unit;
@@ -77,24 +82,17 @@ void WholeSurface::ScalePoints(Progress& progress)
   });
 }
 
-void WholeSurface::LeaveOutGhosts(vtkPolyData* input, Progress& progress)
+template <class IsLeftOut>
+void WholeSurface::LeaveOut(const IsLeftOut& isLeftOut, Progress& progress)
 {
-  const unsigned char* ghosts = ghostFlags(input, vtkDataObject::CELL, "input surface");
-  if (!ghosts)
-  {
-    return;
-  }
   const std::int64_t all = this->NumberOfTriangles();
-  const auto isGhost = [&](std::int64_t triangle) {
-    return (ghosts[this->Cells->InputCellOf(triangle)] & ghostCell) != 0;
-  };
   const auto kept = reduceChunks(
     progress, all, Grain, std::int64_t{ 0 },
     [&](std::int64_t first, std::int64_t last) {
       std::int64_t count = 0;
       for (std::int64_t triangle = first; triangle < last; ++triangle)
       {
-        count += isGhost(triangle) ? 0 : 1;
+        count += isLeftOut(triangle) ? 0 : 1;
       }
       return count;
     },
@@ -103,26 +101,66 @@ void WholeSurface::LeaveOutGhosts(vtkPolyData* input, Progress& progress)
   {
     return;
   }
-  if (kept == 0)
-  {
-    throw Failure("The input surface has only ghost cells: all " + std::to_string(all) +
-      " triangles are duplicates, blanked or refined");
-  }
-  this->Kept = LargeBuffer<std::int64_t>(kept);
+  LargeBuffer<std::int64_t> given(kept);
   LargeBuffer<std::int64_t> corners(3 * kept);
   std::int64_t next = 0;
   progress.ForInOrder(all, Grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t triangle = first; triangle < last; ++triangle)
     {
-      if (!isGhost(triangle))
+      if (!isLeftOut(triangle))
       {
-        this->Kept.data()[next] = triangle;
+        given.data()[next] = this->Given(triangle);
         std::copy_n(this->Corners.data() + 3 * triangle, 3, corners.data() + 3 * next);
         ++next;
       }
     }
   });
+  this->Kept = std::move(given);
   this->Corners = std::move(corners);
+}
+
+void WholeSurface::LeaveOutGhosts(vtkPolyData* input, Progress& progress)
+{
+  const unsigned char* ghosts = ghostFlags(input, vtkDataObject::CELL, "input surface");
+  if (!ghosts)
+  {
+    return;
+  }
+  const std::int64_t all = this->NumberOfTriangles();
+  this->LeaveOut(
+    [&](std::int64_t triangle) {
+      return (ghosts[this->Cells->InputCellOf(triangle)] & ghostCell) != 0;
+    },
+    progress);
+  if (this->NumberOfTriangles() == 0)
+  {
+    throw Failure("The input surface has only ghost cells: all " + std::to_string(all) +
+      " triangles are duplicates, blanked or refined");
+  }
+}
+
+// Points at one place are one.
+void WholeSurface::LeaveOutRepeated(const SurfaceStages& stages)
+{
+  Progress& progress = stages.Run;
+  const TriangleSurface surface = this->Surface();
+  LargeBuffer<std::int64_t> firsts(surface.Points.size());
+  stages.Next(0.85);
+  mergePoints(surface.Points, firsts.data(), progress.Stage());
+  stages.Next(0.9);
+  LargeBuffer<std::int64_t> merged(3 * surface.NumberOfTriangles);
+  std::transform(surface.Triangles, surface.Triangles + merged.size(), merged.data(),
+    [&firsts](std::int64_t point) { return firsts.data()[point]; });
+  const std::vector<RepeatedTriangle> repeated = findRepeatedTriangles(
+    { surface.Points, merged.data(), surface.NumberOfTriangles }, progress.Stage());
+  this->NumberOfRepeated = static_cast<std::int64_t>(repeated.size());
+  stages.Next(0.95);
+  this->LeaveOut(
+    [&repeated](std::int64_t triangle) {
+      return std::binary_search(repeated.begin(), repeated.end(), RepeatedTriangle{ triangle, -1 },
+        [](const auto& a, const auto& b) { return a.Triangle < b.Triangle; });
+    },
+    progress);
 }
 
 void WholeSurface::FindAreas(Progress& progress)

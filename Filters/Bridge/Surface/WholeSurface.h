@@ -17,8 +17,9 @@ class WholeSurface final : public PlacedTriangles
 {
 public:
   // `input` has points. Cuts polygons and strips into triangles; progress then reaches `end`. Ghost
-  // cells (duplicate, blanked or refined) are left out. Throws Failure if the input has no polygons
-  // or no area, coordinates that are not finite or polygons that cannot be cut, and Cancelled.
+  // cells (duplicate, blanked or refined) are left out, and triangles with the places of one
+  // before. Throws Failure if the input has no polygons or no area, coordinates that are not finite
+  // or polygons that cannot be cut, and Cancelled.
   WholeSurface(vtkPolyData* input, Progress& progress, double end);
 
   vtkPolyData* Triangulated() const override { return this->Cells->Get(); }
@@ -39,11 +40,16 @@ public:
   TriangleSurface Surface() const override;
   // By how much the coordinates of Surface() may be off (see roundingOfCorners).
   double Rounding() const { return this->RoundingOfPoints; }
+  // Left out.
+  std::int64_t Repeated() const { return this->NumberOfRepeated; }
   SurfaceAreas Areas() const override { return { this->Shares.data(), this->Area, this->Unit }; }
 
 private:
   void ScalePoints(Progress& progress);
+  template <class IsLeftOut>
+  void LeaveOut(const IsLeftOut& isLeftOut, Progress& progress);
   void LeaveOutGhosts(vtkPolyData* input, Progress& progress);
+  void LeaveOutRepeated(const SurfaceStages& stages);
   void FindAreas(Progress& progress);
   std::int64_t Given(std::int64_t triangle) const
   {
@@ -55,6 +61,7 @@ private:
   LargeBuffer<std::int64_t> Corners;
   LargeBuffer<std::int64_t> Kept; // triangles of Cells; empty if these are all
   LargeBuffer<double> Shares;
+  std::int64_t NumberOfRepeated = 0;
   double RoundingOfPoints = 0.0;
   double Area = 0.0;
   double Unit = 1.0;

@@ -147,6 +147,7 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
   SurfaceSamplingReport report;
   report.Particles = samples.Places.size();
   RepairCounts repairs; // of what else is wrong, nothing changes the result
+  repairs.Repeated = surface.Repeated();
   repairs.TJunctions = samples.TJunctions;
   report.Repair = repairWarning(repairs);
   return report;

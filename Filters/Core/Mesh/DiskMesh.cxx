@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace RectifiedTransport
@@ -249,6 +250,17 @@ void DiskMesh::Orient(const Context& context)
     this->Sides.reset();
     this->Sides = std::make_unique<SurfaceEdges>(this->Surface(), context);
   }
+}
+
+void DiskMesh::SetShareFrom(std::int64_t first, double share)
+{
+  double* const shares = this->Shares.data();
+  double* const from = shares + first;
+  double* const end = shares + this->Shares.size();
+  const double before = std::accumulate(shares, from, 0.0);
+  const double after = std::accumulate(from, end, 0.0);
+  std::transform(shares, from, shares, [=](double own) { return own * ((1.0 - share) / before); });
+  std::transform(from, end, from, [=](double own) { return own * (share / after); });
 }
 
 void DiskMesh::FindBoundary(Progress& progress)

@@ -84,6 +84,9 @@ public:
   // The longest side of the bounds, in the units of the given surface.
   double Unit() const { return this->Length; }
 
+  // Gives the triangles from one on a share of the area together, whatever area they have.
+  void SetShareFrom(std::int64_t first, double share);
+
   // The area of a triangle as a share of the surface's, > 0; the shares sum to 1.
   double AreaShare(std::int64_t triangle) const { return this->Shares.data()[triangle]; }
   const double* AreaShares() const { return this->Shares.data(); }

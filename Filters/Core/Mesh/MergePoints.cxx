@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/MergePoints.h"
 
+#include "Core/Geometry/Bins.h"
 #include "Core/Mesh/Trees.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
@@ -9,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -231,6 +233,63 @@ bool mergeNearPoints(
     },
     grain);
   return isMerged;
+}
+
+std::vector<RepeatedTriangle> findRepeatedTriangles(
+  const TriangleSurface& surface, const Context& context)
+{
+  using Triple = std::array<std::int64_t, 3>;
+  const auto pointsOf = [&surface](std::int64_t triangle) {
+    const std::int64_t* ids = surface.Triangles + 3 * triangle;
+    Triple points{ ids[0], ids[1], ids[2] };
+    std::sort(points.begin(), points.end());
+    return points;
+  };
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+  Progress progress(context);
+  progress.BeginStage(0.5);
+  // By their lowest points, so that few are compared.
+  Bins<std::int64_t> triangles;
+  triangles.Fill(static_cast<std::size_t>(surface.Points.size()), [&](const auto& add) {
+    for (std::int64_t triangle = 0; triangle < surface.NumberOfTriangles; ++triangle)
+    {
+      const Triple points = pointsOf(triangle);
+      if (points[0] != points[1] && points[1] != points[2])
+      {
+        add(static_cast<std::size_t>(points[0]), triangle);
+      }
+    }
+    progress.Check();
+  });
+  progress.BeginStage(1.0);
+  std::vector<RepeatedTriangle> repeated;
+  std::vector<std::pair<Triple, std::int64_t>> group;
+  progress.ForInOrder(surface.Points.size(), grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t point = begin; point < end; ++point)
+    {
+      group.clear();
+      for (const std::int64_t triangle : triangles[static_cast<std::size_t>(point)])
+      {
+        group.emplace_back(pointsOf(triangle), triangle);
+      }
+      std::sort(group.begin(), group.end());
+      auto first = group.begin();
+      for (auto next = group.begin(); next != group.end(); ++next)
+      {
+        if (next->first != first->first)
+        {
+          first = next;
+        }
+        else if (next != first)
+        {
+          repeated.push_back({ next->second, first->second });
+        }
+      }
+    }
+  });
+  std::sort(repeated.begin(), repeated.end(),
+    [](const auto& a, const auto& b) { return a.Triangle < b.Triangle; });
+  return repeated;
 }
 
 } // namespace RectifiedTransport

@@ -21,14 +21,14 @@ bool areFinite(ConstPointSpan<3> points)
     [](double coordinate) { return std::isfinite(coordinate); });
 }
 
-// Merging cannot help where it only joins more.
+// Merging cannot help where it only joins more. It helps with edges of more than two triangles if
+// some of these are repeated.
 bool mayMerge(const NotADisk& defect)
 {
   switch (defect.Defect())
   {
     case DiskDefect::PointsNotFinite:
     case DiskDefect::NoTriangles:
-    case DiskDefect::NonManifoldEdges:
     case DiskDefect::Closed:
       return false;
     default:
@@ -100,27 +100,44 @@ bool RepairedDisk::Try(
   const TriangleSurface& surface, const SurfaceRepairOptions& options, const Context& context)
 {
   Progress progress(context);
-  this->Repaired.reset();
+  progress.BeginStage(0.1);
+  if (!options.MergesEqualPoints && !needsRepair(surface, options.Rounding, progress.Stage()))
+  {
+    progress.BeginStage(0.4);
+    if (this->TryAs(surface, {}, progress.Stage()))
+    {
+      return true;
+    }
+    // Repeated triangles make such edges.
+    if (this->Defect->Defect() != DiskDefect::NonManifoldEdges)
+    {
+      return false;
+    }
+  }
+  progress.BeginStage(0.6);
+  std::optional<RepairedSurface> made = repairSurface(surface, options, progress.Stage());
+  progress.BeginStage(1.0);
+  return this->TryAs(surface, std::move(made), progress.Stage());
+}
+
+bool RepairedDisk::TryAs(
+  const TriangleSurface& surface, std::optional<RepairedSurface> repaired, const Context& context)
+{
+  this->Repaired = std::move(repaired);
+  const bool hasTriangles = !this->Repaired || this->Repaired->Surface().NumberOfTriangles > 0;
   try
   {
-    progress.BeginStage(0.1);
-    if (options.MergesEqualPoints || needsRepair(surface, options.Rounding, progress.Stage()))
+    if (!hasTriangles)
     {
-      progress.BeginStage(0.5);
-      this->Repaired = repairSurface(surface, options, progress.Stage());
-      if (this->Repaired->Surface().NumberOfTriangles == 0)
-      {
-        throw NotADisk(DiskDefect::TrianglesWithoutArea, surface.NumberOfTriangles, 0);
-      }
+      throw NotADisk(DiskDefect::TrianglesWithoutArea, surface.NumberOfTriangles, 0);
     }
-    progress.BeginStage(1.0);
-    this->Disk.emplace(this->Repaired ? this->Repaired->Surface() : surface, progress.Stage());
+    this->Disk.emplace(this->Repaired ? this->Repaired->Surface() : surface, context);
     return true;
   }
   catch (const NotADisk& defect)
   {
-    const bool isRepaired = this->Repaired && this->Repaired->Surface().NumberOfTriangles > 0;
-    this->Defect.emplace(isRepaired ? inGivenNumbers(defect, *this->Repaired) : defect);
+    this->Defect.emplace(
+      this->Repaired && hasTriangles ? inGivenNumbers(defect, *this->Repaired) : defect);
     return false;
   }
 }

@@ -16,7 +16,8 @@ namespace RectifiedTransport
 {
 
 // The surface as it is, if it is a disk. Otherwise it is repaired as little as possible: first
-// without merging coincident points that no edge joins, then with. If triangles without area were
+// without merging coincident points that no edge joins, then with. A triangle that it has twice
+// counts once. If triangles without area were
 // removed and merging gives a disk, too, the merged one is used: removed triangles may leave
 // cracks. "Given" are the points and triangles of the surface.
 class RepairedDisk
@@ -41,6 +42,11 @@ public:
   std::int64_t NumberOfGivenPoints() const { return this->NumberOfPoints; }
   // The given points at the corners of a triangle of the disk.
   std::array<std::int64_t, 3> GivenCorners(std::int64_t triangle) const;
+  // Given triangles that were left out as repeated.
+  std::vector<RepeatedTriangle> Repeated() const
+  {
+    return this->Repaired ? this->Repaired->Repeated() : std::vector<RepeatedTriangle>();
+  }
   // The given triangle that a triangle of the disk is part of.
   std::int64_t GivenTriangle(std::int64_t triangle) const
   {
@@ -50,6 +56,8 @@ public:
 private:
   bool Try(
     const TriangleSurface& surface, const SurfaceRepairOptions& options, const Context& context);
+  bool TryAs(const TriangleSurface& surface, std::optional<RepairedSurface> repaired,
+    const Context& context);
 
   std::int64_t NumberOfPoints;
   std::optional<RepairedSurface> Repaired;

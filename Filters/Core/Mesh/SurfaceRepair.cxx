@@ -73,8 +73,10 @@ public:
     Progress progress(context);
     progress.BeginStage(0.2);
     this->FindRoots(progress);
-    progress.BeginStage(0.3);
+    progress.BeginStage(0.25);
     this->KeepTriangles(progress);
+    progress.BeginStage(0.3);
+    this->LeaveOutRepeated(progress.Stage());
     progress.BeginStage(0.5);
     this->Orient(progress.Stage());
     progress.BeginStage(0.8);
@@ -167,6 +169,30 @@ private:
         }
       },
       randomAccess);
+  }
+
+  void LeaveOutRepeated(const Context& context)
+  {
+    const std::vector<RepeatedTriangle> repeated = findRepeatedTriangles(this->Kept(), context);
+    for (const RepeatedTriangle& one : repeated)
+    {
+      this->Made.AllRepeated.push_back(
+        { this->Origins.data()[one.Triangle], this->Origins.data()[one.First] });
+    }
+    auto next = repeated.begin();
+    std::int64_t count = 0;
+    for (std::int64_t triangle = 0; triangle < this->Count; ++triangle)
+    {
+      if (next != repeated.end() && next->Triangle == triangle)
+      {
+        ++next;
+        continue;
+      }
+      std::copy_n(this->Triangles.data() + 3 * triangle, 3, this->Triangles.data() + 3 * count);
+      std::copy_n(this->Corners.data() + 3 * triangle, 3, this->Corners.data() + 3 * count);
+      this->Origins.data()[count++] = this->Origins.data()[triangle];
+    }
+    this->Count = count;
   }
 
   TriangleSurface Kept() const
@@ -300,7 +326,12 @@ private:
     {
       isUsed.data()[this->Origins.data()[triangle]] = 1;
     }
+    for (const RepeatedTriangle& one : this->Made.AllRepeated)
+    {
+      isUsed.data()[one.Triangle] = 1;
+    }
     counts.FlatTriangles = std::count(isUsed.data(), isUsed.data() + triangles, 0);
+    counts.Repeated = static_cast<std::int64_t>(this->Made.AllRepeated.size());
   }
 
   const TriangleSurface Given;

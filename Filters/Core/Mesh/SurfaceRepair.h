@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Repairs surfaces as files and filters leave them: removes points that no triangle uses,
-// coincident points and triangles that are lines.
+// coincident points, triangles that are there before, and triangles that are lines.
 //
 //   const RepairedSurface repaired = repairSurface(surface, { rounding, false });
 //   DiskMesh disk(repaired.Surface());
@@ -12,6 +12,7 @@
 #include "Core/Parallel/LargeBuffer.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -30,8 +31,12 @@ struct SurfaceRepairs
   std::int64_t UnusedPoints = 0;  // of no triangle
   std::int64_t FlatTriangles = 0; // without area
   std::int64_t MergedPoints = 0;  // with others at their places
+  std::int64_t Repeated = 0;      // triangles with the points of one before
 
-  bool Any() const { return this->UnusedPoints + this->FlatTriangles + this->MergedPoints > 0; }
+  bool Any() const
+  {
+    return this->UnusedPoints + this->FlatTriangles + this->MergedPoints + this->Repeated > 0;
+  }
 };
 
 // "Given" are the points and triangles that a surface was repaired from. Each triangle is part of a
@@ -55,6 +60,8 @@ public:
   }
   // The given triangle that a triangle is part of.
   std::int64_t GivenTriangle(std::int64_t triangle) const { return this->Origins.data()[triangle]; }
+  // Given triangles that were left out as repeated.
+  const std::vector<RepeatedTriangle>& Repeated() const { return this->AllRepeated; }
 
 private:
   friend class SurfaceRepairRun;
@@ -65,6 +72,7 @@ private:
   LargeBuffer<std::int64_t> Origins;
   LargeBuffer<std::int64_t> NewPoints;
   LargeBuffer<std::int64_t> FirstGiven;
+  std::vector<RepeatedTriangle> AllRepeated;
   SurfaceRepairs Counts;
 };
 
@@ -76,10 +84,11 @@ double roundingOfDoubles(ConstPointSpan<3> points);
 bool needsRepair(
   const TriangleSurface& surface, double rounding, const Context& context = Context());
 
-// Merges the ends of edges of no length, and leaves out points that no triangle uses and triangles
-// without area. Coincident points that no edge joins stay separate, as along a cut, unless the
-// options merge them. All coordinates must be finite. O(triangles log triangles). Memory: 70 bytes
-// a point and 180 a triangle. On one thread. Throws std::bad_alloc and Cancelled.
+// Merges the ends of edges of no length, and leaves out points that no triangle uses, triangles
+// with the points of one before, and triangles without area. Coincident points that no edge joins
+// stay separate, as along a cut, unless the options merge them. All coordinates must be finite.
+// O(triangles log triangles). Memory: 70 bytes a point and 180 a triangle. On one thread. Throws
+// std::bad_alloc and Cancelled.
 RepairedSurface repairSurface(const TriangleSurface& surface, const SurfaceRepairOptions& options,
   const Context& context = Context());
 

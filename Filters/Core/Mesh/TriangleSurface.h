@@ -18,6 +18,13 @@ struct TriangleSurface
   std::int64_t NumberOfTriangles;
 };
 
+// A triangle of the same three points as one before, in any order, and the first of these.
+struct RepeatedTriangle
+{
+  std::int64_t Triangle;
+  std::int64_t First;
+};
+
 } // namespace RectifiedTransport
 
 #endif

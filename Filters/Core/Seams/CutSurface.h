@@ -41,6 +41,9 @@ struct CutDisk
   std::int64_t NumberOfPoints;
   double Area; // to be compared with that of other disks
   bool HasSeams = false;
+  // Where holes were closed: the last triangles of the mesh, and their share of its area.
+  std::int64_t TrianglesOfHoles = 0;
+  double AreaShareOfHoles = 0.0;
 };
 
 // What was changed besides the seams.
@@ -49,15 +52,18 @@ struct SurfaceCuts
   std::int64_t UnusedPoints = 0;     // of no triangle
   std::int64_t FlatTriangles = 0;    // without area, left out
   std::int64_t MergedPoints = 0;     // with others at their places
+  std::int64_t Repeated = 0;         // triangles with the points of one before
   std::int64_t NonManifoldEdges = 0; // of more than two triangles, which were parted
 };
 
-// "Given" are the points and triangles of the surface. Points at one place are merged, and
-// triangles without area are left out (see SurfaceRepair.h). Triangles that share an edge with more
+// "Given" are the points and triangles of the surface. Points at one place are merged, triangles
+// with the points of one before lie on it, and triangles without area are left out (see
+// SurfaceRepair.h). Triangles that share an edge with more
 // than one other part there; triangles that share only a point part, too. What is then joined is a
 // component. A component that is a disk has no seams. Others, also those with one side only, are
 // cut open along the seams of openToDisk; then seams grow to where the conformal map of the disk
-// squeezes areas, as the tips of limbs, until it does so no more.
+// squeezes areas, as the tips of limbs, until it does so no more. More than 8 holes of a component
+// that are small beside it are closed instead of cut open: seams between so many leave corridors.
 class CutSurface
 {
 public:
@@ -83,6 +89,8 @@ public:
   }
   // Whether the disk has the triangle's corners in the opposite order.
   bool IsTurned(std::int64_t triangle) const { return this->Turned.data()[triangle] != 0; }
+  // Given triangles that lie on one before.
+  const std::vector<RepeatedTriangle>& Repeated() const { return this->AllRepeated; }
   // A point of the cut surface for a given one; -1 if no triangle with area is there.
   std::int64_t PointOf(std::int64_t given) const { return this->PointsOf.data()[given]; }
 
@@ -90,6 +98,7 @@ private:
   friend class SurfaceCutting;
 
   std::vector<CutDisk> AllDisks;
+  std::vector<RepeatedTriangle> AllRepeated;
   SurfaceCuts Counts;
   LargeBuffer<std::int64_t> DisksOf;
   LargeBuffer<std::int64_t> Corners;

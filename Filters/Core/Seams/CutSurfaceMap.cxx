@@ -4,6 +4,7 @@
 #include "Core/Mesh/FlatShape.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parameterization/EvenEmbedding.h"
+#include "Core/Parameterization/LocalMap.h"
 #include "Core/Parameterization/SquareCorners.h"
 #include "Core/Seams/SquareAtlas.h"
 
@@ -18,10 +19,24 @@ namespace RectifiedTransport
 namespace
 {
 
-// The part of its square that a disk covers: a triangle alone is half of it.
+// The part of its square that is for a disk: a triangle alone is half of it, and holes have a part.
 double partOf(const CutDisk& disk)
 {
-  return disk.Mesh ? 1.0 : 0.5;
+  return disk.Mesh ? 1.0 - disk.AreaShareOfHoles : 0.5;
+}
+
+// What a map covers of the square, but for closed holes.
+double coveredBy(const CutDisk& disk, const std::vector<Point<2>>& positions)
+{
+  double holes = 0.0;
+  const std::int64_t end = disk.Mesh->NumberOfTriangles();
+  for (std::int64_t triangle = end - disk.TrianglesOfHoles; triangle < end; ++triangle)
+  {
+    const std::int64_t* ids = disk.Mesh->Triangle(triangle);
+    const auto at = [&](int i) { return positions[static_cast<std::size_t>(ids[i])]; };
+    holes += 0.5 * crossProduct(at(0), at(1), at(2));
+  }
+  return 1.0 - holes;
 }
 
 void put(const std::vector<Point<2>>& positions, const AtlasSquare& square, std::int64_t first,
@@ -140,9 +155,10 @@ CutSurfaceMap mapCutSurface(
     const CutDisk& disk = disks[i];
     progress.BeginStage(static_cast<double>(disk.FirstPoint + disk.NumberOfPoints) /
       static_cast<double>(cut.NumberOfPoints()));
-    map.Coverage += partOf(disk) * squares[i].Side * squares[i].Side;
+    const double square = squares[i].Side * squares[i].Side;
     if (!disk.Mesh)
     {
+      map.Coverage += partOf(disk) * square;
       const std::vector<Point<2>> half{ { 0.0, 0.0 }, { 1.0, 0.0 }, { 1.0, 1.0 } };
       put(half, squares[i], disk.FirstPoint, map.Conformal);
       put(half, squares[i], disk.FirstPoint, map.Positions);
@@ -151,6 +167,7 @@ CutSurfaceMap mapCutSurface(
     const SquareMap& conformal = disk.Conformal->Square;
     const AreaPreservingMap found =
       mapDisk(disk, optionsFor(disk, disks.size(), options), progress.Stage());
+    map.Coverage += coveredBy(disk, found.Positions) * square;
     put(conformal.Positions, squares[i], disk.FirstPoint, map.Conformal);
     put(found.Positions, squares[i], disk.FirstPoint, map.Positions);
     map.Collapsed += countCollapsed(*disk.Mesh, conformal.Corners);
@@ -167,8 +184,14 @@ CutTriangles::CutTriangles(const CutSurface& cut, const TriangleSurface& given)
   {
     largest = std::max(largest, std::abs(given.Points.data()[i]));
   }
+  auto repeated = cut.Repeated().begin();
   for (std::int64_t triangle = 0; triangle < given.NumberOfTriangles; ++triangle)
   {
+    if (repeated != cut.Repeated().end() && repeated->Triangle == triangle)
+    {
+      ++repeated;
+      continue;
+    }
     const std::int64_t* corners = cut.CornersOf(triangle);
     if (std::min({ corners[0], corners[1], corners[2] }) < 0)
     {

@@ -28,7 +28,7 @@ struct CutSurfaceMap
 CutSurfaceMap mapCutSurface(const CutSurface& cut, const AreaPreservingOptions& options = {},
   const Context& context = Context());
 
-// The given triangles of a cut surface that have area, oriented as in their disks.
+// The given triangles of a cut surface that have area, each once, oriented as in their disks.
 class CutTriangles
 {
 public:

@@ -54,6 +54,18 @@ SeamMesh::SeamMesh(std::vector<Point<3>> points, std::vector<std::int64_t> trian
   }
 }
 
+SeamMesh SeamMesh::With(const std::vector<Point<3>>& points,
+  const std::vector<std::int64_t>& triangles, const std::vector<std::int64_t>& origins,
+  const Context& context) const
+{
+  const auto joined = [](auto all, const auto& further) {
+    all.insert(all.end(), further.begin(), further.end());
+    return all;
+  };
+  return { joined(this->Points, points), joined(this->Triangles, triangles),
+    joined(this->Origins, origins), context };
+}
+
 double SeamMesh::Length(std::int64_t side) const
 {
   return std::sqrt(squaredDistance(

@@ -26,11 +26,16 @@ public:
   SeamMesh(std::vector<Point<3>> points, std::vector<std::int64_t> triangles,
     std::vector<std::int64_t> origins, const Context& context = Context());
 
+  // The same component with further points and triangles, after those that there are.
+  SeamMesh With(const std::vector<Point<3>>& points, const std::vector<std::int64_t>& triangles,
+    const std::vector<std::int64_t>& origins, const Context& context = Context()) const;
+
   std::int64_t NumberOfPoints() const { return static_cast<std::int64_t>(this->Points.size()); }
   std::int64_t NumberOfTriangles() const { return this->NumberOfSides() / 3; }
   std::int64_t NumberOfSides() const { return static_cast<std::int64_t>(this->Triangles.size()); }
   std::int64_t NumberOfEdges() const { return (this->NumberOfSides() + this->Edges->Open()) / 2; }
-  // Points - edges + triangles: 2 for a sphere, 1 for a disk, less for others.
+  // Points - edges + triangles: 2 for a sphere, 1 for a disk and, closed, for the projective plane,
+  // less for others.
   std::int64_t EulerCharacteristic() const
   {
     return this->NumberOfPoints() - this->NumberOfEdges() + this->NumberOfTriangles();

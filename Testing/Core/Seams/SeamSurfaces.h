@@ -3,13 +3,16 @@
 #ifndef SeamSurfaces_h
 #define SeamSurfaces_h
 
+#include "DiskSurfaces.h"
 #include "SolidSurfaces.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -21,6 +24,96 @@ inline Mesh makeRing(std::int64_t around, std::int64_t across, double radius)
     return Point<3>{ r * std::cos(2.0 * pi * u), r * std::sin(2.0 * pi * u),
       radius * std::sin(2.0 * pi * v) };
   });
+}
+
+// Triangles with points of their own.
+inline Mesh apart(const Mesh& mesh)
+{
+  Mesh soup;
+  for (const auto& t : mesh.Triangles)
+  {
+    const auto first = static_cast<std::int64_t>(soup.Points.size());
+    for (const std::int64_t id : t)
+    {
+      soup.Points.push_back(mesh.Points[static_cast<std::size_t>(id)]);
+    }
+    soup.Triangles.push_back({ first, first + 1, first + 2 });
+  }
+  return soup;
+}
+
+// Opposite faces of an icosahedron are one: six points, which are apart in space, each two of which
+// an edge joins. Then each triangle is divided into four, several times.
+inline Mesh makeProjectivePlane(int divisions)
+{
+  Mesh mesh{ { { 1.0, 0.2, 0.1 }, { -0.3, 1.1, 0.0 }, { -0.9, -0.4, 0.6 }, { 0.5, -1.2, -0.3 },
+               { 0.1, 0.3, 1.4 }, { 0.0, -0.2, -1.0 } },
+    { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 4 }, { 0, 4, 5 }, { 0, 5, 1 }, { 1, 2, 4 }, { 2, 3, 5 },
+      { 3, 4, 1 }, { 4, 5, 2 }, { 5, 1, 3 } } };
+  for (int i = 0; i < divisions; ++i)
+  {
+    std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> middles;
+    const auto middleOf = [&](std::int64_t a, std::int64_t b) {
+      const auto found =
+        middles.emplace(std::minmax(a, b), static_cast<std::int64_t>(mesh.Points.size()));
+      if (found.second)
+      {
+        Point<3> middle = mesh.Points[static_cast<std::size_t>(a)];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          middle[axis] = 0.5 * (middle[axis] + mesh.Points[static_cast<std::size_t>(b)][axis]);
+        }
+        mesh.Points.push_back(middle);
+      }
+      return found.first->second;
+    };
+    const auto coarse = std::exchange(mesh.Triangles, {});
+    for (const auto& [a, b, c] : coarse)
+    {
+      const std::int64_t ab = middleOf(a, b);
+      const std::int64_t bc = middleOf(b, c);
+      const std::int64_t ca = middleOf(c, a);
+      mesh.Triangles.insert(
+        mesh.Triangles.end(), { { a, ab, ca }, { ab, b, bc }, { ca, bc, c }, { ab, bc, ca } });
+    }
+  }
+  return mesh;
+}
+
+// A sheet of n x n squares with holes x holes holes of two squares an axis.
+inline Mesh makePerforated(std::int64_t n, std::int64_t holes)
+{
+  Mesh mesh = makeTerrain(n, n);
+  const auto isInHole = [&](std::int64_t square) {
+    const std::int64_t each = n / holes;
+    const auto isNear = [&](std::int64_t x) {
+      return x % each == each / 2 || x % each == each / 2 - 1;
+    };
+    return isNear(square % n) && isNear(square / n);
+  };
+  const auto all = std::exchange(mesh.Triangles, {});
+  std::vector<std::int64_t> numbers(mesh.Points.size(), -1);
+  const auto points = std::exchange(mesh.Points, {});
+  for (std::size_t t = 0; t < all.size(); ++t)
+  {
+    if (isInHole(static_cast<std::int64_t>(t / 2)))
+    {
+      continue;
+    }
+    auto triangle = all[t];
+    for (std::int64_t& id : triangle)
+    {
+      std::int64_t& number = numbers[static_cast<std::size_t>(id)];
+      if (number < 0)
+      {
+        number = static_cast<std::int64_t>(mesh.Points.size());
+        mesh.Points.push_back(points[static_cast<std::size_t>(id)]);
+      }
+      id = number;
+    }
+    mesh.Triangles.push_back(triangle);
+  }
+  return mesh;
 }
 
 // The surface of the cubes of a lattice for which isSolid(x, y, z) is true, each cut into n^3 ones.

@@ -170,6 +170,88 @@ TEST(CutSurface, SurfacesWithOneSideAreCutOpen)
   boundaryOf(klein);
 }
 
+// The projective plane has the Euler characteristic of a disk.
+TEST(CutSurface, ProjectivePlanesAreCutOpen)
+{
+  const Mesh plane = makeProjectivePlane(3);
+  EXPECT_GT(boundaryOf(plane), 0.0);
+  boundaryOf(makeProjectivePlane(0)); // of six points
+  Mesh several = makeSphere({ 9.0, 0.0, 0.0 }, 1.0, 6);
+  several.Add(plane);
+  several.Add(shifted(makeProjectivePlane(2), { 0.0, 9.0, 0.0 }));
+  expectDisks(several, CutSurface(several.Surface()), 3);
+  const Mesh soup = apart(plane);
+  const CutSurface cut(soup.Surface());
+  ASSERT_EQ(cut.Disks().size(), 1u);
+  EXPECT_EQ(cut.NumberOfPoints(), CutSurface(plane.Surface()).NumberOfPoints());
+  EXPECT_TRUE(cut.Disks()[0].HasSeams);
+}
+
+// In either direction, with the same points or others at their places.
+TEST(CutSurface, RepeatedTrianglesLieOnTheFirstOnes)
+{
+  const Mesh sphere = makeSphere({ 0.0, 0.0, 0.0 }, 1.0, 8);
+  Mesh mesh = sphere;
+  const std::array<std::size_t, 3> first{ 3, 20, 21 };
+  const auto& t = sphere.Triangles;
+  mesh.Triangles.push_back(t[first[0]]);
+  mesh.Triangles.push_back({ t[first[1]][2], t[first[1]][1], t[first[1]][0] });
+  const auto own = static_cast<std::int64_t>(mesh.Points.size());
+  for (const std::int64_t id : { t[first[2]][1], t[first[2]][0], t[first[2]][2] })
+  {
+    mesh.Points.push_back(sphere.Points[static_cast<std::size_t>(id)]);
+  }
+  mesh.Triangles.push_back({ own, own + 1, own + 2 });
+
+  const CutSurface cut(mesh.Surface());
+  const CutSurface once(sphere.Surface());
+  EXPECT_EQ(cut.NumberOfPoints(), once.NumberOfPoints());
+  EXPECT_EQ(cut.Cuts().Repeated, 3);
+  EXPECT_EQ(cut.Cuts().NonManifoldEdges, 0);
+  EXPECT_EQ(cut.Cuts().FlatTriangles, 0);
+  ASSERT_EQ(cut.Repeated().size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const auto triangle = static_cast<std::int64_t>(t.size() + i);
+    EXPECT_EQ(cut.Repeated()[i].Triangle, triangle);
+    EXPECT_EQ(cut.Repeated()[i].First, static_cast<std::int64_t>(first[i]));
+    EXPECT_EQ(cut.DiskOf(triangle), 0);
+    const std::array<std::size_t, 3> order = i == 0 ? std::array<std::size_t, 3>{ 0, 1, 2 }
+      : i == 1                                      ? std::array<std::size_t, 3>{ 2, 1, 0 }
+                                                    : std::array<std::size_t, 3>{ 1, 0, 2 };
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      EXPECT_EQ(
+        cut.CornersOf(triangle)[k], cut.CornersOf(static_cast<std::int64_t>(first[i]))[order[k]]);
+    }
+  }
+}
+
+TEST(CutSurface, ManyHolesAreClosed)
+{
+  const Mesh few = makePerforated(24, 2);
+  const CutSurface cutOpen(few.Surface());
+  EXPECT_TRUE(cutOpen.Disks()[0].HasSeams);
+  EXPECT_EQ(cutOpen.Disks()[0].AreaShareOfHoles, 0.0);
+
+  const Mesh many = makePerforated(24, 4);
+  const CutSurface cut(many.Surface());
+  ASSERT_EQ(cut.Disks().size(), 1u);
+  const CutDisk& disk = cut.Disks()[0];
+  EXPECT_FALSE(disk.HasSeams);
+  EXPECT_NEAR(disk.Area, areaOf(many), 1e-12);
+  EXPECT_EQ(disk.Mesh->Boundary().size(), 4u * 24u);
+  const auto given = static_cast<std::int64_t>(many.Triangles.size());
+  EXPECT_EQ(disk.Mesh->NumberOfTriangles(), given + 16 * 8);
+  double share = 0.0;
+  for (std::int64_t t = 0; t < given; ++t)
+  {
+    share += disk.Mesh->AreaShare(t);
+  }
+  EXPECT_NEAR(share, 1.0 - disk.AreaShareOfHoles, 1e-12);
+  EXPECT_NEAR(disk.AreaShareOfHoles, 0.02, 1e-12);
+}
+
 TEST(CutSurface, EveryComponentIsADisk)
 {
   Mesh mesh = makeSphere({ 0.0, 0.0, 0.0 }, 1.0, 8);
@@ -229,16 +311,7 @@ TEST(CutSurface, RepairsAsDisksAre)
 {
   // Triangles with points of their own, one without area, and a point of none.
   const Mesh sphere = makeSphere({ 0.0, 0.0, 0.0 }, 1.0, 8);
-  Mesh soup;
-  for (const auto& t : sphere.Triangles)
-  {
-    const auto first = static_cast<std::int64_t>(soup.Points.size());
-    for (const std::int64_t id : t)
-    {
-      soup.Points.push_back(sphere.Points[static_cast<std::size_t>(id)]);
-    }
-    soup.Triangles.push_back({ first, first + 1, first + 2 });
-  }
+  Mesh soup = apart(sphere);
   soup.Triangles.push_back({ 0, 1, 1 });
   soup.Points.push_back({ 5.0, 5.0, 5.0 });
   const CutSurface cut(soup.Surface());

@@ -35,6 +35,8 @@ TEST(CutSurfaceMap, AreasAreKept)
     { "limbs", makeLimbs(32) },
     { "tube", makeBand(60, 12, 0) },
     { "Moebius band", makeBand(60, 12, 1) },
+    { "projective plane", makeProjectivePlane(4) },
+    { "sheet with 16 holes", makePerforated(48, 4) },
     { "several", several },
   };
   for (const auto& [name, mesh] : meshes)

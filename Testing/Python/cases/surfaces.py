@@ -4,7 +4,8 @@ import os
 import tempfile
 
 import numpy as np
-from vtkmodules.vtkCommonComputationalGeometry import vtkParametricEllipsoid, vtkParametricTorus
+from vtkmodules.vtkCommonComputationalGeometry import (vtkParametricBoy, vtkParametricCrossCap,
+                                                       vtkParametricEllipsoid, vtkParametricTorus)
 from vtkmodules.vtkFiltersSources import vtkParametricFunctionSource
 
 from .case import (BOX_FACES, Result, box_points, case, expect_error, image, named, point_list,
@@ -312,3 +313,23 @@ def scanned_quadrangles_that_are_not_flat(check):
     bent = CUBE.copy()
     bent[7] += 0.03
     expect_volume(check, polygons(bent, BOX_FACES), 8, 0.03)
+
+
+@case(125)
+def closed_surfaces_with_one_side(check):
+    """Boy's surface and a cross-cap: projective planes, whose Euler characteristic is that of a disk.
+
+    Source: boundary-first-flattening issue 77, libigl threads on cutting to a disk.
+    Right: cut open to a disk whose triangles have their areas. They are no solids.
+    """
+    for function in vtkParametricBoy(), vtkParametricCrossCap():
+        surface = vtkParametricFunctionSource()
+        surface.SetParametricFunction(function)
+        for set_resolution in surface.SetUResolution, surface.SetVResolution:
+            set_resolution(24)
+        surface.Update()
+        result = Result(simple.AreaPreservingParameterization(source(surface.GetOutput())))
+        check.assertEqual(result.errors, [])
+        check.assertLess(result.field("AreaDistortionRMS"), 0.05)
+        check.assertEqual(result.field("FlippedCount"), 0)
+        expect_error(check, solid(surface.GetOutput()), "one side only")

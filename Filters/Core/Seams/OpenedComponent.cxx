@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Seams/OpenedComponent.h"
+
+#include "Core/Mesh/FlatShape.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parameterization/EvenEmbedding.h"
+#include "Core/Parameterization/SquareCorners.h"
+#include "Core/Seams/CutGraph.h"
+#include "Core/Seams/HoleFans.h"
+#include "Core/Seams/SeamSearch.h"
+#include "Core/Seams/SqueezedPoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+double unevennessOf(const DiskMesh& disk, const ConformalMap& map)
+{
+  // A triangle without area in the map is worse than any seam.
+  return areaUnevenness(disk, map.Square.Positions) +
+    static_cast<double>(countCollapsed(disk, map.Square.Corners));
+}
+
+class ComponentCutting
+{
+public:
+  ComponentCutting(SeamMesh& mesh, std::int64_t given, Progress& progress)
+    : Mesh(mesh)
+    , NumberOfGiven(given)
+    , Run(progress)
+  {
+  }
+
+  OpenedDisk Open(int rounds)
+  {
+    constexpr std::int64_t disk = 1; // the Euler characteristic, also of the projective plane
+    this->Next(0.2);
+    if (this->Mesh.EulerCharacteristic() == disk && !this->Mesh.IsClosed())
+    {
+      return this->OpenDisk();
+    }
+    openToDisk(this->Mesh, this->Run);
+    shortenSeams(this->Mesh, this->Run);
+    auto last = std::make_shared<OpenedDisk>(this->Make());
+    std::shared_ptr<OpenedDisk> best = last;
+    for (int round = 0; round < rounds && this->Extend(*last); ++round)
+    {
+      last = std::make_shared<OpenedDisk>(this->Make());
+      best = last->Unevenness < best->Unevenness ? last : best;
+    }
+    last.reset();
+    best->Disk.HasSeams = true;
+    this->TurnCorners(*best);
+    return std::move(*best);
+  }
+
+private:
+  // Takes the progress on by a part of what is left of it: how many rounds there will be is not
+  // known.
+  void Next(double part)
+  {
+    this->Run.BeginStage(this->Run.StageEnd() + part * (1.0 - this->Run.StageEnd()));
+  }
+
+  OpenedDisk OpenDisk()
+  {
+    if (this->Mesh.NumberOfTriangles() > 1)
+    {
+      if (this->HasThreePointsOnBoundary())
+      {
+        this->JoinInnerPoint();
+      }
+      return this->Make();
+    }
+    SeamMesh::Cut cut = this->Mesh.MakeCut(this->Run);
+    const auto at = [&](std::size_t i) { return this->Mesh.Position(cut.Origins[i]).data(); };
+    const FlatShape shape(at(0), at(1), at(2));
+    return { { {}, {}, 0, 3, 0.5 * shape.Length * shape.Height }, std::move(cut), 0.0 };
+  }
+
+  // The triangles cut along the seams that there are now.
+  OpenedDisk Make()
+  {
+    SeamMesh::Cut cut = this->Mesh.MakeCut(this->Run);
+    this->Run.Check();
+    const auto points = static_cast<std::int64_t>(cut.Origins.size());
+    LargeBuffer<double> places(3 * points);
+    for (std::int64_t i = 0; i < points; ++i)
+    {
+      const Point<3>& place = this->Mesh.Position(cut.Origins[static_cast<std::size_t>(i)]);
+      std::copy(place.begin(), place.end(), places.data() + 3 * i);
+    }
+    this->Run.Check();
+    this->Next(0.1);
+    CutDisk disk{ {}, {}, 0, points, 0.0 };
+    const TriangleSurface surface{ { places.data(), points }, cut.Triangles.data(),
+      this->Mesh.NumberOfTriangles() };
+    disk.Mesh.emplace(surface, this->Run.Stage());
+    disk.Area = disk.Mesh->Area() * disk.Mesh->Unit() * disk.Mesh->Unit();
+    if (this->NumberOfGiven < this->Mesh.NumberOfTriangles())
+    {
+      const double* shares = disk.Mesh->AreaShares();
+      disk.Area *= std::accumulate(shares, shares + this->NumberOfGiven, 0.0);
+      disk.TrianglesOfHoles = this->Mesh.NumberOfTriangles() - this->NumberOfGiven;
+      disk.AreaShareOfHoles = HoleFans::AreaShare;
+      disk.Mesh->SetShareFrom(this->NumberOfGiven, disk.AreaShareOfHoles);
+    }
+    this->Next(0.2);
+    disk.Conformal = mapConformally(*disk.Mesh, chooseCorners(*disk.Mesh), this->Run.Stage());
+    const double unevenness = unevennessOf(*disk.Mesh, *disk.Conformal);
+    this->Run.Check();
+    return { std::move(disk), std::move(cut), unevenness };
+  }
+
+  // Lets seams grow to where the map squeezes areas. Returns whether one does.
+  bool Extend(const OpenedDisk& opened)
+  {
+    // Near where seams meet they enclose small angles, which the sides of the square straighten.
+    // That also squeezes areas, and seams there would not help.
+    constexpr double least = 0.5; // of a side of a square of the area that is squeezed
+    this->Next(0.05);
+    const std::vector<SqueezedPoint> tips = findSqueezedPoints(*opened.Disk.Mesh,
+      opened.Disk.Conformal->Square.Positions, SqueezeLimits(), this->Run.Stage());
+    this->Next(0.05);
+    SeamSearch search(this->Mesh, this->Run);
+    bool isLonger = false;
+    for (const SqueezedPoint& tip : tips)
+    {
+      const std::int64_t point = opened.Cut.Origins[static_cast<std::size_t>(tip.Point)];
+      const double length = least * std::sqrt(tip.AreaShare * opened.Disk.Area);
+      isLonger = joinToSeams(this->Mesh, search, point, length) || isLonger;
+    }
+    return isLonger;
+  }
+
+  // Tries other corners, if that does not take long.
+  void TurnCorners(OpenedDisk& opened)
+  {
+    constexpr std::int64_t mostPoints = std::int64_t{ 1 } << 17;
+    const DiskMesh& disk = *opened.Disk.Mesh;
+    if (disk.NumberOfPoints() > mostPoints)
+    {
+      return;
+    }
+    const SquareCorners corners = opened.Disk.Conformal->Square.Corners;
+    for (const double part : { 1.0 / 16.0, 2.0 / 16.0, 3.0 / 16.0 })
+    {
+      const SquareCorners turned = turnCorners(disk, corners, part);
+      if (turned == corners)
+      {
+        continue;
+      }
+      this->Next(0.3);
+      ConformalMap map = mapConformally(disk, turned, this->Run.Stage());
+      const double unevenness = unevennessOf(disk, map);
+      this->Run.Check();
+      if (unevenness < opened.Unevenness)
+      {
+        opened.Unevenness = unevenness;
+        opened.Disk.Conformal = std::move(map);
+      }
+    }
+  }
+
+  bool HasThreePointsOnBoundary() const
+  {
+    int count = 0;
+    for (std::int64_t point = 0; point < this->Mesh.NumberOfPoints() && count <= 3; ++point)
+    {
+      count += this->Mesh.IsOnSeam(point) ? 1 : 0;
+    }
+    return count == 3;
+  }
+
+  void JoinInnerPoint()
+  {
+    std::int64_t inner = 0;
+    while (this->Mesh.IsOnSeam(inner))
+    {
+      ++inner;
+    }
+    SeamSearch search(this->Mesh, this->Run);
+    joinToSeams(this->Mesh, search, inner);
+  }
+
+  SeamMesh& Mesh;
+  const std::int64_t NumberOfGiven;
+  Progress& Run;
+};
+
+} // namespace
+
+OpenedDisk openComponent(SeamMesh& mesh, std::int64_t given, int rounds, Progress& progress)
+{
+  return ComponentCutting(mesh, given, progress).Open(rounds);
+}
+
+} // namespace RectifiedTransport
