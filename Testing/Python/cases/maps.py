@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Maps as other filters and files leave them."""
+import numpy as np
+from vtkmodules.util.vtkConstants import VTK_POLYGON
+
+from .case import Result, case, mesh, polygons, rings, simple, source
+
+
+def squares(places, side=1.0):
+    return [[(x, y), (x + side, y), (x + side, y + side), (x, y + side)] for x, y in places]
+
+
+NINE = squares([(x, y) for y in range(3) for x in range(3)])
+
+
+def cartogram(data, **properties):
+    return Result(simple.Cartogram(Input=source(data), MassArray=["CELLS", "v"], Resolution=128, **properties))
+
+
+def shares(result, cells=None):
+    """Of the areas of the cells, by the shoelace formula."""
+    areas = []
+    for cell in range(result.data.GetNumberOfCells()) if cells is None else cells:
+        points = result.data.GetCell(cell).GetPoints()
+        x, y = np.array([points.GetPoint(i)[:2] for i in range(points.GetNumberOfPoints())]).T
+        areas.append(abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2)
+    return np.array(areas) / np.sum(areas)
+
+
+@case(134)
+def areas_of_degrees(check):
+    """A map in longitudes and latitudes, whose areas are not those of the ground.
+
+    Source: go_cart issue 26, and threads on geopandas and sf.
+    Right: R^2 dlon (sin lat2 - sin lat1), and a warning where nothing projects it.
+    """
+    south, north = np.array([-56.0, -40.0]), np.array([-44.0, -36.0])
+    outlines = [[(10, a), (12, a), (12, b), (10, b)] for a, b in zip(south, north)]
+    data = rings(*outlines, values=[1, 2])
+    check.assertIn("look like degrees", cartogram(data).warnings[0])
+    result = cartogram(data, Projection="EqualArea")
+    check.assertEqual(result.errors + result.warnings, [])
+    ground = 6371.0 ** 2 * np.radians(2) * (np.sin(np.radians(north)) - np.sin(np.radians(south)))
+    check.assertLess(abs(result.values("MassPerArea", True) * ground / [1, 2] - 1).max(), 1e-9)
+
+
+@case(136)
+def regions_of_a_grid(check):
+    """Regions that Threshold and Append left: an unstructured grid of polygons.
+
+    Source: sjewo/cartogram pull request 22, terra issue 1912 (features without a number left out first).
+    Right: areas in proportion to the masses.
+    """
+    values = np.arange(9.0)
+    ids = np.arange(36).reshape(9, 4)
+    grid = mesh(np.concatenate(NINE), [(VTK_POLYGON, i) for i in ids], values)
+    some = simple.Threshold(Input=source(grid), Scalars=["CELLS", "v"], LowerThreshold=1, UpperThreshold=9)
+    result = cartogram(some)
+    check.assertEqual(result.errors + result.warnings, [])
+    check.assertLess(abs(shares(result) - values[1:] / values.sum()).max(), 0.01 / 9)
+
+
+@case(161)
+def river_in_a_map(check):
+    """A file with a river, which has no number, among the regions.
+
+    Source: files of OpenStreetMap.
+    Right: the regions have their shares, the river is there, and a warning names it.
+    """
+    places = np.array(sum(NINE, []) + [(0.5, 0.5), (1.5, 2.5), (2.9, 2.9)])
+    closed = [[*range(4 * i, 4 * i + 4), 4 * i] for i in range(9)]
+    lines = closed[:4] + [[36, 37, 38]] + closed[4:]
+    values = [1, 2, 3, 1, np.nan, 2, 3, 1, 2, 3]
+    result = cartogram(polygons(places, lines, values, lines=True))
+    check.assertEqual(result.errors, [])
+    check.assertIn("1 of 10 lines of the input do not close (the first is cell 4)", result.warnings[0])
+    check.assertGreater(result.data.GetCell(4).GetNumberOfPoints(), 3)
+    regions = [0, 1, 2, 3, 5, 6, 7, 8, 9]
+    check.assertLess(abs(shares(result, regions) - np.array(values)[regions] / 18).max(), 0.01 / 9)
+
+
+@case(162)
+def outline_that_crosses_itself(check):
+    """Two corners of an outline are in the wrong order, as hand-drawn maps and simplified ones have it.
+
+    Source: locationtech/jts issue 652.
+    Right: both loops count, 2 of 6, with a mass of 3 of 5.
+    """
+    data = rings([(0, 0), (2, 2), (2, 0), (0, 2)], [(3, 0), (5, 0), (5, 2), (3, 2)], values=[3, 2])
+    result = cartogram(data)
+    check.assertEqual(result.errors + result.warnings, [])
+    check.assertLess(abs(result.values("MassPerArea", True) / [3 / 2, 2 / 4] - 1).max(), 1e-12)
+    check.assertLess(abs(result.values("TargetArea", True) / [3.6, 2.4] - 1).max(), 1e-12)
+
+
+@case(163)
+def region_that_is_there_twice(check):
+    """A feature that a file has twice, and one with another number in the same place.
+
+    Source: geopandas and QGIS (duplicate geometries).
+    Right: with one number all areas; with two the advice to leave one of them, which helps.
+    """
+    data = rings(*NINE, NINE[4], values=[1, 2, 3, 1, 2, 3, 1, 2, 3, 2])
+    result = cartogram(data)
+    check.assertEqual(len(result.warnings), 1, result.warnings)
+    check.assertLess(abs(shares(result) - np.array([1, 2, 3, 1, 2, 3, 1, 2, 3, 2]) / 20).max(), 0.001)
+    result = cartogram(rings(*NINE, NINE[4], values=[1, 2, 3, 1, 2, 3, 1, 2, 3, 9]))
+    check.assertIn("leave one of them in each place, with Threshold", result.warnings[-1])
+    check.assertEqual(cartogram(rings(*NINE, values=[1, 2, 3] * 3)).warnings, [])
