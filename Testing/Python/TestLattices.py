@@ -350,8 +350,8 @@ class WhichArray(unittest.TestCase):
             self.assertAlmostEqual(mass_of(result), 256, 9)
             self.assertEqual(reported.errors, [])
             self.assertEqual(len(reported.warnings), 1)
-            self.assertIn("1 of 3 blocks of the input have no cell array 'rho' and carry no mass",
-                          reported.warnings[0])
+            self.assertIn("1 of 3 blocks of the input have no cell array 'rho' and carry no mass (the first is "
+                          f"block {1 + lacking} of the input)", reported.warnings[0])
             x = positions(result)[:, 0]
             self.assertFalse(((x > 4 * lacking + 0.01) & (x < 4 * lacking + 3.99)).any())
 

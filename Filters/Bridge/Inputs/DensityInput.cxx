@@ -241,6 +241,7 @@ DensityBlocks chooseArrays(
     dimensions[found.Block] };
   std::int64_t all = 0; // blocks of as many dimensions or more
   std::int64_t without = 0;
+  std::string first; // of those
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {
     if (dimensions[b] < chosen.Dimension)
@@ -251,6 +252,7 @@ DensityBlocks chooseArrays(
     block.Array = b == found.Block ? found.Array : arrayLike(found, choice, block);
     block.Data = withNumbers(block.Data.Get(), block.Array, chosen.OnPoints);
     ++all;
+    first = !block.Array && without == 0 ? block.Name : first;
     without += block.Array ? 0 : 1;
     if (dimensions[b] == chosen.Dimension)
     {
@@ -269,7 +271,8 @@ DensityBlocks chooseArrays(
     const char* name = found.Array->GetName();
     choice.Warn(std::to_string(without) + " of " + std::to_string(all) +
       " blocks of the input have no " + (chosen.OnPoints ? "point" : "cell") + " array " +
-      (name ? std::string("'") + name + "'" : "without a name") + " and carry no mass");
+      (name ? std::string("'") + name + "'" : "without a name") +
+      " and carry no mass (the first is " + first + ")");
   }
   return chosen;
 }
