@@ -13,7 +13,8 @@
  * doi:10.1145/566654.566589) until each component is a disk, and further to where the map would
  * squeeze areas, such as the tips of limbs. Each component has a square of its own in the unit
  * square, an atlas: the areas of these squares are in proportion to those of the components, and
- * between squares there is a margin. Points on seams are doubled.
+ * between squares there is a margin. Points on seams are doubled. More than 8 small holes of a
+ * component are not cut open: they shrink to 2 % of its square.
  *
  * The method is that of Section 5.4 of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport
  * with Rectified Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147. A conformal
@@ -55,11 +56,11 @@
  * triangles are cut at T-junctions (points of others within their sides), with a warning that
  * counts them. Of a triangle that is cut, all parts are cells with its data, in its place; one of
  * three points on a line beside it is not in the output. A cut of a disk whose points are
- * duplicated stays a cut. Polygons
- * with inconsistent orientation are mapped with the orientation that most of the area of a
- * component has. Sheets that share an edge of more than two triangles are parted there. If Seams is
- * None, a closed surface, several components or boundaries, handles, and edges of more than two
- * triangles are errors that say which. An input without points gives empty outputs.
+ * duplicated stays a cut. A triangle with the points of one before counts once. Polygons with
+ * inconsistent orientation are mapped with the orientation that most of the area of a component
+ * has. Sheets that share an edge of more than two triangles are parted there. If Seams is None, a
+ * closed surface, several components or boundaries, handles, and edges of more than two triangles
+ * are errors that say which. An input without points gives empty outputs.
  *
  * With several MPI ranks the surface is gathered on rank 0, which has the outputs.
  *

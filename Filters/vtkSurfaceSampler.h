@@ -24,8 +24,9 @@
  * say what is wrong; points in no polygon and triangles without area are left out, and points at
  * the same position are merged, with a warning that counts them. A cut whose points are duplicated
  * stays a cut. Relaxation joins triangles whose corners are at the same positions. Both close
- * T-junctions (points of other triangles within a side), with a warning that counts them; CellId
- * and the arrays are those of the input's cells. An input without points gives an empty output.
+ * T-junctions (points of other triangles within a side) and leave out triangles that are there
+ * before, with a warning that counts them; CellId and the arrays are those of the input's cells. An
+ * input without points gives an empty output.
  *
  * The density is array 0 of SetInputArrayToProcess, a point or cell array of one component and any
  * numeric type. Without an array (the default) it is 1. The mass of a triangle is its area times
