@@ -132,7 +132,8 @@ private:
     const std::string& chosen = this->Arrays.Mass;
     if (!chosen.empty() && chosen != "None")
     {
-      const NumbersOfText numbers = numbersOf(cells->GetAbstractArray(chosen.c_str()), false,
+      // Rivers and other cells that are no regions may have an empty text.
+      const NumbersOfText numbers = numbersOf(cells->GetAbstractArray(chosen.c_str()), true,
         [this](vtkIdType cell) { return "of the region " + this->NameOf(cell); });
       this->Mass = numbers.Array;
       if (!this->Mass)

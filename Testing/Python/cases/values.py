@@ -151,6 +151,9 @@ def whole_numbers_of_64_bits(check):
     data.GetCellData().AddArray(texts(["Aa", "Bb", "Cc", "Dd"], "name"))
     result = Result(simple.Cartogram(Input=source(data), MassArray=["CELLS", "v"], Resolution=128))
     expect_error(check, result, "2 of 4 texts", "'many' of the region 'Bb'")
+    data.GetCellData().AddArray(texts(["1", "", "2", "4"], "v"))
+    result = Result(simple.Cartogram(Input=source(data), MassArray=["CELLS", "v"], Resolution=128))
+    expect_error(check, result, "The mass of the region 'Bb' in 'v' is nan")
 
 
 @case(152)
