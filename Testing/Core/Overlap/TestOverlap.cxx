@@ -399,7 +399,7 @@ TEST(Overlap, OfLargeTetrahedraIsQuick)
     addOverlaps<3>(simplex, { size, 0, size[2], sums.data() });
   });
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  EXPECT_NEAR(sumOf(sums) / sums.size(), 2.0, 2e-12);
+  EXPECT_NEAR(sumOf(sums) / static_cast<double>(sums.size()), 2.0, 2e-12);
   EXPECT_LT(seconds, 20.0); // .3 s in an optimized build; dividing them at all cells takes minutes
 }
 
