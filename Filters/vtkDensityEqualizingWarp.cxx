@@ -10,6 +10,7 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/PartText.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/StepReport.h"
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Device/DeviceUse.h"
@@ -137,7 +138,7 @@ int vtkDensityEqualizingWarp::RequestData(
       " (where there is no mass, add a small part of the mean to the density)");
   }
   this->WarnOfMap(report.Transport);
-  this->WarnOfSteps(report.Flow, warp.Flow, FlowDirection::Backward);
+  this->WarnOfSteps(stepWarning(report.Flow, warp.Flow, FlowDirection::Backward));
   if (report.IsUncorrected)
   {
     this->WarnOfAreas();

@@ -263,7 +263,7 @@ int vtkEqualMassCells::RequestData(
       addSteps(output, { report.Flow });
     }
   }
-  this->WarnOfSteps(report.Flow, cells.Flow, FlowDirection::Backward);
+  this->WarnOfSteps(stepWarning(report.Flow, cells.Flow, FlowDirection::Backward));
   if (isWorthWarning(report.Outside, sites))
   {
     const bool isOne = report.Outside == 1;

@@ -234,7 +234,7 @@ public:
   ///@{
   /**
    * The number of steps of Multistep, RungeKutta4 and Euler, 1 to 10000. 0 (default): as many as
-   * AreaTolerance asks, 32 to 4096, by the density and the direction alone.
+   * AreaTolerance asks, 32 to 4096, by the density, the direction and the number of particles.
    */
   vtkSetMacro(NumberOfSteps, int);
   vtkGetMacro(NumberOfSteps, int);
@@ -242,11 +242,11 @@ public:
 
   ///@{
   /**
-   * Where NumberOfSteps is 0: the largest relative error of the masses, or backward of the areas
-   * (volumes), of blocks of 4 cells a side, above 0 and at most 1. Counted are blocks all of whose
-   * cells have more than 5 % of the mean density; 99.9 % of them are to keep it. Forward,
-   * photographs and noise take 32 steps whatever the tolerance is. A warning says what is reached
-   * where 4096 steps are not enough. Default 0.02.
+   * Where NumberOfSteps is 0: the largest error of the masses, or backward of the areas (volumes),
+   * of 99.9 % of blocks, relative to their mass or 5 % of the mean block's; above 0 and at most 1.
+   * Blocks have 4 cells a side; where particles show the density, they hold AreaTolerance^(-4/3)
+   * of them or more. With the default, 0.02, a run costs at most 8 times as much as with 32 steps;
+   * other values have no limit. A warning says what is reached, and what would be needed.
    */
   vtkSetMacro(AreaTolerance, double);
   vtkGetMacro(AreaTolerance, double);

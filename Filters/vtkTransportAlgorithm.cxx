@@ -5,7 +5,6 @@
 #include "Bridge/Device/SharedDevices.h"
 #include "Bridge/Ranks/PlaceOnMachine.h"
 #include "Bridge/Run/MpiController.h"
-#include "Bridge/Run/StepReport.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/TableSettings.h"
@@ -182,10 +181,8 @@ void vtkTransportAlgorithm::WarnOfMap(const TransportReport& transport)
 }
 
 //------------------------------------------------------------------------------
-void vtkTransportAlgorithm::WarnOfSteps(const FlowReport& flow, const FlowOptions& options,
-  FlowDirection direction, const std::string& name)
+void vtkTransportAlgorithm::WarnOfSteps(const std::string& warning, const std::string& name)
 {
-  const std::string warning = stepWarning(flow, options, direction);
   if (!warning.empty())
   {
     this->WarnOnFirstRank(name.empty() ? warning : name + ": " + warning);

@@ -11,6 +11,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PartText.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/StepReport.h"
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/MissingData.h"
 #include "Bridge/Settings/TableSettings.h"
@@ -232,13 +233,15 @@ int vtkTransportMap::RequestData(
   this->WarnOfMap(result.Transport);
   if (isToTarget)
   {
-    this->WarnOfSteps(result.Flow, map.Flow, FlowDirection::Backward, InputNames[first]);
-    this->WarnOfSteps(result.ToTarget, map.Flow, FlowDirection::Forward, InputNames[1 - first]);
+    this->WarnOfSteps(
+      stepWarning(result.Flow, map.Flow, FlowDirection::Backward), InputNames[first]);
+    this->WarnOfSteps(
+      stepWarning(result.ToTarget, map.Flow, FlowDirection::Forward), InputNames[1 - first]);
   }
   else
   {
-    this->WarnOfSteps(
-      result.Flow, map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward);
+    this->WarnOfSteps(stepWarning(
+      result.Flow, map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward));
   }
   if (result.IsUncorrected)
   {

@@ -7,6 +7,7 @@
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/StepReport.h"
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/SeedSettings.h"
 #include "Bridge/Settings/TableSettings.h"
@@ -120,7 +121,7 @@ int vtkTransportSampler::RequestData(
   addReadings(output, { density->HowRead() });
   this->EndDevice(device);
   this->WarnOfMap(report.Transport);
-  this->WarnOfSteps(report.Flow, sampler.Flow, FlowDirection::Forward);
+  this->WarnOfSteps(stepWarning(report.Flow, sampler.Flow, FlowDirection::Forward, true));
   const std::string ofAll = " of " + std::to_string(report.Particles);
   if (report.SeedsMoved > 0)
   {

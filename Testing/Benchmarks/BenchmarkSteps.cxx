@@ -162,7 +162,7 @@ void measure(
   blocks.Report("", images, state);
   blocks.Report("few_", blocks.Move(few), state);
   blocks.Report("paper_", blocks.MoveAsThePaper(), state);
-  state.counters["steps"] = choice.Tolerance > 0.0 ? 0.0 : automatic.NumberOfSteps;
+  state.counters["steps"] = automatic.NumberOfSteps;
   state.counters["estimate"] = choice.AreaError;
 }
 

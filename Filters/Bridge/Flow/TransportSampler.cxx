@@ -170,12 +170,14 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     grid, purpose, count, static_cast<std::int64_t>(times.size()), given != nullptr);
   particles.SetShare(share.First, share.All);
 
+  FlowOptions options = sampler.Flow;
+  options.Particles = static_cast<double>(share.All);
   const std::string wholeFor = times.size() > 1 ? "OutputPaths"
     : times.back() < 1.0                        ? "a FlowTime other than 1"
                                                 : optimal.WholeFor();
   const OptimalNeeds needs{ optimal, given ? 0.0 : static_cast<double>(share.All) };
-  const FlowTables tables = chooseTables<D>(sampler.Tables, grid.Size<D>(),
-    { sampler.Flow, FlowDirection::Forward, count, false, wholeFor });
+  const FlowTables tables = chooseTables<D>(
+    sampler.Tables, grid.Size<D>(), { options, FlowDirection::Forward, count, false, wholeFor });
   const SharedFlow& flow = cache.Update(density, progress, ends[0], tables, needs);
   TransportSampler::Report report;
   if (given)
@@ -206,7 +208,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     }
     else if (times.back() == 1.0 && times.size() == 1)
     {
-      report.Flow = transport.Points().Forward(starts, positions, sampler.Flow, progress.Stage());
+      report.Flow = transport.Points().Forward(starts, positions, options, progress.Stage());
       if (transport.Certificate())
       {
         progress.BeginStage(ends[4]);
@@ -216,7 +218,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     else
     {
       report.Flow =
-        transport.Points().ForwardAt(starts, times, positions, sampler.Flow, progress.Stage());
+        transport.Points().ForwardAt(starts, times, positions, options, progress.Stage());
     }
   }
   catch (const std::bad_alloc& caught)

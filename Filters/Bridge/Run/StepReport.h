@@ -6,9 +6,11 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/PartText.h"
 #include "Core/Flow/FlowOptions.h"
+#include "Core/Flow/Steps/ProbePlan.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -31,22 +33,38 @@ inline void addSteps(vtkDataObject* output, const std::vector<FlowReport>& flows
   addFieldValues(output, "AreaErrorEstimate", errors);
 }
 
-// The text of a warning if a flow does not keep the AreaTolerance; else empty.
-inline std::string stepWarning(
-  const FlowReport& flow, const FlowOptions& options, FlowDirection direction)
+// The text of a warning if a flow does not keep the AreaTolerance; else empty. `areParticles`: they
+// show masses of larger blocks than those of 4 cells a side.
+inline std::string stepWarning(const FlowReport& flow, const FlowOptions& options,
+  FlowDirection direction, bool areParticles = false)
 {
   if (!(flow.AreaError > options.AreaTolerance))
   {
     return {};
   }
   std::ostringstream text;
+  text.precision(3);
   text << "AreaTolerance " << options.AreaTolerance << " is not reached: with "
-       << flow.NumberOfSteps << " steps, the most that NumberOfSteps 0 takes, "
-       << (direction == FlowDirection::Backward ? "areas" : "masses")
-       << " of blocks of 4 cells a side are off by about " << percentText(flow.AreaError)
-       << (options.Integrator == Integrator::Multistep
-              ? " (less contrast helps, for example a part of the mean added with Calculator)"
-              : " (Integrator Multistep needs fewer)");
+       << flow.NumberOfSteps << " steps"
+       << (options.AreaTolerance == FlowOptions::UsualTolerance
+              ? ", as many as take 8 times as long as 32, "
+              : ", the most that NumberOfSteps 0 takes, ")
+       << (direction == FlowDirection::Backward ? "areas" : "masses") << " of blocks of ";
+  areParticles ? text << std::round(particlesThatShow(options.AreaTolerance)) << " particles"
+               : text << "4 cells a side";
+  text << " are off by about " << percentText(flow.AreaError) << "; ";
+  if (flow.StepsNeeded > FlowOptions::MaximumNumberOfSteps)
+  {
+    text << "more than " << FlowOptions::MaximumNumberOfSteps << " steps would be needed";
+  }
+  else
+  {
+    text << "NumberOfSteps " << flow.StepsNeeded << " reaches it, in about "
+         << std::max(1.0, std::round(flow.TimesNeeded)) << " times the time";
+  }
+  text << (options.Integrator == Integrator::Multistep
+      ? " (less contrast helps, for example a part of the mean added with Calculator)"
+      : " (Integrator Multistep needs fewer)");
   return text.str();
 }
 

@@ -197,7 +197,7 @@ SurfaceSamplingReport SurfaceSampler::Transport(const SurfaceInput& given,
   addFieldValue(output, "MovedParticles", static_cast<double>(samples.Flow.MovedToMass));
   addSteps(output, { samples.Flow });
   return { samples.Places.size(), samples.Flow.MovedToMass,
-    stepWarning(samples.Flow, this->Flow, FlowDirection::Forward), disk.NumberOfTriangles(),
+    stepWarning(samples.Flow, this->Flow, FlowDirection::Forward, true), disk.NumberOfTriangles(),
     countCollapsed(disk, map.Square.Corners), samples.PatchError, samples.IsAreaPreserving,
     surface.RepairWarning() };
 }

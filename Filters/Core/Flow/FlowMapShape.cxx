@@ -70,16 +70,15 @@ constexpr double mostRest(FlowDirection direction)
 //   W = S s / (1 - s)
 // wide, and the flow is smooth at that scale. The error that the interpolation may have is
 //   e = Error S / N^2,
-// in proportion to that of N steps. A lattice costs its nodes, and saves steps of all particles:
-// the finer it is, the later it may hand over.
+// in proportion to that of N = MapSteps steps. A lattice costs its nodes, and saves steps of all
+// particles: the finer it is, the later it may hand over.
 template <int Dimension>
 class LevelChooser
 {
 public:
   using Level = typename FlowMapShape<Dimension>::Level;
 
-  LevelChooser(
-    const GridSize<Dimension>& size, int numberOfSteps, int steps, FlowDirection direction)
+  LevelChooser(const GridSize<Dimension>& size, int mapSteps, int steps, FlowDirection direction)
     : Size(size)
     , Steps(steps)
     , Direction(direction)
@@ -89,7 +88,7 @@ public:
     this->Mean = std::round(Dimension == 3 ? std::cbrt(cells) : std::sqrt(cells));
     this->Particles =
       cells * (direction == FlowDirection::Forward ? Fixed::Particles : particlesBackward);
-    this->Error = Fixed::Error * this->Mean / (static_cast<double>(numberOfSteps) * numberOfSteps);
+    this->Error = Fixed::Error * this->Mean / (static_cast<double>(mapSteps) * mapSteps);
     for (int handOver = 0; handOver < steps; ++handOver)
     {
       this->Spacings.push_back(this->FindSpacing(handOver));
@@ -270,8 +269,9 @@ bool isAfterStart(FlowDirection direction, int handOver, int steps)
 // Tries every hand-over of the finest level, as there are no more than steps.
 template <int Dimension>
 FlowMapShape<Dimension>::FlowMapShape(const GridSize<Dimension>& size, int numberOfSteps,
-  FlowDirection direction, int refinement, int leastHandOver)
+  FlowDirection direction, int refinement, int leastHandOver, int mapSteps)
   : NumberOfSteps(numberOfSteps << refinement)
+  , MapSteps(mapSteps > 0 ? std::min(mapSteps, numberOfSteps) : numberOfSteps)
   , Steps(direction == FlowDirection::Backward
         ? numberOfSteps
         : static_cast<int>(std::ceil(Constants<Dimension>::Steps * this->NumberOfSteps)))
@@ -280,7 +280,7 @@ FlowMapShape<Dimension>::FlowMapShape(const GridSize<Dimension>& size, int numbe
   if constexpr (Dimension > 1)
   {
     const int steps = this->Steps;
-    const LevelChooser<Dimension> chooser(size, numberOfSteps, steps, direction);
+    const LevelChooser<Dimension> chooser(size, this->MapSteps, steps, direction);
     if (!chooser.IsAboveRounding())
     {
       return;
@@ -333,6 +333,18 @@ double FlowMapShape<Dimension>::MemorySize() const
   return bytes;
 }
 
+double velocitiesOf(FlowDirection direction, int numberOfSteps)
+{
+  return (direction == FlowDirection::Backward ? stepsBackward : 1.0) * numberOfSteps;
+}
+
+template <int Dimension>
+double FlowMapShape<Dimension>::Saved() const
+{
+  return velocitiesOf(this->Direction, this->NumberOfSteps) - this->Levels.back().HandOver -
+    Constants<Dimension>::Interpolation;
+}
+
 // Whether cost < particles * saved evaluations, both in velocity evaluations of particles.
 template <int Dimension>
 bool FlowMapShape<Dimension>::PaysFor(double particles) const
@@ -343,11 +355,15 @@ bool FlowMapShape<Dimension>::PaysFor(double particles) const
   }
   // Evaluations that a particle saves in a good cell, times the share of these, against those of
   // the nodes.
-  const double part = this->Direction == FlowDirection::Backward ? stepsBackward : 1.0;
-  const double saved =
-    part * this->NumberOfSteps - this->Levels.back().HandOver - Constants<Dimension>::Interpolation;
-  const double share = 1.0 / (1.0 + this->NumberOfSteps / stepsOfBad);
-  return particles * share * saved > this->Cost;
+  const double share = 1.0 / (1.0 + this->MapSteps / stepsOfBad);
+  return particles * share * this->Saved() > this->Cost;
+}
+
+template <int Dimension>
+double FlowMapShape<Dimension>::CostWith(double particles, double bad) const
+{
+  const double saved = (1.0 - bad) * this->Saved();
+  return this->Cost + particles * (velocitiesOf(this->Direction, this->NumberOfSteps) - saved);
 }
 
 template <int Dimension>
@@ -356,7 +372,8 @@ FlowOptions withFlowMaps(
 {
   if (options.Maps == FlowMaps::Auto && takesFlowMaps(options))
   {
-    const FlowMapShape<Dimension> shape(size, options.NumberOfSteps, direction);
+    const FlowMapShape<Dimension> shape(
+      size, options.NumberOfSteps, direction, 0, 1, options.MapSteps);
     options.Maps = shape.PaysFor(particles) ? FlowMaps::On : FlowMaps::Off;
   }
   return options;

@@ -28,23 +28,34 @@ struct FlowMapShape
   // Empty if lattices are no use: in 1D, for few steps, for so many steps that float precision is
   // too coarse, and if there were more than one node for four cells. With a refinement, particles
   // take 2^refinement times as many steps, on lattices of the same accuracy. No lattice hands over
-  // later than `leastHandOver` steps before time 1.
+  // later than `leastHandOver` steps before time 1. Lattices are as exact as `mapSteps` steps; 0:
+  // as numberOfSteps.
   FlowMapShape(const GridSize<Dimension>& size, int numberOfSteps, FlowDirection direction,
-    int refinement = 0, int leastHandOver = 1);
+    int refinement = 0, int leastHandOver = 1, int mapSteps = 0);
 
   double MemorySize() const; // bytes of the map
 
   // Whether particles take less time with the map, including the time to make it.
   bool PaysFor(double particles) const;
+  // In velocity evaluations: with the map, including those to make it, if it does not serve a share
+  // of the particles. There are levels.
+  double CostWith(double particles, double bad) const;
 
   int NumberOfSteps; // of particles without a map
-  int Steps;         // of particles that hand over: fewer, as the lattices' are finer
+  int MapSteps;
+  int Steps; // of particles that hand over: fewer, as the lattices' are finer
   FlowDirection Direction;
   std::vector<Level> Levels; // wider spacings first
   // In cells, along each axis: lattice cells that deviate more from cubics are bad.
   Point<Dimension> Deviation{};
   double Cost = 0.0; // of all levels
+
+private:
+  double Saved() const; // evaluations of a particle in a good cell
 };
+
+// Evaluations of a particle without a map.
+double velocitiesOf(FlowDirection direction, int numberOfSteps);
 
 // 1 - t at the hand-over that leaves this many of the steps, forward or backward.
 double timeLeft(FlowDirection direction, int handOver, int steps);

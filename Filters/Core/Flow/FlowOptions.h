@@ -45,27 +45,34 @@ struct FlowOptions
   // Of those that NumberOfSteps 0 stands for.
   static constexpr int FewestSteps = 32;
   static constexpr int MostSteps = 4096;
+  // With this AreaTolerance, 0 steps cost at most 8 times as much as the fewest.
+  static constexpr double UsualTolerance = 0.02;
 
   RectifiedTransport::Integrator Integrator = RectifiedTransport::Integrator::Multistep;
-  // Of the fixed-step methods, up to 10000; 0: as many as AreaTolerance asks, by the density and
-  // the direction (AutomaticSteps.h).
+  // Of the fixed-step methods, up to 10000; 0: as many as AreaTolerance asks, by the density, the
+  // direction and Particles (AutomaticSteps.h).
   int NumberOfSteps = 0;
-  // With 0 steps: the largest relative error, up to 1, of the area (backward) or mass (forward) of
-  // a block of 4^d cells, in 99.9 % of those that count.
-  double AreaTolerance = 0.02;
+  // With 0 steps: the largest error, up to 1, of the area (backward) or mass (forward) of blocks,
+  // for 99.9 % of them, relative to their mass or 5 % of the mean block's. Of blocks of 4^d cells,
+  // or that hold AreaTolerance^(-4/3) of the Particles.
+  double AreaTolerance = UsualTolerance;
   int LeastSteps = FewestSteps; // with 0 steps: not fewer than that
+  // With 0 steps, forward: how many particles show the density, on all ranks, so that smaller
+  // blocks do not matter; 0: a map.
+  double Particles = 0.0;
   // Error of a step in grid cells, Adaptive only, > 0; raised to 2^-40 of the domain's longest
   // side.
   double Tolerance = 0.01;
   TableLookup Lookup = TableLookup::Interpolated;
   FlowMaps Maps = FlowMaps::Auto;
+  int MapSteps = 0; // maps are as exact as so many steps; 0: as NumberOfSteps
 
   bool operator==(const FlowOptions& other) const
   {
     return this->Integrator == other.Integrator && this->NumberOfSteps == other.NumberOfSteps &&
       this->AreaTolerance == other.AreaTolerance && this->LeastSteps == other.LeastSteps &&
-      this->Tolerance == other.Tolerance && this->Lookup == other.Lookup &&
-      this->Maps == other.Maps;
+      this->Particles == other.Particles && this->Tolerance == other.Tolerance &&
+      this->Lookup == other.Lookup && this->Maps == other.Maps && this->MapSteps == other.MapSteps;
   }
 };
 
@@ -73,19 +80,19 @@ struct FlowOptions
 struct StepChoice
 {
   int NumberOfSteps = FlowOptions::FewestSteps;
-  double Tolerance = 0.0; // of Adaptive; 0: the integrator of the options serves
   // Estimated error of areas or masses, as of AreaTolerance; NaN where none was measured.
   double AreaError = std::numeric_limits<double>::quiet_NaN();
+  // Where that is above the tolerance: the steps that would reach it, above MaximumNumberOfSteps if
+  // none do, and how many times as long they would take.
+  int StepsNeeded = 0;
+  double TimesNeeded = 0.0;
+  int MapSteps = 0; // as in the options
 
   // Options with these steps.
   FlowOptions Of(FlowOptions options) const
   {
+    options.MapSteps = this->NumberOfSteps >= options.LeastSteps ? this->MapSteps : 0;
     options.NumberOfSteps = std::max(this->NumberOfSteps, options.LeastSteps);
-    if (this->Tolerance > 0.0)
-    {
-      options.Integrator = Integrator::Adaptive;
-      options.Tolerance = this->Tolerance;
-    }
     return options;
   }
 };
@@ -99,7 +106,17 @@ struct FlowReport
   // are redone together share some, so that it may differ a little from run to run.
   std::int64_t Evaluations = 0;
   int NumberOfSteps = 0; // that particles took; 0 with Adaptive, where each has its own
-  double AreaError = std::numeric_limits<double>::quiet_NaN(); // of StepChoice
+  // Those of StepChoice.
+  double AreaError = std::numeric_limits<double>::quiet_NaN();
+  int StepsNeeded = 0;
+  double TimesNeeded = 0.0;
+
+  void Add(const StepChoice& choice)
+  {
+    this->AreaError = choice.AreaError;
+    this->StepsNeeded = choice.StepsNeeded;
+    this->TimesNeeded = choice.TimesNeeded;
+  }
 };
 
 } // namespace RectifiedTransport

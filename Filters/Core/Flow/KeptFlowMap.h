@@ -13,7 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <new>
-#include <utility>
+#include <tuple>
 
 namespace RectifiedTransport
 {
@@ -30,7 +30,7 @@ public:
     int refinement, const FlowJob<Dimension>& job, const Ranks& ranks, const Begin& begin,
     bool& isNew, const std::unique_ptr<DeviceNodes<Dimension>>& onDevice = nullptr)
   {
-    const Steps steps{ shape.NumberOfSteps, refinement };
+    const Steps steps{ shape.NumberOfSteps, shape.MapSteps, refinement };
     std::shared_ptr<const FlowMap<Dimension>> map = this->Get(steps);
     isNew = !onAllRanks(ranks, map != nullptr);
     if (isNew)
@@ -59,7 +59,7 @@ public:
   }
 
 private:
-  using Steps = std::pair<int, int>; // NumberOfSteps and its refinement
+  using Steps = std::tuple<int, int, int>; // NumberOfSteps, MapSteps and the refinement
 
   std::shared_ptr<const FlowMap<Dimension>> Get(const Steps& steps)
   {

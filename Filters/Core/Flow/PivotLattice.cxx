@@ -120,9 +120,10 @@ FlowReport transportPivot(const PointTransport<Dimension>& flow,
   if (options.NumberOfSteps == 0)
   {
     progress.BeginStage(0.1);
-    const StepChoice choice = flow.ChooseSteps(options, FlowDirection::Forward, progress.Stage());
-    same = choice.Of(options);
-    report.AreaError = choice.AreaError;
+    same.Particles = static_cast<double>(particles);
+    const StepChoice choice = flow.ChooseSteps(same, FlowDirection::Forward, progress.Stage());
+    same = choice.Of(same);
+    report.Add(choice);
   }
   report.NumberOfSteps = stepsOf(same);
   same = withFlowMaps<Dimension>(

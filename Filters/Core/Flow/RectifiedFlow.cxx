@@ -228,7 +228,7 @@ FlowReport RectifiedFlow<Dimension>::RunWithSteps(const FlowOptions& options,
   progress.BeginStage(1.0);
   FlowReport report = run(chosen, progress.Stage());
   report.NumberOfSteps = stepsOf(chosen);
-  report.AreaError = choice.AreaError;
+  report.Add(choice);
   return report;
 }
 

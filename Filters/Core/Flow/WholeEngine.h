@@ -114,7 +114,7 @@ private:
     }
     const FlowDirection direction = directionOf(shared.Kind);
     const FlowMapShape<Dimension> shape(
-      this->Size, options.NumberOfSteps, direction, shared.Refinement);
+      this->Size, options.NumberOfSteps, direction, shared.Refinement, 1, options.MapSteps);
     // Isolated cells leave most boxes empty before particles could take over.
     const bool pays = shared.Kind != AdvectionKind::ForwardToCells && shape.PaysFor(particles);
     if (shape.Levels.empty() || firstTime < 1.0 - shape.Levels.back().TimeLeft ||

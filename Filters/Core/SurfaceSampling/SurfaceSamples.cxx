@@ -67,7 +67,9 @@ SurfaceSamples sampleMap(const DiskMesh& disk, const FlatMap& map, const double*
       coordinates.data()[i] *= static_cast<double>(size[static_cast<std::size_t>(i % 2)]);
     }
     progress.BeginStage(0.6);
-    samples.Flow = flow.Forward(points, points, options.Flow, progress.Stage());
+    FlowOptions integration = options.Flow;
+    integration.Particles = static_cast<double>(count);
+    samples.Flow = flow.Forward(points, points, integration, progress.Stage());
   }
   progress.BeginStage(0.75);
   const FlatLocator locator(flat, progress.Stage());

@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/Steps/AutomaticSteps.h"
 
+#include "Core/Flow/Steps/BlockSurface.h"
+#include "Core/Flow/Steps/LittleContrast.h"
 #include "Core/Flow/Steps/ProbeBlocks.h"
+#include "Core/Flow/Steps/ProbePlan.h"
+#include "Core/Flow/Steps/StepBudget.h"
+#include "Core/Flow/Steps/SweptMass.h"
+#include "Core/Flow/Steps/SymmetricPlace.h"
 #include "Core/Geometry/ImageMeasure.h"
+#include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankShare.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <functional>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 namespace RectifiedTransport
@@ -20,6 +28,9 @@ namespace RectifiedTransport
 namespace
 {
 
+constexpr int unit = 8;            // numbers of steps are multiples of it
+constexpr int lastCompared = 1024; // steps, with twice as many
+
 // What an error falls by with x times the steps: x^(7/4), by square roots alone, which have the
 // same bits everywhere. Measured orders are 1.5 to 2.1.
 double fall(double x, Integrator integrator)
@@ -27,17 +38,65 @@ double fall(double x, Integrator integrator)
   return integrator == Integrator::Euler ? x : x * std::sqrt(x) * std::sqrt(std::sqrt(x));
 }
 
-// The fewest steps, a multiple of 8, with which an error at `steps` falls by a factor.
-int stepsFor(double factor, int steps, Integrator integrator)
+// The fewest steps, a multiple of 8, with which an error at `steps` falls by a factor; more than
+// `most` if those do not.
+int stepsFor(double factor, int steps, int most, Integrator integrator)
 {
-  constexpr int unit = 8;
   int found = steps;
-  while (found < FlowOptions::MostSteps &&
-    !(fall(static_cast<double>(found) / steps, integrator) >= factor))
+  while (found <= most && !(fall(static_cast<double>(found) / steps, integrator) >= factor))
   {
     found += unit;
   }
-  return std::min(found, FlowOptions::MostSteps);
+  return found;
+}
+
+// The error with a number of steps.
+struct Measured
+{
+  int Steps = 0;
+  double Error = 0.0;
+};
+
+// Between two measured errors, by a power of the number of steps.
+double errorBetween(const Measured& few, const Measured& many, int steps)
+{
+  constexpr double least = 1e-9;
+  const double logOfFew = naturalLogarithm(std::max(few.Error, least));
+  const double logOfMany = naturalLogarithm(std::max(many.Error, least));
+  const double way = naturalLogarithm(static_cast<double>(steps) / few.Steps) /
+    naturalLogarithm(static_cast<double>(many.Steps) / few.Steps);
+  return exponential(logOfFew + way * (logOfMany - logOfFew));
+}
+
+// Steps as exact as which flow maps need to be. They carry the smooth part of the flow: with as
+// many as this the areas of blocks of photographs and of sharp shapes are off by less than the
+// tolerance.
+template <int Dimension>
+int mapStepsFor(const FlowOptions& options)
+{
+  constexpr int usual = Dimension == 3 ? 48 : 64;
+  return stepsFor(FlowOptions::UsualTolerance / options.AreaTolerance, usual,
+    FlowOptions::MostSteps, options.Integrator);
+}
+
+template <int Dimension>
+ProbePlan<Dimension> planOf(
+  const FlowEngine<Dimension>& engine, const FlowOptions& options, FlowDirection direction)
+{
+  GridSize<Dimension> size;
+  std::copy_n(engine.View().Cells, Dimension, size.begin());
+  ProbePlan<Dimension> plan(size);
+  if (direction == FlowDirection::Forward && options.Particles > 0.0)
+  {
+    plan = ProbePlan<Dimension>(size, options.Particles, options.AreaTolerance);
+  }
+  if (!engine.HasWholeTables())
+  {
+    // Ranks exchange the cells of each.
+    constexpr std::int64_t few = 10 * SymmetricPlace<3>::Images;
+    plan.Blocks = std::min(plan.Blocks, few);
+  }
+  return plan;
 }
 
 template <int Dimension>
@@ -50,57 +109,55 @@ public:
     , Options(options)
     , IsBackward(direction == FlowDirection::Backward)
     , Work(context)
-    , Probes(engine, direction, this->Work)
+    , Plan(planOf(engine, options, direction))
+    , Surface(this->Plan.Parts)
+    , Probes(engine, direction, this->Plan, this->Work)
   {
+    std::copy_n(engine.View().Cells, Dimension, this->Size.begin());
     this->Options.Maps = FlowMaps::Off;
     if (this->IsBackward)
     {
       this->ProbeMass();
     }
-    for (const ProbeBlock<Dimension>& block : this->Probes.Blocks())
-    {
-      for (int corner = 0; corner < Corners; ++corner)
-      {
-        Point<Dimension>& start = this->Starts.emplace_back();
-        for (int axis = 0; axis < Dimension; ++axis)
-        {
-          start[axis] = (corner >> axis & 1) != 0 ? block.High[axis] : block.Low[axis];
-        }
-      }
-    }
+    this->Used.resize(this->Probes.Blocks().size());
+    std::iota(this->Used.begin(), this->Used.end(), std::size_t{ 0 });
   }
 
-  StepChoice Choose()
+  // `options` are those of the run.
+  StepChoice Choose(const FlowOptions& options)
   {
-    constexpr int last = 1024; // steps that are compared with twice as many
-    StepChoice choice;
     // Forward the flow expands where it is fast, and no step is too long for that.
-    if (this->Probes.Blocks().empty() || (!this->IsBackward && this->Probes.HaveLittleContrast()))
+    const bool isMap = !this->IsBackward && options.Particles == 0.0;
+    if (this->Used.empty() || (isMap && hasLittleContrast<Dimension>(this->Engine, this->Work)))
     {
-      return choice;
+      return {};
     }
     Images coarse = this->Move(FlowOptions::FewestSteps);
-    for (int steps = FlowOptions::FewestSteps;; steps *= 2)
+    constexpr double smooth = 3.0; // the error of photographs with the fewest steps is below
+    int most = 0;                  // known when the fewest do not do
+    for (Measured now{ FlowOptions::FewestSteps, 0.0 }, before;; now.Steps *= 2)
     {
-      const Images fine = this->Move(2 * steps);
-      const double error = this->ErrorOf(coarse, fine);
-      if (std::isnan(error))
+      Images fine = this->Move(2 * now.Steps);
+      const std::vector<double> errors = this->ErrorsOf(coarse, fine);
+      now.Error = this->OfNearlyAll(errors);
+      if (before.Steps == 0 && now.Error > this->Options.AreaTolerance)
       {
-        return {};
+        this->KeepWorst(errors, fine);
+        most = this->MostSteps(options, now.Error <= smooth);
       }
-      const Integrator integrator = this->Options.Integrator;
-      choice.NumberOfSteps = stepsFor(error / this->Options.AreaTolerance, steps, integrator);
-      choice.AreaError =
-        error / fall(static_cast<double>(choice.NumberOfSteps) / steps, integrator);
-      if (choice.NumberOfSteps <= 2 * steps || steps == last)
+      if (now.Error <= this->Options.AreaTolerance || now.Steps >= most ||
+        now.Steps == lastCompared)
       {
-        return this->OrAdaptive(choice);
+        return this->ChoiceFrom(before, now, most, options);
       }
-      coarse = fine;
+      before = now;
+      coarse = std::move(fine);
     }
   }
 
 private:
+  using Images = std::vector<Point<Dimension>>; // of the points of all blocks in use
+
   // Where few blocks count, mass is in a small part of the domain: the forward flow leads to it.
   void ProbeMass()
   {
@@ -110,167 +167,172 @@ private:
       return;
     }
     Images places;
-    for (std::int64_t number = 1; number <= 2 * wanted; ++number)
+    for (std::int64_t number = 0; number < 2 * wanted; ++number)
     {
-      places.push_back(evenPlace<Dimension>(number));
+      const SymmetricPlace<Dimension> place(number);
+      Point<Dimension>& point = places.emplace_back();
       for (int axis = 0; axis < Dimension; ++axis)
       {
-        places.back()[axis] *= static_cast<double>(this->Probes.Grid()[axis]);
+        point[axis] = place.Real(axis, static_cast<double>(this->Size[axis]));
       }
     }
-    FlowOptions options = this->Options;
-    options.NumberOfSteps = FlowOptions::FewestSteps;
-    this->Move(AdvectionKind::Forward, options, places);
+    this->Move(AdvectionKind::Forward, FlowOptions::FewestSteps, places);
     this->Probes.AddAbout(places, this->Work);
   }
 
-  static constexpr int Corners = 1 << Dimension;
-  using Images = std::vector<Point<Dimension>>; // of the corners of all blocks
-
   Images Move(int steps)
   {
-    FlowOptions options = this->Options;
-    options.NumberOfSteps = steps;
-    return this->Move(options);
-  }
-
-  Images Move(const FlowOptions& options)
-  {
-    Images corners = this->Starts;
-    this->Move(
-      this->IsBackward ? AdvectionKind::Backward : AdvectionKind::Forward, options, corners);
-    return corners;
+    Images points;
+    for (const std::size_t block : this->Used)
+    {
+      const ProbeBlock<Dimension>& of = this->Probes.Blocks()[block];
+      for (std::size_t number = 0; number < this->Surface.Count(); ++number)
+      {
+        points.push_back(this->Surface.At(number, of.Low, of.High));
+      }
+    }
+    this->Move(this->IsBackward ? AdvectionKind::Backward : AdvectionKind::Forward, steps, points);
+    return points;
   }
 
   // Each rank moves a part. Collective.
-  void Move(AdvectionKind kind, const FlowOptions& options, Images& points)
+  void Move(AdvectionKind kind, int steps, Images& points)
   {
+    FlowOptions options = this->Options;
+    options.NumberOfSteps = steps;
     const auto count = static_cast<std::int64_t>(points.size());
     const Ranks& ranks = this->Work.Group();
     const RankShare share(count, ranks);
     const PointSpan<Dimension> own = PointSpan<Dimension>(points).Part(share.First, share.Count);
     this->Work.BeginStage(0.5 * (1.0 + this->Work.StageEnd())); // how many follow is not known
-    const FlowReport report =
-      this->Engine.Advect(kind, ConstPointSpan<Dimension>(own), own, options, this->Work.Stage());
-    this->Velocities = static_cast<double>(sumOverRanks(ranks, report.Evaluations));
+    this->Engine.Advect(kind, ConstPointSpan<Dimension>(own), own, options, this->Work.Stage());
     gatherParts(ranks, shareStarts(count, Dimension, ranks), points.front().data());
   }
 
-  // The estimated error of 99.9 % of all blocks: the largest that is found, times a factor which
-  // was measured over many densities. NaN if no block counts.
-  double ErrorOf(const Images& coarse, const Images& fine) const
+  // Of the blocks in use.
+  std::vector<double> ErrorsOf(const Images& coarse, const Images& fine) const
   {
-    const std::vector<ProbeBlock<Dimension>>& blocks = this->Probes.Blocks();
-    double error = std::numeric_limits<double>::quiet_NaN();
-    for (std::size_t i = 0; i < blocks.size(); ++i)
+    const SweptMass<Dimension> mass(this->Engine.View(), this->Surface);
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < this->Used.size(); ++i)
     {
-      const Point<Dimension>* before = &coarse[i * Corners];
-      const Point<Dimension>* after = &fine[i * Corners];
-      if (this->IsBackward)
-      {
-        const double change = imageMeasure<Dimension>(after) - imageMeasure<Dimension>(before);
-        error = std::fmax(error, std::abs(change) / blocks[i].Mass);
-      }
-      else if (this->Probes.IsDense(before) && this->Probes.IsDense(after))
-      {
-        const double change = this->MassBetween(before, after);
-        error = std::fmax(error, std::abs(change) / this->Probes.Volume());
-      }
+      const Point<Dimension>* before = &coarse[i * this->Surface.Count()];
+      const Point<Dimension>* after = &fine[i * this->Surface.Count()];
+      const double change = this->IsBackward
+        ? imageMeasure<Dimension>(after) - imageMeasure<Dimension>(before)
+        : mass.Between(before, after);
+      errors.push_back(std::abs(change) / this->Probes.Blocks()[this->Used[i]].Weight);
     }
-    return (this->IsBackward ? 2.0 : 1.75) * error;
+    return errors;
   }
 
-  // The mass that the sides of a block's image sweep over, outwards, on a straight way from one
-  // place to another, in cells of the mean density.
-  double MassBetween(const Point<Dimension>* before, const Point<Dimension>* after) const
+  // The error that 99.9 % of all blocks keep, if those that are not in use have smaller ones.
+  double OfNearlyAll(std::vector<double> errors) const
   {
-    constexpr int half = Corners / 2; // of the corners of a side
-    double mass = 0.0;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      for (int end = 0; end < 2; ++end)
-      {
-        // Its axes are the side's and the way, which has the place of `axis` after an even number
-        // of exchanges.
-        std::array<Point<Dimension>, Corners> swept;
-        int count = 0;
-        for (int corner = 0; corner < Corners; ++corner)
-        {
-          if ((corner >> axis & 1) == end)
-          {
-            swept[static_cast<std::size_t>(count)] = before[corner];
-            swept[static_cast<std::size_t>(count + half)] = after[corner];
-            ++count;
-          }
-        }
-        const bool isTurned = (Dimension - 1 - axis) % 2 != (end == 0 ? 1 : 0);
-        const double measure = imageMeasure<Dimension>(swept.data());
-        mass += (isTurned ? -measure : measure) * this->MeanAbout(swept);
-      }
-    }
-    return mass;
+    constexpr std::size_t oneIn = 1000;
+    const std::size_t rank = std::min(this->Probes.Blocks().size() / oneIn, errors.size() - 1);
+    const auto found = errors.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(errors.begin(), found, errors.end(), std::greater<double>());
+    return *found;
   }
 
-  // The mean density in the box about points, at least a cell wide.
-  double MeanAbout(const std::array<Point<Dimension>, Corners>& points) const
+  // More steps are compared for the blocks with the largest errors alone.
+  void KeepWorst(const std::vector<double>& errors, Images& images)
   {
-    const GridSize<Dimension>& size = this->Probes.Grid();
-    Point<Dimension> low = points[0];
-    Point<Dimension> high = points[0];
-    for (int axis = 0; axis < Dimension; ++axis)
+    const std::size_t kept = this->KeptBlocks();
+    if (kept == this->Used.size())
     {
-      for (const Point<Dimension>& point : points)
-      {
-        low[axis] = std::min(low[axis], point[axis]);
-        high[axis] = std::max(high[axis], point[axis]);
-      }
-      const double missing = std::max(0.0, 1.0 - (high[axis] - low[axis]));
-      low[axis] = std::max(0.0, low[axis] - 0.5 * missing);
-      high[axis] = std::min(static_cast<double>(size[axis]), high[axis] + 0.5 * missing);
+      return;
     }
-    return this->Probes.MeanIn(low, high);
+    std::vector<std::size_t> order(errors.size());
+    std::iota(order.begin(), order.end(), std::size_t{ 0 });
+    std::stable_sort(order.begin(), order.end(),
+      [&](std::size_t a, std::size_t b) { return errors[a] > errors[b]; });
+    order.resize(kept);
+    Images of;
+    for (const std::size_t block : order)
+    {
+      const auto first =
+        images.begin() + static_cast<std::ptrdiff_t>(block * this->Surface.Count());
+      of.insert(of.end(), first, first + static_cast<std::ptrdiff_t>(this->Surface.Count()));
+    }
+    images = std::move(of);
+    this->Used = std::move(order); // it was every block
   }
 
-  // Where many steps are needed, those of each particle's own may take less time.
-  StepChoice OrAdaptive(const StepChoice& choice)
+  std::size_t KeptBlocks() const
   {
-    constexpr int many = 512;
-    constexpr double partOfTolerance = 1.0 / 200.0; // in cells, of AreaTolerance
-    constexpr double finer = 0.25;
-    constexpr double cost = 2.4; // of a velocity, in those of Multistep
-    if (choice.NumberOfSteps <= many || this->Options.Integrator != Integrator::Multistep ||
-      !this->Engine.HasWholeTables())
+    constexpr std::size_t enough = 256;
+    return std::min(enough, this->Probes.Blocks().size());
+  }
+
+  StepBudget<Dimension> BudgetOf(const FlowOptions& options) const
+  {
+    return StepBudget<Dimension>(this->Size, options,
+      this->IsBackward ? FlowDirection::Backward : FlowDirection::Forward,
+      mapStepsFor<Dimension>(options));
+  }
+
+  int MostSteps(const FlowOptions& options, bool isSmooth) const
+  {
+    const auto each = static_cast<double>(this->Surface.Count());
+    return options.AreaTolerance == FlowOptions::UsualTolerance
+      ? this->BudgetOf(options).MostSteps(each * static_cast<double>(this->Probes.Blocks().size()),
+          each * static_cast<double>(this->KeptBlocks()), isSmooth)
+      : FlowOptions::MostSteps;
+  }
+
+  // `now` keeps the tolerance, or is that of at least `most` steps, or the last that is compared.
+  StepChoice ChoiceFrom(
+    const Measured& before, const Measured& now, int most, const FlowOptions& options) const
+  {
+    StepChoice choice;
+    const double tolerance = this->Options.AreaTolerance;
+    const Integrator integrator = this->Options.Integrator;
+    if (before.Steps == 0 && (now.Error <= tolerance || most <= now.Steps))
     {
-      return choice;
+      choice.NumberOfSteps = now.Steps;
+      choice.AreaError = now.Error;
     }
-    FlowOptions options = this->Options;
-    options.Integrator = Integrator::Adaptive;
-    options.Tolerance = partOfTolerance * this->Options.AreaTolerance;
-    Images coarse = this->Move(options);
-    const double steps = choice.NumberOfSteps * static_cast<double>(coarse.size());
-    while (cost * this->Velocities < steps)
+    else if (now.Error <= tolerance || most <= now.Steps)
     {
-      StepChoice found = choice;
-      found.Tolerance = options.Tolerance;
-      options.Tolerance *= finer;
-      const Images fine = this->Move(options);
-      found.AreaError = this->ErrorOf(coarse, fine);
-      if (found.AreaError <= this->Options.AreaTolerance)
+      choice.NumberOfSteps = before.Steps;
+      do
       {
-        return found;
-      }
-      coarse = fine;
+        choice.NumberOfSteps += unit;
+        choice.AreaError = errorBetween(before, now, choice.NumberOfSteps);
+      } while (choice.NumberOfSteps < std::min(most, now.Steps) && choice.AreaError > tolerance);
+    }
+    else
+    {
+      choice.NumberOfSteps =
+        std::min(most, stepsFor(now.Error / tolerance, now.Steps, most, integrator));
+      choice.AreaError =
+        now.Error / fall(static_cast<double>(choice.NumberOfSteps) / now.Steps, integrator);
+    }
+    const int mapSteps = mapStepsFor<Dimension>(options);
+    choice.MapSteps = mapSteps < choice.NumberOfSteps ? mapSteps : 0;
+    if (choice.AreaError > tolerance)
+    {
+      const bool isBelow = now.Error <= tolerance;
+      choice.StepsNeeded = isBelow
+        ? now.Steps
+        : stepsFor(now.Error / tolerance, now.Steps, FlowOptions::MaximumNumberOfSteps, integrator);
+      choice.TimesNeeded = this->BudgetOf(options).TimesOf(
+        choice, std::min(choice.StepsNeeded, FlowOptions::MaximumNumberOfSteps));
     }
     return choice;
   }
 
   FlowEngine<Dimension>& Engine;
-  FlowOptions Options;
+  FlowOptions Options; // without flow maps
   const bool IsBackward;
   Progress Work;
+  const ProbePlan<Dimension> Plan;
+  const BlockSurface<Dimension> Surface;
   ProbeBlocks<Dimension> Probes;
-  Images Starts;
-  double Velocities = 0.0; // of all corners, of the last move
+  GridSize<Dimension> Size{};
+  std::vector<std::size_t> Used; // numbers of blocks
 };
 
 } // namespace
@@ -284,7 +346,7 @@ StepChoice chooseSteps(FlowEngine<Dimension>& engine, const FlowOptions& options
   {
     return {};
   }
-  return StepChooser<Dimension>(engine, options, direction, context).Choose();
+  return StepChooser<Dimension>(engine, options, direction, context).Choose(options);
 }
 
 template StepChoice chooseSteps<1>(

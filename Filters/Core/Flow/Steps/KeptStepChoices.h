@@ -24,7 +24,9 @@ public:
   StepChoice FindOrMake(
     const FlowOptions& options, FlowDirection direction, const Ranks& ranks, const Make& make)
   {
-    const Question question(direction, options.Integrator, options.Lookup, options.AreaTolerance);
+    const double particles = direction == FlowDirection::Forward ? options.Particles : 0.0;
+    const Question question(direction, options.Integrator, options.Lookup, options.Maps,
+      options.AreaTolerance, particles);
     const std::optional<StepChoice> kept = this->Find(question);
     if (onAllRanks(ranks, kept.has_value()))
     {
@@ -37,7 +39,7 @@ public:
   }
 
 private:
-  using Question = std::tuple<FlowDirection, Integrator, TableLookup, double>;
+  using Question = std::tuple<FlowDirection, Integrator, TableLookup, FlowMaps, double, double>;
 
   std::optional<StepChoice> Find(const Question& question)
   {
@@ -48,7 +50,7 @@ private:
 
   void Keep(const Question& question, const StepChoice& choice)
   {
-    constexpr std::size_t most = 64; // tolerances that an animation goes through
+    constexpr std::size_t most = 64; // tolerances or particles that an animation goes through
     const std::lock_guard<std::mutex> lock(this->Mutex);
     if (this->Choices.size() == most)
     {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/Steps/ProbeBlocks.h"
 
+#include "Core/Flow/Steps/BoxCells.h"
+#include "Core/Flow/Steps/SymmetricPlace.h"
 #include "Core/Parallel/RankExchange.h"
-#include "Core/Tables/BoxShare.h"
-#include "Core/Tables/NearestMass.h"
+#include "Core/Parallel/Ranks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,32 +16,52 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t enoughForContrast = 64; // blocks
-constexpr std::int64_t blockSide = 4;          // cells, no more than a quarter of an axis
+// A share of the mass above the rounding of the tables.
+constexpr double leastShare = 2e-15;
+constexpr double margin = 0.125; // of a block's side, where its border is left out
 
-constexpr int power(int base, int exponent)
+// The corners of a block that a cell touches, a bit for each.
+template <int Dimension>
+int cornersOf(
+  const ProbeBlock<Dimension>& block, const Point<Dimension>& from, const Point<Dimension>& to)
 {
-  return exponent == 0 ? 1 : base * power(base, exponent - 1);
+  int found = 0;
+  for (int corner = 0; corner < 1 << Dimension; ++corner)
+  {
+    bool touches = true;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double place = (corner >> axis & 1) != 0 ? block.High[axis] : block.Low[axis];
+      touches = touches && from[axis] <= place && place <= to[axis];
+    }
+    found |= touches ? 1 << corner : 0;
+  }
+  return found;
 }
 
 } // namespace
 
 template <int Dimension>
-ProbeBlocks<Dimension>::ProbeBlocks(
-  FlowEngine<Dimension>& engine, FlowDirection direction, Progress& progress)
+ProbeBlocks<Dimension>::ProbeBlocks(FlowEngine<Dimension>& engine, FlowDirection direction,
+  const ProbePlan<Dimension>& plan, Progress& progress)
   : Engine(engine)
   , IsBackward(direction == FlowDirection::Backward)
+  , Plan(plan)
 {
   std::copy_n(engine.View().Cells, Dimension, this->Size.begin());
-  this->Cells = numberOfCells<Dimension>(this->Size);
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    this->Side[axis] = std::clamp<std::int64_t>(this->Size[axis] / 4, 1, blockSide);
-    this->Measure *= static_cast<double>(this->Side[axis]);
-  }
   constexpr std::int64_t tries = 8; // a wanted block
   this->Draw(
-    tries * this->WantedBlocks(), [this](std::int64_t number) { return this->BlockOf(number); },
+    tries * this->WantedBlocks(),
+    [this](std::int64_t number) {
+      const SymmetricPlace<Dimension> place(number);
+      Point<Dimension> low;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        low[axis] =
+          place.Integer(axis, static_cast<double>(this->Size[axis] - this->Plan.Side[axis]));
+      }
+      return this->BlockAt(low);
+    },
     progress);
 }
 
@@ -49,18 +70,19 @@ template <class MakeBlock>
 void ProbeBlocks<Dimension>::Draw(
   std::int64_t count, const MakeBlock& makeBlock, Progress& progress)
 {
-  const Ranks& ranks = progress.Group();
-  const std::int64_t wanted = this->WantedBlocks();
-  for (std::int64_t first = 1; first <= count; first += ranks.Count())
+  // Every rank has whole tables.
+  const Ranks& ranks = this->Engine.HasWholeTables() ? SoloRanks::Get() : progress.Group();
+  for (std::int64_t first = 0; first < count; first += ranks.Count())
   {
     progress.Check();
-    const std::int64_t own = std::min(first + ranks.Own(), count);
-    ProbeBlock<Dimension> examined = makeBlock(own);
-    this->Examine(own, first <= enoughForContrast, examined);
+    ProbeBlock<Dimension> examined = makeBlock(std::min(first + ranks.Own(), count - 1));
+    this->Examine(examined);
     const std::vector<ProbeBlock<Dimension>> blocks = gatherValues(ranks, examined);
-    for (std::int64_t i = 0; i < std::min<std::int64_t>(ranks.Count(), count + 1 - first); ++i)
+    for (std::int64_t i = 0; i < std::min<std::int64_t>(ranks.Count(), count - first); ++i)
     {
-      if (static_cast<std::int64_t>(this->Found.size()) == wanted)
+      // All images of a place, or none.
+      if ((first + i) % SymmetricPlace<Dimension>::Images == 0 &&
+        static_cast<std::int64_t>(this->Found.size()) >= this->WantedBlocks())
       {
         return;
       }
@@ -79,10 +101,10 @@ void ProbeBlocks<Dimension>::AddAbout(
   this->Draw(
     static_cast<std::int64_t>(places.size()),
     [&](std::int64_t number) {
-      Point<Dimension> low = places[static_cast<std::size_t>(number - 1)];
+      Point<Dimension> low = places[static_cast<std::size_t>(number)];
       for (int axis = 0; axis < Dimension; ++axis)
       {
-        const auto side = static_cast<double>(this->Side[axis]);
+        const auto side = static_cast<double>(this->Plan.Side[axis]);
         low[axis] = std::clamp(std::floor(low[axis] - 0.5 * side + 0.5), 0.0,
           static_cast<double>(this->Size[axis]) - side);
       }
@@ -92,175 +114,34 @@ void ProbeBlocks<Dimension>::AddAbout(
 }
 
 template <int Dimension>
-double ProbeBlocks<Dimension>::MeanIn(
-  const Point<Dimension>& low, const Point<Dimension>& high) const
-{
-  double volume = 1.0;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    volume *= high[axis] - low[axis];
-  }
-  return boxShare<Dimension>(this->Engine.View(), low, high) * this->Cells / volume;
-}
-
-template <int Dimension>
-bool ProbeBlocks<Dimension>::IsDense(const Point<Dimension>* corners) const
-{
-  constexpr int perAxis = 3;
-  for (int place = 0; place < power(perAxis, Dimension); ++place)
-  {
-    Point<Dimension> x{};
-    for (int corner = 0; corner < 1 << Dimension; ++corner)
-    {
-      double weight = 1.0;
-      for (int axis = 0, rest = place; axis < Dimension; ++axis, rest /= perAxis)
-      {
-        const double u = 0.5 * (rest % perAxis);
-        weight *= (corner >> axis & 1) != 0 ? u : 1.0 - u;
-      }
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        x[axis] += weight * corners[corner][axis];
-      }
-    }
-    Point<Dimension> low;
-    Point<Dimension> high;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const double last = static_cast<double>(this->Size[axis]) - 1.0;
-      low[axis] = std::min(std::floor(x[axis]), last);
-      high[axis] = low[axis] + 1.0;
-    }
-    if (!(this->MeanIn(low, high) > leastOfMean))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-// Of nine in ten of the blocks that have mass everywhere: photographs have contrasts of 1.04 to
-// 1.34 and fine ones of 1.1 to 1.6, squares and discs of ten times the density around 2.2, a
-// Gaussian 8; white noise has fine ones of 2.3, lines of ten times the density 3.
-template <int Dimension>
-bool ProbeBlocks<Dimension>::HaveLittleContrast() const
-{
-  constexpr double little = 1.5;
-  constexpr double littleInBlocks = 2.0;
-  return this->NearlyAllAreBelow(little, &ProbeBlock<Dimension>::Contrast) &&
-    this->NearlyAllAreBelow(littleInBlocks, &ProbeBlock<Dimension>::FineContrast);
-}
-
-template <int Dimension>
-bool ProbeBlocks<Dimension>::NearlyAllAreBelow(
-  double most, double ProbeBlock<Dimension>::*contrast) const
-{
-  constexpr std::size_t fewest = 4;
-  std::vector<double> contrasts;
-  for (const ProbeBlock<Dimension>& block : this->Found)
-  {
-    if (block.Contrast > 0.0)
-    {
-      contrasts.push_back(block.*contrast);
-    }
-  }
-  std::sort(contrasts.begin(), contrasts.end());
-  return contrasts.size() >= fewest && contrasts[contrasts.size() * 9 / 10] < most;
-}
-
-// Many if their paths take no more than a tenth of the time of those of a particle a cell.
-template <int Dimension>
-std::int64_t ProbeBlocks<Dimension>::WantedBlocks() const
-{
-  constexpr std::int64_t many = 256;
-  constexpr std::int64_t few = 128;
-  constexpr std::int64_t runs = 3; // of all step counts up to 2 N, in runs of N steps
-  constexpr std::int64_t part = 10;
-  return static_cast<double>(many * power(2, Dimension) * runs * part) <= this->Cells ? many : few;
-}
-
-// The block of a number of the sequence.
-template <int Dimension>
-ProbeBlock<Dimension> ProbeBlocks<Dimension>::BlockOf(std::int64_t number) const
-{
-  Point<Dimension> low = evenPlace<Dimension>(number);
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    low[axis] =
-      std::floor(low[axis] * static_cast<double>(this->Size[axis] - this->Side[axis] + 1));
-  }
-  return this->BlockAt(low);
-}
-
-template <int Dimension>
 ProbeBlock<Dimension> ProbeBlocks<Dimension>::BlockAt(const Point<Dimension>& low) const
 {
   ProbeBlock<Dimension> block;
   block.Low = low;
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    block.High[axis] = low[axis] + static_cast<double>(this->Side[axis]);
+    block.High[axis] = low[axis] + static_cast<double>(this->Plan.Side[axis]);
   }
   return block;
 }
 
-// Collective; `isOfFirst` is the same on all ranks.
+// Collective.
 template <int Dimension>
-void ProbeBlocks<Dimension>::Examine(
-  std::int64_t number, bool isOfFirst, ProbeBlock<Dimension>& block)
+void ProbeBlocks<Dimension>::Examine(ProbeBlock<Dimension>& block) const
 {
   if (this->IsBackward)
   {
     this->ExamineCells(block);
     return;
   }
-  if (!isOfFirst)
-  {
-    return;
-  }
-  this->PrepareShares(block.Low, block.High);
-  if (number <= enoughForContrast && this->HasMassIn(block))
-  {
-    block.Contrast = this->ContrastAbout(block);
-    block.FineContrast = this->FineContrastOf(block);
-  }
+  this->LeaveOutBorders(block);
+  block.Weight = boxVolume<Dimension>(block.Low, block.High);
 }
 
-// Whether all cells of a block have mass.
+// Corners in empty regions have no certain image: such blocks do not count. Nor have those next to
+// one: an eighth of the block is left out at each of its sides then.
 template <int Dimension>
-bool ProbeBlocks<Dimension>::HasMassIn(const ProbeBlock<Dimension>& block) const
-{
-  const TableView<Dimension>& tables = this->Engine.View();
-  bool hasMass = true;
-  this->ForCells(block.Low, block.High, [&](const Point<Dimension>& from, const Point<Dimension>&) {
-    Point<Dimension> centre = from;
-    for (double& coordinate : centre)
-    {
-      coordinate += 0.5;
-    }
-    hasMass = hasMass && RectifiedTransport::hasMass<Dimension>(tables, centre);
-  });
-  return hasMass;
-}
-
-// For a box of whole cells.
-template <int Dimension>
-void ProbeBlocks<Dimension>::PrepareShares(
-  const Point<Dimension>& low, const Point<Dimension>& high) const
-{
-  GridSize<Dimension> first;
-  GridSize<Dimension> end;
-  std::transform(low.begin(), low.end(), first.begin(),
-    [](double place) { return static_cast<std::int64_t>(place); });
-  std::transform(high.begin(), high.end(), end.begin(),
-    [](double place) { return static_cast<std::int64_t>(place); });
-  this->Engine.PrepareShares(first, end);
-}
-
-// Next to cells that do not count, corners have no certain image: an eighth of the block is left
-// out at each of its sides then.
-template <int Dimension>
-void ProbeBlocks<Dimension>::ExamineCells(ProbeBlock<Dimension>& block)
+void ProbeBlocks<Dimension>::ExamineCells(ProbeBlock<Dimension>& block) const
 {
   Point<Dimension> first;
   Point<Dimension> end;
@@ -269,63 +150,47 @@ void ProbeBlocks<Dimension>::ExamineCells(ProbeBlock<Dimension>& block)
     first[axis] = std::max(0.0, block.Low[axis] - 1.0);
     end[axis] = std::min(static_cast<double>(this->Size[axis]), block.High[axis] + 1.0);
   }
-  this->PrepareShares(first, end);
+  prepareShares<Dimension>(this->Engine, first, end);
+  bool isFull = true;
   bool isSurrounded = true;
-  this->ForCells(first, end, [&](const Point<Dimension>& from, const Point<Dimension>& to) {
+  int cornersWithMass = 0; // a bit for each
+  forCells<Dimension>(first, end, [&](const Point<Dimension>& from, const Point<Dimension>& to) {
+    const bool hasMass = this->Engine.Share(from, to) > leastShare;
     bool isInside = true;
     for (int axis = 0; axis < Dimension; ++axis)
     {
       isInside = isInside && from[axis] >= block.Low[axis] && to[axis] <= block.High[axis];
     }
-    const bool counts = this->Engine.Share(from, to) * this->Cells > leastOfMean;
-    isSurrounded = isSurrounded && counts;
-    block.Counts = block.Counts && (counts || !isInside);
+    isSurrounded = isSurrounded && hasMass;
+    isFull = isFull && (hasMass || !isInside);
+    cornersWithMass |= hasMass ? cornersOf<Dimension>(block, from, to) : 0;
   });
-  for (int axis = 0; axis < Dimension && !isSurrounded; ++axis)
+  constexpr int corners = 1 << Dimension;
+  block.Counts = isFull || cornersWithMass == (1 << corners) - 1;
+  for (int axis = 0; axis < Dimension && isFull && !isSurrounded; ++axis)
   {
-    const double margin = (block.High[axis] - block.Low[axis]) / 8.0;
-    block.Low[axis] += margin;
-    block.High[axis] -= margin;
+    const double left = margin * (block.High[axis] - block.Low[axis]);
+    block.Low[axis] += left;
+    block.High[axis] -= left;
   }
-  block.Mass = this->Engine.Share(block.Low, block.High) * this->Cells;
+  block.Weight =
+    std::max(this->Engine.Share(block.Low, block.High) * numberOfCells<Dimension>(this->Size),
+      leastOfMean * boxVolume<Dimension>(block.Low, block.High));
 }
 
+// Points on the border of the domain may slide along the border of an empty region, and no particle
+// lies there.
 template <int Dimension>
-double ProbeBlocks<Dimension>::FineContrastOf(const ProbeBlock<Dimension>& block) const
+void ProbeBlocks<Dimension>::LeaveOutBorders(ProbeBlock<Dimension>& block) const
 {
-  double densest = 0.0;
-  this->ForCells(
-    block.Low, block.High, [&](const Point<Dimension>& from, const Point<Dimension>& to) {
-      densest = std::max(densest, this->Engine.Share(from, to));
-    });
-  return densest * this->Measure / this->Engine.Share(block.Low, block.High);
-}
-
-// Boxes are in proportion to the domain, twice as wide each time, and cut at its border.
-template <int Dimension>
-double ProbeBlocks<Dimension>::ContrastAbout(const ProbeBlock<Dimension>& block) const
-{
-  const auto longest = static_cast<double>(*std::max_element(this->Size.begin(), this->Size.end()));
-  constexpr double first = 2.0 * blockSide;
-  double before = this->MeanIn(block.Low, block.High);
-  double largest = 1.0;
-  for (double width = first; width < 2.0 * longest && before > 0.0; width *= 2.0)
+  for (int axis = 0; axis < Dimension; ++axis)
   {
-    Point<Dimension> low;
-    Point<Dimension> high;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const auto size = static_cast<double>(this->Size[axis]);
-      const double centre = 0.5 * (block.Low[axis] + block.High[axis]);
-      const double half = 0.5 * width * size / longest;
-      low[axis] = std::max(0.0, centre - half);
-      high[axis] = std::min(size, centre + half);
-    }
-    const double density = this->MeanIn(low, high);
-    largest = std::max(largest, density / before);
-    before = density;
+    const double left = margin * (block.High[axis] - block.Low[axis]);
+    const bool isFirst = block.Low[axis] == 0.0;
+    const bool isLast = block.High[axis] == static_cast<double>(this->Size[axis]);
+    block.Low[axis] += isFirst ? left : 0.0;
+    block.High[axis] -= isLast ? left : 0.0;
   }
-  return largest;
 }
 
 template class ProbeBlocks<1>;

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// By how much the mass in the image of a box changes with a map that changes.
+#ifndef RectifiedTransport_SweptMass_h
+#define RectifiedTransport_SweptMass_h
+
+#include "Core/Flow/Steps/BlockSurface.h"
+#include "Core/Geometry/GridSize.h"
+#include "Core/Geometry/ImageMeasure.h"
+#include "Core/Tables/BoxShare.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+class SweptMass
+{
+public:
+  SweptMass(const TableView<Dimension>& tables, const BlockSurface<Dimension>& surface)
+    : Tables(tables)
+    , Surface(surface)
+  {
+    for (const std::int64_t cells : tables.Cells)
+    {
+      this->Cells *= static_cast<double>(cells);
+    }
+  }
+
+  // What the sides of a block's image sweep over, outwards, on a straight way from one place to
+  // another, in cells of the mean density. Of the images of the points of its surface.
+  double Between(const Point<Dimension>* before, const Point<Dimension>* after) const
+  {
+    double mass = 0.0;
+    for (const auto& side : this->Surface.Sides())
+    {
+      // Its axes are the side's and the way, which has the place of the side's axis after an even
+      // number of exchanges.
+      Corners swept;
+      for (std::size_t corner = 0; corner < side.Points.size(); ++corner)
+      {
+        swept[corner] = before[side.Points[corner]];
+        swept[corner + side.Points.size()] = after[side.Points[corner]];
+      }
+      const bool isTurned = (Dimension - 1 - side.Axis) % 2 != (side.IsHigh ? 0 : 1);
+      mass += (isTurned ? -1.0 : 1.0) * this->MassIn(swept);
+    }
+    return mass;
+  }
+
+private:
+  using Corners = std::array<Point<Dimension>, 1 << Dimension>;
+
+  // Along the side in pieces, each with the mean density about it: the density may jump.
+  double MassIn(const Corners& swept) const
+  {
+    constexpr int pieces = 4;
+    constexpr int all = Dimension == 1 ? 1 : Dimension == 2 ? pieces : pieces * pieces;
+    double mass = 0.0;
+    for (int piece = 0; piece < all; ++piece)
+    {
+      Corners part{};
+      for (int corner = 0; corner < 1 << Dimension; ++corner)
+      {
+        for (int from = 0; from < 1 << Dimension; ++from)
+        {
+          double weight = (corner ^ from) >> (Dimension - 1) == 0 ? 1.0 : 0.0;
+          for (int axis = 0, rest = piece; axis < Dimension - 1; ++axis, rest /= pieces)
+          {
+            const double u = static_cast<double>(rest % pieces + (corner >> axis & 1)) / pieces;
+            weight *= (from >> axis & 1) != 0 ? u : 1.0 - u;
+          }
+          for (int axis = 0; axis < Dimension; ++axis)
+          {
+            part[static_cast<std::size_t>(corner)][axis] +=
+              weight * swept[static_cast<std::size_t>(from)][axis];
+          }
+        }
+      }
+      mass += imageMeasure<Dimension>(part.data()) * this->MeanAbout(part);
+    }
+    return mass;
+  }
+
+  // The mean density in the box about points, at least a cell wide; of a graded table interpolated.
+  double MeanAbout(const Corners& points) const
+  {
+    Point<Dimension> low = points[0];
+    Point<Dimension> high = points[0];
+    double volume = 1.0;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      for (const Point<Dimension>& point : points)
+      {
+        low[axis] = std::min(low[axis], point[axis]);
+        high[axis] = std::max(high[axis], point[axis]);
+      }
+      const double missing = std::max(0.0, 1.0 - (high[axis] - low[axis]));
+      low[axis] = std::max(0.0, low[axis] - 0.5 * missing);
+      high[axis] = std::min(this->Tables.Size[axis], high[axis] + 0.5 * missing);
+      volume *= high[axis] - low[axis];
+    }
+    return boxShare<Dimension>(this->Tables, low, high) * this->Cells / volume;
+  }
+
+  const TableView<Dimension>& Tables;
+  const BlockSurface<Dimension>& Surface;
+  double Cells = 1.0;
+};
+
+} // namespace RectifiedTransport
+
+#endif
