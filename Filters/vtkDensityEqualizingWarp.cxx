@@ -127,12 +127,12 @@ int vtkDensityEqualizingWarp::RequestData(
     this->WarnOnFirstRank(std::to_string(outside) + " of " + std::to_string(points) +
       " points outside the domain of the density moved as its border does");
   }
-  const std::int64_t turned = sumOverRanks(ranks, report.Cells.Turned);
-  const std::int64_t cells = sumOverRanks(ranks, report.Cells.All);
-  addFieldValue(output, "FoldedCells", static_cast<double>(turned));
-  if (turned > 0)
+  const TurnedCells cells = sumOverRanks(ranks, report.Cells);
+  addFieldValue(output, "FoldedCells", static_cast<double>(cells.Turned));
+  if (isWorthWarning(cells.Turned, cells.All) ||
+    isWorthWarning(cells.TurnedArea.Value(), cells.Area.Value()))
   {
-    this->WarnOnFirstRank(describePart(turned, cells, "cells") + " turned over" +
+    this->WarnOnFirstRank(describePart(cells.Turned, cells.All, "cells") + " turned over" +
       report.Transport.WithSteps(
         "; more NumberOfSteps turn most of them back, an input of smaller cells does not") +
       " (where there is no mass, add a small part of the mean to the density)");

@@ -27,7 +27,8 @@
  * one, changed its sign or became 0 although it was not. Polygons and triangle strips have an area;
  * tetra, voxels, hexahedra, wedges, pyramids, prisms and polyhedra (with faces seen from outside,
  * as VTK defines them) a volume; cells of higher order count by their corners. Ghost cells do not
- * count. A warning says how many there are if there are any.
+ * count. A warning says how many there are if they are at least one in a thousand, or that of the
+ * area.
  *
  * With Method Optimal or Certify, and Blend above 0, there are also the field data `TransportCost`,
  * the mean squared displacement of the density's mass, by the centres of its cells, and

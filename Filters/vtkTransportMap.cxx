@@ -254,7 +254,7 @@ int vtkTransportMap::RequestData(
       " samples in empty cells moved to the nearest cell with mass" +
       result.Transport.WithSteps(" (more NumberOfSteps may spare them that)"));
   }
-  if (result.Folded > 0)
+  if (result.ShowsFolds)
   {
     this->WarnOnFirstRank(describePart(result.Folded, samples, "samples") +
       " are folded: JacobianDeterminant is 0 or negative there" +

@@ -33,8 +33,9 @@
  *
  * `FoldedCells` is the number of samples at which the map turns space over: JacobianDeterminant is
  * 0 or negative, and (DensityToUniform) the density has mass in the sample's cell. A warning says
- * how many there are if there are any. The two outermost samples along at least two axes do not
- * count, because they are next to a corner or an edge.
+ * how many there are if they are at least one in a thousand of those with mass, or cover a
+ * thousandth of the domain. The two outermost samples along at least two axes do not count, because
+ * they are next to a corner or an edge.
  *
  * `LargestBlockError` has two components, the 99.9 % quantile and the largest of the relative
  * errors of blocks. A block reaches over 4 spacings of samples along each axis, from the first

@@ -2,6 +2,7 @@
 #include "Bridge/Flow/MapField.h"
 
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Run/WarningLimit.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Quality/MapFolds.h"
@@ -191,6 +192,7 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
   const MapDisplacement<D> moves(
     this->Geometry, this->Lattice, this->Wanted, this->Kept, this->Positions(), begins);
   const MapFolds<D> folds(this->Lattice, begins);
+  FoldCount folded;
   DisplacementSums sums;
   const bool hasOwn = this->Wanted.Contains(this->OwnPart);
   if (!hasOwn)
@@ -199,14 +201,13 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
     MapDisplacement<D>(
       this->Geometry, this->Lattice, this->OwnPart, this->Kept, this->Positions(), begins)
       .Count(sums, progress);
-    figures.Folded = folds.Count(this->OwnPart, this->Kept, step, this->Positions(), progress);
+    folded = folds.Count(this->OwnPart, this->Kept, step, this->Positions(), progress);
   }
   this->WriteSamples(derivatives, moves, sums, progress, endOfSamples, divergences->GetPointer(0),
     determinants->GetPointer(0));
   if (hasOwn)
   {
-    figures.Folded =
-      folds.Count(this->OwnPart, this->Wanted, determinants->GetPointer(0), progress);
+    folded = folds.Count(this->OwnPart, this->Wanted, determinants->GetPointer(0), progress);
   }
   const DisplacementSums all = sumOverRanks(this->Processes, sums);
   figures.Cost = moves.MeanSquare(all);
@@ -220,7 +221,15 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
   output->SetVectors(std::exchange(this->Displacement, nullptr));
   output->AddArray(divergences);
   output->AddArray(determinants);
-  figures.Folded = sumOverRanks(this->Processes, figures.Folded);
+  folded = sumOverRanks(this->Processes, folded);
+  figures.Folded = folded.Samples;
+  if (folded.Samples > 0)
+  {
+    const std::int64_t all =
+      sumOverRanks(this->Processes, folds.CountWithMass(this->OwnPart, progress));
+    figures.ShowsFolds = isWorthWarning(folded.Samples, all) ||
+      isWorthWarning(folded.Area.Value(), numberOfCells<D>(this->Lattice));
+  }
   return figures;
 }
 

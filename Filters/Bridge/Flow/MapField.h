@@ -35,8 +35,10 @@ namespace RectifiedTransport
 // What a map says about all of its samples.
 struct MapFigures
 {
-  double Cost = 0.0; // the mean squared displacement
-  std::int64_t Folded = 0;
+  double Cost = 0.0;       // the mean squared displacement
+  std::int64_t Folded = 0; // samples
+  bool ShowsFolds = false; // enough for a warning
+
   BlockErrors Blocks;
 };
 

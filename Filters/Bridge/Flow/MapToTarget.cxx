@@ -188,7 +188,8 @@ TransportMap::Report makeMapToTarget(const TransportMap& map, const DensityPair&
   addFieldValue(output, "FoldedCells", static_cast<double>(figures.Folded));
   addFieldTuple(output, "LargestBlockError", { figures.Blocks.Quantile, figures.Blocks.Largest });
   addSteps(output, { flows[0], flows[1] });
-  return { samples, all, flows[0], transport, moved, figures.Folded, false, flows[1] };
+  return { samples, all, flows[0], transport, moved, figures.Folded, figures.ShowsFolds, false,
+    flows[1] };
 }
 
 } // namespace

@@ -95,7 +95,8 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   addFieldTuple(output, "LargestBlockError", { figures.Blocks.Quantile, figures.Blocks.Largest });
   const bool isUncorrected = equalizes && addEqualAreas(output, ranks, passes, report) == 0;
   addSteps(output, { report });
-  return { samples, all, report, transport.Report(), moved, figures.Folded, isUncorrected, {} };
+  return { samples, all, report, transport.Report(), moved, figures.Folded, figures.ShowsFolds,
+    isUncorrected, {} };
 }
 
 } // namespace

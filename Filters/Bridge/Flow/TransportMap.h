@@ -42,6 +42,7 @@ struct TransportMap
     TransportReport Transport;
     std::int64_t MovedToMass; // from empty cells of the density
     std::int64_t Folded;
+    bool ShowsFolds;     // enough for a warning
     bool IsUncorrected;  // EqualizeAreas has changed nothing
     FlowReport ToTarget; // the second flow, of a map to a target
   };

@@ -3,7 +3,6 @@
 
 #include "Bridge/Points/GhostFlags.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Parallel/Reduction.h"
 
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
@@ -337,10 +336,8 @@ public:
   TurnedCells Count(Progress& progress) const
   {
     constexpr std::int64_t grain = 1024;
-    return reduceChunks(
-      progress, this->Cells->GetNumberOfCells(), grain, TurnedCells(),
-      [this](std::int64_t first, std::int64_t last) {
-        TurnedCells found;
+    return sumExactly<TurnedCells>(progress, this->Cells->GetNumberOfCells(), grain,
+      [this](std::int64_t first, std::int64_t last, TurnedCells& found) {
         Scratch scratch;
         for (vtkIdType cell = first; cell < last; ++cell)
         {
@@ -349,12 +346,7 @@ public:
             this->Add(cell, scratch, found);
           }
         }
-        return found;
-      },
-      [](const TurnedCells& a, const TurnedCells& b) {
-        return TurnedCells{ a.Turned + b.Turned, a.All + b.All };
-      },
-      16 * grain);
+      });
   }
 
 private:
@@ -419,7 +411,10 @@ private:
       if (std::abs(old.Value) > old.Rounding)
       {
         isOriented = true;
-        isTurned = isTurned || std::copysign(1.0, old.Value) * moved.Value <= moved.Rounding;
+        const bool isPieceTurned = std::copysign(1.0, old.Value) * moved.Value <= moved.Rounding;
+        isTurned = isTurned || isPieceTurned;
+        found.Area.Add(std::abs(moved.Value));
+        found.TurnedArea.Add(isPieceTurned ? std::abs(moved.Value) : 0.0);
       }
     }
     found.All += isOriented ? 1 : 0;

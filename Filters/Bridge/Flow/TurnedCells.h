@@ -5,6 +5,7 @@
 
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/ImageGrid.h"
+#include "Core/Parallel/ExactSum.h"
 #include "Core/Parallel/Progress.h"
 
 #include <cstdint>
@@ -20,6 +21,17 @@ struct TurnedCells
 {
   std::int64_t Turned = 0;
   std::int64_t All = 0; // that have an orientation
+  // The sums of their measures, as they are moved.
+  ExactSum TurnedArea{};
+  ExactSum Area{};
+
+  void Add(const TurnedCells& other)
+  {
+    this->Turned += other.Turned;
+    this->All += other.All;
+    this->TurnedArea.Add(other.TurnedArea);
+    this->Area.Add(other.Area);
+  }
 };
 
 // Of the cells of as many dimensions as the grid: lines, polygons seen along the grid's normal, or

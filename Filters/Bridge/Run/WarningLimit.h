@@ -15,6 +15,12 @@ inline bool isWorthWarning(std::int64_t count, std::int64_t all)
   return count > 0 && 1000 * count >= all;
 }
 
+// The same of an area.
+inline bool isWorthWarning(double area, double all)
+{
+  return area > 0.0 && 1000.0 * area >= all;
+}
+
 } // namespace RectifiedTransport
 
 #endif

@@ -13,7 +13,7 @@ namespace RectifiedTransport
 {
 
 template <int Dimension>
-std::int64_t MapFolds<Dimension>::Count(const LatticePart<Dimension>& part,
+FoldCount MapFolds<Dimension>::Count(const LatticePart<Dimension>& part,
   const LatticePart<Dimension>& within, const double* determinants, Progress& progress) const
 {
   return this->CountRows(
@@ -25,7 +25,7 @@ std::int64_t MapFolds<Dimension>::Count(const LatticePart<Dimension>& part,
 }
 
 template <int Dimension>
-std::int64_t MapFolds<Dimension>::Count(const LatticePart<Dimension>& part,
+FoldCount MapFolds<Dimension>::Count(const LatticePart<Dimension>& part,
   const LatticePart<Dimension>& within, const Point<Dimension>& step,
   ConstPointSpan<Dimension> positions, Progress& progress) const
 {
@@ -44,22 +44,19 @@ std::int64_t MapFolds<Dimension>::Count(const LatticePart<Dimension>& part,
 // `determinantsOf` gives those of a row of samples, in a buffer or elsewhere.
 template <int Dimension>
 template <class Determinants>
-std::int64_t MapFolds<Dimension>::CountRows(
+FoldCount MapFolds<Dimension>::CountRows(
   const LatticePart<Dimension>& part, const Determinants& determinantsOf, Progress& progress) const
 {
   if (part.IsEmpty())
   {
-    return 0;
+    return {};
   }
   // In 1D the row is cut.
   constexpr std::int64_t most = 1 << 13;
   const std::int64_t length = Dimension > 1 ? part.Cells[0] : std::min(most, part.Cells[0]);
   const std::int64_t rows = (part.Count() + length - 1) / length;
-  std::atomic<std::int64_t> folded{ 0 };
-  progress.For(
-    rows, std::max<std::int64_t>(1, most / length),
-    [&](std::int64_t first, std::int64_t last) {
-      std::int64_t found = 0;
+  return sumExactly<FoldCount>(progress, rows, std::max<std::int64_t>(1, most / length),
+    [&](std::int64_t first, std::int64_t last, FoldCount& found) {
       std::vector<double> memory;
       for (std::int64_t i = first; i < last; ++i)
       {
@@ -72,14 +69,33 @@ std::int64_t MapFolds<Dimension>::CountRows(
         {
           if (determinants[k] <= 0.0 && !this->IsCorner(sample) && this->HasMass(sample))
           {
-            ++found;
+            ++found.Samples;
+            found.Area.Add(-determinants[k]);
           }
         }
       }
-      folded += found;
-    },
-    std::max<std::int64_t>(1, 32 * most / length));
-  return folded;
+    });
+}
+
+template <int Dimension>
+std::int64_t MapFolds<Dimension>::CountWithMass(
+  const LatticePart<Dimension>& part, Progress& progress) const
+{
+  constexpr std::int64_t grain = 1 << 13;
+  if (!this->Density || part.IsEmpty())
+  {
+    return part.IsEmpty() ? 0 : part.Count();
+  }
+  std::atomic<std::int64_t> all{ 0 };
+  progress.For(part.Count(), grain, [&](std::int64_t first, std::int64_t last) {
+    std::int64_t found = 0;
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      found += this->HasMass(part.CellOf(i)) ? 1 : 0;
+    }
+    all += found;
+  });
+  return all;
 }
 
 template <int Dimension>

@@ -4,6 +4,7 @@
 #define RectifiedTransport_MapFolds_h
 
 #include "../Geometry/LatticePart.h"
+#include "../Parallel/ExactSum.h"
 #include "../Parallel/Progress.h"
 
 #include <cstdint>
@@ -13,6 +14,18 @@ namespace RectifiedTransport
 
 template <int Dimension>
 class RectifiedFlow;
+
+struct FoldCount
+{
+  std::int64_t Samples = 0;
+  ExactSum Area{}; // of their images, turned over, in cells of the lattice
+
+  void Add(const FoldCount& other)
+  {
+    this->Samples += other.Samples;
+    this->Area.Add(other.Area);
+  }
+};
 
 // Counts the samples whose determinant of the map's Jacobian matrix is 0 or negative and whose cell
 // of the lattice has mass. Where faces of the domain meet, in its corners and in 3D at its edges,
@@ -31,15 +44,17 @@ public:
 
   // Of a part, by the determinants of the samples of a larger part, axis 0 fastest. Runs as the
   // current stage. Throws Cancelled.
-  std::int64_t Count(const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
+  FoldCount Count(const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
     const double* determinants, Progress& progress) const;
   // The same by their images, as MapDerivatives takes them.
-  std::int64_t Count(const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
+  FoldCount Count(const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
     const Point<Dimension>& step, ConstPointSpan<Dimension> positions, Progress& progress) const;
+  // The samples of a part whose cells have mass.
+  std::int64_t CountWithMass(const LatticePart<Dimension>& part, Progress& progress) const;
 
 private:
   template <class Determinants>
-  std::int64_t CountRows(const LatticePart<Dimension>& part, const Determinants& determinantsOf,
+  FoldCount CountRows(const LatticePart<Dimension>& part, const Determinants& determinantsOf,
     Progress& progress) const;
   bool IsCorner(const GridSize<Dimension>& sample) const;
   bool HasMass(const GridSize<Dimension>& sample) const;

@@ -39,8 +39,9 @@ std::int64_t foldsOf(const GridSize<Dimension>& lattice, const GridSize<Dimensio
   {
     const ThreadsExecutor executor(threads);
     Progress progress{ Context(executor) };
-    const std::int64_t byDeterminants = folds.Count(whole, whole, determinants.data(), progress);
-    EXPECT_EQ(folds.Count(whole, whole, step, positions, progress), byDeterminants);
+    const std::int64_t byDeterminants =
+      folds.Count(whole, whole, determinants.data(), progress).Samples;
+    EXPECT_EQ(folds.Count(whole, whole, step, positions, progress).Samples, byDeterminants);
     EXPECT_TRUE(found == -1 || found == byDeterminants);
     found = byDeterminants;
     LatticePart<Dimension> low = whole;
@@ -48,10 +49,10 @@ std::int64_t foldsOf(const GridSize<Dimension>& lattice, const GridSize<Dimensio
     low.Cells[0] = lattice[0] / 3;
     high.Low[0] = low.Cells[0];
     high.Cells[0] -= low.Cells[0];
-    EXPECT_EQ(folds.Count(low, whole, determinants.data(), progress) +
-        folds.Count(high, whole, step, positions, progress),
+    EXPECT_EQ(folds.Count(low, whole, determinants.data(), progress).Samples +
+        folds.Count(high, whole, step, positions, progress).Samples,
       found);
-    EXPECT_EQ(folds.Count({ {}, {} }, whole, determinants.data(), progress), 0);
+    EXPECT_EQ(folds.Count({ {}, {} }, whole, determinants.data(), progress).Samples, 0);
   }
   return found;
 }
