@@ -316,7 +316,7 @@ OTHERS = [
     E(CORE + "Flow/Steps/SweptMass.h", "isTurned ? «-1.0» : 1.0", "1.0"),
     E(CORE + "Flow/Steps/KeptStepChoices.h", "«options.AreaTolerance», particles", "0.02"),
     E(CORE + "Flow/Steps/ProbeBlocks.cxx", "«leastOfMean» * boxVolume", "10.0"),
-    E(CORE + "Flow/Steps/StepBudget.cxx", "constexpr double mostCost = «6.5»", "20.0"),
+    E(CORE + "Flow/Steps/StepBudget.cxx", "constexpr double mostCost = «8.0»", "20.0"),
     E(CORE + "Flow/Steps/SymmetricPlace.h", "IsMirrored(axis) ? «last - found» : found", "found"),
     E(CORE + "Quality/BlockErrors.cxx", "«(all + 999) / 1000»", "(all + 999) / 1000 + 1"),
     E(CORE + "Quality/MapFolds.cxx", "«!this->IsCorner(sample)» && this", "true"),

@@ -133,8 +133,9 @@ public:
       return {};
     }
     Images coarse = this->Move(FlowOptions::FewestSteps);
-    constexpr double smooth = 3.0; // the error of photographs with the fewest steps is below
-    int most = 0;                  // known when the fewest do not do
+    // The error of photographs with the fewest steps is below.
+    const double smooth = this->IsBackward ? 3.0 : 0.3;
+    int most = 0; // known when the fewest do not do
     for (Measured now{ FlowOptions::FewestSteps, 0.0 }, before;; now.Steps *= 2)
     {
       Images fine = this->Move(2 * now.Steps);

@@ -12,9 +12,10 @@ namespace RectifiedTransport
 namespace
 {
 
-// Times a run with the fewest steps: 8, and room for voids and for flow maps with many bad cells.
-constexpr double mostCost = 6.5;
-constexpr double mostCostIfSmooth = 8.0;
+// Times a run with the fewest steps. Forward with room for flow maps whose cells are all bad, as in
+// uneven noise.
+constexpr double mostCost = 8.0;
+constexpr double mostCostIfRough = 5.5;
 // The shares of particles that flow maps do not serve: of the fewest steps, as in photographs; of
 // more.
 constexpr double fewestBad = 0.0;
@@ -79,7 +80,9 @@ bool StepBudget<Dimension>::IsKept(int steps, double choice, bool isSmooth) cons
   for (std::size_t i = 0; i < this->Particles.size(); ++i)
   {
     const double ofChoice = i == 0 ? choice : 0.0;
-    const double most = (isSmooth ? mostCostIfSmooth : mostCost) * this->OfFewest[i];
+    const double times =
+      isSmooth || this->Direction == FlowDirection::Backward ? mostCost : mostCostIfRough;
+    const double most = times * this->OfFewest[i];
     if (ofChoice + this->Cost(steps, this->Particles[i], isSmooth ? badIfSmooth : bad) > most)
     {
       return false;
