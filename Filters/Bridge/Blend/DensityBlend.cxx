@@ -280,7 +280,8 @@ BlendReport DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
     {
       map.Make(density, settings, tables, progress, until);
       report.Moved += map.Moved();
-      const std::string warning = stepWarning(map.Flow(), settings.Options, FlowDirection::Forward, true);
+      const std::string warning =
+        stepWarning(map.Flow(), settings.Options, FlowDirection::Forward, true);
       if (!warning.empty())
       {
         report.Steps.push_back(inputs[i].Name + ": " + warning);
