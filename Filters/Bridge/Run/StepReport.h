@@ -47,7 +47,7 @@ inline std::string stepWarning(const FlowReport& flow, const FlowOptions& option
   text << "AreaTolerance " << options.AreaTolerance << " is not reached: with "
        << flow.NumberOfSteps << " steps"
        << (options.AreaTolerance == FlowOptions::UsualTolerance
-              ? ", as many as take 8 times as long as 32, "
+              ? ", the most that take at most 8 times as long as 32, "
               : ", the most that NumberOfSteps 0 takes, ")
        << (direction == FlowDirection::Backward ? "areas" : "masses") << " of blocks of ";
   areParticles ? text << std::round(particlesThatShow(options.AreaTolerance)) << " particles"
