@@ -197,10 +197,11 @@ class FollowingAdvice(unittest.TestCase):
         source = producer(simple, image)
         flat = simple.Calculator(Input=source, AttributeType="Cell Data", Function="Density + 100",
                                  ResultArrayName="Density")
-        for settings, words, cure in (({"Integrator": "Euler", "AreaTolerance": 0.05}, "(Integrator Multistep needs fewer)",
-                                       {"Integrator": "Multistep"}),
-                                      ({"Tables": "Tiled", "AreaTolerance": 0.021}, "a part of the mean added with Calculator",
-                                       {"Input": flat})):
+        cases = (({"Integrator": "Euler", "AreaTolerance": 0.05},
+                  "(Integrator Multistep needs fewer)", {"Integrator": "Multistep"}),
+                 ({"Tables": "Tiled", "AreaTolerance": 0.021},
+                  "a part of the mean added with Calculator", {"Input": flat}))
+        for settings, words, cure in cases:
             with self.subTest(**settings):
                 made = simple.TransportMap(Input=source, DensityArray=["CELLS", "Density"],
                                            Direction="DensityToUniform", **settings)
