@@ -87,12 +87,14 @@ class Distances(unittest.TestCase):
         i, j = np.triu_indices(len(self.PLACES), 1)
         truth = self.truth()[i, j]
         for method in (0, 1):
-            bounds = run(bells(*self.PLACES), Method=method).GetBounds()
+            distances = run(bells(*self.PLACES), Method=method)
+            bounds = distances.GetBounds()
             np.testing.assert_array_equal(column(bounds, "First"), i)
             np.testing.assert_array_equal(column(bounds, "Second"), j)
             lower, upper = column(bounds, "LowerBound"), column(bounds, "UpperBound")
             self.assertTrue((lower <= truth * (1 + 1e-9)).all())
             self.assertTrue((lower <= upper).all())
+            np.testing.assert_array_equal(matrix(distances)[i, j], lower if method else upper)
             self.assertTrue((lower >= truth * 0.99).all())
             self.assertTrue((upper >= truth * (1 - (1e-9 if method else 0.02))).all())
             self.assertTrue((upper <= truth * 1.06).all())

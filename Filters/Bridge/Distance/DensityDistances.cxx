@@ -282,7 +282,6 @@ std::vector<DistancePair> DensityDistances::FindAll(Progress& progress, double e
         pair.Lower = scale.LengthFromUnits(std::sqrt(found->second.Lower));
         pair.Upper = scale.LengthFromUnits(std::sqrt(found->second.Upper));
       }
-      pair.Distance = isCertified ? pair.Lower : pair.Upper;
       if (!isCertified)
       {
         const double least = leastSquaredDistance(this->Given[i].Moments, this->Given[j].Moments);
@@ -290,6 +289,7 @@ std::vector<DistancePair> DensityDistances::FindAll(Progress& progress, double e
         // Where both meet, the errors of the maps may part them the wrong way.
         pair.Upper = std::max(pair.Upper, pair.Lower);
       }
+      pair.Distance = isCertified ? pair.Lower : pair.Upper;
     }
   }
   return all;
