@@ -359,7 +359,7 @@ OTHERS = [
     E("Filters/vtkTransportAlgorithm.cxx", "«first != all.end()»)", "false"),
     # optimal maps
     S(CORE + "OptimalMap/PointMap.cxx", "smoothMap(this->There, progress);", ";"),
-    E(CORE + "OptimalMap/OptimalMap.cxx", "back.At(«map.Uncorrected(point.data()).data()»)", "point.data()"),
+    E(CORE + "OptimalMap/OptimalMap.cxx", "back.At(«map.Moving->Uncorrected(point.data()).data()»)", "point.data()"),
     E(CORE + "OptimalMap/Masses/MassCorrection.cxx", "moved[axis] - «move[axis]»", "0.5 * move[axis]"),
     E(CORE + "OptimalMap/Masses/AxisShares.h", "share * «(1.0 - middle)»;", "0.5"),
     E(CORE + "OptimalMap/Masses/NodeMasses.cxx", "(lumped - «side * side / 12.0»)", "0.0"),

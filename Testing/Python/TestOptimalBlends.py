@@ -109,6 +109,7 @@ class OptimalBlends(unittest.TestCase):
                            for x, y in (still, away))
             with self.subTest(name):
                 self.assertLess(moves[rest].mean(), most)
+                self.assertLess(np.quantile(moves[rest], 0.99), 0.1)
                 self.assertAlmostEqual(moves[moved].mean(), 0.25 * n, delta=0.01 * n)
                 flow = morph(filter_.GetInputDataObject(0, 0), filter_.GetInputDataObject(1, 0))
                 _, others = self.sound(flow)
@@ -168,8 +169,19 @@ class OptimalBlends(unittest.TestCase):
             _, particles = self.sound(morph(image, image, **properties))
             found = fields(particles)
             self.assertEqual(found["TransportCostLowerBound"], [0.0])
-            if "Certify" in properties:
-                self.assertEqual(found["OptimalityGap"], [0.0])
+            self.assertEqual(found["OptimalityGap"], [0.0])
+            self.assertLess(np.abs(points(particles, "Displacement")).max(), 1e-12)
+
+    def test_a_density_and_its_multiples(self):
+        values = np.clip(np.random.default_rng(1).random((24, 24)) - 0.3, 0, 1)
+        _, particles = self.sound(morph(image_of(values), image_of(3 * values), Method=1))
+        self.assertLess(np.abs(points(particles, "Displacement")).max(), 1e-3)
+        self.assertEqual(fields(particles)["OptimalityGap"], [0.0])
+        images = [image_of(factor * values) for factor in (1, 2, 3)]
+        _, particles = self.sound(barycenter(images, (1, 2, 1), Method=1))
+        found = fields(particles)
+        self.assertEqual(found["Functional"], [0.0])
+        self.assertEqual(found["OptimalityGap"], [0.0])
 
     def test_functional_of_barycenters(self):
         n = 64

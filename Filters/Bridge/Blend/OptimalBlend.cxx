@@ -227,13 +227,29 @@ private:
     return mean;
   }
 
+  // Whether the particles are at the same places in all these inputs, up to rounding: then the
+  // densities are the same, and their mean is where they are.
+  bool AreOne(const std::vector<std::size_t>& used)
+  {
+    constexpr double rounding = 1e-5; // of a cell; the flow amplifies that of the densities
+    const double most = rounding * std::pow(this->Settings.Geometry.CellMeasure(), 1.0 / D);
+    const double* first = this->Inputs[used.front()].Positions->GetPointer(0);
+    const bool areOne = std::all_of(used.begin() + 1, used.end(), [&](std::size_t i) {
+      const double* other = this->Inputs[i].Positions->GetPointer(0);
+      return other == first ||
+        std::equal(first, first + 3 * this->Count, other,
+          [=](double a, double b) { return std::abs(a - b) <= most; });
+    });
+    return onAllRanks(this->Work.Group(), areOne);
+  }
+
   // Alvarez-Esteban, del Barrio, Cuesta-Albertos and Matran, "A fixed-point approach to barycenters
   // in Wasserstein space", Journal of Mathematical Analysis and Applications 441, 2016: the
   // particles of a mean go to the mean of their images in the inputs, which lowers the functional.
   void BlendAll()
   {
     const std::vector<std::size_t> used = usedOf(this->Inputs);
-    if (used.size() == 1)
+    if (this->AreOne(used))
     {
       if (this->Settings.Optimal.IsOptimal)
       {

@@ -84,7 +84,9 @@ CorrectedMap<Dimension>::CorrectedMap(const PotentialSolver<Dimension>& solver, 
   const int cellsANode = areFew ? 2 : 1;
   SampleFineness fineness;
   fineness.Each = fineness.OfLightCells = areFew && Dimension == 3 ? 0.75 : 1.0;
-  ImageCloud<Dimension> cloud = sampleImages(this->Map, solver.Side(from), fineness, progress);
+  const SolverSide<Dimension>& source = solver.Side(from);
+  fineness = limitFineness(this->Map.AtNodes(), source.CellsOrNull(), fineness, progress);
+  ImageCloud<Dimension> cloud = sampleImages(this->Map, source, fineness, progress);
   this->Correction.emplace(
     target, sides, cellsANode, cloud.Points(), cloud.Masses.data(), progress);
   this->MeasureBlocks(target, cloud.Points(), cloud.Masses.data(), progress);

@@ -10,6 +10,7 @@
 #include "Core/OptimalMap/Masses/FinishSamples.h"
 #include "Core/OptimalMap/PairSlack.h"
 #include "Core/OptimalMap/PotentialSolver.h"
+#include "Core/OptimalMap/StillCells.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/SmallWork.h"
 
@@ -30,6 +31,7 @@ namespace
 {
 
 constexpr std::int64_t group = 64; // of particles that are read together
+constexpr double endOfImages = 0.9;
 
 void check(const OptimalMapOptions& options)
 {
@@ -143,20 +145,30 @@ struct OptimalMap<Dimension>::Implementation
       this->Parts[0][1] == pointOf<Dimension>(1.0);
   }
 
-  // The map from a side to the other one, made when it is first wanted.
-  const CorrectedMap<Dimension>& MapFrom(int side, Progress& progress, double end)
+  // The map from a side to the other one, made when it is first wanted. Not for what stands still:
+  // there is none if that is all.
+  struct Direction
+  {
+    std::optional<StillCells<Dimension>> Still;
+    std::optional<CorrectedMap<Dimension>> Moving;
+  };
+  const Direction& MapFrom(int side, Progress& progress, double end)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    auto& map = this->Maps[static_cast<std::size_t>(side)];
-    if (!map)
+    Direction& map = this->Maps[static_cast<std::size_t>(side)];
+    const auto to = static_cast<std::size_t>(1 - side);
+    progress.BeginStage(end);
+    if (!map.Still)
     {
-      progress.BeginStage(end);
-      const auto to = static_cast<std::size_t>(1 - side);
-      map.emplace(this->Solver, side, this->Densities[to], this->CellSides(to),
+      map.Still.emplace(this->Solver, side, this->Densities[to], progress);
+    }
+    if (!map.Moving && !map.Still->AreAll())
+    {
+      map.Moving.emplace(this->Solver, side, this->Densities[to], this->CellSides(to),
         this->Options.InterpolatePoints ? PointImages::Interpolated : PointImages::Inverted,
         progress);
     }
-    return *map;
+    return map;
   }
   // From the target back to the source, without corrected masses, made when it is first wanted.
   const PointMap<Dimension>& MapBack(Progress& progress)
@@ -183,7 +195,7 @@ struct OptimalMap<Dimension>::Implementation
   double Bound = 0.0;
   OptimalMapReport Info;
   std::mutex Mutex; // of the maps
-  std::array<std::optional<CorrectedMap<Dimension>>, 2> Maps;
+  std::array<Direction, 2> Maps;
   std::optional<PointMap<Dimension>> Back;
 };
 
@@ -265,7 +277,8 @@ template <int Dimension>
 double OptimalMap<Dimension>::MassError(const Context& context) const
 {
   Progress progress(contextForSize(context, this->Self->Nodes()));
-  return this->Self->MapFrom(0, progress, 1.0).MassError();
+  const auto& map = this->Self->MapFrom(0, progress, 1.0);
+  return map.Moving ? map.Moving->MassError() : 0.0;
 }
 
 template <int Dimension>
@@ -353,18 +366,32 @@ FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds
   constexpr double endOfMap = 0.4;
   constexpr double endOfPoints = 0.8;
   Progress progress(contextForSize(context, this->ValuesOf(positions)));
-  const CorrectedMap<Dimension>& map = this->MapFrom(side, progress, endOfMap);
+  const Direction& map = this->MapFrom(side, progress, endOfMap);
   const auto from = static_cast<std::size_t>(side);
   ParticleSource<Dimension> source(seeds, this->Densities[from].Size(), positions.size());
-  progress.BeginStage(seeds.AreSamples() ? endOfPoints : 1.0, source.Count());
+  const bool areFinished = seeds.AreSamples() && map.Moving;
+  // What stands still is finished with the others, and then returns.
+  const bool returns = areFinished && !map.Still->AreNone();
+  LargeBuffer<double> starts(returns ? positions.size() * Dimension : 0);
+  progress.BeginStage(areFinished ? endOfPoints : 1.0, source.Count());
   forParticles(source, progress, [&](std::int64_t index, const Point<Dimension>& point) {
-    const Point<Dimension> image = map.At(point.data());
+    Point<Dimension> image = point;
+    if (areFinished || !map.Still->Keep(image.data()))
+    {
+      image = map.Moving->At(point.data());
+    }
+    double* start = returns ? starts.data() + index * Dimension : nullptr;
+    std::copy_n(point.begin(), returns ? Dimension : 0, start);
     std::copy(image.begin(), image.end(), positions[index]);
   });
-  if (seeds.AreSamples())
+  if (areFinished)
   {
-    const auto to = static_cast<std::size_t>(1 - side);
-    finishSamples<Dimension>(this->Densities[to], this->CellSides(to), positions, progress);
+    finishSamples<Dimension>(
+      this->Densities[1 - from], this->CellSides(1 - from), positions, progress);
+  }
+  if (returns)
+  {
+    map.Still->Return(starts.data(), positions);
   }
   return {};
 }
@@ -375,12 +402,16 @@ FlowReport OptimalMap<Dimension>::Implementation::Undo(
 {
   constexpr double endOfMap = 0.4;
   Progress progress(contextForSize(context, this->ValuesOf(positions)));
-  const CorrectedMap<Dimension>& map = this->MapFrom(0, progress, endOfMap);
+  const Direction& map = this->MapFrom(0, progress, endOfMap);
   const PointMap<Dimension>& back = this->MapBack(progress);
   ParticleSource<Dimension> source(points, this->Densities[1].Size(), positions.size());
   progress.BeginStage(1.0, source.Count());
   forParticles(source, progress, [&](std::int64_t index, const Point<Dimension>& point) {
-    const Point<Dimension> image = back.At(map.Uncorrected(point.data()).data());
+    Point<Dimension> image = point;
+    if (!map.Still->KeepBack(image.data()))
+    {
+      image = back.At(map.Moving->Uncorrected(point.data()).data());
+    }
     std::copy(image.begin(), image.end(), positions[index]);
   });
   return {};
@@ -408,7 +439,6 @@ FlowReport OptimalMap<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds,
 {
   RectifiedTransport::check(times);
   checkCount(positions.size(), seeds.Count() * static_cast<double>(times.size()));
-  constexpr double endOfImages = 0.9;
   const auto several = static_cast<std::int64_t>(times.size());
   const std::int64_t count = positions.size() / several;
   LargeBuffer<double> coordinates(count * Dimension);
@@ -441,7 +471,6 @@ template <int Dimension>
 FlowReport OptimalMap<Dimension>::ForwardToCells(const FlowSeeds<Dimension>& seeds,
   std::int64_t* cells, const FlowOptions&, const Context& context) const
 {
-  constexpr double endOfImages = 0.9;
   std::int64_t count = seeds.Points().size();
   if (seeds.IsLattice())
   {

@@ -6,6 +6,7 @@
 #include "Core/OptimalMap/Nodes/NodeLevels.h"
 #include "Core/OptimalMap/OptimalMap.h"
 #include "Core/OptimalMap/PotentialSolver.h"
+#include "Core/OptimalMap/StillCells.h"
 
 #include <algorithm>
 #include <vector>
@@ -41,9 +42,10 @@ double OptimalMap<Dimension>::MemoryFor(const GridSize<Dimension>& source,
     std::max(nodes * PotentialSolver<Dimension>::BytesANode(threads), potentials + refined);
   // A map: two gradient maps and minimizers, and what samples and its correction take.
   const double gradients = nodes * real * (2.0 * Dimension + 1.0);
-  const double correcting =
+  const double correcting = StillCells<Dimension>::MemoryFor(grid.Cells) +
     nodes * real * 2.0 * (Dimension + 1.0) + MassCorrection<Dimension>::MemoryFor(target, 1);
-  const double kept = gradients + MassCorrection<Dimension>::MemoryKept(target, 1);
+  const double kept = StillCells<Dimension>::MemoryKept(target) + gradients +
+    MassCorrection<Dimension>::MemoryKept(target, 1);
   const double coupling =
     use.UpperBound ? nodes * real * Dimension + memoryForCoupling<Dimension>(target, grid) : 0.0;
   const double after = kept + std::max(MemoryForSamples(target, use), coupling);
@@ -59,8 +61,10 @@ template <int Dimension>
 double OptimalMap<Dimension>::MemoryForSamples(
   const GridSize<Dimension>& target, const OptimalMapUse& use)
 {
-  return use.Samples > 0.0 ? memoryForFinishing<Dimension>(target, use.Samples, use.OnSeveralRanks)
-                           : 0.0;
+  constexpr double starts = Dimension * sizeof(double); // of each, where some stand still
+  return use.Samples > 0.0
+    ? starts * use.Samples + memoryForFinishing<Dimension>(target, use.Samples, use.OnSeveralRanks)
+    : 0.0;
 }
 
 template double OptimalMap<1>::MemoryFor(

@@ -384,6 +384,7 @@ void PotentialSolver<Dimension>::FindDefect(Scratch& scratch, int side, Progress
     fineness.OfLightCells = 0.5;
     fineness.LightMass = 1.0; // the mean
   }
+  fineness = limitFineness(scratch.Map, other.CellsOrNull(), fineness, progress);
   pushForward<Dimension>(scratch.Map, other.CellsOrNull(), fineness, scratch.Sums, progress);
   const double share = 1.0 / static_cast<double>(this->Nodes.NumberOfCells());
   const double* hats = own.Hats.data();

@@ -70,6 +70,7 @@ public:
 
   const NodeGrid<Dimension>& Grid() const { return this->Nodes; }
   const SolverSide<Dimension>& Side(int side) const { return this->Sides[Index(side)]; }
+  const CellDensity<Dimension>& Density(int side) const { return this->Given[Index(side)].Density; }
   // Not above the least squared distance; may be below 0.
   double Bound() const { return this->BoundNow - this->Rounding; }
   // The bound on twice as many nodes along each axis, if they are not more than the most, else

@@ -3,6 +3,10 @@
 
 #include "Core/Parallel/Progress.h"
 
+#include <cmath>
+#include <numeric>
+#include <vector>
+
 namespace RectifiedTransport
 {
 
@@ -141,6 +145,46 @@ void smoothMap(NodeMap<Dimension>& map, Progress& progress)
 template void smoothMap<1>(NodeMap<1>&, Progress&);
 template void smoothMap<2>(NodeMap<2>&, Progress&);
 template void smoothMap<3>(NodeMap<3>&, Progress&);
+template SampleFineness limitFineness<1>(
+  const NodeMap<1>&, const double*, SampleFineness, Progress&);
+template SampleFineness limitFineness<2>(
+  const NodeMap<2>&, const double*, SampleFineness, Progress&);
+template SampleFineness limitFineness<3>(
+  const NodeMap<3>&, const double*, SampleFineness, Progress&);
+template <int Dimension>
+SampleFineness limitFineness(
+  const NodeMap<Dimension>& map, const double* masses, SampleFineness fineness, Progress& progress)
+{
+  constexpr std::int64_t apart = 8; // rows
+  constexpr double most = 4.0;      // samples a cell
+  constexpr int attempts = 4;       // as each cell has a sample, the first may be too many
+  const std::int64_t cells = map.Grid.Cells[0];
+  const std::int64_t rows = (ImageSamples<Dimension>::NumberOfRows(map.Grid) + apart - 1) / apart;
+  for (int attempt = 0; attempt < attempts; ++attempt)
+  {
+    std::vector<double> counts(static_cast<std::size_t>(rows));
+    progress.Threads().For(
+      rows, std::max<std::int64_t>(1, 1024 / cells), [&](std::int64_t first, std::int64_t last) {
+        ImageSamples<Dimension> samples(map, fineness);
+        for (std::int64_t row = first; row < last; ++row)
+        {
+          counts[static_cast<std::size_t>(row)] = samples.CountRow(apart * row, masses);
+        }
+      });
+    progress.Check();
+    const double all = std::accumulate(counts.begin(), counts.end(), 0.0);
+    const double each = all / static_cast<double>(rows * cells);
+    if (each <= most)
+    {
+      break;
+    }
+    const double part = std::pow(most / each, 1.0 / Dimension);
+    fineness.Each *= part;
+    fineness.OfLightCells *= part;
+  }
+  return fineness;
+}
+
 template void writeGradientMap<1>(const double*, NodeMap<1>&, Progress&);
 template void writeGradientMap<2>(const double*, NodeMap<2>&, Progress&);
 template void writeGradientMap<3>(const double*, NodeMap<3>&, Progress&);

@@ -137,6 +137,22 @@ public:
     }
   }
 
+  // How many samples that would visit.
+  double CountRow(std::int64_t row, const double* masses)
+  {
+    this->FindCorners(row);
+    this->MeasureExtents();
+    const std::int64_t first = row * this->Map.Grid.Cells[0];
+    double count = 0.0;
+    for (std::int64_t i = 0; i < this->Map.Grid.Cells[0]; ++i)
+    {
+      const double mass = masses ? masses[first + i] : 1.0;
+      int parts[3] = { 1, 1, 1 };
+      count += mass != 0.0 ? this->Divide(i, mass, parts) : 0;
+    }
+    return count;
+  }
+
 private:
   static constexpr int Lines = 1 << (Dimension - 1); // of nodes about a row
   static constexpr int MostSamples = 64;
@@ -232,22 +248,29 @@ private:
     }
   }
 
-  template <class Visit>
-  void ForCell(std::int64_t i, std::int64_t cell, double mass, const Visit& visit)
+  // The parts along each axis of a cell of the row. Returns how many these are.
+  int Divide(std::int64_t i, double mass, int (&parts)[3])
   {
     constexpr double tolerance = 0.02; // of an extent just above a whole number
-    CellSample<Dimension> sample{ cell, mass, {}, {} };
     const double fineness =
       mass < this->Fineness.LightMass ? this->Fineness.OfLightCells : this->Fineness.Each;
-    int parts[3] = { 1, 1, 1 };
     int all = 1;
     for (int axis = 0; axis < Dimension; ++axis)
     {
       const double wanted = std::ceil(this->Extent(axis)[i] * fineness - tolerance);
       parts[axis] = static_cast<int>(std::clamp(wanted, 1.0, 1.0 * MostSamples));
-      sample.Parts[Index(axis)] = parts[axis];
       all *= parts[axis];
     }
+    return all;
+  }
+
+  template <class Visit>
+  void ForCell(std::int64_t i, std::int64_t cell, double mass, const Visit& visit)
+  {
+    CellSample<Dimension> sample{ cell, mass, {}, {} };
+    int parts[3] = { 1, 1, 1 };
+    const int all = this->Divide(i, mass, parts);
+    std::copy_n(parts, Dimension, sample.Parts.begin());
     Point<Dimension> image;
     if (all == 1)
     {
@@ -319,6 +342,13 @@ private:
   std::vector<double> Scratch;
   std::array<std::array<const double*, Lines>, Dimension> Corners{};
 };
+
+// A fineness, or a lower one for maps that stretch most cells, as those of noise do: there are
+// about four samples a cell at most, by those of every eighth row, so that the time is that of
+// other maps. Adds no units to the current stage. Throws Cancelled.
+template <int Dimension>
+SampleFineness limitFineness(
+  const NodeMap<Dimension>& map, const double* masses, SampleFineness fineness, Progress& progress);
 
 } // namespace RectifiedTransport
 

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/OptimalMap/StillCells.h"
+
+#include "Core/Geometry/LatticePart.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+
+constexpr double leastSame = 1.0 - 2e-3; // of the larger of two masses that are the same
+constexpr double mostSlack = 0.02;       // of the squared distance of nodes
+constexpr std::size_t fewest = 16;       // cells of a part, unless voids are all about it
+constexpr double mostMove = 0.2;         // in the mean of a part, in cells between nodes
+// What may cross a part's border, of its mass, and of that of the cells beyond: where more does,
+// these move far, and the part may move with them.
+constexpr double mostCrossing = 2e-4;
+constexpr double mostBeyond = 1.5;
+
+// Of the cells between nodes.
+enum Cell : unsigned char
+{
+  Empty,
+  Moving,
+  MayBeStill,
+  Still
+};
+
+template <int Dimension>
+double lengthOf(const Point<Dimension>& vector)
+{
+  double square = 0.0;
+  for (const double v : vector)
+  {
+    square += v * v;
+  }
+  return std::sqrt(square);
+}
+
+template <int Dimension>
+class StillParts
+{
+public:
+  StillParts(const PotentialSolver<Dimension>& solver, int from, Progress& progress)
+    : Grid(solver.Grid())
+    , Nodes(LatticePart<Dimension>::WholeOf(solver.Grid().Cells))
+    , Potential(solver.Side(from).Potential.data())
+    , Other(solver.Side(1 - from).Potential.data())
+    , SourceCells(solver.Side(from).CellsOrNull())
+    , TargetCells(solver.Side(1 - from).CellsOrNull())
+    , Work(progress)
+    , Map(NodeMap<Dimension>::On(solver.Grid()))
+    , Kinds(this->Nodes.Count())
+  {
+    double shortest = this->Grid.Spacing[0];
+    double diagonal = 0.0;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double spacing = this->Grid.Spacing[axis];
+      const double side = spacing * static_cast<double>(this->Grid.Cells[axis]);
+      shortest = std::min(shortest, spacing);
+      diagonal += side * side;
+    }
+    constexpr double rounding = 1e-15;
+    this->Most = mostSlack * shortest * shortest + rounding * diagonal;
+  }
+
+  void Find()
+  {
+    this->Classify();
+    const std::int64_t count = this->Nodes.Count();
+    unsigned char* kinds = this->Kinds.data();
+    if (std::find(kinds, kinds + count, MayBeStill) == kinds + count)
+    {
+      return;
+    }
+    writeGradientMap<Dimension>(this->Potential, this->Map, this->Work);
+    smoothMap<Dimension>(this->Map, this->Work); // of its stairs
+    for (std::int64_t cell = 0; cell < count; ++cell)
+    {
+      if (kinds[cell] == MayBeStill)
+      {
+        this->Decide(cell);
+      }
+    }
+  }
+
+  // Whether the cells that a box, in cells between nodes, overlaps stand still.
+  bool AreStill(const Point<Dimension>& low, const Point<Dimension>& high) const
+  {
+    constexpr double rounding = 1e-6;
+    LatticePart<Dimension> box;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const std::int64_t last = this->Grid.Cells[axis] - 1;
+      const auto begin = static_cast<std::int64_t>(std::floor(low[axis] + rounding));
+      const auto end = static_cast<std::int64_t>(std::ceil(high[axis] - rounding));
+      box.Low[axis] = std::clamp<std::int64_t>(begin, 0, last);
+      box.Cells[axis] = std::clamp<std::int64_t>(end, begin + 1, last + 1) - box.Low[axis];
+    }
+    for (std::int64_t i = 0; i < box.Count(); ++i)
+    {
+      if (this->Kinds.data()[this->Nodes.NumberOf(box.CellOf(i))] != Still)
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+private:
+  static constexpr int Corners = 1 << Dimension;
+
+  static double MassOf(const double* cells, std::int64_t cell) { return cells ? cells[cell] : 1.0; }
+
+  // The node at the lowest corner.
+  std::int64_t NodeOf(const GridSize<Dimension>& place) const
+  {
+    std::int64_t node = 0;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      node += place[axis] * this->Grid.Stride(axis);
+    }
+    return node;
+  }
+  std::int64_t CornerOf(std::int64_t node, int corner) const
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      node += ((corner >> axis) & 1) * this->Grid.Stride(axis);
+    }
+    return node;
+  }
+
+  void Classify()
+  {
+    this->Work.For(this->Nodes.Count(), grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t cell = first; cell < last; ++cell)
+      {
+        const double source = MassOf(this->SourceCells, cell);
+        const double target = MassOf(this->TargetCells, cell);
+        const auto [less, more] = std::minmax(source, target);
+        const bool mayBeStill = more > 0.0 && less >= leastSame * more &&
+          this->SlackAbout(this->NodeOf(this->Nodes.CellOf(cell))) <= this->Most;
+        this->Kinds.data()[cell] = !(more > 0.0) ? Empty : mayBeStill ? MayBeStill : Moving;
+      }
+    });
+  }
+
+  // The least that the two potentials are below the cost of a node to itself.
+  double SlackAbout(std::int64_t node) const
+  {
+    double least = -(this->Potential[node] + this->Other[node]);
+    for (int corner = 1; corner < Corners; ++corner)
+    {
+      const std::int64_t at = this->CornerOf(node, corner);
+      least = std::min(least, -(this->Potential[at] + this->Other[at]));
+    }
+    return least;
+  }
+
+  // The way that the map moves a cell, in cells.
+  Point<Dimension> MoveOf(const GridSize<Dimension>& place) const
+  {
+    const std::int64_t node = this->NodeOf(place);
+    Point<Dimension> move;
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
+    {
+      double sum = 0.0;
+      for (int corner = 0; corner < Corners; ++corner)
+      {
+        sum += this->Map.Images[axis].data()[this->CornerOf(node, corner)];
+      }
+      move[axis] = sum / Corners - (static_cast<double>(place[axis]) + 0.5);
+    }
+    return move;
+  }
+
+  // Takes the connected part of a cell, and decides whether it stands still.
+  void Decide(std::int64_t cell)
+  {
+    constexpr std::size_t interval = 1 << 14; // cells between two polls
+    unsigned char* kinds = this->Kinds.data();
+    this->Part.assign(1, cell);
+    kinds[cell] = Still;
+    double mass = 0.0;
+    double moved = 0.0;
+    double crossing = 0.0;
+    double beyond = 0.0;
+    for (std::size_t next = 0; next < this->Part.size(); ++next)
+    {
+      if (next % interval == interval - 1)
+      {
+        this->Work.Check();
+      }
+      const std::int64_t own = this->Part[next];
+      const GridSize<Dimension> place = this->Nodes.CellOf(own);
+      const double ownMass = MassOf(this->TargetCells, own);
+      const Point<Dimension> move = this->MoveOf(place);
+      mass += ownMass;
+      moved += ownMass * lengthOf<Dimension>(move);
+      std::int64_t step = 1;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        for (const std::int64_t to : { -step, step })
+        {
+          const bool isBorder = place[axis] == (to < 0 ? 0 : this->Grid.Cells[axis] - 1);
+          const std::int64_t neighbour = isBorder ? own : own + to;
+          if (kinds[neighbour] == Moving)
+          {
+            crossing += ownMass * std::min(0.5, std::abs(move[axis]));
+            beyond += MassOf(this->TargetCells, neighbour);
+          }
+          if (kinds[neighbour] == MayBeStill)
+          {
+            kinds[neighbour] = Still;
+            this->Part.push_back(neighbour);
+          }
+        }
+        step *= this->Grid.Cells[axis];
+      }
+    }
+    const bool isClosed = crossing <= std::max(mostCrossing * mass, mostBeyond * beyond);
+    const bool isFew = this->Part.size() < fewest && beyond > 0.0;
+    if (isFew || moved > mostMove * mass || !isClosed)
+    {
+      for (const std::int64_t own : this->Part)
+      {
+        kinds[own] = Moving;
+      }
+    }
+  }
+
+  const NodeGrid<Dimension>& Grid;
+  const LatticePart<Dimension> Nodes;
+  const double* Potential;
+  const double* Other;
+  const double* SourceCells;
+  const double* TargetCells;
+  Progress& Work;
+  NodeMap<Dimension> Map;
+  LargeBuffer<unsigned char> Kinds;
+  std::vector<std::int64_t> Part;
+  double Most = 0.0; // slack
+};
+
+} // namespace
+
+template <int Dimension>
+StillCells<Dimension>::StillCells(const PotentialSolver<Dimension>& solver, int from,
+  const CellDensity<Dimension>& target, Progress& progress)
+  : SourceSize(solver.Density(from).Size())
+  , Size(target.Size())
+  , SourcePlacement(solver.Side(from).Placement)
+  , TargetPlacement(solver.Side(1 - from).Placement)
+{
+  StillParts<Dimension> parts(solver, from, progress);
+  parts.Find();
+  const auto cells = LatticePart<Dimension>::WholeOf(this->Size);
+  LargeBuffer<unsigned char> areStill(target.NumberOfCells());
+  constexpr int none = 1;
+  constexpr int all = 2;
+  // Whether none and all of the cells with mass stand still.
+  const int found = reduceChunks(
+    progress, target.NumberOfCells(), grain, none | all,
+    [&](std::int64_t first, std::int64_t last) {
+      int ofChunk = none | all;
+      for (std::int64_t cell = first; cell < last; ++cell)
+      {
+        Point<Dimension> low;
+        Point<Dimension> high;
+        const GridSize<Dimension> place = cells.CellOf(cell);
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          low[axis] = static_cast<double>(place[axis]);
+          high[axis] = low[axis] + 1.0;
+        }
+        const bool hasMass = target.Share(cell) > 0.0;
+        const bool isStill = hasMass &&
+          parts.AreStill(
+            this->TargetPlacement.ToNodes(low.data()), this->TargetPlacement.ToNodes(high.data()));
+        areStill.data()[cell] = isStill ? 1 : 0;
+        ofChunk &= isStill ? all : hasMass ? none : none | all;
+      }
+      return ofChunk;
+    },
+    [](int whole, int part) { return whole & part; });
+  this->All = found == all;
+  // From the uniform measure to a density, cells of the mean density are no things that stand.
+  const bool areThings = solver.Side(0).CellsOrNull() && solver.Side(1).CellsOrNull();
+  if (found == 0 && areThings)
+  {
+    this->AreStill = std::move(areStill);
+  }
+}
+
+template <int Dimension>
+bool StillCells<Dimension>::Have(const double* image) const
+{
+  std::int64_t cell = 0;
+  for (int axis = Dimension; axis-- > 0;)
+  {
+    const auto cells = static_cast<double>(this->Size[axis]);
+    if (!(image[axis] >= 0.0 && image[axis] <= cells))
+    {
+      return false;
+    }
+    cell = cell * this->Size[axis] + static_cast<std::int64_t>(std::min(image[axis], cells - 1.0));
+  }
+  return this->AreStill.data()[cell] != 0;
+}
+
+template <int Dimension>
+bool StillCells<Dimension>::Stay(const CellPlacement<Dimension>& from,
+  const CellPlacement<Dimension>& to, const GridSize<Dimension>& size, double* point) const
+{
+  if (this->AreNone())
+  {
+    return false;
+  }
+  Point<Dimension> moved;
+  std::copy_n(point, Dimension, moved.begin());
+  if (from.Low != to.Low || from.Sides != to.Sides) // conversions would round
+  {
+    moved = to.FromNodes(from.ToNodes(point).data());
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      moved[axis] = std::clamp(moved[axis], 0.0, static_cast<double>(size[axis]));
+    }
+  }
+  const bool isStill =
+    this->All || this->Have(&to == &this->TargetPlacement ? moved.data() : point);
+  if (isStill)
+  {
+    std::copy(moved.begin(), moved.end(), point);
+  }
+  return isStill;
+}
+
+template <int Dimension>
+bool StillCells<Dimension>::Keep(double* point) const
+{
+  return this->Stay(this->SourcePlacement, this->TargetPlacement, this->Size, point);
+}
+
+template <int Dimension>
+bool StillCells<Dimension>::KeepBack(double* image) const
+{
+  return this->Stay(this->TargetPlacement, this->SourcePlacement, this->SourceSize, image);
+}
+
+template <int Dimension>
+void StillCells<Dimension>::Return(const double* points, PointSpan<Dimension> images) const
+{
+  for (std::int64_t i = 0; i < images.size(); ++i)
+  {
+    Point<Dimension> point;
+    std::copy_n(points + i * Dimension, Dimension, point.begin());
+    if (this->Keep(point.data()))
+    {
+      std::copy(point.begin(), point.end(), images[i]);
+    }
+  }
+}
+
+template <int Dimension>
+double StillCells<Dimension>::MemoryKept(const GridSize<Dimension>& target)
+{
+  return numberOfCells<Dimension>(target);
+}
+
+template <int Dimension>
+double StillCells<Dimension>::MemoryFor(const GridSize<Dimension>& nodes)
+{
+  // A kind, and the list of a part; and a map.
+  constexpr double each = 1.0 + sizeof(std::int64_t);
+  return each * numberOfCells<Dimension>(nodes) +
+    sizeof(double) * Dimension * numberOfCorners<Dimension>(nodes);
+}
+
+template class StillCells<1>;
+template class StillCells<2>;
+template class StillCells<3>;
+
+} // namespace RectifiedTransport
