@@ -22,29 +22,42 @@
 namespace RectifiedTransport
 {
 
+constexpr std::size_t hugePageBytes = std::size_t{ 1 } << 21;
+
+// Of so many bytes, those that lie on huge pages, a multiple of these. The system clears a page
+// whole, and counts all of it as used. Hence a rest lies on one of them only if it takes a good
+// part of the page, and what it leaves unused is little beside all bytes: buffers of a megabyte
+// that are kept by the hundred would take twice their size.
+constexpr std::size_t bytesOnHugePages(std::size_t bytes)
+{
+  // From this part of a huge page on, clearing it is faster than clearing the small pages.
+  constexpr std::size_t worthwhile = hugePageBytes / 8;
+  constexpr std::size_t mostUnused = 8; // a part of all bytes
+  const std::size_t rest = bytes % hugePageBytes;
+  const bool isWorthwhile = rest >= worthwhile && hugePageBytes - rest <= bytes / mostUnused;
+  return bytes - rest + (isWorthwhile ? hugePageBytes : 0);
+}
+
 // Free it with freeLarge; null if there is no memory.
 inline void* allocateLarge(std::size_t bytes)
 {
-  constexpr std::size_t hugePage = std::size_t{ 1 } << 21;
   constexpr std::size_t line = 64;
   if (bytes > std::numeric_limits<std::size_t>::max() / 2)
   {
     return nullptr;
   }
-  // From this part of a huge page on, clearing it is faster than clearing the small pages.
-  constexpr std::size_t worthwhile = hugePage / 8;
-  const std::size_t alignment = bytes >= hugePage / 2 ? hugePage : line;
+  const std::size_t onHugePages = bytesOnHugePages(bytes);
+  const std::size_t alignment = onHugePages > 0 ? hugePageBytes : line;
 #ifdef _WIN32
   void* memory = _aligned_malloc(bytes + 1, alignment);
 #else
   void* memory = std::aligned_alloc(alignment, (bytes + alignment) / alignment * alignment);
 #endif
 #ifdef __linux__
-  if (memory && alignment == hugePage)
+  if (memory && onHugePages > 0)
   {
-    // A hint: without huge pages everything is slower. A small rest stays on small pages, because
-    // the system would clear the unused part of a huge page.
-    (void)madvise(memory, (bytes + hugePage - worthwhile) / hugePage * hugePage, MADV_HUGEPAGE);
+    // A hint: without huge pages everything is slower.
+    (void)madvise(memory, onHugePages, MADV_HUGEPAGE);
   }
 #endif
   return memory;
