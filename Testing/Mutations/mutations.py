@@ -371,7 +371,7 @@ OTHERS = [
       "potential[i]"),
     S(CORE + "OptimalMap/PointMap.cxx", "this->Improve(place, image);", ";"),
     E(CORE + "OptimalMap/PairSlack.cxx", "sum += 0.5 * h * h * «part * (1.0 - part)»;", "0.0"),
-    E(CORE + "OptimalMap/OptimalMap.cxx", "if («seeds.AreSamples()»)", "false"),
+    E(CORE + "OptimalMap/OptimalMap.cxx", "if («areFinished»)", "false"),
     S(CORE + "OptimalMap/Masses/FinishSamples.cxx", "gatherParts(ranks, starts, all.data());", ";"),
     E(BRIDGE + "Density/SharedFlow.cxx", "if («needs.Setting.NeedsMap()»)", "false"),
     E(BRIDGE + "Density/OptimalMemory.h", "this->Setting.IsOptimal ? «this->Samples» : 0.0", "0.0"),
