@@ -9,6 +9,7 @@
 #include "Bridge/Pipeline/RequestedTimes.h"
 #include "Bridge/Points/IgnoredFlags.h"
 #include "Bridge/Points/PointInput.h"
+#include "Bridge/Ranks/FieldsOfFirst.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
@@ -201,6 +202,12 @@ int vtkCollectiveAlgorithm::GatherAndRun(
     this->IsAlone = false;
   }
   this->ShareOutputs(*this->Run, outputVector);
+  // The others have those of their inputs, which the executive passed on.
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    RectifiedTransport::takeFieldsOfFirst(
+      vtkDataObject::GetData(outputVector, port)->GetFieldData(), *this->Run);
+  }
   return result;
 }
 

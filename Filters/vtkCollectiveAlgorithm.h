@@ -143,7 +143,7 @@ protected:
 
   /**
    * For a constructor. If a port is gathered, all are that are not whole. The other ranks then have
-   * empty outputs, except for what ShareOutputs gives them.
+   * empty outputs with the field data of the first rank's, and what ShareOutputs gives them.
    */
   void SetPortPolicy(int port, PortPolicyType policy);
 

@@ -253,8 +253,7 @@ int vtkEqualMassCells::RequestData(
     announceGrid(gridOf(labels, false), outputVector->GetInformationObject(0));
   }
   const std::int64_t sites = input->GetNumberOfPoints();
-  for (vtkDataObject* output :
-    { static_cast<vtkDataObject*>(labels), static_cast<vtkDataObject*>(outputs.Sites) })
+  for (vtkDataObject* output : outputs.All())
   {
     addFieldValue(output, "OutsideSites", static_cast<double>(report.Outside));
     addFieldValue(output, "SitesWithoutMass", static_cast<double>(report.WithoutMass));

@@ -49,7 +49,7 @@
  *   sides of pixels, and a cell of several parts or with holes has several polygons. In 1D and 3D
  *   it is empty.
  *
- * Labels and Sites have the field data `TransportCost`: the mean of |x - site|_p^q over the pixels'
+ * All outputs have the field data `TransportCost`: the mean of |x - site|_p^q over the pixels'
  * centres x, an upper bound on W_p^q from the pixels' centres to the sites. With Shape Power,
  * masses, centroids and costs are integrals over the polygons, TransportCost is W_2^2 from the
  * uniform measure to the sites, Polygons are those polygons and Outlines their sides. With Measure

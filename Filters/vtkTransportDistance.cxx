@@ -5,6 +5,7 @@
 #include "Bridge/Distance/DensityDistances.h"
 #include "Bridge/Distance/DistanceTables.h"
 #include "Bridge/Inputs/GivenInputs.h"
+#include "Bridge/Ranks/FieldsOfFirst.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 
@@ -248,6 +249,7 @@ int vtkTransportDistance::RequestData(
     writeBounds(inputs.size(), pairs, vtkTable::GetData(outputVector, 1));
     writeCoordinates(inputs, pairs, this->Dimensions, progress, vtkTable::GetData(outputVector, 2));
   }
+  takeFieldsOfFirst(vtkTable::GetData(outputVector, 2)->GetFieldData(), this->GetRanks());
   return 1;
 }
 

@@ -2,7 +2,6 @@
 #include "Bridge/Ranks/ImagePieces.h"
 
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Ranks/DataSetBytes.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/Failure.h"
 #include "Core/Parallel/RankExchange.h"
@@ -14,8 +13,6 @@
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
 #include "vtkNew.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -67,23 +64,6 @@ std::string describe(const double* numbers, std::size_t count)
     os << (i == 0 ? "" : " ") << numbers[i];
   }
   return os.str();
-}
-
-// The field data of the first rank, as those of a data set.
-vtkSmartPointer<vtkDataSet> fieldsOfFirst(vtkFieldData* own, const Ranks& ranks)
-{
-  Bytes bytes;
-  if (ranks.Own() == 0)
-  {
-    vtkNew<vtkPoints> point; // without any VTK sends text, which rounds
-    point->InsertNextPoint(0.0, 0.0, 0.0);
-    vtkNew<vtkPolyData> fields;
-    fields->SetPoints(point);
-    fields->GetFieldData()->ShallowCopy(own);
-    bytes = bytesOfDataSet(fields);
-  }
-  const Bytes first = ranks.Gather(bytes).front();
-  return dataSetOfBytes(first.data(), first.size());
 }
 
 } // namespace
@@ -253,7 +233,8 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
 void distributeImage(vtkImageData* image, vtkInformation* output, const Ranks& ranks)
 {
   const ImagePieces pieces(image, ranks);
-  const vtkSmartPointer<vtkDataSet> fields = fieldsOfFirst(image->GetFieldData(), ranks);
+  vtkNew<vtkFieldData> fields;
+  fields->ShallowCopy(image->GetFieldData());
   if (isEmpty(pieces.Whole()))
   {
     return;
@@ -262,7 +243,7 @@ void distributeImage(vtkImageData* image, vtkInformation* output, const Ranks& r
   const Extent wanted = extentToGive(grid.Extent(), output, ranks);
   const vtkSmartPointer<vtkImageData> part = pieces.Gather(wanted);
   image->ShallowCopy(part);
-  image->GetFieldData()->ShallowCopy(fields->GetFieldData());
+  image->GetFieldData()->ShallowCopy(fields);
   announceGrid(grid, output);
 }
 

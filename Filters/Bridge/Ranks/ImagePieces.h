@@ -65,7 +65,7 @@ private:
 };
 
 // If the first rank has an image and the others have none: gives each rank the extent that is
-// requested of its output, with all arrays, and the field data to all; announces the whole extent.
+// requested of its output, with all arrays; announces the whole extent. Field data stay.
 // Collective.
 void distributeImage(vtkImageData* image, vtkInformation* output, const Ranks& ranks);
 

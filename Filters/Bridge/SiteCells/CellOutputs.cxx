@@ -70,6 +70,11 @@ void movePoints(std::vector<Point<3>>& from, vtkPolyData* to)
 
 } // namespace
 
+std::array<vtkDataObject*, 4> CellOutputs::All() const
+{
+  return { this->Labels, this->Sites, this->Outlines, this->Polygons };
+}
+
 void writeSites(vtkPointSet* sites, vtkPointSet* output)
 {
   output->CopyStructure(sites);
@@ -90,8 +95,10 @@ void addStatistics(
   outputs.Sites->GetPointData()->AddArray(masses);
   outputs.Sites->GetPointData()->AddArray(centroids);
   outputs.Sites->GetPointData()->AddArray(costs);
-  addFieldValue(outputs.Labels, "TransportCost", cost);
-  addFieldValue(outputs.Sites, "TransportCost", cost);
+  for (vtkDataObject* output : outputs.All())
+  {
+    addFieldValue(output, "TransportCost", cost);
+  }
 }
 
 template <int Dimension>

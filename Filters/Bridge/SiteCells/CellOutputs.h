@@ -8,9 +8,11 @@
 #include "Core/SiteCells/SiteCellPolygons.h"
 #include "Core/SiteCells/SiteCellStatistics.h"
 
+#include <array>
 #include <functional>
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkDataObject;
 class vtkImageData;
 class vtkPointSet;
 class vtkPolyData;
@@ -27,6 +29,8 @@ struct CellOutputs
   vtkPointSet* Sites;
   vtkPolyData* Outlines;
   vtkPolyData* Polygons;
+
+  std::array<vtkDataObject*, 4> All() const;
 };
 
 // Points in double precision, and all data.
