@@ -127,10 +127,12 @@ public:
 
   ///@{
   /**
-   * Whether the other numeric arrays of images, of cells and points, come out, too. Between two
-   * steps a value is the mean, by mass, of those that the particles around it bring along; each of
-   * them is linear in time from one end of the particle's way to the other. Where there is no mass,
-   * it is linear in time at its place. Integers are rounded. On by default.
+   * Whether the other arrays of images, of cells and points, come out, too. Between two steps a
+   * floating-point value is the mean, by mass, of those that the particles around it bring along;
+   * each of them is linear in time from one end of the particle's way to the other. Where there is
+   * no mass, it is linear in time at its place. Integers, bits and texts are labels: each value is
+   * that of one of the steps, the one that has most of the mass there, or without mass that of the
+   * nearer step at the place. On by default.
    */
   vtkSetMacro(CarryArrays, vtkTypeBool);
   vtkGetMacro(CarryArrays, vtkTypeBool);

@@ -19,6 +19,7 @@ points = np.array([image.GetPoint(i) for i in range(image.GetNumberOfPoints())])
 squared = ((points - [2 + 2 * time, 3, 4 + time]) ** 2).sum(1)
 output.PointData.append(np.where(squared < 20, np.exp(-squared / 6) * (1 + time), 0), "smoke")
 output.PointData.append(points[:, 0] * time, "other")
+output.PointData.append((2.0 ** 62 + points[:, 0] * 4096 + 1024 * time).astype(np.int64), "label")
 """
 # The second step has smaller cells.
 FINER = STEP + """

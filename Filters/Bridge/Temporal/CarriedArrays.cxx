@@ -13,8 +13,6 @@
 #include "vtkPointData.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace RectifiedTransport
 {
@@ -83,25 +81,13 @@ double between(double first, double second, double part)
   return part <= 0.0 ? first : part >= 1.0 ? second : (1.0 - part) * first + part * second;
 }
 
-double valueFor(vtkDataArray* array, double value)
-{
-  const int type = array->GetDataType();
-  if (type == VTK_DOUBLE || type == VTK_FLOAT)
-  {
-    return value;
-  }
-  return std::isnan(value)
-    ? 0.0
-    : std::clamp(std::round(value), array->GetDataTypeMin(), array->GetDataTypeMax());
-}
-
 } // namespace
 
 bool isCarried(const CarryingImage& image, int owner, vtkAbstractArray* array)
 {
   const bool isDensity = array && array->GetName() && image.Density == array->GetName() &&
     owner == (image.Grid.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL);
-  return vtkDataArray::SafeDownCast(array) && array->GetName() && !isDensity &&
+  return array && array->GetName() && !isDensity &&
     array->GetName() != std::string(vtkDataSetAttributes::GhostArrayName()) &&
     array->GetNumberOfTuples() == image.Image->GetNumberOfElements(owner);
 }
@@ -146,6 +132,11 @@ void CarriedArrays::MakeOf(int owner, const CarryingImage& first, const Carrying
       }
     }
   }
+  const auto labels = std::stable_partition(names.begin(), names.end(),
+    [&](const std::string& name) { return !isOfLabels(find(first, name.c_str())); });
+  this->Labels[owner == vtkDataObject::POINT ? 1 : 0].Make(
+    owner, { labels, names.end() }, first, second, particles);
+  names.erase(labels, names.end());
   if (names.empty())
   {
     return;
@@ -161,10 +152,6 @@ void CarriedArrays::MakeOf(int owner, const CarryingImage& first, const Carrying
   for (const std::string& name : names)
   {
     vtkDataArray* from = atFrom->GetArray(name.c_str());
-    if (!from)
-    {
-      continue; // ids, between which there is nothing
-    }
     const auto like = vtkSmartPointer<vtkDataArray>::Take(from->NewInstance());
     like->SetNumberOfComponents(from->GetNumberOfComponents());
     like->CopyComponentNames(from);
@@ -173,7 +160,7 @@ void CarriedArrays::MakeOf(int owner, const CarryingImage& first, const Carrying
   }
 }
 
-void CarriedArrays::Write(const Moment& moment, const ImageGrid& geometry,
+void CarriedArrays::Write(const CarriedMoment& moment, const ImageGrid& geometry,
   const SplatOptions& splat, const Extent& wanted, Progress& progress, vtkImageData* output) const
 {
   for (const int owner : { vtkDataObject::CELL, vtkDataObject::POINT })
@@ -191,22 +178,25 @@ void CarriedArrays::Write(const Moment& moment, const ImageGrid& geometry,
       if (!mass)
       {
         mass = newArray<vtkDoubleArray>("Mass", 1, box.Count());
-        splatDistributed(
-          moment.Points, moment.Masses, 0.0, moment.Numbers, target, box, progress, mass);
+        splatDistributed(moment.Clouds.Points, moment.Clouds.Masses, 0.0, moment.Numbers, target,
+          box, progress, mass);
       }
       this->WriteOne(carried, moment, target, box, mass, progress, output);
     }
+    const CarriedLabels& labels = this->Labels[owner == vtkDataObject::POINT ? 1 : 0];
+    labels.Write(moment, geometry, wanted, progress, output);
   }
 }
 
-void CarriedArrays::WriteOne(const Carried& carried, const Moment& moment,
+void CarriedArrays::WriteOne(const Carried& carried, const CarriedMoment& moment,
   const SplatTarget& target, const TupleBox& wanted, vtkDoubleArray* mass, Progress& progress,
   vtkImageData* output) const
 {
+  const MovedClouds& clouds = moment.Clouds;
   const auto& [first, second] = carried.OfParticles;
   const auto& [firstHere, secondHere] = carried.InPlace;
   const int components = first->GetNumberOfComponents();
-  const std::int64_t particles = moment.Points->GetNumberOfTuples();
+  const std::int64_t particles = clouds.Points->GetNumberOfTuples();
   const TupleBox all = tuplesOf(target.Geometry.Extent(), carried.Owner, target.Geometry.Extent());
   const auto made = vtkSmartPointer<vtkDataArray>::Take(carried.Like->NewInstance());
   made->SetName(carried.Name.c_str());
@@ -219,15 +209,15 @@ void CarriedArrays::WriteOne(const Carried& carried, const Moment& moment,
   for (int c = 0; c < components; ++c)
   {
     double* moved = moments->GetPointer(0);
-    const double* a = first->GetPointer(c) + components * moment.Begin;
-    const double* b = second->GetPointer(c) + components * moment.Begin;
+    const double* a = first->GetPointer(c) + components * clouds.First;
+    const double* b = second->GetPointer(c) + components * clouds.First;
     progress.For(particles, grain, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i)
       {
-        moved[i] = moment.Masses[i] * between(a[components * i], b[components * i], moment.Part);
+        moved[i] = clouds.Masses[i] * between(a[components * i], b[components * i], clouds.Part);
       }
     });
-    splatDistributed(moment.Points, moved, 0.0, moment.Numbers, target, wanted, progress, sums);
+    splatDistributed(clouds.Points, moved, 0.0, moment.Numbers, target, wanted, progress, sums);
     const double* here = firstHere->GetPointer(c);
     const double* later = secondHere->GetPointer(c);
     double* sum = sums->GetPointer(0);
@@ -236,12 +226,12 @@ void CarriedArrays::WriteOne(const Carried& carried, const Moment& moment,
       {
         const std::int64_t place = components * all.NumberOf(wanted.CellOf(i));
         const double weight = mass->GetValue(i);
-        sum[i] = weight > 0.0 ? sum[i] / weight : between(here[place], later[place], moment.Part);
+        sum[i] = weight > 0.0 ? sum[i] / weight : between(here[place], later[place], clouds.Part);
       }
     });
     for (std::int64_t i = 0; i < wanted.Count(); ++i)
     {
-      made->SetComponent(i, c, valueFor(made, sum[i]));
+      made->SetComponent(i, c, sum[i]);
     }
   }
   output->GetAttributes(carried.Owner)->AddArray(made);

@@ -5,6 +5,8 @@
 
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Splat/MassSplat.h"
+#include "Bridge/Temporal/CarriedLabels.h"
+#include "Bridge/Temporal/MovedClouds.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/ImageGrid.h"
 
@@ -35,34 +37,31 @@ struct CarryingImage
   std::string Density;
 };
 
-// Whether an array of an image may be carried: numeric, with a name, and neither the density nor
-// ghosts.
+// The particles of an interval at a moment.
+struct CarriedMoment
+{
+  MovedClouds Clouds;          // their numbers are those of Make
+  const std::int64_t* Numbers; // as splatDistributed takes them
+  bool Chains;                 // each particle is of both steps
+};
+
+// Whether an array of an image may be carried: with a name, and neither the density nor ghosts.
 bool isCarried(const CarryingImage& image, int owner, vtkAbstractArray* array);
 
-// A value is the mean, by mass, of those of the particles around a cell or point. Each of them
-// moves linearly in time from the value where the particle begins to that where it ends. Where
-// there is no mass, the value at the place itself does so.
+// A floating-point value is the mean, by mass, of those of the particles around a cell or point.
+// Each of them moves linearly in time from the value where the particle begins to that where it
+// ends. Where there is no mass, the value at the place itself does so. Other arrays are labels.
 class CarriedArrays
 {
 public:
-  // Of arrays that both images have with one type and number of components, except ids of points.
-  // Runs as the current stage. Throws Failure and Cancelled.
+  // Of arrays that both images have with one type and number of components. Runs as the current
+  // stage. Throws Failure and Cancelled.
   void Make(const CarryingImage& first, const CarryingImage& second,
     const MovingParticles& particles, const ImageGrid& geometry, Progress& progress);
   // The names of arrays that one of the two lacks.
   const std::vector<std::string>& Missing() const { return this->Lacking; }
-  bool IsEmpty() const { return this->Arrays.empty(); }
-
-  struct Moment
-  {
-    double Part;            // of the interval
-    vtkDoubleArray* Points; // of the particles
-    const double* Masses;
-    std::int64_t Begin;          // the first point's place among the particles of Make
-    const std::int64_t* Numbers; // as splatDistributed takes them
-  };
   // Adds the arrays on an extent of the image. Runs as the current stage. Collective.
-  void Write(const Moment& moment, const ImageGrid& geometry, const SplatOptions& splat,
+  void Write(const CarriedMoment& moment, const ImageGrid& geometry, const SplatOptions& splat,
     const Extent& wanted, Progress& progress, vtkImageData* output) const;
 
 private:
@@ -77,10 +76,11 @@ private:
   };
   void MakeOf(int owner, const CarryingImage& first, const CarryingImage& second,
     const MovingParticles& particles, const ImageGrid& geometry, Progress& progress);
-  void WriteOne(const Carried& carried, const Moment& moment, const SplatTarget& target,
+  void WriteOne(const Carried& carried, const CarriedMoment& moment, const SplatTarget& target,
     const TupleBox& wanted, vtkDoubleArray* mass, Progress& progress, vtkImageData* output) const;
 
   std::vector<Carried> Arrays;
+  std::array<CarriedLabels, 2> Labels; // of cells and of points
   std::vector<std::string> Lacking;
 };
 

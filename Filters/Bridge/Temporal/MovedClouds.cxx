@@ -2,6 +2,7 @@
 #include "Bridge/Temporal/MovedClouds.h"
 
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Temporal/CloudRows.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
@@ -23,29 +24,6 @@ namespace
 {
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
-constexpr double largestCloud = 8.0; // in cells of the output
-
-template <int D>
-Point<D> cellLengths(const ImageGrid& grid)
-{
-  Point<D> lengths = grid.Lengths<D>();
-  const GridSize<D> size = grid.Size<D>();
-  for (int axis = 0; axis < D; ++axis)
-  {
-    lengths[axis] /= static_cast<double>(size[axis]);
-  }
-  return lengths;
-}
-
-// The lengths of the cells of a step, in those of another grid.
-template <int D>
-Point<D> lengthsInCells(const ImageGrid& step, const ImageGrid& grid)
-{
-  Point<D> lengths = cellLengths<D>(step);
-  const Point<D> units = cellLengths<D>(grid);
-  std::transform(lengths.begin(), lengths.end(), units.begin(), lengths.begin(), std::divides<>());
-  return lengths;
-}
 
 // Of a cell's length, if its places are the centres of a finer grid.
 template <int D>
@@ -82,32 +60,6 @@ double stretch(double before, double after, bool hasBefore, bool hasAfter)
     return more < 2.0 * less ? 0.5 * (less + more) : less;
   }
   return hasBefore ? before : hasAfter ? after : 1.0;
-}
-
-// The cells that a cloud covers along an axis, and the parts of it in each.
-struct CloudRow
-{
-  std::int64_t First;
-  int Count;
-  double Parts[static_cast<int>(largestCloud) + 2];
-};
-
-CloudRow rowOf(double centre, double length, std::int64_t cells)
-{
-  const double end = static_cast<double>(cells);
-  const double half = 0.5 * std::clamp(length, 1e-6, largestCloud);
-  const double low = std::clamp(centre - half, 0.0, end - 1e-6);
-  const double high = std::max(std::clamp(centre + half, 0.0, end), low + 1e-6);
-  CloudRow row;
-  row.First = static_cast<std::int64_t>(low);
-  row.Count = 0;
-  for (std::int64_t cell = row.First; static_cast<double>(cell) < high && cell < cells; ++cell)
-  {
-    const double from = std::max(low, static_cast<double>(cell));
-    const double to = std::min(high, static_cast<double>(cell + 1));
-    row.Parts[row.Count++] = (to - from) / (high - low);
-  }
-  return row;
 }
 
 using Counters = std::unique_ptr<std::atomic<std::int64_t>[]>;
@@ -163,26 +115,18 @@ void deposit(const MovedClouds& clouds, const ImageGrid& geometry, int exponent,
   const double scales[2] = { std::ldexp(1.0, exponent / 2),
     std::ldexp(1.0, exponent - exponent / 2) };
   const GridSize<D> size = geometry.Size<D>();
-  const Point<D> lengths[2] = { lengthsInCells<D>(clouds.FirstGrid, geometry),
-    lengthsInCells<D>(clouds.SecondGrid, geometry) };
+  const CloudPlaces<D> places(clouds, geometry);
   const bool isAlone = progress.Threads().Concurrency() == 1;
-  const double* x = clouds.Points->GetPointer(0);
-  const float* from = clouds.Sizes.From.data() + D * clouds.First;
-  const float* to = clouds.Sizes.To.data() + D * clouds.First;
   progress.For(
     clouds.Points->GetNumberOfTuples(), grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         double index[D];
-        geometry.ToIndex<D>(x + 3 * i, index);
-        geometry.ClampToDomain<D>(index);
+        places.Centre(i, index);
         CloudRow rows[D];
-        const Point<D>& unit = lengths[clouds.First + i < clouds.OfFirst ? 0 : 1];
         for (int axis = 0; axis < D; ++axis)
         {
-          const double length =
-            (1.0 - clouds.Part) * from[D * i + axis] + clouds.Part * to[D * i + axis];
-          rows[axis] = rowOf(index[axis], length * unit[axis], size[axis]);
+          rows[axis] = cloudRow(index[axis], places.Length(i, axis), size[axis]);
         }
         addCloud<D>(rows, size, clouds.Masses[i] * scales[0] * scales[1], isAlone, cells);
       }

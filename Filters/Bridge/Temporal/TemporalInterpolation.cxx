@@ -347,11 +347,12 @@ void TemporalInterpolation::WriteImage(const Interval& interval, const TemporalS
   const std::int64_t* order = ranks.AreSeveral() ? numbers.data() + this->Begin : nullptr;
   const double* masses = this->Masses->GetPointer(0);
   const CloudSizes& sizes = interval.Particles.Sizes;
+  const MovedClouds clouds{ this->Points, masses, sizes, this->Begin, part, interval.First->Grid,
+    interval.Second->Grid, interval.Particles.OfFirst };
   if (settings.Splat.Kernel == SplatKernel::CloudInCell && !sizes.IsEmpty())
   {
-    splatClouds({ this->Points, masses, sizes, this->Begin, part, interval.First->Grid,
-                  interval.Second->Grid, interval.Particles.OfFirst },
-      geometry, std::max(interval.First->Mass, interval.Second->Mass), box, progress, density);
+    splatClouds(clouds, geometry, std::max(interval.First->Mass, interval.Second->Mass), box,
+      progress, density);
   }
   else
   {
@@ -360,8 +361,8 @@ void TemporalInterpolation::WriteImage(const Interval& interval, const TemporalS
   output.Image->GetAttributes(ownerOf(geometry))->SetScalars(density);
   if (settings.Carries)
   {
-    interval.Arrays.Write({ part, this->Points, masses, this->Begin, order }, geometry,
-      settings.Splat, wanted, progress, output.Image);
+    interval.Arrays.Write(
+      { clouds, order, interval.Chains }, geometry, settings.Splat, wanted, progress, output.Image);
   }
 }
 
