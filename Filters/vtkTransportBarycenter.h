@@ -15,7 +15,7 @@
  *
  * Cost and memory: see vtkTransportBlend. The maps are kept. A change of the weights only computes
  * means and splats: 25 barycenters of 4 densities cost 4 maps and 25 splats. Weights 1, 0, 0 ...
- * give the first density, up to the resolution of the kernel and the number of particles.
+ * give the first density.
  *
  * @sa vtkTransportBlend vtkTransportInterpolator vtkMassSplatter
  */

@@ -129,7 +129,8 @@ int vtkTransportBlend::RequestInformation(
     grids.begin(), grids.end(), [](const NamedGrid& grid) { return grid.Grid.IsEmpty(); });
   if (areKnown && !grids.empty())
   {
-    announceDensity(commonGrid(grids, this->Dimensions), outputVector->GetInformationObject(0));
+    announceDensity(commonGrid(grids, this->Dimensions, MostCells::OfTheLargest),
+      outputVector->GetInformationObject(0));
   }
   return 1;
 }

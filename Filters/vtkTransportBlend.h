@@ -19,14 +19,20 @@
  * a density, counted for each input, and were put on the nearest mass. When maps are made, a
  * warning counts theirs if they are at least one in a thousand of the particles.
  *
- * The grid of the output does not depend on the weights. Unless Dimensions are set, it covers the
- * smallest box that holds all domains, at the finest spacing along each axis. Numbers of cells are
- * rounded up, and the box grows at its upper end. If the inputs have the same geometry, up to the
- * rounding of single precision, the grid is exactly that of the first input.
+ * The grid of the output does not depend on the weights. If the inputs have the same geometry, up
+ * to the rounding of single precision, the grid is exactly that of the first input. Else, unless
+ * Dimensions are set, it covers the smallest box that holds all domains, at the finest spacing along
+ * each axis, or the least multiple of it that makes no more cells than the input with most of them
+ * has. Numbers of cells are rounded up, and the box grows at its upper end.
+ *
+ * At a weight of 1 `Density` is that of the input as it is read, times the factor of MassMode: to
+ * the bit, if that is 1 and the input is on the grid of the output, else by exact overlap. Within
+ * 0.1 of that weight the cells of the input move with the particles, with a share that falls
+ * linearly to 0.
  *
  * Cost: O(cells) for the tables and O(particles * steps) for the map of each input, once. The maps
  * are kept until a density, the integration, ParticlesPerCell or the grid changes. A change of the
- * weights costs O(particles + cells). Memory: 24 bytes a particle for each input and 48 for the
+ * weights costs O(particles + cells), a few times as much near a weight of 1. Memory: 24 bytes a particle for each input and 48 for the
  * output, 8 bytes a cell, and while a map is made the tables of one density (see Tables). Particles
  * and cells are distributed over the ranks.
  *
@@ -89,7 +95,7 @@ public:
   ///@{
   /**
    * The number of values of the output along the image's x, y and z, on the smallest box that holds
-   * all domains; 0: by the finest spacing. At least 0 each; along an axis of one point 0 or 1; for
+   * all domains; 0: by the rule above. At least 0 each; along an axis of one point 0 or 1; for
    * point data 0 or at least 2 along the others. Default 0 0 0.
    */
   vtkSetVector3Macro(Dimensions, int);

@@ -17,9 +17,8 @@
  * physical units. It does not depend on Parameter. It is an upper bound on W2^2 between the
  * densities, each divided by its mass.
  *
- * Parameter 0 gives the source and 1 the target, up to the resolution of the kernel and the number
- * of particles. Cost and memory: see vtkTransportBlend. The maps are kept: a change of Parameter or
- * of the time only interpolates and splats.
+ * Parameter 0 gives the source and 1 the target. Cost and memory: see vtkTransportBlend. The maps
+ * are kept: a change of Parameter or of the time only interpolates and splats.
  *
  * With PublishTime on, the filter is a time source on [0,1] with NumberOfTimeSteps steps: the
  * requested time replaces Parameter. If the inputs have times, their first time is requested, so

@@ -107,6 +107,8 @@ def result(proxy, values, domain=None):
         filter_.SetNumberOfPoints(30)
     if hasattr(filter_, "SetResolution"):
         filter_.SetResolution(resolution)
+    if hasattr(filter_, "SetNumberOfWeights"):  # a single density comes out as it is
+        filter_.AddInputDataObject(0, density_image(shape, seed=5))
     if hasattr(filter_, "SetTargetData") and "Target" in by_label(proxy.label).inputs:
         filter_.SetTargetData(density_image(shape, seed=5))
     if domain:

@@ -95,6 +95,11 @@ def give_blends():
               "twice": (image, image), "wider": (other, wider), "wider first": (wider, other)}
     for name, (source, target) in inputs.items():
         give_both("morph " + name, morph(Input=source, Target=target, Parameter=0.3, **usual))
+    for parameter in (0.0, 0.03, 0.98, 1.0):
+        for name in ("points", "flat", "mixed", "wider"):
+            source, target = inputs[name]
+            give_both("morph %s %g" % (name, parameter), morph(
+                Input=source, Target=target, Parameter=parameter, **usual))
     for count in (2, 3, 4, 8):
         give_both("morph of %d" % count, morph(
             Input=image, Target=long, ParticlesPerCell=count, **usual))

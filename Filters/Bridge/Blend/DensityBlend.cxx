@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blend/DensityBlend.h"
 
+#include "Bridge/Blend/MovedInput.h"
 #include "Bridge/Blend/ParticlePositions.h"
 #include "Bridge/Density/CostBound.h"
 #include "Bridge/Density/CostModel.h"
@@ -55,7 +56,7 @@ ImageGrid gridBetween(const std::vector<BlendInput>& inputs, const int dimension
   {
     grids.push_back({ input.Density->Grid(), input.Name });
   }
-  return commonGrid(grids, dimensions);
+  return commonGrid(grids, dimensions, MostCells::OfTheLargest);
 }
 
 std::array<std::int64_t, 3> cellsOf(const ImageGrid& geometry)
@@ -178,8 +179,7 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
   }
   const double particles = maps + partOfParticles * (1.0 - maps);
   this->WriteParticles(inputs, geometry, massEach, progress, particles, output.Particles);
-  progress.BeginStage(1.0);
-  this->WriteDensity(target, massEach, wanted, progress, output.Density);
+  this->WriteDensity(inputs, target, { mass, massEach }, wanted, progress, output.Density);
   const std::int64_t movedInAll =
     std::accumulate(this->Maps.begin(), this->Maps.end(), std::int64_t{ 0 },
       [](std::int64_t sum, const LinearizedMap& map) { return sum + map.Moved(); });
@@ -208,17 +208,41 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
   return report;
 }
 
-// As the work of the current stage.
-void DensityBlend::WriteDensity(const SplatTarget& target, double massEach, Extent wanted,
-  Progress& progress, vtkImageData* output)
+// At a weight of 1 the density of that input; near it, more and more of that density as its cells
+// move, so that there is no jump; else that of the particles. Takes the progress to its end.
+void DensityBlend::WriteDensity(const std::vector<BlendInput>& inputs, const SplatTarget& target,
+  const BlendMass& mass, Extent wanted, Progress& progress, vtkImageData* output)
 {
+  constexpr double nearby = 0.1; // how far below 1 a weight is near it
+  constexpr double rounding = 1e-9;
+  constexpr double partOfSplat = 0.3;
   const ImageGrid& geometry = target.Geometry;
   const int owner = geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
   const TupleBox box = tuplesOf(wanted, owner, geometry.Extent());
   output->SetExtent(wanted.data());
   reuseOrMake(this->Density, "Density", 1, box.Count());
-  splatDistributed(this->Means, nullptr, massEach, nullptr, target, box, progress, this->Density);
   output->GetAttributes(owner)->SetScalars(this->Density);
+  const auto heaviest = std::max_element(inputs.begin(), inputs.end(),
+    [](const BlendInput& a, const BlendInput& b) { return a.Weight < b.Weight; });
+  const auto number = static_cast<std::size_t>(heaviest - inputs.begin());
+  const double linear = 1.0 - (1.0 - heaviest->Weight) / nearby;
+  const double share = linear > rounding ? linear : 0.0;
+  const MovedInput input{ *heaviest->Density, this->Maps[number].TotalMass(), share * mass.All,
+    this->Found.Positions[number], this->Means };
+  if (heaviest->Weight == 1.0)
+  {
+    progress.BeginStage(1.0);
+    writeInput(input, geometry, box, progress, this->Density->GetPointer(0));
+    return;
+  }
+  const double begin = progress.StageEnd();
+  progress.BeginStage(share > 0.0 ? begin + partOfSplat * (1.0 - begin) : 1.0);
+  splatDistributed(
+    this->Means, nullptr, (1.0 - share) * mass.Each, nullptr, target, box, progress, this->Density);
+  if (share > 0.0)
+  {
+    addMovedInput(input, geometry, box, progress, 1.0, this->Density->GetPointer(0));
+  }
 }
 
 // Assigns to each input the kept map of its density, whatever input had it before, or an empty one.

@@ -82,6 +82,12 @@ struct BlendReport
   std::vector<std::string> Steps; // a warning for each new map that does not keep its tolerance
 };
 
+struct BlendMass
+{
+  double All;
+  double Each; // of a particle
+};
+
 class DensityBlend
 {
 public:
@@ -109,8 +115,8 @@ private:
   void WriteParticles(const std::vector<BlendInput>& inputs, const ImageGrid& geometry,
     double massEach, Progress& progress, double end, vtkPolyData* output);
   void WriteVertices(Progress& progress, vtkPolyData* output);
-  void WriteDensity(const SplatTarget& target, double massEach, Extent wanted, Progress& progress,
-    vtkImageData* output);
+  void WriteDensity(const std::vector<BlendInput>& inputs, const SplatTarget& target,
+    const BlendMass& mass, Extent wanted, Progress& progress, vtkImageData* output);
 
   std::vector<LinearizedMap> Maps;
   // The particles' positions in the inputs, and what an optimal map says of them.

@@ -23,7 +23,7 @@ ImageGrid boxOf(const NamedGrid& source, const NamedGrid& target)
   {
     values[axis] = source.Grid.IsAxis(axis) ? 2 : 1;
   }
-  return commonGrid({ source, target }, values);
+  return commonGrid({ source, target }, values, MostCells::Any);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Image/CommonGrid.h"
 
+#include "Bridge/Image/BoxAdvice.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
@@ -11,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 
 namespace RectifiedTransport
 {
@@ -155,7 +158,8 @@ void requireAlike(const NamedGrid& first, const NamedGrid& other)
     if (!a[i].IsAxis && std::abs(a[i].Low - b[i].Low) > planeTolerance * longest)
     {
       fail(first.Name, " lies at ", axis, " = ", a[i].Low, ", ", other.Name, " at ", axis, " = ",
-        b[i].Low, "; images that are flat along an axis must lie in one plane");
+        b[i].Low, "; images that are flat along an axis must lie in one plane (",
+        samePlaneAdvice(first.Grid, other.Grid, i), ")");
     }
   }
 }
@@ -186,8 +190,8 @@ struct Union
 {
   double Low;
   double Length;
-  double Finest;
-  double Cells; // rounded up, but not what is rounding itself; may exceed an integer
+  double Finest; // or a multiple of it
+  double Cells;  // rounded up, but not what is rounding itself; may exceed an integer
   double Sign;
 };
 
@@ -209,9 +213,64 @@ Union uniteSides(const std::vector<Sides>& all, std::size_t axis)
   return { low, high - low, finest, cells, sign };
 }
 
+// Along one axis at a multiple of the finest spacing; at least `least`.
+double cellsAt(const Union& axis, double factor, double least)
+{
+  constexpr double exact = 1.0 - 1e-12; // a spacing that divides the box adds no cell
+  return factor > 1.0 ? std::max(least, std::ceil(exact * axis.Length / (axis.Finest * factor)))
+                      : axis.Cells;
+}
+
+// Makes spacings larger, all by the least factor with which there are no more cells than `most`,
+// but `least` along each axis.
+void coarsen(std::vector<Union>& axes, double most, double least)
+{
+  const auto isMore = [&](double factor) {
+    double cells = 1.0;
+    bool isLeast = true;
+    for (const Union& axis : axes)
+    {
+      cells *= cellsAt(axis, factor, least);
+      isLeast = isLeast && cellsAt(axis, factor, least) <= least;
+    }
+    return cells > most && !isLeast;
+  };
+  double below = 1.0;
+  double factor = 1.0;
+  while (isMore(factor))
+  {
+    below = factor;
+    factor *= 2.0;
+  }
+  for (double middle = 0.5 * (below + factor); middle > below && middle < factor;
+       middle = 0.5 * (below + factor))
+  {
+    (isMore(middle) ? below : factor) = middle;
+  }
+  // Cells along one of the axes fill the box then, but for rounding.
+  double filling = factor;
+  for (const Union& axis : axes)
+  {
+    const double own = axis.Length / (axis.Finest * cellsAt(axis, factor, least));
+    filling =
+      factor > 1.0 && std::abs(own - factor) < 1e-11 * factor ? std::max(filling, own) : filling;
+  }
+  for (Union& axis : axes)
+  {
+    axis.Cells = cellsAt(axis, factor, least);
+    axis.Finest *= filling;
+  }
+}
+
+double cellsOf(const Sides& sides)
+{
+  return std::accumulate(sides.begin(), sides.end(), 1.0,
+    [](double cells, const Side& side) { return side.IsAxis ? cells * side.Cells : cells; });
+}
+
 } // namespace
 
-ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3])
+ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3], MostCells limit)
 {
   const ImageGrid& first = grids.front().Grid;
   std::vector<Sides> all{ sidesOf(first, first.Direction()) };
@@ -233,39 +292,62 @@ ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3
 
   constexpr double most = MaximumResolution;
   Sides sides = all.front();
-  std::array<Union, 3> unions;
+  std::vector<Union> unions;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (sides[i].IsAxis)
+    {
+      unions.push_back(uniteSides(all, i));
+    }
+  }
+  if (limit == MostCells::OfTheLargest)
+  {
+    std::vector<double> cells;
+    std::transform(all.begin(), all.end(), std::back_inserter(cells), cellsOf);
+    // Points have no axis where there is one of them.
+    coarsen(unions, *std::max_element(cells.begin(), cells.end()), first.IsOnPoints() ? 2.0 : 1.0);
+  }
+  auto axis = unions.cbegin();
   for (std::size_t i = 0; i < 3; ++i)
   {
     if (!sides[i].IsAxis)
     {
       continue;
     }
-    unions[i] = uniteSides(all, i);
-    if (!(unions[i].Cells <= most) && dimensions[i] == 0)
+    const Union& side = *axis++;
+    if (!(side.Cells <= most) && dimensions[i] == 0)
     {
-      fail("The box of all inputs at the finest spacing has ", unions[i].Cells, " cells along ",
-        "xyz"[i], "; give ", property, " of at most ", MaximumResolution);
+      fail("The box of all inputs at the finest spacing has ", side.Cells, " cells along ",
+        "xyz"[i], "; it must have at most ", MaximumResolution);
     }
-    const double cells = std::min(unions[i].Cells, most);
-    sides[i].Low = unions[i].Sign * unions[i].Low;
+    const double cells = std::min(side.Cells, most);
+    sides[i].Low = side.Sign * side.Low;
     sides[i].Cells = static_cast<int>(cells);
-    sides[i].Spacing = unions[i].Sign * unions[i].Length / cells;
+    sides[i].Spacing = side.Sign * side.Length / cells;
   }
   const Sides exact =
     sidesOf(gridWithValues(withSides(first, sides), dimensions, property), first.Direction());
+  axis = unions.cbegin();
   for (std::size_t i = 0; i < 3; ++i)
   {
     sides[i] = exact[i];
-    if (sides[i].IsAxis && dimensions[i] == 0)
+    if (!sides[i].IsAxis)
     {
-      sides[i].Spacing = unions[i].Sign * unions[i].Finest;
+      continue;
     }
-    if (sides[i].IsAxis)
+    const Union& side = *axis++;
+    sides[i].Low = side.Sign * side.Low;
+    if (dimensions[i] == 0)
     {
-      sides[i].Low = unions[i].Sign * unions[i].Low;
+      sides[i].Spacing = side.Sign * side.Finest;
     }
   }
   return withSides(first, sides);
+}
+
+bool haveSameCells(const ImageGrid& a, const ImageGrid& b)
+{
+  return a == b || isSame(sidesOf(a, a.Direction()), sidesOf(b, a.Direction()));
 }
 
 void requireSameBox(const NamedGrid& first, const NamedGrid& other)
@@ -288,8 +370,7 @@ void requireSameBox(const NamedGrid& first, const NamedGrid& other)
     {
       fail(other.Name, " reaches from ", textOf(others[0]), " to ", textOf(others[1]), " along ",
         "xyz"[i], ", ", first.Name, " from ", textOf(ends[0]), " to ", textOf(ends[1]),
-        "; all must fill the same box (Resample To Image with the same Sampling Bounds makes it "
-        "so)");
+        "; all must fill the same box (", sameBoxAdvice(first.Grid, other.Grid), ")");
     }
   }
 }

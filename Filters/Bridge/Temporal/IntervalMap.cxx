@@ -58,7 +58,7 @@ template <int D>
 void IntervalMap<D>::Solve(double samples, Progress& progress, double end)
 {
   const ImageGrid box =
-    commonGrid({ { this->From.Grid, "" }, { this->To.Grid, "" } }, anyDimensions);
+    commonGrid({ { this->From.Grid, "" }, { this->To.Grid, "" } }, anyDimensions, MostCells::Any);
   OptimalSetting setting;
   setting.IsOptimal = true;
   const OptimalMemory memory = memoryOfPair<D>(this->From.Grid.template Size<D>(),

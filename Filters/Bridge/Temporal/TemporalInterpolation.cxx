@@ -53,7 +53,8 @@ ImageGrid gridBetween(const TemporalStep& first, const TemporalStep& second)
 {
   constexpr int any[3] = { 0, 0, 0 };
   return commonGrid(
-    { { first.Density->Grid, first.Title }, { second.Density->Grid, second.Title } }, any);
+    { { first.Density->Grid, first.Title }, { second.Density->Grid, second.Title } }, any,
+    MostCells::Any);
 }
 
 double massAt(const TemporalMoment& moment)

@@ -97,7 +97,7 @@ void checkDimensions(Checks& checks)
     target->SetOrigin(sameBox ? 0.0 : 1.5, 0.0, 0.0);
     auto morph = makeMorph(source, target);
     BlendErrorTest test(checks, morph);
-    test.ExpectNone(sameBox ? 30 : 40, __LINE__);
+    test.ExpectNone(sameBox ? 30 : 24, __LINE__);
     morph->SetDimensions(4, -1, 0);
     test.Expect("Dimensions is 4 -1 0; it must be 0 (as many as ", __LINE__);
     morph->SetDimensions(4, 4, 4);
@@ -137,12 +137,9 @@ void checkMemory(Checks& checks)
   test.Expect("Not enough memory for 1152921504606846976 particles", __LINE__);
   morph->SetDimensions(0, 0, 0);
 
-  // Two boxes far apart, at a fine spacing.
+  // Two boxes far apart: no more cells than one of them has.
   target->SetOrigin(1e15, 0.0, 0.0);
-  test.Expect(
-    "The box of all inputs at the finest spacing has 1e+15 cells along x; give Dimensions "
-    "of at most 1073741824",
-    __LINE__);
+  test.ExpectNone(1200, __LINE__);
   morph->SetDimensions(50, 30, 1);
   test.ExpectNone(1500, __LINE__);
   morph->SetDimensions(0, 0, 0);

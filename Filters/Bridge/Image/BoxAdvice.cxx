@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Image/BoxAdvice.h"
+
+#include "Bridge/Run/PropertyCheck.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Enlarges a box by the corners of an image; beyond its points there is nothing to be sampled.
+void addPoints(const ImageGrid& grid, Eigen::Vector3d& low, Eigen::Vector3d& high)
+{
+  const std::array<int, 6>& extent = grid.Extent();
+  for (std::size_t corner = 0; corner < 8; ++corner)
+  {
+    Eigen::Vector3d steps;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const auto a = static_cast<Eigen::Index>(axis);
+      steps[a] = grid.Spacing()[a] * extent[2 * axis + (corner >> axis & 1)];
+    }
+    const Eigen::Vector3d place = grid.Origin() + grid.Direction() * steps;
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
+}
+
+std::string translateOf(const ImageGrid& grid, Eigen::Index axis)
+{
+  const Eigen::Vector3d normal = grid.Direction().col(axis).normalized();
+  const auto first = static_cast<double>(grid.Extent()[2 * static_cast<std::size_t>(axis)]);
+  const Eigen::Vector3d place = grid.Origin() + normal * (grid.Spacing()[axis] * first);
+  std::string text;
+  for (Eigen::Index i = 0; i < 3; ++i)
+  {
+    const double move = -place.dot(normal) * normal[i];
+    text += (i > 0 ? " " : "") + textOf(move == 0.0 ? 0.0 : move);
+  }
+  return text;
+}
+
+} // namespace
+
+std::string sameBoxAdvice(const ImageGrid& first, const ImageGrid& other)
+{
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(HUGE_VAL);
+  Eigen::Vector3d high = -low;
+  addPoints(first, low, high);
+  addPoints(other, low, high);
+  const Eigen::Vector3d spacing = first.Spacing().cwiseAbs().cwiseMin(other.Spacing().cwiseAbs());
+  std::string bounds;
+  std::string dimensions;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto a = static_cast<Eigen::Index>(axis);
+    const double values =
+      first.IsAxis(axis) ? std::round((high[a] - low[a]) / spacing[a]) + 1.0 : 1.0;
+    bounds += textOf(low[a]) + " " + textOf(high[a]) + " ";
+    dimensions += (axis > 0 ? " " : "") + textOf(std::clamp(values, 1.0, 1e9));
+  }
+  return "Resample To Image of each makes it so, with Use Input Bounds off and the same Sampling "
+         "Bounds and Sampling Dimensions; " +
+    bounds + "and " + dimensions + " hold these two";
+}
+
+std::string samePlaneAdvice(const ImageGrid& first, const ImageGrid& other, std::size_t axis)
+{
+  const auto a = static_cast<Eigen::Index>(axis);
+  return "Transform of each makes it so, with the Translate " + translateOf(first, a) + " and " +
+    translateOf(other, a);
+}
+
+} // namespace RectifiedTransport
