@@ -230,8 +230,7 @@ int vtkEqualMassCells::RequestData(
     }
     report =
       cells.Run(input, *density, this->GetFlowCache(), this->Internals->Labels, progress, outputs);
-    for (vtkDataObject* output :
-      { static_cast<vtkDataObject*>(labels), static_cast<vtkDataObject*>(outputs.Sites) })
+    for (vtkDataObject* output : outputs.All())
     {
       addReadings(output, { density->HowRead() });
     }

@@ -400,7 +400,8 @@ OTHERS = [
       "!taken.insert(name).second && number < 3"),
     # series
     E(BRIDGE + "Temporal/MovedClouds.cxx", "return more < 2.0 * less ? 0.5 * (less + more) : «less»;", "more"),
-    E(BRIDGE + "Temporal/MovedClouds.cxx", "lengths[«clouds.First + i < clouds.OfFirst» ? 0 : 1]", "true"),
+    E(BRIDGE + "Temporal/CloudRows.h",
+      "this->Units[«this->Clouds.First + cloud < this->Clouds.OfFirst» ? 0 : 1]", "true"),
     S(BRIDGE + "Temporal/StepTimes.cxx",
       "this->Times.erase(std::unique(this->Times.begin(), this->Times.end()), this->Times.end());", ";"),
     S(BRIDGE + "Temporal/KeptSteps.cxx", "step.IsKept = false;", ";"),
@@ -408,7 +409,10 @@ OTHERS = [
     E(BRIDGE + "Temporal/ChainedParticles.cxx", "if («!(this->Settings == settings)» ||", "false"),
     E(BRIDGE + "Temporal/TemporalInterpolation.cxx", "«interval.Length == moment.Length» &&", "true"),
     E(BRIDGE + "Temporal/TemporalInterpolation.cxx", "now[i] = masses[i] * («i < second» ? ofFirst : part);", "true"),
-    E(BRIDGE + "Temporal/CarriedArrays.cxx", "weight > 0.0 ? sum[i] / weight : «between(here[place], later[place], moment.Part)»;",
+    E(BRIDGE + "Temporal/CarriedArrays.cxx", "weight > 0.0 ? sum[i] / weight : «between(here[place], later[place], clouds.Part)»;",
       "0.0"),
+    E(BRIDGE + "Temporal/LabelVotes.cxx", "const bool isOwn = «(particle < clouds.OfFirst) == (end == 0)»;", "true"),
+    E(BRIDGE + "Blend/DensityBlend.cxx", "if («heaviest->Weight == 1.0»)", "false"),
+    E(BRIDGE + "Blend/MovedInput.cxx", "0.5 + («particles > 0.0» ? sum / particles : 0.0);", "false"),
 ]
 OTHERS += SURFACES
