@@ -27,13 +27,13 @@ class ExampleShapes(ExampleTest):
         self.check_picture("morph-2d.png")
 
     def test_morph_of_a_shape_into_itself(self):
-        """All of its frames are alike but for the colour."""
+        """Its ends are alike but for the colour; between them its particles are where it is."""
         self.ran("Morph2D", "spot", "spot")
         drawn = 255 - read(os.path.join(OUTPUT, "morph-2d.png"))[0].mean(axis=2)
         frames = [drawn[10:106, left:left + 96] for left in (10, 116, 222)]
         self.assertTrue(0.1 < (frames[0] > 0.5 * frames[0].max()).mean() < 0.4)
-        for frame in frames[1:]:
-            np.testing.assert_allclose(frame / frame.max(), frames[0] / frames[0].max(), atol=0.02)
+        np.testing.assert_allclose(frames[2] / frames[2].max(), frames[0] / frames[0].max(), atol=0.02)
+        self.assertGreater(np.corrcoef(frames[1].ravel(), frames[0].ravel())[0, 1], 0.9)
 
     @need_meshes
     def test_morph_3d(self):
