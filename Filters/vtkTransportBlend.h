@@ -21,9 +21,9 @@
  *
  * The grid of the output does not depend on the weights. If the inputs have the same geometry, up
  * to the rounding of single precision, the grid is exactly that of the first input. Else, unless
- * Dimensions are set, it covers the smallest box that holds all domains, at the finest spacing along
- * each axis, or the least multiple of it that makes no more cells than the input with most of them
- * has. Numbers of cells are rounded up, and the box grows at its upper end.
+ * Dimensions are set, it covers the smallest box that holds all domains, at the finest spacing
+ * along each axis, or the least multiple of it that makes no more cells than the input with most of
+ * them has. Numbers of cells are rounded up, and the box grows at its upper end.
  *
  * At a weight of 1 `Density` is that of the input as it is read, times the factor of MassMode: to
  * the bit, if that is 1 and the input is on the grid of the output, else by exact overlap. Within
@@ -32,9 +32,9 @@
  *
  * Cost: O(cells) for the tables and O(particles * steps) for the map of each input, once. The maps
  * are kept until a density, the integration, ParticlesPerCell or the grid changes. A change of the
- * weights costs O(particles + cells), a few times as much near a weight of 1. Memory: 24 bytes a particle for each input and 48 for the
- * output, 8 bytes a cell, and while a map is made the tables of one density (see Tables). Particles
- * and cells are distributed over the ranks.
+ * weights costs O(particles + cells), a few times as much near a weight of 1. Memory: 24 bytes a
+ * particle for each input and 48 for the output, 8 bytes a cell, and while a map is made the tables
+ * of one density (see Tables). Particles and cells are distributed over the ranks.
  *
  * Images may be distributed over MPI ranks. Each rank gets the extent of the output image that it
  * requests and the particles at the positions that it owns. On one rank the outputs are in one
