@@ -110,8 +110,8 @@ public:
   ///@{
   /**
    * Fill the areas within lines that end where they begin, such as countries, with the colors of
-   * the lines, which are black then. Lines with the same cell data are one region, which may have
-   * holes. Only with a ColorArray. Default off.
+   * the lines, which are black then. Lines with the same cell data are one region: what is inside
+   * an odd number of them. Only with a ColorArray. Default off.
    */
   vtkSetMacro(FillOutlines, bool);
   vtkGetMacro(FillOutlines, bool);

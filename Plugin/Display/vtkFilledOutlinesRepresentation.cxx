@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Display/vtkFilledOutlinesRepresentation.h"
 
+#include "Bridge/Drawing/FilledOutlines.h"
 #include "Display/ClassByName.h"
-#include "Display/FilledOutlines.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"

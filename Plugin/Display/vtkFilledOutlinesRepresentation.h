@@ -4,9 +4,10 @@
  * @brief   a surface with the areas within closed lines
  *
  * Maps of GDAL Vector Reader and the regions of vtkCartogram are closed lines, which other types of
- * representation show as lines. Lines with the same cell data are one region, which may have holes.
- * With edges, the outlines of regions and polygons are drawn, not the triangles within them.
- * Polygons that are not convex are filled exactly. Other cells are shown as in a plain surface.
+ * representation show as lines. Lines with the same cell data are one region: what is inside an odd
+ * number of them. With edges, the outlines of regions and polygons are drawn, not the triangles
+ * within them. Polygons that are not convex are filled exactly. Other cells are shown as in a plain
+ * surface.
  *
  * In ParaView the types Filled Outlines and Filled Outlines With Edges.
  */

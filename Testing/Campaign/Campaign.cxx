@@ -5,6 +5,7 @@
 #include "Crafted.h"
 #include "DrawnInputs.h"
 #include "Watch.h"
+#include "Written.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
@@ -26,10 +27,11 @@ namespace
 
 const char* const usage =
   "usage: campaign [--first N] [--count N] [--seed S] [--backend NAME] [--threads N] [--case N]\n"
-  "                [--crafted FOLDER]\n"
+  "                [--crafted FOLDER] [--written FOLDER]\n"
   "  --case N   runs one case and prints its steps and findings\n"
   "  --filter NAME   runs only the cases of a filter, as the output names it\n"
-  "  --crafted FOLDER   cases of broken inputs, whose files are written there\n";
+  "  --crafted FOLDER   cases of broken inputs, whose files are written there\n"
+  "  --written FOLDER   cases of the writers, whose targets are there\n";
 
 struct Arguments
 {
@@ -37,8 +39,9 @@ struct Arguments
   std::uint64_t Count = 100;
   std::uint64_t Seed = 1;
   std::string Backend;
-  std::string Filter; // the only one
-  std::string Folder; // of crafted files; without one cases are random pipelines
+  std::string Filter;  // the only one
+  std::string Folder;  // of crafted files; without one cases are random pipelines
+  std::string Targets; // the folder of the writers' targets
   int Threads = 1;
   bool PrintsLog = false;
 };
@@ -63,9 +66,9 @@ bool parse(int argc, char* argv[], Arguments& arguments)
       arguments.Filter = value;
       continue;
     }
-    if (name == "--crafted")
+    if (name == "--crafted" || name == "--written")
     {
-      arguments.Folder = value;
+      (name == "--crafted" ? arguments.Folder : arguments.Targets) = value;
       continue;
     }
     const std::uint64_t number = std::strtoull(value, nullptr, 10);
@@ -123,6 +126,17 @@ void openDevice(vtkTransportSampler* sampler)
   sampler->Update();
 }
 
+Campaign::CaseResult resultOf(const Arguments& arguments, std::uint64_t number)
+{
+  if (!arguments.Targets.empty())
+  {
+    return Campaign::runWrittenCase(arguments.Seed, number, arguments.Targets);
+  }
+  return arguments.Folder.empty()
+    ? Campaign::runCase(arguments.Seed, number)
+    : Campaign::runCraftedCase(arguments.Seed, number, arguments.Folder);
+}
+
 } // namespace
 
 int main(int argc, char* argv[])
@@ -154,9 +168,7 @@ int main(int argc, char* argv[])
     }
     Campaign::startWatch(60);
     const std::clock_t start = std::clock();
-    const Campaign::CaseResult result = arguments.Folder.empty()
-      ? Campaign::runCase(arguments.Seed, number)
-      : Campaign::runCraftedCase(arguments.Seed, number, arguments.Folder);
+    const Campaign::CaseResult result = resultOf(arguments, number);
     const double ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     failed = failed || !result.Findings.empty();
     std::printf("%llu %016llx %zu %s %d %d %d %d %.1f %016llx\n",

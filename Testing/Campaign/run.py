@@ -3,12 +3,13 @@
 """Random pipelines through all filters, each case under several numbers of threads, threading
 backends and instruction sets.
 
-usage: python3 run.py [--first N] [--count N] [--seed S] [--jobs N] [--limit SECONDS] [--crafted]
-                     [--once] [--filter NAME] PROGRAM
+usage: python3 run.py [--first N] [--count N] [--seed S] [--jobs N] [--limit SECONDS]
+                     [--crafted | --written] [--once] [--filter NAME] PROGRAM
 
 With --crafted the cases are inputs that are broken on purpose, through all filters: files that
 VTK's readers read, and data objects with the same defects. Where a reader itself ends the program,
-the case is counted and left out. --once runs each case under the last setting alone, for sanitizers.
+the case is counted and left out. With --written they are the writers' files, to targets of any
+kind. --once runs each case under the last setting alone, for sanitizers.
 --filter runs only the cases of one filter, as the table names it.
 
 PROGRAM (Campaign.cxx) runs the cases and looks at each output. This script compares what comes out
@@ -47,8 +48,9 @@ class Case:
         self.findings = []
 
 
-def run_cases(program, setting, seed, first, count, limit, crafted, only):
-    """The cases of a block, and the ends of processes: [(case, text)]. Crafted: the folder of files.
+def run_cases(program, setting, seed, first, count, limit, kind, files, only):
+    """The cases of a block, and the ends of processes: [(case, text)]. Kind: crafted, written or
+    neither; their files are in a folder.
     Only: the name of a filter."""
     _, instructions, backend, threads = setting
     environment = dict(os.environ, RECTIFIEDTRANSPORT_ISA=instructions, OMP_NUM_THREADS=str(threads),
@@ -61,10 +63,10 @@ def run_cases(program, setting, seed, first, count, limit, crafted, only):
                    "--backend", backend, "--threads", str(threads)]
         if only:
             command += ["--filter", only]
-        if crafted:
-            folder = os.path.join(crafted, f"{backend}-{threads}-{first}")
+        if kind:
+            folder = os.path.join(files, f"{backend}-{threads}-{first}")
             os.makedirs(folder)
-            command += ["--crafted", folder]
+            command += [f"--{kind}", folder]
         process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True)
         try:
@@ -175,7 +177,10 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--limit", type=int, default=600, help="seconds for a block of cases")
-    parser.add_argument("--crafted", action="store_true", help="broken inputs")
+    parser.add_argument("--crafted", dest="kind", action="store_const", const="crafted",
+                        help="broken inputs")
+    parser.add_argument("--written", dest="kind", action="store_const", const="written",
+                        help="files of the writers")
     parser.add_argument("--filter", help="its random cases alone")
     parser.add_argument("--once", action="store_true", help="under the last setting alone")
     parser.add_argument("program")
@@ -187,7 +192,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, \
             concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         jobs = [[pool.submit(run_cases, arguments.program, setting, arguments.seed, first, count,
-                             arguments.limit, arguments.crafted and folder, arguments.filter)
+                             arguments.limit, arguments.kind, folder, arguments.filter)
                  for setting in settings] for first, count in blocks]
         for block in jobs:
             campaign.judge([job.result() for job in block])

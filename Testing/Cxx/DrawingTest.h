@@ -10,6 +10,9 @@
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -34,8 +37,14 @@ public:
 
   std::string Name() const { return this->Path.string(); }
   bool Exists() const { return std::filesystem::exists(this->Path); }
-  // Whether a part of a file was left beside it.
-  bool HasPart() const { return std::filesystem::exists(this->Path.string() + ".part"); }
+  // Whether this process has left a hidden part of a file beside it.
+  bool HasPart() const
+  {
+    const std::string begin = ".rectifiedtransport-" + std::to_string(getpid()) + "-";
+    const std::filesystem::directory_iterator files(this->Path.parent_path());
+    return std::any_of(std::filesystem::begin(files), std::filesystem::end(files),
+      [&](const auto& file) { return file.path().filename().string().rfind(begin, 0) == 0; });
+  }
   std::string Text() const
   {
     std::ifstream file(this->Path, std::ios::binary);

@@ -282,7 +282,7 @@ OTHERS = [
       "isFilled && box.Cells[a] == «std::max(points[a] - 1, 1)»", "box.Cells[a]"),
     E(BRIDGE + "Ranks/DataSetBytes.cxx", "if («data->IsA(\"vtkUniformGrid\")»)", "false"),
     E(BRIDGE + "Run/InputExtents.cxx", "is && «points >= 0» && points <= most", "true"),
-    E(CORE + "Overlap/RegionOutlines.cxx",
+    E(CORE + "Overlap/EdgeCrossings.cxx",
       "(rings.Edges() > few && «!haveCrossings(rings, progress)»)", "true"),
     E(BRIDGE + "Meshes/RegionShapes.cxx", "if (mayBeSimple && «isSimple»)", "true"),
     E(CORE + "Solid/SolidLines.cxx", "if («covered < counted»)", "false"),

@@ -3,8 +3,10 @@
 
 #include "Bridge/Cartogram/RegionBlocks.h"
 #include "Bridge/Image/DefaultArray.h"
+#include "Bridge/Points/TupleValues.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/NumbersOfText.h"
+#include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
@@ -16,14 +18,13 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
-#include "vtkVariant.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 
 namespace RectifiedTransport
@@ -31,11 +32,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-std::string textOf(vtkAbstractArray* array, vtkIdType cell)
-{
-  return array->GetVariantValue(cell * array->GetNumberOfComponents()).ToString();
-}
 
 bool isName(const char* name)
 {
@@ -197,10 +193,11 @@ private:
         this->Blocks.size() > 1 ? "of all blocks of the input" : "of the input");
     }
     vtkAbstractArray* name = key ? key : this->NameArray();
-    std::map<std::string, std::int32_t> numbers;
+    std::unordered_map<std::string, std::int32_t> numbers;
     const vtkIdType count = data->GetNumberOfCells();
     this->Found.Regions.assign(static_cast<std::size_t>(count), -1);
-    constexpr std::int64_t work = 8; // units, of a text
+    constexpr std::int64_t work = 8; // units, of a value
+    std::string value;
     this->Work.BeginStage(0.02, work * count);
     for (vtkIdType cell = data->GetNumberOfVerts(); cell < count; ++cell)
     {
@@ -210,16 +207,18 @@ private:
         continue;
       }
       const std::size_t blockOfCell = this->Joined.Blocks[static_cast<std::size_t>(cell)];
-      std::string text = key ? textOf(key, cell)
-        : this->ByBlock      ? std::to_string(blockOfCell)
-                             : std::to_string(cell);
+      value = key ? "" : std::to_string(this->ByBlock ? static_cast<vtkIdType>(blockOfCell) : cell);
+      if (key)
+      {
+        appendTupleKey(key, cell, value);
+      }
       const auto [found, isNew] =
-        numbers.insert({ text, static_cast<std::int32_t>(this->Found.Names.size()) });
+        numbers.insert({ value, static_cast<std::int32_t>(this->Found.Names.size()) });
       this->Found.Regions[static_cast<std::size_t>(cell)] = found->second;
       const double mass = this->Mass->GetComponent(cell, 0);
       if (isNew)
       {
-        this->Found.Names.push_back(name ? "'" + textOf(name, cell) + "'"
+        this->Found.Names.push_back(name ? "'" + tupleText(name, cell) + "'"
             : this->ByBlock              ? "of " + this->Blocks[blockOfCell].Name
                                          : "of " + this->TitleOf(cell));
         this->Found.Masses.push_back(mass);
@@ -231,7 +230,7 @@ private:
         if (!(mass == before))
         {
           fail("The region ", this->Found.Names[static_cast<std::size_t>(found->second)],
-            " has cells of mass ", before, " and ", mass, " in ", this->MassTitle,
+            " has cells of mass ", textOf(before), " and ", textOf(mass), " in ", this->MassTitle,
             "; all cells of a region must have its mass, which counts once");
         }
       }
@@ -262,7 +261,7 @@ private:
     vtkAbstractArray* key =
       this->Found.Data->GetCellData()->GetAbstractArray(this->Arrays.Region.c_str());
     vtkAbstractArray* name = key ? key : this->NameArray();
-    return name ? "'" + textOf(name, cell) + "'" : "of " + this->TitleOf(cell);
+    return name ? "'" + tupleText(name, cell) + "'" : "of " + this->TitleOf(cell);
   }
 
   // Names for messages.

@@ -38,6 +38,13 @@ struct DrawingPage
   double StrokeWidth;   // of all strokes
 };
 
+// What is inside of polygons.
+enum class FillRule
+{
+  Any, // of polygons that turn the same way
+  Odd  // an odd number of them
+};
+
 // Call Begin first and End last. What is drawn later lies on top. Everything throws Failure if the
 // file cannot be written.
 class Drawing
@@ -50,8 +57,9 @@ public:
 
   virtual void Begin(const DrawingPage& page) = 0;
   virtual void FillDisc(const PagePoint& centre, double radius, Colour colour) = 0;
-  // Polygons that turn the same way, as one area: no seams show where they touch.
-  virtual void FillPolygons(const std::vector<PagePath>& polygons, Colour colour) = 0;
+  // As one area: no seams show where polygons touch.
+  virtual void FillPolygons(
+    const std::vector<PagePath>& polygons, FillRule rule, Colour colour) = 0;
   // A path with round ends and corners; a closed one returns to its first point.
   virtual void Stroke(const PagePath& path, bool isClosed, Colour colour) = 0;
   virtual void End() = 0;

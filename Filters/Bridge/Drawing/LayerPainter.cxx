@@ -44,7 +44,7 @@ public:
         points.insert(points.end(), outline.Points.begin(), outline.Points.end());
       }
       const auto count = static_cast<vtkIdType>(points.size());
-      this->Page.FillPolygons(this->Area,
+      this->Page.FillPolygons(this->Area, FillRule::Odd,
         this->Painted.Colours.Of({ ShapeKind::Polygon, points.data(), count, region[0].Cell }));
     }
     this->Area.clear();
@@ -91,7 +91,7 @@ public:
   {
     if (!this->Area.empty())
     {
-      this->Page.FillPolygons(this->Area, this->AreaColour);
+      this->Page.FillPolygons(this->Area, FillRule::Any, this->AreaColour);
       this->Area.clear();
     }
   }

@@ -3,22 +3,22 @@
 
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Points/PlaneFrame.h"
-#include "Core/Cartogram/RegionMap.h"
+#include "Bridge/Points/TupleValues.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
+#include "vtkMath.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkVariant.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <map>
 #include <string>
+#include <unordered_map>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -34,9 +34,8 @@ bool isOfCells(vtkCellData* data, vtkAbstractArray* array)
   return array == data->GetGlobalIds() || name.rfind("vtk", 0) == 0;
 }
 
-std::string valuesOf(vtkCellData* data, vtkIdType cell)
+void appendValues(vtkCellData* data, vtkIdType cell, std::string& values)
 {
-  std::string values;
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
@@ -44,13 +43,29 @@ std::string valuesOf(vtkCellData* data, vtkIdType cell)
     {
       continue;
     }
-    const int components = array->GetNumberOfComponents();
-    for (int c = 0; c < components; ++c)
-    {
-      values += array->GetVariantValue(cell * components + c).ToString() + '\n';
-    }
+    appendTupleKey(array, cell, values);
   }
-  return values;
+}
+
+// Whether the points of a ring, from the first one, are not all on a line.
+bool hasArea(const std::vector<Point<3>>& ring)
+{
+  Point<3> longest{ 0.0, 0.0, 0.0 };
+  for (const Point<3>& place : ring)
+  {
+    Point<3> offset;
+    vtkMath::Subtract(place.data(), ring.front().data(), offset.data());
+    longest = vtkMath::Norm(offset.data()) > vtkMath::Norm(longest.data()) ? offset : longest;
+  }
+  constexpr double rounding = 1e-14;
+  const double least = rounding * vtkMath::Dot(longest.data(), longest.data());
+  return std::any_of(ring.begin(), ring.end(), [&](const Point<3>& place) {
+    Point<3> offset;
+    Point<3> cross;
+    vtkMath::Subtract(place.data(), ring.front().data(), offset.data());
+    vtkMath::Cross(longest.data(), offset.data(), cross.data());
+    return vtkMath::Norm(cross.data()) > least;
+  });
 }
 
 class OutlineSearch
@@ -58,38 +73,31 @@ class OutlineSearch
 public:
   explicit OutlineSearch(vtkPolyData* data)
     : Data(data)
+    , Ghosts(ghostFlags(data, vtkDataObject::CELL, "input"))
   {
+    requireReadableCells(data, "input");
   }
 
   OutlinedRegions Find()
   {
-    requireReadableCells(this->Data, "input");
-    this->FindRings();
-    OutlinedRegions found;
-    found.Normal = { 0.0, 0.0, 1.0 };
-    if (!this->Plane.HasArea())
+    vtkIdType cell = this->Data->GetNumberOfVerts();
+    const auto line =
+      vtkSmartPointer<vtkCellArrayIterator>::Take(this->Data->GetLines()->NewIterator());
+    for (line->GoToFirstCell(); !line->IsDoneWithTraversal(); line->GoToNextCell(), ++cell)
     {
-      return found;
-    }
-    const PlaneFrame frame = this->Plane.Frame();
-    found.Normal = frame.Normal();
-    this->MakeMap(frame);
-    for (const std::vector<std::int64_t>& rings : this->Map.RingsOfRegions())
-    {
-      std::vector<Outline> region;
-      for (const std::int64_t ring : rings)
+      const vtkIdType* points = nullptr;
+      vtkIdType count = 0;
+      line->GetCurrentCell(count, points);
+      if (this->IsOutline(cell, count, points))
       {
-        if (this->Map.AreaOf(ring) > 0.0)
-        {
-          region.push_back(this->OutlineOf(ring));
-        }
-      }
-      if (!region.empty())
-      {
-        found.Regions.push_back(std::move(region));
+        this->Add({ cell, { points, points + count - 1 } });
       }
     }
-    return found;
+    if (this->Plane.HasArea())
+    {
+      this->Found.Plane = this->Plane.Frame();
+    }
+    return std::move(this->Found);
   }
 
 private:
@@ -100,68 +108,51 @@ private:
     return place;
   }
 
-  void FindRings()
+  bool IsOutline(vtkIdType cell, vtkIdType count, const vtkIdType* points)
   {
-    const unsigned char* ghosts = ghostFlags(this->Data, vtkDataObject::CELL, "input");
-    vtkIdType cell = this->Data->GetNumberOfVerts();
-    std::vector<Point<3>> places;
-    const auto line =
-      vtkSmartPointer<vtkCellArrayIterator>::Take(this->Data->GetLines()->NewIterator());
-    for (line->GoToFirstCell(); !line->IsDoneWithTraversal(); line->GoToNextCell(), ++cell)
+    const bool isGhost = this->Ghosts && (this->Ghosts[cell] & ghostCell);
+    if (isGhost || count < 4 || this->PlaceOf(points[0]) != this->PlaceOf(points[count - 1]))
     {
-      const vtkIdType* points = nullptr;
-      vtkIdType count = 0;
-      line->GetCurrentCell(count, points);
-      const bool isGhost = ghosts && (ghosts[cell] & ghostCell);
-      if (isGhost || count < 4 || this->PlaceOf(points[0]) != this->PlaceOf(points[count - 1]))
-      {
-        continue;
-      }
-      places.clear();
-      for (vtkIdType i = 0; i + 1 < count; ++i)
-      {
-        places.push_back(this->PlaceOf(points[i]));
-      }
-      this->Plane.Add(places);
-      this->Rings.push_back({ cell, { points, points + count - 1 } });
+      return false;
     }
+    this->Places.clear();
+    for (vtkIdType i = 0; i + 1 < count; ++i)
+    {
+      this->Places.push_back(this->PlaceOf(points[i]));
+    }
+    return areFinite(this->Places) && hasArea(this->Places);
   }
 
-  void MakeMap(const PlaneFrame& frame)
+  void Add(Outline&& outline)
   {
-    std::map<std::string, std::int32_t> regions;
-    std::vector<std::int64_t> numbers;
-    for (const Outline& ring : this->Rings)
+    this->Plane.Add(this->Places);
+    this->Values.clear();
+    appendValues(this->Data->GetCellData(), outline.Cell, this->Values);
+    const auto region = this->Numbers.insert({ this->Values, this->Found.Regions.size() });
+    if (region.second)
     {
-      numbers.clear();
-      for (const vtkIdType point : ring.Points)
-      {
-        numbers.push_back(this->Map.AddPoint(frame.ToPlane(this->PlaceOf(point))));
-      }
-      const auto region = regions.insert({ valuesOf(this->Data->GetCellData(), ring.Cell),
-        static_cast<std::int32_t>(regions.size()) });
-      this->Map.AddRing(region.first->second, numbers);
+      this->Found.Regions.emplace_back();
     }
-    this->Map.FindHoles();
-  }
-
-  Outline OutlineOf(std::int64_t ring)
-  {
-    Outline& outline = this->Rings[static_cast<std::size_t>(ring)];
-    if (this->Map.IsTurned(ring))
-    {
-      std::reverse(outline.Points.begin(), outline.Points.end());
-    }
-    return std::move(outline);
+    this->Found.Regions[region.first->second].push_back(std::move(outline));
   }
 
   vtkPolyData* const Data;
-  std::vector<Outline> Rings;
+  const unsigned char* const Ghosts;
   RingPlane Plane;
-  RegionMap Map;
+  OutlinedRegions Found;
+  std::unordered_map<std::string, std::size_t> Numbers; // of regions, by their values
+  std::vector<Point<3>> Places;                         // of a line
+  std::string Values;
 };
 
 } // namespace
+
+bool areFinite(const std::vector<Point<3>>& places)
+{
+  return std::all_of(places.begin(), places.end(), [](const Point<3>& place) {
+    return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
+  });
+}
 
 OutlinedRegions findOutlinedRegions(vtkPolyData* data)
 {

@@ -3,10 +3,9 @@
 #ifndef RectifiedTransport_OutlinedRegions_h
 #define RectifiedTransport_OutlinedRegions_h
 
+#include "Bridge/Points/PlaneFrame.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Geometry/Points.h"
 
-#include "vtkRectifiedTransportModule.h" // for the export macro
 #include "vtkType.h"
 
 #include <vector>
@@ -21,20 +20,23 @@ namespace RectifiedTransport
 struct Outline
 {
   vtkIdType Cell;
-  std::vector<vtkIdType> Points; // with the region on the left, seen against the normal
+  std::vector<vtkIdType> Points; // the first one not again at the end
 };
 
 struct OutlinedRegions
 {
   std::vector<std::vector<Outline>> Regions;
-  Point<3> Normal; // of the plane of all outlines
+  PlaneFrame Plane{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 } }; // of all outlines
 };
 
 // Lines that end where they begin are outlines. Those with the same cell data, global ids and
-// arrays of VTK's own (vtk...) aside, are one region: an outline within an odd number of others of
-// its region is a hole. Lines without area and ghost cells are left out. Exported for the plugin.
-// Throws Failure for a ghost array of another length and cells with points that do not exist.
-VTKRECTIFIEDTRANSPORT_EXPORT OutlinedRegions findOutlinedRegions(vtkPolyData* data);
+// arrays of VTK's own (vtk...) aside, are one region: what is inside an odd number of its outlines.
+// Lines without area, with points that are not finite, and ghost cells are left out. Throws Failure
+// for a ghost array of another length and cells with points that do not exist.
+OutlinedRegions findOutlinedRegions(vtkPolyData* data);
+
+// Whether no coordinate is infinite or NaN.
+bool areFinite(const std::vector<Point<3>>& places);
 
 } // namespace RectifiedTransport
 

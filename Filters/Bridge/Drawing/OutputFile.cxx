@@ -3,80 +3,151 @@
 
 #include "Bridge/Run/Failure.h"
 
+#include <fcntl.h>
+#include <poll.h>
+#include <pthread.h>
+#include <sys/stat.h>
+
 #include <cerrno>
-#include <cstring>
-#include <system_error>
+#include <csignal>
+#include <cstdio>
 
 namespace RectifiedTransport
 {
 
-OutputFile::OutputFile(const std::string& name)
-  : Name(name)
-  , Path(std::filesystem::u8path(name))
-  , Part(std::filesystem::u8path(name + ".part"))
+namespace
 {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(this->Path, ignored))
+
+// Within it, a pipe without a reader and a file that may not grow do not end the program: writing
+// fails.
+class WriteSignals
+{
+public:
+  WriteSignals()
   {
-    fail("FileName '", name, "' is a folder; it must be a file");
+    sigemptyset(&this->Blocked);
+    sigaddset(&this->Blocked, SIGPIPE);
+    sigaddset(&this->Blocked, SIGXFSZ);
+    pthread_sigmask(SIG_BLOCK, &this->Blocked, &this->Before);
   }
-  // A file that may not be written is not replaced, either.
-  errno = 0;
-  if (std::filesystem::exists(this->Path, ignored) &&
-    !std::ofstream(this->Path, std::ios::binary | std::ios::app))
+  ~WriteSignals() { pthread_sigmask(SIG_SETMASK, &this->Before, nullptr); }
+  WriteSignals(const WriteSignals&) = delete;
+  WriteSignals& operator=(const WriteSignals&) = delete;
+
+  // Call it after a failure.
+  void Drop() const
   {
-    this->Fail();
+    sigset_t pending;
+    sigpending(&pending);
+    int dropped = 0;
+    if (sigismember(&pending, SIGPIPE) || sigismember(&pending, SIGXFSZ))
+    {
+      sigwait(&this->Blocked, &dropped);
+    }
   }
-  this->Stream.open(this->Part, std::ios::binary | std::ios::trunc);
-  if (!this->Stream)
+
+private:
+  sigset_t Blocked;
+  sigset_t Before;
+};
+
+} // namespace
+
+OutputFile::OutputFile(const std::string& name)
+  : Target(findOutputTarget(name))
+{
+  if (this->Target.Direct.IsOpen())
   {
-    this->Fail();
+    this->File = std::move(this->Target.Direct);
+  }
+  else
+  {
+    this->OpenPart();
   }
 }
 
 OutputFile::~OutputFile()
 {
-  if (!this->IsClosed)
+  if (!this->Part.empty())
   {
-    this->Stream.close();
-    std::error_code ignored;
-    std::filesystem::remove(this->Part, ignored);
+    unlinkat(this->Target.Folder.Get(), this->Part.c_str(), 0);
+  }
+}
+
+void OutputFile::OpenPart()
+{
+  constexpr int most = 1000; // that killed programs have left, or that others write just now
+  const bool isNew = !this->Target.Existing.IsOpen();
+  for (int i = 0; i < most && !this->File.IsOpen() && (i == 0 || errno == EEXIST); ++i)
+  {
+    const std::string part =
+      ".rectifiedtransport-" + std::to_string(getpid()) + "-" + std::to_string(i) + ".part";
+    this->File = FileDescriptor(openat(this->Target.Folder.Get(), part.c_str(),
+      O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, isNew ? 0666 : 0600));
+    this->Part = this->File.IsOpen() ? part : "";
+  }
+  if (!this->File.IsOpen())
+  {
+    this->Target.Fail();
+  }
+  if (!isNew)
+  {
+    copyAccess(this->Target.Existing, this->File);
+    this->Target.Existing.Close();
   }
 }
 
 void OutputFile::Write(std::string_view bytes)
 {
-  errno = 0;
-  this->Stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!this->Stream)
-  {
-    this->Fail();
-  }
+  const WriteSignals signals;
   this->Written += static_cast<std::int64_t>(bytes.size());
+  while (!bytes.empty())
+  {
+    const ssize_t count = write(this->File.Get(), bytes.data(), bytes.size());
+    if (count >= 0)
+    {
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    else if (errno == EAGAIN)
+    {
+      this->WaitForReader();
+    }
+    else if (errno != EINTR)
+    {
+      const int reason = errno;
+      signals.Drop();
+      errno = reason;
+      this->Target.Fail();
+    }
+  }
+}
+
+// Where a pipe is full.
+void OutputFile::WaitForReader() const
+{
+  constexpr int longest = 120000; // milliseconds
+  pollfd file{ this->File.Get(), POLLOUT, 0 };
+  if (poll(&file, 1, longest) == 0)
+  {
+    fail("FileName '", this->Target.Name, "' is a pipe whose reader has read nothing for ",
+      longest / 1000, " s; a program must read it");
+  }
 }
 
 void OutputFile::Close()
 {
   errno = 0;
-  this->Stream.close();
-  if (!this->Stream)
+  if (!this->File.Close())
   {
-    this->Fail();
+    this->Target.Fail();
   }
-  std::error_code error;
-  std::filesystem::rename(this->Part, this->Path, error);
-  if (error)
+  if (!this->Part.empty() &&
+    renameat(this->Target.Folder.Get(), this->Part.c_str(), this->Target.Folder.Get(),
+      this->Target.File.c_str()) != 0)
   {
-    fail("FileName '", this->Name, "' cannot be written (", error.message(), ")");
+    this->Target.Fail();
   }
-  this->IsClosed = true;
-}
-
-void OutputFile::Fail() const
-{
-  const std::string reason = errno != 0 ? std::strerror(errno) : "unknown error";
-  fail("FileName '", this->Name, "' cannot be written (", reason,
-    "); its folder must exist, and the file must be writable");
+  this->Part.clear();
 }
 
 } // namespace RectifiedTransport

@@ -3,16 +3,17 @@
 #ifndef RectifiedTransport_OutputFile_h
 #define RectifiedTransport_OutputFile_h
 
+#include "Bridge/Drawing/OutputTarget.h"
+
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 
 namespace RectifiedTransport
 {
 
-// Writes to a file beside it, NAME.part, which replaces it at the end.
+// Writes to a hidden file beside the target, which replaces it at the end and has its mode.
+// Symbolic links stay and lead to the new file. Pipes and character devices are written directly.
 class OutputFile
 {
 public:
@@ -30,14 +31,13 @@ public:
   void Close();
 
 private:
-  [[noreturn]] void Fail() const;
+  void OpenPart();
+  void WaitForReader() const;
 
-  const std::string Name;
-  const std::filesystem::path Path;
-  const std::filesystem::path Part;
-  std::ofstream Stream;
+  OutputTarget Target;
+  std::string Part; // the name of the hidden file; empty: there is none
+  FileDescriptor File;
   std::int64_t Written = 0;
-  bool IsClosed = false;
 };
 
 } // namespace RectifiedTransport

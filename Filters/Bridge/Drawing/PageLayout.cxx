@@ -61,6 +61,10 @@ PageLayout::PageLayout(
   const bool isVertical = width <= rounding * height;
   const double length = isVertical ? height : width;
   this->Unit = length > 0.0 ? (page.Width - 2.0 * page.Margin) / length : 1.0;
+  if (!std::isfinite(this->Unit))
+  {
+    fail("The input is ", length, " long, too little for a page; its coordinates must be larger");
+  }
   this->Sides = { page.Width, std::max(this->Unit * height + 2.0 * page.Margin, shortestHeight) };
   this->Margins[0] = 0.5 * (page.Width - this->Unit * width);
 }

@@ -44,7 +44,7 @@ struct PageSize
 class PageLayout
 {
 public:
-  // Throws Failure if the lengths are past the largest double.
+  // Throws Failure if the lengths, or millimetres for a unit of them, are past the largest double.
   PageLayout(const std::array<std::size_t, 2>& axes, const DrawnBounds& bounds, PageSize page);
 
   // Millimetres for a unit of the data.

@@ -86,7 +86,7 @@ void PdfDrawing::FillDisc(const PagePoint& centre, double radius, Colour colour)
   this->Flush();
 }
 
-void PdfDrawing::FillPolygons(const std::vector<PagePath>& polygons, Colour colour)
+void PdfDrawing::FillPolygons(const std::vector<PagePath>& polygons, FillRule rule, Colour colour)
 {
   this->UseColour(colour, false);
   for (const PagePath& corners : polygons)
@@ -94,7 +94,7 @@ void PdfDrawing::FillPolygons(const std::vector<PagePath>& polygons, Colour colo
     this->AppendPath(corners);
     this->Text += "h\n";
   }
-  this->Text += "f\n";
+  this->Text += rule == FillRule::Odd ? "f*\n" : "f\n";
   this->Flush();
 }
 

@@ -30,7 +30,7 @@ public:
   double LongestSide() const override { return 5080.0; } // 14400 points: Annex C
   void Begin(const DrawingPage& page) override;
   void FillDisc(const PagePoint& centre, double radius, Colour colour) override;
-  void FillPolygons(const std::vector<PagePath>& polygons, Colour colour) override;
+  void FillPolygons(const std::vector<PagePath>& polygons, FillRule rule, Colour colour) override;
   void Stroke(const PagePath& path, bool isClosed, Colour colour) override;
   void End() override;
 

@@ -29,12 +29,12 @@ struct Shape
 {
   ShapeKind Kind;
   const vtkIdType* Points;
-  vtkIdType Count; // of the points
+  vtkIdType Count; // of the points, at least 1
   vtkIdType Cell;  // -1 for a point of data without cells
 };
 
 // Polygons first, then strips, lines, and on top the points of vertices; without any cells, all
-// points. Without what ghost arrays mark as duplicate or hidden.
+// points. Without cells of no points, and what ghost arrays mark as duplicate or hidden.
 class PolyDataShapes
 {
 public:
@@ -90,7 +90,8 @@ private:
     {
       Shape shape{ kind, nullptr, 0, cell++ };
       iterator->GetCurrentCell(shape.Count, shape.Points);
-      if (!this->GhostCells || !(this->GhostCells[shape.Cell] & ghostCell))
+      const bool isGhost = this->GhostCells && (this->GhostCells[shape.Cell] & ghostCell);
+      if (shape.Count > 0 && !isGhost)
       {
         visit(shape);
       }

@@ -78,7 +78,7 @@ void SvgDrawing::FillDisc(const PagePoint& centre, double radius, Colour colour)
   this->Flush();
 }
 
-void SvgDrawing::FillPolygons(const std::vector<PagePath>& polygons, Colour colour)
+void SvgDrawing::FillPolygons(const std::vector<PagePath>& polygons, FillRule rule, Colour colour)
 {
   this->EnterGroup(Group::Fills);
   if (polygons.size() == 1)
@@ -96,7 +96,7 @@ void SvgDrawing::FillPolygons(const std::vector<PagePath>& polygons, Colour colo
       this->Text += 'z';
     }
   }
-  this->Text += '"';
+  this->Text += rule == FillRule::Odd ? "\" fill-rule=\"evenodd\"" : "\"";
   this->AppendColour("fill", colour);
   this->Text += "/>\n";
   this->Flush();

@@ -24,7 +24,7 @@ public:
   double LongestSide() const override { return 1e6; }
   void Begin(const DrawingPage& page) override;
   void FillDisc(const PagePoint& centre, double radius, Colour colour) override;
-  void FillPolygons(const std::vector<PagePath>& polygons, Colour colour) override;
+  void FillPolygons(const std::vector<PagePath>& polygons, FillRule rule, Colour colour) override;
   void Stroke(const PagePath& path, bool isClosed, Colour colour) override;
   void End() override;
 

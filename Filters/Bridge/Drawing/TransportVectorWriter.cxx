@@ -293,7 +293,9 @@ void TransportVectorWriter::Run(
   }
   if (extent.Points.IsEmpty())
   {
-    fail("The input has no points; there is nothing to draw");
+    fail(points > 0 ? "The input has points, but none that is drawn: its cells have no points, or "
+                      "vtkGhostType marks them as duplicates or hidden"
+                    : "The input has no points; there is nothing to draw");
   }
   const PageLayout layout = layoutOf(*this, extent);
   const double longest = std::max(layout.Size()[0], layout.Size()[1]);

@@ -49,7 +49,7 @@ std::string textOf(T value)
   text << value;
   if constexpr (std::is_floating_point_v<T>)
   {
-    if (std::strtod(text.str().c_str(), nullptr) != value && value == value)
+    if (static_cast<T>(std::strtod(text.str().c_str(), nullptr)) != value && value == value)
     {
       text.str("");
       text << std::setprecision(std::numeric_limits<T>::max_digits10) << value;

@@ -2,7 +2,7 @@
 #include "Core/Overlap/RegionOutlines.h"
 
 #include "Core/Geometry/Bins.h"
-#include "Core/Overlap/RingSweep.h"
+#include "Core/Overlap/EdgeCrossings.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
@@ -107,29 +107,6 @@ private:
   Bins<std::int32_t> Rows;
 };
 
-// The point where two edges cross, the same for both; where they lie on each other some point of
-// both.
-Point<2> crossingOf(const Rings& rings, const EdgePair& pair)
-{
-  const Point<2>& a = rings.At(pair.First);
-  const Point<2>& b = rings.At(rings.Next(pair.First));
-  const Point<2>& c = rings.At(pair.Second);
-  const Point<2>& d = rings.At(rings.Next(pair.Second));
-  double error = 0.0;
-  const double before = doubleArea(a, b, c, error);
-  const double after = doubleArea(a, b, d, error);
-  const double part = before / (before - after);
-  Point<2> x;
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    const double low = std::max(std::min(a[axis], b[axis]), std::min(c[axis], d[axis]));
-    const double high = std::min(std::max(a[axis], b[axis]), std::max(c[axis], d[axis]));
-    const double along = c[axis] + part * (d[axis] - c[axis]);
-    x[axis] = std::isfinite(along) ? std::min(std::max(along, low), high) : 0.5 * (low + high);
-  }
-  return x;
-}
-
 class OutlineWalk
 {
 public:
@@ -143,25 +120,7 @@ public:
     {
       this->Areas.push_back(std::abs(windingArea(rings, ring)));
     }
-    constexpr std::int64_t few = 64; // compared sooner than swept
-    areSimple = areSimple || (rings.Edges() > few && !haveCrossings(rings, progress));
-    if (areSimple)
-    {
-      areSimple = !progress.ShouldStop(); // which ends the search, too
-      return;
-    }
-    for (const EdgePair& pair : findCrossings(rings, progress))
-    {
-      const Point<2> x = crossingOf(rings, pair);
-      this->AddCrossing(pair.First, pair.Second, x);
-      this->AddCrossing(pair.Second, pair.First, x);
-    }
-    std::sort(
-      this->Crossings.begin(), this->Crossings.end(), [](const Crossing& p, const Crossing& q) {
-        return p.Edge != q.Edge ? p.Edge < q.Edge
-          : p.Along != q.Along  ? p.Along < q.Along
-                                : p.Other < q.Other;
-      });
+    this->Crossings = edgeCrossings(rings, progress, areSimple);
   }
 
   std::vector<OutlineEdge> Run()
@@ -186,22 +145,6 @@ public:
   }
 
 private:
-  struct Crossing
-  {
-    std::int64_t Edge;
-    double Along;
-    std::int64_t Other; // edge
-    Point<2> X;
-  };
-
-  void AddCrossing(std::int64_t edge, std::int64_t other, const Point<2>& x)
-  {
-    const Point<2>& a = this->All.At(edge);
-    const Point<2>& b = this->All.At(this->All.Next(edge));
-    const double along = (x[0] - a[0]) * (b[0] - a[0]) + (x[1] - a[1]) * (b[1] - a[1]);
-    this->Crossings.push_back({ edge, along, other, x });
-  }
-
   std::int64_t TopOf(std::int64_t ring) const
   {
     std::int64_t top = this->All.Begin(ring);
@@ -278,10 +221,10 @@ private:
     } while (edge != top);
   }
 
-  std::vector<Crossing>::const_iterator FirstOn(std::int64_t edge) const
+  std::vector<EdgeCrossing>::const_iterator FirstOn(std::int64_t edge) const
   {
     return std::lower_bound(this->Crossings.begin(), this->Crossings.end(), edge,
-      [](const Crossing& crossing, std::int64_t number) { return crossing.Edge < number; });
+      [](const EdgeCrossing& crossing, std::int64_t number) { return crossing.Edge < number; });
   }
 
   void AddPiece(std::int64_t edge, const Point<2>& from, const Point<2>& to, std::int64_t left,
@@ -306,7 +249,7 @@ private:
   const std::vector<double>& Values;
   Progress& Stop;
   std::vector<double> Areas; // that rings wind around
-  std::vector<Crossing> Crossings;
+  std::vector<EdgeCrossing> Crossings;
   std::vector<OutlineEdge> Found;
 };
 

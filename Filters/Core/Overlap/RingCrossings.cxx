@@ -31,8 +31,9 @@ struct Box
 class CrossingSearch
 {
 public:
-  CrossingSearch(const Rings& rings, Progress& progress)
+  CrossingSearch(const Rings& rings, Progress& progress, bool atEnds)
     : All(rings)
+    , AtEnds(atEnds)
     , Stop(progress)
   {
   }
@@ -307,7 +308,8 @@ private:
         return;
       }
     }
-    if (doCross(a, b, c, d))
+    const bool isAtEnds = a.X == c.X || a.X == d.X || b.X == c.X || b.X == d.X;
+    if ((this->AtEnds || !isAtEnds) && doCross(a, b, c, d))
     {
       this->Found.push_back({ std::min(i, j), std::max(i, j) });
     }
@@ -325,6 +327,7 @@ private:
   }
 
   const Rings& All;
+  const bool AtEnds;
   Progress& Stop;
   std::int64_t Compared = 0; // since the last poll
   bool Stopped = false;
@@ -353,7 +356,7 @@ void Rings::Reserve(std::int64_t points)
   this->Owners.reserve(Index(points));
 }
 
-std::vector<EdgePair> findCrossings(const Rings& rings, Progress& progress)
+std::vector<EdgePair> findCrossings(const Rings& rings, Progress& progress, bool atEnds)
 {
   if (rings.Edges() < 4)
   {
@@ -372,7 +375,7 @@ std::vector<EdgePair> findCrossings(const Rings& rings, Progress& progress)
     }
     edges.push_back(static_cast<std::int32_t>(i));
   }
-  CrossingSearch search(rings, progress);
+  CrossingSearch search(rings, progress, atEnds);
   search.Search(edges, box, 0);
   return search.Take();
 }

@@ -49,8 +49,9 @@ struct EdgePair
 
 // The pairs of edges that cross, each once, in order. The points' infinitesimals decide for edges
 // that touch or lie on each other. The time is linear in the edges unless edges of very different
-// lengths lie close together. Incomplete if `progress` is cancelled.
-std::vector<EdgePair> findCrossings(const Rings& rings, Progress& progress);
+// lengths lie close together. Incomplete if `progress` is cancelled. `atEnds`: also of edges that
+// end in one place, which may be many.
+std::vector<EdgePair> findCrossings(const Rings& rings, Progress& progress, bool atEnds = true);
 
 } // namespace RectifiedTransport
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Overlap/RingSweep.h"
 
+#include "Core/Overlap/EdgeOrder.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
@@ -15,105 +16,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-using Edges = std::vector<std::int32_t>;
-
-// Edges from left to right, in blocks, so that one more moves few of the others.
-class EdgeOrder
-{
-public:
-  struct Place
-  {
-    std::size_t Block;
-    std::size_t Index; // in it; its size only at the end of all
-  };
-
-  // The first for which isLeft is false.
-  template <class IsLeft>
-  Place Find(const IsLeft& isLeft) const
-  {
-    if (this->Blocks.empty())
-    {
-      return { 0, 0 };
-    }
-    const auto block = std::partition_point(this->Blocks.begin() + 1, this->Blocks.end(),
-                         [&](const Edges& edges) { return isLeft(edges.front()); }) -
-      1;
-    const auto index = std::partition_point(block->begin(), block->end(), isLeft) - block->begin();
-    return this->Normal(
-      { static_cast<std::size_t>(block - this->Blocks.begin()), static_cast<std::size_t>(index) });
-  }
-
-  static constexpr std::int32_t nothing = -1;
-
-  std::int32_t At(const Place& place) const
-  {
-    return place.Block < this->Blocks.size() && place.Index < this->Blocks[place.Block].size()
-      ? this->Blocks[place.Block][place.Index]
-      : nothing;
-  }
-  std::int32_t Before(const Place& place) const
-  {
-    return place.Index > 0 ? this->Blocks[place.Block][place.Index - 1]
-      : place.Block > 0    ? this->Blocks[place.Block - 1].back()
-                           : nothing;
-  }
-  std::int32_t After(const Place& place) const
-  {
-    return this->At(this->Normal({ place.Block, place.Index + 1 }));
-  }
-
-  void Replace(const Place& place, std::int32_t edge)
-  {
-    this->Blocks[place.Block][place.Index] = edge;
-  }
-
-  // The next edge is then at the returned place.
-  Place Erase(const Place& place)
-  {
-    Edges& block = this->Blocks[place.Block];
-    block.erase(block.begin() + static_cast<std::ptrdiff_t>(place.Index));
-    if (block.empty())
-    {
-      this->Blocks.erase(this->Blocks.begin() + static_cast<std::ptrdiff_t>(place.Block));
-      return this->Normal({ place.Block, 0 });
-    }
-    return this->Normal(place);
-  }
-
-  void InsertTwo(const Place& place, std::int32_t first, std::int32_t second)
-  {
-    constexpr std::size_t most = 512;
-    if (this->Blocks.empty())
-    {
-      this->Blocks.emplace_back();
-    }
-    const std::size_t number = std::min(place.Block, this->Blocks.size() - 1);
-    Edges& block = this->Blocks[number];
-    const std::size_t index = number == place.Block ? place.Index : block.size();
-    const std::int32_t both[2] = { first, second };
-    block.insert(block.begin() + static_cast<std::ptrdiff_t>(index), both, both + 2);
-    if (block.size() > most)
-    {
-      const auto middle = block.begin() + static_cast<std::ptrdiff_t>(most / 2);
-      Edges half(middle, block.end());
-      block.erase(middle, block.end());
-      this->Blocks.insert(
-        this->Blocks.begin() + static_cast<std::ptrdiff_t>(number) + 1, std::move(half));
-    }
-  }
-
-private:
-  // Behind the last of a block is the first of the next.
-  Place Normal(const Place& place) const
-  {
-    return place.Block + 1 < this->Blocks.size() && place.Index >= this->Blocks[place.Block].size()
-      ? Place{ place.Block + 1, 0 }
-      : place;
-  }
-
-  std::vector<Edges> Blocks; // none is empty
-};
 
 class Sweep
 {
@@ -246,7 +148,8 @@ private:
       const std::int32_t right = this->Order.At(place);
       const bool isOutRight =
         turnsLeft(point, this->All.Numbered(this->All.Next(out)), this->All.Numbered(in));
-      this->Order.InsertTwo(place, isOutRight ? in : out, isOutRight ? out : in);
+      const std::int32_t both[2] = { isOutRight ? in : out, isOutRight ? out : in };
+      this->Order.Insert(place, both, both + 2);
       return this->DoTwoCross(left, isOutRight ? in : out) ||
         this->DoTwoCross(isOutRight ? out : in, right);
     }
@@ -271,7 +174,7 @@ private:
   }
 
   const Rings& All;
-  Edges Before; // of each point, the edge that ends there
+  std::vector<std::int32_t> Before; // of each point, the edge that ends there
   std::vector<Ends> Upward;
   EdgeOrder Order;
 };

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the name of a file to write leads to.
+#ifndef RectifiedTransport_OutputTarget_h
+#define RectifiedTransport_OutputTarget_h
+
+#include "Bridge/Drawing/FileDescriptor.h"
+
+#include <string>
+
+namespace RectifiedTransport
+{
+
+struct OutputTarget
+{
+  std::string Name;        // as it was given, for messages
+  FileDescriptor Direct;   // a pipe or character device
+  FileDescriptor Existing; // the plain file that is there
+  FileDescriptor Folder;   // that has the plain file, where links end
+  std::string File;        // its name there
+
+  // With errno as the reason.
+  [[noreturn]] void Fail() const;
+};
+
+// Follows symbolic links, if the system would. A descriptor of this process, such as /dev/stdout,
+// is written on. Throws Failure for folders, block devices, sockets, pipes that no program reads,
+// files that may not be written and folders that do not exist.
+OutputTarget findOutputTarget(const std::string& name);
+
+// Gives a new file the owner, the group, the access list and the mode of an earlier one, or less
+// access where the system does not allow that.
+void copyAccess(const FileDescriptor& earlier, const FileDescriptor& file);
+
+} // namespace RectifiedTransport
+
+#endif

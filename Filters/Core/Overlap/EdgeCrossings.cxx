@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Overlap/EdgeCrossings.h"
+
+#include "Core/Overlap/RingSweep.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// The point where two edges cross, the same for both; where they lie on each other some point of
+// both.
+Point<2> crossingOf(const Rings& rings, const EdgePair& pair)
+{
+  const Point<2>& a = rings.At(pair.First);
+  const Point<2>& b = rings.At(rings.Next(pair.First));
+  const Point<2>& c = rings.At(pair.Second);
+  const Point<2>& d = rings.At(rings.Next(pair.Second));
+  double error = 0.0;
+  const double before = doubleArea(a, b, c, error);
+  const double after = doubleArea(a, b, d, error);
+  const double part = before / (before - after);
+  Point<2> x;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const double low = std::max(std::min(a[axis], b[axis]), std::min(c[axis], d[axis]));
+    const double high = std::min(std::max(a[axis], b[axis]), std::max(c[axis], d[axis]));
+    const double along = c[axis] + part * (d[axis] - c[axis]);
+    x[axis] = std::isfinite(along) ? std::min(std::max(along, low), high) : 0.5 * (low + high);
+  }
+  return x;
+}
+
+EdgeCrossing crossingOn(
+  const Rings& rings, std::int64_t edge, std::int64_t other, const Point<2>& x)
+{
+  const Point<2>& a = rings.At(edge);
+  const Point<2>& b = rings.At(rings.Next(edge));
+  const double along = (x[0] - a[0]) * (b[0] - a[0]) + (x[1] - a[1]) * (b[1] - a[1]);
+  return { edge, along, other, x };
+}
+
+} // namespace
+
+std::vector<EdgeCrossing> edgeCrossings(
+  const Rings& rings, Progress& progress, bool& areSimple, bool atEnds)
+{
+  constexpr std::int64_t few = 64; // compared sooner than swept
+  areSimple = areSimple || (rings.Edges() > few && !haveCrossings(rings, progress));
+  std::vector<EdgeCrossing> crossings;
+  if (areSimple)
+  {
+    areSimple = !progress.ShouldStop(); // which ends the search, too
+    return crossings;
+  }
+  for (const EdgePair& pair : findCrossings(rings, progress, atEnds))
+  {
+    const Point<2> x = crossingOf(rings, pair);
+    crossings.push_back(crossingOn(rings, pair.First, pair.Second, x));
+    crossings.push_back(crossingOn(rings, pair.Second, pair.First, x));
+  }
+  std::sort(crossings.begin(), crossings.end(), [](const EdgeCrossing& p, const EdgeCrossing& q) {
+    return p.Edge != q.Edge ? p.Edge < q.Edge
+      : p.Along != q.Along  ? p.Along < q.Along
+                            : p.Other < q.Other;
+  });
+  return crossings;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,419 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Overlap/RingTriangles.h"
+
+#include "Core/Geometry/Bins.h"
+#include "Core/Overlap/EdgeCrossings.h"
+#include "Core/Overlap/EdgeOrder.h"
+#include "Core/Overlap/MonotoneStrips.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// The points of rings and their crossings in the order of a line that sweeps upwards, those with
+// equal coordinates as one, and the pieces of edges between them.
+class SweptEdges
+{
+public:
+  SweptEdges(const Rings& rings, Progress& progress)
+    : Given(rings)
+  {
+    bool areSimple = false;
+    constexpr bool atEnds = false;
+    this->Crossings = edgeCrossings(rings, progress, areSimple, atEnds);
+    this->SortPoints();
+    this->Above.Fill(this->Places.size(), [this](const auto& add) { this->VisitPieces(add); });
+  }
+
+  // From the lowest to the highest, on one height to the right.
+  const std::vector<Point<2>>& All() const { return this->Places; }
+  double Rounding() const { return this->Unit; } // of their coordinates
+  const Point<2>& At(std::int32_t point) const { return this->Places[Index(point)]; }
+  NumberedPoint Numbered(std::int32_t point) const { return { this->At(point), point }; }
+  // The upper ends of the pieces that begin at a point.
+  Bins<std::int32_t>::Range EndsAbove(std::int32_t point) const
+  {
+    return this->Above[Index(point)];
+  }
+
+  // Numbers the corners of triangles as the rings do.
+  void Renumber(RingTriangles& triangles) const
+  {
+    const auto count = static_cast<std::int32_t>(this->Given.Edges());
+    std::vector<std::int32_t> numbers = this->Numbers;
+    for (std::int32_t& number : numbers)
+    {
+      if (number >= count)
+      {
+        const EdgeCrossing& crossing = this->Crossings[Index(number - count)];
+        const Point<2>& a = this->Given.At(crossing.Edge);
+        const Point<2>& b = this->Given.At(this->Given.Next(crossing.Edge));
+        const double square = (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]);
+        number = count + static_cast<std::int32_t>(triangles.Added.size());
+        triangles.Added.push_back(
+          { crossing.X, crossing.Edge, std::clamp(crossing.Along / square, 0.0, 1.0) });
+      }
+    }
+    for (std::array<std::int32_t, 3>& corners : triangles.Corners)
+    {
+      for (std::int32_t& corner : corners)
+      {
+        corner = numbers[Index(corner)];
+      }
+    }
+  }
+
+private:
+  static std::size_t Index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+  // Of the points of rings, then of crossings: rounded, so that what is equal up to rounding is
+  // mostly equal.
+  std::vector<Point<2>> RoundedPlaces()
+  {
+    constexpr int bits = 48; // of 53
+    std::vector<Point<2>> places;
+    double largest = 0.0;
+    for (std::int64_t i = 0; i < this->Given.Edges(); ++i)
+    {
+      places.push_back(this->Given.At(i));
+      largest = std::max({ largest, std::abs(places.back()[0]), std::abs(places.back()[1]) });
+    }
+    for (const EdgeCrossing& crossing : this->Crossings)
+    {
+      places.push_back(crossing.X);
+    }
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    this->Unit =
+      std::ldexp(1.0, std::max(exponent - bits, std::numeric_limits<double>::min_exponent));
+    for (Point<2>& place : places)
+    {
+      place = { std::round(place[0] / this->Unit) * this->Unit,
+        std::round(place[1] / this->Unit) * this->Unit };
+    }
+    return places;
+  }
+
+  void SortPoints()
+  {
+    const std::vector<Point<2>> places = this->RoundedPlaces();
+    std::vector<std::int32_t> order(places.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&places](std::int32_t i, std::int32_t j) {
+      const Point<2>& p = places[Index(i)];
+      const Point<2>& q = places[Index(j)];
+      return p[1] != q[1] ? p[1] < q[1] : p[0] != q[0] ? p[0] < q[0] : i < j;
+    });
+    this->Swept.resize(order.size());
+    for (const std::int32_t number : order)
+    {
+      if (this->Places.empty() || this->Places.back() != places[Index(number)])
+      {
+        this->Places.push_back(places[Index(number)]);
+        this->Numbers.push_back(number);
+      }
+      this->Swept[Index(number)] = static_cast<std::int32_t>(this->Places.size()) - 1;
+    }
+  }
+
+  // add(lower end, upper end) of all pieces that are longer than 0.
+  template <class Add>
+  void VisitPieces(const Add& add) const
+  {
+    const auto count = static_cast<std::int32_t>(this->Given.Edges());
+    auto crossing = this->Crossings.begin();
+    for (std::int32_t edge = 0; edge < count; ++edge)
+    {
+      std::int32_t from = this->Swept[Index(edge)];
+      const auto addTo = [&](std::int32_t to) {
+        if (from != to)
+        {
+          add(Index(std::min(from, to)), std::max(from, to));
+        }
+        from = to;
+      };
+      for (; crossing != this->Crossings.end() && crossing->Edge == edge; ++crossing)
+      {
+        addTo(
+          this
+            ->Swept[Index(count + static_cast<std::int32_t>(crossing - this->Crossings.begin()))]);
+      }
+      addTo(this->Swept[Index(static_cast<std::int32_t>(this->Given.Next(edge)))]);
+    }
+  }
+
+  const Rings& Given;
+  std::vector<EdgeCrossing> Crossings;
+  double Unit = 0.0; // of coordinates
+  std::vector<Point<2>> Places;
+  std::vector<std::int32_t> Numbers; // of a ring's point or a crossing, for each of them
+  std::vector<std::int32_t> Swept;   // the place of each ring's point and crossing
+  Bins<std::int32_t> Above;
+};
+
+// Moves a line upwards over the edges. Between each two of the edges that it meets, from left to
+// right, the plane is inside and outside in turn; each part inside is a strip that grows with the
+// points on its sides. Where an outer part ends, two strips are one part until the next point, to
+// which an edge divides it again.
+//
+// An edge that passes a point to rounding is divided there: touching edges need nothing else, and
+// the rounded places of crossings do no harm.
+class StripSweep
+{
+public:
+  StripSweep(const SweptEdges& edges, std::vector<std::array<std::int32_t, 3>>& triangles)
+    : Swept(edges)
+    , Strips(edges.All(), triangles)
+    , Ending(edges.All().size(), 0)
+  {
+  }
+
+  void Run(Progress& progress)
+  {
+    constexpr std::int32_t betweenPolls = 1 << 14;
+    const auto count = static_cast<std::int32_t>(this->Ending.size());
+    for (std::int32_t point = 0; point < count; ++point)
+    {
+      if (point % betweenPolls == 0 && progress.ShouldStop())
+      {
+        return;
+      }
+      this->Pass(point);
+    }
+  }
+
+private:
+  static constexpr std::int32_t none = -1;
+
+  // Between two edges: no strip outside, two after a point where two parts have joined.
+  struct Part
+  {
+    std::int32_t Strip = none;
+    std::int32_t Second = none; // to the right of the first
+
+    bool IsInside() const { return this->Strip != none; }
+  };
+
+  struct Edge
+  {
+    std::int32_t Low;
+    std::int32_t High;
+    Part Right;
+  };
+
+  struct Range
+  {
+    EdgeOrder::Place First;
+    int Count;
+  };
+
+  Edge& At(std::int32_t edge) { return this->Met[static_cast<std::size_t>(edge)]; }
+
+  // Of an edge: -1 to the left of the point, 1 to the right, 0 where it passes it to rounding.
+  int SideOf(std::int32_t edge, std::int32_t point)
+  {
+    const Point<2>& low = this->Swept.At(this->At(edge).Low);
+    const Point<2>& high = this->Swept.At(this->At(edge).High);
+    double error = 0.0;
+    const double area = doubleArea(low, high, this->Swept.At(point), error);
+    error += this->Swept.Rounding() * (std::abs(high[0] - low[0]) + std::abs(high[1] - low[1]));
+    return area > error ? 1 : area < -error ? -1 : 0;
+  }
+
+  // The edges that end at a point or pass it.
+  Range EdgesAt(std::int32_t point)
+  {
+    Range range{ this->Order.Find([&](std::int32_t edge) { return this->SideOf(edge, point) < 0; }),
+      0 };
+    int ending = 0;
+    for (EdgeOrder::Place place = range.First; this->Order.At(place) != EdgeOrder::nothing &&
+         this->SideOf(this->Order.At(place), point) == 0;
+         place = this->Order.Next(place))
+    {
+      ++range.Count;
+      ending += this->At(this->Order.At(place)).High == point ? 1 : 0;
+    }
+    return ending == this->Ending[static_cast<std::size_t>(point)] ? range : this->EdgesUpTo(point);
+  }
+
+  // Where rounding has brought edges into another order: those that end at the point, and all
+  // between them.
+  Range EdgesUpTo(std::int32_t point)
+  {
+    Range range{ { 0, 0 }, 0 };
+    int left = this->Ending[static_cast<std::size_t>(point)];
+    for (EdgeOrder::Place place = range.First; left > 0; place = this->Order.Next(place))
+    {
+      const bool isEnding = this->At(this->Order.At(place)).High == point;
+      range.First = range.Count == 0 ? place : range.First;
+      range.Count += isEnding || range.Count > 0 ? 1 : 0;
+      left -= isEnding ? 1 : 0;
+    }
+    return range;
+  }
+
+  // Upper ends of edges from a point, from left to right. Two edges on each other are none.
+  void FindEnds(std::int32_t point)
+  {
+    this->Ends.assign(this->Swept.EndsAbove(point).begin(), this->Swept.EndsAbove(point).end());
+    for (const std::int32_t edge : this->Below)
+    {
+      if (this->At(edge).High != point)
+      {
+        this->Ends.push_back(this->At(edge).High);
+      }
+    }
+    const NumberedPoint at = this->Swept.Numbered(point);
+    std::sort(this->Ends.begin(), this->Ends.end(), [&](std::int32_t i, std::int32_t j) {
+      return i != j && turnsLeft(at, this->Swept.Numbered(j), this->Swept.Numbered(i));
+    });
+    std::size_t kept = 0;
+    for (const std::int32_t end : this->Ends)
+    {
+      const bool isTwice = kept > 0 && this->Ends[kept - 1] == end;
+      kept = isTwice ? kept - 1 : kept + 1;
+      if (!isTwice)
+      {
+        this->Ends[kept - 1] = end;
+      }
+    }
+    this->Ends.resize(kept);
+  }
+
+  void Pass(std::int32_t point)
+  {
+    Range range = this->EdgesAt(point);
+    const std::int32_t leftEdge = this->Order.Before(range.First);
+    this->Below.clear();
+    for (; range.Count > 0; --range.Count)
+    {
+      this->Below.push_back(this->Order.At(range.First));
+      --this->Ending[static_cast<std::size_t>(this->At(this->Below.back()).High)];
+      range.First = this->Order.Erase(range.First);
+    }
+    this->FindEnds(point);
+    Part left = leftEdge == EdgeOrder::nothing ? Part() : this->At(leftEdge).Right;
+    Part right = this->Below.empty() ? left : this->At(this->Below.back()).Right;
+    this->Grow(point, left, right);
+    if (leftEdge != EdgeOrder::nothing)
+    {
+      this->At(leftEdge).Right = left;
+    }
+    this->BeginEdges(point, range.First, left.IsInside(), right);
+  }
+
+  // The strips to the left, below and to the right of a point.
+  void Grow(std::int32_t point, Part& left, Part& right)
+  {
+    if (this->Below.empty())
+    {
+      if (left.IsInside() && !this->Ends.empty())
+      {
+        this->Divide(point, left, right);
+      }
+      return;
+    }
+    for (std::size_t i = 0; i + 1 < this->Below.size(); ++i)
+    {
+      const Part& part = this->At(this->Below[i]).Right;
+      this->End(part.Strip, point);
+      this->End(part.Second, point);
+    }
+    if (left.IsInside())
+    {
+      this->End(left.Second, point);
+      this->Strips.Add(left.Strip, point, StripSide::Right);
+      left.Second = none;
+    }
+    if (right.IsInside())
+    {
+      if (right.Second != none)
+      {
+        this->End(right.Strip, point);
+        right = { right.Second, none };
+      }
+      this->Strips.Add(right.Strip, point, StripSide::Left);
+    }
+    if (left.IsInside() && this->Ends.empty())
+    {
+      left.Second = right.Strip;
+    }
+  }
+
+  void Divide(std::int32_t point, Part& left, Part& right)
+  {
+    std::array<std::int32_t, 2> both{ left.Strip, left.Second };
+    if (left.Second == none)
+    {
+      both = this->Strips.Divide(left.Strip, point);
+    }
+    else
+    {
+      this->Strips.Add(left.Strip, point, StripSide::Right);
+      this->Strips.Add(left.Second, point, StripSide::Left);
+    }
+    left = { both[0], none };
+    right = { both[1], none };
+  }
+
+  void End(std::int32_t strip, std::int32_t point)
+  {
+    if (strip != none)
+    {
+      this->Strips.End(strip, point);
+    }
+  }
+
+  // The edges from a point upwards, where there is nothing between those beside it.
+  void BeginEdges(
+    std::int32_t point, const EdgeOrder::Place& place, bool isInside, const Part& right)
+  {
+    if (this->Ends.empty())
+    {
+      return;
+    }
+    this->Below.clear();
+    for (const std::int32_t end : this->Ends)
+    {
+      isInside = !isInside;
+      const bool isLast = this->Below.size() + 1 == this->Ends.size();
+      const std::int32_t strip = isInside && !isLast ? this->Strips.Begin(point) : none;
+      this->Below.push_back(static_cast<std::int32_t>(this->Met.size()));
+      this->Met.push_back({ point, end, isLast ? right : Part{ strip, none } });
+      ++this->Ending[static_cast<std::size_t>(end)];
+    }
+    this->Order.Insert(place, this->Below.data(), this->Below.data() + this->Below.size());
+  }
+
+  const SweptEdges& Swept;
+  MonotoneStrips Strips;
+  std::vector<int> Ending; // edges in the order that end at each point
+  std::vector<Edge> Met;
+  EdgeOrder Order;
+  std::vector<std::int32_t> Below; // edges at the point that is passed
+  std::vector<std::int32_t> Ends;
+};
+
+} // namespace
+
+RingTriangles triangulateRings(const Rings& rings, Progress& progress)
+{
+  RingTriangles triangles;
+  if (rings.Edges() >= 3)
+  {
+    const SweptEdges edges(rings, progress);
+    StripSweep(edges, triangles.Corners).Run(progress);
+    edges.Renumber(triangles);
+  }
+  return triangles;
+}
+
+} // namespace RectifiedTransport
