@@ -58,6 +58,16 @@ void vtkCollectiveAlgorithm::SetInputData(int port, vtkDataObject* input)
 vtkTypeBool vtkCollectiveAlgorithm::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  vtkTypeBool result = 0;
+  RectifiedTransport::withThreadsOfThisProcess(
+    [&]() { result = this->ProcessCaught(request, inputVector, outputVector); });
+  return result;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkCollectiveAlgorithm::ProcessCaught(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
   try
   {
     if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))

@@ -55,8 +55,9 @@ public:
   ///@{
   /**
    * What runs the parallel loops: VTK (vtkSMPTools with the backend in use), OpenMP, or Serial.
-   * Auto (default) is OpenMP where VTK's backend is Sequential, else VTK. It changes the time,
-   * never the result.
+   * Auto (default) is OpenMP where VTK's backend is Sequential, else VTK. A child that fork() made
+   * is always Serial, as it has none of its parent's threads. It changes the time, never the
+   * result.
    */
   vtkSetMacro(Threading, int);
   vtkGetMacro(Threading, int);
@@ -213,6 +214,8 @@ protected:
   int Threading;
 
 private:
+  vtkTypeBool ProcessCaught(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
   int ProcessInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   int ProcessTimeDependentInformation(vtkInformation* request, vtkInformationVector** inputVector,

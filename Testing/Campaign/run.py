@@ -61,6 +61,8 @@ def run_cases(program, setting, seed, first, count, limit, kind, files, only):
     while first < end:
         command = [program, "--first", str(first), "--count", str(end - first), "--seed", str(seed),
                    "--backend", backend, "--threads", str(threads)]
+        if threads > 1:
+            command += ["--fork", "16"]  # children have none of the threads
         if only:
             command += ["--filter", only]
         if kind:

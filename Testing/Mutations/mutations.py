@@ -23,6 +23,8 @@ SURVIVED = [
       "ghostCell & ~vtkDataSetAttributes::REFINEDCELL"),
     E(BRIDGE + "Density/DensityImage.cxx", "time(this->Sources[0]), «time(this->Sources[1])»",
       "std::uint64_t{ 0 }"),
+    E(CORE + "Parallel/Executor.cxx", "return «forksSinceLoad() > 0» ||", "false"),
+    E(CORE + "Parallel/Progress.cxx", "«slice < units / shortParts»", "false"),
     E(CORE + "Quality/ParticleQuality.cxx", "static_cast<double>(size[axis]) / scale.ToUnits(aspect[axis])",
       "1.0"),
     E(CORE + "Mesh/SurfaceOrientation.cxx", "area += this->Signs[queue[next]] * «this->AreaOf(queue[next])»",

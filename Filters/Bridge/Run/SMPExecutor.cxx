@@ -2,6 +2,7 @@
 #include "Bridge/Run/SMPExecutor.h"
 
 #include "Bridge/Run/PropertyCheck.h"
+#include "Core/Parallel/Forks.h"
 
 #include "vtkSMPTools.h"
 
@@ -31,6 +32,11 @@ std::unique_ptr<Executor> makeExecutor(int threading)
 
 void SMPExecutor::For(std::int64_t count, std::int64_t grain, RangeKernel kernel) const
 {
+  if (forksSinceLoad() > 0)
+  {
+    SerialExecutor().For(count, grain, kernel);
+    return;
+  }
   const std::int64_t ranges = (count + grain - 1) / grain;
   // A few tasks a thread balance the load; a task for each range has more overhead than small
   // ranges have work.
@@ -64,7 +70,7 @@ void SMPExecutor::For(std::int64_t count, std::int64_t grain, RangeKernel kernel
 
 int SMPExecutor::Concurrency() const
 {
-  return std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads());
+  return forksSinceLoad() > 0 ? 1 : std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads());
 }
 
 std::unique_ptr<Executor> makeExecutor(Threading threading)
@@ -83,6 +89,16 @@ std::unique_ptr<Executor> makeExecutor(Threading threading)
     default:
       return std::make_unique<SerialExecutor>();
   }
+}
+
+void withThreadsOfThisProcess(const std::function<void()>& function)
+{
+  if (forksSinceLoad() == 0)
+  {
+    function();
+    return;
+  }
+  vtkSMPTools::LocalScope(vtkSMPTools::Config("Sequential"), function);
 }
 
 } // namespace RectifiedTransport

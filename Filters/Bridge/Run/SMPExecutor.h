@@ -5,11 +5,13 @@
 
 #include "Core/Parallel/Executor.h"
 
+#include <functional>
 #include <memory>
 
 namespace RectifiedTransport
 {
 
+// Serial in a child that fork() made.
 class SMPExecutor final : public Executor
 {
 public:
@@ -31,6 +33,10 @@ const char* threadingText(int threading);
 std::unique_ptr<Executor> makeExecutor(Threading threading);
 // Throws Failure for a value out of range.
 std::unique_ptr<Executor> makeExecutor(int threading);
+
+// Calls a function. In a child that fork() made, what it calls of VTK's own classes runs serially
+// meanwhile: backends keep threads, too.
+void withThreadsOfThisProcess(const std::function<void()>& function);
 
 } // namespace RectifiedTransport
 

@@ -50,6 +50,10 @@ std::shared_ptr<Device> openDevice(
   {
     throw DeviceError("There is too little memory to open an OpenCL device");
   }
+  if (OpenCL::IsOfParent())
+  {
+    throw DeviceError("A child that fork() made cannot use its parent's OpenCL devices");
+  }
   if (!OpenCL::Loaded())
   {
     throw DeviceError("There is no OpenCL on this machine (libOpenCL.so.1, of a driver's package)");
@@ -114,7 +118,7 @@ DeviceBuffer::~DeviceBuffer()
 {
   if (this->Memory)
   {
-    this->Owner->Cl.clReleaseMemObject(this->Memory);
+    this->Owner->Release(this->Owner->Cl.clReleaseMemObject, this->Memory);
     this->Owner->Taken -= this->Bytes;
   }
 }
@@ -147,10 +151,7 @@ void DeviceTransfer::Wait()
 
 DeviceKernel::~DeviceKernel()
 {
-  if (this->Kernel)
-  {
-    this->Owner->Cl.clReleaseKernel(this->Kernel);
-  }
+  this->Owner->Release(this->Owner->Cl.clReleaseKernel, this->Kernel);
 }
 
 void DeviceKernel::Set(cl_uint number, const DeviceBuffer& buffer)
@@ -166,10 +167,7 @@ void DeviceKernel::SetBytes(cl_uint number, std::size_t bytes, const void* value
 
 DeviceProgram::~DeviceProgram()
 {
-  if (this->Program)
-  {
-    this->Owner->Cl.clReleaseProgram(this->Program);
-  }
+  this->Owner->Release(this->Owner->Cl.clReleaseProgram, this->Program);
 }
 
 DeviceKernel DeviceProgram::NewKernel(const std::string& name) const
@@ -214,12 +212,9 @@ void Device::Close()
 {
   for (cl_command_queue queue : { this->Queue, this->Transfers })
   {
-    if (queue)
-    {
-      this->Cl.clReleaseCommandQueue(queue);
-    }
+    this->Release(this->Cl.clReleaseCommandQueue, queue);
   }
-  this->Cl.clReleaseContext(this->Context);
+  this->Release(this->Cl.clReleaseContext, this->Context);
 }
 
 void Device::Keep(const void* owner, std::shared_ptr<void> kept)

@@ -193,7 +193,7 @@ public:
   bool Is(const FoundDevice& found) const { return found.Id == this->Found.Id; }
   // To be locked by whoever uses it. Buffers may go, and what is kept, without it.
   std::timed_mutex& Mutex() { return this->InUse; }
-  bool IsLost() const { return this->HasFailed; }
+  bool IsLost() const { return this->HasFailed || OpenCL::IsOfParent(); }
   void MarkLost() { this->HasFailed = true; }
   bool IsGpu() const { return (this->Type & CL_DEVICE_TYPE_GPU) != 0; }
   const DeviceWork& Work() const { return this->Done; }
@@ -234,6 +234,15 @@ private:
   void Require(cl_int code, const std::string& what) const;
   // Of its work: what fails there is lost, unless it is memory.
   void RequireWork(cl_int code, const std::string& what) const;
+  // What the driver of a parent has made is left to it.
+  template <class Handle>
+  void Release(cl_int(CL_API_CALL* release)(Handle), Handle handle) const
+  {
+    if (handle && !OpenCL::IsOfParent())
+    {
+      release(handle);
+    }
+  }
   void Close();
   void RequireMemoryToCompile() const;
 

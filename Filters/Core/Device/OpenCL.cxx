@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Device/OpenCL.h"
 
+#include "Core/Parallel/Forks.h"
+
 #ifdef _WIN32
 #include <windows.h>
 #else
@@ -52,6 +54,7 @@ struct Loading
 {
   OpenCL Functions;
   bool IsComplete = true;
+  const int Forks = forksSinceLoad();
 
   Loading()
   {
@@ -63,12 +66,22 @@ struct Loading
   }
 };
 
+const Loading& loaded()
+{
+  static const Loading loading;
+  return loading;
+}
+
 } // namespace
 
 const OpenCL* OpenCL::Loaded()
 {
-  static const Loading loading;
-  return loading.IsComplete ? &loading.Functions : nullptr;
+  return loaded().IsComplete && !OpenCL::IsOfParent() ? &loaded().Functions : nullptr;
+}
+
+bool OpenCL::IsOfParent()
+{
+  return loaded().Forks != forksSinceLoad();
 }
 
 } // namespace RectifiedTransport

@@ -42,8 +42,11 @@ struct OpenCL
   RectifiedTransport_FUNCTIONS(RectifiedTransport_DECLARE);
 #undef RectifiedTransport_DECLARE
 
-  // nullptr if there is no loader, or one that lacks a function.
+  // nullptr if there is no loader, one that lacks a function, or if IsOfParent.
   static const OpenCL* Loaded();
+  // Whether the driver was loaded before the fork() that made this process. It is of no use then,
+  // as its threads and its connection to the device are its parent's.
+  static bool IsOfParent();
 };
 
 } // namespace RectifiedTransport

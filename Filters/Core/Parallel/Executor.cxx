@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Parallel/Executor.h"
 
+#include "Core/Parallel/Forks.h"
+
 #include <algorithm>
 
 #ifdef _OPENMP
+#include "Core/Parallel/LoopTeam.h"
+
 #include <omp.h>
 #endif
 
@@ -20,33 +24,21 @@ void SerialExecutor::For(std::int64_t count, std::int64_t grain, RangeKernel ker
 
 void OpenMPExecutor::For(std::int64_t count, std::int64_t grain, RangeKernel kernel) const
 {
-  KernelFailure failure;
-  const std::int64_t ranges = (count + grain - 1) / grain;
 #ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic, 1) if (ranges > 1)
-#endif
-  for (std::int64_t range = 0; range < ranges; ++range)
+  const int threads = this->Concurrency();
+  if (threads > 1 && count > grain)
   {
-    if (failure.HasHappened())
-    {
-      continue;
-    }
-    try
-    {
-      kernel(range * grain, std::min((range + 1) * grain, count));
-    }
-    catch (...)
-    {
-      failure.Keep();
-    }
+    LoopTeam::Get().Run(threads, count, grain, kernel);
+    return;
   }
-  failure.Rethrow();
+#endif
+  SerialExecutor().For(count, grain, kernel);
 }
 
 int OpenMPExecutor::Concurrency() const
 {
 #ifdef _OPENMP
-  return omp_get_max_threads();
+  return forksSinceLoad() > 0 || omp_in_parallel() ? 1 : omp_get_max_threads();
 #else
   return 1;
 #endif

@@ -15,7 +15,8 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t firstSlice = 1 << 10;
+constexpr std::int64_t firstSlice = 1 << 10; // of integrals
+constexpr std::int64_t firstAdded = 1 << 15; // of sums of few values
 // Of Newton's method; nearly all solutions are better by an order of magnitude or more.
 constexpr double solvedTo = 4e-7;
 constexpr int mostSteps = 2000; // in one solution
@@ -149,7 +150,7 @@ bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
 }
 
 template <class Visit>
-void EqualMassPartition::VisitCells(Progress& progress, const Visit& visit)
+void EqualMassPartition::VisitCells(Progress& progress, std::int64_t units, const Visit& visit)
 {
   progress.For(
     this->Cells.NumberOfCells(), PowerDiagram::cellsOfChunk,
@@ -159,7 +160,7 @@ void EqualMassPartition::VisitCells(Progress& progress, const Visit& visit)
         visit(place);
       }
     },
-    firstSlice);
+    units);
 }
 
 EqualMassPartition::Deviation EqualMassPartition::Evaluate(
@@ -167,9 +168,10 @@ EqualMassPartition::Deviation EqualMassPartition::Evaluate(
 {
   this->Cells.Update(weights.data(), progress);
   this->Sides.resize(static_cast<std::size_t>(this->Cells.NumberOfChunks()));
-  this->VisitCells(progress, [this](std::int64_t place) { this->IntegrateSides(place); });
   this->VisitCells(
-    progress, [this](std::int64_t place) { this->AddSides(this->Cells.SiteAt(place)); });
+    progress, firstSlice, [this](std::int64_t place) { this->IntegrateSides(place); });
+  this->VisitCells(progress, firstAdded,
+    [this](std::int64_t place) { this->AddSides(this->Cells.SiteAt(place)); });
   double squares = 0.0;
   this->Found = { 0.0, 0.0, std::numeric_limits<double>::infinity() };
   for (const double mass : this->Masses)
@@ -185,11 +187,8 @@ EqualMassPartition::Deviation EqualMassPartition::Evaluate(
 // The cells of the diagram are small parts of a table that is larger than the caches.
 void EqualMassPartition::PrefetchCell(std::int64_t place) const
 {
-  if (place >= this->Cells.NumberOfCells())
-  {
-    return;
-  }
-  const PowerDiagram::Cell cell = this->Cells[this->Cells.SiteAt(place)];
+  const bool isCell = place < this->Cells.NumberOfCells();
+  const auto cell = isCell ? this->Cells[this->Cells.SiteAt(place)] : PowerDiagram::Cell();
   if (cell.Count == 0)
   {
     return;
@@ -462,7 +461,7 @@ bool EqualMassPartition::FindDirection()
 void EqualMassPartition::IntegrateCells(Progress& progress)
 {
   this->Integrated.resize(this->Sites.size());
-  this->VisitCells(progress, [this](std::int64_t place) {
+  this->VisitCells(progress, firstSlice, [this](std::int64_t place) {
     this->PrefetchCell(place + 1);
     const std::int64_t site = this->Cells.SiteAt(place);
     this->Integrated[static_cast<std::size_t>(site)] = this->IntegrateCell(site);

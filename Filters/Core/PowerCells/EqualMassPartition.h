@@ -82,9 +82,9 @@ private:
   // The same after raising weights until all cells have at least `least`, if only few have less.
   Deviation EvaluateRevived(Vector& weights, double least, Progress& progress);
   double RevivingWeight(std::int64_t site, double weight, double least) const;
-  // Calls visit(place) for the cells, in chunks.
+  // Calls visit(place) for the cells, in chunks. The first slice has `units` of them.
   template <class Visit>
-  void VisitCells(Progress& progress, const Visit& visit);
+  void VisitCells(Progress& progress, std::int64_t units, const Visit& visit);
   void PrefetchCell(std::int64_t place) const;
   void IntegrateSides(std::int64_t place);
   void AddSides(std::int64_t site);

@@ -15,7 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t firstSlice = 1 << 8; // where all cells meet in a point they are slow
+constexpr std::int64_t firstSlice = 1 << 9; // where all cells meet in a point they are slow
 
 } // namespace
 

@@ -73,6 +73,7 @@ void SiteTree::SetWeights(const double* weights, Progress& progress)
     }
   });
   constexpr std::int64_t boxesOfRange = 64; // some have all sites
+  const std::int64_t firstSlice = this->Size() > sitesOfRange ? boxesOfRange : 1 << 14;
   progress.For(
     static_cast<std::int64_t>(this->Boxes.size()), boxesOfRange,
     [&](std::int64_t first, std::int64_t last) {
@@ -81,7 +82,7 @@ void SiteTree::SetWeights(const double* weights, Progress& progress)
         this->BoundWeights(this->Boxes[static_cast<std::size_t>(i)]);
       }
     },
-    boxesOfRange);
+    firstSlice);
 }
 
 // With the slope of the plane that fits the weights best, by least squares; any other would do.

@@ -2,6 +2,7 @@
 // Partitions into cells of equal mass on large grids and on threads, and their cancellation.
 #include "Core/PowerCells/EqualMassPartition.h"
 
+#include "CountingExecutor.h"
 #include "RecordingContext.h"
 #include "TestPowerCells.h"
 #include "ThreadsExecutor.h"
@@ -77,6 +78,17 @@ TEST(EqualMassPartitionRun, ThreadsDoNotMatter)
   {
     EXPECT_EQ(result(ThreadsExecutor(threads)), serial) << threads;
   }
+}
+
+// Cutting the cells and integrating along their sides; all else is short.
+TEST(EqualMassPartitionRun, HasFewLoopsForThreads)
+{
+  const TestDensity<2> density = spots({ 40, 40 });
+  const CountingExecutor threads;
+  const EqualMassPartition partition =
+    solved(density, randomPoints<2>(density.Size, 400, 6), { 1.0, 1.0 }, threads);
+  EXPECT_GT(partition.NewtonSteps(), 5);
+  EXPECT_LT(threads.Calls, 15 * partition.NewtonSteps());
 }
 
 TEST(EqualMassPartitionRun, IsCancelled)

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Parallel/LoopTeam.h"
+
+#include <algorithm>
+#include <exception>
+#include <thread>
+
+#include <omp.h>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Waits for what comes at once, for some ten microseconds. Returns whether it came.
+template <class Test>
+bool spin(const Test& hasCome)
+{
+  constexpr int turns = 400;
+  for (int turn = 0; turn < turns; ++turn)
+  {
+    if (hasCome())
+    {
+      return true;
+    }
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    __asm__ __volatile__("yield");
+#endif
+  }
+  return hasCome();
+}
+
+} // namespace
+
+class LoopTeam::Loop
+{
+public:
+  Loop(int threads, std::int64_t count, std::int64_t grain, const RangeKernel& kernel)
+    : Places(threads - 1)
+    , Count(count)
+    , Grain(grain)
+    , Kernel(kernel)
+  {
+  }
+
+  // Runs ranges that no other thread has begun, until there are none.
+  void Work()
+  {
+    const std::int64_t ranges = (this->Count + this->Grain - 1) / this->Grain;
+    for (std::int64_t range = this->Next++; range < ranges && !this->Failure.HasHappened();
+         range = this->Next++)
+    {
+      try
+      {
+        this->Kernel(range * this->Grain, std::min((range + 1) * this->Grain, this->Count));
+      }
+      catch (...)
+      {
+        this->Failure.Keep();
+      }
+    }
+  }
+
+  int Places; // for others, guarded by the team's mutex
+  std::atomic<int> Inside{ 0 };
+  Loop* Following = nullptr;
+  KernelFailure Failure;
+
+private:
+  const std::int64_t Count;
+  const std::int64_t Grain;
+  const RangeKernel& Kernel;
+  std::atomic<std::int64_t> Next{ 0 };
+};
+
+LoopTeam& LoopTeam::Get()
+{
+  // Its threads last as long as the process.
+  static LoopTeam* const team = new LoopTeam;
+  return *team;
+}
+
+void LoopTeam::Run(int threads, std::int64_t count, std::int64_t grain, const RangeKernel& kernel)
+{
+  Loop loop(threads, count, grain, kernel);
+  const std::int64_t helpers = std::min<std::int64_t>(threads, (count + grain - 1) / grain) - 1;
+  {
+    std::unique_lock<std::mutex> lock(this->Mutex);
+    this->Grow(threads, lock);
+    loop.Following = this->First;
+    this->First = &loop;
+    ++this->Changes;
+  }
+  for (std::int64_t helper = 0; helper < helpers; ++helper)
+  {
+    this->Begun.notify_one();
+  }
+  loop.Work();
+  this->Remove(loop);
+  const auto isLeft = [&loop]() { return loop.Inside.load(std::memory_order_acquire) == 0; };
+  if (!spin(isLeft))
+  {
+    std::unique_lock<std::mutex> lock(this->Mutex);
+    this->Left.wait(lock, isLeft);
+  }
+  loop.Failure.Rethrow();
+}
+
+// Returns when the threads are there: OpenMP ends the program where memory is too short for them,
+// which is no surprise at the first loop.
+void LoopTeam::Grow(int threads, std::unique_lock<std::mutex>& lock)
+{
+  if (threads <= this->Size)
+  {
+    return;
+  }
+  if (this->Size == 1)
+  {
+    try
+    {
+      std::thread(&LoopTeam::Host, this).detach();
+    }
+    catch (const std::exception&)
+    {
+      return; // the calling thread does all of this loop
+    }
+  }
+  this->Size = threads;
+  this->Grown.notify_one();
+  this->Begun.notify_all();
+  this->Left.wait(lock, [&]() { return this->Started >= threads; });
+}
+
+// The threads of a region are as many as at its beginning.
+void LoopTeam::Host()
+{
+  int size = 1;
+  for (;;)
+  {
+    {
+      std::unique_lock<std::mutex> lock(this->Mutex);
+      this->Grown.wait(lock, [&]() { return this->Size > size; });
+      size = this->Size;
+    }
+#pragma omp parallel num_threads(size)
+    if (omp_get_thread_num() == 0)
+    {
+      // It has the place of a thread that calls.
+      std::unique_lock<std::mutex> lock(this->Mutex);
+      this->Started = size;
+      this->Left.notify_all();
+      this->Grown.wait(lock, [&]() { return this->Size > size; });
+    }
+    else
+    {
+      this->Serve(size);
+    }
+  }
+}
+
+void LoopTeam::Serve(int size)
+{
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  while (this->Size == size)
+  {
+    const unsigned seen = this->Changes;
+    if (Loop* loop = this->Join())
+    {
+      lock.unlock();
+      loop->Work();
+      lock.lock();
+      if (--loop->Inside == 0)
+      {
+        this->Left.notify_all();
+      }
+      continue;
+    }
+    const auto hasChanged = [&]() { return this->Changes.load(std::memory_order_relaxed) != seen; };
+    lock.unlock();
+    const bool isSoon = spin(hasChanged);
+    lock.lock();
+    if (!isSoon)
+    {
+      this->Begun.wait(lock, [&]() { return hasChanged() || this->Size != size; });
+    }
+  }
+}
+
+LoopTeam::Loop* LoopTeam::Join()
+{
+  for (Loop* loop = this->First; loop; loop = loop->Following)
+  {
+    if (loop->Places > 0)
+    {
+      --loop->Places;
+      ++loop->Inside;
+      return loop;
+    }
+  }
+  return nullptr;
+}
+
+void LoopTeam::Remove(Loop& loop)
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  Loop** place = &this->First;
+  while (*place != &loop)
+  {
+    place = &(*place)->Following;
+  }
+  *place = loop.Following;
+}
+
+} // namespace RectifiedTransport
