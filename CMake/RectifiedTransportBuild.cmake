@@ -48,7 +48,8 @@ if (RectifiedTransport_WRAP_PYTHON)
   set(python_package "${RectifiedTransport_PYTHON_DIR}/rectifiedtransport")
   configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
     "${CMAKE_BINARY_DIR}/${python_package}/__init__.py" @ONLY)
-  set(arrays __init__.py _blends.py _data.py _maps.py _points.py _run.py)
+  set(arrays __init__.py _blends.py _data.py _maps.py _numbers.py _points.py
+    _run.py)
   foreach (name IN LISTS arrays)
     configure_file("${PROJECT_SOURCE_DIR}/Python/arrays/${name}"
       "${CMAKE_BINARY_DIR}/${python_package}/arrays/${name}" COPYONLY)

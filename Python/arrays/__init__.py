@@ -12,6 +12,9 @@ place is not copied: arrays in C order of 1, 2, 4 or 8 bytes a value, of the mac
 Others are copied, float16 to float32, long double to double; so are points of two coordinates, or of
 integers. Results are on VTK's own memory.
 
+Values under a mask of numpy.ma, None and pandas' NA are missing: there is no mass. NaN is an error
+unless NaNValues="Empty" makes it missing, too. Texts of numbers are numbers.
+
 Each function runs a filter of the package once and gives that filter's bits. Keywords are the
 filter's properties by name: Method="Optimal", NaNValues="Empty", NumberOfSteps=64. help() of the
 class lists them. Errors of a filter are ValueError, or MemoryError, with the filter's text; its

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import vtkRectifiedTransport as filters
 from ._data import Numbers, image_of, point_values_of
+from ._numbers import all_numbers
 from ._run import set_properties, update
 
 
@@ -65,7 +66,7 @@ def morph(a: ArrayLike, b: ArrayLike, t: Union[float, Sequence[float]] = 0.5, *,
     real numbers.
     """
     pair = _Pair(a, b, spacing, origin, {}, properties)
-    times = np.asarray(t, dtype=float)
+    times = all_numbers(t, "t").astype(float)
     if times.ndim > 1:
         raise ValueError("t has the shape %s; it must be a number or a sequence" % (times.shape,))
     if times.ndim == 0:
@@ -114,16 +115,10 @@ def barycenter(densities: Sequence[ArrayLike], weights: Optional[Sequence[float]
     if len({len(shape) for shape in shapes}) > 1:
         raise ValueError("the densities have the shapes %s; they must have as many axes"
                          % ", ".join(map(str, shapes)))
-    for i, weight in enumerate([] if weights is None else np.asarray(weights, dtype=float)):
-        algorithm.SetWeight(i, weight)
+    for i, weight in enumerate(all_numbers([] if weights is None else weights, "weights")):
+        algorithm.SetWeight(i, float(weight))
     update(algorithm, {"density": shapes[0]} if len(set(shapes)) == 1 else {})
     return point_values_of(algorithm.GetDensity(), "Density", len(shapes[0]))
-
-
-def _padded(values, shape):
-    """The values with zeros after them, where an array of another shape goes on."""
-    values = np.asarray(values)
-    return values if values.shape == shape else np.pad(values, [(0, n - own) for own, n in zip(values.shape, shape)])
 
 
 def distance(a: ArrayLike, b: ArrayLike, *, spacing: Numbers = 1.0, origin: Numbers = 0.0,
@@ -154,7 +149,7 @@ def distance(a: ArrayLike, b: ArrayLike, *, spacing: Numbers = 1.0, origin: Numb
     algorithm = filters.vtkTransportDistance()
     set_properties(algorithm, {"Method": "Certified", "OverTime": 0, "Dimensions": 1}, properties)
     for name, values in (("a", a), ("b", b)):
-        image, _ = image_of(_padded(values, largest), name, spacing, origin)
+        image, _ = image_of(values, name, spacing, origin, grown_to=largest)
         algorithm.AddInputDataObject(image)
     # Densities of other masses are what this function is for.
     update(algorithm, {name: largest for name in shapes}, "The masses of the densities differ")

@@ -6,40 +6,11 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_SIGNED_CHAR
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkImageData, vtkPolyData
+
+from ._numbers import all_numbers, numbers_and_gaps
 
 Numbers = Union[float, Sequence[float]]  # one for all axes, or one for each of x, y(, z)
-
-
-def numbers_of_text(array, name):
-    """Texts that are numbers, as files give them, as doubles."""
-    made = np.empty(array.shape)
-    for place, value in np.ndenumerate(array):
-        try:
-            if "_" in str(value):
-                raise ValueError  # that float would leave out
-            made[place] = float(value)
-        except (TypeError, ValueError):
-            raise TypeError("%s has values of type %s; they must be real numbers, and %r at %s is none"
-                            % (name, array.dtype, value, list(place))) from None
-    return made
-
-
-def real_numbers(values, name):
-    """An array that VTK takes: a copy only if the memory's order or the type asks for it."""
-    if isinstance(values, np.ma.MaskedArray):
-        raise TypeError("%s is a masked array; give %s.filled(numpy.nan) with NaNValues='Empty', or "
-                        "other values for what is masked" % (name, name))
-    array = np.asarray(values)
-    if array.dtype.kind in "OSUT":
-        array = numbers_of_text(array, name)
-    if array.dtype.kind not in "biuf":
-        raise TypeError("%s has values of type %s; they must be real numbers" % (name, array.dtype))
-    if array.dtype.kind == "b":
-        array = array.view(np.int8)
-    elif array.dtype.kind == "f" and array.dtype.itemsize not in (4, 8):
-        array = array.astype(np.float32 if array.dtype.itemsize < 4 else np.float64)
-    return np.require(array, array.dtype.newbyteorder("="), ["C", "A"])
 
 
 def vtk_array(array, name):
@@ -51,7 +22,7 @@ def vtk_array(array, name):
 
 def along_axes(values, name, axes, positive=False):
     """A number for each of x, y and z; one alone is that of all."""
-    numbers = np.asarray(values)
+    numbers = np.asarray(None if np.ma.is_masked(values) else values)
     if numbers.dtype.kind not in "iuf" or numbers.shape not in ((), (axes,)):
         raise ValueError("%s is %r; it must be a number, or %d in the order %s"
                          % (name, values, axes, ", ".join("xyz"[:axes])))
@@ -63,12 +34,17 @@ def along_axes(values, name, axes, positive=False):
     return made
 
 
-def image_of(values, name, spacing=1.0, origin=0.0, colours=False):
-    """The vtkImageData whose points have the values. Returns the image and the shape of its axes."""
-    array = real_numbers(values, name)
+def image_of(values, name, spacing=1.0, origin=0.0, colours=False, grown_to=None):
+    """The vtkImageData whose points have the values; those of missing ones are hidden. Returns the
+    image and the shape of its axes, grown by zeros to the one that is given."""
+    array, gaps = numbers_and_gaps(values, name)
+    if grown_to not in (None, array.shape):
+        ends = [(0, end - own) for own, end in zip(array.shape, grown_to)]
+        array, gaps = np.pad(array, ends), None if gaps is None else np.pad(gaps, ends)
     shape, rows = array.shape, array.reshape(-1)
     if colours and array.ndim == 3:
         shape, rows = array.shape[:2], array.reshape(-1, array.shape[2] or 1)
+        gaps = None if gaps is None else gaps.any(axis=2)
     if array.ndim not in (2, 3):
         raise ValueError("%s has the shape %s; it must have two axes, [y, x], or three, [z, y, x]"
                          % (name, array.shape))
@@ -79,12 +55,15 @@ def image_of(values, name, spacing=1.0, origin=0.0, colours=False):
     image.SetSpacing(*along_axes(spacing, "spacing", len(shape), positive=True))
     image.SetOrigin(*along_axes(origin, "origin", len(shape)))
     image.GetPointData().SetScalars(vtk_array(rows, name))
+    if gaps is not None:
+        hidden = np.where(gaps.reshape(-1), vtkDataSetAttributes.HIDDENPOINT, 0).astype(np.uint8)
+        image.GetPointData().AddArray(vtk_array(hidden, vtkDataSetAttributes.GhostArrayName()))
     return image, shape
 
 
 def point_set(points, name, axes):
     """The vtkPolyData of points given as rows of x and y or of x, y and z."""
-    array = real_numbers(points, name)
+    array = all_numbers(points, name)
     if array.ndim != 2 or array.shape[1] != axes:
         raise ValueError("%s has the shape %s; it must be (number of points, %d), as the density has "
                          "%d axes" % (name, array.shape, axes, axes))

@@ -30,7 +30,7 @@ def set_property(algorithm, name, value):
         return
     if isinstance(value, (bool, np.bool_)):
         value = int(value)
-    several = isinstance(value, (list, tuple, np.ndarray))
+    several = not isinstance(value, str) and np.ndim(value) > 0
     getattr(algorithm, "Set" + name)(*value if several else [value])
 
 
@@ -49,7 +49,8 @@ def set_properties(algorithm, own, given, kind=None):
 
 def text_of(message):
     """What the filter says, without the place in its source and its address."""
-    return re.sub(r"^\w+: In .*?, line \d+\n.*? \(0x[0-9a-f]+\): ", "", message, 1, re.DOTALL).strip()
+    return re.sub(r"^\w+: In .*?, line \d+\n.*? \(0x[0-9a-f]+\): ", "", message, count=1,
+                  flags=re.DOTALL).strip()
 
 
 def with_place(text, shapes):

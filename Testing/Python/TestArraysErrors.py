@@ -49,10 +49,12 @@ class Refused(unittest.TestCase):
                     (ValueError, "no values: its shape is (0, 5)", np.ones((0, 5))),
                     (TypeError, "of type complex128; they must be real", np.ones((4, 5), complex)),
                     (TypeError, "of type <U1; they must be real", np.full((4, 5), "a")),
-                    (TypeError, "'n/a' at [0, 1] is none", np.array([["1", "n/a"], ["2", "?"]])),
-                    (TypeError, "'1_0' at [1, 0] is none", np.array([["1", "2"], ["1_0", "3"]])),
-                    (TypeError, "of type object; they must be real", np.full((4, 5), None)),
-                    (TypeError, "masked array", np.ma.masked_equal(np.ones((4, 5)), 1)),
+                    (TypeError, "[0, 1] is 'n/a'", np.array([["1", "n/a"], ["2", "?"]])),
+                    (TypeError, "[1, 0] is '1_0'", np.array([["1", "2"], ["1_0", "3"]])),
+                    (TypeError, "of type object; they must be real", np.full((4, 5), object())),
+                    (TypeError, "of type object; they must be real", np.full((4, 5), print)),
+                    (ValueError, "all 20 are missing", np.full((4, 5), None)),
+                    (ValueError, "all 20 are missing", np.ma.masked_equal(np.ones((4, 5)), 1)),
                     (ValueError, "[2, 3]", nan), (ValueError, "total mass of zero", np.zeros((4, 5))),
                     (ValueError, "NaN or infinite", np.full((4, 5), np.inf)),
                     (ValueError, "[1, 4]", negative)):
@@ -115,6 +117,20 @@ class Refused(unittest.TestCase):
                 (ValueError, "Component is -2, but the density array 'image' has 5 components",
                  arrays.stipple, (np.ones((4, 4, 5)), 9), {})):
             self.refused(error, text, function, *arguments, **properties)
+
+    def test_what_may_not_be_missing(self):
+        """Weights, times and points; numpy would take what is under a mask."""
+        pair = np.ma.array([1.0, 2.0], mask=[False, True])
+        for text, function, arguments, properties in (
+                ("weights has missing values, the first at weights[1]", arrays.barycenter,
+                 ([FLAT, OTHER], pair), {}),
+                ("t has missing values", arrays.morph, (FLAT, OTHER, pair / 4), {}),
+                ("points has missing values, the first at points[0, 1]", arrays.relax,
+                 (np.ma.array([pair, pair]), FLAT), {}),
+                ("sites has missing values", arrays.cells, ([[1, None], [3, 4]], FLAT), {}),
+                ("it must be a number, or 2", arrays.sample, (FLAT, 9), {"spacing": pair}),
+                ("it must be a number, or 2", arrays.sample, (FLAT, 9), {"origin": pair})):
+            self.refused(ValueError, text, function, *arguments, **properties)
 
     def test_memory(self):
         self.refused(MemoryError, "Not enough memory for", arrays.sample, FLAT, 10 ** 15)
