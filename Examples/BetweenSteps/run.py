@@ -17,6 +17,8 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 STEPS = 41
 NAMES = "transport", "fade"
 
+trapezoid = np.trapezoid if hasattr(np, "trapezoid") else np.trapz  # numpy 2 renamed it
+
 
 def disc(x, y, width, size):
     """A smooth spot of mass 1 about a place in the unit square."""
@@ -33,8 +35,8 @@ def plume(time, size):
     image = np.zeros((size, size))
     for start in puffs:
         way = np.linspace(start, time, 20)
-        east = np.trapz(0.25 + 0.35 * way, way)
-        north = np.trapz(0.55 * np.cos(2.2 * way), way)
+        east = trapezoid(0.25 + 0.35 * way, way)
+        north = trapezoid(0.55 * np.cos(2.2 * way), way)
         image += disc(0.2 + east, 0.15 + north, 0.018 + 0.05 * (time - start), size)
     return image
 

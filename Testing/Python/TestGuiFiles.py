@@ -93,7 +93,7 @@ class GuiFiles(GuiTest):
         for i in range(10):
             with Image.open(self.path("frame.%04d.png" % i)) as frame:
                 frames.append(np.asarray(frame.convert("L")).astype(float))
-        seen = [frame.ptp() for frame in frames]
+        seen = [np.ptp(frame) for frame in frames]
         self.assertGreater(min(seen), 50)
         apart = [np.abs(after - before).max() for before, after in zip(frames, frames[1:])]
         self.assertGreater(min(apart), 5)
