@@ -10,7 +10,7 @@ from rt_testing import SOURCE, main
 CORE = {
     "Parallel": set(),
     "Algebra": {"Parallel"},
-    "Device": set(),
+    "Device": {"Parallel"},
     "Geometry": {"Parallel"},
     "Mesh": {"Parallel", "Geometry"},
     "Tables": {"Parallel", "Geometry"},
