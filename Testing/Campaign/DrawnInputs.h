@@ -29,7 +29,8 @@ void drawFlowSettings(Settings& settings)
   settings.Draw<T, int>("NumberOfSteps", &T::SetNumberOfSteps,
     { 0, 1, 2, 3, 8, 16, 31, 33, 127, 128, 200 },
     { -1, -5, 10001, std::numeric_limits<int>::max() });
-  settings.Draw<T, double>("AreaTolerance", &T::SetAreaTolerance, { 0.1, 1.0, 0.005 },
+  // Only the default limits the steps; with .005 they took minutes on a processor as a device.
+  settings.Draw<T, double>("AreaTolerance", &T::SetAreaTolerance, { 0.1, 1.0, 0.05 },
     { 0.0, -1.0, 1.5, NaN, Infinity }, 0.2);
   settings.Draw<T, double>("Tolerance", &T::SetTolerance, { 0.1, 1.0, 1e-4, 1e300, 1e-305 },
     { 0.0, -1.0, NaN, Infinity }, 0.3);
