@@ -99,14 +99,14 @@ public:
 
   ///@{
   /**
-   * The component of the array that is the density: an index from 0, -1 (Auto, default), -2
+   * The component of the array that is the density: an index from 0, -1 (Auto), -2
    * (luminance) or -3 (magnitude). Auto takes the luminance of unsigned integers of 8 or 16 bits,
    * as photographs have them, and the magnitude of all other arrays of several components. With 3
    * or 4 components the luminance is 0.2126 R + 0.7152 G + 0.0722 B (Rec. 709); with 2 it is the
    * first component. The last of 2 or 4 components is alpha: the picture is composited over white,
    * which is 255 for unsigned char, else the largest value of the array. More than 4 components
    * have no luminance. The magnitude is the Euclidean norm of all components. The field data
-   * DensityComponent of the output are the choice that was taken.
+   * DensityComponent of the output are the choice that was taken. Default -1.
    */
   vtkSetMacro(Component, int);
   vtkGetMacro(Component, int);

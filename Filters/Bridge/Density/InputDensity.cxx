@@ -44,7 +44,8 @@ void addReadings(vtkDataObject* output, const std::vector<DensityReading>& readi
   names->SetName("DensityArrayName");
   vtkNew<vtkDoubleArray> ranges;
   ranges->SetName("DensityRange");
-  ranges->SetNumberOfComponents(2);
+  // Of one component: the squares of ranges without limits have no sum, and VTK's readers refuse
+  // it.
   std::vector<double> components;
   std::vector<double> inverted;
   for (const DensityReading& reading : readings)
@@ -52,7 +53,8 @@ void addReadings(vtkDataObject* output, const std::vector<DensityReading>& readi
     names->InsertNextValue(reading.ArrayName);
     components.push_back(reading.Component);
     inverted.push_back(reading.IsInverted ? 1.0 : 0.0);
-    ranges->InsertNextTuple(reading.Range.data());
+    ranges->InsertNextValue(reading.Range[0]);
+    ranges->InsertNextValue(reading.Range[1]);
   }
   output->GetFieldData()->AddArray(names);
   addFieldValues(output, "DensityComponent", components);

@@ -43,7 +43,7 @@ struct DensityReading
 };
 DensityReading readingBy(const DensityRules& rules, const std::string& arrayName, int components);
 // The field data DensityArrayName, DensityComponent, DensityInverted and DensityRange of an output:
-// one tuple for each density.
+// one value for each density, two of DensityRange.
 void addReadings(vtkDataObject* output, const std::vector<DensityReading>& readings);
 
 // If the values are distributed over ranks, Prepare, GetContent and methods marked so are

@@ -45,7 +45,7 @@ struct FlowOptions
   // Of those that NumberOfSteps 0 stands for.
   static constexpr int FewestSteps = 32;
   static constexpr int MostSteps = 4096;
-  // With this AreaTolerance, 0 steps cost at most 8 times as much as the fewest.
+  // With this AreaTolerance, 0 steps cost at most 8 times as much as LeastSteps.
   static constexpr double UsualTolerance = 0.02;
 
   RectifiedTransport::Integrator Integrator = RectifiedTransport::Integrator::Multistep;

@@ -277,10 +277,15 @@ private:
   int MostSteps(const FlowOptions& options, bool isSmooth) const
   {
     const auto each = static_cast<double>(this->Surface.Count());
-    return options.AreaTolerance == FlowOptions::UsualTolerance
-      ? this->BudgetOf(options).MostSteps(each * static_cast<double>(this->Probes.Blocks().size()),
-          each * static_cast<double>(this->KeptBlocks()), isSmooth)
-      : FlowOptions::MostSteps;
+    if (options.AreaTolerance != FlowOptions::UsualTolerance)
+    {
+      return FlowOptions::MostSteps;
+    }
+    const int most =
+      this->BudgetOf(options).MostSteps(each * static_cast<double>(this->Probes.Blocks().size()),
+        each * static_cast<double>(this->KeptBlocks()), isSmooth);
+    // Who needs more steps in any case has a limit as much higher.
+    return std::min(FlowOptions::MostSteps, most * (options.LeastSteps / FlowOptions::FewestSteps));
   }
 
   // `now` keeps the tolerance, or is that of at least `most` steps, or the last that is compared.
