@@ -69,8 +69,8 @@ class ExampleShapes(ExampleTest):
         self.assertEqual(drawn.shape[0], 2 * (120 + 10 + 26))
         inked = [(drawn[10:130, left:left + 120] < 250).any(axis=2) for left in (10, 140, 270)]
         self.assertTrue(0.1 < inked[0].mean() < 0.9)
-        for frame in inked[1:]:
-            self.assertLess((frame != inked[0]).mean(), 0.01)
+        for frame, most in zip(inked[1:], (0.04, 0.01)):  # the ends are the shape, the middle is splatted
+            self.assertLess((frame != inked[0]).mean(), most)
 
     def test_not_a_surface(self):
         for name, text in (("broken.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
