@@ -107,12 +107,12 @@ int vtkTransportQuality::RequestData(
     return 1;
   }
   const ParticleQuality quality = measure.Run(particles, *density, this->GetFlowCache(), progress);
+  vtkTable* output = vtkTable::GetData(outputVector);
+  addReadings(output, { density->HowRead() });
   if (!ranks.IsFirst())
   {
     return 1;
   }
-
-  vtkTable* output = vtkTable::GetData(outputVector);
   addColumn<vtkIdTypeArray>(output, "Particles", static_cast<vtkIdType>(quality.Particles));
   addColumn<vtkDoubleArray>(output, "TotalMass", quality.TotalMass);
   addColumn<vtkIdTypeArray>(output, "InEmptyCells", static_cast<vtkIdType>(quality.InEmptyCells));
@@ -122,7 +122,6 @@ int vtkTransportQuality::RequestData(
   addColumn<vtkDoubleArray>(output, "TransportCost", quality.TransportCost);
   addColumn<vtkDoubleArray>(output, "SmallestSpacing", quality.SmallestSpacing);
   addColumn<vtkDoubleArray>(output, "MeanSpacing", quality.MeanSpacing);
-  addReadings(output, { density->HowRead() });
   return 1;
 }
 

@@ -37,7 +37,7 @@ class RanksFields(unittest.TestCase):
 
     def test_every_filter_has_some(self):
         """But those that give no figures."""
-        without = {"SolidDensity", "UniformSeeds", "TransportQuality"}
+        without = {"SolidDensity", "UniformSeeds"}
         found = {output.split(",")[0] for output, fields in alone().items() if fields}
         self.assertEqual({filter_.name for filter_ in FILTERS} - found, without)
 

@@ -168,7 +168,7 @@ TEST(CartogramAbort, WholeRuns)
     longest = std::max(longest, end - first);
     first = end;
   }
-  EXPECT_LE(4 * longest, static_cast<std::ptrdiff_t>(atPolls.size()));
+  EXPECT_LE(3 * longest, 2 * static_cast<std::ptrdiff_t>(atPolls.size()));
   // Threads that come late poll less often: another run may have a few polls less.
   const auto all = static_cast<std::int64_t>(atPolls.size());
   for (std::int64_t last = 0; last < all - all / 10; last += std::max<std::int64_t>(1, all / 40))

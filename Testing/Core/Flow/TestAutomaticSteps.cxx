@@ -72,7 +72,7 @@ void expectKept(const TestDensity<Dimension>& density, double tolerance)
   };
   for (const FlowMaps maps : OffAndOn)
   {
-    EXPECT_LT(error(with(maps, options)), tolerance)
+    EXPECT_LT(error(with(maps, options)), 1.1 * tolerance) // what is compared is an estimate
       << nameOf(maps) << ", " << choice.NumberOfSteps << " steps";
   }
   // Not by far more steps than it takes.

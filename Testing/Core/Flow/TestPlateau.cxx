@@ -54,6 +54,7 @@ TEST(PlateauTolerance, IsThatOfRounding)
     const RectifiedFlow<2> flow(density.Source());
     FlowOptions options;
     options.Maps = FlowMaps::Off;
+    options.NumberOfSteps = 32;
     return flow.Forward(FlowSeeds<2>::Lattice({ 100, 100 }), positions, options).Evaluations;
   };
   EXPECT_LT(evaluations(shape), 28 * 10000);
