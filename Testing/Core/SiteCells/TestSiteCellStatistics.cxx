@@ -136,7 +136,6 @@ TEST(SiteCellStatistics, OneOffKeepsTheContext)
   const Context context(threads, [&heard](double progress) { heard.push_back(progress); });
   const Labels labels = labelSiteCells<2>(sites, grid, {}, context);
   ASSERT_GT(threads.Lengths.size(), 1u);
-  EXPECT_EQ(threads.Lengths.front(), 3);
   EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
   EXPECT_LT(heard.front(), 0.1);
   EXPECT_GT(heard.back(), 0.9);
@@ -153,7 +152,7 @@ TEST(SiteCellStatistics, OneOffIsCancelledWhilePlacing)
   const RecordingExecutor threads;
   const Context context(threads, {}, []() { return true; });
   EXPECT_THROW(labelSiteCells<2>(sites, grid, {}, context), Cancelled);
-  EXPECT_EQ(threads.Lengths, std::vector<std::int64_t>{ 2 });
+  EXPECT_TRUE(threads.Lengths.empty()); // so few are placed by the calling thread
 }
 
 TEST(SiteCellStatistics, WhatIsWrong)
