@@ -145,8 +145,9 @@ void checkExtremes(Checks& checks)
   cartogram->Update();
   CHECK(checks, messages.Errors.empty());
   CHECK(checks,
-    messages.Warnings.size() == 1 &&
-      contains(messages.Warnings[0], "15 of 16 regions (93.8 %) have no mass"));
+    std::any_of(messages.Warnings.begin(), messages.Warnings.end(), [](const std::string& warning) {
+      return contains(warning, "15 of 16 regions (93.8 %) have no mass");
+    }));
   const Values areas = polygonAreas(cartogram->GetRegions());
   CHECK(checks, areas.size() == 16 && areas[5] > 15.0);
 }
