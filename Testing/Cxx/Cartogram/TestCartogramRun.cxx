@@ -6,6 +6,8 @@
 #include "ThreadsTest.h"
 #include "WarpTest.h"
 
+#include <algorithm>
+
 namespace
 {
 

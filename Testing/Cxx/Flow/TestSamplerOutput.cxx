@@ -150,7 +150,7 @@ void checkFieldData(Checks& checks)
   sampler->SetInputData(image);
   sampler->Update();
   vtkFieldData* fields = sampler->GetOutput()->GetFieldData();
-  CHECK(checks, fields->GetNumberOfArrays() == 7);
+  CHECK(checks, fields->GetNumberOfArrays() == 11);
   CHECK(checks, fields->GetAbstractArray("Note") == note);
   CHECK(checks, fieldValue(sampler->GetOutput(), "TotalMass") > 0.0);
   CHECK(checks, old->GetValue(0) == -1.0);
