@@ -206,6 +206,7 @@ void checkDevices(Checks& checks, vtkTransportVectorWriter* writer)
   // Larger than a pipe holds.
   writer->SetInputData(dots(30000));
   const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  const int held = open(pipe.c_str(), O_WRONLY); // before a writer comes, a read would be the end
   std::thread reading([&]() {
     fcntl(reader, F_SETFL, 0);
     std::ofstream all(folder.At("read"), std::ios::binary);
@@ -217,7 +218,6 @@ void checkDevices(Checks& checks, vtkTransportVectorWriter* writer)
     }
     close(reader);
   });
-  const int held = open(pipe.c_str(), O_WRONLY); // the reader waits for the writer
   const int written = target.Write(pipe);
   close(held);
   reading.join();
