@@ -150,7 +150,7 @@ Campaign::CaseResult resultOf(const Arguments& arguments, std::uint64_t number)
 // Returns whether there are no findings.
 bool run(const Arguments& arguments, std::uint64_t number)
 {
-  Campaign::startWatch(60);
+  Campaign::startWatch(150);
   const std::clock_t start = std::clock();
   const Campaign::CaseResult result = resultOf(arguments, number);
   const double ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -180,7 +180,7 @@ bool runInChild(const Arguments& arguments, std::uint64_t number)
   const pid_t child = fork();
   if (child == 0)
   {
-    alarm(120); // one that waits takes no time of the processor, which the watch counts
+    alarm(300); // one that waits takes no time of the processor, which the watch counts
     _exit(run(arguments, number) ? 0 : 1);
   }
   int status = 0;

@@ -171,7 +171,7 @@ private:
     this->Print(std::string(data ? data->GetClassName() : "nothing") + " " + text);
   }
 
-  // Cell arrays are then too short, at times.
+  // Its cell has the values of the first one.
   void AddEmptyCells(vtkPolyData* shapes)
   {
     vtkNew<vtkCellArray> cells;
@@ -179,10 +179,14 @@ private:
     cells->DeepCopy(areLines ? shapes->GetLines() : shapes->GetPolys());
     cells->InsertNextCell(0);
     areLines ? shapes->SetLines(cells) : shapes->SetPolys(cells);
-    for (int i = 0; this->Random.Chance(0.8) && i < shapes->GetCellData()->GetNumberOfArrays(); ++i)
+    for (int i = 0; i < shapes->GetCellData()->GetNumberOfArrays(); ++i)
     {
-      shapes->GetCellData()->GetAbstractArray(i)->Resize(shapes->GetNumberOfCells());
-      shapes->GetCellData()->GetAbstractArray(i)->SetNumberOfTuples(shapes->GetNumberOfCells());
+      vtkAbstractArray* array = shapes->GetCellData()->GetAbstractArray(i);
+      while (
+        array->GetNumberOfTuples() > 0 && array->GetNumberOfTuples() < shapes->GetNumberOfCells())
+      {
+        array->InsertNextTuple(0, array);
+      }
     }
   }
 
