@@ -8,6 +8,8 @@
 #include "vtkCellArray.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkTransportPDFWriter.h"
+#include "vtkTransportSVGWriter.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <unistd.h>
@@ -125,6 +127,16 @@ inline vtkSmartPointer<vtkUnsignedCharArray> bytes(
     array->InsertNextValue(value);
   }
   return array;
+}
+
+// A check of the writers of both formats.
+template <void (*Check)(Checks&, vtkTransportVectorWriter*)>
+void ofBoth(Checks& checks)
+{
+  vtkNew<vtkTransportSVGWriter> svg;
+  Check(checks, svg);
+  vtkNew<vtkTransportPDFWriter> pdf;
+  Check(checks, pdf);
 }
 
 #endif

@@ -8,6 +8,8 @@
 #include "Core/Overlap/RingSweep.h"
 #include "Core/Parallel/Progress.h"
 
+#include "TestRings.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,22 +24,7 @@ namespace RectifiedTransport
 namespace
 {
 
-using Ring = std::vector<Point<2>>;
 using Values = std::vector<double>;
-
-Rings ringsOf(const std::vector<Ring>& all)
-{
-  Rings rings;
-  for (const Ring& ring : all)
-  {
-    for (const Point<2>& x : ring)
-    {
-      rings.Add(x);
-    }
-    rings.EndRing();
-  }
-  return rings;
-}
 
 std::vector<OutlineEdge> outlinesOf(const std::vector<Ring>& all, const Values& values)
 {

@@ -4,6 +4,8 @@
 #include "Core/Overlap/RingTriangles.h"
 #include "Core/Parallel/Progress.h"
 
+#include "TestRings.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,22 +17,6 @@ namespace RectifiedTransport
 {
 namespace
 {
-
-using Ring = std::vector<Point<2>>;
-
-Rings ringsOf(const std::vector<Ring>& all)
-{
-  Rings rings;
-  for (const Ring& ring : all)
-  {
-    for (const Point<2>& x : ring)
-    {
-      rings.Add(x);
-    }
-    rings.EndRing();
-  }
-  return rings;
-}
 
 RingTriangles triangulated(const Rings& rings)
 {

@@ -12,7 +12,6 @@
 #include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
 #include "vtkStringArray.h"
-#include "vtkTransportPDFWriter.h"
 #include "vtkTransportSVGWriter.h"
 #include "vtkTriangle.h"
 #include "vtkUnsignedLongLongArray.h"
@@ -232,15 +231,6 @@ void checkCellsWithoutPoints(Checks& checks, vtkTransportVectorWriter* writer)
     RectifiedTransport::fillOutlines(data);
     CHECK_NEAR(checks, areaOf(data), 16.0, 1e-9);
   }
-}
-
-template <void (*Check)(Checks&, vtkTransportVectorWriter*)>
-void ofBoth(Checks& checks)
-{
-  vtkNew<vtkTransportSVGWriter> svg;
-  Check(checks, svg);
-  vtkNew<vtkTransportPDFWriter> pdf;
-  Check(checks, pdf);
 }
 
 } // namespace

@@ -4,9 +4,6 @@
 #include "DrawingTest.h"
 #include "ProgressTest.h"
 
-#include "vtkTransportPDFWriter.h"
-#include "vtkTransportSVGWriter.h"
-
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -290,15 +287,6 @@ void checkTwo(Checks& checks, vtkTransportVectorWriter* writer)
   CHECK(checks, target.Write(folder.At("a")) == 1);
   second.join();
   CHECK(checks, target.IsDrawing("a") && folder.All().size() == 1);
-}
-
-template <void (*Check)(Checks&, vtkTransportVectorWriter*)>
-void ofBoth(Checks& checks)
-{
-  vtkNew<vtkTransportSVGWriter> svg;
-  Check(checks, svg);
-  vtkNew<vtkTransportPDFWriter> pdf;
-  Check(checks, pdf);
 }
 
 } // namespace

@@ -231,15 +231,6 @@ void checkProgress(Checks& checks, vtkTransportVectorWriter* writer)
   progress.ExpectRising(checks, 10, __LINE__);
 }
 
-template <void (*Check)(Checks&, vtkTransportVectorWriter*)>
-void ofBoth(Checks& checks)
-{
-  vtkNew<vtkTransportSVGWriter> svg;
-  Check(checks, svg);
-  vtkNew<vtkTransportPDFWriter> pdf;
-  Check(checks, pdf);
-}
-
 } // namespace
 
 int TestVectorWriterErrors(int, char*[])
