@@ -33,7 +33,7 @@ struct DensityBlock
   std::int64_t Number; // among the leaves of a composite data set
   std::uint64_t Time;  // of the data object that the block is of
   // The density; set by those who know its name, none: no mass.
-  vtkSmartPointer<vtkDataArray> Array;
+  vtkSmartPointer<vtkDataArray> Array = nullptr;
 };
 
 // Blocks whose arrays have one name and association. At least one block has an array; those without

@@ -225,9 +225,9 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
   figures.Folded = folded.Samples;
   if (folded.Samples > 0)
   {
-    const std::int64_t all =
+    const std::int64_t withMass =
       sumOverRanks(this->Processes, folds.CountWithMass(this->OwnPart, progress));
-    figures.ShowsFolds = isWorthWarning(folded.Samples, all) ||
+    figures.ShowsFolds = isWorthWarning(folded.Samples, withMass) ||
       isWorthWarning(folded.Area.Value(), numberOfCells<D>(this->Lattice));
   }
   return figures;
