@@ -86,7 +86,7 @@ run_suites()
 # Of the core, those that run on several threads.
 parallel_tests="Invariance*:FlowMap*:SplatOrder*:SplatContext*:Context*:Progress*:Lattice*:Tables*"
 parallel_tests="$parallel_tests:PivotLattice*:MapDerivatives*:NearestNeighbours*:SiteCells*"
-parallel_tests="$parallel_tests:SolidCoverage*:Executors*"
+parallel_tests="$parallel_tests:SolidCoverage*:Executors*:LoopTeam*"
 parallel_tests="$parallel_tests:AreaPreserving*:ConformalMap*:CutSurface*:MassRaster*:SurfaceSamples*"
 parallel_tests="$parallel_tests:Tiles*:TilesOnRanks*:TileSchedule*:PartTables*:Ranks*:RankOrder*:SplatPart*"
 parallel_tests="$parallel_tests:BoxesByTiles*:BlockShares*:ParticleQuality*"

@@ -2,6 +2,7 @@
 #include "Core/Parallel/LoopTeam.h"
 
 #include <algorithm>
+#include <cfenv>
 #include <exception>
 #include <thread>
 
@@ -44,6 +45,7 @@ public:
     , Grain(grain)
     , Kernel(kernel)
   {
+    std::fegetenv(&this->Arithmetic);
   }
 
   // Runs ranges that no other thread has begun, until there are none.
@@ -64,6 +66,13 @@ public:
     }
   }
 
+  // The same on another thread.
+  void Help()
+  {
+    std::fesetenv(&this->Arithmetic);
+    this->Work();
+  }
+
   int Places; // for others, guarded by the team's mutex
   std::atomic<int> Inside{ 0 };
   Loop* Following = nullptr;
@@ -73,6 +82,7 @@ private:
   const std::int64_t Count;
   const std::int64_t Grain;
   const RangeKernel& Kernel;
+  std::fenv_t Arithmetic; // the caller's
   std::atomic<std::int64_t> Next{ 0 };
 };
 
@@ -109,68 +119,54 @@ void LoopTeam::Run(int threads, std::int64_t count, std::int64_t grain, const Ra
   loop.Failure.Rethrow();
 }
 
-// Returns when the threads are there: OpenMP ends the program where memory is too short for them,
-// which is no surprise at the first loop.
+// More threads are a further region, so that nobody waits for loops that run: their kernels may
+// wait for what the caller holds. Returns when the threads are there: OpenMP ends the program where
+// memory is too short for them, which is no surprise at the first loop.
 void LoopTeam::Grow(int threads, std::unique_lock<std::mutex>& lock)
 {
   if (threads <= this->Size)
   {
     return;
   }
-  if (this->Size == 1)
+  try
   {
-    try
-    {
-      std::thread(&LoopTeam::Host, this).detach();
-    }
-    catch (const std::exception&)
-    {
-      return; // the calling thread does all of this loop
-    }
+    std::thread(&LoopTeam::Host, this, threads - this->Size).detach();
+  }
+  catch (const std::exception&)
+  {
+    return; // this loop runs on those that there are
   }
   this->Size = threads;
-  this->Grown.notify_one();
-  this->Begun.notify_all();
-  this->Left.wait(lock, [&]() { return this->Started >= threads; });
+  this->Grown.wait(lock, [&]() { return this->Started >= threads; });
 }
 
-// The threads of a region are as many as at its beginning.
-void LoopTeam::Host()
+void LoopTeam::Host(int more)
 {
-  int size = 1;
-  for (;;)
+#pragma omp parallel num_threads(more + 1)
+  if (omp_get_thread_num() == 0)
   {
-    {
-      std::unique_lock<std::mutex> lock(this->Mutex);
-      this->Grown.wait(lock, [&]() { return this->Size > size; });
-      size = this->Size;
-    }
-#pragma omp parallel num_threads(size)
-    if (omp_get_thread_num() == 0)
-    {
-      // It has the place of a thread that calls.
-      std::unique_lock<std::mutex> lock(this->Mutex);
-      this->Started = size;
-      this->Left.notify_all();
-      this->Grown.wait(lock, [&]() { return this->Size > size; });
-    }
-    else
-    {
-      this->Serve(size);
-    }
+    // It has the place of a thread that calls.
+    std::unique_lock<std::mutex> lock(this->Mutex);
+    this->Started += more;
+    this->Grown.notify_all();
+    this->Never.wait(lock, []() { return false; });
+  }
+  else
+  {
+    this->Serve();
   }
 }
 
-void LoopTeam::Serve(int size)
+void LoopTeam::Serve()
 {
   std::unique_lock<std::mutex> lock(this->Mutex);
-  while (this->Size == size)
+  for (;;)
   {
     const unsigned seen = this->Changes;
     if (Loop* loop = this->Join())
     {
       lock.unlock();
-      loop->Work();
+      loop->Help();
       lock.lock();
       if (--loop->Inside == 0)
       {
@@ -184,7 +180,7 @@ void LoopTeam::Serve(int size)
     lock.lock();
     if (!isSoon)
     {
-      this->Begun.wait(lock, [&]() { return hasChanged() || this->Size != size; });
+      this->Begun.wait(lock, hasChanged);
     }
   }
 }

@@ -16,15 +16,16 @@ namespace RectifiedTransport
 // At the end of a parallel region OpenMP's threads wait for each other, and then for the next
 // region, by spinning for milliseconds. Where other programs keep the processors busy, a thread
 // that spins takes the time of the one that it waits for, and a loop of microseconds takes
-// milliseconds. Hence all loops of this process run in one region that lasts: its threads sleep
-// between loops, and a loop waits only for those that have begun a range of it.
+// milliseconds. Hence all loops of this process run in regions that last, usually one: its threads
+// sleep between loops, and a loop waits only for those that have begun a range of it.
 class LoopTeam
 {
 public:
   static LoopTeam& Get();
 
   // Runs the ranges on the calling thread, and on `threads` - 1 others as they find the time. What
-  // a kernel throws comes out.
+  // a kernel throws comes out. On all threads, arithmetic rounds and treats subnormal numbers as it
+  // does on the calling one.
   void Run(int threads, std::int64_t count, std::int64_t grain, const RangeKernel& kernel);
 
 private:
@@ -32,17 +33,18 @@ private:
 
   LoopTeam() = default;
   void Grow(int threads, std::unique_lock<std::mutex>& lock);
-  void Host();
-  void Serve(int size);
+  void Host(int more);
+  void Serve();
   Loop* Join();
   void Remove(Loop& loop);
 
   // The mutex guards all that follows it.
   std::mutex Mutex;
-  std::condition_variable Begun; // a loop, or growth
+  std::condition_variable Begun; // a loop
   std::condition_variable Grown;
-  std::condition_variable Left; // a loop, by its last thread; or growth has ended
-  Loop* First = nullptr;        // of those that threads may join
+  std::condition_variable Left; // a loop, by its last thread
+  std::condition_variable Never;
+  Loop* First = nullptr; // of those that threads may join
   // Counts loops; those that spin read it.
   std::atomic<unsigned> Changes{ 0 };
   // How many threads there are to be, and are, with the one that calls.

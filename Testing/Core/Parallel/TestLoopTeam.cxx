@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OpenMP's executor: many short loops, loops of several threads and within one another, children of
-// fork(), and loops that are too short for other threads.
+// OpenMP's executor: many short loops, loops of several threads and within one another, what they
+// throw, growth meanwhile, arithmetic, children of fork(), and loops that are too short for other
+// threads.
 #include "Core/Parallel/Forks.h"
 #include "Core/Parallel/Progress.h"
 #include "CountingExecutor.h"
@@ -9,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cfenv>
+#include <chrono>
 #include <cstdint>
 #include <numeric>
 #include <thread>
@@ -78,6 +81,96 @@ TEST(LoopTeam, RunsLoopsOfSeveralThreadsAndWithinLoops)
   EXPECT_EQ(wrong, 0);
 }
 
+// Waits for what other threads do. Returns whether they did it.
+template <class Test>
+bool comes(const Test& test)
+{
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!test())
+  {
+    if (std::chrono::steady_clock::now() > end)
+    {
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+  return true;
+}
+
+TEST(LoopTeam, ThrowsWhatItsOwnKernelThrew)
+{
+  std::atomic<int> wrong{ 0 };
+  std::vector<std::thread> callers;
+  for (int caller = 0; caller < 3; ++caller)
+  {
+    callers.emplace_back([caller, &wrong]() {
+      const ThreadsExecutor executor(3);
+      for (int loop = 0; loop < 300; ++loop)
+      {
+        const bool throws = loop % 2 == 0;
+        try
+        {
+          executor.For(20, 1, [=](std::int64_t first, std::int64_t) {
+            if (throws && first % 4 == 3)
+            {
+              throw caller;
+            }
+          });
+          wrong += throws ? 1 : 0;
+        }
+        catch (const int thrown)
+        {
+          wrong += throws && thrown == caller ? 0 : 1;
+        }
+      }
+    });
+  }
+  for (std::thread& caller : callers)
+  {
+    caller.join();
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
+#ifdef _OPENMP
+// What its kernel waits for may need a loop on more threads.
+TEST(LoopTeam, GrowsWhileALoopRuns)
+{
+  std::atomic<int> begun{ 0 };
+  std::atomic<bool> hasGrown{ false };
+  std::thread caller([&]() {
+    ThreadsExecutor(2).For(2, 1, [&](std::int64_t, std::int64_t) {
+      ++begun;
+      EXPECT_TRUE(comes([&]() { return hasGrown.load(); }));
+    });
+  });
+  EXPECT_TRUE(comes([&]() { return begun == 2; }));
+  EXPECT_EQ(sumOfSquares(ThreadsExecutor(13), 1000, 10), expected(1000));
+  hasGrown = true;
+  caller.join();
+}
+
+// Libraries of other compilers set subnormal numbers to zero on the thread that loads them. The
+// bits are the same on all threads nevertheless.
+TEST(LoopTeam, RoundsAsTheCallingThreadDoes)
+{
+  const int before = std::fegetround();
+  for (const int rounding : { FE_UPWARD, FE_TONEAREST, FE_DOWNWARD })
+  {
+    std::fesetround(rounding);
+    std::atomic<int> begun{ 0 };
+    std::atomic<int> wrong{ 0 };
+    ThreadsExecutor(2).For(2, 1, [&](std::int64_t, std::int64_t) {
+      ++begun;
+      EXPECT_TRUE(comes([&]() { return begun == 2; }));
+      wrong += std::fegetround() == rounding ? 0 : 1;
+    });
+    EXPECT_EQ(wrong, 0);
+  }
+  std::fesetround(before);
+}
+#endif
+
 TEST(LoopTeam, IsNotCalledForShortSlices)
 {
   const CountingExecutor executor;
@@ -117,6 +210,36 @@ TEST(LoopTeam, RunsSeriallyInAChildOfFork)
   EXPECT_EQ(status, 0);
   EXPECT_EQ(forksSinceLoad(), 0);
   EXPECT_EQ(sumOfSquares(executor, 1000, 10), expected(1000));
+}
+
+// Whatever the parent's threads do at that moment.
+TEST(LoopTeam, RunsInAChildThatForksWhileLoopsRun)
+{
+  std::atomic<bool> ends{ false };
+  std::thread caller([&ends]() {
+    while (!ends)
+    {
+      sumOfSquares(ThreadsExecutor(3), 100, 1);
+    }
+  });
+  for (int turn = 0; turn < 20; ++turn)
+  {
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0)
+    {
+      alarm(20);
+      std::int64_t sum = 0;
+      ThreadsExecutor(3).For(
+        100, 7, [&sum](std::int64_t first, std::int64_t last) { sum += last - first; });
+      _exit(sum == 100 ? 0 : 1);
+    }
+    int status = -1;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+  }
+  ends = true;
+  caller.join();
 }
 #endif
 
