@@ -3,6 +3,7 @@
 
 #include "Bridge/Parameterization/AreaPreservingParameterization.h"
 #include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/MessageText.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/CornerSettings.h"
 #include "Bridge/Surface/SurfaceInput.h"
@@ -64,7 +65,7 @@ int vtkAreaPreservingParameterization::RequestData(
   layFlat(output, vtkPolyData::GetData(outputVector, 1));
   for (const std::string& warning : report.Warnings())
   {
-    vtkWarningMacro(<< warning);
+    vtkWarningMacro(<< messageText(warning));
   }
   return 1;
 }

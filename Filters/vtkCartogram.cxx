@@ -5,6 +5,7 @@
 #include "Bridge/Cartogram/Cartogram.h"
 #include "Bridge/Cartogram/MapProjection.h"
 #include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/MessageText.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/MissingData.h"
 
@@ -191,7 +192,7 @@ int vtkCartogram::RequestData(
     worker.Run(blocks, vtkCompositeDataSet::SafeDownCast(input) != nullptr, this->Internals->Kept,
       progress, outputs))
   {
-    vtkWarningMacro(<< warning);
+    vtkWarningMacro(<< messageText(warning));
   }
   return 1;
 }

@@ -14,6 +14,7 @@
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputExtents.h"
+#include "Bridge/Run/MessageText.h"
 #include "Bridge/Run/RankRun.h"
 #include "Bridge/Run/SMPExecutor.h"
 #include "Bridge/Run/WholeInputs.h"
@@ -367,7 +368,7 @@ void vtkCollectiveAlgorithm::WarnOnFirstRank(const std::string& text)
 {
   if (this->GetRanks().IsFirst())
   {
-    vtkWarningMacro(<< text);
+    vtkWarningMacro(<< RectifiedTransport::messageText(text));
   }
 }
 

@@ -4,6 +4,7 @@
 #include "Bridge/Inputs/OptionalArray.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/MessageText.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/CornerSettings.h"
 #include "Bridge/Settings/FlowSettings.h"
@@ -115,7 +116,7 @@ int vtkSurfaceSampler::RequestData(
     sampler.Run(input, this->FindDensity(input.Get()), progress, output);
   for (const std::string& warning : report.Warnings())
   {
-    vtkWarningMacro(<< warning);
+    vtkWarningMacro(<< messageText(warning));
   }
   return 1;
 }

@@ -2,6 +2,7 @@
 #include "Bridge/Points/IgnoredFlags.h"
 
 #include "Bridge/Run/InputExtents.h"
+#include "Bridge/Run/MessageText.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
@@ -45,7 +46,7 @@ void warnOfIgnoredFlags(vtkAlgorithm* filter, vtkInformationVector** inputVector
   });
   if (!warning.empty())
   {
-    vtkWarningWithObjectMacro(filter, << warning);
+    vtkWarningWithObjectMacro(filter, << messageText(warning));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "Bridge/Pipeline/ConsumerExtents.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Run/MessageText.h"
 #include "Bridge/Run/RankRun.h"
 #include "Core/Flow/NoMemoryForFlowMap.h"
 #include "Core/Parallel/Context.h"
@@ -70,7 +71,7 @@ int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs, Rank
   error = run ? run->Fail(error) : error;
   if (!error.empty())
   {
-    vtkErrorWithObjectMacro(algorithm, << error);
+    vtkErrorWithObjectMacro(algorithm, << messageText(error));
   }
   return 0;
 }

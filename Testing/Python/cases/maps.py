@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Maps as other filters and files leave them."""
+import os
+from xml.dom import minidom
+
 import numpy as np
 from vtkmodules.util.vtkConstants import VTK_POLYGON
 
-from .case import Result, case, mesh, polygons, rings, simple, source
+from .case import Result, case, mesh, named, polygons, rings, simple, source
 
 
 def squares(places, side=1.0):
@@ -107,3 +110,51 @@ def region_that_is_there_twice(check):
     result = cartogram(rings(*NINE, NINE[4], values=[1, 2, 3, 1, 2, 3, 1, 2, 3, 9]))
     check.assertIn("leave one of them in each place, with Threshold", result.warnings[-1])
     check.assertEqual(cartogram(rings(*NINE, values=[1, 2, 3] * 3)).warnings, [])
+
+
+@case(164)
+def islands_on_both_sides_of_180(check):
+    """Islands of one state at both ends of a map: Fiji, or Russia's east.
+
+    Source: threads on GeoJSON's rule to cut at the antimeridian (RFC 7946, section 3.1.9).
+    Right: the state's share of the area, on both sides together.
+    """
+    outlines = [[(lon, -19), (lon + 2, -19), (lon + 2, -16), (lon, -16)] for lon in (178, -180, 172, 175)]
+    data = rings(*outlines, values=[5, 5, 1, 2])
+    data.GetCellData().AddArray(named(np.array([0, 0, 1, 2]), "state"))
+    result = cartogram(data, Projection="EqualArea", RegionArray=["CELLS", "state"])
+    check.assertEqual(result.errors + result.warnings, [])
+    parts = shares(result)
+    check.assertLess(abs(np.array([parts[0] + parts[1], parts[2], parts[3]]) * 8 / [5, 1, 2] - 1).max(), 0.01)
+
+
+@case(165)
+def world_to_the_poles(check):
+    """The world with Antarctica, whose outline runs along 90 degrees south; longitudes from 0 to 360.
+
+    Source: threads on Mercator maps of Natural Earth, where this line is at infinity.
+    Right: the whole sphere, 4 pi R^2.
+    """
+    for west in (-180, 0):
+        data = rings(*[[(west, a), (west + 360, a), (west + 360, b), (west, b)]
+                       for a, b in ((-90, -60), (-60, 90))], values=[1, 9])
+        result = cartogram(data, Projection="EqualArea")
+        check.assertEqual(result.errors + result.warnings, [])
+        ground = [1, 9] / result.values("MassPerArea", True)
+        check.assertLess(abs(ground.sum() / (4 * np.pi * 6371.0 ** 2) - 1), 1e-9)
+
+
+@case(166)
+def drawing_far_from_the_origin(check):
+    """Houses in metres of UTM, half a million and five million, on a page.
+
+    Source: CloudCompare issue 638 (digits lost), threads on SVG files of maps in Inkscape.
+    Right: places on the page to a thousandth of a millimetre.
+    """
+    data = rings(*squares([(500000.25 + 10 * i, 5200000.125) for i in range(3)], 10), values=[1, 2, 3])
+    path = os.path.join(os.environ["RT_OUTPUT"], "houses.svg")
+    simple.SaveData(path, proxy=source(data), Width=90)
+    drawn = [node.getAttribute("points") for node in minidom.parse(path).getElementsByTagName("polygon")]
+    corners = np.array([[xy.split(",") for xy in points.split()] for points in drawn], float)
+    right = (np.array(squares([(10 * i, 0) for i in range(3)], 10)) / 30 * 89.75 + 0.125)[..., 0]
+    check.assertLess(abs(corners[..., 0] - right).max(), 1e-3)

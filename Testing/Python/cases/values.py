@@ -13,7 +13,7 @@ def texts(values, name):
     array = vtkStringArray()
     array.SetName(name)
     for value in values:
-        array.InsertNextValue(str(value))
+        array.InsertNextValue(value if isinstance(value, bytes) else str(value))
     return array
 
 
@@ -189,3 +189,26 @@ def flags_of_another_type(check):
         result = expect_mass(check, data, 68 if kind == np.uint8 else 78)
         told = [text for text in result.warnings if "'vtkGhostType' of the cells" in text]
         check.assertEqual(len(told), 0 if kind == np.uint8 else 1, result.warnings)
+
+
+@case(154)
+def names_of_old_files(check):
+    """A map whose names are Latin-1, as in the tables of old shapefiles; one region has no people.
+
+    Source: QGIS and GDAL threads on the encoding of .dbf.
+    Right: a message that names the region. Python hands on no message with a byte that is no UTF-8.
+    """
+    def messages(name, values=(1, 2), **properties):
+        data = rings(SQUARE, [(x + 1, y) for x, y in SQUARE])
+        data.GetCellData().AddArray(texts([name, "Mali"], "name"))
+        data.GetCellData().AddArray(texts(values, "people"))
+        result = Result(simple.Cartogram(
+            Input=source(data), MassArray=["CELLS", "people"], RegionArray=["CELLS", "name"],
+            Resolution=64, **properties))
+        return result.errors + result.warnings
+
+    latin = "Côte d'Ivoire".encode("latin-1")
+    for name in (latin, "Côte d'Ivoire"):
+        for values, properties in ((("no", 2), {}), ((1e-9, 2), {})):
+            text, = messages(name, values, **properties)
+            check.assertIn("Côte d'Ivoire", text)
