@@ -5,7 +5,10 @@
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace RectifiedTransport
 {
@@ -13,17 +16,40 @@ namespace RectifiedTransport
 namespace
 {
 
-// The point where two edges cross, the same for both; where they lie on each other some point of
-// both.
+// Where two edges cross that lie on each other. The point of the smallest number moves by far the
+// most, so that the edges are apart but for the other end of its edge.
+const Point<2>& endCrossed(const Rings& rings, const EdgePair& pair)
+{
+  const std::array<std::int64_t, 4> ends{ pair.First, rings.Next(pair.First), pair.Second,
+    rings.Next(pair.Second) };
+  const auto smallest =
+    static_cast<std::size_t>(std::min_element(ends.begin(), ends.end()) - ends.begin());
+  return rings.At(ends[smallest ^ 1U]);
+}
+
+// The point where two edges cross, the same for both. Its error must be as small as rounding, also
+// for edges that are nearly parallel: else three edges that nearly lie on each other cross in an
+// order in which no three lines cross, and what is left and right of their pieces does not agree.
 Point<2> crossingOf(const Rings& rings, const EdgePair& pair)
 {
   const Point<2>& a = rings.At(pair.First);
   const Point<2>& b = rings.At(rings.Next(pair.First));
   const Point<2>& c = rings.At(pair.Second);
   const Point<2>& d = rings.At(rings.Next(pair.Second));
-  double error = 0.0;
-  const double before = doubleArea(a, b, c, error);
-  const double after = doubleArea(a, b, d, error);
+  double errorBefore = 0.0;
+  double errorAfter = 0.0;
+  double before = doubleArea(a, b, c, errorBefore);
+  double after = doubleArea(a, b, d, errorAfter);
+  constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+  if (!(errorBefore + errorAfter < rounding * std::abs(before - after)))
+  {
+    before = exactDoubleArea(a, b, c);
+    after = exactDoubleArea(a, b, d);
+    if (before == after)
+    {
+      return endCrossed(rings, pair);
+    }
+  }
   const double part = before / (before - after);
   Point<2> x;
   for (int axis = 0; axis < 2; ++axis)

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 
 namespace RectifiedTransport
@@ -44,12 +45,19 @@ public:
     this->Add(product);
   }
 
-  double Sign() const { return this->Count == 0 ? 0.0 : this->Parts[this->Count - 1]; }
+  // To rounding; 0 only if it is.
+  double Sum() const
+  {
+    return std::accumulate(
+      this->Parts.begin(), this->Parts.begin() + static_cast<std::ptrdiff_t>(this->Count), 0.0);
+  }
 
 private:
   std::array<double, 16> Parts;
   std::size_t Count = 0;
 };
+
+} // namespace
 
 double exactDoubleArea(const Point<2>& a, const Point<2>& b, const Point<2>& c)
 {
@@ -62,10 +70,8 @@ double exactDoubleArea(const Point<2>& a, const Point<2>& b, const Point<2>& c)
     sum.AddProduct(p[0], q[1]);
     sum.AddProduct(-p[1], q[0]);
   }
-  return sum.Sign();
+  return sum.Sum();
 }
-
-} // namespace
 
 bool turnsLeftExactly(const NumberedPoint& a, const NumberedPoint& b, const NumberedPoint& c)
 {

@@ -24,6 +24,9 @@ struct NumberedPoint
 // Whether a, b and c turn left, if floating point cannot tell.
 bool turnsLeftExactly(const NumberedPoint& a, const NumberedPoint& b, const NumberedPoint& c);
 
+// Twice the area of the triangle to rounding: 0 only if the points are collinear.
+double exactDoubleArea(const Point<2>& a, const Point<2>& b, const Point<2>& c);
+
 // Twice the area of the triangle, and a bound of its error.
 inline double doubleArea(const Point<2>& a, const Point<2>& b, const Point<2>& c, double& error)
 {

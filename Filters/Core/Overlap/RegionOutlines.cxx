@@ -34,9 +34,10 @@ public:
     }
     const double height = high - this->Low;
     const auto count = static_cast<double>(rings.Edges());
-    const double rows =
-      lengths > 0.0 ? std::clamp(2.0 * count * height / lengths, 1.0, count) : 1.0;
-    this->PerLength = height > 0.0 ? rows / height : 0.0;
+    const double rows = // whole, else the highest point may be rounded into one more
+      lengths > 0.0 ? std::clamp(std::floor(2.0 * count * height / lengths), 1.0, count) : 1.0;
+    const double perLength = rows / height;
+    this->PerLength = std::isfinite(perLength) ? perLength : 0.0;
     this->Rows.Fill(
       static_cast<std::size_t>(rows) + 1, [this](const auto& add) { this->VisitEdges(add); });
   }
