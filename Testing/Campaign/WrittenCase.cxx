@@ -164,22 +164,23 @@ private:
     }
     if (auto* shapes = vtkPolyData::SafeDownCast(data); shapes && this->Random.Chance(0.3))
     {
-      text += " with cells without points";
-      this->AddEmptyCells(shapes);
+      const bool haveValues = this->Random.Chance(0.5);
+      text += haveValues ? " with cells without points" : " with cells without points and values";
+      this->AddEmptyCells(shapes, haveValues);
     }
     this->Writer->SetInputDataObject(data);
     this->Print(std::string(data ? data->GetClassName() : "nothing") + " " + text);
   }
 
-  // Its cell has the values of the first one.
-  void AddEmptyCells(vtkPolyData* shapes)
+  // They have the values of the first one, or the arrays are too short.
+  void AddEmptyCells(vtkPolyData* shapes, bool haveValues)
   {
     vtkNew<vtkCellArray> cells;
     const bool areLines = this->Random.Chance(0.5);
     cells->DeepCopy(areLines ? shapes->GetLines() : shapes->GetPolys());
     cells->InsertNextCell(0);
     areLines ? shapes->SetLines(cells) : shapes->SetPolys(cells);
-    for (int i = 0; i < shapes->GetCellData()->GetNumberOfArrays(); ++i)
+    for (int i = 0; haveValues && i < shapes->GetCellData()->GetNumberOfArrays(); ++i)
     {
       vtkAbstractArray* array = shapes->GetCellData()->GetAbstractArray(i);
       while (

@@ -2,6 +2,7 @@
 #include "Bridge/Drawing/FilledOutlines.h"
 
 #include "Bridge/Drawing/OutlinedRegions.h"
+#include "Bridge/Points/CopiedTuples.h"
 #include "Core/Overlap/RingTriangles.h"
 #include "Core/Parallel/Progress.h"
 
@@ -189,6 +190,7 @@ private:
     filled->ShallowCopy(this->Data);
     filled->SetLines(this->Lines);
     filled->SetPolys(this->Areas);
+    requireTuples(this->Data, "input");
     vtkCellData* cells = filled->GetCellData();
     cells->Initialize();
     cells->CopyAllOn();

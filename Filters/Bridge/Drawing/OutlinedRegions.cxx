@@ -2,6 +2,7 @@
 #include "Bridge/Drawing/OutlinedRegions.h"
 
 #include "Bridge/Points/CellCheck.h"
+#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/TupleValues.h"
 
@@ -34,17 +35,21 @@ bool isOfCells(vtkCellData* data, vtkAbstractArray* array)
   return array == data->GetGlobalIds() || name.rfind("vtk", 0) == 0;
 }
 
-void appendValues(vtkCellData* data, vtkIdType cell, std::string& values)
+// Those that tell regions apart.
+std::vector<vtkAbstractArray*> arraysOfRegions(vtkPolyData* data)
 {
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  std::vector<vtkAbstractArray*> arrays;
+  vtkCellData* cells = data->GetCellData();
+  for (int i = 0; i < cells->GetNumberOfArrays(); ++i)
   {
-    vtkAbstractArray* array = data->GetAbstractArray(i);
-    if (isOfCells(data, array))
+    vtkAbstractArray* array = cells->GetAbstractArray(i);
+    if (!isOfCells(cells, array))
     {
-      continue;
+      requireTuples(array, data->GetNumberOfCells(), "cell", "input");
+      arrays.push_back(array);
     }
-    appendTupleKey(array, cell, values);
   }
+  return arrays;
 }
 
 // Whether the points of a ring, from the first one, are not all on a line.
@@ -76,6 +81,7 @@ public:
     , Ghosts(ghostFlags(data, vtkDataObject::CELL, "input"))
   {
     requireReadableCells(data, "input");
+    this->Arrays = arraysOfRegions(data);
   }
 
   OutlinedRegions Find()
@@ -127,7 +133,10 @@ private:
   {
     this->Plane.Add(this->Places);
     this->Values.clear();
-    appendValues(this->Data->GetCellData(), outline.Cell, this->Values);
+    for (vtkAbstractArray* array : this->Arrays)
+    {
+      appendTupleKey(array, outline.Cell, this->Values);
+    }
     const auto region = this->Numbers.insert({ this->Values, this->Found.Regions.size() });
     if (region.second)
     {
@@ -138,6 +147,7 @@ private:
 
   vtkPolyData* const Data;
   const unsigned char* const Ghosts;
+  std::vector<vtkAbstractArray*> Arrays;
   RingPlane Plane;
   OutlinedRegions Found;
   std::unordered_map<std::string, std::size_t> Numbers; // of regions, by their values

@@ -32,7 +32,8 @@ struct OutlinedRegions
 // Lines that end where they begin are outlines. Those with the same cell data, global ids and
 // arrays of VTK's own (vtk...) aside, are one region: what is inside an odd number of its outlines.
 // Lines without area, with points that are not finite, and ghost cells are left out. Throws Failure
-// for a ghost array of another length and cells with points that do not exist.
+// for cell arrays with too few tuples, a ghost array of another length and cells with points that
+// do not exist.
 OutlinedRegions findOutlinedRegions(vtkPolyData* data);
 
 // Whether no coordinate is infinite or NaN.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/CommonArrays.h"
 
+#include "Bridge/Points/CopiedTuples.h"
+
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
@@ -30,6 +32,8 @@ std::vector<ArrayKind> kindsOf(vtkDataSet* data)
       {
         continue;
       }
+      requireTuples(array, data->GetNumberOfElements(owner),
+        owner == vtkDataObject::CELL ? "cell" : "point", "input");
       // Bits have no bytes of their own.
       const int type = array->GetDataType() == VTK_BIT ? VTK_UNSIGNED_CHAR : array->GetDataType();
       ArrayKind kind{ owner, type, array->GetNumberOfComponents(),

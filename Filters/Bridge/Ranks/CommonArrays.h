@@ -44,7 +44,8 @@ struct ArrayKind
 };
 
 // The arrays that all ranks with points have, in the order of the first of these ranks, and the
-// ghost arrays of any rank. `data` may be nullptr. Collective.
+// ghost arrays of any rank. `data` may be nullptr. Collective. Throws Failure for an array with too
+// few tuples.
 std::vector<ArrayKind> commonArrays(vtkDataSet* data, const Ranks& ranks);
 
 // Consecutive tuples.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/DistributedPoints.h"
 
+#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/Memory.h"
@@ -118,6 +119,10 @@ std::vector<unsigned char> repeatedPoints(
     return {};
   }
   vtkDataArray* ids = own->GetPointData()->GetGlobalIds();
+  if (ids)
+  {
+    requireTuples(ids, own->GetNumberOfPoints(), "point", "input point set");
+  }
   ids = onAllRanks(ranks, ids || counted.Count() == 0) ? ids : nullptr;
   std::vector<std::vector<Identity>> given(static_cast<std::size_t>(ranks.Count()));
   std::vector<std::size_t> comparers;
@@ -231,6 +236,7 @@ vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& rank
   {
     return set;
   }
+  requireTuples(set, "input point set");
   vtkNew<vtkIdList> kept;
   kept->SetNumberOfIds(count);
   for (vtkIdType i = 0; i < count; ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/GatheredData.h"
 
+#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Ranks/DataSetBytes.h"
 #include "Bridge/Ranks/DistributedPoints.h"
@@ -356,6 +357,10 @@ vtkSmartPointer<vtkPointSet> gatherPoints(
   if (!ranks.AreSeveral())
   {
     return own;
+  }
+  if (own)
+  {
+    requireTuples(own, "input");
   }
   std::vector<DataPart> parts;
   if (const vtkSmartPointer<vtkPointSet> points = countedPart(own, kind, ranks))

@@ -148,6 +148,7 @@ vtkSmartPointer<vtkPolyData> surfaceOf(vtkPointSet* grid, const PolyDataCells& c
 vtkSmartPointer<vtkPolyData> outerSurfaceOf(vtkPointSet* grid, LargeBuffer<vtkIdType>& ids)
 {
   constexpr const char* name = "RectifiedTransportCellIds";
+  requireTuples(grid, "input");
   vtkNew<vtkGeometryFilter> filter;
   filter->SetInputData(grid);
   filter->PassThroughCellIdsOn();

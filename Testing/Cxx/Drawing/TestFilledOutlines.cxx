@@ -195,6 +195,42 @@ void checkData(Checks& checks)
   CHECK(checks, cells["eight"] == 3 && cells["square"] == 3);
 }
 
+// Shorter arrays than the cells, which regions and the filled cells would read.
+void checkShortArrays(Checks& checks)
+{
+  vtkNew<vtkDoubleArray> values;
+  values->InsertNextValue(1.0);
+  const auto data = landOf(values);
+  vtkNew<vtkDoubleArray> ofPoints;
+  ofPoints->SetName("OfPoints");
+  ofPoints->SetNumberOfTuples(7);
+  ofPoints->Fill(1.0);
+  const auto expect = [&](const std::string& text, int line) {
+    const vtkIdType cells = data->GetNumberOfCells();
+    try
+    {
+      RectifiedTransport::fillOutlines(data);
+      checks.That(false, "is refused", line, text);
+    }
+    catch (const std::exception& problem)
+    {
+      checks.That(problem.what() == text, "the message", line, problem.what());
+    }
+    CHECK(checks, data->GetNumberOfCells() == cells);
+  };
+  expect("The cell array 'Values' of the input has 1 tuples; it must have one for each of the 2 "
+         "cells",
+    __LINE__);
+  values->InsertNextValue(1.0);
+  data->GetPointData()->AddArray(ofPoints);
+  expect("The point array 'OfPoints' of the input has 7 tuples; it must have one for each of the 8 "
+         "points",
+    __LINE__);
+  ofPoints->InsertNextValue(1.0);
+  RectifiedTransport::fillOutlines(data);
+  CHECK_NEAR(checks, areaOf(data), 84.0, 1e-9);
+}
+
 // Polygons, lines, strips and vertices without points are none.
 void checkCellsWithoutPoints(Checks& checks, vtkTransportVectorWriter* writer)
 {
@@ -237,5 +273,6 @@ void checkCellsWithoutPoints(Checks& checks, vtkTransportVectorWriter* writer)
 
 int TestFilledOutlines(int, char*[])
 {
-  return runChecks({ checkValues, checkAreas, checkData, ofBoth<checkCellsWithoutPoints> });
+  return runChecks(
+    { checkValues, checkAreas, checkData, checkShortArrays, ofBoth<checkCellsWithoutPoints> });
 }

@@ -3,6 +3,7 @@
 #include "DrawingTest.h"
 #include "ProgressTest.h"
 
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkMultiBlockDataSet.h"
@@ -194,6 +195,24 @@ void checkArrays(Checks& checks, vtkTransportVectorWriter* writer)
   test.Expect({ "The field association of the ColorArray" }, __LINE__);
 }
 
+// Filled outlines are told apart by all arrays of the cells.
+void checkArraysOfOutlines(Checks& checks, vtkTransportVectorWriter* writer)
+{
+  WriterTest test(checks, writer);
+  const auto data = shapes({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 0, 0 } }, Cells::Line);
+  data->GetLines()->InsertNextCell({ 0, 1, 2, 0 });
+  data->GetCellData()->AddArray(bytes("Colours", 3, { 9, 9, 9, 9, 9, 9 }));
+  data->GetCellData()->AddArray(bytes("Land", 1, { 1 }));
+  writer->SetInputData(data);
+  writer->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Colours");
+  writer->SetFillOutlines(true);
+  test.Expect({ "The cell array 'Land' of the input has 1 tuples; it must have one for each of the "
+                "2 cells" },
+    __LINE__);
+  writer->SetFillOutlines(false);
+  CHECK(checks, writer->Write() == 1);
+}
+
 void checkFiles(Checks& checks)
 {
   vtkNew<vtkTransportSVGWriter> writer;
@@ -236,5 +255,5 @@ void checkProgress(Checks& checks, vtkTransportVectorWriter* writer)
 int TestVectorWriterErrors(int, char*[])
 {
   return runChecks({ ofBoth<checkProperties>, checkPages, ofBoth<checkInputs>, ofBoth<checkArrays>,
-    checkFiles, ofBoth<checkProgress> });
+    ofBoth<checkArraysOfOutlines>, checkFiles, ofBoth<checkProgress> });
 }
