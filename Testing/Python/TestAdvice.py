@@ -139,7 +139,7 @@ TABLE = [
            lambda source, _: simple.Subdivide(Input=source)),
     Advice(SURFACES, lambda: producer(simple, polygons(
         [(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)], [(0, 1, 2), (0, 2, 3)])),
-           "triangles without area, the first is triangle 0; move their points apart", move_apart),
+           "2 triangles without area, the first is triangle 0; move their points apart", move_apart),
     Advice(SURFACES, lambda: producer(simple, polygons(TOUCHING, TOUCHING_CELLS)),
            "1 point where parts of it touch that no edges join, the first is point 2; each part needs "
            "a point of its own there",

@@ -49,7 +49,15 @@ void DiskSurface::Make(SurfaceTriangles& input, const SurfaceStages& stages)
   stages.Next(0.9);
   if (isCut)
   {
-    this->MakeDisk(input, progress);
+    try
+    {
+      this->MakeDisk(input, progress);
+    }
+    catch (const NoDiskSurface& found)
+    {
+      // Parts without area are more than the triangles that the user has.
+      throw defect && defect->HasNoArea && found.HasNoArea ? *defect : found;
+    }
   }
   this->Input = std::move(input);
   this->Input->Free();
@@ -78,7 +86,7 @@ void DiskSurface::MakeDisk(const SurfaceTriangles& input, Progress& progress)
       message += "; triangle " + std::to_string(first) + " is of cell " +
         std::to_string(input.Cells().InputCellOf(first));
     }
-    throw NoDiskSurface(message);
+    throw NoDiskSurface(message, defect.Defect());
   }
 }
 

@@ -22,7 +22,13 @@ namespace RectifiedTransport
 class NoDiskSurface : public Failure
 {
 public:
-  using Failure::Failure;
+  NoDiskSurface(const std::string& message, DiskDefect defect)
+    : Failure(message)
+    , HasNoArea(defect == DiskDefect::TrianglesWithoutArea)
+  {
+  }
+
+  bool HasNoArea; // triangles of it
 };
 
 class DiskSurface final : public PlacedTriangles

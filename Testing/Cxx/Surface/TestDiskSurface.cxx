@@ -188,6 +188,11 @@ void checkFailures(Checks& checks)
     "The input surface has 8 triangles without area, the first is triangle 0; move their points "
     "apart; triangle 0 is of cell 3",
     __LINE__);
+  // Cut at the points of each other, they are three.
+  expect(makePolygons({ 0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0 }, { 3, 0, 1, 2, 3, 0, 2, 3 }),
+    "The input surface has 2 triangles without area, the first is triangle 0; move their points "
+    "apart",
+    __LINE__);
   sheet = makeFlatSheet(2, 2, false);
   sheet->GetPoints()->SetPoint(8, 1, 2, 0);
   sheet->GetPoints()->SetPoint(7, 2, 2, 0);
