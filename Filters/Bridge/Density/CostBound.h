@@ -15,13 +15,14 @@
 namespace RectifiedTransport
 {
 
-// TransportCostLowerBound, and OptimalityGap of a map of this cost on a grid. Without a bound above
-// 0 the gap is 0 for ways of less than a tenth of a cell, which are errors of integration, else
-// infinite.
+// TransportCostLowerBound, and OptimalityGap of a map of this cost on a grid. Where the bound is no
+// more than the rounding that it allows for (see PotentialSolver), their ratio says nothing: the
+// gap is 0 for ways of less than a tenth of a cell, which are errors of integration, else infinite.
 inline void addCostBound(vtkDataObject* output, double bound, double cost, const ImageGrid& grid)
 {
+  constexpr double rounding = 1e-12; // of the squared diagonal
   double gap = std::max(0.0, cost / bound - 1.0);
-  if (!(bound > 0.0))
+  if (!(bound > rounding * grid.Diagonal() * grid.Diagonal()))
   {
     constexpr double nothing = 0.1; // cells
     const double cell = std::pow(grid.CellMeasure(), 1.0 / grid.Dimension());
