@@ -194,7 +194,11 @@ void copyAccess(const FileDescriptor& earlier, const FileDescriptor& file)
   constexpr const char* list = "system.posix_acl_access";
   std::array<char, 4096> entries{};
   const ssize_t size = fgetxattr(earlier.Get(), list, entries.data(), entries.size());
-  if (size > 0 &&
+  if (size < 0 && errno != ERANGE)
+  {
+    fremovexattr(file.Get(), list); // which the folder may give to new files
+  }
+  else if (size < 0 ||
     fsetxattr(file.Get(), list, entries.data(), static_cast<std::size_t>(size), 0) != 0)
   {
     mode &= ~ofGroup; // with a list, these bits are more than the group's own

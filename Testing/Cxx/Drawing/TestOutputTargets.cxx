@@ -7,8 +7,12 @@
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#ifdef __linux__
+#include <sys/xattr.h>
+#endif
 
 #include <csignal>
+#include <cstdint>
 #include <map>
 #include <thread>
 
@@ -134,6 +138,91 @@ void checkModes(Checks& checks, vtkTransportVectorWriter* writer)
   CHECK(checks, target.ModeOf("new") == 0640);
   umask(mask);
   CHECK(checks, target.Folder.All().size() == 2);
+}
+
+#ifdef __linux__
+// As Linux keeps it: the owner, a user, the group, the mask and all others, each with rights.
+std::string accessList(std::uint16_t ofUser, std::uint16_t mask)
+{
+  constexpr std::uint32_t nobody = 0xffffffff;
+  const auto bytesOf = [](const auto& value) {
+    return std::string(reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  std::string list = bytesOf(std::uint32_t{ 2 });
+  const auto add = [&](std::uint16_t who, std::uint16_t rights, std::uint32_t number) {
+    list += bytesOf(who) + bytesOf(rights) + bytesOf(number);
+  };
+  add(0x01, 6, nobody);
+  add(0x02, ofUser, 12345);
+  add(0x04, 0, nobody);
+  add(0x10, mask, nobody);
+  add(0x20, 0, nobody);
+  return list;
+}
+
+std::string accessOf(const fs::path& path)
+{
+  std::array<char, 256> list{};
+  const ssize_t size = getxattr(path.c_str(), "system.posix_acl_access", list.data(), list.size());
+  return { list.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0)) };
+}
+#endif
+
+// Who may read the earlier file, and nobody else, may read the new one.
+void checkAccessLists(Checks& checks, vtkTransportVectorWriter* writer)
+{
+#ifdef __linux__
+  Target target(checks, writer);
+  const TemporaryFolder& folder = target.Folder;
+  folder.Keep("plain", "earlier");
+  folder.Keep("list", "earlier");
+  chmod(folder.At("plain").c_str(), 0640);
+  const std::string list = accessList(4, 4);
+  const std::string wide = accessList(7, 7);
+  const auto set = [](const fs::path& path, const char* name, const std::string& value) {
+    return setxattr(path.c_str(), name, value.data(), value.size(), 0) == 0;
+  };
+  if (!set(folder.At("list"), "system.posix_acl_access", list) ||
+    !set(folder.At("."), "system.posix_acl_default", wide))
+  {
+    return; // this file system has no lists
+  }
+  for (const char* name : { "plain", "list" })
+  {
+    checks.That(target.Write(folder.At(name)) == 1, "is written", __LINE__, name);
+    checks.That(target.IsDrawing(name), "is a drawing", __LINE__, name);
+  }
+  CHECK(checks, accessOf(folder.At("plain")).empty() && target.ModeOf("plain") == 0640);
+  CHECK(checks, accessOf(folder.At("list")) == list && target.ModeOf("list") == 0640);
+  CHECK(checks, target.Write(folder.At("new")) == 1 && !accessOf(folder.At("new")).empty());
+#else
+  (void)checks;
+  (void)writer;
+#endif
+}
+
+// Without the right to make files there, the earlier one stays.
+void checkReadOnlyFolders(Checks& checks, vtkTransportVectorWriter* writer)
+{
+  Target target(checks, writer);
+  const TemporaryFolder& folder = target.Folder;
+  fs::create_directory(folder.At("closed"));
+  folder.Keep("closed/a", "earlier");
+  chmod(folder.At("closed/a").c_str(), 0666);
+  chmod(folder.At("closed").c_str(), 0555);
+  const uid_t user = geteuid();
+  constexpr uid_t nobody = 65534; // for whom the folder is closed if the user is root
+  const bool isOther = user != 0 || seteuid(nobody) == 0;
+  for (const char* name : { "closed/a", "closed/new" })
+  {
+    if (isOther)
+    {
+      target.ExpectRefused(folder.At(name), "Permission denied", __LINE__);
+    }
+  }
+  CHECK(checks, user != 0 || seteuid(user) == 0);
+  chmod(folder.At("closed").c_str(), 0755);
+  CHECK(checks, folder.Text("closed/a") == "earlier");
 }
 
 // To a file, to nothing yet, over others, in another folder, around in a circle.
@@ -293,6 +382,7 @@ void checkTwo(Checks& checks, vtkTransportVectorWriter* writer)
 
 int TestOutputTargets(int, char*[])
 {
-  return runChecks({ ofBoth<checkModes>, ofBoth<checkLinks>, ofBoth<checkNames>,
-    ofBoth<checkDevices>, ofBoth<checkSignals>, ofBoth<checkDescriptors>, ofBoth<checkTwo> });
+  return runChecks({ ofBoth<checkModes>, ofBoth<checkAccessLists>, ofBoth<checkReadOnlyFolders>,
+    ofBoth<checkLinks>, ofBoth<checkNames>, ofBoth<checkDevices>, ofBoth<checkSignals>,
+    ofBoth<checkDescriptors>, ofBoth<checkTwo> });
 }
