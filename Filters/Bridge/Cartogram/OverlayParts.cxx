@@ -7,6 +7,7 @@
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkFieldData.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
@@ -24,6 +25,7 @@ std::vector<OverlayPart> overlayParts(vtkDataObject* overlay, vtkDataObject* out
     made->CopyStructure(input);
     made->GetPointData()->PassData(input->GetPointData());
     made->GetCellData()->PassData(input->GetCellData());
+    made->GetFieldData()->ShallowCopy(input->GetFieldData()); // VTK has given it the map's
     parts.push_back({ input, made });
   };
   auto* const blocks = vtkCompositeDataSet::SafeDownCast(overlay);
@@ -34,6 +36,7 @@ std::vector<OverlayPart> overlayParts(vtkDataObject* overlay, vtkDataObject* out
   }
   auto* const outputs = vtkCompositeDataSet::SafeDownCast(output);
   outputs->CopyStructure(blocks);
+  outputs->GetFieldData()->ShallowCopy(blocks->GetFieldData());
   const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
   for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
   {

@@ -3,6 +3,8 @@
 // that no overlay has.
 #include "MapRegions.h"
 
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkTable.h"
@@ -107,6 +109,45 @@ void checkOthers(Checks& checks)
   ErrorTest(checks, cartogram).Expect("Cell 1 of the Overlay", __LINE__);
 }
 
+void addFieldNumber(vtkDataObject* data, const char* name)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->InsertNextValue(7.0);
+  data->GetFieldData()->AddArray(array);
+}
+
+// Of a map that a cartogram made: its errors are those of no other output, which has its own data.
+void checkFieldData(Checks& checks)
+{
+  auto map = makeMap(4);
+  addFieldNumber(map, "AreaErrors");
+  addFieldNumber(map, "Map");
+  auto rivers = makeRivers();
+  addFieldNumber(rivers, "Rivers");
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, rivers);
+  addFieldNumber(blocks, "Blocks");
+  auto cartogram = makeCartogram();
+  cartogram->SetInputData(map);
+  cartogram->SetOverlayData(rivers);
+  cartogram->Update();
+  const auto has = [](vtkDataObject* data, const char* name) {
+    return data->GetFieldData()->HasArray(name) != 0;
+  };
+  vtkDataArray* errors = cartogram->GetRegions()->GetFieldData()->GetArray("AreaErrors");
+  CHECK(checks, errors->GetComponent(0, 0) != 7.0 && has(cartogram->GetRegions(), "Map"));
+  CHECK(
+    checks, has(cartogram->GetGraticule(), "Map") && !has(cartogram->GetGraticule(), "AreaErrors"));
+  CHECK(checks, has(cartogram->GetOverlay(), "Rivers"));
+  CHECK(checks, !has(cartogram->GetOverlay(), "AreaErrors"));
+  cartogram->SetOverlayData(blocks);
+  cartogram->Update();
+  vtkDataObject* moved = cartogram->GetOutputDataObject(2);
+  CHECK(checks, has(moved, "Blocks") && !has(moved, "AreaErrors"));
+  CHECK(checks, has(vtkMultiBlockDataSet::SafeDownCast(moved)->GetBlock(0), "Rivers"));
+}
+
 void checkEmpty(Checks& checks)
 {
   vtkNew<vtkPolyData> nothing; // no vtkPoints
@@ -150,5 +191,5 @@ void checkOutside(Checks& checks)
 
 int TestCartogramOverlay(int, char*[])
 {
-  return runChecks({ checkBlocks, checkOthers, checkEmpty, checkOutside });
+  return runChecks({ checkBlocks, checkOthers, checkFieldData, checkEmpty, checkOutside });
 }
