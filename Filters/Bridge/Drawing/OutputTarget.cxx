@@ -166,7 +166,7 @@ void OutputTarget::Fail() const
 {
   const std::string reason = errno != 0 ? std::strerror(errno) : "unknown error";
   fail("FileName '", this->Name, "' cannot be written (", reason,
-    "); its folder must exist, and the folder and the file must be writable");
+    "); its folder must exist and have room, and the folder and the file must be writable");
 }
 
 OutputTarget findOutputTarget(const std::string& name)
