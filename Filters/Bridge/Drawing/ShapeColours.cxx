@@ -2,6 +2,7 @@
 #include "Bridge/Drawing/ShapeColours.h"
 
 #include "vtkAbstractArray.h"
+#include "vtkNew.h"
 #include "vtkScalarsToColors.h"
 
 #include <array>
@@ -24,9 +25,16 @@ ShapeColours::ShapeColours(vtkAbstractArray* array, bool onPoints, vtkScalarsToC
     this->Bytes = vtkUnsignedCharArray::SafeDownCast(array);
     return;
   }
+  vtkNew<vtkUnsignedCharArray> numbers; // VTK leaves the colours of vectors of bits unset
+  const bool areBits = array->GetDataType() == VTK_BIT;
+  if (areBits)
+  {
+    numbers->DeepCopy(array);
+  }
   // Component -1: that of the table, or the magnitude.
   constexpr int component = -1;
-  this->Bytes.TakeReference(table->MapScalars(array, VTK_COLOR_MODE_MAP_SCALARS, component));
+  this->Bytes.TakeReference(
+    table->MapScalars(areBits ? numbers.Get() : array, VTK_COLOR_MODE_MAP_SCALARS, component));
 }
 
 Colour ShapeColours::Of(const Shape& shape) const

@@ -222,6 +222,17 @@ void requireTuples(vtkAbstractArray* array, const char* property, vtkIdType coun
   }
 }
 
+// VTK leaves the colours of other arrays unset.
+void requireColours(vtkAbstractArray* array, vtkScalarsToColors* table)
+{
+  if (!vtkDataArray::SafeDownCast(array) && !(table && table->GetIndexedLookup()))
+  {
+    fail(titleOf("ColorArray", array),
+      " has no numbers; choose one that has, or a LookupTable with IndexedLookup and a colour for "
+      "each value");
+  }
+}
+
 } // namespace
 
 void TransportVectorWriter::Check() const
@@ -253,6 +264,7 @@ void TransportVectorWriter::Run(
       requireTuples(drawn.Colours, "ColorArray",
         drawn.HasColoursOnPoints ? own->GetNumberOfPoints() : own->GetNumberOfCells(),
         drawn.HasColoursOnPoints);
+      requireColours(drawn.Colours, this->LookupTable);
       table = table ? table : tableOf(data);
     }
     if (drawn.Radii)

@@ -6,8 +6,10 @@
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
+#include "vtkLookupTable.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPointData.h"
+#include "vtkStringArray.h"
 #include "vtkTransportPDFWriter.h"
 #include "vtkTransportSVGWriter.h"
 
@@ -191,6 +193,21 @@ void checkArrays(Checks& checks, vtkTransportVectorWriter* writer)
   test.Expect({ "The input has no ColorArray 'Size'" }, __LINE__);
   writer->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Vector");
   test.Expect({ "ColorArray 'Vector' has 2 tuples, but there are 3 points" }, __LINE__);
+  vtkNew<vtkStringArray> names;
+  names->SetName("Name");
+  names->SetNumberOfValues(3);
+  data->GetPointData()->AddArray(names);
+  writer->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Name");
+  test.Expect(
+    { "ColorArray 'Name' has no numbers; choose one that has, or a LookupTable" }, __LINE__);
+  vtkNew<vtkLookupTable> table;
+  table->SetIndexedLookup(1);
+  table->SetAnnotation(vtkVariant(""), "none");
+  table->Build();
+  writer->SetLookupTable(table);
+  CHECK(checks, writer->Write() == 1);
+  test.Keep("earlier");
+  writer->SetLookupTable(nullptr);
   writer->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_NONE, "Size");
   test.Expect({ "The field association of the ColorArray" }, __LINE__);
 }

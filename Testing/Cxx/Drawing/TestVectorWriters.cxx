@@ -3,6 +3,7 @@
 // TestVectorFiles compares the pictures of both formats.
 #include "DrawingTest.h"
 
+#include "vtkBitArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkLookupTable.h"
@@ -207,6 +208,30 @@ void checkTable(Checks& checks)
   CHECK(checks, countOf(text, "fill=\"#ffffff\"") == 2);
 }
 
+// Vectors of bits are vectors of these numbers.
+void checkBits(Checks& checks)
+{
+  const auto data = shapes(corners, Cells::Verts);
+  vtkNew<vtkBitArray> bits;
+  vtkNew<vtkDoubleArray> doubles;
+  for (vtkDataArray* array :
+    { static_cast<vtkDataArray*>(bits.Get()), static_cast<vtkDataArray*>(doubles.Get()) })
+  {
+    array->SetName(array == bits.Get() ? "Bits" : "Doubles");
+    array->SetNumberOfComponents(3);
+    for (const int count : { 0, 1, 2, 3 })
+    {
+      array->InsertNextTuple3(count > 0, count > 1, count > 2);
+    }
+    data->GetPointData()->AddArray(array);
+  }
+  Svg svg(data);
+  svg.Writer->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Bits");
+  const std::string text = svg.Written(checks, __LINE__);
+  svg.Writer->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Doubles");
+  CHECK(checks, svg.Written(checks, __LINE__) == text);
+}
+
 // A polygon is outlined without colours and filled with them, in the mean colour of its points; a
 // line has a colour for each segment.
 void checkPolygonsAndLines(Checks& checks)
@@ -362,6 +387,6 @@ void checkPdf(Checks& checks)
 int TestVectorWriters(int, char*[])
 {
   return runChecks({ checkPage, checkPageBounds, checkAxes, checkRadiusFromSpacing, checkRadii,
-    checkColours, checkTable, checkPolygonsAndLines, checkAreas, checkOrder, checkGhosts,
+    checkColours, checkTable, checkBits, checkPolygonsAndLines, checkAreas, checkOrder, checkGhosts,
     checkLocale, checkPdf });
 }
