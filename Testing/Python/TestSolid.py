@@ -174,8 +174,8 @@ class Solids(unittest.TestCase):
         self.check(simple.ClipClosedSurface(Input=ball), right, 1e-5)
         self.assertIn("or with a plane that cuts off the rim of the hole", message)
         capped = simple.ClipClosedSurface(Input=simple.Sphere(
-            ThetaResolution=30, PhiResolution=30, StartPhi=20), InsideOut=1)
-        capped.ClippingPlane.Origin, capped.ClippingPlane.Normal = [0, 0, 0.45], [0, 0, 1]
+            ThetaResolution=30, PhiResolution=30, StartPhi=20))
+        capped.ClippingPlane.Origin, capped.ClippingPlane.Normal = [0, 0, 0.45], [0, 0, -1]
         self.check(capped, 2 * right, 0.03)
         self.assertIn("Delaunay 3D and Extract Surface for the convex hull", message)
         self.check(simple.ExtractSurface(Input=simple.Delaunay3D(Input=half)), right, 1e-3)

@@ -130,12 +130,18 @@ class ExampleTest(unittest.TestCase):
         return printed + messages
 
     def check_picture(self, name):
+        """Against NAME and, as in VTK's own tests, NAME_1: what is as good with other last bits."""
         reference = os.path.join(DATA, "Baseline", name)
         drawn = os.path.join(OUTPUT, name)
         if "--update" in sys.argv:
             shutil.copy(drawn, reference)
-        expected, found = read(reference)[0], read(drawn)[0]
-        self.assertEqual(found.shape, expected.shape)
-        difference = np.abs(blurred(found) - blurred(expected))
+        found = read(drawn)[0]
+        differences = []
+        for path in (reference, reference.replace(".png", "_1.png")):
+            if os.path.exists(path):
+                expected = read(path)[0]
+                self.assertEqual(found.shape, expected.shape)
+                differences.append(np.abs(blurred(found) - blurred(expected)))
+        difference = min(differences, key=np.mean)
         self.assertLess(difference.mean(), 1, drawn)
         self.assertLess((difference > 40).mean(), 0.002, drawn)
