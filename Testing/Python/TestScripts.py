@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Traced and saved scripts of a session in which the plugin was loaded before: they run as
-Documentation/Server.md says."""
+Documentation/Server.md says. The display that tests keep open."""
 import os
 import re
 import shutil
@@ -28,6 +28,23 @@ dots = FindSource('Dots')
 dots.UpdatePipeline()
 print('%d dots' % dots.GetDataInformation().GetNumberOfPoints())
 """
+# A server that starts anew forgets the atoms that clients have made.
+ATOM = """
+import ctypes
+import sys
+sys.path.insert(0, %r)
+from rt_testing import need_display
+need_display()
+library = ctypes.CDLL('libX11.so.6')
+library.XOpenDisplay.restype = ctypes.c_void_p
+def atom(must_exist):
+    display = ctypes.c_void_p(library.XOpenDisplay(None))
+    found = library.XInternAtom(display, b'RectifiedTransport', must_exist)
+    library.XCloseDisplay(display)
+    return found
+made = atom(0)
+print('kept' if made and atom(1) == made else 'lost')
+""" % os.path.dirname(os.path.abspath(__file__))
 
 
 def line_of_page():
@@ -67,6 +84,16 @@ class Scripts(unittest.TestCase):
                 self.assertEqual(text.count(IMPORT), 1)
                 self.assertIn("50 dots",
                               self.run_script(text.replace(IMPORT, IMPORT + line_of_page())))
+
+    @unittest.skipUnless(shutil.which("xvfb-run"), "needs xvfb-run")
+    def test_display(self):
+        path = os.path.join(self.folder, "atom.py")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(ATOM)
+        number = 1000 + os.getpid() % 30000  # nobody else's
+        result = subprocess.run(["xvfb-run", "-a", "-n", str(number), os.environ["RT_PVPYTHON"], path],
+                                text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        self.assertIn("kept", result.stdout)
 
 
 if __name__ == "__main__":

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests share: small inputs, a filter's messages, hashes of its output, the plugin."""
+import ctypes
 import hashlib
 import os
 import sys
 import tempfile
+import time
 import unittest
 
 import numpy as np
@@ -34,6 +36,21 @@ def need_display():
         print("Needs a display: xvfb-run -a ctest")
         sys.stdout.flush()
         os._exit(SKIPPED)
+    keep_display()
+
+
+def keep_display():
+    """Connects to the X server until the process ends. Without -noreset, as `xvfb-run -a` starts it, a
+    server starts anew whenever its last client leaves, and refuses who connects meanwhile."""
+    try:
+        library = ctypes.CDLL("libX11.so.6")
+    except OSError:
+        return
+    library.XOpenDisplay.restype = ctypes.c_void_p
+    for _ in range(50):
+        if library.XOpenDisplay(None):
+            return
+        time.sleep(0.2)
 
 
 def density_image(shape=(12, 10), cells=True, seed=0, values=None):
