@@ -9,7 +9,8 @@ dots.NumberOfParticles = 8000
 view = GetActiveViewOrCreate("RenderView")
 view.UseColorPaletteForBackground = 0
 view.Background = [0.96, 0.94, 0.9]
-normals = GenerateSurfaceNormals(cow, registrationName="Normals")
+make_normals = globals().get("SurfaceNormals") or GenerateSurfaceNormals  # its name in ParaView 5.11
+normals = make_normals(cow, registrationName="Normals")
 inside = WarpByVector(normals, registrationName="Inside", Vectors=["POINTS", "Normals"])
 inside.ScaleFactor = -0.02
 body = Show(inside, view)

@@ -220,7 +220,8 @@ def dots_on_a_mesh(pixels):
     view = example.new_session([pixels, pixels], "Tutorial")
     cow = simple.XMLPolyDataReader(registrationName="Cow",
                                    FileName=[os.path.join(example.DATA, "spot.vtp")])
-    normals = simple.GenerateSurfaceNormals(cow, registrationName="Normals")
+    make_normals = getattr(simple, "SurfaceNormals", None) or simple.GenerateSurfaceNormals  # in 5.11
+    normals = make_normals(cow, registrationName="Normals")
     ink = simple.Calculator(normals, registrationName="Ink", ResultArrayName="Ink")
     ink.Function = "0.03+(0.5-0.5*dot(Normals,0.8*jHat-0.5*iHat-0.3*kHat))^2"
     dots = simple.SampleSurface(ink, registrationName="Dots", NumberOfParticles=20000)

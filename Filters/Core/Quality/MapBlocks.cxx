@@ -94,8 +94,9 @@ public:
     std::vector<double> masses(count, 0.0);
     std::vector<double> least(count, std::numeric_limits<double>::infinity());
     this->InLayers(this->Cells.Of(this->Blocks), this->Start, end, [&](const LayerSpan& batch) {
-      const auto [begin, stop] = this->BlocksIn(batch);
-      this->Work.For(stop - begin, grain, [&](std::int64_t first, std::int64_t last) {
+      const auto blocks = this->BlocksIn(batch);
+      const std::int64_t begin = blocks[0];
+      this->Work.For(blocks[1] - begin, grain, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = begin + first; i < begin + last; ++i)
         {
           const auto at = static_cast<std::size_t>(i);

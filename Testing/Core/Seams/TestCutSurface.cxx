@@ -64,7 +64,6 @@ double expectDisks(const Mesh& mesh, const CutSurface& cut, std::size_t disks)
       origin = mesh.Triangles[t][i];
     }
   }
-  double area = 0.0;
   double length = 0.0;
   for (std::size_t i = 0; i < disks; ++i)
   {
@@ -72,7 +71,6 @@ double expectDisks(const Mesh& mesh, const CutSurface& cut, std::size_t disks)
     EXPECT_EQ(triangles[i], disk.Mesh ? disk.Mesh->NumberOfTriangles() : 1);
     if (disk.Mesh)
     {
-      area += disk.Mesh->Area() * disk.Mesh->Unit() * disk.Mesh->Unit();
       const std::vector<std::int64_t>& loop = disk.Mesh->Boundary();
       for (std::size_t k = 0; k < loop.size(); ++k)
       {
