@@ -10,6 +10,7 @@
 #include "Bridge/Settings/MissingData.h"
 
 #include "vtkCompositeDataSet.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationStringKey.h"
 #include "vtkInformationVector.h"
@@ -187,6 +188,11 @@ int vtkCartogram::RequestData(
   if (vtkDataObject* overlay = overlayOf(inputVector[1]))
   {
     outputs.Overlay = overlayParts(overlay, vtkDataObject::GetData(outputVector, 2));
+  }
+  else
+  {
+    // VTK has passed on the map's, which an earlier cartogram may have made.
+    vtkDataObject::GetData(outputVector, 2)->GetFieldData()->Initialize();
   }
   for (const std::string& warning :
     worker.Run(blocks, vtkCompositeDataSet::SafeDownCast(input) != nullptr, this->Internals->Kept,

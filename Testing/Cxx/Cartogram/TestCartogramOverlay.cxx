@@ -130,11 +130,13 @@ void checkFieldData(Checks& checks)
   addFieldNumber(blocks, "Blocks");
   auto cartogram = makeCartogram();
   cartogram->SetInputData(map);
-  cartogram->SetOverlayData(rivers);
-  cartogram->Update();
   const auto has = [](vtkDataObject* data, const char* name) {
     return data->GetFieldData()->HasArray(name) != 0;
   };
+  cartogram->Update();
+  CHECK(checks, cartogram->GetOutputDataObject(2)->GetFieldData()->GetNumberOfArrays() == 0);
+  cartogram->SetOverlayData(rivers);
+  cartogram->Update();
   vtkDataArray* errors = cartogram->GetRegions()->GetFieldData()->GetArray("AreaErrors");
   CHECK(checks, errors->GetComponent(0, 0) != 7.0 && has(cartogram->GetRegions(), "Map"));
   CHECK(
