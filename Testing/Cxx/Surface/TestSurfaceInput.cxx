@@ -102,6 +102,7 @@ void checkOthers(Checks& checks)
   auto grid = makeGrid();
   const std::vector<vtkIdType> corners{ 0, 1, 4, 9 };
   grid->InsertNextCell(VTK_TETRA, 4, corners.data());
+  grid->GetCellData()->SetScalars(makeNumbers("Number", 8));
   const SurfaceInput outer = read(grid);
   vtkIdType faces = 0;
   for (vtkIdType cell = 0; cell < outer.Get()->GetNumberOfCells(); ++cell)
@@ -111,9 +112,12 @@ void checkOthers(Checks& checks)
   CHECK(checks, faces == 4 && outer.Get()->GetNumberOfPolys() >= 8);
   CHECK(checks,
     outer.Get()->GetCellData()->GetNumberOfArrays() == grid->GetCellData()->GetNumberOfArrays());
+  grid->GetCellData()->SetScalars(makeNumbers("Number", 7));
+  CHECK(checks, contains(failureOf(grid), "The cell array 'Number' of the input has 7 tuples"));
   grid = makeGrid();
   const std::vector<vtkIdType> wrong{ 0, 1, 10 };
   grid->InsertNextCell(VTK_TRIANGLE, 3, wrong.data());
+  grid->GetCellData()->SetScalars(makeNumbers("Number", 8));
   CHECK(checks,
     failureOf(grid) == "Cell 7 of the input surface has the point 10; there are points 0 to 9");
   CHECK(checks,
