@@ -181,6 +181,7 @@ bool runInChild(const Arguments& arguments, std::uint64_t number)
   if (child == 0)
   {
     alarm(300); // one that waits takes no time of the processor, which the watch counts
+    vtkSMPTools::SetBackend("Sequential"); // newer VTK's own filters wait for ever for its pool
     _exit(run(arguments, number) ? 0 : 1);
   }
   int status = 0;

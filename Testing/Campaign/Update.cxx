@@ -4,7 +4,6 @@
 #include "../MemoryLimit.h"
 #include "Listener.h"
 
-#include "vtkCollectiveAlgorithm.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
@@ -12,8 +11,6 @@
 #include <limits>
 #include <optional>
 #include <sstream>
-
-#include <unistd.h>
 
 namespace Campaign
 {
@@ -60,19 +57,6 @@ void checkProgress(const std::vector<double>& reported, Findings& findings)
   }
 }
 
-const pid_t first = getpid();
-
-// In a child that fork() made, newer VTK's pool of threads lets filters of its own wait for ever.
-void updateInProcess(vtkAlgorithm* filter)
-{
-  if (getpid() != first && !vtkCollectiveAlgorithm::SafeDownCast(filter))
-  {
-    vtkSMPTools::LocalScope(vtkSMPTools::Config("Sequential"), [filter]() { filter->Update(); });
-    return;
-  }
-  filter->Update();
-}
-
 } // namespace
 
 Outcome update(vtkAlgorithm* filter, const Disturbance& disturbance, Findings& findings)
@@ -86,7 +70,7 @@ Outcome update(vtkAlgorithm* filter, const Disturbance& disturbance, Findings& f
       limit.emplace(disturbance.Memory);
     }
 #endif
-    updateInProcess(filter);
+    filter->Update();
   }
   Outcome outcome;
   outcome.Errors = listener.Errors;
