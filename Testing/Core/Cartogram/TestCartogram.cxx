@@ -236,7 +236,7 @@ TEST(Cartogram, ManyRegions)
     std::size_t Passes; // at most
   };
   for (const Case& sample :
-    { Case{ 24, 256, 0.02, 4 }, Case{ 16, 128, 0.01, 6 }, Case{ 16, 256, 0.003, 3 } })
+    { Case{ 24, 256, 0.02, 3 }, Case{ 16, 128, 0.01, 5 }, Case{ 16, 256, 0.003, 3 } })
   {
     std::mt19937_64 engine(3);
     std::vector<double> masses;

@@ -22,6 +22,16 @@ namespace RectifiedTransport
 namespace
 {
 
+// Needs many steps.
+TestDensity<2> thinCircle()
+{
+  constexpr std::int64_t side = 128;
+  return sampleDensity<2>({ side, side }, [](const Point<2>& p) {
+    const double radius = std::hypot(p[0] - 0.5, p[1] - 0.5);
+    return std::abs(radius - 1.0 / 3.0) * side < 0.7 ? 1.0 : 1e-6;
+  });
+}
+
 template <int Dimension>
 StepChoice choiceOf(const TestDensity<Dimension>& density, FlowDirection direction,
   const FlowOptions& options = {}, const Context& context = Context())
@@ -55,8 +65,9 @@ TestDensity<2> smallDisc(std::int64_t side, double outside)
   });
 }
 
+// The error, in tolerances, is at most `most`: what is kept is an estimate.
 template <int Dimension>
-void expectKept(const TestDensity<Dimension>& density, double tolerance)
+void expectKept(const TestDensity<Dimension>& density, double tolerance, double most = 1.0)
 {
   const RectifiedFlow<Dimension> flow = makeFlow(density);
   const FlowOptions options = within(tolerance);
@@ -72,7 +83,7 @@ void expectKept(const TestDensity<Dimension>& density, double tolerance)
   };
   for (const FlowMaps maps : OffAndOn)
   {
-    EXPECT_LT(error(with(maps, options)), 1.1 * tolerance) // what is compared is an estimate
+    EXPECT_LT(error(with(maps, options)), most * tolerance)
       << nameOf(maps) << ", " << choice.NumberOfSteps << " steps";
   }
   // Not by far more steps than it takes.
@@ -87,7 +98,7 @@ TEST(AutomaticSteps, KeepTheTolerance)
   expectKept<2>(denseBall<2>(128, 10.0), 0.021);
   expectKept<2>(twoGaussians<2>({ 140, 120 }), 0.02);
   expectKept<2>(randomCells<2>({ 100, 130 }), 0.02);
-  expectKept<3>(denseBall<3>(24, 100.0), 0.021);
+  expectKept<3>(denseBall<3>(24, 100.0), 0.021, 1.1); // it is 1.05
 }
 
 TEST(AutomaticSteps, SmallSupport)
@@ -215,11 +226,7 @@ TEST(AutomaticSteps, AreTheSameForMirrorImages)
 // With the usual tolerance no run costs more than eight times one with the fewest steps.
 TEST(AutomaticSteps, Limit)
 {
-  constexpr std::int64_t side = 128;
-  const TestDensity<2> circle = sampleDensity<2>({ side, side }, [](const Point<2>& p) {
-    const double radius = std::hypot(p[0] - 0.5, p[1] - 0.5);
-    return std::abs(radius - 1.0 / 3.0) * side < 0.7 ? 1.0 : 1e-6;
-  });
+  const TestDensity<2> circle = thinCircle();
   const RectifiedFlow<2> flow = makeFlow(circle);
   const Points<2> seeds = cornerLattice<2>(circle.Size);
   Points<2> positions(seeds.size());
@@ -237,6 +244,26 @@ TEST(AutomaticSteps, Limit)
     EXPECT_GT(report.StepsNeeded, report.NumberOfSteps);
     EXPECT_GT(report.TimesNeeded, 1.0);
     EXPECT_GT(flow.ChooseSteps(within(0.021), direction).NumberOfSteps, 2 * report.NumberOfSteps);
+  }
+}
+
+// Who needs more steps in any case has a higher limit; which run comes first makes no difference.
+TEST(AutomaticSteps, LimitOfEachLeast)
+{
+  const TestDensity<2> density = thinCircle();
+  FlowOptions few;
+  FlowOptions many;
+  many.LeastSteps = 256;
+  for (const FlowDirection direction : { FlowDirection::Forward, FlowDirection::Backward })
+  {
+    const auto after = [&](const FlowOptions& first, const FlowOptions& then) {
+      const RectifiedFlow<2> flow = makeFlow(density);
+      flow.ChooseSteps(first, direction);
+      return flow.ChooseSteps(then, direction).NumberOfSteps;
+    };
+    EXPECT_GT(after(few, many), 2 * after(few, few));
+    EXPECT_EQ(after(few, many), after(many, many));
+    EXPECT_EQ(after(many, few), after(few, few));
   }
 }
 
