@@ -13,11 +13,11 @@
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/InputExtents.h"
+#include "Bridge/Run/Inputs/InputExtents.h"
+#include "Bridge/Run/Inputs/WholeInputs.h"
 #include "Bridge/Run/MessageText.h"
 #include "Bridge/Run/RankRun.h"
 #include "Bridge/Run/SMPExecutor.h"
-#include "Bridge/Run/WholeInputs.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

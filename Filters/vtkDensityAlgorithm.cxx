@@ -6,7 +6,7 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Inputs/DensityInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/InputExtents.h"
+#include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/MissingData.h"
 #include "Core/Parallel/RankExchange.h"

@@ -5,7 +5,7 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Points/PointMasses.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/Inputs/InputBlock.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/AssociationSettings.h"

@@ -6,7 +6,7 @@
 #include "Bridge/Ranks/GatheredData.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/Inputs/InputBlock.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/AssociationSettings.h"
 #include "Bridge/Solid/SolidDensity.h"

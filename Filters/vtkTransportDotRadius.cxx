@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportDotRadius.h"
 
-#include "Bridge/Points/DotRadius.h"
+#include "Bridge/Drawing/DotRadius.h"
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"

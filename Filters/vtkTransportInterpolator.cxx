@@ -3,8 +3,8 @@
 
 #include "Bridge/Blend/DensityBlend.h"
 #include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Inputs/SeparateInputs.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Run/SeparateInputs.h"
 #include "Bridge/Settings/TargetArray.h"
 #include "Core/Device/DeviceUse.h"
 

@@ -9,7 +9,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/Inputs/InputBlock.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

@@ -2,7 +2,7 @@
 #include "Bridge/Cartogram/OverlayParts.h"
 
 #include "Bridge/Points/CellCheck.h"
-#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/Inputs/InputBlock.h"
 
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Drawing/TransportVectorWriter.h"
 
+#include "Bridge/Drawing/DotRadius.h"
 #include "Bridge/Drawing/Drawing.h"
 #include "Bridge/Drawing/DrawnLayer.h"
 #include "Bridge/Drawing/LayerPainter.h"
 #include "Bridge/Drawing/PageLayout.h"
-#include "Bridge/Points/DotRadius.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"

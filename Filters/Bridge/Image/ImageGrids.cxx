@@ -2,7 +2,7 @@
 #include "Bridge/Image/ImageGrids.h"
 
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/InputExtents.h"
+#include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/MpiController.h"
 #include "Bridge/Run/PropertyCheck.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Points/IgnoredFlags.h"
 
-#include "Bridge/Run/InputExtents.h"
+#include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/MessageText.h"
 
 #include "vtkAlgorithm.h"

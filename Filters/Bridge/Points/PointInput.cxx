@@ -2,7 +2,7 @@
 #include "Bridge/Points/PointInput.h"
 
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/Inputs/InputBlock.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Reduction.h"
 

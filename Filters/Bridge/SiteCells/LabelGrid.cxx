@@ -8,7 +8,7 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/InputExtents.h"
+#include "Bridge/Run/Inputs/InputExtents.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkBoundingBox.h"

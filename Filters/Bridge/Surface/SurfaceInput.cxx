@@ -4,7 +4,7 @@
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/Inputs/InputBlock.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/PolygonInput.h"
 

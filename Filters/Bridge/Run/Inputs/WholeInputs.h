@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_WholeInputs_h
 #define RectifiedTransport_WholeInputs_h
 
-#include "Bridge/Run/SeparateInputs.h"
+#include "Bridge/Run/Inputs/SeparateInputs.h"
 #include "Bridge/VTKCompatibility.h"
 
 #include "vtkType.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Run/SeparateInputs.h"
+#include "Bridge/Run/Inputs/SeparateInputs.h"
 
 #include "Bridge/Pipeline/RequestedTimes.h"
 #include "Bridge/Run/Failure.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Points/DotRadius.h"
+#include "Bridge/Drawing/DotRadius.h"
 
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/RankExchange.h"

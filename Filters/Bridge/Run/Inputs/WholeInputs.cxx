@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Run/WholeInputs.h"
+#include "Bridge/Run/Inputs/WholeInputs.h"
 
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/InputExtents.h"
+#include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/MpiController.h"
 #include "Bridge/Run/RankRun.h"
 #include "Bridge/Run/SampledFingerprint.h"
