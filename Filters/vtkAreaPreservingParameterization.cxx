@@ -3,7 +3,6 @@
 
 #include "Bridge/Parameterization/AreaPreservingParameterization.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/MessageText.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/CornerSettings.h"
 #include "Bridge/Surface/SurfaceInput.h"
@@ -11,8 +10,6 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-
-#include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkAreaPreservingParameterization);
@@ -63,10 +60,7 @@ int vtkAreaPreservingParameterization::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
   const ParameterizationReport report = parameterization.Run(input.Get(), progress, output);
   layFlat(output, vtkPolyData::GetData(outputVector, 1));
-  for (const std::string& warning : report.Warnings())
-  {
-    vtkWarningMacro(<< messageText(warning));
-  }
+  this->WarnOnFirstRank(report.Warnings());
   return 1;
 }
 

@@ -5,7 +5,6 @@
 #include "Bridge/Cartogram/Cartogram.h"
 #include "Bridge/Cartogram/MapProjection.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/MessageText.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/MissingData.h"
 
@@ -194,12 +193,8 @@ int vtkCartogram::RequestData(
     // VTK has passed on the map's, which an earlier cartogram may have made.
     vtkDataObject::GetData(outputVector, 2)->GetFieldData()->Initialize();
   }
-  for (const std::string& warning :
-    worker.Run(blocks, vtkCompositeDataSet::SafeDownCast(input) != nullptr, this->Internals->Kept,
-      progress, outputs))
-  {
-    vtkWarningMacro(<< messageText(warning));
-  }
+  this->WarnOnFirstRank(worker.Run(blocks, vtkCompositeDataSet::SafeDownCast(input) != nullptr,
+    this->Internals->Kept, progress, outputs));
   return 1;
 }
 

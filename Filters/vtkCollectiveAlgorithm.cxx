@@ -373,6 +373,15 @@ void vtkCollectiveAlgorithm::WarnOnFirstRank(const std::string& text)
 }
 
 //------------------------------------------------------------------------------
+void vtkCollectiveAlgorithm::WarnOnFirstRank(const std::vector<std::string>& texts)
+{
+  for (const std::string& text : texts)
+  {
+    this->WarnOnFirstRank(text);
+  }
+}
+
+//------------------------------------------------------------------------------
 bool vtkCollectiveAlgorithm::IsLaterPiece(
   vtkInformation* request, vtkInformationVector* outputVector)
 {

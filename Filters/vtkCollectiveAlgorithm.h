@@ -23,6 +23,7 @@
 #include <map>    // for the gathered ports
 #include <memory> // for std::unique_ptr
 #include <string> // for texts
+#include <vector> // for several texts
 
 namespace RectifiedTransport
 {
@@ -165,10 +166,13 @@ protected:
    */
   const RectifiedTransport::Ranks& GetRanks() const;
 
+  ///@{
   /**
-   * Warn, of several ranks on the first one only.
+   * Warn, of several ranks on the first one only. Each text is a warning of its own.
    */
   void WarnOnFirstRank(const std::string& text);
+  void WarnOnFirstRank(const std::vector<std::string>& texts);
+  ///@}
 
   /**
    * Choose the time to request from the inputs. By default it is the one that is requested

@@ -4,7 +4,6 @@
 #include "Bridge/Inputs/OptionalArray.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/MessageText.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/CornerSettings.h"
 #include "Bridge/Settings/FlowSettings.h"
@@ -18,8 +17,6 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-
-#include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkSurfaceSampler);
@@ -114,10 +111,7 @@ int vtkSurfaceSampler::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const SurfaceSamplingReport report =
     sampler.Run(input, this->FindDensity(input.Get()), progress, output);
-  for (const std::string& warning : report.Warnings())
-  {
-    vtkWarningMacro(<< messageText(warning));
-  }
+  this->WarnOnFirstRank(report.Warnings());
   return 1;
 }
 

@@ -177,10 +177,7 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
 //------------------------------------------------------------------------------
 void vtkTransportBlend::WarnOfMaps(const BlendReport& report)
 {
-  for (const std::string& warning : report.Steps)
-  {
-    this->WarnOnFirstRank(warning);
-  }
+  this->WarnOnFirstRank(report.Steps);
   if (isWorthWarning(report.Moved, report.Particles))
   {
     this->WarnOnFirstRank(std::to_string(report.Moved) +

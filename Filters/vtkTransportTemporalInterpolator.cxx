@@ -441,11 +441,7 @@ void vtkTransportTemporalInterpolator::Interpolate(
   const TemporalOutput output{ outputVector->GetInformationObject(0),
     vtkImageData::GetData(outputVector, 0), vtkPolyData::GetData(outputVector, 1) };
   const std::array<int, 6> announced = announcedGrid(output.Announced, true).Extent();
-  for (const std::string& warning :
-    own.Interpolation.Run(moment, this->GetSettings(), progress, output))
-  {
-    this->WarnOnFirstRank(warning);
-  }
+  this->WarnOnFirstRank(own.Interpolation.Run(moment, this->GetSettings(), progress, output));
   if (!this->GetRanks().AreSeveral())
   {
     announceToViews(output.Announced, announced);
