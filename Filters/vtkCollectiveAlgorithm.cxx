@@ -5,6 +5,7 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Pipeline/ConsumerExtents.h"
 #include "Bridge/Pipeline/EarlyUpdate.h"
+#include "Bridge/Pipeline/InputFields.h"
 #include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Pipeline/RequestedTimes.h"
 #include "Bridge/Points/IgnoredFlags.h"
@@ -19,6 +20,7 @@
 #include "Bridge/Run/RankRun.h"
 #include "Bridge/Run/SMPExecutor.h"
 
+#include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPointSet.h"
@@ -182,10 +184,21 @@ int vtkCollectiveAlgorithm::ProcessPass(
   }
   else if (!this->IsLaterPiece(request, outputVector))
   {
-    result = this->RequestData(request, inputs, outputVector);
+    result = this->MakeOutputs(request, inputs, outputVector);
   }
   this->EndRun();
   this->Whole->Separate().End();
+  return result;
+}
+
+//------------------------------------------------------------------------------
+int vtkCollectiveAlgorithm::MakeOutputs(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const int result = this->RequestData(request, inputVector, outputVector);
+  RectifiedTransport::removeReplacedFields(
+    { this->GetExecutive()->GetInputInformation(), inputVector }, this->GetNumberOfInputPorts(),
+    outputVector);
   return result;
 }
 
@@ -209,7 +222,7 @@ int vtkCollectiveAlgorithm::GatherAndRun(
   if (this->Run->Own() == 0)
   {
     this->IsAlone = true;
-    result = this->RequestData(request, inputs.Vectors(), outputVector);
+    result = this->MakeOutputs(request, inputs.Vectors(), outputVector);
     this->IsAlone = false;
   }
   this->ShareOutputs(*this->Run, outputVector);

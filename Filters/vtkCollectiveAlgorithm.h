@@ -230,6 +230,8 @@ private:
     vtkInformationVector* outputVector);
   int GatherAndRun(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
+  int MakeOutputs(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
   void EndRun();
   bool IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector);
   std::unique_ptr<RectifiedTransport::WholeInputs> Whole;

@@ -213,6 +213,7 @@ OTHERS = [
     E(BRIDGE + "Run/Inputs/SeparateInputs.cxx", "return «one.Upstream.size() > other.Upstream.size()»",
       "one.Upstream.size() < other.Upstream.size()"),
     E(BRIDGE + "Run/Inputs/SeparateInputs.cxx", "if («hasWrongTime(filter, port)»)", "false"),
+    E(BRIDGE + "Pipeline/InputFields.cxx", "if («given.count(array) == 0»)", "false"),
     S(BRIDGE + "Pipeline/RequestedTimes.cxx",
       "time = output->Get(Pipeline::UPDATE_TIME_STEP());", ""),
     # cells of the mass of a density

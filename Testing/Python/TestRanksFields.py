@@ -21,11 +21,20 @@ def alone():
     return run(1, SCRIPT, "[]")[0]
 
 
+def names():
+    return sorted({name for fields in alone().values() for name in fields})
+
+
+@functools.lru_cache(maxsize=None)
+def with_others(ranks):
+    """On each rank, of inputs whose field data have the same names."""
+    return run(ranks, SCRIPT, json.dumps(names()))
+
+
 class RanksFields(unittest.TestCase):
     def test_every_output(self):
-        names = sorted({name for fields in alone().values() for name in fields})
         for ranks in (1, 2):
-            for rank, given in enumerate(run(ranks, SCRIPT, json.dumps(names))):
+            for rank, given in enumerate(with_others(ranks)):
                 self.assertEqual(given.keys(), alone().keys())
                 for output, expected in alone().items():
                     for name, tuples in expected.items():
@@ -34,6 +43,21 @@ class RanksFields(unittest.TestCase):
                             self.assertEqual(np.shape(found), np.shape(tuples))
                             # Sites of several ranks are in another order, and so are sums.
                             np.testing.assert_allclose(found, tuples, rtol=1e-12)
+
+    def test_none_of_an_input(self):
+        """A name that is a figure of the filter on one output is no figure of its input on another."""
+        figures = {}
+        for output, fields in alone().items():
+            figures.setdefault(output.rpartition(", port")[0], set()).update(fields)
+        elsewhere = 0
+        for ranks in (1, 2):
+            for rank, given in enumerate(with_others(ranks)):
+                for output, expected in alone().items():
+                    others = figures[output.rpartition(", port")[0]] - expected.keys()
+                    elsewhere += len(others)
+                    with self.subTest(output, rank=rank, ranks=ranks):
+                        self.assertEqual(others & given[output].keys(), set())
+        self.assertGreater(elsewhere, 0)
 
     def test_every_filter_has_some(self):
         """But those that give no figures."""

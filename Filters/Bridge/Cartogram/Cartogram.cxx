@@ -17,7 +17,6 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -37,10 +36,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-// Field data of the regions.
-constexpr const char* areaErrors = "AreaErrors";
-constexpr const char* enlargedRegions = "EnlargedRegions";
 
 // VTK ends the program where cells that grow find no memory.
 void reserveCells(vtkCellArray* cells, vtkIdType count, vtkIdType ids)
@@ -119,11 +114,6 @@ public:
     this->WriteRegions(place);
     this->Work.BeginStage(1.0);
     fellows.WriteGraticule(this->Outputs.Graticule);
-    for (const char* name : { areaErrors, enlargedRegions })
-    {
-      // That of an earlier cartogram, which VTK has passed on.
-      this->Outputs.Graticule->GetFieldData()->RemoveArray(name);
-    }
     fellows.WriteOverlay(this->Work);
     this->Work.Check();
     return std::move(this->Warnings);
@@ -344,8 +334,8 @@ private:
     output->SetPoints(outputPoints);
     this->Work.Check();
     this->WriteCells(output);
-    addFieldValues(output, areaErrors, this->LargestErrors());
-    addFieldValue(output, enlargedRegions, this->Enlarged);
+    addFieldValues(output, "AreaErrors", this->LargestErrors());
+    addFieldValue(output, "EnlargedRegions", this->Enlarged);
   }
 
   std::vector<double> LargestErrors() const
