@@ -6,6 +6,7 @@
 #include "Bridge/Drawing/DrawnLayer.h"
 #include "Bridge/Drawing/LayerPainter.h"
 #include "Bridge/Drawing/PageLayout.h"
+#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
@@ -213,15 +214,6 @@ vtkSmartPointer<vtkScalarsToColors> tableOf(const std::vector<DrawnData>& data)
   return table;
 }
 
-void requireTuples(vtkAbstractArray* array, const char* property, vtkIdType count, bool ofPoints)
-{
-  if (array->GetNumberOfTuples() != count)
-  {
-    fail(titleOf(property, array), " has ", array->GetNumberOfTuples(), " tuples, but there are ",
-      count, ofPoints ? " points" : " cells", "; there must be one for each");
-  }
-}
-
 // VTK leaves the colours of other arrays unset.
 void requireColours(vtkAbstractArray* array, vtkScalarsToColors* table)
 {
@@ -261,9 +253,9 @@ void TransportVectorWriter::Run(
     points += own->GetNumberOfPoints() * (drawn.Radii ? 2 : 1);
     if (drawn.Colours)
     {
-      requireTuples(drawn.Colours, "ColorArray",
+      requireTuples(drawn.Colours,
         drawn.HasColoursOnPoints ? own->GetNumberOfPoints() : own->GetNumberOfCells(),
-        drawn.HasColoursOnPoints);
+        drawn.HasColoursOnPoints ? "point" : "cell", "input");
       requireColours(drawn.Colours, this->LookupTable);
       table = table ? table : tableOf(data);
     }

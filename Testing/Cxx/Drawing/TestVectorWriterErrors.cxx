@@ -192,7 +192,10 @@ void checkArrays(Checks& checks, vtkTransportVectorWriter* writer)
   writer->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Size");
   test.Expect({ "The input has no ColorArray 'Size'" }, __LINE__);
   writer->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Vector");
-  test.Expect({ "ColorArray 'Vector' has 2 tuples, but there are 3 points" }, __LINE__);
+  test.Expect(
+    { "The point array 'Vector' of the input has 2 tuples; it must have one for each of the 3 "
+      "points" },
+    __LINE__);
   vtkNew<vtkStringArray> names;
   names->SetName("Name");
   names->SetNumberOfValues(3);
