@@ -72,7 +72,7 @@ SiteCells<D> placeSites(vtkPointSet* sites, const ImageGrid& grid, Progress& pro
 
 // The kept labels, or those that label(labels) writes; it returns the report of the flow.
 template <int D, class Label>
-const SiteLabels::Division& updateLabels(vtkPointSet* sites, const SiteLabels::Settings& settings,
+SiteLabels::Division updateLabels(vtkPointSet* sites, const SiteLabels::Settings& settings,
   double bytes, SiteLabels& kept, Progress& progress, const Label& label)
 {
   const ImageGrid& grid = settings.Grid;
@@ -120,7 +120,7 @@ EqualMassCells::Report divide(const EqualMassCells& cells, vtkPointSet* sites,
   progress.BeginStage(0.01);
   const SiteCells<D> placed = placeSites<D>(sites, grid, progress);
   progress.BeginStage(0.02);
-  const SiteLabels::Division& division =
+  const SiteLabels::Division division =
     updateLabels<D>(sites, { grid, false, cells.Flow }, bytesOfLabelling<D>(grid), kept, progress,
       [&](std::int64_t* values) { return placed.Label(values, cells.Flow, progress.Stage()); });
   SiteIdArray* labels = division.Labels;
@@ -162,7 +162,7 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
     }
   });
   progress.BeginStage(0.07);
-  const SiteLabels::Division& division =
+  const SiteLabels::Division division =
     updateLabels<D>(sites, { grid, false, cells.Flow, true, kept.HashOf(density, progress) },
       bytesOfLabellingByMass<D>(grid), kept, progress, [&](std::int64_t* values) {
         return placed.Label(flow.Flow<D>(), values, cells.Flow, progress.Stage());
