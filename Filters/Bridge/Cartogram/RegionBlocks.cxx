@@ -6,10 +6,10 @@
 #include "Bridge/Run/Failure.h"
 
 #include "vtkAppendPolyData.h"
+#include "vtkCell.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
-#include "vtkCellTypes.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
@@ -83,8 +83,7 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const DensityBlock& block, vtkUnstructur
     }
     if (kind < 0)
     {
-      fail("Cell ", cell, " of the ", block.Name, " is a ",
-        vtkCellTypes::GetClassNameFromTypeId(type),
+      fail("Cell ", cell, " of the ", block.Name, " is a ", grid->GetCell(cell)->GetClassName(),
         "; regions must be polygons or closed lines, as Extract Surface makes of it");
     }
     grid->GetCellPoints(cell, ids);
