@@ -65,6 +65,8 @@ GATHERED = {
     "relaxation not a number": "has 1 value that is NaN or infinite",
     "solid open": "The input surface is not closed: it has ",
     "disk apart": "The input surface has 2 components",
+    "disk short": "The cell array 'Short' of the input surface has 0 tuples; it must have one for",
+    "cells short": "The point array 'Short' of the input point set has 0 tuples; it must have one for",
 }
 # The points of each rank's output.
 GIVEN = {
@@ -77,6 +79,8 @@ GIVEN = {
     "solid on one": None,
     "solid whole": None,
     "solid none has any": [0, 0, 0],
+    "solid short": None,
+    "relaxation short": [12, 0, 0],
     "disk right": [65, 0, 0],
 }
 # Of Morph Densities and Density Barycenter.
@@ -243,6 +247,11 @@ class RanksErrors(unittest.TestCase):
                             self.assertAlmostEqual(rank[kind + "mesh " + name][2], expected, 9)
             self.assertEqual(sum(self.points("sample mesh " + name)), 60)
             self.assertEqual(self.points("map mesh " + name), [7 * 6 * 5] * RANKS)
+
+    def test_short_arrays_that_nothing_reads(self):
+        for name in ("map short", "map mesh short"):
+            self.assertEqual(self.errors(name), [[]] * RANKS)
+            self.assertTrue(all(self.points(name)))
 
     def test_filters_that_gather(self):
         for name, points in GIVEN.items():

@@ -10,6 +10,7 @@ from rectifiedtransport import (vtkAreaPreservingParameterization, vtkBlueNoiseR
                                 vtkTransportBarycenter, vtkTransportInterpolator,
                                 vtkTransportMap, vtkTransportQuality, vtkTransportSampler)
 from ranks_errors_above import report_above
+from ranks_errors_short import short
 from rt_testing import Listener
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -354,6 +355,12 @@ gather("solid open", solid(), on(FAULTY, lambda: sphere(120.0), vtkPolyData))
 gather("solid none has any", solid(), vtkPolyData())
 gather("disk right", disk(), plane())
 gather("disk apart", disk(), on(FAULTY, vtkPolyData, plane))
+gather("disk short", disk(), short(plane(), "Cell"))
+gather("cells short", cells(), short(points(4)))
+gather("relaxation short", relaxation(), short(points(4)), short(piece(), "Cell"))
+gather("solid short", solid(), on(FAULTY, lambda: short(sphere()), vtkPolyData))
+report("map short", vtkTransportMap(), producer(short(piece(), "Cell")))
+report("map mesh short", vtkTransportMap(), producer(short(rectilinear(piece()), "Cell")))
 
 source = vtkTrivialProducer()
 source.SetOutput(piece())
@@ -364,14 +371,11 @@ algorithm.SetRandomSeed(RANK)
 report("different seeds", algorithm, source)
 
 # An abort on one rank.
-source = vtkTrivialProducer()
-source.SetOutput(piece())
-source.SetWholeExtent(WHOLE)
 algorithm = vtkTransportSampler()
 algorithm.SetNumberOfParticles(60)
 if RANK == FAULTY:
     algorithm.AddObserver("ProgressEvent", lambda caller, _event: caller.SetAbortExecute(1))
-report("abort", algorithm, source)
+report("abort", algorithm, produce(piece()))
 
 report_blends()
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/DistributedPoints.h"
 
-#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Ranks/ShortArrays.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
 #include "vtkDataArrayRange.h"
@@ -119,11 +120,8 @@ std::vector<unsigned char> repeatedPoints(
     return {};
   }
   vtkDataArray* ids = own->GetPointData()->GetGlobalIds();
-  if (ids)
-  {
-    requireTuples(ids, own->GetNumberOfPoints(), "point", "input point set");
-  }
-  ids = onAllRanks(ranks, ids || counted.Count() == 0) ? ids : nullptr;
+  const bool isWhole = ids && ids->GetNumberOfTuples() >= own->GetNumberOfPoints();
+  ids = onAllRanks(ranks, isWhole || counted.Count() == 0) ? ids : nullptr;
   std::vector<std::vector<Identity>> given(static_cast<std::size_t>(ranks.Count()));
   std::vector<std::size_t> comparers;
   for (std::int64_t i = 0; i < counted.Count(); ++i)
@@ -236,7 +234,8 @@ vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& rank
   {
     return set;
   }
-  requireTuples(set, "input point set");
+  const ShortArrays tooShort(set);
+  const vtkSmartPointer<vtkPointSet> whole = tooShort.RemovedFrom(set.Get());
   vtkNew<vtkIdList> kept;
   kept->SetNumberOfIds(count);
   for (vtkIdType i = 0; i < count; ++i)
@@ -266,10 +265,12 @@ vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& rank
   }
   own->SetPoints(points);
   own->GetPointData()->CopyAllOn();
-  own->GetPointData()->CopyAllocate(set->GetPointData(), count);
-  own->GetPointData()->CopyData(set->GetPointData(), kept);
+  own->GetPointData()->CopyAllocate(whole->GetPointData(), count);
+  own->GetPointData()->CopyData(whole->GetPointData(), kept);
   own->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
   own->GetFieldData()->ShallowCopy(set->GetFieldData());
+  tooShort.AddEmptyTo(own);
+  own->GetCellData()->Initialize(); // its cells are others
   return own;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/GatheredData.h"
 
-#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Ranks/DataSetBytes.h"
 #include "Bridge/Ranks/DistributedPoints.h"
+#include "Bridge/Ranks/ShortArrays.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/SampledFingerprint.h"
 #include "Core/Parallel/RankExchange.h"
@@ -61,11 +61,14 @@ bool isFirst(const std::vector<Keys>& all, std::size_t rank, const Key& key)
 
 void append(const DataPart& part, Bytes& to)
 {
-  const Bytes data = bytesOfDataSet(part.Data);
-  const std::uint64_t lengths[2] = { part.Name.size(), data.size() };
-  const Bytes head = toBytes(lengths, 2);
+  const ShortArrays tooShort(part.Data);
+  const std::string text = tooShort.Text();
+  const Bytes data = bytesOfDataSet(tooShort.RemovedFrom(part.Data.Get()));
+  const std::uint64_t lengths[3] = { part.Name.size(), text.size(), data.size() };
+  const Bytes head = toBytes(lengths, 3);
   to.insert(to.end(), head.begin(), head.end());
   to.insert(to.end(), part.Name.begin(), part.Name.end());
+  to.insert(to.end(), text.begin(), text.end());
   to.insert(to.end(), data.begin(), data.end());
 }
 
@@ -74,14 +77,17 @@ std::vector<DataPart> partsFrom(const Bytes& bytes)
   std::vector<DataPart> parts;
   for (const char* at = bytes.data(); at != bytes.data() + bytes.size();)
   {
-    constexpr std::size_t head = 2 * sizeof(std::uint64_t);
+    constexpr std::size_t head = 3 * sizeof(std::uint64_t);
     const auto lengths = fromBytes<std::uint64_t>(Bytes(at, at + head));
     at += head;
     DataPart part;
     part.Name.assign(at, at + lengths[0]);
     at += lengths[0];
-    part.Data = dataSetOfBytes(at, lengths[1]);
+    const ShortArrays tooShort = ShortArrays::FromText(std::string(at, at + lengths[1]));
     at += lengths[1];
+    part.Data = dataSetOfBytes(at, lengths[2]);
+    tooShort.AddEmptyTo(part.Data);
+    at += lengths[2];
     parts.push_back(std::move(part));
   }
   return parts;
@@ -270,8 +276,9 @@ vtkSmartPointer<vtkPointSet> withoutGhostCells(vtkPointSet* set)
   {
     return set;
   }
+  const ShortArrays tooShort(set);
   const auto copy = vtkSmartPointer<vtkPointSet>::Take(set->NewInstance());
-  copy->ShallowCopy(set);
+  copy->ShallowCopy(tooShort.RemovedFrom(set));
   if (auto* surface = vtkPolyData::SafeDownCast(copy))
   {
     surface->RemoveGhostCells();
@@ -280,6 +287,7 @@ vtkSmartPointer<vtkPointSet> withoutGhostCells(vtkPointSet* set)
   {
     grid->RemoveGhostCells();
   }
+  tooShort.AddEmptyTo(copy);
   return copy;
 }
 
@@ -324,18 +332,9 @@ void requireOneType(const std::vector<DataPart>& parts)
   }
 }
 
-vtkSmartPointer<vtkPointSet> joinParts(const std::vector<DataPart>& parts, PointSetKind kind)
+vtkSmartPointer<vtkPointSet> joinWhole(const std::vector<DataPart>& parts, PointSetKind kind)
 {
-  if (parts.empty())
-  {
-    return nullptr;
-  }
-  requireOneType(parts);
   vtkDataSet* first = parts.front().Data;
-  if (parts.size() == 1)
-  {
-    return vtkPointSet::SafeDownCast(first);
-  }
   if (vtkPolyData::SafeDownCast(first))
   {
     vtkSmartPointer<vtkPointSet> all = appendWith<vtkAppendPolyData>(parts);
@@ -349,6 +348,31 @@ vtkSmartPointer<vtkPointSet> joinParts(const std::vector<DataPart>& parts, Point
                                                 : appendWith<vtkAppendFilter>(parts);
 }
 
+vtkSmartPointer<vtkPointSet> joinParts(std::vector<DataPart> parts, PointSetKind kind)
+{
+  if (parts.empty())
+  {
+    return nullptr;
+  }
+  requireOneType(parts);
+  if (parts.size() == 1)
+  {
+    return vtkPointSet::SafeDownCast(parts.front().Data);
+  }
+  ShortArrays tooShort;
+  for (const DataPart& part : parts)
+  {
+    tooShort.Add(ShortArrays(part.Data));
+  }
+  for (DataPart& part : parts)
+  {
+    part.Data = tooShort.RemovedFrom(part.Data.Get());
+  }
+  vtkSmartPointer<vtkPointSet> joined = joinWhole(parts, kind);
+  tooShort.AddEmptyTo(joined);
+  return joined;
+}
+
 } // namespace
 
 vtkSmartPointer<vtkPointSet> gatherPoints(
@@ -357,10 +381,6 @@ vtkSmartPointer<vtkPointSet> gatherPoints(
   if (!ranks.AreSeveral())
   {
     return own;
-  }
-  if (own)
-  {
-    requireTuples(own, "input");
   }
   std::vector<DataPart> parts;
   if (const vtkSmartPointer<vtkPointSet> points = countedPart(own, kind, ranks))

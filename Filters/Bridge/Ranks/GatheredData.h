@@ -61,8 +61,8 @@ enum class PointSetKind
 // ranks have. Data that are the same on several ranks count once. Duplicates that ghost arrays mark
 // do not count. Points: those that countedPoints gives. Surface: points of several ranks at the
 // same position become one, so that it is whole. nullptr if this rank is no receiver or no rank has
-// points. `own` may be nullptr. Collective. Throws Failure for types that differ and
-// arrays with too few tuples, and std::bad_alloc.
+// points. Arrays that are too short on a rank have no tuples. `own` may be nullptr.
+// Collective. Throws Failure for types that differ, and std::bad_alloc.
 vtkSmartPointer<vtkPointSet> gatherPoints(
   vtkPointSet* own, const Ranks& ranks, Receivers receivers, PointSetKind kind);
 

@@ -78,6 +78,7 @@ struct ImagePieces::Piece
 ImagePieces::ImagePieces(vtkImageData* own, const Ranks& ranks)
   : Processes(ranks)
   , Own(own ? vtkSmartPointer<vtkImageData>(own) : vtkSmartPointer<vtkImageData>::New())
+  , TooShort(own)
 {
   Piece piece;
   if (own && own->GetNumberOfPoints() > 0)
@@ -99,7 +100,8 @@ ImagePieces::ImagePieces(vtkImageData* own, const Ranks& ranks)
     std::copy_n(own->GetDirectionMatrix()->GetData(), 9, piece.Geometry.begin() + 6);
   }
   this->TakePieces(gatherValues(ranks, piece));
-  this->Arrays = commonArrays(own, ranks);
+  this->TooShort.AddFromRanks(ranks);
+  this->Arrays = commonArrays(this->TooShort.RemovedFrom(own), ranks);
 }
 
 void ImagePieces::TakePieces(const std::vector<Piece>& pieces)
@@ -227,6 +229,7 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
   {
     exchangeArrays({ array }, this->Processes);
   }
+  this->TooShort.AddEmptyTo(image);
   return image;
 }
 

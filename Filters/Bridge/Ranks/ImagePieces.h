@@ -4,6 +4,7 @@
 #define RectifiedTransport_ImagePieces_h
 
 #include "Bridge/Ranks/CommonArrays.h"
+#include "Bridge/Ranks/ShortArrays.h"
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/VTKCompatibility.h"
 
@@ -46,7 +47,8 @@ public:
 
   // The part of the whole image in an extent. It may be empty and may differ between ranks. With
   // the ghost arrays and, among the arrays that all ranks with data have, those of these names, or
-  // all. Collective. Throws std::bad_alloc.
+  // all, of which those that are too short on a rank have no tuples. Collective. Throws
+  // std::bad_alloc.
   vtkSmartPointer<vtkImageData> Gather(
     const Extent& wanted, const std::vector<std::string>& names = {}) const;
 
@@ -57,6 +59,7 @@ private:
 
   const Ranks& Processes;
   const vtkSmartPointer<vtkImageData> Own;
+  ShortArrays TooShort; // on any rank
   std::vector<ArrayKind> Arrays;
   std::vector<Extent> PointExtents;
   std::vector<Extent> CellExtents;

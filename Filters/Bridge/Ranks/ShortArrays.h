@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Arrays with fewer tuples than their data set has points or cells, on several ranks.
+#ifndef RectifiedTransport_ShortArrays_h
+#define RectifiedTransport_ShortArrays_h
+
+#include "Bridge/VTKCompatibility.h"
+
+#include "vtkSmartPointer.h"
+
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataSet;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class Ranks;
+
+// What copies, sends and joins tuples would read past the end of such arrays. They are taken out
+// before, and an array of their name without any tuple takes their place after: what reads it
+// refuses it, as on one rank, and what does not passes it on.
+class ShortArrays
+{
+public:
+  ShortArrays() = default;
+  // Those of a data set, which may be nullptr.
+  explicit ShortArrays(vtkDataSet* data);
+  // Those that a text from Text names.
+  static ShortArrays FromText(const std::string& text);
+
+  void Add(const ShortArrays& others);
+  // Adds those of all other ranks. Collective.
+  void AddFromRanks(const Ranks& ranks);
+  std::string Text() const;
+
+  // A shallow copy without arrays of these names; the data set itself if there are none.
+  template <class DataT>
+  vtkSmartPointer<DataT> RemovedFrom(DataT* data) const
+  {
+    if (!data || this->Arrays.empty())
+    {
+      return data;
+    }
+    const auto copy = vtkSmartPointer<DataT>::Take(data->NewInstance());
+    copy->ShallowCopy(data);
+    this->RemoveFrom(copy);
+    return copy;
+  }
+
+  // Adds the arrays without tuples, in place of arrays of the same names.
+  void AddEmptyTo(vtkDataSet* data) const;
+
+private:
+  struct Array
+  {
+    int Owner; // vtkDataObject::POINT or CELL
+    int Type;
+    int Components;
+    int Attribute;    // for which it is the active one, or -1
+    std::string Name; // or empty: has none, and is left out
+  };
+
+  void RemoveFrom(vtkDataSet* data) const;
+
+  std::vector<Array> Arrays;
+};
+
+} // namespace RectifiedTransport
+
+#endif
