@@ -22,7 +22,7 @@ struct MovedInput
   InputDensity& Density;
   double OwnMass; // of the density
   double Mass;    // that it gets
-  // Of this rank's particles: their positions in the density, and where they are now.
+  // The positions of this rank's particles in the density, and where they are now.
   vtkDoubleArray* From;
   vtkDoubleArray* To;
 };

@@ -60,8 +60,8 @@ int kindOf(int type)
   }
 }
 
-// The vtkCells of an unstructured grid, which Threshold, Append Datasets, Merge Blocks and others
-// make of polygons and lines. `numbers` gets theirs in the grid.
+// The cells of an unstructured grid as a vtkPolyData: Threshold, Append Datasets, Merge Blocks and
+// others make such grids of polygons and lines. `numbers` gets the cells' ids in the grid.
 vtkSmartPointer<vtkPolyData> polyDataOf(const DensityBlock& block, vtkUnstructuredGrid* grid,
   std::vector<vtkIdType>& numbers, Progress& progress)
 {

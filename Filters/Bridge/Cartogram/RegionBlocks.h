@@ -22,14 +22,14 @@ namespace RectifiedTransport
 
 struct RegionBlocks
 {
-  // With double points and the arrays that all blocks have. Its vtkCells are numbered as those of a
+  // With double points and the arrays that all blocks have. Its cells are numbered as those of a
   // vtkPolyData: vertices, lines, polygons, each block by block.
   vtkSmartPointer<vtkPolyData> Data;
-  std::vector<std::size_t> Blocks; // of vtkCells
-  std::vector<vtkIdType> Numbers;  // of vtkCells in their block
+  std::vector<std::size_t> Blocks; // the block of each cell
+  std::vector<vtkIdType> Numbers;  // of the cells in their block
 };
 
-// Of blocks that are vtkPolyData, or vtkUnstructuredGrid with vtkCells that a vtkPolyData may have.
+// Joins blocks that are vtkPolyData, or vtkUnstructuredGrid with cells that a vtkPolyData may have.
 // Throws Failure for others, for triangle strips and for data that cannot be read; and Cancelled.
 // Takes the progress to 0.015.
 RegionBlocks joinRegionBlocks(const std::vector<DensityBlock>& blocks, Progress& progress);

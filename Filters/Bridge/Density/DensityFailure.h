@@ -29,8 +29,8 @@ void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const s
 // Luminance or Magnitude. Throws Failure if the array does not have it.
 int takenComponent(const std::string& name, int component, int type, int count);
 
-// Of rules with the component that is taken. Whether the density is that of several components;
-// whether the largest displayed value is needed; whether it is that of the type, 255.
+// With rules whose component is the one that is taken: whether the density comes from several
+// components; whether it needs the largest displayed value; whether this is the type's, 255.
 bool isOfSeveral(const DensityRules& rules);
 bool needsWhite(const DensityRules& rules, int components);
 bool hasDisplayedWhite(const DensityRules& rules, int type);

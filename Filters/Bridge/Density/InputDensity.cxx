@@ -44,8 +44,8 @@ void addReadings(vtkDataObject* output, const std::vector<DensityReading>& readi
   names->SetName("DensityArrayName");
   vtkNew<vtkDoubleArray> ranges;
   ranges->SetName("DensityRange");
-  // Of one component: the squares of ranges without limits have no sum, and VTK's readers refuse
-  // it.
+  // DensityRange has one component, as VTK's readers refuse the norms of tuples that overflow:
+  // those of ranges without limits do.
   std::vector<double> components;
   std::vector<double> inverted;
   for (const DensityReading& reading : readings)

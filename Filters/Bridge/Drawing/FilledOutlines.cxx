@@ -117,7 +117,7 @@ private:
     this->FillRegion({ { cell, { polygon->begin(), polygon->end() } } }, plane.Frame());
   }
 
-  // Of polygons with few corners, which are most.
+  // A quick test for polygons with few corners, as most have; false for others.
   static bool isConvex(const std::vector<Point<3>>& places)
   {
     constexpr std::size_t most = 4; // more may turn around twice

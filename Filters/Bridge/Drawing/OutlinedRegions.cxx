@@ -35,7 +35,7 @@ bool isOfCells(vtkCellData* data, vtkAbstractArray* array)
   return array == data->GetGlobalIds() || name.rfind("vtk", 0) == 0;
 }
 
-// Those that tell regions apart.
+// The arrays whose values tell regions apart.
 std::vector<vtkAbstractArray*> arraysOfRegions(vtkPolyData* data)
 {
   std::vector<vtkAbstractArray*> arrays;

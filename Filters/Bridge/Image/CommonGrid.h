@@ -26,8 +26,8 @@ enum class MostCells
 // The smallest box that contains all domains, at the finest spacing along each axis, or at the
 // least multiple of it that leaves no more cells than the limit: numbers of cells are rounded up,
 // the box grows at its upper end. If `dimensions` is not 0 along an axis, it gives the number of
-// values there. Association and directions are those of the first grid. For
-// grids of equal geometry, up to the rounding of single precision, it is exactly the first grid.
+// values there. Association and directions are those of the first grid. For grids of equal
+// geometry, up to the rounding of single precision, it is exactly the first grid.
 // Throws Failure for grids of different axes or planes, for directions that differ by more than
 // 1e-6 in an element, and for dimensions out of range.
 ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3], MostCells limit);

@@ -26,9 +26,9 @@ class ShortArrays
 {
 public:
   ShortArrays() = default;
-  // Those of a data set, which may be nullptr.
+  // Finds the short arrays of a data set, which may be nullptr.
   explicit ShortArrays(vtkDataSet* data);
-  // Those that a text from Text names.
+  // Reads what Text wrote.
   static ShortArrays FromText(const std::string& text);
 
   void Add(const ShortArrays& others);

@@ -54,8 +54,8 @@ bool isCarried(const CarryingImage& image, int owner, vtkAbstractArray* array);
 class CarriedArrays
 {
 public:
-  // Of arrays that both images have with one type and number of components. Runs as the current
-  // stage. Throws Failure and Cancelled.
+  // Takes the arrays that both images have with one type and number of components. Runs as the
+  // current stage. Throws Failure and Cancelled.
   void Make(const CarryingImage& first, const CarryingImage& second,
     const MovingParticles& particles, const ImageGrid& geometry, Progress& progress);
   // The names of arrays that one of the two lacks.

@@ -204,7 +204,7 @@ void CarriedLabels::Make(int owner, const std::vector<std::string>& names,
   });
 }
 
-// Of the step that is nearer in time, if both have the place or neither has.
+// Takes the step that is nearer in time, if both have the place or neither has.
 vtkIdType CarriedLabels::InPlace(
   const ImageGrid& grid, const TupleBox& box, std::int64_t number, double part) const
 {

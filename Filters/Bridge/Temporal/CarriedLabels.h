@@ -39,7 +39,7 @@ bool isOfLabels(vtkAbstractArray* array);
 class CarriedLabels
 {
 public:
-  // Of the points or cells (`owner`) of both images. Throws Failure.
+  // Takes arrays of the points or cells (`owner`) of both images. Throws Failure.
   void Make(int owner, const std::vector<std::string>& names, const CarryingImage& first,
     const CarryingImage& second, const MovingParticles& particles);
   // Adds the arrays on an extent of the image. Runs as the current stage. Collective. The same for

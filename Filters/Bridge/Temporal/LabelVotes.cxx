@@ -250,7 +250,7 @@ std::vector<Vote<D>> votesOf(
   return votes;
 }
 
-// Those of all ranks that reach the wanted cells of this one, in order.
+// The votes of all ranks that reach the wanted cells of this rank, in order.
 template <int D>
 std::vector<Vote<D>> exchangeVotes(
   std::vector<Vote<D>> own, const LatticePart<D>& part, const GridSize<D>& size, const Ranks& ranks)

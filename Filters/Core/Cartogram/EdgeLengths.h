@@ -51,7 +51,7 @@ private:
     return static_cast<double>(this->Side) / edgesOfSide;
   }
 
-  // Of the 3 x 3 cells about a place.
+  // The range of the 3 x 3 cells around a place.
   Range CellsAbout(const Point<2>& place) const
   {
     std::int64_t at[2];

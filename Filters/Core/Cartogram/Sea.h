@@ -16,7 +16,7 @@ namespace RectifiedTransport
 class Sea
 {
 public:
-  // Of the map as it is: masses and areas, in cells, of the regions.
+  // The raster is of the map as it is; `masses` and `areas`, in cells, are the regions'.
   Sea(const CartogramOptions& options, const CartogramBox& box, const RegionRaster& raster,
     const std::vector<double>& masses, const std::vector<double>& areas);
 

@@ -97,7 +97,7 @@ public:
   PolygonSlabs(const PolygonSlabs&) = delete;
   PolygonSlabs& operator=(const PolygonSlabs&) = delete;
 
-  // Of what is above `begin`.
+  // Slabs begin at `begin`: what lies below it is left out.
   void Begin(const CutPolygon& polygon, double begin)
   {
     this->Rest = &polygon;

@@ -52,11 +52,11 @@ private:
   {
     return { this->Places[static_cast<std::size_t>(point)], point };
   }
-  // Of two points of a chain, the lower one first, and another one.
+  // The triangle of two points of a chain, the lower one first, and another point.
   static std::array<std::int32_t, 3> TriangleOf(
     StripSide side, std::int32_t low, std::int32_t high, std::int32_t point);
   void EmitFan(const Strip& strip, std::int32_t point);
-  // If it has area.
+  // Writes the triangle if it has an area.
   void Emit(const std::array<std::int32_t, 3>& corners);
 
   const std::vector<Point<2>>& Places;

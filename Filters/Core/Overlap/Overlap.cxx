@@ -194,7 +194,7 @@ private:
     }
   }
 
-  // Of a layer. Parts do not depend on which rows are asked for.
+  // Adds the rows of a layer. Parts do not depend on which rows are asked for.
   void AddRows(const Polygons& faces, const CellRange& rows, double* layer)
   {
     PolygonSlabs<1> parts[D + 1];
@@ -274,7 +274,7 @@ private:
         add(0, i - 1, i);
       }
     }
-    // Of the means of a linear function and of a product of two over a simplex.
+    // The factors of the means of a linear function and of a product of two over a simplex.
     constexpr double ofOne = 1.0 / D;
     constexpr double ofTwo = 1.0 / (D * (D + 1));
     CellSums& next = this->Sums[static_cast<std::size_t>(column + 1)];

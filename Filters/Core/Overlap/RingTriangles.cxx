@@ -74,8 +74,8 @@ public:
 private:
   static std::size_t Index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-  // Of the points of rings, then of crossings: rounded, so that what is equal up to rounding is
-  // mostly equal.
+  // The places of the points of rings, then of crossings, rounded: places that differ by rounding
+  // errors are mostly equal then.
   std::vector<Point<2>> RoundedPlaces()
   {
     constexpr int bits = 48; // of 53
@@ -217,7 +217,7 @@ private:
 
   Edge& At(std::int32_t edge) { return this->Met[static_cast<std::size_t>(edge)]; }
 
-  // Of an edge: -1 to the left of the point, 1 to the right, 0 where it passes it to rounding.
+  // -1 if an edge lies to the left of the point, 1 to the right, 0 if it passes it up to rounding.
   int SideOf(std::int32_t edge, std::int32_t point)
   {
     const Point<2>& low = this->Swept.At(this->At(edge).Low);
