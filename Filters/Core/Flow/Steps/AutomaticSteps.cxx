@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/Steps/AutomaticSteps.h"
 
+#include "Core/Flow/FlowMapShape.h"
 #include "Core/Flow/Steps/BlockSurface.h"
 #include "Core/Flow/Steps/LittleContrast.h"
 #include "Core/Flow/Steps/ProbeBlocks.h"
@@ -30,6 +31,19 @@ namespace
 
 constexpr int unit = 8;            // numbers of steps are multiples of it
 constexpr int lastCompared = 1024; // steps, with twice as many
+
+// The error that 99.9 % of the blocks keep is that of the worst after one in a thousand.
+constexpr std::size_t oneIn = 1000;
+
+// A choice is judged by the worse half of the blocks, each time with more points on their sides. Of
+// those with the largest changes, `Kept` for each that may be worse stay.
+struct Judgement
+{
+  int Parts;  // of a side
+  int Factor; // so many times the steps
+  std::size_t Kept;
+};
+constexpr Judgement judgements[] = { { 1, 2, 32 }, { 2, 2, 8 }, { 4, 4, 0 } };
 
 // What an error falls by with x times the steps: x^(7/4), by square roots alone, which have the
 // same bits everywhere. Measured orders are 1.5 to 2.1.
@@ -93,8 +107,7 @@ ProbePlan<Dimension> planOf(
   if (!engine.HasWholeTables())
   {
     // Ranks exchange the cells of each.
-    constexpr std::int64_t few = 10 * SymmetricPlace<3>::Images;
-    plan.Blocks = std::min(plan.Blocks, few);
+    plan.Spread(10 * SymmetricPlace<3>::Images);
   }
   return plan;
 }
@@ -107,7 +120,9 @@ public:
     const Context& context)
     : Engine(engine)
     , Options(options)
+    , Direction(direction)
     , IsBackward(direction == FlowDirection::Backward)
+    , IsMap(this->IsBackward || options.Particles == 0.0)
     , Work(context)
     , Plan(planOf(engine, options, direction))
     , Surface(this->Plan.Parts)
@@ -127,8 +142,8 @@ public:
   StepChoice Choose(const FlowOptions& options)
   {
     // Forward the flow expands where it is fast, and no step is too long for that.
-    const bool isMap = !this->IsBackward && options.Particles == 0.0;
-    if (this->Used.empty() || (isMap && hasLittleContrast<Dimension>(this->Engine, this->Work)))
+    if (this->Used.empty() ||
+      (this->IsMap && !this->IsBackward && hasLittleContrast<Dimension>(this->Engine, this->Work)))
     {
       return {};
     }
@@ -141,15 +156,26 @@ public:
       Images fine = this->Move(2 * now.Steps);
       const std::vector<double> errors = this->ErrorsOf(coarse, fine);
       now.Error = this->OfNearlyAll(errors);
-      if (before.Steps == 0 && now.Error > this->Options.AreaTolerance)
+      const bool isKept = now.Error <= this->Options.AreaTolerance;
+      if (before.Steps == 0 && !isKept)
       {
-        this->KeepWorst(errors, fine);
+        std::vector<std::size_t> worst = this->KeepWorst(errors, (errors.size() + 1) / 2);
+        this->Worse = this->Used;
+        constexpr std::size_t compared = 256;
+        worst.resize(std::min(compared, worst.size()));
+        this->Used.resize(worst.size());
+        fine = this->Select(fine, worst);
         most = this->MostSteps(options, now.Error <= smooth);
       }
-      if (now.Error <= this->Options.AreaTolerance || now.Steps >= most ||
-        now.Steps == lastCompared)
+      if (isKept || now.Steps >= most || now.Steps == lastCompared)
       {
-        return this->ChoiceFrom(before, now, most, options);
+        StepChoice choice = this->ChoiceFrom(before, now, most);
+        if (this->IsMap && before.Steps > 0 && options.LeastSteps <= choice.NumberOfSteps)
+        {
+          this->Judge(choice, most, options);
+        }
+        this->Complete(choice, options);
+        return choice;
       }
       before = now;
       coarse = std::move(fine);
@@ -181,10 +207,10 @@ private:
     this->Probes.AddAbout(places, this->Work);
   }
 
-  Images Move(int steps)
+  Images PointsOf(const std::vector<std::size_t>& blocks) const
   {
     Images points;
-    for (const std::size_t block : this->Used)
+    for (const std::size_t block : blocks)
     {
       const ProbeBlock<Dimension>& of = this->Probes.Blocks()[block];
       for (std::size_t number = 0; number < this->Surface.Count(); ++number)
@@ -192,7 +218,29 @@ private:
         points.push_back(this->Surface.At(number, of.Low, of.High));
       }
     }
-    this->Move(this->IsBackward ? AdvectionKind::Backward : AdvectionKind::Forward, steps, points);
+    return points;
+  }
+
+  // In ascending order: blocks share points.
+  static Images Different(Images points)
+  {
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    return points;
+  }
+
+  Images Move(int steps)
+  {
+    Images points = this->PointsOf(this->Used);
+    const Images different = this->Different(points);
+    Images images = different;
+    this->Move(this->IsBackward ? AdvectionKind::Backward : AdvectionKind::Forward, steps, images);
+    this->Spent += static_cast<double>(images.size()) * steps;
+    for (Point<Dimension>& point : points)
+    {
+      const auto found = std::lower_bound(different.begin(), different.end(), point);
+      point = images[static_cast<std::size_t>(found - different.begin())];
+    }
     return points;
   }
 
@@ -213,16 +261,13 @@ private:
   // Of the blocks in use.
   std::vector<double> ErrorsOf(const Images& coarse, const Images& fine) const
   {
-    const SweptMass<Dimension> mass(this->Engine.View(), this->Surface);
+    const SweptMass<Dimension> mass(this->Engine.View(), this->Surface, this->IsBackward);
     std::vector<double> errors;
     for (std::size_t i = 0; i < this->Used.size(); ++i)
     {
-      const Point<Dimension>* before = &coarse[i * this->Surface.Count()];
-      const Point<Dimension>* after = &fine[i * this->Surface.Count()];
-      const double change = this->IsBackward
-        ? imageMeasure<Dimension>(after) - imageMeasure<Dimension>(before)
-        : mass.Between(before, after);
-      errors.push_back(std::abs(change) / this->Probes.Blocks()[this->Used[i]].Weight);
+      const std::size_t first = i * this->Surface.Count();
+      errors.push_back(std::abs(mass.Between(&coarse[first], &fine[first])) /
+        this->Probes.Blocks()[this->Used[i]].Weight);
     }
     return errors;
   }
@@ -230,72 +275,79 @@ private:
   // The error that 99.9 % of all blocks keep, if those that are not in use have smaller ones.
   double OfNearlyAll(std::vector<double> errors) const
   {
-    constexpr std::size_t oneIn = 1000;
-    const std::size_t rank = std::min(this->Probes.Blocks().size() / oneIn, errors.size() - 1);
+    const std::size_t rank = std::min(this->Worst(), errors.size() - 1);
     const auto found = errors.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(errors.begin(), found, errors.end(), std::greater<double>());
     return *found;
   }
 
-  // More steps are compared for the blocks with the largest errors alone.
-  void KeepWorst(const std::vector<double>& errors, Images& images)
+  // Only blocks with the largest errors stay in use. Returns which of them, in that order.
+  std::vector<std::size_t> KeepWorst(const std::vector<double>& errors, std::size_t most)
   {
-    const std::size_t kept = this->KeptBlocks();
-    if (kept == this->Used.size())
-    {
-      return;
-    }
     std::vector<std::size_t> order(errors.size());
     std::iota(order.begin(), order.end(), std::size_t{ 0 });
     std::stable_sort(order.begin(), order.end(),
       [&](std::size_t a, std::size_t b) { return errors[a] > errors[b]; });
-    order.resize(kept);
-    Images of;
-    for (const std::size_t block : order)
+    order.resize(std::min(most, order.size()));
+    std::vector<std::size_t> used;
+    for (const std::size_t number : order)
     {
-      const auto first =
-        images.begin() + static_cast<std::ptrdiff_t>(block * this->Surface.Count());
-      of.insert(of.end(), first, first + static_cast<std::ptrdiff_t>(this->Surface.Count()));
+      used.push_back(this->Used[number]);
     }
-    images = std::move(of);
-    this->Used = std::move(order); // it was every block
+    this->Used = std::move(used);
+    return order;
   }
 
-  std::size_t KeptBlocks() const
+  Images Select(const Images& images, const std::vector<std::size_t>& blocks) const
   {
-    constexpr std::size_t enough = 256;
-    return std::min(enough, this->Probes.Blocks().size());
+    Images of;
+    for (const std::size_t block : blocks)
+    {
+      const auto count = static_cast<std::ptrdiff_t>(this->Surface.Count());
+      const auto first = images.begin() + static_cast<std::ptrdiff_t>(block) * count;
+      of.insert(of.end(), first, first + count);
+    }
+    return of;
   }
+
+  // How many blocks may have larger errors than nearly all.
+  std::size_t Worst() const { return this->Probes.Blocks().size() / oneIn; }
 
   StepBudget<Dimension> BudgetOf(const FlowOptions& options) const
   {
-    return StepBudget<Dimension>(this->Size, options,
-      this->IsBackward ? FlowDirection::Backward : FlowDirection::Forward,
-      mapStepsFor<Dimension>(options));
+    return StepBudget<Dimension>(
+      this->Size, options, this->Direction, mapStepsFor<Dimension>(options));
   }
 
   int MostSteps(const FlowOptions& options, bool isSmooth) const
   {
-    const auto each = static_cast<double>(this->Surface.Count());
     if (options.AreaTolerance != FlowOptions::UsualTolerance)
     {
       return FlowOptions::MostSteps;
     }
-    const int most =
-      this->BudgetOf(options).MostSteps(each * static_cast<double>(this->Probes.Blocks().size()),
-        each * static_cast<double>(this->KeptBlocks()), isSmooth);
+    typename StepBudget<Dimension>::Choosing choosing{ this->Spent,
+      static_cast<double>(this->Different(this->PointsOf(this->Used)).size()), 0.0 };
+    if (this->IsMap)
+    {
+      std::size_t points = this->Different(this->PointsOf(this->Worse)).size();
+      for (const Judgement& judgement : judgements)
+      {
+        choosing.Judged += static_cast<double>((judgement.Factor + 1) * points);
+        const BlockSurface<Dimension> next(2 * judgement.Parts);
+        points = judgement.Kept * (this->Worst() + 1) * next.Count();
+      }
+    }
+    const int most = this->BudgetOf(options).MostSteps(choosing, isSmooth);
     // Who needs more steps in any case has a limit as much higher.
     return std::min(FlowOptions::MostSteps, most * (options.LeastSteps / FlowOptions::FewestSteps));
   }
 
   // `now` keeps the tolerance, or is that of at least `most` steps, or the last that is compared.
-  StepChoice ChoiceFrom(
-    const Measured& before, const Measured& now, int most, const FlowOptions& options) const
+  StepChoice ChoiceFrom(const Measured& before, const Measured& now, int most) const
   {
     StepChoice choice;
     const double tolerance = this->Options.AreaTolerance;
-    const Integrator integrator = this->Options.Integrator;
-    if (before.Steps == 0 && (now.Error <= tolerance || most <= now.Steps))
+    if (before.Steps == 0)
     {
       choice.NumberOfSteps = now.Steps;
       choice.AreaError = now.Error;
@@ -311,34 +363,83 @@ private:
     }
     else
     {
-      choice.NumberOfSteps =
-        std::min(most, stepsFor(now.Error / tolerance, now.Steps, most, integrator));
-      choice.AreaError =
-        now.Error / fall(static_cast<double>(choice.NumberOfSteps) / now.Steps, integrator);
-    }
-    const int mapSteps = mapStepsFor<Dimension>(options);
-    choice.MapSteps = mapSteps < choice.NumberOfSteps ? mapSteps : 0;
-    if (choice.AreaError > tolerance)
-    {
-      const bool isBelow = now.Error <= tolerance;
-      choice.StepsNeeded = isBelow
-        ? now.Steps
-        : stepsFor(now.Error / tolerance, now.Steps, FlowOptions::MaximumNumberOfSteps, integrator);
-      choice.TimesNeeded = this->BudgetOf(options).TimesOf(
-        choice, std::min(choice.StepsNeeded, FlowOptions::MaximumNumberOfSteps));
+      choice.NumberOfSteps = now.Steps;
+      choice.AreaError = now.Error;
+      this->TakeMore(choice, most);
     }
     return choice;
   }
 
+  // As many as the tolerance needs if errors fall as expected, but no more than `most`.
+  void TakeMore(StepChoice& choice, int most) const
+  {
+    const Integrator integrator = this->Options.Integrator;
+    const int steps = std::min(std::max(most, choice.NumberOfSteps),
+      stepsFor(
+        choice.AreaError / this->Options.AreaTolerance, choice.NumberOfSteps, most, integrator));
+    choice.AreaError /= fall(static_cast<double>(steps) / choice.NumberOfSteps, integrator);
+    choice.NumberOfSteps = steps;
+  }
+
+  // With the steps that are chosen, as one particle a cell takes them: errors go up and down from
+  // one number of steps to the next, and fall slowly where a density jumps. Then twice as many do
+  // not show them, but 4 times as many do. Between the corners of cells the sides of a block bend.
+  void Judge(StepChoice& choice, int most, const FlowOptions& options)
+  {
+    this->TakeMapSteps(choice, options);
+    FlowOptions taken = this->Options;
+    if (this->Engine.HasWholeTables())
+    {
+      taken = withFlowMaps<Dimension>(
+        choice.Of(options), this->Size, this->Direction, numberOfCells<Dimension>(this->Size));
+    }
+    this->Used = this->Worse;
+    for (const Judgement& judgement : judgements)
+    {
+      this->Surface = BlockSurface<Dimension>(judgement.Parts);
+      std::swap(taken, this->Options);
+      const Images images = this->Move(choice.NumberOfSteps);
+      std::swap(taken, this->Options);
+      const int more =
+        std::min(judgement.Factor * choice.NumberOfSteps, FlowOptions::MaximumNumberOfSteps);
+      const std::vector<double> errors = this->ErrorsOf(images, this->Move(more));
+      choice.AreaError = this->OfNearlyAll(errors);
+      this->KeepWorst(errors, judgement.Kept * (this->Worst() + 1));
+    }
+    this->TakeMore(choice, most);
+  }
+
+  void TakeMapSteps(StepChoice& choice, const FlowOptions& options) const
+  {
+    const int mapSteps = mapStepsFor<Dimension>(options);
+    choice.MapSteps = mapSteps < choice.NumberOfSteps ? mapSteps : 0;
+  }
+
+  void Complete(StepChoice& choice, const FlowOptions& options) const
+  {
+    this->TakeMapSteps(choice, options);
+    if (choice.AreaError > this->Options.AreaTolerance)
+    {
+      choice.StepsNeeded = stepsFor(choice.AreaError / this->Options.AreaTolerance,
+        choice.NumberOfSteps, FlowOptions::MaximumNumberOfSteps, this->Options.Integrator);
+      choice.TimesNeeded = this->BudgetOf(options).TimesOf(
+        choice, std::min(choice.StepsNeeded, FlowOptions::MaximumNumberOfSteps));
+    }
+  }
+
   FlowEngine<Dimension>& Engine;
   FlowOptions Options; // without flow maps
+  const FlowDirection Direction;
   const bool IsBackward;
+  const bool IsMap; // not particles
   Progress Work;
   const ProbePlan<Dimension> Plan;
-  const BlockSurface<Dimension> Surface;
+  BlockSurface<Dimension> Surface;
   ProbeBlocks<Dimension> Probes;
   GridSize<Dimension> Size{};
-  std::vector<std::size_t> Used; // numbers of blocks
+  std::vector<std::size_t> Used;  // numbers of blocks
+  std::vector<std::size_t> Worse; // the half with the larger errors in the first comparison
+  double Spent = 0.0;             // velocities
 };
 
 } // namespace

@@ -49,10 +49,15 @@ ProbeBlocks<Dimension>::ProbeBlocks(FlowEngine<Dimension>& engine, FlowDirection
   , Plan(plan)
 {
   std::copy_n(engine.View().Cells, Dimension, this->Size.begin());
-  constexpr std::int64_t tries = 8; // a wanted block
+  const bool isAll = this->Plan.SideBySide[0] > 0;
+  const std::int64_t tries = isAll ? 1 : 8; // a wanted block
   this->Draw(
     tries * this->WantedBlocks(),
-    [this](std::int64_t number) {
+    [&](std::int64_t number) {
+      if (isAll)
+      {
+        return this->BlockAt(this->Plan.LowestOf(number, this->Size));
+      }
       const SymmetricPlace<Dimension> place(number);
       Point<Dimension> low;
       for (int axis = 0; axis < Dimension; ++axis)
@@ -179,7 +184,7 @@ void ProbeBlocks<Dimension>::ExamineCells(ProbeBlock<Dimension>& block) const
 }
 
 // Points on the border of the domain may slide along the border of an empty region, and no particle
-// lies there.
+// lies there. Of the blocks side by side those at the border do not count, if there are others.
 template <int Dimension>
 void ProbeBlocks<Dimension>::LeaveOutBorders(ProbeBlock<Dimension>& block) const
 {
@@ -188,6 +193,8 @@ void ProbeBlocks<Dimension>::LeaveOutBorders(ProbeBlock<Dimension>& block) const
     const double left = margin * (block.High[axis] - block.Low[axis]);
     const bool isFirst = block.Low[axis] == 0.0;
     const bool isLast = block.High[axis] == static_cast<double>(this->Size[axis]);
+    constexpr std::int64_t few = 4;
+    block.Counts = block.Counts && ((!isFirst && !isLast) || this->Plan.SideBySide[axis] <= few);
     block.Low[axis] += isFirst ? left : 0.0;
     block.High[axis] -= isLast ? left : 0.0;
   }

@@ -22,7 +22,7 @@ struct ProbeBlock
   Point<Dimension> Low{};
   Point<Dimension> High{};
   double Weight = 1.0; // what errors are relative to, in cells of the mean density
-  bool Counts = true;  // its corners touch mass; backward only
+  bool Counts = true;  // backward its corners touch mass
 };
 
 template <int Dimension>

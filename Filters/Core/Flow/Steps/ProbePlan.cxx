@@ -19,6 +19,7 @@ namespace
 constexpr std::int64_t fewestCells = 4; // along an axis of a block; no more than a quarter of it
 // Of 2,048 blocks the third largest error is that of 99.9 %.
 constexpr double mostBlocks = 2048.0;
+constexpr std::int64_t mostSideBySide = 8192; // more take too long
 
 template <int Dimension>
 GridSize<Dimension> smallestBlock(const GridSize<Dimension>& size)
@@ -66,9 +67,46 @@ template <int Dimension>
 ProbePlan<Dimension>::ProbePlan(const GridSize<Dimension>& size)
   : Side(smallestBlock<Dimension>(size))
 {
+  std::int64_t all = 1;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const std::int64_t side = this->Side[axis];
+    const bool fit = size[axis] % side == 0;
+    this->SideBySide[axis] = fit ? size[axis] / side : 2 * (size[axis] / (2 * side) + 1);
+    all *= this->SideBySide[axis];
+  }
+  if (all <= mostSideBySide)
+  {
+    this->Blocks = all;
+    return;
+  }
   // Of a symmetric density the images of a place show the same, and in 3D there are many.
   constexpr double each = Dimension == 3 ? 4.0 : 1.0;
+  this->SideBySide = {};
   this->Take(each * this->BlocksOf(size));
+}
+
+template <int Dimension>
+void ProbePlan<Dimension>::Spread(std::int64_t most)
+{
+  this->SideBySide = {};
+  this->Take(static_cast<double>(std::min(this->Blocks, most)));
+}
+
+template <int Dimension>
+Point<Dimension> ProbePlan<Dimension>::LowestOf(
+  std::int64_t number, const GridSize<Dimension>& size) const
+{
+  Point<Dimension> low;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const std::int64_t count = this->SideBySide[axis];
+    const std::int64_t at = number % count;
+    low[axis] = static_cast<double>(
+      2 * at < count ? at * this->Side[axis] : size[axis] - (count - at) * this->Side[axis]);
+    number /= count;
+  }
+  return low;
 }
 
 template <int Dimension>

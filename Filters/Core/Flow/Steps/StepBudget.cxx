@@ -92,20 +92,18 @@ bool StepBudget<Dimension>::IsKept(int steps, double choice, bool isSmooth) cons
 }
 
 template <int Dimension>
-int StepBudget<Dimension>::MostSteps(double points, double pointsAfterFirst, bool isSmooth) const
+int StepBudget<Dimension>::MostSteps(const Choosing& choosing, bool isSmooth) const
 {
   int kept = FlowOptions::FewestSteps;
   int missed = 8 * FlowOptions::FewestSteps * 2;
   while (missed - kept > unit)
   {
     const int middle = (kept + missed) / (2 * unit) * unit;
-    // Those of the fewest steps and twice as many, and so on until `middle` is between two
-    // measured.
-    double choice = 3.0 * FlowOptions::FewestSteps * points;
-    for (int last = 2 * FlowOptions::FewestSteps; last < 2 * middle;)
+    // Until `middle` is between two numbers of steps that are compared.
+    double choice = choosing.Spent + middle * choosing.Judged;
+    for (int last = 4 * FlowOptions::FewestSteps; last < 4 * middle; last *= 2)
     {
-      last *= 2;
-      choice += last * pointsAfterFirst;
+      choice += last * choosing.Compared;
     }
     (this->IsKept(middle, choice, isSmooth) ? kept : missed) = middle;
   }

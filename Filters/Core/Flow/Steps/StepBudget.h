@@ -20,11 +20,18 @@ public:
   StepBudget(const GridSize<Dimension>& size, const FlowOptions& options, FlowDirection direction,
     int mapSteps);
 
+  // What choosing costs.
+  struct Choosing
+  {
+    double Spent;    // velocities of the first comparison
+    double Compared; // how many points take each number of steps after it,
+    double Judged;   // how many once the steps that are chosen
+  };
+
   // The most steps, a multiple of 8, with which a run and the choice of its steps cost no more than
-  // 8 times what a run with the fewest steps costs. All `points` go the first two numbers of steps
-  // that are compared, some of them those after it. In smooth densities flow maps serve nearly all
+  // 8 times what a run with the fewest steps costs. In smooth densities flow maps serve nearly all
   // particles.
-  int MostSteps(double points, double pointsAfterFirst, bool isSmooth) const;
+  int MostSteps(const Choosing& choosing, bool isSmooth) const;
   // How many times as long as a run with a choice one with a given NumberOfSteps would take.
   double TimesOf(const StepChoice& choice, int steps) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// By how much the mass in the image of a box changes with a map that changes.
+// By how much the mass in the image of a box, or its area, changes with a map that changes.
 #ifndef RectifiedTransport_SweptMass_h
 #define RectifiedTransport_SweptMass_h
 
@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -19,9 +21,11 @@ template <int Dimension>
 class SweptMass
 {
 public:
-  SweptMass(const TableView<Dimension>& tables, const BlockSurface<Dimension>& surface)
+  // For areas the density is one.
+  SweptMass(const TableView<Dimension>& tables, const BlockSurface<Dimension>& surface, bool isArea)
     : Tables(tables)
     , Surface(surface)
+    , IsArea(isArea)
   {
     for (const std::int64_t cells : tables.Cells)
     {
@@ -45,13 +49,55 @@ public:
         swept[corner + side.Points.size()] = after[side.Points[corner]];
       }
       const bool isTurned = (Dimension - 1 - side.Axis) % 2 != (side.IsHigh ? 0 : 1);
-      mass += (isTurned ? -1.0 : 1.0) * this->MassIn(swept);
+      mass += (isTurned ? -1.0 : 1.0) * this->Swept(swept);
     }
     return mass;
   }
 
 private:
   using Corners = std::array<Point<Dimension>, 1 << Dimension>;
+
+  double Swept(const Corners& corners) const
+  {
+    if (this->IsArea)
+    {
+      return imageMeasure<Dimension>(corners.data());
+    }
+    if constexpr (Dimension == 2)
+    {
+      // By Gauss's theorem: what neighbours sweep over has the other two edges the other way round.
+      return this->Below(corners[0], corners[1]) - this->Below(corners[2], corners[3]);
+    }
+    return this->MassIn(corners);
+  }
+
+  // The integral over an edge of the mass below it along axis 0, which is linear in each cell.
+  double Below(const Point<Dimension>& from, const Point<Dimension>& to) const
+  {
+    std::vector<double> cuts{ 0.0, 1.0 };
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double length = to[axis] - from[axis];
+      const double last = std::max(from[axis], to[axis]);
+      for (double plane = std::floor(std::min(from[axis], to[axis])) + 1.0; plane < last;
+           plane += 1.0)
+      {
+        cuts.push_back((plane - from[axis]) / length);
+      }
+    }
+    std::sort(cuts.begin(), cuts.end());
+    double sum = 0.0;
+    for (std::size_t i = 1; i < cuts.size(); ++i)
+    {
+      const double middle = 0.5 * (cuts[i - 1] + cuts[i]);
+      const double y = from[1] + middle * (to[1] - from[1]);
+      const double row = std::min(std::floor(y), this->Tables.Size[1] - 1.0);
+      sum += (cuts[i] - cuts[i - 1]) *
+        boxShare<Dimension>(
+          this->Tables, { 0.0, row }, { from[0] + middle * (to[0] - from[0]), row + 1.0 });
+    }
+    return sum * this->Cells * (to[1] - from[1]);
+  }
 
   // Along the side in pieces, each with the mean density about it: the density may jump.
   double MassIn(const Corners& swept) const
@@ -107,6 +153,7 @@ private:
 
   const TableView<Dimension>& Tables;
   const BlockSurface<Dimension>& Surface;
+  const bool IsArea;
   double Cells = 1.0;
 };
 
