@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace RectifiedTransport
 {
@@ -225,9 +226,66 @@ private:
     return within;
   }
 
+  // Edges that have an end in one place come one after the other, and need no comparison where they
+  // do not count as crossing: of n of a fan n^2 pairs are left out.
+  void GatherFans(const std::int32_t* edges, std::size_t count)
+  {
+    struct End
+    {
+      Point<2> Place;
+      std::size_t Edge;
+    };
+    std::vector<End> ends;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      ends.push_back({ this->All.At(edges[i]), i });
+      ends.push_back({ this->All.At(this->All.Next(edges[i])), i });
+    }
+    std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
+      return a.Place != b.Place ? a.Place < b.Place : a.Edge < b.Edge;
+    });
+    std::vector<std::size_t> size(count, 0); // of the larger fan of each edge
+    std::vector<std::size_t> fan(count);
+    for (std::size_t first = 0, last = 0; first < ends.size(); first = last)
+    {
+      while (last < ends.size() && ends[last].Place == ends[first].Place)
+      {
+        ++last;
+      }
+      for (std::size_t i = first; i < last; ++i)
+      {
+        const std::size_t edge = ends[i].Edge;
+        if (last - first > size[edge])
+        {
+          size[edge] = last - first;
+          fan[edge] = first;
+        }
+      }
+    }
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{ 0 });
+    std::sort(order.begin(), order.end(), [&fan](std::size_t i, std::size_t j) {
+      return fan[i] != fan[j] ? fan[i] < fan[j] : i < j;
+    });
+    this->Gathered.resize(count);
+    this->Others.resize(count);
+    for (std::size_t i = count; i-- > 0;)
+    {
+      this->Gathered[i] = edges[order[i]];
+      const bool isLast = i + 1 == count || fan[order[i]] != fan[order[i + 1]];
+      this->Others[i] = isLast ? i + 1 : this->Others[i + 1];
+    }
+  }
+
   // Compares all with all.
   void Compare(const std::int32_t* edges, std::size_t count)
   {
+    const bool hasFans = !this->AtEnds && count > dividedAgain;
+    if (hasFans)
+    {
+      this->GatherFans(edges, count);
+      edges = this->Gathered.data();
+    }
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (std::vector<double>& values : this->Ends)
     {
@@ -250,11 +308,13 @@ private:
     const double extent = std::max(box.Length(0), box.Length(1));
     for (std::size_t i = 0; i + 1 < count && !this->ShouldStop(); ++i)
     {
-      this->CompareWithLater(edges, count, i, extent);
+      this->CompareWith(edges, i, hasFans ? this->Others[i] : i + 1, count, extent);
     }
   }
 
-  void CompareWithLater(const std::int32_t* edges, std::size_t count, std::size_t i, double extent)
+  // An edge with those of a range.
+  void CompareWith(const std::int32_t* edges, std::size_t i, std::size_t begin, std::size_t end,
+    double extent)
   {
     const double* ax = this->Ends[0].data();
     const double* ay = this->Ends[1].data();
@@ -266,7 +326,7 @@ private:
     const double dy = by[i] - y;
     const double error =
       8.0 * std::numeric_limits<double>::epsilon() * extent * (std::abs(dx) + std::abs(dy));
-    for (std::size_t first = i / lanes * lanes; first < count; first += lanes)
+    for (std::size_t first = begin / lanes * lanes; first < end; first += lanes)
     {
       std::array<double, lanes> beside; // how far both ends are on one side
       for (std::size_t l = 0; l < lanes; ++l)
@@ -279,7 +339,7 @@ private:
       for (std::size_t l = 0; l < lanes; ++l)
       {
         const std::size_t j = first + l;
-        if (!(beside[l] > error) && j > i && j < count)
+        if (!(beside[l] > error) && j >= begin && j < end)
         {
           this->CompareTwo(edges[i], edges[j]);
         }
@@ -332,6 +392,8 @@ private:
   std::int64_t Compared = 0; // since the last poll
   bool Stopped = false;
   std::array<std::vector<double>, 4> Ends; // of the edges to compare
+  std::vector<std::int32_t> Gathered;      // edges, by their fans
+  std::vector<std::size_t> Others;         // of each, the first that is not of its fan
   std::vector<EdgePair> Found;
 };
 
