@@ -88,8 +88,12 @@ public:
     : Cells(cells)
     , Slab(slab)
     , Columns(cells[0].Last - cells[0].First + 1)
-    , Sums(static_cast<std::size_t>(this->Columns + 2))
   {
+    if (this->Columns + 2 > fewColumns)
+    {
+      this->ManySums.resize(static_cast<std::size_t>(this->Columns + 2));
+      this->Sums = this->ManySums.data();
+    }
     this->SetFunction(simplex);
     this->SetFaces(simplex);
   }
@@ -99,20 +103,24 @@ public:
     const CellRange& last = this->Cells[D - 1];
     const CellRange inSlab{ std::max(last.First, this->Slab.First),
       std::min(last.Last, this->Slab.Last - 1) };
+    Polygons inLayer;
+    for (std::size_t face = 0; face <= D; ++face)
+    {
+      inLayer[face] = &this->Faces[face];
+    }
     if constexpr (D == 2)
     {
-      this->AddRows(this->Faces, inSlab, this->Slab.Sums);
+      this->AddRows(inLayer, inSlab, this->Slab.Sums);
     }
     else
     {
       for (std::int64_t layer = inSlab.First; layer <= inSlab.Last; ++layer)
       {
-        Polygons inLayer;
+        std::array<CutPolygon, 2> parts[D + 1];
         for (std::size_t face = 0; face <= D; ++face)
         {
-          std::array<CutPolygon, 2> parts;
           inLayer[face] =
-            slabOf<2>(this->Faces[face], static_cast<double>(layer - last.First), parts);
+            &slabOf<2>(this->Faces[face], static_cast<double>(layer - last.First), parts[face]);
         }
         this->AddRows(inLayer, this->Cells[1],
           this->Slab.Sums + layer * this->Slab.Size[1] * this->Slab.Size[0]);
@@ -121,7 +129,9 @@ public:
   }
 
 private:
-  using Polygons = std::array<CutPolygon, D + 1>; // segments in 2D
+  using Polygons = std::array<const CutPolygon*, D + 1>; // of the faces; segments in 2D
+
+  static constexpr std::int64_t fewColumns = 16;
 
   struct CellSums
   {
@@ -152,7 +162,8 @@ private:
     this->Least = *range.first;
     this->Most = *range.second;
     this->Constant = simplex.Values[0];
-    for (std::size_t a = 0; a < D; ++a)
+    this->Slope = {};
+    for (std::size_t a = 0; a < D && !this->IsConstant(); ++a)
     {
       std::array<Point<D>, D + 1> replaced = simplex.Vertices;
       for (std::size_t i = 0; i <= D; ++i)
@@ -200,7 +211,7 @@ private:
     PolygonSlabs<1> parts[D + 1];
     for (std::size_t face = 0; face <= D; ++face)
     {
-      parts[face].Begin(faces[face], 0.0);
+      parts[face].Begin(*faces[face], 0.0);
     }
     for (std::int64_t row = this->Cells[1].First; row <= rows.Last; ++row)
     {
@@ -226,6 +237,7 @@ private:
     }
   }
 
+  bool IsConstant() const { return !(this->Least < this->Most); }
   // The end of a cell, or of the simplex.
   double EndOf(std::int64_t column) const
   {
@@ -239,13 +251,17 @@ private:
     double lengths[CutPolygon::Most];
     double starts[CutPolygon::Most]; // the function at 0 along axis 0
     double means[CutPolygon::Most];  // and its mean from the corner to the end
+    const bool isConstant = this->IsConstant();
     for (int i = 0; i < piece.Size; ++i)
     {
       const Corner& x = piece[i];
       lengths[i] = end - x[0];
-      starts[i] =
-        this->Constant + this->Slope[1] * x[1] + (D > 2 ? this->Slope[D - 1] * x[2] : 0.0);
-      means[i] = starts[i] + this->Slope[0] * (0.5 * (x[0] + end));
+      if (!isConstant)
+      {
+        starts[i] =
+          this->Constant + this->Slope[1] * x[1] + (D > 2 ? this->Slope[D - 1] * x[2] : 0.0);
+        means[i] = starts[i] + this->Slope[0] * (0.5 * (x[0] + end));
+      }
     }
     CellSums sums;
     const auto add = [&](auto... corner) {
@@ -253,7 +269,7 @@ private:
       const double length = (lengths[corner] + ...);
       sums.Volume += shadow * length;
       sums.Shadows += shadow;
-      if (this->Least < this->Most)
+      if (!isConstant)
       {
         const double products = ((lengths[corner] * means[corner]) + ...);
         sums.Integral += shadow * (products + length * (means[corner] + ...));
@@ -277,12 +293,12 @@ private:
     // The factors of the means of a linear function and of a product of two over a simplex.
     constexpr double ofOne = 1.0 / D;
     constexpr double ofTwo = 1.0 / (D * (D + 1));
-    CellSums& next = this->Sums[static_cast<std::size_t>(column + 1)];
+    CellSums& next = this->Sums[column + 1];
     next.Shadows += this->Side * sums.Shadows;
     next.Beyond += this->Side * ofOne * sums.Beyond;
     if (column >= 0)
     {
-      CellSums& own = this->Sums[static_cast<std::size_t>(column)];
+      CellSums& own = this->Sums[column];
       own.Volume += this->Side * ofOne * sums.Volume;
       own.Integral += this->Side * ofTwo * sums.Integral;
     }
@@ -299,7 +315,7 @@ private:
     }
     for (std::int64_t column = reached.First; column <= last; ++column)
     {
-      const CellSums& sums = this->Sums[static_cast<std::size_t>(column)];
+      const CellSums& sums = this->Sums[column];
       const auto begin = static_cast<double>(column);
       const double end = this->EndOf(column);
       before.Shadows += sums.Shadows;
@@ -311,14 +327,16 @@ private:
       row[this->Cells[0].First + column] +=
         std::max(this->Least * volume, std::min(integral, this->Most * volume));
     }
-    std::fill(this->Sums.begin() + reached.First, this->Sums.begin() + last + 3, CellSums());
+    std::fill(this->Sums + reached.First, this->Sums + last + 3, CellSums());
   }
 
   const std::array<CellRange, D>& Cells;
   const GridSlab<D>& Slab;
   const std::int64_t Columns;
-  std::vector<CellSums> Sums; // of a row
-  Polygons Faces;
+  std::array<CellSums, fewColumns> FewSums; // of a row: most simplices are small
+  std::vector<CellSums> ManySums;
+  CellSums* Sums = this->FewSums.data();
+  std::array<CutPolygon, D + 1> Faces;
   double Side;  // of prisms where a face's corners run counterclockwise, seen against axis 0
   double Least; // value
   double Most;
