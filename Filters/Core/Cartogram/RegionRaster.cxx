@@ -75,12 +75,14 @@ RegionRaster::RegionRaster(
   progress.BeginStage(1.0, edges);
   this->Owners.reserve(static_cast<std::size_t>(side * side));
   std::vector<CellShare> mixed;
+  std::vector<RunEnd> ends;
   for (std::int64_t first = 0; first < side; first += band)
   {
     const std::int64_t last = std::min(side, first + band);
     this->Owners.resize(static_cast<std::size_t>(last * side), -1);
     RegionCoverage coverage({ { side, side }, first, last, nullptr });
     mixed.clear();
+    ends.clear();
     for (std::int32_t region = 0; region < regions; ++region)
     {
       const auto at = static_cast<std::size_t>(region);
@@ -96,19 +98,26 @@ RegionRaster::RegionRaster(
             map.Points()[static_cast<std::size_t>(to)]);
         });
       }
-      coverage.FinishSigned([&](std::int64_t cell, double area) {
-        std::int32_t& owner = this->Owners[static_cast<std::size_t>(cell)];
+      coverage.FinishSigned([&](std::int64_t begin, std::int64_t end, double area) {
         if (area == 1.0)
         {
-          owner = owner < 0 ? region : this->Together.With(owner, region);
+          if (!ends.empty() && ends.back().Region == region && ends.back().Cell == begin)
+          {
+            ends.back().Cell = end;
+            return;
+          }
+          ends.push_back({ begin, region, true });
+          ends.push_back({ end, region, false });
+          return;
         }
-        else
+        for (std::int64_t cell = begin; cell < end; ++cell)
         {
           mixed.push_back({ cell, { region, std::clamp(area, 0.0, 1.0), area } });
         }
       });
       progress.Check();
     }
+    this->SetOwners(ends);
     this->AddMixed(mixed);
   }
   this->Begins.push_back(static_cast<std::int64_t>(this->Shares.size()));
@@ -131,6 +140,26 @@ double RegionRaster::BytesOf(const RegionMap& map, std::int64_t side)
   }
   const auto cells = static_cast<double>(side) * static_cast<double>(side);
   return cells * sizeof(std::int32_t) + crossed * bytesOfShare;
+}
+
+// Of a band. Regions leave before others begin, and in the opposite order: so that few sets of
+// regions in the same place come about.
+void RegionRaster::SetOwners(std::vector<RunEnd>& ends)
+{
+  std::sort(ends.begin(), ends.end(), [](const RunEnd& a, const RunEnd& b) {
+    return a.Cell != b.Cell    ? a.Cell < b.Cell
+      : a.IsBegin != b.IsBegin ? b.IsBegin
+                               : (a.Region < b.Region) == a.IsBegin && a.Region != b.Region;
+  });
+  std::int32_t set = RegionSets::Empty;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+  {
+    set = this->Together.Toggled(set, ends[i].Region);
+    if (set != RegionSets::Empty)
+    {
+      std::fill(this->Owners.begin() + ends[i].Cell, this->Owners.begin() + ends[i + 1].Cell, set);
+    }
+  }
 }
 
 // The sets that cells have in the end, and how many cells have each.
@@ -216,14 +245,7 @@ double restOf(std::int32_t set, const RegionRaster::Share* shares, std::int64_t 
 std::vector<double> RegionRaster::Covered() const
 {
   std::vector<double> covered = this->Whole;
-  const auto addSet = [&](std::int32_t set, double cells) {
-    this->Together.VisitRegions(
-      set, [&](std::int32_t region) { covered[static_cast<std::size_t>(region)] += cells; });
-  };
-  for (std::int32_t set = this->Together.First(); set < this->Together.End(); ++set)
-  {
-    addSet(set, static_cast<double>(this->WholeCellsOfSet(set)));
-  }
+  std::vector<double> ofSets = this->CellsOfSets();
   this->VisitMixed([&](std::int32_t set, const Share* shares, std::int64_t count) {
     for (std::int64_t i = 0; i < count; ++i)
     {
@@ -231,10 +253,29 @@ std::vector<double> RegionRaster::Covered() const
     }
     if (set >= 0)
     {
-      addSet(set, 1.0);
+      ofSets[this->IndexOfSet(set)] += 1.0;
     }
   });
+  this->AddToRegions(ofSets, covered);
   return covered;
+}
+
+// The cells of each set that have no others.
+std::vector<double> RegionRaster::CellsOfSets() const
+{
+  return { this->WholeOfSets.begin(), this->WholeOfSets.end() };
+}
+
+// Adds to each region the values of the sets that it is in.
+void RegionRaster::AddToRegions(
+  const std::vector<double>& ofSets, std::vector<double>& ofRegions) const
+{
+  for (std::int32_t set = this->Together.First(); set < this->Together.End(); ++set)
+  {
+    const double value = ofSets[this->IndexOfSet(set)];
+    this->Together.VisitRegions(
+      set, [&](std::int32_t region) { ofRegions[static_cast<std::size_t>(region)] += value; });
+  }
 }
 
 double RegionRaster::Rest() const
@@ -344,15 +385,11 @@ double RegionRaster::Overlap(std::vector<double>& ofRegions) const
   constexpr double rounding = 1e-9;
   double sum = 0.0;
   ofRegions.assign(this->Whole.size(), 0.0);
-  const auto addSet = [&](std::int32_t set, double more) {
-    this->Together.VisitRegions(
-      set, [&](std::int32_t region) { ofRegions[static_cast<std::size_t>(region)] += more; });
-  };
+  std::vector<double> ofSets = this->CellsOfSets();
   for (std::int32_t set = this->Together.First(); set < this->Together.End(); ++set)
   {
-    const auto cells = static_cast<double>(this->WholeCellsOfSet(set));
-    const double more = cells * static_cast<double>(this->Together.CountOf(set) - 1);
-    addSet(set, more);
+    double& more = ofSets[this->IndexOfSet(set)];
+    more *= static_cast<double>(this->Together.CountOf(set) - 1);
     sum += more;
   }
   this->VisitMixed([&](std::int32_t set, const Share* shares, std::int64_t count) {
@@ -371,10 +408,11 @@ double RegionRaster::Overlap(std::vector<double>& ofRegions) const
     }
     if (set >= 0)
     {
-      addSet(set, covered - 1.0);
+      ofSets[this->IndexOfSet(set)] += covered - 1.0;
     }
     sum += covered - 1.0;
   });
+  this->AddToRegions(ofSets, ofRegions);
   return sum;
 }
 

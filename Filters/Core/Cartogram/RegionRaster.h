@@ -48,7 +48,7 @@ public:
   const RegionSets& Sets() const { return this->Together; }
   std::int64_t WholeCellsOfSet(std::int32_t set) const
   {
-    return this->WholeOfSets[static_cast<std::size_t>(set - this->Together.First())];
+    return this->WholeOfSets[this->IndexOfSet(set)];
   }
   // All that regions cover, in cells.
   std::vector<double> Covered() const;
@@ -87,8 +87,22 @@ private:
     std::int64_t Cell;
     RegionRaster::Share Share;
   };
+  // Where a run of cells along a row begins, which a region covers wholly, or has ended.
+  struct RunEnd
+  {
+    std::int64_t Cell;
+    std::int32_t Region;
+    bool IsBegin;
+  };
+  void SetOwners(std::vector<RunEnd>& ends);
   void AddMixed(std::vector<CellShare>& mixed);
   void KeepSets();
+  std::size_t IndexOfSet(std::int32_t set) const
+  {
+    return static_cast<std::size_t>(set - this->Together.First());
+  }
+  std::vector<double> CellsOfSets() const;
+  void AddToRegions(const std::vector<double>& ofSets, std::vector<double>& ofRegions) const;
   std::vector<double> SumsOfSets(const std::vector<double>& values) const;
   // visit(cell, set, shares, count), in parallel.
   template <class Visit>

@@ -8,21 +8,47 @@
 namespace RectifiedTransport
 {
 
-std::int32_t RegionSets::FindWith(std::int32_t set, std::int32_t region)
+std::int32_t RegionSets::FindToggled(std::int32_t set, std::int32_t region)
 {
   const std::int64_t key = static_cast<std::int64_t>(set) << 32 | region;
-  const auto [found, isNew] = this->Numbers.insert({ key, this->End() });
-  if (isNew)
+  const auto found = this->Found.find(key);
+  if (found != this->Found.end())
   {
-    if (this->End() == std::numeric_limits<std::int32_t>::max())
+    return found->second;
+  }
+  std::int32_t toggled = set;
+  if (this->PairOf(set).Region < region)
+  {
+    toggled = this->End();
+    if (toggled == std::numeric_limits<std::int32_t>::max())
     {
       throw std::bad_alloc();
     }
     this->Pairs.push_back({ set, region });
   }
-  this->Last = { set, region };
-  this->NumberOfLast = found->second;
-  return this->NumberOfLast;
+  else
+  {
+    std::vector<std::int32_t> above;
+    while (toggled != Empty && this->PairOf(toggled).Region >= region)
+    {
+      above.push_back(this->PairOf(toggled).Region);
+      toggled = this->PairOf(toggled).Set;
+    }
+    if (above.back() == region)
+    {
+      above.pop_back();
+    }
+    else
+    {
+      above.push_back(region);
+    }
+    for (; !above.empty(); above.pop_back())
+    {
+      toggled = this->Toggled(toggled, above.back());
+    }
+  }
+  this->Found.insert({ key, toggled });
+  return toggled;
 }
 
 std::vector<std::int32_t> RegionSets::Keep(const std::vector<unsigned char>& isUsed)
@@ -44,7 +70,7 @@ std::vector<std::int32_t> RegionSets::Keep(const std::vector<unsigned char>& isU
     std::int32_t part = set;
     while (part >= this->Regions)
     {
-      const Pair& pair = this->Pairs[static_cast<std::size_t>(part - this->Regions)];
+      const Pair pair = this->PairOf(part);
       this->Members.push_back(pair.Region);
       part = pair.Set;
     }
@@ -54,7 +80,7 @@ std::vector<std::int32_t> RegionSets::Keep(const std::vector<unsigned char>& isU
     this->Begins.push_back(this->Members.size());
   }
   this->Pairs = {};
-  this->Numbers = {};
+  this->Found = {};
   return numbers;
 }
 

@@ -16,16 +16,17 @@ namespace RectifiedTransport
 class RegionSets
 {
 public:
+  static constexpr std::int32_t Empty = -1;
+
   explicit RegionSets(std::int32_t regions)
     : Regions(regions)
   {
   }
 
-  // A set and one more region, which is above all of the set. Throws std::bad_alloc.
-  std::int32_t With(std::int32_t set, std::int32_t region)
+  // A set with one more region, or without one that it has. Throws std::bad_alloc.
+  std::int32_t Toggled(std::int32_t set, std::int32_t region)
   {
-    const bool isLast = set == this->Last.Set && region == this->Last.Region;
-    return isLast ? this->NumberOfLast : this->FindWith(set, region);
+    return set == Empty ? region : set == region ? Empty : this->FindToggled(set, region);
   }
   // Keeps the sets that `isUsed` marks, by their numbers, and numbers them anew: returns what each
   // becomes. No set can be added afterwards. Throws std::bad_alloc.
@@ -56,16 +57,21 @@ private:
   struct Pair
   {
     std::int32_t Set;
-    std::int32_t Region;
+    std::int32_t Region; // above all of the set
   };
 
-  std::int32_t FindWith(std::int32_t set, std::int32_t region);
+  std::int32_t FindToggled(std::int32_t set, std::int32_t region);
+  // Of a set that is not empty.
+  Pair PairOf(std::int32_t set) const
+  {
+    return set < this->Regions ? Pair{ Empty, set }
+                               : this->Pairs[static_cast<std::size_t>(set - this->Regions)];
+  }
 
   std::int32_t Regions;
   std::vector<Pair> Pairs; // of the sets of two or more
-  std::unordered_map<std::int64_t, std::int32_t> Numbers;
-  Pair Last{ -1, -1 }; // neighbours mostly have the same sets
-  std::int32_t NumberOfLast = -1;
+  // What Toggled has found, by set and region. Neighbours mostly have the same sets.
+  std::unordered_map<std::int64_t, std::int32_t> Found;
   std::vector<std::size_t> Begins{ 0 };
   std::vector<std::int32_t> Members;
 };

@@ -53,15 +53,35 @@ System systemOf(const RegionRaster& raster, Progress& progress)
     double Signed = 0.0;
   };
   std::map<std::pair<std::int32_t, std::int32_t>, Beside> besides; // by set and region
+  // Along a border cells mostly have the same regions as the cell before: entries are kept.
+  std::vector<std::int32_t> regionsBefore;
+  std::vector<double*> entriesBefore;
   raster.VisitMixed([&](std::int32_t set, const RegionRaster::Share* shares, std::int64_t count) {
+    const bool areSame = std::equal(regionsBefore.begin(), regionsBefore.end(), shares,
+      shares + count,
+      [](std::int32_t region, const RegionRaster::Share& share) { return region == share.Region; });
+    if (!areSame)
+    {
+      regionsBefore.clear();
+      entriesBefore.clear();
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        regionsBefore.push_back(shares[i].Region);
+        for (std::int64_t k = 0; k < count; ++k)
+        {
+          entriesBefore.push_back(&entry(shares[i].Region, shares[k].Region));
+        }
+      }
+    }
     const double rest = restOf(set, shares, count);
+    double* const* ofCell = entriesBefore.data();
     for (std::int64_t i = 0; i < count; ++i)
     {
       progress.Add(count);
       system.Rest[static_cast<std::size_t>(shares[i].Region)] += shares[i].Signed * rest;
       for (std::int64_t k = 0; k < count; ++k)
       {
-        entry(shares[i].Region, shares[k].Region) += shares[i].Signed * shares[k].Part;
+        **ofCell++ += shares[i].Signed * shares[k].Part;
       }
       if (set >= 0)
       {

@@ -11,6 +11,7 @@ namespace RectifiedTransport
 RegionCoverage::RegionCoverage(const GridSlab<2>& slab)
   : Slab(slab)
   , Shares(static_cast<std::size_t>((slab.Last - slab.First) * slab.Size[0]), Share{ 0.0, 0.0 })
+  , IsCrossed(this->Shares.size(), 0)
   , Rows(static_cast<std::size_t>(slab.Last - slab.First), Row{ slab.Size[0], -1, 0.0 })
   , FirstRow(slab.Last)
   , LastRow(slab.First - 1)
@@ -58,7 +59,9 @@ void RegionCoverage::AddInRow(std::int64_t row, double from, double to, double h
 {
   const auto width = static_cast<double>(this->Slab.Size[0]);
   Row& rowSpan = this->Rows[static_cast<std::size_t>(row - this->Slab.First)];
-  Share* shares = this->Shares.data() + (row - this->Slab.First) * this->Slab.Size[0];
+  const std::int64_t rowBegin = (row - this->Slab.First) * this->Slab.Size[0];
+  Share* shares = this->Shares.data() + rowBegin;
+  unsigned char* isCrossed = this->IsCrossed.data() + rowBegin;
   const double low = std::min(from, to);
   const double high = std::max(from, to);
   this->FirstRow = std::min(this->FirstRow, row);
@@ -72,6 +75,7 @@ void RegionCoverage::AddInRow(std::int64_t row, double from, double to, double h
   const auto add = [&](std::int64_t cell, double part, double toRight) {
     shares[cell].Area += part * toRight;
     shares[cell].Height += part;
+    isCrossed[cell] = 1;
   };
   const double perLength = high > low ? height / (high - low) : 0.0;
   if (low < 0.0)
@@ -108,12 +112,14 @@ void RegionCoverage::AddInRow(std::int64_t row, double from, double to, double h
 void RegionCoverage::Finish(double value)
 {
   double* const sums = this->Slab.Sums;
-  this->FinishRows([sums, value](std::int64_t cell, double covered, double tolerance) {
-    if (covered > tolerance)
-    {
-      sums[cell] += value * (covered < 1.0 - tolerance ? covered : 1.0);
-    }
-  });
+  this->FinishRows(
+    [sums, value](std::int64_t first, std::int64_t last, double covered, double tolerance) {
+      if (covered > tolerance)
+      {
+        const double sum = value * (covered < 1.0 - tolerance ? covered : 1.0);
+        std::for_each(sums + first, sums + last, [sum](double& cell) { cell += sum; });
+      }
+    });
 }
 
 } // namespace RectifiedTransport

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace RectifiedTransport
 {
 
 // For one thread. Each edge adds the signed area to its right in the cells that it crosses, and its
-// height to all cells farther right: O(cells that edges cross + cells between them).
+// height to all cells farther right: O(cells that edges cross), and a search of bytes between them.
 class RegionCoverage
 {
 public:
@@ -25,19 +26,21 @@ public:
   void Add(const Point<2>& from, const Point<2>& to);
   // Adds to the slab's sums the value times the area that the edges since the last call enclose.
   void Finish(double value);
-  // The same where edges may run the other way round: visit(cell, area) of the cells of the grid
-  // with an area, which is negative there, and a multiple where edges run around several times.
+  // The same where edges may run the other way round: visit(first, last, area) of the cells
+  // [first, last) of the grid with an area each, which is negative there, and a multiple where
+  // edges run around several times. Cells between edges come together, a row after the other.
   template <class Visit>
   void FinishSigned(const Visit& visit)
   {
-    this->FinishRows([&visit](std::int64_t cell, double covered, double tolerance) {
-      const double whole = std::round(covered);
-      const double area = std::abs(covered - whole) > tolerance ? covered : whole;
-      if (area != 0.0)
-      {
-        visit(cell, area);
-      }
-    });
+    this->FinishRows(
+      [&visit](std::int64_t first, std::int64_t last, double covered, double tolerance) {
+        const double whole = std::round(covered);
+        const double area = std::abs(covered - whole) > tolerance ? covered : whole;
+        if (area != 0.0)
+        {
+          visit(first, last, area);
+        }
+      });
   }
 
 private:
@@ -53,7 +56,8 @@ private:
     double Heights; // of all edges
   };
 
-  // visit(cell, covered, rounding) of the cells that edges have come by.
+  // visit(first, last, covered, rounding) of the cells that edges have come by: those that edges
+  // cross one by one, and the others [first, last) between them.
   template <class Visit>
   void FinishRows(const Visit& visit)
   {
@@ -61,16 +65,32 @@ private:
     for (std::int64_t row = this->FirstRow; row <= this->LastRow; ++row)
     {
       Row& span = this->Rows[static_cast<std::size_t>(row - this->Slab.First)];
-      Share* shares = this->Shares.data() + (row - this->Slab.First) * this->Slab.Size[0];
+      const std::int64_t begin = (row - this->Slab.First) * this->Slab.Size[0];
+      Share* shares = this->Shares.data() + begin;
+      unsigned char* isCrossed = this->IsCrossed.data() + begin;
       // Cells outside must have nothing at all, else particles might be put there.
       const double tolerance = rounding * span.Heights;
+      const std::int64_t rowBegin = row * this->Slab.Size[0];
       double height = 0.0;
       for (std::int64_t cell = span.First; cell <= span.Last; ++cell)
       {
-        const double covered = height + shares[cell].Area;
-        height += shares[cell].Height;
-        shares[cell] = { 0.0, 0.0 };
-        visit(row * this->Slab.Size[0] + cell, covered, tolerance);
+        const void* found =
+          std::memchr(isCrossed + cell, 1, static_cast<std::size_t>(span.Last + 1 - cell));
+        const std::int64_t crossed =
+          found ? static_cast<const unsigned char*>(found) - isCrossed : span.Last + 1;
+        if (cell < crossed)
+        {
+          visit(rowBegin + cell, rowBegin + crossed, height, tolerance);
+        }
+        cell = crossed;
+        if (found)
+        {
+          const double covered = height + shares[cell].Area;
+          height += shares[cell].Height;
+          shares[cell] = { 0.0, 0.0 };
+          isCrossed[cell] = 0;
+          visit(rowBegin + cell, rowBegin + cell + 1, covered, tolerance);
+        }
       }
       span = { this->Slab.Size[0], -1, 0.0 };
     }
@@ -81,6 +101,7 @@ private:
 
   const GridSlab<2> Slab;
   std::vector<Share> Shares;
+  std::vector<unsigned char> IsCrossed; // the cells that edges have added to
   std::vector<Row> Rows;
   std::int64_t FirstRow;
   std::int64_t LastRow;

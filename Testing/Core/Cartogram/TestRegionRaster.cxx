@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What regions cover of cells, and values that put each region's mass into it.
+#include "Core/Cartogram/RegionSets.h"
 #include "Core/Cartogram/RegionValues.h"
 #include "MapSamples.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <numeric>
 #include <random>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -127,6 +130,34 @@ RegionMap nested(std::int32_t count)
   addRing(map, count, rectangle(19.5, 19.0, 45.0, 20.0));
   map.FindHoles();
   return map;
+}
+
+// A set has one number, in whatever order its regions come and others go.
+TEST(RegionSets, Toggled)
+{
+  constexpr std::int32_t empty = RegionSets::Empty;
+  RegionSets sets(6);
+  const auto setOf = [&sets](std::int32_t set, std::initializer_list<std::int32_t> regions) {
+    for (const std::int32_t region : regions)
+    {
+      set = sets.Toggled(set, region);
+    }
+    return set;
+  };
+  EXPECT_EQ(setOf(empty, { 4 }), 4);
+  EXPECT_EQ(setOf(empty, { 4, 4 }), empty);
+  const std::int32_t three = setOf(empty, { 0, 3, 5 });
+  EXPECT_GE(three, sets.First());
+  EXPECT_EQ(setOf(empty, { 5, 3, 0 }), three);
+  EXPECT_EQ(setOf(empty, { 5, 1, 0, 4, 3, 1, 4 }), three);
+  EXPECT_EQ(setOf(three, { 0, 2, 3, 2 }), 5);
+  EXPECT_EQ(setOf(three, { 5, 3, 0 }), empty);
+  std::vector<unsigned char> isUsed(static_cast<std::size_t>(sets.End()), 0);
+  isUsed[static_cast<std::size_t>(three)] = 1;
+  const std::int32_t kept = sets.Keep(isUsed)[static_cast<std::size_t>(three)];
+  std::vector<std::int32_t> members;
+  sets.VisitRegions(kept, [&](std::int32_t region) { members.push_back(region); });
+  EXPECT_EQ(members, (std::vector<std::int32_t>{ 0, 3, 5 }));
 }
 
 // Cells that many regions cover together hold the number of their set.
