@@ -162,14 +162,16 @@ TEST(RingTriangles, AreExactForAnyRings)
   }
 }
 
-// The work grows as the number of edges: rings side by side, over each other, in each other; teeth
-// that all reach through the same lines.
+// The work grows as the number of edges: rings side by side, over each other, in each other, about
+// one point; teeth that all reach through the same lines.
 TEST(RingTriangles, OfManyRings)
 {
   constexpr int count = 16000;
+  const double pi = std::acos(-1.0);
   std::vector<Ring> tiles;
   std::vector<Ring> strips;
   std::vector<Ring> nested;
+  std::vector<Ring> fan;
   Ring teeth{ { count, -1 }, { 0, -1 } };
   for (int i = 0; i < count; ++i)
   {
@@ -180,11 +182,16 @@ TEST(RingTriangles, OfManyRings)
     strips.push_back(
       { { 0, 2.0 * i }, { 100, 2.0 * i }, { 100, 2.0 * i + 1 }, { 0, 2.0 * i + 1 } });
     nested.push_back(square(-1.0 - i, 1.0 + i));
+    const double angle = 2.0 * pi * i / count;
+    const double next = angle + pi / count;
+    fan.push_back(
+      { { 0, 0 }, { std::cos(angle), std::sin(angle) }, { std::cos(next), std::sin(next) } });
     teeth.push_back({ i + 0.5, i % 2 == 0 ? 100.0 : 0.0 });
   }
   EXPECT_DOUBLE_EQ(areaOf(tiles), count);
   EXPECT_DOUBLE_EQ(areaOf(strips), 100.0 * count);
   EXPECT_DOUBLE_EQ(areaOf(nested), 4.0 * count * (count + 1) / 2);
+  EXPECT_NEAR(areaOf(fan), 0.5 * count * std::sin(pi / count), 1e-9);
   EXPECT_NEAR(areaOf({ teeth }), 51.0 * count, 200.0);
 }
 
