@@ -94,7 +94,7 @@ void forAreaDensities(const Add& add)
   add2D("ascent", []() { return photographDensity("ascent"); });
   add2D("night-europe", []() { return photographDensity("night-europe"); });
   for (const std::string name :
-    { "gauss", "gausses", "peak", "disc01", "star01", "disc10", "disc100", "disc1000", "square10",
+    { "gauss", "gausses", "peak", "circle", "disc01", "star01", "disc10", "disc100", "disc1000", "square10",
       "square100", "square1000", "checker3", "checker10", "clumps", "noise", "noise3", "noiselog" })
   {
     add2D(name, [name]() { return areaDensity2D(name, { 256, 256 }); });

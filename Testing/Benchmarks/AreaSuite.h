@@ -119,6 +119,7 @@ TestDensity<Dimension> clumps(const GridSize<Dimension>& size, double scale, dou
 //   gauss, gausses   one wide Gaussian; five, with empty parts
 //   peak             a narrow Gaussian over 1e-3
 //   disc01, star01   1 inside, 0 outside
+//   circle           a line of 1, a cell wide, over 1e-6
 //   disc<R>, square<R>, checker<R>   R times as dense as the rest
 //   noise, noise3, noiselog   independent cells: uniform, its cube, lognormal
 //   clumps           150 Gaussians over 0.03
@@ -158,6 +159,13 @@ inline TestDensity<2> areaDensity2D(const std::string& name, const GridSize<2>& 
       const double angle = std::atan2(p[1] - 0.5, p[0] - 0.5);
       const double radius = std::hypot(p[0] - 0.5, p[1] - 0.5);
       return radius < 0.3 * (1.0 + 0.4 * std::cos(5.0 * angle)) ? 1.0 : 0.0;
+    });
+  }
+  if (name == "circle")
+  {
+    return sampleDensity<2>(size, [&size](const Point<2>& p) {
+      const double radius = std::hypot(p[0] - 0.5, p[1] - 0.5);
+      return std::abs(radius - 1.0 / 3.0) * static_cast<double>(size[0]) < 0.7 ? 1.0 : 1e-6;
     });
   }
   if (const double ratio = contrast("disc"); ratio > 0.0)

@@ -207,10 +207,12 @@ STEPS = (("raccoon", "`raccoon.png`, ink, 1024 × 768"), ("raccoon-4", "the same
          ("night-europe", "`night-europe.png`, ink, 342 × 182"), ("gauss", "Gaussian, 256²"),
          ("gausses", "five Gaussians"), ("peak", "peak of 1000 over ones, smooth"),
          *((f"disc{ratio}", f"disc, {ratio} times as dense") for ratio in (10, 100, 1000)),
+         ("disc1000-512", "the same, 512²"),
          *((f"disc100-{side}", f"disc of 100, {side}²") for side in (64, 512, 1024)),
          *((f"square{ratio}", f"square, {ratio} times as dense") for ratio in (10, 100, 1000)),
          *((f"checker{ratio}", f"8 × 8 squares, 1 and {ratio}") for ratio in (3, 10)),
          ("disc01", "disc, 0 outside"), ("star01", "star, 0 outside"),
+         ("circle", "a thin circle over a millionth"),
          ("clumps", "150 lognormal clumps"), ("noise", "white noise"), ("noise3", "its cube"),
          ("noiselog", "lognormal noise"), ("ball10-3d", "ball, 10 times as dense, 64³"),
          ("ball100-3d", "100 times"), ("clumps-3d", "150 clumps, 64³"),
@@ -223,17 +225,16 @@ def steps(r):
         row = [text]
         for way in ("backward", "forward"):
             if way == "forward" and density.endswith(("3d", "brain")):
-                row += [""] * 4
+                row += [""] * 6
                 continue
             name = f"Steps/{way}/{density}"
-            taken = r.median(name, "steps")
-            row += [f"{taken:.0f}" if taken else "Adaptive"]
-            for kind in ("", "few_", "paper_"):
-                row += [f"{r.median(name, f'{kind}error'):.2g} / "
-                        f"{r.median(name, f'{kind}folded'):.0f}"]
+            row += [f"{r.median(name, 'steps'):.0f}"]
+            row += [f"{r.median(name, what):.2g}"
+                    for what in ("estimate", "error", "cost", "few_error", "paper_error")]
         rows.append(row)
-    print_table(["areas of", "backward: steps", "error / folded", "32 steps", "paper",
-                 "forward: steps", "error / folded", "32 steps", "paper"], rows)
+    kinds = ("steps", "estimate", "error", "cost", "error of 32 steps", "of the paper")
+    print_table(["areas of", *(f"{way}: {kind}" for way in ("backward", "forward")
+                               for kind in kinds)], rows)
 
 
 def morphs(r):
