@@ -5,6 +5,7 @@
 #include "vtkDataSet.h"
 #include "vtkGenericCell.h"
 #include "vtkIdList.h"
+#include "vtkOrderedTriangulator.h"
 #include "vtkPoints.h"
 
 #include <algorithm>
@@ -26,6 +27,31 @@ template <int D>
 int simplexType()
 {
   return D == 1 ? VTK_LINE : D == 2 ? VTK_TRIANGLE : VTK_TETRA;
+}
+
+// Quadratic cells that VTK leaves undivided, or of which it divides a half.
+bool isDividedByNodes(int type)
+{
+  return type == VTK_TRIQUADRATIC_HEXAHEDRON || type == VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON ||
+    type == VTK_BIQUADRATIC_QUADRATIC_WEDGE || type == VTK_QUADRATIC_LINEAR_WEDGE;
+}
+
+// The tetrahedra of the nodes of all cells of a type, by its parametric coordinates.
+std::vector<vtkIdType> dividedNodes(vtkCell* cell)
+{
+  const vtkIdType count = cell->GetNumberOfPoints();
+  vtkNew<vtkOrderedTriangulator> triangulator;
+  triangulator->InitTriangulation(0.0, 1.0, 0.0, 1.0, 0.0, 1.0, static_cast<int>(count));
+  double* place = cell->GetParametricCoords();
+  for (vtkIdType i = 0; i < count; ++i, place += 3)
+  {
+    triangulator->InsertPoint(i, place, place, 0);
+  }
+  triangulator->Triangulate();
+  vtkNew<vtkIdList> ids;
+  vtkNew<vtkPoints> points;
+  triangulator->AddTetras(0, ids, points);
+  return { ids->GetPointer(0), ids->GetPointer(0) + ids->GetNumberOfIds() };
 }
 
 } // namespace
@@ -162,6 +188,17 @@ bool CellPieces<D>::Divide(vtkIdType cell)
   if (this->Cell->GetNumberOfPoints() <= D) // which VTK's strips do not expect
   {
     this->Ids->Reset();
+    return true;
+  }
+  if (D == 3 && isDividedByNodes(this->Cell->GetCellType()))
+  {
+    std::vector<vtkIdType>& nodes = this->DividedNodes[this->Cell->GetCellType()];
+    nodes = nodes.empty() ? dividedNodes(this->Cell) : nodes;
+    this->Ids->Reset();
+    for (const vtkIdType node : nodes)
+    {
+      this->Ids->InsertNextId(this->Cell->GetPointId(static_cast<int>(node)));
+    }
     return true;
   }
   const bool divided = this->Cell->Triangulate(0, this->Ids, this->Corners) != 0;

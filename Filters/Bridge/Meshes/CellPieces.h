@@ -11,6 +11,8 @@
 #include "vtkType.h"
 
 #include <cstdint>
+#include <map>
+#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataSet;
@@ -79,6 +81,7 @@ private:
   vtkNew<vtkGenericCell> Cell;
   vtkNew<vtkIdList> Ids;
   vtkNew<vtkPoints> Corners;
+  std::map<int, std::vector<vtkIdType>> DividedNodes; // of types of cells
 };
 
 } // namespace RectifiedTransport

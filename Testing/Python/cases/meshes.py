@@ -4,9 +4,12 @@ import time
 
 import numpy as np
 from vtkmodules.vtkCommonCore import vtkIdList
-from vtkmodules.vtkCommonDataModel import (VTK_HEXAHEDRON, VTK_POLYHEDRON, VTK_PYRAMID, VTK_QUAD,
-                                           VTK_TETRA, VTK_TRIANGLE, VTK_VOXEL, VTK_WEDGE, vtkAMRBox,
-                                           vtkOverlappingAMR, vtkRectilinearGrid, vtkUniformGrid,
+from vtkmodules.vtkCommonDataModel import (VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, VTK_BIQUADRATIC_QUADRATIC_WEDGE,
+                                           VTK_HEXAHEDRON, VTK_POLYHEDRON, VTK_PYRAMID, VTK_QUAD,
+                                           VTK_QUADRATIC_HEXAHEDRON, VTK_QUADRATIC_LINEAR_WEDGE,
+                                           VTK_QUADRATIC_TETRA, VTK_QUADRATIC_WEDGE, VTK_TETRA, VTK_TRIANGLE,
+                                           VTK_TRIQUADRATIC_HEXAHEDRON, VTK_VOXEL, VTK_WEDGE, vtkAMRBox,
+                                           vtkGenericCell, vtkOverlappingAMR, vtkRectilinearGrid, vtkUniformGrid,
                                            vtkUnstructuredGrid)
 
 from .case import (BOX_FACES, blocks, box_points, case, expect_mass, mesh, named, point_list, polygons,
@@ -328,3 +331,24 @@ def faces_of_the_boundary_in_the_mesh(check):
     cells = [(VTK_TETRA, ids) for ids in tetrahedra_of_a_cube()]
     cells += [(VTK_TRIANGLE, [0, 1, 3]), (VTK_TRIANGLE, [0, 3, 2])]
     expect_mass(check, mesh(UNIT, cells, [1, 2, 3, 4, 5, 6, 1e6, 1e6]), 21 / 6, 1e-3)
+
+
+@case(170)
+def cells_of_27_nodes(check):
+    """Hexahedra and wedges with nodes in their faces and their middle, as finite elements have them.
+
+    Source: Exodus files with the element block HEX27, and threads on vtkTriQuadraticHexahedron.
+    Right: value x volume; VTK itself divides these types to a half, or not at all.
+    """
+    turned = np.array([[2.0, 0.5, 0.1], [-0.3, 1.5, 0.2], [0.4, -0.2, 1.8]])
+    for kind, volume in ((VTK_TRIQUADRATIC_HEXAHEDRON, 1), (VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, 1),
+                         (VTK_QUADRATIC_HEXAHEDRON, 1), (VTK_BIQUADRATIC_QUADRATIC_WEDGE, 0.5),
+                         (VTK_QUADRATIC_LINEAR_WEDGE, 0.5), (VTK_QUADRATIC_WEDGE, 0.5), (VTK_QUADRATIC_TETRA, 1 / 6)):
+        cell = vtkGenericCell.InstantiateCell(kind)
+        count = cell.GetNumberOfPoints()
+        nodes = np.reshape([cell.GetParametricCoords()[i] for i in range(3 * count)], (count, 3)) @ turned
+        places = np.concatenate([nodes, nodes + [9, 0, 0], UNIT + [5, 5, 0]])
+        cells = [(kind, range(count)), (kind, range(count, 2 * count)),
+                 (VTK_HEXAHEDRON, np.array(HEXAHEDRON) + 2 * count)]
+        mass = (3 + 4) * volume * np.linalg.det(turned) + 5
+        expect_mass(check, mesh(places, cells, [3, 4, 5]), mass, 1e-6, DensityResolution=48)
