@@ -36,9 +36,7 @@ def all_numbers(values, name):
 
 def array_and_mask(values):
     """An array as numpy has it, and the mask of numpy.ma or of the types of pandas that have one."""
-    rows = values if isinstance(values, (list, tuple)) else ()
-    if any(isinstance(row, np.ma.MaskedArray) for row in rows):
-        values = np.ma.array(values)
+    values = with_masks(values)
     if isinstance(values, np.ma.MaskedArray):
         masked = values.mask is not np.ma.nomask
         return np.ma.getdata(values), np.ma.getmaskarray(values) if masked else None
@@ -47,6 +45,14 @@ def array_and_mask(values):
         if not all(isinstance(one, np.dtype) for one in getattr(types, "values", [types])):
             return values.to_numpy(dtype=object), np.asarray(values.isna(), dtype=bool)
     return np.asarray(values), None
+
+
+def with_masks(values, levels=2):
+    """Lists of arrays of numpy.ma as one of them; numpy itself forgets the masks of lists in lists."""
+    if not isinstance(values, (list, tuple)) or levels == 0:
+        return values
+    rows = [with_masks(row, levels - 1) for row in values]
+    return np.ma.array(rows) if any(isinstance(row, np.ma.MaskedArray) for row in rows) else values
 
 
 def is_missing(objects):

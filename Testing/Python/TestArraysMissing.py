@@ -60,6 +60,12 @@ class Missing(unittest.TestCase):
                     with self.subTest(kind=kind, way=type(way)):
                         same(arrays.sample(way, 200, **properties), expected)
 
+    def test_lists_in_lists(self):
+        """numpy itself forgets the masks of arrays in lists of lists."""
+        values, mask = self.values[:12, :12].reshape(4, 6, 6), self.mask[:12, :12].reshape(4, 6, 6)
+        slices = [[np.ma.array(row, mask=gaps) for row, gaps in zip(*pair)] for pair in zip(values, mask)]
+        same(arrays.sample(slices, 200), arrays.sample(np.ma.array(values, mask=mask), 200))
+
     def test_functions(self):
         masked = np.ma.array(self.values, mask=self.mask)
         holes, empty = np.where(self.mask, np.nan, self.values), {"NaNValues": "Empty"}
