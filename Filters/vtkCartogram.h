@@ -15,12 +15,12 @@
  * where they begin, in one plane of any direction. What is inside an outline that crosses itself is
  * said by the even-odd rule. Open lines, such as rivers, move along; they have no share of the
  * area. Input array 0 (cells) is the mass of the region that a cell belongs to; by default the
- * active scalars, else the only numeric cell array. Input array 1 (cells, optional) says which
- * cells are one region: those with one value, which may be text. Without it each block is a region,
- * or each cell if the input is no composite. The mass of a region counts once, and all its cells
- * must have it. A ring inside an odd number of rings of its region is a hole. Coordinates must be
- * those of a map projection that keeps areas, or degrees of longitude and latitude with Projection
- * EqualArea.
+ * active scalars, else the only numeric cell array, of one component. Input array 1 (cells,
+ * optional) says which cells are one region: those with one value, which may be text. Without it
+ * each block is a region, or each cell if the input is no composite. The mass of a region counts
+ * once, and all its cells must have it. A ring inside an odd number of rings of its region is a
+ * hole. Coordinates must be those of a map projection that keeps areas, or degrees of longitude and
+ * latitude with Projection EqualArea.
  *
  * Input 1 (optional): the overlay, any vtkPointSet, such as rivers and cities, or a composite of
  * them, that moves along.

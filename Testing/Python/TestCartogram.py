@@ -76,6 +76,32 @@ class TestCartogram(unittest.TestCase):
         b = ring_areas(cartogram(blocks_of(*parts))[0].GetRegions())
         np.testing.assert_allclose(b, a, rtol=1e-9)
 
+    def test_strips(self):
+        """A strip is one region, after the polygons, with its first triangle's direction."""
+        data, polygons, strips = sixteen(20.0), vtkCellArray(), vtkCellArray()
+        for cell in range(15):
+            polygons.InsertNextCell(4, [4 * cell + i for i in range(4)])
+        strips.InsertNextCell(4, [60, 61, 63, 62])
+        data.SetPolys(polygons)
+        data.SetStrips(strips)
+        algorithm, listener = cartogram(data)
+        self.assertEqual(listener.errors + listener.warnings, [])
+        expected = ring_areas(cartogram(sixteen(20.0))[0].GetRegions())
+        np.testing.assert_allclose(ring_areas(algorithm.GetRegions()), expected, rtol=1e-9)
+
+    def test_the_only_mass(self):
+        """Without a choice; vectors and colours cannot be masses, even if they are the active scalars."""
+        expected = ring_areas(cartogram(sixteen(20.0))[0].GetRegions())
+        for active in (None, "Colour"):
+            data = sixteen(20.0)
+            colours = numpy_to_vtk(np.full((16, 3), 9, np.uint8), deep=1)
+            colours.SetName("Colour")
+            data.GetCellData().AddArray(colours)
+            data.GetCellData().SetActiveScalars(active)
+            algorithm, listener = cartogram(data, mass=None)
+            self.assertEqual(listener.errors + listener.warnings, [])
+            np.testing.assert_array_equal(ring_areas(algorithm.GetRegions()), expected)
+
     def test_planes(self):
         """Any plane, far from the origin."""
         expected = ring_areas(cartogram(sixteen())[0].GetRegions())
@@ -228,7 +254,8 @@ class TestCartogram(unittest.TestCase):
         infinite.GetPoints().SetPoint(3, np.inf, 0, 0)
         for data, options, text in (
                 (sixteen(), dict(mass="None such"), "MassArray 'None such' is no numeric cell array"),
-                (two, dict(mass=None), "MassArray is not set, and the input has 2 numeric cell arrays"),
+                (two, dict(mass=None),
+                 "MassArray is not set, and the input has 2 numeric cell arrays of one component"),
                 (nan, {}, "The mass of the region of cell 7 in 'Mass' is nan"),
                 (negative, {}, "The mass of the region of cell 5 in 'Mass' is -2"),
                 (empty, {}, "The masses in 'Mass' sum to 0"),
@@ -267,11 +294,6 @@ class TestCartogram(unittest.TestCase):
         nameless.GetCellData().GetArray("Mass").SetName(None)
         nameless.GetCellData().SetScalars(nameless.GetCellData().GetArray(0))
         nameless.GetCellData().GetScalars().SetValue(7, -1)
-        strips = vtkPolyData()
-        strips.DeepCopy(sixteen())
-        cells = vtkCellArray()
-        cells.InsertNextCell(4, [0, 1, 2, 3])
-        strips.SetStrips(cells)
         for data, options, text in (
                 (sixteen(), dict(Tolerance=0.0), "Tolerance is 0; it must be above 0 and at most 1"),
                 (sixteen(), dict(Tolerance=1.5), "Tolerance is 1.5; it must be above 0 and at most 1"),
@@ -286,8 +308,8 @@ class TestCartogram(unittest.TestCase):
                 (nameless, dict(mass=None), "The mass of the region of cell 7 in the scalars, which have no name, is -1; "
                                             "masses must be at least 0 and finite"),
                 (map_of([square(0, 4)]), dict(mass=None),
-                 "MassArray is not set, and the input has 0 numeric cell arrays; set it to the one that has the "
-                 "mass of each region"),
+                 "MassArray is not set, and the input has 0 numeric cell arrays of one component; set it to the "
+                 "one that has the mass of each region"),
                 (sixteen(), dict(mass="None such"),
                  "MassArray 'None such' is no numeric cell array of the input; choose one that has the mass of "
                  "each region"),
@@ -299,8 +321,9 @@ class TestCartogram(unittest.TestCase):
                 (map_of([square(0, 1), square(2, 3)], [1.0, 2.0], Land=[3, 3]), dict(regions="Land"),
                  "The region '3' has cells of mass 1 and 2 in 'Mass'; all cells of a region must have its "
                  "mass, which counts once"),
-                (strips, {}, "The input has triangle strips; regions must be polygons or closed lines, as "
-                             "Triangulate makes of them")):
+                (blocks_of(sixteen(), map_of([square(5, 6)])), {},
+                 "MassArray 'Mass' is no numeric cell array of all blocks of the input (the block 2 of the input "
+                 "has none); choose one that has the mass of each region")):
             with self.subTest(text=text):
                 algorithm, listener = cartogram(data, **options)
                 self.assertEqual([line_of(error) for error in listener.errors

@@ -10,7 +10,7 @@ import numpy as np
 from rt_testing import OUTPUT, SOURCE, Listener, load_plugin, main, positions, producer
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import (VTK_EMPTY_CELL, VTK_PIXEL, VTK_POLY_LINE, VTK_POLY_VERTEX,
-                                           VTK_POLYGON, VTK_QUAD, VTK_TETRA, VTK_TRIANGLE_STRIP, VTK_VERTEX,
+                                           VTK_POLYGON, VTK_QUAD, VTK_TETRA, VTK_QUADRATIC_EDGE, VTK_VERTEX,
                                            vtkUnstructuredGrid)
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 
@@ -102,11 +102,11 @@ class TestCartogramMaps(unittest.TestCase):
                 (VTK_POLYGON, [3, 2, 7],
                  "The mass of the region of cell 6 in 'Mass' is nan; masses must be at least 0 and finite"),
                 (VTK_TETRA, [0, 1, 2, 3],
-                 "Cell 6 of the input is a vtkTetra; regions must be polygons or closed lines, as Extract Surface "
-                 "makes of it"),
-                (VTK_TRIANGLE_STRIP, [0, 1, 2, 3],
-                 "The input has triangle strips; regions must be polygons or closed lines, as Triangulate makes "
-                 "of them")):
+                 "Cell 6 of the input is a vtkTetra; regions must be polygons or closed lines, as Slice makes of "
+                 "cells of a volume"),
+                (VTK_QUADRATIC_EDGE, [0, 1, 2],
+                 "Cell 6 of the input is a vtkQuadraticEdge; regions must be polygons or closed lines, as Generate "
+                 "Ids, for the RegionArray, and then Extract Surface make of it")):
             _, listener = cartogram(grid(places, cells[:-1] + [(kind, ids)], masses[:-1] + [np.nan]))
             self.assertEqual([line_of(error) for error in listener.errors if "returned failure" not in error],
                              [text])

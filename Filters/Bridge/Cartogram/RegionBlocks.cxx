@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Cartogram/RegionBlocks.h"
 
+#include "Bridge/Cartogram/UnifiedTypes.h"
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/Failure.h"
@@ -21,6 +22,7 @@
 #include <array>
 #include <cstdint>
 #include <numeric>
+#include <string>
 
 namespace RectifiedTransport
 {
@@ -31,12 +33,6 @@ namespace
 // Cell arrays, while blocks become one.
 constexpr const char* blockNumbers = "vtkCartogramBlock";
 constexpr const char* cellNumbers = "vtkCartogramCell";
-
-[[noreturn]] void failStrips(const DensityBlock& block)
-{
-  fail("The ", block.Name,
-    " has triangle strips; regions must be polygons or closed lines, as Triangulate makes of them");
-}
 
 // Where vtkCells of a type stand in a vtkPolyData: 0 vertices, 1 lines, 2 polygons; -1 nowhere.
 int kindOf(int type)
@@ -54,10 +50,69 @@ int kindOf(int type)
     case VTK_PIXEL:
     case VTK_QUAD:
     case VTK_POLYGON:
+    case VTK_TRIANGLE_STRIP:
+    case VTK_QUADRATIC_TRIANGLE:
+    case VTK_BIQUADRATIC_TRIANGLE:
+    case VTK_QUADRATIC_QUAD:
+    case VTK_BIQUADRATIC_QUAD:
+    case VTK_QUADRATIC_POLYGON:
       return 2;
     default:
       return -1;
   }
+}
+
+// From the points of a triangle strip, or of another two-dimensional vtkCell, to its outline.
+// Quadratic ones have the points on their edges, in order, behind the corners.
+void makeOutline(int type, vtkIdList* ids)
+{
+  const vtkIdType count = ids->GetNumberOfIds();
+  std::vector<vtkIdType> outline;
+  const auto add = [&](vtkIdType i) { outline.push_back(ids->GetId(i)); };
+  if (type == VTK_TRIANGLE_STRIP || type == VTK_PIXEL) // two lines of points that take turns
+  {
+    for (vtkIdType i = 1; i < count; i += 2)
+    {
+      add(i);
+    }
+    for (vtkIdType i = (count - 1) / 2 * 2; i >= 0; i -= 2)
+    {
+      add(i);
+    }
+  }
+  else
+  {
+    const bool isTriangle = type == VTK_QUADRATIC_TRIANGLE || type == VTK_BIQUADRATIC_TRIANGLE;
+    const vtkIdType corners = isTriangle ? 3 : type == VTK_QUADRATIC_POLYGON ? count / 2 : 4;
+    for (vtkIdType i = 0; i < corners; ++i)
+    {
+      add(i);
+      add(corners + i);
+    }
+  }
+  ids->SetNumberOfIds(static_cast<vtkIdType>(outline.size()));
+  std::copy(outline.begin(), outline.end(), ids->GetPointer(0));
+}
+
+bool isOutline(int type)
+{
+  return type == VTK_TRIANGLE || type == VTK_QUAD || type == VTK_POLYGON;
+}
+
+// Strips behind the polygons, as their cell data are.
+void makePolygonsOfStrips(vtkPolyData* data)
+{
+  vtkNew<vtkCellArray> polygons;
+  polygons->DeepCopy(data->GetPolys());
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType strip = 0; strip < data->GetNumberOfStrips(); ++strip)
+  {
+    data->GetStrips()->GetCellAtId(strip, ids);
+    makeOutline(VTK_TRIANGLE_STRIP, ids);
+    polygons->InsertNextCell(ids);
+  }
+  data->SetPolys(polygons);
+  data->SetStrips(nullptr);
 }
 
 // The cells of an unstructured grid as a vtkPolyData: Threshold, Append Datasets, Merge Blocks and
@@ -77,21 +132,19 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const DensityBlock& block, vtkUnstructur
     }
     const int type = grid->GetCellType(cell);
     const int kind = kindOf(type);
-    if (type == VTK_TRIANGLE_STRIP)
-    {
-      failStrips(block);
-    }
     if (kind < 0)
     {
-      fail("Cell ", cell, " of the ", block.Name, " is a ", grid->GetCell(cell)->GetClassName(),
-        "; regions must be polygons or closed lines, as Extract Surface makes of it");
+      vtkCell* const made = grid->GetCell(cell);
+      fail("Cell ", cell, " of the ", block.Name, " is a ", made->GetClassName(),
+        "; regions must be polygons or closed lines, ",
+        made->GetCellDimension() == 3
+          ? "as Slice makes of cells of a volume"
+          : "as Generate Ids, for the RegionArray, and then Extract Surface make of it");
     }
     grid->GetCellPoints(cell, ids);
-    if (type == VTK_PIXEL) // has its last two points the other way round
+    if (kind == 2 && !isOutline(type))
     {
-      const vtkIdType third = ids->GetId(2);
-      ids->SetId(2, ids->GetId(3));
-      ids->SetId(3, third);
+      makeOutline(type, ids);
     }
     cells[static_cast<std::size_t>(kind)]->InsertNextCell(ids);
     numbersOfKinds[static_cast<std::size_t>(kind)].push_back(cell);
@@ -125,10 +178,6 @@ vtkSmartPointer<vtkPolyData> polyDataOf(
     fail("The ", block.Name, " is a ", block.Data->GetClassName(),
       "; regions must be polygons or closed lines, as Extract Surface makes of it");
   }
-  if (data && data->GetNumberOfStrips() > 0)
-  {
-    failStrips(block);
-  }
   requireReadableCells(block.Data, block.Name);
   requireTuples(block.Data, block.Name);
   if (grid)
@@ -137,6 +186,10 @@ vtkSmartPointer<vtkPolyData> polyDataOf(
   }
   const auto copy = vtkSmartPointer<vtkPolyData>::New();
   copy->ShallowCopy(data);
+  if (data->GetNumberOfStrips() > 0)
+  {
+    makePolygonsOfStrips(copy);
+  }
   numbers.resize(static_cast<std::size_t>(data->GetNumberOfCells()));
   std::iota(numbers.begin(), numbers.end(), vtkIdType{ 0 });
   return copy;
@@ -173,6 +226,7 @@ vtkSmartPointer<vtkPolyData> joinedData(const std::vector<DensityBlock>& blocks,
     progress.BeginStage(0.01 * static_cast<double>(i + 1) / static_cast<double>(blocks.size()));
     parts.push_back(numberedBlock(blocks[i], i, progress));
   }
+  unifyTypes(parts);
   progress.BeginStage(0.015, static_cast<std::int64_t>(blocks.size()));
   do
   {

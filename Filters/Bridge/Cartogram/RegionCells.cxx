@@ -122,6 +122,19 @@ private:
       (this->Blocks.size() > 1 ? " of " + this->Blocks[this->Joined.Blocks[at]].Name : "");
   }
 
+  // The first block that lacks a cell array, if any.
+  std::string OfInput(const std::string& array) const
+  {
+    const auto lacking =
+      std::find_if(this->Blocks.begin(), this->Blocks.end(), [&](const DensityBlock& block) {
+        return block.Data->GetNumberOfCells() > 0 &&
+          !block.Data->GetCellData()->HasArray(array.c_str());
+      });
+    return this->Blocks.size() == 1 ? "of the input"
+                                    : "of all blocks of the input" +
+        (lacking == this->Blocks.end() ? "" : " (the " + lacking->Name + " has none)");
+  }
+
   void FindMass()
   {
     vtkCellData* cells = this->Found.Data->GetCellData();
@@ -134,8 +147,7 @@ private:
       this->Mass = numbers.Array;
       if (!this->Mass)
       {
-        fail("MassArray '", chosen, "' is no numeric cell array ",
-          this->Blocks.size() > 1 ? "of all blocks of the input" : "of the input",
+        fail("MassArray '", chosen, "' is no numeric cell array ", this->OfInput(chosen),
           !numbers.Wrong.empty() ? " (" + numbers.Wrong + ")" : "",
           this->Found.Data->GetPointData()->HasArray(chosen.c_str())
             ? " but a point array; Point Data to Cell Data makes a cell array of it"
@@ -157,7 +169,10 @@ private:
 
   vtkDataArray* DefaultMass(vtkCellData* cells)
   {
-    if (cells->GetScalars() && !isIds(cells, cells->GetScalars()))
+    const auto mayBeMass = [cells](vtkDataArray* array) {
+      return array && array->GetNumberOfComponents() == 1 && !isIds(cells, array);
+    };
+    if (mayBeMass(cells->GetScalars()))
     {
       return cells->GetScalars();
     }
@@ -166,7 +181,7 @@ private:
     for (int i = 0; i < cells->GetNumberOfArrays(); ++i)
     {
       vtkDataArray* array = cells->GetArray(i);
-      if (array && array->GetName() && !isIds(cells, array))
+      if (mayBeMass(array) && array->GetName())
       {
         only = array;
         ++count;
@@ -175,7 +190,8 @@ private:
     if (count != 1)
     {
       fail("MassArray is not set, and the input has ", count,
-        " numeric cell arrays; set it to the one that has the mass of each region");
+        " numeric cell arrays of one component; set it to the one that has the mass of each "
+        "region");
     }
     return only;
   }
@@ -190,7 +206,7 @@ private:
     if (isGiven && !key)
     {
       fail("RegionArray '", this->Arrays.Region, "' is no cell array ",
-        this->Blocks.size() > 1 ? "of all blocks of the input" : "of the input");
+        this->OfInput(this->Arrays.Region));
     }
     vtkAbstractArray* name = key ? key : this->NameArray();
     std::unordered_map<std::string, std::int32_t> numbers;

@@ -10,13 +10,15 @@
 namespace RectifiedTransport
 {
 
-// Whether files of maps number their features so: "FID", "OBJECTID", "objectid_1", "gid", "GEOID".
+// Whether files of maps number their features so: "FID", "OBJECTID", "objectid_1", "gid", "GEOID",
+// "ogc_fid" of GDAL.
 inline bool isFeatureIdName(const std::string& name)
 {
   std::string plain = name.substr(0, name.find_last_not_of("_0123456789") + 1);
   std::transform(plain.begin(), plain.end(), plain.begin(),
     [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  const std::string names[] = { "fid", "gid", "oid", "uid", "geoid", "objectid", "featureid" };
+  const std::string names[] = { "fid", "ogc_fid", "gid", "oid", "uid", "geoid", "objectid",
+    "featureid" };
   return std::find(std::begin(names), std::end(names), plain) != std::end(names);
 }
 

@@ -4,6 +4,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkAbstractArray.h"
+#include "vtkBitArray.h"
 #include "vtkVariant.h"
 
 #include <cmath>
@@ -30,15 +31,32 @@ bool isReal(const vtkVariant& value)
   return value.IsDouble() || value.IsFloat();
 }
 
-// visit(value) of the components.
+// visit(value) of the components. VTK has no variants of bits.
 template <class Visit>
 void forComponents(vtkAbstractArray* array, vtkIdType tuple, const Visit& visit)
 {
   const int components = array->GetNumberOfComponents();
+  auto* const bits = vtkBitArray::SafeDownCast(array);
   for (int c = 0; c < components; ++c)
   {
-    visit(array->GetVariantValue(tuple * components + c));
+    const vtkIdType value = tuple * components + c;
+    visit(bits ? vtkVariant(bits->GetValue(value)) : array->GetVariantValue(value));
   }
+}
+
+// vtkVariant gives numbers of one byte as letters, and real numbers with six digits.
+std::string textOfValue(const vtkVariant& value)
+{
+  if (value.IsFloat())
+  {
+    return textOf(value.ToFloat());
+  }
+  if (value.IsDouble())
+  {
+    return textOf(value.ToDouble());
+  }
+  const bool isByte = value.IsChar() || value.IsSignedChar() || value.IsUnsignedChar();
+  return isByte ? std::to_string(value.ToInt()) : static_cast<std::string>(value.ToString());
 }
 
 } // namespace
@@ -71,9 +89,7 @@ std::string tupleText(vtkAbstractArray* array, vtkIdType tuple)
   const char* separator = "";
   forComponents(array, tuple, [&](const vtkVariant& value) {
     text += separator;
-    text += value.IsFloat() ? textOf(value.ToFloat())
-      : value.IsDouble()    ? textOf(value.ToDouble())
-                            : static_cast<std::string>(value.ToString());
+    text += textOfValue(value);
     separator = ", ";
   });
   return text;

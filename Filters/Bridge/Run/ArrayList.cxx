@@ -20,7 +20,8 @@ std::string listArrays(vtkDataSetAttributes* attributes, const std::string& owne
       list += (list.empty() ? "" : ", ") + std::string(name ? name : "(no name)");
     }
   }
-  return list.empty() ? "no " + owner + " arrays" : list + " (" + owner + ")";
+  const char* none = attributes->GetNumberOfArrays() > 0 ? "no numeric " : "no ";
+  return list.empty() ? none + owner + " arrays" : list + " (" + owner + ")";
 }
 
 void requireScalars(

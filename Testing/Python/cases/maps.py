@@ -4,9 +4,12 @@ import os
 from xml.dom import minidom
 
 import numpy as np
-from vtkmodules.util.vtkConstants import VTK_POLYGON
+from vtkmodules.util.vtkConstants import VTK_POLYGON, VTK_TRIANGLE_STRIP
+from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.vtkCommonDataModel import (VTK_BIQUADRATIC_QUAD, VTK_BIQUADRATIC_TRIANGLE, VTK_QUADRATIC_POLYGON,
+                                           VTK_QUADRATIC_QUAD, VTK_QUADRATIC_TRIANGLE)
 
-from .case import Result, case, mesh, named, polygons, rings, simple, source
+from .case import Result, blocks, case, mesh, named, polygons, rings, simple, source
 
 
 def squares(places, side=1.0):
@@ -158,3 +161,62 @@ def drawing_far_from_the_origin(check):
     corners = np.array([[xy.split(",") for xy in points.split()] for points in drawn], float)
     right = (np.array(squares([(10 * i, 0) for i in range(3)], 10)) / 30 * 89.75 + 0.125)[..., 0]
     check.assertLess(abs(corners[..., 0] - right).max(), 1e-3)
+
+
+def texts(values):
+    array = vtkStringArray()
+    for value in values:
+        array.InsertNextValue(value)
+    return array
+
+
+@case(168)
+def maps_of_several_files(check):
+    """Two files of one map, whose reader gives the people and the numbers of the states in other types.
+
+    Source: the driver of GDAL for GeoJSON, which takes the type of a column from its values; GDAL for
+    shapefiles, where it is the width of the column.
+    Right: areas in proportion to the people of the states, in all.
+    """
+    for people, states in (
+            (([1, 2], [2.0, 4.0]), ([7, 8], [8.0, 9.0])),
+            (([1, 2], ["2", "4.0"]), (np.array([7, 8], "i4"), np.array([8, 9], "i8"))),
+            ((np.array([1, 2], "f4"), np.array([2, 4], "u1")), (["7", "8"], np.array([8, 9], "u1"))),
+            (([1, 2], [2, 4]), (np.array([5, 2**53 + 1], "i8"), np.array([2**53 + 1, 2**53], "u8")))):
+        parts = []
+        for i in range(2):
+            data = rings(*NINE[2 * i:2 * i + 2])
+            data.GetCellData().Initialize()
+            for name, values in (("v", people[i]), ("state", states[i])):
+                array = texts(values) if isinstance(values[0], str) else named(np.asarray(values))
+                array.SetName(name)
+                data.GetCellData().AddArray(array)
+            parts.append(data)
+        result = cartogram(blocks(*parts), RegionArray=["CELLS", "state"])
+        check.assertEqual(result.errors + result.warnings, [])
+        found = shares(result)
+        right = np.array([1, 2, 4]) / 7
+        check.assertLess(abs(np.array([found[0], found[1] + found[2], found[3]]) - right).max(), 0.003)
+
+
+@case(169)
+def regions_of_curved_cells(check):
+    """A map whose regions are triangle strips, as Stripper leaves them, or quadratic cells of a solver.
+
+    Source: threads on VTK's Stripper and on meshes of second order.
+    Right: a cell is a region, with its share; the points on its edges are corners, too.
+    """
+    places = [(0, 0), (2, 0), (2, 2), (0, 2), (4, 0), (4, 2), (1, 0), (2, 1), (1, 2), (0, 1), (3, 0), (4, 1),
+              (3, 2), (1, 1), (3, 1), (3, 1)]
+    kinds = ((VTK_TRIANGLE_STRIP, [0, 1, 3, 2], [1, 4, 2, 5]),
+             (VTK_QUADRATIC_QUAD, [0, 1, 2, 3, 6, 7, 8, 9], [1, 4, 5, 2, 10, 11, 12, 7]),
+             (VTK_BIQUADRATIC_QUAD, [0, 1, 2, 3, 6, 7, 8, 9, 13], [1, 4, 5, 2, 10, 11, 12, 7, 14]),
+             (VTK_QUADRATIC_POLYGON, [0, 1, 2, 3, 6, 7, 8, 9], [1, 4, 5, 2, 10, 11, 12, 7]),
+             (VTK_QUADRATIC_TRIANGLE, [0, 1, 2, 6, 7, 13], [1, 4, 5, 10, 11, 14]),
+             (VTK_BIQUADRATIC_TRIANGLE, [0, 1, 2, 6, 7, 13, 13], [1, 4, 5, 10, 11, 14, 14]))
+    for kind, first, second in kinds:
+        result = cartogram(mesh(places, [(kind, first), (kind, second)], [1, 3]))
+        check.assertEqual(result.errors + result.warnings, [], kind)
+        area = 4 if kind in (VTK_QUADRATIC_TRIANGLE, VTK_BIQUADRATIC_TRIANGLE) else 8
+        check.assertLess(abs(result.values("TargetArea", True) / [area / 4, 3 * area / 4] - 1).max(), 1e-9, kind)
+        check.assertLess(abs(shares(result) - [0.25, 0.75]).max(), 0.003, kind)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which array is the density, and how its values are read: vectors, text, ids, flags."""
 import numpy as np
-from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.vtkCommonCore import vtkBitArray, vtkStringArray
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 
 from .case import Result, blocks, case, expect_error, expect_mass, image, named, rings, simple, source
@@ -121,7 +121,7 @@ def numbers_of_features_before_the_people(check):
     Right: the people are the mass.
     """
     people = np.array([1., 5., 2., 4.])
-    for name in ("FID", "OBJECTID", "objectid_1", "gid", "GEOID", "osm_id"):
+    for name in ("FID", "OBJECTID", "objectid_1", "gid", "GEOID", "osm_id", "ogc_fid"):
         data = rings(*([(x + a, b) for a, b in SQUARE] for x in range(4)), values=people)
         arrays = data.GetCellData()
         arrays.Initialize()
@@ -212,3 +212,22 @@ def names_of_old_files(check):
         for values, properties in ((("no", 2), {}), ((1e-9, 2), {})):
             text, = messages(name, values, **properties)
             check.assertIn("Côte d'Ivoire", text)
+
+
+@case(167)
+def flags_of_bits(check):
+    """A flag of one bit a cell, which a map is divided by: towns, and the land.
+
+    Source: VTK's arrays of bits, whose variants have no value.
+    Right: two regions, with 1 and 3 of 4.
+    """
+    data = rings(*([(x + a, b) for a, b in SQUARE] for x in range(4)), values=[1, 3, 1, 3])
+    flags = vtkBitArray()
+    flags.SetName("town")
+    for flag in (1, 0, 1, 0):
+        flags.InsertNextValue(flag)
+    data.GetCellData().AddArray(flags)
+    result = Result(simple.Cartogram(Input=source(data), MassArray=["CELLS", "v"], RegionArray=["CELLS", "town"],
+                                     Resolution=128))
+    check.assertEqual(result.errors + result.warnings, [])
+    check.assertLess(abs(result.values("TargetArea", True) - [1, 3, 1, 3]).max(), 1e-9)
