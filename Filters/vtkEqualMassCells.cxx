@@ -18,6 +18,7 @@
 #include "Bridge/SiteCells/LabelGrid.h"
 #include "Bridge/SiteCells/SiteColorArray.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/SiteCells/DensitySiteCells.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -261,7 +262,9 @@ int vtkEqualMassCells::RequestData(
       addSteps(output, { report.Flow });
     }
   }
-  this->WarnOfSteps(stepWarning(report.Flow, cells.Flow, FlowDirection::Backward));
+  FlowOptions taken = cells.Flow;
+  taken.LeastSteps = leastStepsOfSiteCells;
+  this->WarnOfSteps(stepWarning(report.Flow, taken, FlowDirection::Backward));
   if (isWorthWarning(report.Outside, sites))
   {
     const bool isOne = report.Outside == 1;

@@ -425,10 +425,11 @@ class Mass(unittest.TestCase):
         self.assertAlmostEqual(masses.sum(), values.sum())
         without = np.count_nonzero(masses == 0)
         self.assertGreater(without, 0)
-        self.assertEqual(len(reported.warnings), 3)  # one on the steps of so uneven a density
-        warnings = "".join(reported.warnings)
-        self.assertIn("The value 1 of the density array 'Density', in 1 of 64 cells (index 27)", warnings)
-        self.assertIn("%d of 20 sites have cells without mass" % without, warnings)
+        value, steps, without_mass = reported.warnings
+        self.assertIn("The value 1 of the density array 'Density', in 1 of 64 cells (index 27)", value)
+        # Cells take 128 steps or more, and as many times more than other filters.
+        self.assertRegex(steps, r"AreaTolerance 0\.02 is not reached: .* 8 times as long as 128, areas")
+        self.assertIn("%d of 20 sites have cells without mass" % without, without_mass)
         # They are where they were, and cost nothing.
         centroids = vtk_to_numpy(cells.GetSites().GetPointData().GetArray("CellCentroid"))
         sites = vtk_to_numpy(points_in(image, 20).GetPoints().GetData())

@@ -45,11 +45,11 @@ inline std::string stepWarning(const FlowReport& flow, const FlowOptions& option
   std::ostringstream text;
   text.precision(3);
   text << "AreaTolerance " << options.AreaTolerance << " is not reached: with "
-       << flow.NumberOfSteps << " steps"
-       << (options.AreaTolerance == FlowOptions::UsualTolerance
-              ? ", the most that take at most 8 times as long as 32, "
-              : ", the most that NumberOfSteps 0 takes, ")
-       << (direction == FlowDirection::Backward ? "areas" : "masses") << " of blocks of ";
+       << flow.NumberOfSteps << " steps, the most that ";
+  options.AreaTolerance == FlowOptions::UsualTolerance
+    ? text << "take at most 8 times as long as " << options.LeastSteps
+    : text << "NumberOfSteps 0 takes";
+  text << ", " << (direction == FlowDirection::Backward ? "areas" : "masses") << " of blocks of ";
   areParticles ? text << std::round(particlesThatShow(options.AreaTolerance)) << " particles"
                : text << "4 cells a side";
   text << " are off by about " << percentText(flow.AreaError) << "; ";

@@ -54,11 +54,10 @@ std::int64_t pixelAt(const double* point, const GridSize<Dimension>& size)
   return pixel;
 }
 
-// With fewer steps sites would catch too many pixels that are not theirs, as isolated ones; the way
-// from the uniform measure to the sites has as many.
+// With as many steps as site cells take at least.
 FlowOptions refined(FlowOptions options)
 {
-  constexpr int enough = 128;
+  constexpr int enough = leastStepsOfSiteCells;
   constexpr int mostDoublings = 5;
   options.LeastSteps = std::max(options.LeastSteps, enough);
   for (int i = 0; i < mostDoublings && options.NumberOfSteps > 0 && options.NumberOfSteps < enough;

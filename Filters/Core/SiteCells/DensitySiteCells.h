@@ -39,6 +39,10 @@ private:
   std::int64_t Pixels;
 };
 
+// With fewer steps sites would catch too many pixels that are not theirs, as isolated ones; the way
+// from the uniform measure to the sites has as many.
+constexpr int leastStepsOfSiteCells = 128;
+
 template <int Dimension>
 class DensitySiteCells
 {
