@@ -244,8 +244,10 @@ OptimalMap<Dimension>::OptimalMap(const PlacedDensity<Dimension>& source,
   progress.BeginStage(0.5);
   CellDensity<Dimension> first(source.Source, progress);
   progress.BeginStage(1.0);
+  CellDensity<Dimension> second(target.Source, progress);
+  second.TakeIfSame(first, progress);
   this->Self = std::make_unique<Implementation>(
-    std::move(first), CellDensity<Dimension>(target.Source, progress), sides, parts, options);
+    std::move(first), std::move(second), sides, parts, options);
 }
 
 template <int Dimension>

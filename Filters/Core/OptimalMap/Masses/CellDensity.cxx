@@ -57,6 +57,33 @@ CellDensity<Dimension>::CellDensity(const DensitySource<Dimension>& density, Pro
 }
 
 template <int Dimension>
+void CellDensity<Dimension>::TakeIfSame(const CellDensity& other, Progress& progress)
+{
+  if (this->Cells != other.Cells || this->IsUniform() || other.IsUniform())
+  {
+    return;
+  }
+  constexpr double rounding = 1e-12;
+  constexpr double least = std::numeric_limits<double>::min();
+  double* own = this->Shares.data();
+  const double* shares = other.Shares.data();
+  const int areSame = reduceChunks(
+    progress, this->Count, grain, 1,
+    [&](std::int64_t first, std::int64_t last) {
+      const auto isSame = [](double a, double b) {
+        return std::abs(a - b) <= rounding * std::max(a, b) + least;
+      };
+      return std::equal(own + first, own + last, shares + first, isSame) ? 1 : 0;
+    },
+    [](int all, int part) { return all & part; });
+  if (areSame != 0)
+  {
+    std::copy_n(shares, this->Count, own);
+    this->Voids = other.Voids;
+  }
+}
+
+template <int Dimension>
 std::int64_t CellDensity<Dimension>::CellOf(const double* point) const
 {
   std::int64_t cell = 0;

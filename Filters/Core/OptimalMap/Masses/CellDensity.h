@@ -56,6 +56,10 @@ public:
   // InvalidDensity, std::bad_alloc and Cancelled.
   CellDensity(const DensitySource<Dimension>& density, Progress& progress);
 
+  // Takes the shares of another density on the same cells if they differ by rounding alone, as
+  // those of a density and of three times it. As the work of the current stage.
+  void TakeIfSame(const CellDensity& other, Progress& progress);
+
   const GridSize<Dimension>& Size() const { return this->Cells; }
   std::int64_t NumberOfCells() const { return this->Count; }
   bool IsUniform() const { return this->Shares.size() == 0; }
