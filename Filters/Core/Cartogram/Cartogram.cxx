@@ -59,6 +59,7 @@ public:
     , Work(context)
   {
     this->Options.Flow.AreaTolerance = 0.5 * options.Tolerance;
+    this->Options.Flow.NeedsEstimate = false; // the areas of the regions are measured
   }
 
   CartogramResult Run()
@@ -110,6 +111,11 @@ public:
         mayFollow && (isTempered || (!values.Exponents.empty() && this->AreFarFromDone()));
       FlowOptions options = this->Options.Flow;
       options.AreaTolerance = std::min(1.0, (isCoarse ? coarser : finer) * options.AreaTolerance);
+      if (this->Found.Overlap > leastOverlap && found.ForetoldError > this->Options.Tolerance)
+      {
+        // Regions on each other cannot all have their areas: a more exact flow gains nothing.
+        options.AreaTolerance = std::max(options.AreaTolerance, FlowOptions::UsualTolerance);
+      }
       if (!this->MoveAll(end, options, found))
       {
         break;

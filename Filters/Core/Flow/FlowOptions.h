@@ -57,6 +57,9 @@ struct FlowOptions
   // or that hold AreaTolerance^(-4/3) of the Particles.
   double AreaTolerance = UsualTolerance;
   int LeastSteps = FewestSteps; // with 0 steps: not fewer than that
+  // With 0 steps: whether AreaError tells the error of the steps that are taken. Else it is that of
+  // the choice, which costs less and may be off by several times.
+  bool NeedsEstimate = true;
   // With 0 steps, forward: how many particles show the density, on all ranks, so that smaller
   // blocks do not matter; 0: a map.
   double Particles = 0.0;
@@ -71,7 +74,7 @@ struct FlowOptions
   {
     return this->Integrator == other.Integrator && this->NumberOfSteps == other.NumberOfSteps &&
       this->AreaTolerance == other.AreaTolerance && this->LeastSteps == other.LeastSteps &&
-      this->Particles == other.Particles && this->Tolerance == other.Tolerance &&
+      this->NeedsEstimate == other.NeedsEstimate && this->Particles == other.Particles && this->Tolerance == other.Tolerance &&
       this->Lookup == other.Lookup && this->Maps == other.Maps && this->MapSteps == other.MapSteps;
   }
 };

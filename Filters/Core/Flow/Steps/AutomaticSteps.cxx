@@ -123,6 +123,7 @@ public:
     , Direction(direction)
     , IsBackward(direction == FlowDirection::Backward)
     , IsMap(this->IsBackward || options.Particles == 0.0)
+    , IsJudged(this->IsMap && options.NeedsEstimate)
     , Work(context)
     , Plan(planOf(engine, options, direction))
     , Surface(this->Plan.Parts)
@@ -170,7 +171,7 @@ public:
       if (isKept || now.Steps >= most || now.Steps == lastCompared)
       {
         StepChoice choice = this->ChoiceFrom(before, now, most);
-        if (this->IsMap && before.Steps > 0 && options.LeastSteps <= choice.NumberOfSteps)
+        if (this->IsJudged && before.Steps > 0 && options.LeastSteps <= choice.NumberOfSteps)
         {
           this->Judge(choice, most, options);
         }
@@ -327,7 +328,7 @@ private:
     }
     typename StepBudget<Dimension>::Choosing choosing{ this->Spent,
       static_cast<double>(this->Different(this->PointsOf(this->Used)).size()), 0.0 };
-    if (this->IsMap)
+    if (this->IsJudged)
     {
       std::size_t points = this->Different(this->PointsOf(this->Worse)).size();
       for (const Judgement& judgement : judgements)
@@ -432,6 +433,7 @@ private:
   const FlowDirection Direction;
   const bool IsBackward;
   const bool IsMap; // not particles
+  const bool IsJudged;
   Progress Work;
   const ProbePlan<Dimension> Plan;
   BlockSurface<Dimension> Surface;

@@ -26,7 +26,7 @@ public:
   {
     const double particles = direction == FlowDirection::Forward ? options.Particles : 0.0;
     const Question question(direction, options.Integrator, options.Lookup, options.Maps,
-      options.LeastSteps, options.AreaTolerance, particles);
+      options.LeastSteps, options.NeedsEstimate, options.AreaTolerance, particles);
     const std::optional<StepChoice> kept = this->Find(question);
     if (onAllRanks(ranks, kept.has_value()))
     {
@@ -40,7 +40,7 @@ public:
 
 private:
   using Question =
-    std::tuple<FlowDirection, Integrator, TableLookup, FlowMaps, int, double, double>;
+    std::tuple<FlowDirection, Integrator, TableLookup, FlowMaps, int, bool, double, double>;
 
   std::optional<StepChoice> Find(const Question& question)
   {
