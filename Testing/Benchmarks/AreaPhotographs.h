@@ -93,9 +93,9 @@ void forAreaDensities(const Add& add)
   add2D("raccoon-4", []() { return photographDensity("raccoon", true, 4); });
   add2D("ascent", []() { return photographDensity("ascent"); });
   add2D("night-europe", []() { return photographDensity("night-europe"); });
-  for (const std::string name :
-    { "gauss", "gausses", "peak", "circle", "disc01", "star01", "disc10", "disc100", "disc1000", "square10",
-      "square100", "square1000", "checker3", "checker10", "clumps", "noise", "noise3", "noiselog" })
+  for (const std::string name : { "gauss", "gausses", "peak", "circle", "disc01", "star01",
+         "disc10", "disc100", "disc1000", "square10", "square100", "square1000", "checker3",
+         "checker10", "clumps", "noise", "noise3", "noiselog" })
   {
     add2D(name, [name]() { return areaDensity2D(name, { 256, 256 }); });
   }

@@ -199,7 +199,7 @@ class FollowingAdvice(unittest.TestCase):
                                  ResultArrayName="Density")
         cases = (({"Integrator": "Euler", "AreaTolerance": 0.05},
                   "(Integrator Multistep needs fewer)", {"Integrator": "Multistep"}),
-                 ({"Tables": "Tiled", "AreaTolerance": 0.021},
+                 ({"Tables": "Tiled", "AreaTolerance": 0.01},
                   "a part of the mean added with Calculator", {"Input": flat}))
         for settings, words, cure in cases:
             with self.subTest(**settings):

@@ -188,7 +188,7 @@ class VectorFiles(unittest.TestCase):
         for extension in DRAW:
             path = os.path.join(self.folder, "step." + extension)
             simple.SaveData(path, proxy=simple.OutputPort(morph, 1), Writetimestepsasfileseries=1)
-            files = sorted(glob.glob(path.replace("step", "step_*")))
+            files = sorted(glob.glob(os.path.join(self.folder, "step_*." + extension)))
             self.assertEqual([os.path.basename(file) for file in files],
                              ["step_%d.%s" % (i, extension) for i in range(3)])
             contents = set()

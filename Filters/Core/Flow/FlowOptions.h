@@ -74,8 +74,9 @@ struct FlowOptions
   {
     return this->Integrator == other.Integrator && this->NumberOfSteps == other.NumberOfSteps &&
       this->AreaTolerance == other.AreaTolerance && this->LeastSteps == other.LeastSteps &&
-      this->NeedsEstimate == other.NeedsEstimate && this->Particles == other.Particles && this->Tolerance == other.Tolerance &&
-      this->Lookup == other.Lookup && this->Maps == other.Maps && this->MapSteps == other.MapSteps;
+      this->NeedsEstimate == other.NeedsEstimate && this->Particles == other.Particles &&
+      this->Tolerance == other.Tolerance && this->Lookup == other.Lookup &&
+      this->Maps == other.Maps && this->MapSteps == other.MapSteps;
   }
 };
 

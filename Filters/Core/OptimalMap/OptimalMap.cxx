@@ -246,8 +246,8 @@ OptimalMap<Dimension>::OptimalMap(const PlacedDensity<Dimension>& source,
   progress.BeginStage(1.0);
   CellDensity<Dimension> second(target.Source, progress);
   second.TakeIfSame(first, progress);
-  this->Self = std::make_unique<Implementation>(
-    std::move(first), std::move(second), sides, parts, options);
+  this->Self =
+    std::make_unique<Implementation>(std::move(first), std::move(second), sides, parts, options);
 }
 
 template <int Dimension>

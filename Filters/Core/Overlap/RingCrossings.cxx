@@ -264,9 +264,8 @@ private:
     }
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{ 0 });
-    std::sort(order.begin(), order.end(), [&fan](std::size_t i, std::size_t j) {
-      return fan[i] != fan[j] ? fan[i] < fan[j] : i < j;
-    });
+    std::sort(order.begin(), order.end(),
+      [&fan](std::size_t i, std::size_t j) { return fan[i] != fan[j] ? fan[i] < fan[j] : i < j; });
     this->Gathered.resize(count);
     this->Others.resize(count);
     for (std::size_t i = count; i-- > 0;)
@@ -313,8 +312,8 @@ private:
   }
 
   // An edge with those of a range.
-  void CompareWith(const std::int32_t* edges, std::size_t i, std::size_t begin, std::size_t end,
-    double extent)
+  void CompareWith(
+    const std::int32_t* edges, std::size_t i, std::size_t begin, std::size_t end, double extent)
   {
     const double* ax = this->Ends[0].data();
     const double* ay = this->Ends[1].data();

@@ -63,7 +63,8 @@ void CellDensity<Dimension>::TakeIfSame(const CellDensity& other, Progress& prog
   {
     return;
   }
-  constexpr double rounding = 1e-12;
+  // One may have been kept as floats.
+  constexpr double rounding = std::numeric_limits<float>::epsilon();
   constexpr double least = std::numeric_limits<double>::min();
   double* own = this->Shares.data();
   const double* shares = other.Shares.data();
