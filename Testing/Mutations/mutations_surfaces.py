@@ -82,7 +82,7 @@ SURFACES = [
     E(CORE + "Cartogram/Sea.cxx", "(this->Mean * covered + «this->Mass») * all", "0.0"),
     E(CORE + "Cartogram/EdgeLengths.h", "std::sqrt(«std::max(1.0, this->CellsAbout(middle).Largest)»)", "1.0"),
     E(CORE + "Cartogram/CrossedRings.cxx", "Side::Left : «Side::Right» });", "Side::Left"),
-    S(CORE + "Cartogram/RegionRaster.cxx", "addSet(set, more);", ";"),
+    S(CORE + "Cartogram/RegionRaster.cxx", "ofSets[this->IndexOfSet(set)] += 1.0;", ";"),
     E(BRIDGE + "Cartogram/MapProjection.cxx", "radius / «this->Cosine» *", "1.0"),
     S(BRIDGE + "Cartogram/Cartogram.cxx", "this->Kept = { std::move(content), {} };",
       "this->Kept.Content = std::move(content);"),
