@@ -30,8 +30,8 @@ struct RegionBlocks
 };
 
 // Joins blocks that are vtkPolyData, or vtkUnstructuredGrid with cells that a vtkPolyData may have.
-// Throws Failure for others, for triangle strips and for data that cannot be read; and Cancelled.
-// Takes the progress to 0.015.
+// Triangle strips and quadratic cells come as their outlines. Throws Failure for others and for
+// data that cannot be read; and Cancelled. Takes the progress to 0.015.
 RegionBlocks joinRegionBlocks(const std::vector<DensityBlock>& blocks, Progress& progress);
 
 } // namespace RectifiedTransport

@@ -15,7 +15,6 @@
 #include "Core/Parallel/SmallWork.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <mutex>
 #include <optional>
