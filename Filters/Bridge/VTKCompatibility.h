@@ -16,8 +16,8 @@
 #define VTK_ABI_NAMESPACE_END
 #endif
 
-// From this version on, the faces of polyhedra are cell arrays.
-#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 4, 0)
+// From this version on (of ParaView 5.13), the faces of polyhedra are cell arrays.
+#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 20240617)
 #define RECTIFIEDTRANSPORT_VTK_HAS_FACE_STREAMS
 #endif
 
