@@ -17,7 +17,7 @@ CORE = {
     "Flow": {"Parallel", "Device", "Geometry", "Tables"},
     "Equalize": {"Parallel", "Geometry", "Tables", "Flow"},
     "OptimalMap": {"Parallel", "Geometry", "Tables", "Flow"},
-    "Cartogram": {"Parallel", "Geometry", "Overlap", "Tables", "Flow"},
+    "Cartogram": {"Parallel", "Geometry", "Mesh", "Overlap", "Tables", "Flow"},
     "SiteCells": {"Parallel", "Algebra", "Geometry", "Tables", "Flow", "PowerCells"},
     "Quality": {"Parallel", "Geometry", "Tables", "Flow"},
     "PowerCells": {"Parallel", "Algebra", "Geometry", "Tables"},

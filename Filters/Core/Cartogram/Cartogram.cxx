@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Cartogram/Cartogram.h"
 
+#include "Core/Cartogram/DistinctPlaces.h"
 #include "Core/Cartogram/EdgeLengths.h"
 #include "Core/Cartogram/RegionRaster.h"
 #include "Core/Cartogram/RegionValues.h"
@@ -314,13 +315,16 @@ private:
       this->Flow.emplace(DensitySource<2>(array), this->Work.Stage());
     }
     std::vector<Point<2>>& points = this->Map.Points();
-    const std::vector<Point<2>> before = points;
+    this->BeginPart(0.05, end);
+    const DistinctPlaces before(points, this->Work.Stage());
+    std::vector<Point<2>> moved(before.Places().size());
     const std::vector<double> ringAreas = this->RingAreas();
     for (;;)
     {
       this->BeginPart(0.6, end);
-      const FlowReport report =
-        this->Flow->Backward(ConstPointSpan<2>(before), points, options, this->Work.Stage());
+      const FlowReport report = this->Flow->Backward(
+        ConstPointSpan<2>(before.Places()), moved, options, this->Work.Stage());
+      before.Move(moved, points);
       pass.NumberOfSteps = report.NumberOfSteps;
       this->CountTurnedRings(ringAreas);
       if (this->Found.Folded == 0)
@@ -330,7 +334,7 @@ private:
       const int steps = 2 * std::max(report.NumberOfSteps, FlowOptions::FewestSteps);
       if (steps > FlowOptions::MostSteps || options.Integrator != Integrator::Multistep)
       {
-        points = before;
+        before.Move(before.Places(), points);
         return false;
       }
       options.NumberOfSteps = steps;

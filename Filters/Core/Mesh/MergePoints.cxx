@@ -38,10 +38,11 @@ std::uint64_t mix(std::uint64_t bits)
   return bits ^ bits >> 32;
 }
 
+template <int Dimension>
 std::uint64_t hash(const double* point)
 {
   std::uint64_t mixed = 0;
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < Dimension; ++i)
   {
     const double coordinate = point[i] + 0.0; // -0 is 0
     std::uint64_t bits = 0;
@@ -154,9 +155,8 @@ private:
   LargeBuffer<std::int64_t> Table; // of each box a point; -1 where it is free
 };
 
-} // namespace
-
-void mergePoints(ConstPointSpan<3> points, std::int64_t* firsts, const Context& context)
+template <int Dimension>
+void mergeSame(ConstPointSpan<Dimension> points, std::int64_t* firsts, const Context& context)
 {
   LargeBuffer<std::int64_t> memory(tableSize(points.size()));
   std::int64_t* table = memory.data(); // indices of points, -1 where it is free
@@ -174,8 +174,8 @@ void mergePoints(ConstPointSpan<3> points, std::int64_t* firsts, const Context& 
       for (std::int64_t i = first; i < last; ++i)
       {
         const double* point = points[i];
-        std::uint64_t place = hash(point) & mask;
-        while (table[place] >= 0 && !std::equal(point, point + 3, points[table[place]]))
+        std::uint64_t place = hash<Dimension>(point) & mask;
+        while (table[place] >= 0 && !std::equal(point, point + Dimension, points[table[place]]))
         {
           place = (place + 1) & mask;
         }
@@ -187,6 +187,18 @@ void mergePoints(ConstPointSpan<3> points, std::int64_t* firsts, const Context& 
       }
     },
     grain);
+}
+
+} // namespace
+
+void mergePoints(ConstPointSpan<2> points, std::int64_t* firsts, const Context& context)
+{
+  mergeSame(points, firsts, context);
+}
+
+void mergePoints(ConstPointSpan<3> points, std::int64_t* firsts, const Context& context)
+{
+  mergeSame(points, firsts, context);
 }
 
 bool mergeNearPoints(

@@ -18,6 +18,8 @@ namespace RectifiedTransport
 // point locator take quadratic time if most points are in one bin. Memory: up to 32 bytes a point.
 // On one thread. Throws std::bad_alloc and Cancelled.
 void mergePoints(
+  ConstPointSpan<2> points, std::int64_t* firsts, const Context& context = Context());
+void mergePoints(
   ConstPointSpan<3> points, std::int64_t* firsts, const Context& context = Context());
 
 // Writes for each point the index of the point that represents its cluster: the one with the lowest
