@@ -59,8 +59,9 @@ inline std::string stepWarning(const FlowReport& flow, const FlowOptions& option
   }
   else
   {
-    text << "NumberOfSteps " << flow.StepsNeeded << " reaches it, in about "
-         << std::max(1.0, std::round(flow.TimesNeeded)) << " times the time";
+    text << "NumberOfSteps " << flow.StepsNeeded << " reaches it, in about ";
+    const double times = std::round(flow.TimesNeeded);
+    times > 1.0 ? text << times << " times the time" : text << "the same time";
   }
   text << (options.Integrator == Integrator::Multistep
       ? " (less contrast helps, for example a part of the mean added with Calculator)"
