@@ -58,8 +58,8 @@ def morph(a: ArrayLike, b: ArrayLike, t: Union[float, Sequence[float]] = 0.5, *,
                 ParticlesPerCell, Kernel, MassMode="Normalize"
 
     Returns the density, float64 [y, x] or [z, y, x] of the larger shape along each axis; for a
-    sequence of times, one along a further first axis. At 0 and 1 it is a and b up to the kernel and
-    the number of particles. Its mass goes from that of a to that of b linearly.
+    sequence of times, one along a further first axis. At 0 and 1 it is a and b, resampled
+    where their shapes differ. Its mass goes from that of a to that of b linearly.
 
     Raises ValueError for values that are NaN, infinite or negative, for no mass, for a time outside
     0 to 1, and for an array or a property that the filter refuses; TypeError for values that are not
