@@ -57,7 +57,7 @@ void expectDigest(const std::string& what, const Digest& digest)
     { "2D Euler", 0xe9d12fe1b7fc73b1u },
     { "2D Adaptive", 0x439f2ed3f211c1c9u },
     { "2D equalized", 0x65a2da5087f0cb33u },
-    { "2D lattice", 0xda3f4be09db5ede2u },
+    { "2D lattice", 0xea9f823ee013817u },
     { "3D Multistep", 0x2ac4b3726f29677u },
     { "2D maps", 0x4002fd163e0995beu },
     { "3D maps", 0x6a9d225bc49557c5u },

@@ -167,7 +167,7 @@ void checkArrays(Checks& checks)
   s->SetInputArrayToProcess(0, 0, 0, Object::FIELD_ASSOCIATION_POINTS, "Words");
   test.Expect({ "'Words' is not numeric" }, __LINE__);
   s->SetInputArrayToProcess(0, 0, 0, Object::FIELD_ASSOCIATION_POINTS_THEN_CELLS, 0);
-  test.Expect({ "no active scalars", "no point arrays and no cell arrays" }, __LINE__);
+  test.Expect({ "no active scalars", "no numeric point arrays and no cell arrays" }, __LINE__);
 
   vtkNew<vtkFloatArray> brief;
   brief->SetName("Brief");
