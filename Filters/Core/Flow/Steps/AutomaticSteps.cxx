@@ -121,9 +121,6 @@ public:
     : Engine(engine)
     , Options(options)
     , Direction(direction)
-    , IsBackward(direction == FlowDirection::Backward)
-    , IsMap(this->IsBackward || options.Particles == 0.0)
-    , IsJudged(this->IsMap && options.NeedsEstimate)
     , Work(context)
     , Plan(planOf(engine, options, direction))
     , Surface(this->Plan.Parts)
@@ -131,7 +128,7 @@ public:
   {
     std::copy_n(engine.View().Cells, Dimension, this->Size.begin());
     this->Options.Maps = FlowMaps::Off;
-    if (this->IsBackward)
+    if (this->IsBackward())
     {
       this->ProbeMass();
     }
@@ -144,13 +141,14 @@ public:
   {
     // Forward the flow expands where it is fast, and no step is too long for that.
     if (this->Used.empty() ||
-      (this->IsMap && !this->IsBackward && hasLittleContrast<Dimension>(this->Engine, this->Work)))
+      (this->IsMap() && !this->IsBackward() &&
+        hasLittleContrast<Dimension>(this->Engine, this->Work)))
     {
       return {};
     }
     Images coarse = this->Move(FlowOptions::FewestSteps);
     // The error of photographs with the fewest steps is below.
-    const double smooth = this->IsBackward ? 3.0 : 0.3;
+    const double smooth = this->IsBackward() ? 3.0 : 0.3;
     int most = 0; // known when the fewest do not do
     for (Measured now{ FlowOptions::FewestSteps, 0.0 }, before;; now.Steps *= 2)
     {
@@ -171,7 +169,7 @@ public:
       if (isKept || now.Steps >= most || now.Steps == lastCompared)
       {
         StepChoice choice = this->ChoiceFrom(before, now, most);
-        if (this->IsJudged && before.Steps > 0 && options.LeastSteps <= choice.NumberOfSteps)
+        if (this->IsJudged() && before.Steps > 0 && options.LeastSteps <= choice.NumberOfSteps)
         {
           this->Judge(choice, most, options);
         }
@@ -185,6 +183,10 @@ public:
 
 private:
   using Images = std::vector<Point<Dimension>>; // of the points of all blocks in use
+
+  bool IsBackward() const { return this->Direction == FlowDirection::Backward; }
+  bool IsMap() const { return this->IsBackward() || this->Options.Particles == 0.0; }
+  bool IsJudged() const { return this->IsMap() && this->Options.NeedsEstimate; }
 
   // Where few blocks count, mass is in a small part of the domain: the forward flow leads to it.
   void ProbeMass()
@@ -235,7 +237,8 @@ private:
     Images points = this->PointsOf(this->Used);
     const Images different = this->Different(points);
     Images images = different;
-    this->Move(this->IsBackward ? AdvectionKind::Backward : AdvectionKind::Forward, steps, images);
+    this->Move(
+      this->IsBackward() ? AdvectionKind::Backward : AdvectionKind::Forward, steps, images);
     this->Spent += static_cast<double>(images.size()) * steps;
     for (Point<Dimension>& point : points)
     {
@@ -262,7 +265,7 @@ private:
   // Of the blocks in use.
   std::vector<double> ErrorsOf(const Images& coarse, const Images& fine) const
   {
-    const SweptMass<Dimension> mass(this->Engine.View(), this->Surface, this->IsBackward);
+    const SweptMass<Dimension> mass(this->Engine.View(), this->Surface, this->IsBackward());
     std::vector<double> errors;
     for (std::size_t i = 0; i < this->Used.size(); ++i)
     {
@@ -328,7 +331,7 @@ private:
     }
     typename StepBudget<Dimension>::Choosing choosing{ this->Spent,
       static_cast<double>(this->Different(this->PointsOf(this->Used)).size()), 0.0 };
-    if (this->IsJudged)
+    if (this->IsJudged())
     {
       std::size_t points = this->Different(this->PointsOf(this->Worse)).size();
       for (const Judgement& judgement : judgements)
@@ -431,9 +434,6 @@ private:
   FlowEngine<Dimension>& Engine;
   FlowOptions Options; // without flow maps
   const FlowDirection Direction;
-  const bool IsBackward;
-  const bool IsMap; // not particles
-  const bool IsJudged;
   Progress Work;
   const ProbePlan<Dimension> Plan;
   BlockSurface<Dimension> Surface;
