@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_DistinctPlaces_h
 #define RectifiedTransport_DistinctPlaces_h
 
-#include "../Geometry/Points.h"
-#include "../Parallel/Context.h"
+#include "Core/Geometry/Points.h"
+#include "Core/Parallel/Context.h"
 
 #include <cstdint>
 #include <vector>
