@@ -11,12 +11,22 @@ option=--suite needed=6
 source "$(dirname "${BASH_SOURCE[0]}")/bare_system.sh"
 in_namespaces "$0" "$suite" "$source" "$commit" "$@"
 
-# The sources with the times of their files, so that a second run builds only what has changed.
+# The sources. Files that are as they were keep their times, others get this one: a second run builds
+# what has changed, whenever that was.
 copy_source()
 {
-  mkdir -p "$folder/src"
-  find "$folder/src" -mindepth 1 -maxdepth 1 ! -name 'build*' -exec rm -rf {} +
-  tar -C "$folder/src" --no-same-owner -xf "$source"
+  local new="$folder/src.new" old="$folder/src" file
+  rm -rf "$new"
+  mkdir -p "$new" "$old"
+  tar -C "$new" --no-same-owner --touch -xf "$source"
+  (cd "$new" && find . -type f) | while read -r file; do
+    if cmp -s "$old/$file" "$new/$file"; then
+      touch -r "$old/$file" "$new/$file"
+    fi
+  done
+  find "$old" -mindepth 1 -maxdepth 1 -name 'build*' -exec mv -t "$new" {} +
+  rm -rf "$old"
+  mv "$new" "$old"
 }
 
 # run_command LOG COMMAND...: its output, also in a log; a line for the summary.
