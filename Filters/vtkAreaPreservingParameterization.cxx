@@ -15,6 +15,7 @@ VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkAreaPreservingParameterization);
 
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 //------------------------------------------------------------------------------
 vtkAreaPreservingParameterization::vtkAreaPreservingParameterization()

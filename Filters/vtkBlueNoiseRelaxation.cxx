@@ -29,6 +29,7 @@ const char* const MethodTexts[] = { "GaussianBlueNoise", "OptimalTransport" };
 } // namespace
 
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 //------------------------------------------------------------------------------
 vtkBlueNoiseRelaxation::vtkBlueNoiseRelaxation()

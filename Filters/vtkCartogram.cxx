@@ -22,6 +22,7 @@ VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkCartogram);
 
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 namespace
 {

@@ -37,8 +37,8 @@ VTK_ABI_NAMESPACE_BEGIN
 //------------------------------------------------------------------------------
 vtkCollectiveAlgorithm::vtkCollectiveAlgorithm()
   : Threading(THREADING_AUTO)
-  , Whole(new RectifiedTransport::WholeInputs)
-  , Early(new RectifiedTransport::EarlyUpdate)
+  , Whole(new RectifiedTransport::Bridge::WholeInputs)
+  , Early(new RectifiedTransport::Bridge::EarlyUpdate)
 {
 }
 
@@ -48,7 +48,7 @@ vtkCollectiveAlgorithm::~vtkCollectiveAlgorithm() = default;
 //------------------------------------------------------------------------------
 const char* vtkCollectiveAlgorithm::GetThreadingAsString()
 {
-  return RectifiedTransport::threadingText(this->Threading);
+  return RectifiedTransport::Bridge::threadingText(this->Threading);
 }
 
 //------------------------------------------------------------------------------
@@ -62,7 +62,7 @@ vtkTypeBool vtkCollectiveAlgorithm::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkTypeBool result = 0;
-  RectifiedTransport::withThreadsOfThisProcess(
+  RectifiedTransport::Bridge::withThreadsOfThisProcess(
     [&]() { result = this->ProcessCaught(request, inputVector, outputVector); });
   return result;
 }
@@ -79,8 +79,9 @@ vtkTypeBool vtkCollectiveAlgorithm::ProcessCaught(
     }
     if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
     {
-      RectifiedTransport::publishTimes(inputVector, this->GetNumberOfInputPorts(), outputVector);
-      RectifiedTransport::removeArrayInformation(outputVector);
+      RectifiedTransport::Bridge::publishTimes(
+        inputVector, this->GetNumberOfInputPorts(), outputVector);
+      RectifiedTransport::Bridge::removeArrayInformation(outputVector);
       return this->ProcessInformation(request, inputVector, outputVector);
     }
     if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_TIME_DEPENDENT_INFORMATION()))
@@ -110,8 +111,8 @@ vtkTypeBool vtkCollectiveAlgorithm::ProcessCaught(
     this->HasNextPass = false;
     this->EndPasses();
     this->Whole->Separate().End();
-    const std::unique_ptr<RectifiedTransport::RankRun> run = std::move(this->Run);
-    return RectifiedTransport::handleException(this, outputVector, run.get());
+    const std::unique_ptr<RectifiedTransport::Bridge::RankRun> run = std::move(this->Run);
+    return RectifiedTransport::Bridge::handleException(this, outputVector, run.get());
   }
 }
 
@@ -121,7 +122,7 @@ int vtkCollectiveAlgorithm::ProcessInformation(
 {
   try
   {
-    const RectifiedTransport::RequestedTimes kept(this);
+    const RectifiedTransport::Bridge::RequestedTimes kept(this);
     this->Whole->RequestFirstTimes(this, inputVector, outputVector);
     const int result = this->RequestInformation(request, inputVector, outputVector);
     this->EndRun();
@@ -132,14 +133,14 @@ int vtkCollectiveAlgorithm::ProcessInformation(
   {
     this->Run = nullptr;
   }
-  catch (const RectifiedTransport::Failure& failure)
+  catch (const RectifiedTransport::Bridge::Failure& failure)
   {
-    if (const std::unique_ptr<RectifiedTransport::RankRun> run = std::move(this->Run))
+    if (const std::unique_ptr<RectifiedTransport::Bridge::RankRun> run = std::move(this->Run))
     {
       run->Fail(failure.what());
     }
   }
-  RectifiedTransport::announceEmptyExtents(outputVector);
+  RectifiedTransport::Bridge::announceEmptyExtents(outputVector);
   return 1;
 }
 
@@ -147,35 +148,35 @@ int vtkCollectiveAlgorithm::ProcessInformation(
 int vtkCollectiveAlgorithm::ProcessData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  RectifiedTransport::warnOfIgnoredFlags(this, inputVector);
+  RectifiedTransport::Bridge::warnOfIgnoredFlags(this, inputVector);
   int result = this->ProcessPass(request, inputVector, outputVector);
   while (std::exchange(this->HasNextPass, false))
   {
     this->RequestUpdateExtent(request, inputVector, outputVector);
-    if (!RectifiedTransport::updateInput(this, 0, 0))
+    if (!RectifiedTransport::Bridge::updateInput(this, 0, 0))
     {
       const double time = inputVector[0]->GetInformationObject(0)->Get(
         vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
-      RectifiedTransport::fail("The input could not be made at the time ", time,
+      RectifiedTransport::Bridge::fail("The input could not be made at the time ", time,
         "; mend the error of the filter or reader before this one");
     }
     result = this->ProcessPass(request, inputVector, outputVector);
   }
-  return RectifiedTransport::clearUnmetRequests(outputVector) ? result : 0;
+  return RectifiedTransport::Bridge::clearUnmetRequests(outputVector) ? result : 0;
 }
 
 //------------------------------------------------------------------------------
 int vtkCollectiveAlgorithm::ProcessPass(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  RectifiedTransport::clearImages(outputVector);
+  RectifiedTransport::Bridge::clearImages(outputVector);
   this->Run = this->Whole->BeginRun(this, inputVector);
   if (this->Run)
   {
-    RectifiedTransport::requireSameProperties(this, *this->Run);
+    RectifiedTransport::Bridge::requireSameProperties(this, *this->Run);
   }
   vtkInformationVector** inputs = this->Whole->Separate().Inputs(this, inputVector);
-  RectifiedTransport::requireExtents(this, inputs);
+  RectifiedTransport::Bridge::requireExtents(this, inputs);
   this->Whole->Require(this, inputs, this->Run.get());
   int result = 1;
   if (this->Run && !this->Gathered.empty())
@@ -196,7 +197,7 @@ int vtkCollectiveAlgorithm::MakeOutputs(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const int result = this->RequestData(request, inputVector, outputVector);
-  RectifiedTransport::removeReplacedFields(
+  RectifiedTransport::Bridge::removeReplacedFields(
     { this->GetExecutive()->GetInputInformation(), inputVector }, this->GetNumberOfInputPorts(),
     outputVector);
   return result;
@@ -209,7 +210,7 @@ void vtkCollectiveAlgorithm::EndPasses() {}
 int vtkCollectiveAlgorithm::GatherAndRun(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  using RectifiedTransport::GatheredKind;
+  using RectifiedTransport::Bridge::GatheredKind;
   std::map<int, GatheredKind> kinds;
   for (const auto& [port, policy] : this->Gathered)
   {
@@ -217,7 +218,7 @@ int vtkCollectiveAlgorithm::GatherAndRun(
       : policy == PORT_GATHERED_SURFACE          ? GatheredKind::Surface
                                                  : GatheredKind::Density;
   }
-  RectifiedTransport::GatheredInputs inputs(inputVector, kinds, *this->Run);
+  RectifiedTransport::Bridge::GatheredInputs inputs(inputVector, kinds, *this->Run);
   int result = 1;
   if (this->Run->Own() == 0)
   {
@@ -229,7 +230,7 @@ int vtkCollectiveAlgorithm::GatherAndRun(
   // The others have those of their inputs, which the executive passed on.
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
-    RectifiedTransport::takeFieldsOfFirst(
+    RectifiedTransport::Bridge::takeFieldsOfFirst(
       vtkDataObject::GetData(outputVector, port)->GetFieldData(), *this->Run);
   }
   return result;
@@ -260,13 +261,14 @@ int vtkCollectiveAlgorithm::ProcessTimeDependentInformation(
     return 1;
   }
   vtkInformation* output = outputVector->GetInformationObject(0);
-  const RectifiedTransport::ImageGrid before = RectifiedTransport::announcedGrid(output, true);
+  const RectifiedTransport::ImageGrid before =
+    RectifiedTransport::Bridge::announcedGrid(output, true);
   this->Early->Clear();
   const int result = this->ProcessInformation(request, inputVector, outputVector);
-  if (result && !(RectifiedTransport::announcedGrid(output, true) == before))
+  if (result && !(RectifiedTransport::Bridge::announcedGrid(output, true) == before))
   {
     this->Modified();
-    RectifiedTransport::updateConsumerInformation(output);
+    RectifiedTransport::Bridge::updateConsumerInformation(output);
   }
   return result;
 }
@@ -381,7 +383,7 @@ void vtkCollectiveAlgorithm::WarnOnFirstRank(const std::string& text)
 {
   if (this->GetRanks().IsFirst())
   {
-    vtkWarningMacro(<< RectifiedTransport::messageText(text));
+    vtkWarningMacro(<< RectifiedTransport::Bridge::messageText(text));
   }
 }
 

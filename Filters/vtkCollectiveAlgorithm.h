@@ -27,10 +27,13 @@
 
 namespace RectifiedTransport
 {
+class Ranks;
+namespace Bridge
+{
 class EarlyUpdate;
 class RankRun;
-class Ranks;
 class WholeInputs;
+} // namespace Bridge
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -234,9 +237,10 @@ private:
     vtkInformationVector* outputVector);
   void EndRun();
   bool IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector);
-  std::unique_ptr<RectifiedTransport::WholeInputs> Whole;
-  std::unique_ptr<RectifiedTransport::EarlyUpdate> Early;
-  std::unique_ptr<RectifiedTransport::RankRun> Run; // during RequestData and RequestInformation
+  std::unique_ptr<RectifiedTransport::Bridge::WholeInputs> Whole;
+  std::unique_ptr<RectifiedTransport::Bridge::EarlyUpdate> Early;
+  std::unique_ptr<RectifiedTransport::Bridge::RankRun>
+    Run; // during RequestData and RequestInformation
   bool HasNextPass = false;
   std::map<int, PortPolicyType> Gathered; // by port; none where ranks share the work
   bool IsAlone = false;                   // on the first rank, with gathered data

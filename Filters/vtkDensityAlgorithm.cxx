@@ -25,6 +25,7 @@
 VTK_ABI_NAMESPACE_BEGIN
 
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 namespace
 {

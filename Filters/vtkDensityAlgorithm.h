@@ -58,11 +58,14 @@
 
 namespace RectifiedTransport
 {
+class ImageGrid;
+class Progress;
+namespace Bridge
+{
 struct DensityChoice;
 class FlowCache;
-class ImageGrid;
 class InputDensity;
-class Progress;
+} // namespace Bridge
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -229,19 +232,19 @@ protected:
    * an image is distributed over ranks, this is the density of the whole image. Collective on the
    * ranks of the progress. Throws what RequestData may throw.
    */
-  std::unique_ptr<RectifiedTransport::InputDensity> ReadDensity(vtkDataObject* input,
+  std::unique_ptr<RectifiedTransport::Bridge::InputDensity> ReadDensity(vtkDataObject* input,
     RectifiedTransport::Progress& progress, int arrayIndex = 0, int number = 0);
 
   /**
    * The same for the density on the constructor's port, input array 0.
    */
-  std::unique_ptr<RectifiedTransport::InputDensity> ReadDensity(
+  std::unique_ptr<RectifiedTransport::Bridge::InputDensity> ReadDensity(
     vtkInformationVector** inputVector, RectifiedTransport::Progress& progress);
 
   /**
    * The tables that are kept between executions.
    */
-  RectifiedTransport::FlowCache& GetFlowCache();
+  RectifiedTransport::Bridge::FlowCache& GetFlowCache();
 
   int Component;
   vtkTypeBool InvertDensity;
@@ -260,7 +263,7 @@ protected:
 private:
   vtkAbstractArray* FindDensityArray(vtkDataSet* data, int arrayIndex, int& association);
   bool IsDensityOnPoints(vtkInformation* inputInformation, int arrayIndex);
-  RectifiedTransport::DensityChoice GetDensityChoice(int arrayIndex);
+  RectifiedTransport::Bridge::DensityChoice GetDensityChoice(int arrayIndex);
 
   const int DensityPort;
   struct vtkInternals;

@@ -29,6 +29,7 @@ VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkDensityEqualizingWarp);
 
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 //------------------------------------------------------------------------------
 vtkDensityEqualizingWarp::vtkDensityEqualizingWarp()

@@ -14,6 +14,7 @@ VTK_ABI_NAMESPACE_BEGIN
 namespace
 {
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 // change() returns whether anything changed.
 template <class Change>

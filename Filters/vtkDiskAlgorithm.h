@@ -20,7 +20,10 @@
 
 namespace RectifiedTransport
 {
+namespace Bridge
+{
 struct CornerSettings;
+} // namespace Bridge
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -67,10 +70,10 @@ protected:
   /**
    * The corners, not checked.
    */
-  const RectifiedTransport::CornerSettings& GetCorners() const { return *this->Corners; }
+  const RectifiedTransport::Bridge::CornerSettings& GetCorners() const { return *this->Corners; }
 
 private:
-  std::unique_ptr<RectifiedTransport::CornerSettings> Corners;
+  std::unique_ptr<RectifiedTransport::Bridge::CornerSettings> Corners;
 
   vtkDiskAlgorithm(const vtkDiskAlgorithm&) = delete;
   void operator=(const vtkDiskAlgorithm&) = delete;

@@ -34,6 +34,7 @@ VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkEqualMassCells);
 
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 namespace
 {

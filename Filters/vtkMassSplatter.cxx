@@ -28,6 +28,7 @@ vtkStandardNewMacro(vtkMassSplatter);
 namespace
 {
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 const char* const BoundaryTexts[] = { "Renormalize", "Drop" };
 

@@ -68,8 +68,11 @@
 
 namespace RectifiedTransport
 {
+namespace Bridge
+{
 struct MassSplatter;
-}
+} // namespace Bridge
+} // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
@@ -218,7 +221,7 @@ protected:
   vtkTypeBool DivideByVolume;
 
 private:
-  RectifiedTransport::MassSplatter GetSplatter();
+  RectifiedTransport::Bridge::MassSplatter GetSplatter();
 
   vtkMassSplatter(const vtkMassSplatter&) = delete;
   void operator=(const vtkMassSplatter&) = delete;

@@ -23,6 +23,7 @@ vtkStandardNewMacro(vtkSolidDensity);
 namespace
 {
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 constexpr int MaximumSupersampling = 16;
 } // namespace

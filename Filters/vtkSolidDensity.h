@@ -59,8 +59,11 @@
 
 namespace RectifiedTransport
 {
+namespace Bridge
+{
 struct SolidDensity;
-}
+} // namespace Bridge
+} // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
@@ -143,7 +146,7 @@ protected:
   int Association;
 
 private:
-  RectifiedTransport::SolidDensity GetSolid();
+  RectifiedTransport::Bridge::SolidDensity GetSolid();
 
   vtkSolidDensity(const vtkSolidDensity&) = delete;
   void operator=(const vtkSolidDensity&) = delete;

@@ -22,6 +22,7 @@ VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkSurfaceSampler);
 
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 //------------------------------------------------------------------------------
 vtkSurfaceSampler::vtkSurfaceSampler()

@@ -83,7 +83,10 @@
 
 namespace RectifiedTransport
 {
+namespace Bridge
+{
 class SurfaceDensity;
+} // namespace Bridge
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -310,7 +313,7 @@ protected:
   int FlowMaps;
 
 private:
-  RectifiedTransport::SurfaceDensity FindDensity(vtkPolyData* surface);
+  RectifiedTransport::Bridge::SurfaceDensity FindDensity(vtkPolyData* surface);
 
   vtkSurfaceSampler(const vtkSurfaceSampler&) = delete;
   void operator=(const vtkSurfaceSampler&) = delete;

@@ -36,8 +36,11 @@ namespace RectifiedTransport
 {
 class DeviceUse;
 struct FlowOptions;
+namespace Bridge
+{
 struct OptimalSetting;
 struct TransportReport;
+} // namespace Bridge
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -285,7 +288,7 @@ protected:
   /**
    * Method, OptimalityTolerance and Certify, checked. Throws what RequestData may throw.
    */
-  RectifiedTransport::OptimalSetting GetOptimalSetting();
+  RectifiedTransport::Bridge::OptimalSetting GetOptimalSetting();
 
   /**
    * The device of a run, opened. Collective.
@@ -305,7 +308,7 @@ protected:
   /**
    * Warns on the first rank if the flow took the place of the optimal map.
    */
-  void WarnOfMap(const RectifiedTransport::TransportReport& transport);
+  void WarnOfMap(const RectifiedTransport::Bridge::TransportReport& transport);
 
   /**
    * Warns on the first rank that EqualizeAreas has changed nothing.

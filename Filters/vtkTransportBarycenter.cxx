@@ -22,6 +22,7 @@ vtkStandardNewMacro(vtkTransportBarycenter);
 namespace
 {
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 // Far above numbers of inputs; bounds the memory that SetWeight allocates.
 constexpr int MaximumNumberOfWeights = 1000000;

@@ -26,8 +26,11 @@
 
 namespace RectifiedTransport
 {
+namespace Bridge
+{
 class DensityBlend;
-}
+} // namespace Bridge
+} // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
 
@@ -67,7 +70,7 @@ protected:
 private:
   struct vtkWeights;
   std::unique_ptr<vtkWeights> Weights;
-  std::unique_ptr<RectifiedTransport::DensityBlend> Blend;
+  std::unique_ptr<RectifiedTransport::Bridge::DensityBlend> Blend;
 
   vtkTransportBarycenter(const vtkTransportBarycenter&) = delete;
   void operator=(const vtkTransportBarycenter&) = delete;

@@ -29,6 +29,7 @@ VTK_ABI_NAMESPACE_BEGIN
 namespace
 {
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 const char* const MassModeTexts[] = { "Linear", "Geometric", "Source", "Normalize" };
 } // namespace
@@ -80,7 +81,7 @@ int vtkTransportBlend::FillOutputPortInformation(int port, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
-RectifiedTransport::BlendSettings vtkTransportBlend::GetBlendSettings()
+RectifiedTransport::Bridge::BlendSettings vtkTransportBlend::GetBlendSettings()
 {
   requireThat(this->ParticlesPerCell >= 0, "ParticlesPerCell", this->ParticlesPerCell,
     "at least 1, or 0 for Auto");
@@ -91,7 +92,7 @@ RectifiedTransport::BlendSettings vtkTransportBlend::GetBlendSettings()
   // With fewer, surfaces of solids have terraces; with more, pictures are hardly better.
   constexpr int autoParticles = 4;
   settings.ParticlesPerCell = this->ParticlesPerCell > 0 ? this->ParticlesPerCell : autoParticles;
-  settings.Mode = static_cast<RectifiedTransport::MassMode>(this->MassMode);
+  settings.Mode = static_cast<RectifiedTransport::Bridge::MassMode>(this->MassMode);
   settings.Flow = this->GetFlowOptions();
   settings.Optimal = this->GetOptimalSetting();
   settings.Splat = splatOptions(this->Kernel, this->Radius);

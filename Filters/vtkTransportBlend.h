@@ -55,9 +55,12 @@
 
 namespace RectifiedTransport
 {
+namespace Bridge
+{
 struct BlendInput;
 struct BlendReport;
 struct BlendSettings;
+} // namespace Bridge
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -176,14 +179,14 @@ protected:
    * for arrays of the particles; if nullptr, messages number the inputs. Returns no inputs if one
    * of them has no points. Throws what RequestData may throw.
    */
-  std::vector<RectifiedTransport::BlendInput> ReadInputs(vtkInformationVector** inputVector,
+  std::vector<RectifiedTransport::Bridge::BlendInput> ReadInputs(vtkInformationVector** inputVector,
     const char* const* names, RectifiedTransport::Progress& progress);
 
   /**
    * Warn of new maps that do not keep AreaTolerance, and of particles that ended in empty cells, if
    * they are at least one in a thousand.
    */
-  void WarnOfMaps(const RectifiedTransport::BlendReport& report);
+  void WarnOfMaps(const RectifiedTransport::Bridge::BlendReport& report);
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
@@ -192,7 +195,7 @@ protected:
   /**
    * The properties, checked. Throws what RequestData may throw.
    */
-  RectifiedTransport::BlendSettings GetBlendSettings();
+  RectifiedTransport::Bridge::BlendSettings GetBlendSettings();
 
   int Dimensions[3];
   int ParticlesPerCell;

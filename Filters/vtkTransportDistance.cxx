@@ -28,6 +28,7 @@ vtkStandardNewMacro(vtkTransportDistance);
 namespace
 {
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 const char* const MethodTexts[] = { "Linearized", "Certified" };

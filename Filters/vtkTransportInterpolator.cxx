@@ -24,6 +24,7 @@ vtkStandardNewMacro(vtkTransportInterpolator);
 namespace
 {
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 // Bounds the list of time steps, which hosts display.

@@ -36,8 +36,11 @@
 
 namespace RectifiedTransport
 {
+namespace Bridge
+{
 class DensityBlend;
-}
+} // namespace Bridge
+} // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
@@ -116,7 +119,7 @@ protected:
 private:
   void RequestFirstTime(vtkInformationVector** inputVector);
   double FindParameter(vtkInformation* request, vtkInformationVector* outputVector);
-  std::unique_ptr<RectifiedTransport::DensityBlend> Blend;
+  std::unique_ptr<RectifiedTransport::Bridge::DensityBlend> Blend;
 
   vtkTransportInterpolator(const vtkTransportInterpolator&) = delete;
   void operator=(const vtkTransportInterpolator&) = delete;

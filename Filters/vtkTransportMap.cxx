@@ -35,6 +35,7 @@ vtkStandardNewMacro(vtkTransportMap);
 namespace
 {
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 const char* const DirectionTexts[] = { "UniformToDensity", "DensityToUniform" };
 

@@ -108,8 +108,11 @@
 
 namespace RectifiedTransport
 {
+namespace Bridge
+{
 class TargetTransport;
-}
+} // namespace Bridge
+} // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
@@ -233,9 +236,9 @@ protected:
 
 private:
   bool ReadPair(vtkInformationVector** inputVector, RectifiedTransport::Progress& progress,
-    std::unique_ptr<RectifiedTransport::InputDensity>* densities);
+    std::unique_ptr<RectifiedTransport::Bridge::InputDensity>* densities);
   // Kept while there is a target.
-  std::unique_ptr<RectifiedTransport::TargetTransport> ToTarget;
+  std::unique_ptr<RectifiedTransport::Bridge::TargetTransport> ToTarget;
 
   vtkTransportMap(const vtkTransportMap&) = delete;
   void operator=(const vtkTransportMap&) = delete;

@@ -15,10 +15,10 @@ vtkTransportPDFWriter::vtkTransportPDFWriter() = default;
 vtkTransportPDFWriter::~vtkTransportPDFWriter() = default;
 
 //------------------------------------------------------------------------------
-std::unique_ptr<RectifiedTransport::Drawing> vtkTransportPDFWriter::NewDrawing(
-  RectifiedTransport::OutputFile& file) const
+std::unique_ptr<RectifiedTransport::Bridge::Drawing> vtkTransportPDFWriter::NewDrawing(
+  RectifiedTransport::Bridge::OutputFile& file) const
 {
-  return std::make_unique<RectifiedTransport::PdfDrawing>(file);
+  return std::make_unique<RectifiedTransport::Bridge::PdfDrawing>(file);
 }
 
 //------------------------------------------------------------------------------

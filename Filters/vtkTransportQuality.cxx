@@ -27,6 +27,7 @@ vtkStandardNewMacro(vtkTransportQuality);
 namespace
 {
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 template <class ArrayT, class Value>
 void addColumn(vtkTable* table, const char* name, Value value)

@@ -15,10 +15,10 @@ vtkTransportSVGWriter::vtkTransportSVGWriter() = default;
 vtkTransportSVGWriter::~vtkTransportSVGWriter() = default;
 
 //------------------------------------------------------------------------------
-std::unique_ptr<RectifiedTransport::Drawing> vtkTransportSVGWriter::NewDrawing(
-  RectifiedTransport::OutputFile& file) const
+std::unique_ptr<RectifiedTransport::Bridge::Drawing> vtkTransportSVGWriter::NewDrawing(
+  RectifiedTransport::Bridge::OutputFile& file) const
 {
-  return std::make_unique<RectifiedTransport::SvgDrawing>(file);
+  return std::make_unique<RectifiedTransport::Bridge::SvgDrawing>(file);
 }
 
 //------------------------------------------------------------------------------

@@ -26,6 +26,7 @@ VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportSampler);
 
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 //------------------------------------------------------------------------------
 vtkTransportSampler::vtkTransportSampler()

@@ -33,6 +33,7 @@ vtkStandardNewMacro(vtkTransportTemporalInterpolator);
 namespace
 {
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 const char* const TemporalMethodTexts[] = { "Optimal", "RectifiedFlow" };
@@ -265,7 +266,7 @@ void vtkTransportTemporalInterpolator::EndPasses()
 }
 
 //------------------------------------------------------------------------------
-RectifiedTransport::TemporalSettings vtkTransportTemporalInterpolator::GetSettings()
+RectifiedTransport::Bridge::TemporalSettings vtkTransportTemporalInterpolator::GetSettings()
 {
   requireChoice("Method", this->Method, TemporalMethodTexts);
   requireThat(this->Resample >= 0 && this->Resample <= MaximumResample, "Resample", this->Resample,
@@ -344,7 +345,7 @@ void vtkTransportTemporalInterpolator::RunPass(
 //------------------------------------------------------------------------------
 // Returns false if the step has no points.
 bool vtkTransportTemporalInterpolator::ReadStep(
-  int step, RectifiedTransport::Progress& progress, RectifiedTransport::TemporalStep& read)
+  int step, RectifiedTransport::Progress& progress, RectifiedTransport::Bridge::TemporalStep& read)
 {
   vtkInternals& own = *this->Internals;
   read.Number = step;

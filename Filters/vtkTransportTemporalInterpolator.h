@@ -56,9 +56,12 @@
 
 namespace RectifiedTransport
 {
+namespace Bridge
+{
 struct TemporalMoment;
 struct TemporalSettings;
 struct TemporalStep;
+} // namespace Bridge
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -214,14 +217,14 @@ protected:
 private:
   struct vtkInternals;
 
-  RectifiedTransport::TemporalSettings GetSettings();
+  RectifiedTransport::Bridge::TemporalSettings GetSettings();
   void RunPass(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   int MissingStep(double time);
   void RequestStep(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
-  bool ReadStep(
-    int step, RectifiedTransport::Progress& progress, RectifiedTransport::TemporalStep& read);
+  bool ReadStep(int step, RectifiedTransport::Progress& progress,
+    RectifiedTransport::Bridge::TemporalStep& read);
   bool ExtendChain(int last, RectifiedTransport::Progress& progress);
   void Interpolate(
     double time, RectifiedTransport::Progress& progress, vtkInformationVector* outputVector);

@@ -18,6 +18,7 @@ VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkUniformSeedSource);
 
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 //------------------------------------------------------------------------------
 vtkUniformSeedSource::vtkUniformSeedSource()

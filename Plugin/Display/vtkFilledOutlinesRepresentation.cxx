@@ -39,7 +39,7 @@ protected:
     output->ShallowCopy(vtkPolyData::GetData(inputVector[0]));
     try
     {
-      RectifiedTransport::fillOutlines(output);
+      RectifiedTransport::Bridge::fillOutlines(output);
       return 1;
     }
     catch (const std::exception& problem)

@@ -68,7 +68,7 @@ Choice choose(vtkSMArrayListDomain* list, vtkPVDataInformation* data)
     const ArrayUse use = useOf(data, list->GetDomainAssociation(i), name);
     if (use.Attribute == vtkDataSetAttributes::GLOBALIDS ||
       use.Attribute == vtkDataSetAttributes::PEDIGREEIDS || use.IsText ||
-      RectifiedTransport::isIdName(name))
+      RectifiedTransport::Bridge::isIdName(name))
     {
       continue;
     }

@@ -104,17 +104,18 @@ void pqDensityComponentWidget::updateList()
   this->List->clear();
   vtkPVArrayInformation* array = chosenArray(this->proxy()->GetProperty("DensityArray"));
   const int count = array ? array->GetNumberOfComponents() : 0;
-  const int automatic = array ? RectifiedTransport::automaticComponent(array->GetDataType(), count)
-                              : RectifiedTransport::AutoComponent;
-  this->List->addItem(automatic == RectifiedTransport::Magnitude ? tr("Auto (magnitude)")
-      : automatic == RectifiedTransport::Luminance               ? tr("Auto (luminance)")
-                                                                 : tr("Auto"),
-    RectifiedTransport::AutoComponent);
-  if (count <= RectifiedTransport::MostColorComponents)
+  const int automatic = array
+    ? RectifiedTransport::Bridge::automaticComponent(array->GetDataType(), count)
+    : RectifiedTransport::Bridge::AutoComponent;
+  this->List->addItem(automatic == RectifiedTransport::Bridge::Magnitude ? tr("Auto (magnitude)")
+      : automatic == RectifiedTransport::Bridge::Luminance               ? tr("Auto (luminance)")
+                                                                         : tr("Auto"),
+    RectifiedTransport::Bridge::AutoComponent);
+  if (count <= RectifiedTransport::Bridge::MostColorComponents)
   {
-    this->List->addItem(tr("Luminance"), RectifiedTransport::Luminance);
+    this->List->addItem(tr("Luminance"), RectifiedTransport::Bridge::Luminance);
   }
-  this->List->addItem(tr("Magnitude"), RectifiedTransport::Magnitude);
+  this->List->addItem(tr("Magnitude"), RectifiedTransport::Bridge::Magnitude);
   for (int i = 0; i < count; ++i)
   {
     const QString name = array->GetComponentName(i);

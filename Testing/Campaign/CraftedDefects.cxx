@@ -206,7 +206,7 @@ void damageCells(RandomSource& random, vtkCellArray* cells, vtkIdType points, st
 
 void damageTypes(RandomSource& random, vtkUnstructuredGrid* grid, std::string& text)
 {
-  auto* types = vtkUnsignedCharArray::SafeDownCast(RectifiedTransport::cellTypesOf(grid));
+  auto* types = vtkUnsignedCharArray::SafeDownCast(RectifiedTransport::Bridge::cellTypesOf(grid));
   if (!types || types->GetNumberOfValues() == 0)
   {
     return;

@@ -38,7 +38,7 @@
 #include <sstream>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -496,4 +496,4 @@ void DensityBlend::WriteVertices(Progress& progress, vtkPolyData* output)
   output->SetVerts(this->Vertices);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -30,7 +30,7 @@ class vtkInformationVector;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 struct SplatTarget;
@@ -140,6 +140,6 @@ private:
   vtkSmartPointer<vtkDoubleArray> Density;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

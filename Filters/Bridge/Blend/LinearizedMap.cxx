@@ -16,7 +16,7 @@
 
 #include <algorithm>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 bool LinearizedMap::IsOf(const InputDensity& density, const LinearizedMapSettings& settings) const
@@ -79,4 +79,4 @@ void LinearizedMap::Move(InputDensity& density, FlowCache& tables, Progress& pro
   this->Kept = physical;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

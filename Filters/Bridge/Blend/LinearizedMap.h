@@ -16,7 +16,7 @@
 #include <array>
 #include <cstdint>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class FlowCache;
@@ -74,6 +74,6 @@ private:
   FlowReport Report;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -17,7 +17,7 @@
 #include <functional>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -204,4 +204,4 @@ void addMovedInput(const MovedInput& input, const ImageGrid& grid, const TupleBo
   });
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -13,9 +13,13 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
+class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 class InputDensity;
-class Progress;
 
 struct MovedInput
 {
@@ -39,6 +43,6 @@ void writeInput(const MovedInput& input, const ImageGrid& grid, const TupleBox& 
 void addMovedInput(const MovedInput& input, const ImageGrid& grid, const TupleBox& wanted,
   Progress& progress, double end, double* density);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -23,7 +23,7 @@
 #include <memory>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -387,4 +387,4 @@ OptimalBlendResult blendOptimally(const std::vector<OptimalBlendInput>& inputs,
     inputs, settings, progress, end);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -15,10 +15,14 @@
 
 namespace RectifiedTransport
 {
-
-class InputDensity;
 class Progress;
 class Ranks;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
+
+class InputDensity;
 
 struct OptimalBlendInput
 {
@@ -58,6 +62,6 @@ void requireMemoryForMaps(const std::vector<OptimalBlendInput>& inputs,
 OptimalBlendResult blendOptimally(const std::vector<OptimalBlendInput>& inputs,
   const OptimalBlendSettings& settings, Progress& progress, double end);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

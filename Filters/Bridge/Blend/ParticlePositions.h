@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 constexpr std::int64_t grainOfPositions = std::int64_t{ 1 } << 13;
@@ -50,6 +50,6 @@ void writeMeans(const std::vector<vtkSmartPointer<vtkDoubleArray>>& positions, c
     [&](std::int64_t first, std::int64_t last) { writeWeightedMean(parts, first, last, means); });
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

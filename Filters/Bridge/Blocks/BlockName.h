@@ -12,7 +12,7 @@
 
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // "block 3 ('name') of the input", of the block that the iterator is at.
@@ -28,6 +28,6 @@ inline std::string nameOfBlock(vtkCompositeDataIterator* leaves)
   return name + " of the input";
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

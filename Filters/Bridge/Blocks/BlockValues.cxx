@@ -21,7 +21,7 @@
 #include <string>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -280,4 +280,4 @@ std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, boo
   return values;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -17,8 +17,11 @@
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 class BlockValues
 {
@@ -98,6 +101,6 @@ int takenComponent(const std::vector<DensityBlock>& blocks, int component);
 std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, bool onPoints,
   const MassCells& cells, const DensityRules& rules, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -7,7 +7,7 @@
 
 #include <cstring>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 void DataContent::AddNumber(std::uint64_t number)
@@ -95,4 +95,4 @@ std::uint64_t DataContent::HashOf(Progress& progress)
   return this->Hash;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -16,8 +16,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Numbers, arrays, and the modification times of their owners. Equal times mean equal content. If
 // times differ, a hash of the values decides: programs make new data sets around the same arrays,
@@ -50,6 +53,6 @@ private:
   bool IsHashed = false;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

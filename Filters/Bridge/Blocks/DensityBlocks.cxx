@@ -34,7 +34,7 @@
 #include <algorithm>
 #include <array>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -236,4 +236,4 @@ int largestCellDimension(vtkDataSet* data)
   return largest;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -22,9 +22,12 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
 class Ranks;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 struct DensityBlock
 {
@@ -67,6 +70,6 @@ void addArrays(const DensityBlock& block, DataContent& content);
 int largestCellDimension(vtkDataSet* data);
 int dimensionOfCellType(int type);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

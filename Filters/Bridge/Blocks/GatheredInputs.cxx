@@ -20,7 +20,7 @@
 
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -137,4 +137,4 @@ GatheredInputs::GatheredInputs(
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -20,8 +20,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Keeps the blocks of the last run. They are gathered again only if the blocks of a rank change.
 class GatheredBlocks
@@ -62,6 +65,6 @@ private:
   std::vector<vtkInformationVector*> Pointers;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

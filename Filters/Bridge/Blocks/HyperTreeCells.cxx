@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -200,4 +200,4 @@ vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid, Progre
   return cells;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -109,4 +109,4 @@ MassCells massCells(const std::vector<DensityBlock>& blocks, int dimension, Prog
   return { areRegions ? 2 : dimension, areRegions };
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

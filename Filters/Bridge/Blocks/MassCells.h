@@ -14,8 +14,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 struct MassCells
 {
@@ -32,6 +35,6 @@ struct MassCells
 // not on a straight line. Throws Cancelled.
 MassCells massCells(const std::vector<DensityBlock>& blocks, int dimension, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -28,7 +28,7 @@
 #include <utility>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -396,4 +396,4 @@ vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids, c
   return marked;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -13,14 +13,17 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Ranks;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // The grids, with the cells that finer grids cover on any rank marked as refined in addition to
 // their flags. They share the arrays. Throws Failure if boxes or spacings are not set and, if no
 // grid has flags, for grids that do not match their boxes. Collective. nullptr for nullptr.
 vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids, const Ranks& ranks);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -31,7 +31,7 @@
 #include <optional>
 #include <sstream>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -434,4 +434,4 @@ std::vector<std::string> CartogramWorker::Run(const std::vector<DensityBlock>& b
   return CartogramJob(*this, std::move(cells), kept, progress, outputs).Run();
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

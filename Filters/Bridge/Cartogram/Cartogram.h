@@ -18,8 +18,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Kept between runs: what depends on the regions' shapes alone.
 struct KeptMap
@@ -49,6 +52,6 @@ struct CartogramWorker
     KeptMap& kept, Progress& progress, const CartogramOutputs& outputs) const;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

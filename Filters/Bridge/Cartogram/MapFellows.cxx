@@ -18,7 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -163,4 +163,4 @@ void MapFellows::WriteOverlay(Progress& progress) const
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

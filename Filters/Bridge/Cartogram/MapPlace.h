@@ -7,7 +7,7 @@
 #include "Bridge/Points/PlaneFrame.h"
 #include "Core/Cartogram/Cartogram.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 struct MapPlace
@@ -30,6 +30,6 @@ struct MapPlace
   }
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

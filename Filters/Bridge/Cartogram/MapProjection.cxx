@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -76,4 +76,4 @@ void MapProjection::Require(
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Indexed by the enumeration of vtkCartogram.
@@ -35,6 +35,6 @@ private:
   double Cosine = 0.0; // of the latitude p; 0: none
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <sstream>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -123,4 +123,4 @@ void addWarnings(const CartogramResult& result, const std::vector<std::string>& 
   MissedRegions(result, names, tolerance).Add(warnings);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

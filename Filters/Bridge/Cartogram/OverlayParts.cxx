@@ -12,7 +12,7 @@
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 std::vector<OverlayPart> overlayParts(vtkDataObject* overlay, vtkDataObject* output)
@@ -48,4 +48,4 @@ std::vector<OverlayPart> overlayParts(vtkDataObject* overlay, vtkDataObject* out
   return parts;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

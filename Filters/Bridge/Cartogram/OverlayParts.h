@@ -12,7 +12,7 @@ class vtkDataObject;
 class vtkPointSet;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 struct OverlayPart
@@ -25,6 +25,6 @@ struct OverlayPart
 // other types and for cells that cannot be read.
 std::vector<OverlayPart> overlayParts(vtkDataObject* overlay, vtkDataObject* output);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

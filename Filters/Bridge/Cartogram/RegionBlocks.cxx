@@ -24,7 +24,7 @@
 #include <numeric>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -267,4 +267,4 @@ RegionBlocks joinRegionBlocks(const std::vector<DensityBlock>& blocks, Progress&
   return joined;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

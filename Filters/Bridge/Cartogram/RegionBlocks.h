@@ -17,7 +17,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 struct RegionBlocks
@@ -34,6 +34,6 @@ struct RegionBlocks
 // data that cannot be read; and Cancelled. Takes the progress to 0.015.
 RegionBlocks joinRegionBlocks(const std::vector<DensityBlock>& blocks, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

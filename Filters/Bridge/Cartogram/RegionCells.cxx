@@ -27,7 +27,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -314,4 +314,4 @@ RegionCells readRegions(const std::vector<DensityBlock>& blocks, bool isComposit
   return RegionReading(blocks, isComposite, arrays, progress).Read();
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

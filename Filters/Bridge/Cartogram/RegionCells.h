@@ -18,7 +18,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Names of cell arrays; empty: none is chosen.
@@ -47,6 +47,6 @@ struct RegionCells
 RegionCells readRegions(const std::vector<DensityBlock>& blocks, bool isComposite,
   const RegionArrays& arrays, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -15,7 +15,7 @@
 #include <set>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -96,4 +96,4 @@ void unifyTypes(const std::vector<vtkSmartPointer<vtkPolyData>>& parts)
   });
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -13,7 +13,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Of one file a reader may give whole numbers, of another one real numbers or text. Arrays of one
@@ -21,6 +21,6 @@ namespace RectifiedTransport
 // where no type of numbers does. vtkAppendPolyData would leave them out.
 void unifyTypes(const std::vector<vtkSmartPointer<vtkPolyData>>& parts);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

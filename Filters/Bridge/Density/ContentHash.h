@@ -5,7 +5,7 @@
 
 #include "Bridge/Density/InputDensity.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class ContentHash
@@ -47,6 +47,6 @@ private:
   InputDensity::Content Content{};
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

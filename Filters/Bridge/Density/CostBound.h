@@ -12,7 +12,7 @@
 #include <limits>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // TransportCostLowerBound, and OptimalityGap of a map of this cost on a grid. Where the bound is no
@@ -48,6 +48,6 @@ inline std::string unresolvedText(double massError)
     "helps, for example by Resample To Image)";
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -9,7 +9,7 @@
 #include <array>
 #include <cstddef>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Nanoseconds, as measured on one thread.
@@ -80,6 +80,6 @@ std::array<double, Count> stageEnds(const double (&costs)[Count])
   return ends;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 std::string describeArray(vtkDataArray* array)
@@ -87,4 +87,4 @@ void throwInvalidDensity(const std::string& name, const DensitySummary& summary,
     "; at least one value must be positive");
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -13,7 +13,7 @@ class vtkDataArray;
 class vtkDataSet;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 struct DensityRules;
@@ -39,6 +39,6 @@ bool hasDisplayedWhite(const DensityRules& rules, int type);
 [[noreturn]] void throwInvalidDensity(const std::string& name, const DensitySummary& summary,
   const MissingValues& missing, bool hasEmpty = false);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -21,7 +21,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -223,4 +223,4 @@ void DensityImage::SampleArrays(const Extent& /*extent*/, ConstPointSpan<3> part
   sampleImage(this->Input, this->Geometry, this->Geometry.Extent(), particles, progress, output);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -12,7 +12,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class DensityImage : public InputDensity
@@ -60,6 +60,6 @@ private:
 void sampleImage(vtkImageData* part, const ImageGrid& grid, const Extent& extent,
   ConstPointSpan<3> particles, Progress& progress, vtkPointData* output);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

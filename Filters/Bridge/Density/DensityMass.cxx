@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -70,4 +70,4 @@ double requireMass(InputDensity& density, const DensityValues& gathered, Progres
   return massOf(density, values, progress);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

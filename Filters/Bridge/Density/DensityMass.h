@@ -5,10 +5,14 @@
 
 namespace RectifiedTransport
 {
-
 class DensityValues;
-class InputDensity;
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
+
+class InputDensity;
 
 // Density times cell measure, summed, for a prepared density. Runs as the current stage. Reports
 // values that are probably not meant. Throws Failure if the mass is beyond the largest double, and
@@ -18,6 +22,6 @@ double massOf(InputDensity& density, Progress& progress);
 // values throw Failure. Collective.
 double requireMass(InputDensity& density, const DensityValues& gathered, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

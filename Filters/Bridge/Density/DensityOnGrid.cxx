@@ -8,7 +8,7 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/CellMeans.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -66,4 +66,4 @@ void writeDensityOn(const ImageGrid& grid, InputDensity& density, const TupleBox
     grid, density, wanted, progress, values);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -8,9 +8,13 @@
 
 namespace RectifiedTransport
 {
+class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 class InputDensity;
-class Progress;
 
 // Writes the tuples `wanted` of a grid that covers the density's, along the same axes: the values
 // themselves, to the bit, where both have the same cells up to rounding; else the means over the
@@ -19,6 +23,6 @@ class Progress;
 void writeDensityOn(const ImageGrid& grid, InputDensity& density, const TupleBox& wanted,
   Progress& progress, double* values);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -388,4 +388,4 @@ std::unique_ptr<DensityReader> makeDensityReader(vtkDataArray* array, const Dens
   return std::move(make.Reader);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

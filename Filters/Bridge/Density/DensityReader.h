@@ -16,7 +16,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // How the values of an array become a density; see vtkDensityAlgorithm.
@@ -84,6 +84,6 @@ protected:
 // `rules` have the component that is taken, not Auto.
 std::unique_ptr<DensityReader> makeDensityReader(vtkDataArray* array, const DensityRules& rules);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 template <int D>
@@ -74,4 +74,4 @@ template class DensityTransport<1>;
 template class DensityTransport<2>;
 template class DensityTransport<3>;
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

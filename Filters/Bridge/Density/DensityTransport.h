@@ -25,8 +25,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // What an optimal map depends on besides the values of the density, which may be those of boxes of
 // different sides. Without values: of no such map.
@@ -91,6 +94,6 @@ private:
   OptimalMapKey Key;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

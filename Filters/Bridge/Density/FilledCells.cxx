@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 void FilledCells::Add(const double* values, const unsigned char* empty, std::int64_t count)
@@ -48,4 +48,4 @@ double densityOfEmptyCells(const EmptyRule& rule, const FilledCells& filled)
   return std::isfinite(mean) ? mean : 0.0; // too much mass is an error of the tables
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The same bits however cells are divided among threads and ranks. Trivially copyable.
@@ -27,6 +27,6 @@ struct FilledCells
 // 0 if all cells are empty.
 double densityOfEmptyCells(const EmptyRule& rule, const FilledCells& filled);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

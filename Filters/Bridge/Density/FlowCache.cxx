@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 const SharedFlow& FlowCache::Update(InputDensity& density, Progress& progress, double end,
@@ -45,4 +45,4 @@ const SharedFlow& FlowCache::Update(InputDensity& density, Progress& progress, d
   return *this->Kept;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

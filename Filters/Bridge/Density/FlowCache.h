@@ -11,7 +11,7 @@
 #include <memory>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class FlowCache
@@ -95,6 +95,6 @@ private:
   vtkMTimeType Time = 0;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -250,4 +250,4 @@ std::unique_ptr<InputDensity> withMargin(
   return std::make_unique<GrownDensity>(std::move(density), grid.Grown(cells), cells, rule);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

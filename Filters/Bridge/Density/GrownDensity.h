@@ -7,7 +7,7 @@
 
 #include <memory>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class InputDensity;
@@ -21,6 +21,6 @@ constexpr double LargestMargin = 10.0;
 std::unique_ptr<InputDensity> withMargin(
   std::unique_ptr<InputDensity> density, double margin, const EmptyRule& rule);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -165,4 +165,4 @@ void InputDensity::ThrowInvalid(const DensitySummary& summary) const
   throwInvalidDensity(source.Name, own, source.Rules.Missing, source.MayBeEmpty);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -28,9 +28,13 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
+class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 class ImagePieces;
-class Progress;
 
 // How an array became a density.
 struct DensityReading
@@ -169,6 +173,6 @@ private:
   Content Hashed{}; // all 0 before GetContent
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -10,7 +10,7 @@
 
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // What an optimal map is wanted for.
@@ -53,6 +53,6 @@ struct OptimalMemory
   double Bytes;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

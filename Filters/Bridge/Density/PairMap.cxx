@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 template <int D>
@@ -91,4 +91,4 @@ template std::unique_ptr<OptimalMap<2>> solvePair<2>(const ImageGrid&, const Pla
 template std::unique_ptr<OptimalMap<3>> solvePair<3>(const ImageGrid&, const PlacedDensity<3>&,
   InputDensity&, const PairMapOptions&, Progress&, double);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -12,9 +12,13 @@
 
 namespace RectifiedTransport
 {
+class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 class InputDensity;
-class Progress;
 
 // A density on a grid at its place in the box of another grid, whose axes have the same directions.
 // Lengths are in the LengthScale of the box.
@@ -46,6 +50,6 @@ template <int D>
 std::unique_ptr<OptimalMap<D>> solvePair(const ImageGrid& box, const PlacedDensity<D>& source,
   InputDensity& target, const PairMapOptions& options, Progress& progress, double end);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

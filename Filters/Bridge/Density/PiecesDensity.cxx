@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -275,4 +275,4 @@ void PiecesDensity::SampleArrays(
   sampleImage(this->ImageIn(extent), this->Geometry, extent, particles, progress, output);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -8,7 +8,7 @@
 
 #include <memory>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class PiecesDensity final : public InputDensity
@@ -66,6 +66,6 @@ private:
   const Boxes<3> Space{ *this };
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

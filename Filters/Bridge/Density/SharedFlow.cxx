@@ -17,7 +17,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -269,4 +269,4 @@ template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<2>(InputDensity&, c
 template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<3>(InputDensity&, const ContentHash&,
   FlowTables, const OptimalNeeds&, std::shared_ptr<SharedFlow>, Progress&, double);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

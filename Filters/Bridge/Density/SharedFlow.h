@@ -18,7 +18,7 @@
 #include <utility>
 #include <variant>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class ContentHash;
@@ -82,6 +82,6 @@ private:
   vtkTimeStamp Built;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

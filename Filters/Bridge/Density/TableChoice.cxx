@@ -7,7 +7,7 @@
 #include "Core/Flow/FlowMapShape.h"
 #include "Core/Flow/RectifiedFlow.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -93,4 +93,4 @@ template FlowTables chooseTablesForShares<2>(
 template FlowTables chooseTablesForShares<3>(
   TableSetting, const GridSize<3>&, const Point<3>&, double);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -9,7 +9,7 @@
 
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // What the choice of tables depends on in an advection.
@@ -36,6 +36,6 @@ template <int D>
 FlowTables chooseTablesForShares(
   TableSetting setting, const GridSize<D>& size, const Point<D>& aspect, double boxes);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -284,4 +284,4 @@ std::vector<std::string> describeUnusual(const UnusualValues& values, const Valu
   return lines;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -20,8 +20,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // The lowest of the values that NegativeValues = Clamp takes as 0.
 struct LowestValue
@@ -78,6 +81,6 @@ struct ValuePlaces
 std::vector<std::string> describeUnusual(const UnusualValues& values, const ValuePlaces& places,
   const std::function<double()>& shareOfLargest = nullptr);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // All objects have one type, which the caller knows. Any thread may call it.
@@ -51,6 +51,6 @@ private:
   std::vector<Entry> Entries;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -14,7 +14,7 @@
 #include <memory>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // What ranks gather for it stays until density.ReleaseGathered(). Collective. Throws Failure and
@@ -34,6 +34,6 @@ vtkSmartPointer<vtkDoubleArray> wholeValues(
   return values;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <mutex>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -83,4 +83,4 @@ std::vector<std::string> deviceNames()
   return names;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

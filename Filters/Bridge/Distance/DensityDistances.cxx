@@ -18,7 +18,7 @@
 #include <string>
 #include <type_traits>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -385,4 +385,4 @@ void DensityDistances::KeepOnlyGiven()
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

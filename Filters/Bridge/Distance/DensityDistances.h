@@ -17,8 +17,11 @@
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // As in vtkTransportDistance.
 enum class DistanceMethod
@@ -79,6 +82,6 @@ private:
   std::array<std::map<KeyPair, SquaredBracket>, 2> Pairs; // by method, in squared LengthScale units
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -40,4 +40,4 @@ DistanceInput readDistanceInput(InputDensity& density, Progress& progress)
     density, progress);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -18,8 +18,11 @@
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // What the distances of a density depend on: its values, on which grid of which box.
 struct DensityKey
@@ -56,6 +59,6 @@ struct DistanceInput
 // Failure, without the title, and Cancelled.
 DistanceInput readDistanceInput(InputDensity& density, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

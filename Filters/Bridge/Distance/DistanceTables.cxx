@@ -15,7 +15,7 @@
 #include <set>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -139,4 +139,4 @@ void writeCoordinates(const std::vector<DistanceInput>& inputs,
   addReadings(table, readings);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -12,7 +12,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkTable;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The name of a column for each input; names that occur more than once get a number.
@@ -30,6 +30,6 @@ void writeBounds(std::size_t inputs, const std::vector<DistancePair>& pairs, vtk
 void writeCoordinates(const std::vector<DistanceInput>& inputs,
   const std::vector<DistancePair>& pairs, int dimensions, Progress& progress, vtkTable* table);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -12,7 +12,7 @@
 #include <numeric>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -64,4 +64,4 @@ double radiusOfDots(ConstPointSpan<3> points, const Context& context)
   return 0.5 * *dense;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Red, green and blue light and opacity, 0 to 255.
@@ -65,6 +65,6 @@ public:
   virtual void End() = 0;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

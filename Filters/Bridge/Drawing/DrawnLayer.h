@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // One of the data sets while it is drawn.
@@ -73,6 +73,6 @@ public:
   std::vector<char> Outlines;                // whether a cell is one of theirs
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // An open file of POSIX, or none.
@@ -37,6 +37,6 @@ private:
   int Number;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

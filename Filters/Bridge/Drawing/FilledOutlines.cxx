@@ -20,7 +20,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -241,4 +241,4 @@ void fillOutlines(vtkPolyData* data)
   OutlineFilling(data).Fill();
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

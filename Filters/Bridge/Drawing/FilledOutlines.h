@@ -10,7 +10,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Adds triangles to the closed lines of the data, region by region, as OutlinedRegions.h says, and
@@ -20,6 +20,6 @@ namespace RectifiedTransport
 // region, or of their polygon. Exported for the plugin. Throws as findOutlinedRegions.
 VTKRECTIFIEDTRANSPORT_EXPORT void fillOutlines(vtkPolyData* data);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

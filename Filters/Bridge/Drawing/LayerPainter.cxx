@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -167,4 +167,4 @@ void paintLayer(
   painter.PaintArea();
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -4,7 +4,7 @@
 
 #include "Core/Parallel/Progress.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class Drawing;
@@ -15,6 +15,6 @@ class PageLayout;
 void paintLayer(
   const DrawnLayer& layer, const PageLayout& layout, Drawing& drawing, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -21,7 +21,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -169,4 +169,4 @@ OutlinedRegions findOutlinedRegions(vtkPolyData* data)
   return OutlineSearch(data).Find();
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

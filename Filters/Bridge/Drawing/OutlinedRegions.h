@@ -14,7 +14,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 struct Outline
@@ -39,6 +39,6 @@ OutlinedRegions findOutlinedRegions(vtkPolyData* data);
 // Whether no coordinate is infinite or NaN.
 bool areFinite(const std::vector<Point<3>>& places);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

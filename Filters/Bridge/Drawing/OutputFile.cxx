@@ -12,7 +12,7 @@
 #include <csignal>
 #include <cstdio>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -150,4 +150,4 @@ void OutputFile::Close()
   this->Part.clear();
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

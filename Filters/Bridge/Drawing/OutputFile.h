@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Writes to a hidden file beside the target, which replaces it at the end and has its mode.
@@ -40,6 +40,6 @@ private:
   std::int64_t Written = 0;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -16,7 +16,7 @@
 #include <cstring>
 #include <filesystem>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -207,4 +207,4 @@ void copyAccess(const FileDescriptor& earlier, const FileDescriptor& file)
   fchmod(file.Get(), mode);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

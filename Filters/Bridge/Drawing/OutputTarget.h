@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 struct OutputTarget
@@ -31,6 +31,6 @@ OutputTarget findOutputTarget(const std::string& name);
 // access where the system does not allow that.
 void copyAccess(const FileDescriptor& earlier, const FileDescriptor& file);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

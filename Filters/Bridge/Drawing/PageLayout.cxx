@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 DrawnBounds::DrawnBounds()
@@ -69,4 +69,4 @@ PageLayout::PageLayout(
   this->Margins[0] = 0.5 * (page.Width - this->Unit * width);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

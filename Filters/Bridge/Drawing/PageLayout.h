@@ -8,7 +8,7 @@
 #include <array>
 #include <cstddef>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The bounds of what is drawn; at first of nothing.
@@ -64,6 +64,6 @@ private:
   double Unit;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

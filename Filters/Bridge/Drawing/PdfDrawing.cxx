@@ -12,7 +12,7 @@
 #include <cstdio>
 #include <initializer_list>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -237,4 +237,4 @@ void PdfDrawing::WriteContent()
   this->Text.clear();
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

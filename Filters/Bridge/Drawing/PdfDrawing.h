@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class OutputFile;
@@ -61,6 +61,6 @@ private:
   std::size_t Disc = 0;       // the object of the unit disc
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "vtkDataObject.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 PolyDataShapes::PolyDataShapes(vtkPolyData* data, const std::string& name)
@@ -22,4 +22,4 @@ std::int64_t PolyDataShapes::Count() const
   return this->HasCells ? this->Input->GetNumberOfCells() : this->Input->GetNumberOfPoints();
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

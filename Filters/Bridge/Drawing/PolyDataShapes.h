@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 enum class ShapeKind
@@ -114,6 +114,6 @@ private:
   const unsigned char* GhostCells;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -8,7 +8,7 @@
 #include <array>
 #include <cstddef>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 bool areColours(vtkAbstractArray* array)
@@ -61,4 +61,4 @@ Colour ShapeColours::Of(const Shape& shape) const
   return { mean(0), mean(1), mean(2), mean(3) };
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -15,7 +15,7 @@ class vtkAbstractArray;
 class vtkScalarsToColors;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Whether values are colours themselves: three or four bytes.
@@ -40,6 +40,6 @@ private:
   bool OnPoints = false;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

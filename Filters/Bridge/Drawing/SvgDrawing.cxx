@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -182,4 +182,4 @@ void SvgDrawing::Flush()
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class OutputFile;
@@ -50,6 +50,6 @@ private:
   Group Open = Group::None;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

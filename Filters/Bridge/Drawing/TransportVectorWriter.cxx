@@ -20,7 +20,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -320,4 +320,4 @@ void TransportVectorWriter::Run(
   drawing.End();
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -17,7 +17,7 @@ class vtkDataArray;
 class vtkScalarsToColors;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class Drawing;
@@ -49,6 +49,6 @@ struct TransportVectorWriter
   void Run(const std::vector<DrawnData>& data, Drawing& drawing, Progress& progress) const;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

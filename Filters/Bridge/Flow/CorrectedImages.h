@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Corrects the images of the centres of a part of a lattice, whose cells have the sides `step` in
@@ -33,6 +33,6 @@ void correctImages(const AreaCorrection<D>& correction, const Point<D>& step,
   });
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

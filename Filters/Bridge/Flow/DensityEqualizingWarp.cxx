@@ -26,7 +26,7 @@
 #include <new>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -272,4 +272,4 @@ DensityEqualizingWarp::Report DensityEqualizingWarp::Run(InputDensity& density, 
     *this, density, input, cache, progress, output);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

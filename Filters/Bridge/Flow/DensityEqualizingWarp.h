@@ -18,10 +18,14 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
+class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 class InputDensity;
 class FlowCache;
-class Progress;
 
 // The members are the properties of that class.
 struct DensityEqualizingWarp
@@ -47,6 +51,6 @@ struct DensityEqualizingWarp
     vtkPointSet* output) const;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

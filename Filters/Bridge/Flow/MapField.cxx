@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -269,4 +269,4 @@ template class MapField<1>;
 template class MapField<2>;
 template class MapField<3>;
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

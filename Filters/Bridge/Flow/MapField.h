@@ -29,7 +29,7 @@ class vtkDataSetAttributes;
 class vtkDoubleArray;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // What a map says about all of its samples.
@@ -106,6 +106,6 @@ private:
   LargeBuffer<double> PositionBuffer; // not in 3D
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Prepares them for a part of the lattice. Collective.
@@ -30,6 +30,6 @@ void prepareShares(
   flow.PrepareShares(low, high);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -28,7 +28,7 @@
 #include <string>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -205,4 +205,4 @@ TransportMap::Report runToTarget(const TransportMap& map, const DensityPair& pai
     makeMapToTarget<3>)(map, pair, samples, part, cache, kept, progress, output);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -5,7 +5,7 @@
 
 #include "Bridge/Flow/TransportMap.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 struct DensityPair;
@@ -18,6 +18,6 @@ TransportMap::Report runToTarget(const TransportMap& map, const DensityPair& pai
   const std::array<int, 6>& wanted, FlowCache& cache, TargetTransport& kept, Progress& progress,
   vtkImageData* output);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

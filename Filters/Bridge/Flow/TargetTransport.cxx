@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -96,4 +96,4 @@ template std::shared_ptr<const OptimalMap<2>> TargetTransport::Map<2>(
 template std::shared_ptr<const OptimalMap<3>> TargetTransport::Map<3>(
   const DensityPair&, const OptimalSetting&, Progress&, double);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

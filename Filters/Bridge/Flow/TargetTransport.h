@@ -15,8 +15,11 @@
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // The two densities of a map, and the box that holds both.
 struct DensityPair
@@ -64,6 +67,6 @@ private:
   OptimalSetting Setting;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

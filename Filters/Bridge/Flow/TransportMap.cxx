@@ -22,7 +22,7 @@
 #include <array>
 #include <cstdint>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -127,4 +127,4 @@ TransportMap::Report TransportMap::Run(InputDensity& density, const Extent& want
     *this, density, samples, part, cache, progress, output);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -19,10 +19,14 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
+class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 class InputDensity;
 class FlowCache;
-class Progress;
 
 // The members are the properties of that class.
 struct TransportMap
@@ -63,6 +67,6 @@ struct TransportMap
 void passArrays(const InputDensity& density, const ImageGrid& samples,
   const std::array<int, 6>& part, vtkImageData* output);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -30,7 +30,7 @@
 #include <string>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -276,4 +276,4 @@ TransportSampler::Report TransportSampler::Run(InputDensity& density, vtkPointSe
     *this, density, seeds, cache, progress, output);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

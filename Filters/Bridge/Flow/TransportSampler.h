@@ -20,11 +20,15 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
+class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 class BlockValues;
 class InputDensity;
 class FlowCache;
-class Progress;
 
 // The members are the properties of that class.
 struct TransportSampler
@@ -63,6 +67,6 @@ struct TransportSampler
     vtkPolyData* output) const;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -25,7 +25,7 @@
 #include <limits>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -461,4 +461,4 @@ TurnedCells countTurnedCells(
     grid, before, after, progress);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

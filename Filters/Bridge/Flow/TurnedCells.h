@@ -14,7 +14,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 struct TurnedCells
@@ -42,6 +42,6 @@ struct TurnedCells
 TurnedCells countTurnedCells(
   const ImageGrid& grid, vtkPointSet* before, vtkPointSet* after, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -76,4 +76,4 @@ std::string samePlaneAdvice(const ImageGrid& first, const ImageGrid& other, std:
     translateOf(other, a);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

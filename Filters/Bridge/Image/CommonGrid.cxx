@@ -15,7 +15,7 @@
 #include <iterator>
 #include <numeric>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -375,4 +375,4 @@ void requireSameBox(const NamedGrid& first, const NamedGrid& other)
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

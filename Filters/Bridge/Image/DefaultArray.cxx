@@ -9,7 +9,7 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 vtkDataSetAttributes* attributesOf(vtkDataSet* data, bool onPoints)
@@ -105,4 +105,4 @@ bool announcesScalars(vtkInformation* information, int association)
            information, association, vtkDataSetAttributes::SCALARS) != nullptr;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -14,7 +14,7 @@ class vtkDataSetAttributes;
 class vtkInformation;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 vtkDataSetAttributes* attributesOf(vtkDataSet* data, bool onPoints);
@@ -38,6 +38,6 @@ bool hasPointValues(vtkDataSet* data);
 // Whether the pipeline information has active scalars, of vtkDataObject::FieldAssociations.
 bool announcesScalars(vtkInformation* information, int association);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

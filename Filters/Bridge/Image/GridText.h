@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 template <int D>
@@ -21,6 +21,6 @@ std::string describeSize(const GridSize<D>& size)
   return text;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

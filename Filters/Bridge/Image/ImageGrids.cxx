@@ -18,7 +18,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -232,4 +232,4 @@ std::string describeValues(const ImageGrid& grid)
   return text;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -14,7 +14,7 @@ class vtkImageData;
 class vtkInformation;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 ImageGrid gridOf(vtkImageData* image, bool onPoints);
@@ -56,6 +56,6 @@ double numberOfValues(const ImageGrid& grid);
 // "8 x 4", without the axes of one point.
 std::string describeValues(const ImageGrid& grid);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 void requireSolidGrid(int resolution, double padding)
@@ -61,4 +61,4 @@ ImageGrid solidGrid(const std::array<double, 6>& bounds, int resolution, double 
   return { extent, corner, Eigen::Vector3d::Constant(width), ImageGrid::Matrix::Identity(), false };
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -25,7 +25,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -376,4 +376,4 @@ bool isDensityAssociation(int association)
     association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

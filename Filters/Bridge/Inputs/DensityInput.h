@@ -18,7 +18,7 @@ class vtkDataObject;
 class vtkDataSet;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // How a filter reads a density: its properties and the choice of the array.
@@ -55,6 +55,6 @@ private:
   InputDensity::Content Told{}; // of whose unusual values a warning told
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

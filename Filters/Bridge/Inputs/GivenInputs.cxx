@@ -14,7 +14,7 @@
 #include "vtkInformationVector.h"
 #include "vtkSmartPointer.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 GivenInputs gatherBlocks(vtkDataObject* data, bool blocksAreInputs)
@@ -97,4 +97,4 @@ std::string describeOthers(const GivenInputs& given)
       (given.Others == 1 ? " is" : " are") + " no data set of cells and passed over";
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -17,8 +17,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Ranks;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 struct GivenInput
 {
@@ -50,6 +53,6 @@ void requireSameNumber(std::size_t inputs, const Ranks& ranks);
 // others.
 std::string describeOthers(const GivenInputs& given);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -11,7 +11,7 @@
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationStringKey.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 OptionalArray findOptionalArray(vtkInformation* choice, vtkDataSet* data, const char* title)
@@ -48,4 +48,4 @@ OptionalArray findOptionalArray(vtkInformation* choice, vtkDataSet* data, const 
   return found;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

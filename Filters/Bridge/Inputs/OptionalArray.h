@@ -13,7 +13,7 @@ class vtkDataSet;
 class vtkInformation;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 struct OptionalArray
@@ -28,6 +28,6 @@ struct OptionalArray
 // points, cells, or points, then cells; `title` names the array.
 OptionalArray findOptionalArray(vtkInformation* choice, vtkDataSet* data, const char* title);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

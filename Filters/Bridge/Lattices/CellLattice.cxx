@@ -13,7 +13,7 @@
 #include <cmath>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -178,4 +178,4 @@ void CellLattice::ClearAround(const std::vector<BlockValues>& values, const Imag
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

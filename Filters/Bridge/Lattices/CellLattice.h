@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class CellLattice
@@ -84,6 +84,6 @@ void CellLattice::VisitCounted(
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -328,4 +328,4 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
   return joined;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

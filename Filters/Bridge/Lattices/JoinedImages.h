@@ -13,7 +13,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // One image with the arrays that all images with mass have; the density is its active scalars. What
@@ -22,6 +22,6 @@ namespace RectifiedTransport
 // blocks are resampled.
 vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks, bool onPoints);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -20,7 +20,7 @@
 #include <cmath>
 #include <limits>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -422,4 +422,4 @@ bool BoxCorners::FindPlace(const LatticeFrame& frame, std::array<std::int64_t, 3
   return isBox;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

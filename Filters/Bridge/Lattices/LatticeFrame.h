@@ -22,8 +22,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 struct LatticeFrame
 {
@@ -79,6 +82,6 @@ private:
   std::array<Eigen::Vector3d, 8> Corners;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

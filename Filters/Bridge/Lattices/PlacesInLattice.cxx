@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 PlacesInLattice::PlacesInLattice(const CellLattice& lattice, const std::vector<BlockValues>& blocks,
@@ -110,4 +110,4 @@ SampledPlace PlacesInLattice::Find(std::int64_t place) const
   return found;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

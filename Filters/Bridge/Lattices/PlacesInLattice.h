@@ -12,8 +12,11 @@
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Linear between the corners of a cell along each axis. Places in holes are in no cell, except
 // those that rounding put there.
@@ -38,6 +41,6 @@ private:
   std::vector<std::int64_t> CellAt; // each place of the lattice
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

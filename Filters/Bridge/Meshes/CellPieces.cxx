@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -282,4 +282,4 @@ template class CellPieces<1>;
 template class CellPieces<2>;
 template class CellPieces<3>;
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

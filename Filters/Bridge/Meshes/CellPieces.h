@@ -21,7 +21,7 @@ class vtkIdList;
 class vtkPoints;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // What cells contain, in grid cells.
@@ -84,6 +84,6 @@ private:
   std::map<int, std::vector<vtkIdType>> DividedNodes; // of types of cells
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

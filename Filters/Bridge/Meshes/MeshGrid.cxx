@@ -19,7 +19,7 @@
 #include <sstream>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -223,4 +223,4 @@ ImageGrid meshGrid(const std::vector<DensityBlock>& blocks, const MassCells& cel
     straight.IsOnPoints() };
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -10,8 +10,11 @@
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Columns: right-handed axes, each nearest to the axis of space with its number. Axis `main` is the
 // direction: across a plane or along a line.
@@ -25,6 +28,6 @@ ImageGrid::Matrix axesAround(const Eigen::Vector3d& direction, Eigen::Index main
 ImageGrid meshGrid(const std::vector<DensityBlock>& blocks, const MassCells& cells, int resolution,
   Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

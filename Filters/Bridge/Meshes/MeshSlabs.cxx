@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -94,4 +94,4 @@ template std::vector<Bins<vtkIdType>> cellsOfSlabs<2>(
 template std::vector<Bins<vtkIdType>> cellsOfSlabs<3>(
   const std::vector<BlockValues>&, const ImageGrid&, const MeshSlabs<3>&, double, Progress&);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

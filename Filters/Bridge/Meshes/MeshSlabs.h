@@ -14,8 +14,11 @@
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Equal parts of the grid along its last axis, for any number of threads: enough parts for many
 // threads, and so thick that a cell is in few of them.
@@ -56,6 +59,6 @@ template <int D>
 std::vector<Bins<vtkIdType>> cellsOfSlabs(const std::vector<BlockValues>& blocks,
   const ImageGrid& grid, const MeshSlabs<D>& slabs, double margin, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -173,4 +173,4 @@ MeshPlace RegionRows::Find(const Point<2>& x) const
   return found;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Points of cells around a place.
@@ -52,6 +52,6 @@ private:
   Bins<RegionBatch::Edge> Rows;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

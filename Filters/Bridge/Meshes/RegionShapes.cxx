@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -323,4 +323,4 @@ void visitRegions(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -16,8 +16,11 @@
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Marks the cells that are regions instead of being divided: polygons other than triangles and
 // convex quadrilaterals. With point values, polygons that VTK divides into triangles of the same
@@ -82,6 +85,6 @@ void visitRegions(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
   const MeshSlabs<2>& slabs, double margin, Progress& progress,
   const std::function<void(const RegionBatch&)>& use);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 RingValues::RingValues(
@@ -74,4 +74,4 @@ double RingValues::At(const Point<2>& x) const
   return std::clamp(value, this->Smallest, this->Largest);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

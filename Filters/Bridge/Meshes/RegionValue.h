@@ -7,7 +7,7 @@
 
 #include "vtkType.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The least-squares plane through the values at the points of a ring. The weight of a point is the
@@ -30,6 +30,6 @@ private:
   double Largest = 0.0;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

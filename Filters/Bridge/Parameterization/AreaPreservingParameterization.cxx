@@ -26,7 +26,7 @@
 #include <optional>
 #include <sstream>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -367,4 +367,4 @@ void layFlat(vtkPolyData* surface, vtkPolyData* flat)
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -17,10 +17,14 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
+class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 class DiskSurface;
 class OpenedSurface;
-class Progress;
 
 // How far the map is from its goal.
 struct ParameterizationReport
@@ -63,6 +67,6 @@ private:
 // Makes a surface that Run has made lie in the unit square. It shares all arrays but the points.
 void layFlat(vtkPolyData* surface, vtkPolyData* flat);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -16,7 +16,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -224,4 +224,4 @@ bool clearUnmetRequests(vtkInformationVector* outputs)
   return isComplete;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -18,7 +18,7 @@ class vtkInformation;
 class vtkInformationVector;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Sets empty whole and update extents on structured outputs, and on those of the filters
@@ -40,6 +40,6 @@ void announceToViews(vtkInformation* output, const std::array<int, 6>& before);
 // within an update. Returns false if some of them cannot be reached.
 bool updateConsumerInformation(vtkInformation* output);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -13,7 +13,7 @@
 #include "vtkNew.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -84,4 +84,4 @@ bool updateInput(vtkAlgorithm* filter, int port, int connection)
   return pipeline->Update(outputPort) != 0;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

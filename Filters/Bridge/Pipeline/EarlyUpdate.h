@@ -22,8 +22,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Ranks;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // For one filter. Remembers what it updated, so that a producer runs once for each change.
 class EarlyUpdate
@@ -52,6 +55,6 @@ private:
 // Updates the producer of an input, of what is requested from it now. Returns whether it could.
 bool updateInput(vtkAlgorithm* filter, int port, int connection);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -64,4 +64,4 @@ void removeReplacedFields(const std::vector<vtkInformationVector**>& inputVector
   });
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

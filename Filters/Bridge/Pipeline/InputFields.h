@@ -11,7 +11,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkInformationVector;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The executive passes the field data of the first input on to every output. If an output has a new
@@ -20,6 +20,6 @@ namespace RectifiedTransport
 void removeReplacedFields(const std::vector<vtkInformationVector**>& inputVectors,
   int numberOfPorts, vtkInformationVector* outputVector);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -13,7 +13,7 @@
 #include <set>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -78,4 +78,4 @@ void clearImages(vtkInformationVector* outputVector)
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

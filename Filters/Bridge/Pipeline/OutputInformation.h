@@ -9,7 +9,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkInformationVector;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The executive copies only the times of the first input; the outputs depend on all inputs.
@@ -22,6 +22,6 @@ void removeArrayInformation(vtkInformationVector* outputVector);
 // The executive leaves the extent of an image and the scalars of its points from the last run.
 void clearImages(vtkInformationVector* outputVector);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

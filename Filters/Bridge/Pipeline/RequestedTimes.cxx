@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -102,4 +102,4 @@ RequestedTimes::~RequestedTimes()
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -14,7 +14,7 @@ class vtkAlgorithm;
 class vtkInformation;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 using Algorithms = std::set<vtkAlgorithm*>;
@@ -54,6 +54,6 @@ private:
   std::map<vtkInformation*, std::optional<double>> Times; // of each output
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

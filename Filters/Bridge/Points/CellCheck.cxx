@@ -24,7 +24,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -298,4 +298,4 @@ void requireReadableCells(vtkDataSet* data, const std::string& name)
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -11,7 +11,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkDataSet;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Throws Failure for a cell with points that the data set, called `name`, does not have, of a type
@@ -20,6 +20,6 @@ namespace RectifiedTransport
 // and for ghost arrays of a wrong length. Reads only the ids.
 void requireReadableCells(vtkDataSet* data, const std::string& name);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -8,7 +8,7 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The array of the cells' types, whatever its length; nullptr if there is none.
@@ -21,6 +21,6 @@ inline vtkDataArray* cellTypesOf(vtkUnstructuredGrid* grid)
 #endif
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

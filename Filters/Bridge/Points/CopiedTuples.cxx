@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -75,4 +75,4 @@ void copyTuples(const TupleSource& source, std::int64_t count,
     units);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

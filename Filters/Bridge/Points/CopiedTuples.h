@@ -19,8 +19,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 struct TupleSource
 {
@@ -43,6 +46,6 @@ void requireTuples(vtkDataSet* data, const std::string& name);
 void copyTuples(const TupleSource& source, std::int64_t count,
   const std::function<vtkIdType(vtkIdType)>& idOf, vtkDataSetAttributes* to, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 DoubleTuples::DoubleTuples(vtkDataArray* array, Progress& progress)
@@ -48,4 +48,4 @@ void DoubleTuples::Copy(
   this->Values = copies;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -13,7 +13,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class CountedPoints;
@@ -38,6 +38,6 @@ private:
   const double* Values;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

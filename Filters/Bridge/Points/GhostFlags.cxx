@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what)
@@ -115,4 +115,4 @@ CountedPoints::CountedPoints(std::int64_t all, const unsigned char* flags, unsig
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

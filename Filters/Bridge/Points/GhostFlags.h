@@ -17,7 +17,7 @@ class vtkDataSet;
 class vtkIdList;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The flags of points and cells without mass.
@@ -74,6 +74,6 @@ private:
   LargeBuffer<std::int64_t> Indices; // none if there are no ghosts
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

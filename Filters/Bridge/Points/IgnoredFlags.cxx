@@ -12,7 +12,7 @@
 
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -50,4 +50,4 @@ void warnOfIgnoredFlags(vtkAlgorithm* filter, vtkInformationVector** inputVector
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

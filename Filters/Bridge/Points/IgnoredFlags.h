@@ -10,13 +10,13 @@ class vtkAlgorithm;
 class vtkInformationVector;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // A warning of the filter for the first such array of its inputs. VTK does not take them for flags,
 // so that they hide no points and cells.
 void warnOfIgnoredFlags(vtkAlgorithm* filter, vtkInformationVector** inputVector);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -8,7 +8,7 @@
 #include "vtkArrayDispatch.h"
 #include "vtkDataArrayRange.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Calls visit(values) with an array of integers in its value type.
@@ -24,6 +24,6 @@ void visitIntegers(vtkDataArray* array, const Visit& visit)
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -10,7 +10,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 vtkSmartPointer<vtkCellArray> newParticleCells(
@@ -55,4 +55,4 @@ void setParticles(
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

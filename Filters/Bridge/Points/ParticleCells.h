@@ -15,7 +15,7 @@ class vtkDataArray;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // They run as the current stage and throw Failure and Cancelled.
@@ -25,6 +25,6 @@ vtkSmartPointer<vtkCellArray> newParticleCells(
 void setParticles(
   vtkPolyData* output, vtkDataArray* points, vtkIdType pointsEach, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -216,4 +216,4 @@ template class ParticleSet<1>;
 template class ParticleSet<2>;
 template class ParticleSet<3>;
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -22,8 +22,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class LengthScale;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Positions of particles, each at one time or at several along a path. In 3D index and physical
 // coordinates share memory.
@@ -80,6 +83,6 @@ private:
   LargeBuffer<double> PositionBuffer;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

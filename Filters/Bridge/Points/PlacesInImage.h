@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Linear between the image's points. The domain of a point array is half a spacing larger: places
@@ -125,6 +125,6 @@ private:
   const ConstPointSpan<3> Places;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

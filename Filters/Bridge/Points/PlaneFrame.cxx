@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The first axis is as near to that of x (or of y, if the normal is nearly along x) as the plane
@@ -113,4 +113,4 @@ double RingPlane::Extent() const
     this->High[0] - this->Low[0], this->High[1] - this->Low[1], this->High[2] - this->Low[2]);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

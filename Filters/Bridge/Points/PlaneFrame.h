@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class PlaneFrame
@@ -49,6 +49,6 @@ private:
   Point<3> Sum{ 0.0, 0.0, 0.0 };
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -14,7 +14,7 @@
 #include <sstream>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -135,4 +135,4 @@ void NotFinitePoints::RequireNone(const std::string& what) const
   throw Failure(message.str());
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

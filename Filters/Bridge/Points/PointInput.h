@@ -22,7 +22,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkInformationVector;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The point set of a port, nullptr if there is none. Throws Failure for a block of another type,
@@ -125,6 +125,6 @@ void visitPoints(
   pass.NotFinite.RequireNone(what);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <sstream>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -193,4 +193,4 @@ PointMasses::PointMasses(vtkPointSet* points, vtkDataArray* array, Progress& pro
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

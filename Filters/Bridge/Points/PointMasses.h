@@ -17,7 +17,7 @@ class vtkDataArray;
 class vtkPointSet;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The point array of masses of that name; nullptr for an empty name, and for "None" if there is no
@@ -53,6 +53,6 @@ private:
   double Sizes = 0.0;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -26,7 +26,7 @@
 #include <utility>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -443,4 +443,4 @@ void sampleArrays(const ArraySource& source, const SampledPlaces& places, Progre
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

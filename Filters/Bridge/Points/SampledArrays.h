@@ -17,8 +17,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // A place in a data set: between points that have weights, and in a cell.
 struct SampledPlace
@@ -64,6 +67,6 @@ struct ArraySource
 void sampleArrays(const ArraySource& source, const SampledPlaces& places, Progress& progress,
   double end, vtkPointData* output);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -8,7 +8,7 @@
 #include <atomic>
 #include <cmath>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -72,4 +72,4 @@ template std::int64_t readSeeds<2>(vtkPointSet*, const CountedPoints&, const std
 template std::int64_t readSeeds<3>(vtkPointSet*, const CountedPoints&, const std::string&,
   const ImageGrid&, Progress&, PointSpan<3>, PointSpan<3>);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -11,7 +11,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class CountedPoints;
@@ -25,6 +25,6 @@ template <int D>
 std::int64_t readSeeds(vtkPointSet* points, const CountedPoints& counted, const std::string& what,
   const ImageGrid& grid, Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

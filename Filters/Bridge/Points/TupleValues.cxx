@@ -12,7 +12,7 @@
 #include <cstring>
 #include <limits>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -95,4 +95,4 @@ std::string tupleText(vtkAbstractArray* array, vtkIdType tuple)
   return text;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -13,7 +13,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractArray;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Appends bytes that are the same for two tuples of an array exactly if their values are equal: as
@@ -23,6 +23,6 @@ void appendTupleKey(vtkAbstractArray* array, vtkIdType tuple, std::string& key);
 // All components, numbers with the digits that they need.
 std::string tupleText(vtkAbstractArray* array, vtkIdType tuple);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

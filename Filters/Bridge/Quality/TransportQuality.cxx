@@ -28,7 +28,7 @@
 #include <string>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -239,4 +239,4 @@ ParticleQuality TransportQuality::Run(const DistributedPoints& particles, InputD
     sample, grid, this->BlockSize, flow, progress);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

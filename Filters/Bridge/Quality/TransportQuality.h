@@ -7,7 +7,7 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Quality/ParticleQuality.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class InputDensity;
@@ -27,6 +27,6 @@ struct TransportQuality
     Progress& progress) const;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -13,7 +13,7 @@
 #include <iomanip>
 #include <sstream>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -223,4 +223,4 @@ const char* takeTuples(const char* from, const std::vector<TupleRun>& runs, vtkD
   return from;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

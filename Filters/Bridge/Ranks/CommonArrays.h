@@ -17,7 +17,7 @@ class vtkDataArray;
 class vtkDataSet;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // A numeric array of points or cells.
@@ -63,6 +63,6 @@ void copyTuples(vtkDataArray* from, const std::vector<TupleRun>& runs,
 // Reads tuples from bytes; returns where the next ones begin.
 const char* takeTuples(const char* from, const std::vector<TupleRun>& runs, vtkDataArray* to);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -24,7 +24,7 @@
 #include <vector>
 #endif
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI
@@ -204,4 +204,4 @@ vtkSmartPointer<vtkDataSet> dataSetOfBytes(const char*, std::size_t)
 
 #endif
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -14,7 +14,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkDataSet;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // With all arrays in their order, the active attributes and ghost arrays. Throws Failure for a type
@@ -23,6 +23,6 @@ Bytes bytesOfDataSet(vtkDataSet* data);
 // Images come as vtkImageData.
 vtkSmartPointer<vtkDataSet> dataSetOfBytes(const char* bytes, std::size_t count);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -31,7 +31,7 @@
 #include <utility>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -321,4 +321,4 @@ vtkSmartPointer<vtkDataArray> DistributedPoints::TuplesOf(vtkDataArray* array) c
   return copy;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -17,7 +17,7 @@ class vtkDataArray;
 class vtkPointSet;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // If every rank holds the same data set, only rank 0's points count. If ranks share points of a
@@ -55,6 +55,6 @@ private:
 // single rank gets its own set. `given` may be nullptr. Collective. Throws Failure.
 vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& ranks);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

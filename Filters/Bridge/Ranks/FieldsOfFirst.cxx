@@ -10,7 +10,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 void takeFieldsOfFirst(vtkFieldData* fields, const Ranks& ranks)
@@ -36,4 +36,4 @@ void takeFieldsOfFirst(vtkFieldData* fields, const Ranks& ranks)
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

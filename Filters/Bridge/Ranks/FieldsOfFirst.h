@@ -11,12 +11,15 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Ranks;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Replaces the fields of each rank by those of the first one. Collective.
 void takeFieldsOfFirst(vtkFieldData* fields, const Ranks& ranks);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

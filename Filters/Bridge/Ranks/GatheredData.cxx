@@ -33,7 +33,7 @@
 #include <string>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -390,4 +390,4 @@ vtkSmartPointer<vtkPointSet> gatherPoints(
   return joinParts(gatherDataParts(parts, ranks, receivers).Parts, kind);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

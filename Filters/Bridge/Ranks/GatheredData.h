@@ -17,7 +17,7 @@ class vtkDataSet;
 class vtkPointSet;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // A data set with points, or the part of one that a rank has.
@@ -66,6 +66,6 @@ enum class PointSetKind
 vtkSmartPointer<vtkPointSet> gatherPoints(
   vtkPointSet* own, const Ranks& ranks, Receivers receivers, PointSetKind kind);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

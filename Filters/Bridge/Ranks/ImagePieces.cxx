@@ -21,7 +21,7 @@
 #include <sstream>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -250,4 +250,4 @@ void distributeImage(vtkImageData* image, vtkInformation* output, const Ranks& r
   announceGrid(grid, output);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

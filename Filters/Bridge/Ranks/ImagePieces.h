@@ -19,7 +19,7 @@ class vtkImageData;
 class vtkInformation;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Which part of one whole image each rank has. Points and cells that ghost arrays mark as
@@ -72,6 +72,6 @@ private:
 // Collective.
 void distributeImage(vtkImageData* image, vtkInformation* output, const Ranks& ranks);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -140,4 +140,4 @@ void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners
   setParticles(particles, made, points, progress);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -13,10 +13,14 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
-class PlaceOwners;
 class Progress;
 class Ranks;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
+
+class PlaceOwners;
 
 // Each particle is a cell of `points` consecutive points; the last one is its position. Afterwards
 // the data set has the particles at the positions that this rank owns, those of rank 0 first, in
@@ -24,6 +28,6 @@ class Ranks;
 void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners& owners,
   const Ranks& ranks, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 int placeOnMachine(const Ranks& ranks, const std::string& machine)
@@ -14,4 +14,4 @@ int placeOnMachine(const Ranks& ranks, const std::string& machine)
   return static_cast<int>(std::count(all.begin(), all.begin() + ranks.Own(), own));
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

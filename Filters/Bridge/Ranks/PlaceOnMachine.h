@@ -6,12 +6,12 @@
 
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // How many ranks of a group before this one run on a machine of the same name. Collective.
 int placeOnMachine(const Ranks& ranks, const std::string& machine);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

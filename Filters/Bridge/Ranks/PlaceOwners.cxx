@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 PlaceOwners::PlaceOwners(const ImageGrid& grid, const ImagePieces* pieces, const Ranks& ranks)
@@ -121,4 +121,4 @@ int PlaceOwners::OwnerOf(const double* place) const
   return (this->*find)(place);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The owner is the lowest rank that has the grid cell of the position. If a rank has the whole
@@ -41,6 +41,6 @@ private:
   std::vector<int> Owners;                      // of the parts between cuts
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

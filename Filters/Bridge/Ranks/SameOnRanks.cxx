@@ -15,7 +15,7 @@
 #include <sstream>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -129,4 +129,4 @@ Extent extentToGive(const Extent& whole, vtkInformation* output, const Ranks& ra
   return dividedExtent(whole, ranks.Count())[static_cast<std::size_t>(ranks.Own())];
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

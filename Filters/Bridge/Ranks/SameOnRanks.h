@@ -15,7 +15,7 @@ class vtkInformation;
 class vtkObject;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Throws Failure if a text is not the same on all ranks that have one; `what` begins the message,
@@ -36,6 +36,6 @@ bool areSameOnRanks(vtkDataObject* data, const Ranks& ranks);
 // else its piece of the whole, because requests then refer to another extent. Collective.
 Extent extentToGive(const Extent& whole, vtkInformation* output, const Ranks& ranks);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -12,7 +12,7 @@
 #include <iomanip>
 #include <sstream>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -129,4 +129,4 @@ void ShortArrays::AddEmptyTo(vtkDataSet* data) const
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

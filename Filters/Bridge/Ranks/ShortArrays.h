@@ -16,8 +16,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Ranks;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // What copies, sends and joins tuples would read past the end of such arrays. They are taken out
 // before, and an array of their name without any tuple takes their place after: what reads it
@@ -68,6 +71,6 @@ private:
   std::vector<Array> Arrays;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

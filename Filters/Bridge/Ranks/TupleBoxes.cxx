@@ -11,7 +11,7 @@
 #include <sstream>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -222,4 +222,4 @@ void completeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, co
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

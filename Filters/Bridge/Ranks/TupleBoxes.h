@@ -22,7 +22,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The points of an image along its axes, as in vtkImageData; {0, -1, ...} for none.
@@ -112,6 +112,6 @@ void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, co
 void completeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const TupleBox& all,
   const Ranks& ranks, vtkDataArray* array);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -19,7 +19,7 @@
 #include <cmath>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -209,4 +209,4 @@ BlueNoiseRelaxation::Report BlueNoiseRelaxation::Run(InputDensity& density, vtkP
                         : relax<3>(*this, density, input, counted, cache, progress, output);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

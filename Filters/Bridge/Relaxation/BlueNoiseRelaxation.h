@@ -15,11 +15,15 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
+class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 class CountedPoints;
 class InputDensity;
 class FlowCache;
-class Progress;
 
 // The members are the properties of that class.
 struct BlueNoiseRelaxation
@@ -40,6 +44,6 @@ struct BlueNoiseRelaxation
     FlowCache& cache, Progress& progress, vtkPointSet* output) const;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

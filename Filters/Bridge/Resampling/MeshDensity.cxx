@@ -18,7 +18,7 @@
 #include <functional>
 #include <sstream>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -228,4 +228,4 @@ double integralOf(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
     blocks, grid, progress);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -12,8 +12,11 @@
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Writes the mean over each cell of the grid. Point values are linear on the simplices of a cell; a
 // region has one value. Returns warnings about what carries no mass. Throws Failure and Cancelled.
@@ -24,6 +27,6 @@ std::vector<std::string> resampleCells(const std::vector<BlockValues>& blocks,
 double integralOf(
   const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

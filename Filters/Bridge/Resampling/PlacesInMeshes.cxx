@@ -18,7 +18,7 @@
 #include <cmath>
 #include <limits>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -339,4 +339,4 @@ SampledPlace PlacesInMeshes::Find(std::int64_t place) const
   return sampled;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

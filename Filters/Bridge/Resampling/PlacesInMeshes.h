@@ -13,9 +13,12 @@
 
 namespace RectifiedTransport
 {
-
 class ImageGrid;
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // A place is in the first cell that contains it, else in the nearest cell within a grid cell. It is
 // linear between points on the simplices of the cell; in a region, between the outline to the left
@@ -35,6 +38,6 @@ private:
   LargeBuffer<MeshPlace> Found;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

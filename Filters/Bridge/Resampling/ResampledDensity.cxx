@@ -31,7 +31,7 @@
 #include <iterator>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -299,4 +299,4 @@ void ResampledDensity::FillEmpty(
   });
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -22,8 +22,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Keeps the last image. It is made again only if the data sets or the parameters change.
 class ResampledDensity
@@ -58,6 +61,6 @@ private:
   double Empty = 0.0; // the density of what their cells do not cover
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -50,4 +50,4 @@ AlgorithmProgress::AlgorithmProgress(
 {
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -16,8 +16,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class DeviceUse;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Construct it on the thread that executes the algorithm.
 class AlgorithmProgress final : public Progress
@@ -36,6 +39,6 @@ private:
   const std::unique_ptr<Executor> OwnThreads;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -6,7 +6,7 @@
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 std::string listArrays(vtkDataSetAttributes* attributes, const std::string& owner)
@@ -40,4 +40,4 @@ void requireScalars(
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -14,7 +14,7 @@ class vtkDataArray;
 class vtkDataSetAttributes;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // "a, b (point)", or "no point arrays": the numeric arrays. `owner` is "point" or "cell".
@@ -25,6 +25,6 @@ std::string listArrays(vtkDataSetAttributes* attributes, const std::string& owne
 void requireScalars(
   vtkDataArray* array, const std::string& title, vtkIdType count, const std::string& owners);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

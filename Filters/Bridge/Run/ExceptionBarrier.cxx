@@ -16,7 +16,7 @@
 #include <new>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -76,4 +76,4 @@ int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs, Rank
   return 0;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -10,7 +10,7 @@ class vtkAlgorithm;
 class vtkInformationVector;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class RankRun;
@@ -20,6 +20,6 @@ class RankRun;
 // ranks of `run`. Returns the return value of ProcessRequest.
 int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs, RankRun* run = nullptr);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // An error that the user can correct; what() is its one-line message.
@@ -31,6 +31,6 @@ template <class... Values>
   throw Failure(message.str());
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

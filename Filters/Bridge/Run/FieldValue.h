@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Adds an array of several numbers. It replaces an array of the same name.
@@ -42,6 +42,6 @@ inline void addFieldValue(vtkDataObject* output, const char* name, double value)
   addFieldValues(output, name, { value });
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -104,4 +104,4 @@ std::uint64_t fingerprint(const std::vector<vtkDataArray*>& arrays, Progress& pr
   return mixed == 0 ? 1 : mixed;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -14,13 +14,16 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // A hash of the bits of the arrays' values; 0 if one is not contiguous in memory. Arrays may be
 // null. Runs as the current stage. Throws Cancelled.
 std::uint64_t fingerprint(const std::vector<vtkDataArray*>& arrays, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

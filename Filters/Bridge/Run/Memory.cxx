@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 std::string describeLack(const std::string& purpose, double bytes)
@@ -54,4 +54,4 @@ void requireMemory(const std::string& purpose, double bytes)
   std::free(memory);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -13,7 +13,7 @@
 #include <new>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The text of the error.
@@ -69,6 +69,6 @@ vtkSmartPointer<ArrayT> newArray(const std::string& name, int components, vtkIdT
   return array;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -60,4 +60,4 @@ std::string messageText(const std::string& text)
   return result;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

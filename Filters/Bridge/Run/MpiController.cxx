@@ -5,7 +5,7 @@
 #include "vtkMPIController.h"
 #endif
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI
@@ -65,4 +65,4 @@ std::string machineOfRank()
 
 #endif
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

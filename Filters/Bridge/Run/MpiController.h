@@ -11,7 +11,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkMPIController;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The global controller if it is one of MPI. Only if VTK has MPI.
@@ -35,6 +35,6 @@ DataPiece pieceOfRank();
 // MPI's name of the machine that this rank runs on; empty without MPI.
 std::string machineOfRank();
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -14,7 +14,7 @@
 #include <sstream>
 #include <system_error>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -120,4 +120,4 @@ NumbersOfText numbersOf(vtkAbstractArray* array, bool emptyIsNaN,
   return found;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

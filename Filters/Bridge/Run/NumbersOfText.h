@@ -18,7 +18,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractArray;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The number that a text is, with a dot and blanks around it in any locale; NaN and infinite ones
@@ -40,6 +40,6 @@ struct NumbersOfText
 NumbersOfText numbersOf(vtkAbstractArray* array, bool emptyIsNaN = false,
   const std::function<std::string(vtkIdType tuple)>& placeOf = nullptr);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // "12 of 8192 cells (0.146 %)".
@@ -31,6 +31,6 @@ inline std::string percentText(double part)
   return text.str();
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -15,7 +15,7 @@
 #include <string>
 #include <type_traits>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The text of a value of an enumeration.
@@ -77,6 +77,6 @@ inline void requireResolution(const char* property, int resolution)
     resolution >= 1 && resolution <= MaximumResolution, property, resolution, rule.c_str());
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

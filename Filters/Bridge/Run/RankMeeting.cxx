@@ -18,7 +18,7 @@
 #include <map>
 #include <thread>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -263,6 +263,6 @@ void meetRanks(const std::string& filter, bool withData, Seconds longest)
   meeting.Wait(filter, withData, longest);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Waits until all ranks have arrived here for the same filter. `withData`: to make its data; else
@@ -15,6 +15,6 @@ namespace RectifiedTransport
 // another filter. Only if VTK has MPI.
 void meetRanks(const std::string& filter, bool withData, std::chrono::duration<double> longest);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -19,7 +19,7 @@
 
 #include <cstdlib>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -317,4 +317,4 @@ std::unique_ptr<RankRun> RankRun::TryBegin(
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

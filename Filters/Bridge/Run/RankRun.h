@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class RankRun : public Ranks
@@ -36,6 +36,6 @@ public:
   virtual void End() = 0;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -101,4 +101,4 @@ void withThreadsOfThisProcess(const std::function<void()>& function)
   vtkSMPTools::LocalScope(vtkSMPTools::Config("Sequential"), function);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

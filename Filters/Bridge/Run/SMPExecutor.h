@@ -8,7 +8,7 @@
 #include <functional>
 #include <memory>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Serial in a child that fork() made.
@@ -38,6 +38,6 @@ std::unique_ptr<Executor> makeExecutor(int threading);
 // meanwhile: backends keep threads, too.
 void withThreadsOfThisProcess(const std::function<void()>& function);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

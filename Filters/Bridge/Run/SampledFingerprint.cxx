@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -156,4 +156,4 @@ std::uint64_t sampledFingerprint(const std::vector<vtkDataObject*>& data)
   return hasAny ? std::max<std::uint64_t>(1, mixer.Mixed()) : 0;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -12,13 +12,13 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkDataObject;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Hashes the numbers of points and cells, the bounds, and samples of the coordinates and array
 // values of data sets and of the leaves of composites; 0 if none has points.
 std::uint64_t sampledFingerprint(const std::vector<vtkDataObject*>& data);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

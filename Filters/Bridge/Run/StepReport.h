@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // One value for each flow.
@@ -83,6 +83,6 @@ inline int addEqualAreas(vtkDataObject* output, const Ranks& ranks, int own, Flo
   return passes;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

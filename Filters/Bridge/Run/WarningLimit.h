@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Fewer than one in a thousand are in the field data alone: hosts show a warning in a window of
@@ -21,6 +21,6 @@ inline bool isWorthWarning(double area, double all)
   return area > 0.0 && 1000.0 * area >= all;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -16,7 +16,7 @@
 #include <sstream>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -101,4 +101,4 @@ void UniformSeedSource::Run(int piece, int pieces, Progress& progress, vtkPolyDa
   fill(*this, piece, pieces, progress, output);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

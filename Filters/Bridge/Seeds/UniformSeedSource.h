@@ -15,8 +15,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // The members are the properties of that class.
 struct UniformSeedSource
@@ -32,6 +35,6 @@ struct UniformSeedSource
   void Run(int piece, int pieces, Progress& progress, vtkPolyData* output) const;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

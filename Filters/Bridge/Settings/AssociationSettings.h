@@ -5,7 +5,7 @@
 
 #include "Bridge/Run/PropertyCheck.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 constexpr const char* AssociationTexts[] = { "Points", "Cells" };
@@ -17,6 +17,6 @@ inline bool isOnPoints(int association)
   return association == 0;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "vtkType.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // What the property Component may be besides an index. Auto is one of the others, by the array.
@@ -30,6 +30,6 @@ inline int automaticComponent(int type, int components)
                                         : AutoComponent;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 std::int64_t CornerSettings::At(int index) const
@@ -94,4 +94,4 @@ void CornerSettings::Print(std::ostream& os, vtkIndent indent) const
   os << (this->Points.empty() ? " automatic\n" : "\n");
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -12,7 +12,7 @@
 #include <iosfwd>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 struct CornerSettings
@@ -37,6 +37,6 @@ struct CornerSettings
   void Print(std::ostream& os, vtkIndent indent) const;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

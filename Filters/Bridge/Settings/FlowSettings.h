@@ -11,7 +11,7 @@
 #include <cmath>
 #include <ostream>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Indexed by the enumerations of vtkTransportAlgorithm.
@@ -54,6 +54,6 @@ void printFlowOptions(Filter& filter, std::ostream& os, vtkIndent indent)
   os << indent << "FlowMaps: " << filter.GetFlowMapsAsString() << "\n";
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

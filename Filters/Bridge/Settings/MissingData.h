@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Indexed by the enumerations of vtkDensityAlgorithm.
@@ -77,6 +77,6 @@ inline EmptyRule emptyRule(int cells, double value)
   return { rule, rule == EmptyCells::Value ? value : 0.0 };
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -9,7 +9,7 @@
 
 #include <ostream>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Indexed by vtkTransportAlgorithm::MethodType.
@@ -64,6 +64,6 @@ void printOptimalSetting(Filter& filter, std::ostream& os, vtkIndent indent)
   os << indent << "Certify: " << (filter.GetCertify() ? "On" : "Off") << "\n";
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -6,7 +6,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Core/Seeds/Seeds.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 constexpr const char* SeedPatternTexts[] = { "BlueNoise", "Lattice", "Jittered", "LowDiscrepancy",
@@ -19,6 +19,6 @@ inline SeedPattern seedPattern(const char* property, int pattern)
   return static_cast<SeedPattern>(pattern);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -6,7 +6,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Core/Splat/Splat.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 constexpr const char* KernelTexts[] = { "CloudInCell", "NearestCell", "TriangularShapedCloud",
@@ -24,6 +24,6 @@ inline SplatOptions splatOptions(int kernel, double radius)
   return options;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

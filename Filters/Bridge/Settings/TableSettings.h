@@ -5,7 +5,7 @@
 
 #include "Bridge/Run/PropertyCheck.h"
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Indexed by vtkTransportAlgorithm::TablesType.
@@ -25,6 +25,6 @@ inline TableSetting tableSetting(int tables)
   return static_cast<TableSetting>(tables);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The index and the port to keep, for those given to SetInputArrayToProcess. The array is looked up
@@ -17,6 +17,6 @@ inline std::pair<int, int> targetArray(int index, int port)
   return { isTarget ? 1 : index, isTarget ? 0 : port };
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

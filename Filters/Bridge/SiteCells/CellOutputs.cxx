@@ -22,7 +22,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -153,4 +153,4 @@ void writePolygons(SiteCellPolygons polygons, const CellOutputs& outputs, Progre
   data->SetActiveScalars(ids->GetName()); // SetScalars would remove the sites' scalars
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

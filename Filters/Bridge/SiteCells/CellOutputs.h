@@ -20,8 +20,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 struct CellOutputs
 {
@@ -47,6 +50,6 @@ void writeOutlines(SiteCellOutlines<Dimension> outlines, vtkPolyData* output);
 // With the data of the output's sites. Runs as the current stage. Throws Failure and Cancelled.
 void writePolygons(SiteCellPolygons polygons, const CellOutputs& outputs, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -30,7 +30,7 @@
 #include <string>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -344,4 +344,4 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, InputDensity& den
     *this, sites, grid, density, cache, kept, progress, outputs);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -18,10 +18,14 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
+class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 class InputDensity;
 class FlowCache;
-class Progress;
 
 // The members are the properties of that class.
 struct EqualMassCells
@@ -49,6 +53,6 @@ struct EqualMassCells
     Progress& progress, const CellOutputs& outputs) const;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

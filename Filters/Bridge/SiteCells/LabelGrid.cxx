@@ -18,7 +18,7 @@
 #include <algorithm>
 #include <array>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -110,4 +110,4 @@ ImageGrid LabelGrid::Around(vtkPointSet* sites, const Ranks& ranks) const
   return gridWithResolution(box, this->Resolution, "Resolution");
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -12,7 +12,7 @@ class vtkDataObject;
 class vtkPointSet;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // If the data are distributed, the functions are collective. They throw Failure.
@@ -29,6 +29,6 @@ struct LabelGrid
   ImageGrid Around(vtkPointSet* sites, const Ranks& ranks = SoloRanks::Get()) const;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

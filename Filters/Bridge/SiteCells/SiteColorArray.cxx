@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -90,4 +90,4 @@ void addSiteColors(vtkImageData* labels, vtkPolyData* polygons, vtkIdType sites,
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

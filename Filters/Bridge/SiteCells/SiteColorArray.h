@@ -14,8 +14,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Adds the cell array SiteColor, bytes that differ between neighbours, to the sites' cells, whose
 // cell scalars are SiteId: an image and polygons. Hides pixels of no site by a ghost array. Throws
@@ -23,6 +26,6 @@ class Progress;
 void addSiteColors(
   vtkImageData* labels, vtkPolyData* polygons, vtkIdType sites, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -7,7 +7,7 @@
 
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The modification time of the data set itself: its GetMTime() includes its points.
@@ -33,4 +33,4 @@ bool SiteLabels::UpdateStamp(vtkPointSet* sites, Progress& progress)
     (now.SetTime == before.SetTime || (now.Bits != 0 && now.Bits == before.Bits));
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -25,7 +25,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 using SiteIdArray =
@@ -115,6 +115,6 @@ private:
   Settings Of{};
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

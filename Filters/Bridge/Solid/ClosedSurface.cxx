@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -279,4 +279,4 @@ SolidSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress, d
   return this->Mesh->Solid();
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

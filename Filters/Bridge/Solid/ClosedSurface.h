@@ -19,8 +19,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class ImageGrid;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // The bounds of the points that polygons and strips use; the first is above the second if there are
 // none.
@@ -67,6 +70,6 @@ private:
   std::optional<ClosedMesh> Mesh;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -19,7 +19,7 @@
 
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -87,4 +87,4 @@ SolidDensityReport SolidDensity::Run(vtkPolyData* surface,
   return { grid, closed.RepairWarning() };
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

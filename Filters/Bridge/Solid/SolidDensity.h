@@ -17,9 +17,12 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
 class Ranks;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 struct SolidDensityReport
 {
@@ -46,6 +49,6 @@ struct SolidDensity
     vtkImageData* output) const;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -17,7 +17,7 @@
 #include <array>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -216,4 +216,4 @@ vtkSmartPointer<vtkCellArray> cutIntoTriangles(
   return cut.Take();
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -14,7 +14,7 @@ class vtkCellArray;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The triangles of all polygons and strips, on the merged points of a mesh. Progress reaches `end`.
@@ -27,6 +27,6 @@ namespace RectifiedTransport
 vtkSmartPointer<vtkCellArray> cutIntoTriangles(
   vtkPolyData* surface, const ClosedMesh& mesh, Progress& progress, double end);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -331,4 +331,4 @@ std::int64_t splatDistributed(vtkDataArray* points, const double* masses, double
   });
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // As splatPoints, for the points of all ranks, in the order of the ranks and then of their points.
@@ -25,6 +25,6 @@ std::int64_t splatDistributed(vtkDataArray* points, const double* masses, double
   const std::int64_t* order, const SplatTarget& target, const TupleBox& wanted, Progress& progress,
   vtkDoubleArray* cells);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

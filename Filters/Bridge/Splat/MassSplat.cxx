@@ -15,7 +15,7 @@
 #include <numeric>
 #include <sstream>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -103,4 +103,4 @@ double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& p
   return target.DivideByVolume ? sum * target.Geometry.CellMeasure() : sum;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -15,7 +15,7 @@ class vtkDataArray;
 class vtkDoubleArray;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The grid and the options of a splat.
@@ -47,6 +47,6 @@ std::int64_t splatPoints(vtkDataArray* points, const double* masses, double mass
 constexpr std::int64_t splatSumChunk = std::int64_t{ 1 } << 13;
 double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -28,7 +28,7 @@
 #include <sstream>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -276,4 +276,4 @@ MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses
   return { grid, counted.All(), splat.Outside };
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

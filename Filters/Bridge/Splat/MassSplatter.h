@@ -19,9 +19,12 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
 class Ranks;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // The members are the properties of that class.
 struct MassSplatter
@@ -60,6 +63,6 @@ private:
   ImageGrid GridOf(const ImageGrid& cells, bool hasReference) const;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 DiskSurface::DiskSurface(SurfaceTriangles& input, Progress& progress, double end)
@@ -161,4 +161,4 @@ std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles, boo
     (isCut ? "" : ", or give Corners between these points");
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -15,7 +15,7 @@
 #include <optional>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The input surface is no disk.
@@ -96,6 +96,6 @@ ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progres
 // A warning about triangles that have no area in the map; Corners help if the surface is not cut.
 std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles, bool isCut = false);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

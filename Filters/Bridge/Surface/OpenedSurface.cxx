@@ -24,7 +24,7 @@
 #include <string>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -231,4 +231,4 @@ std::string OpenedSurface::RepairWarning() const
   return repairWarning(counts);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

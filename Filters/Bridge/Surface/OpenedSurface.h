@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // The points of the output are those of the input in their order, and then the copies of those on
@@ -66,6 +66,6 @@ private:
   std::vector<std::int64_t> NextCopy;  // by points of the output; -1 for the last one
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

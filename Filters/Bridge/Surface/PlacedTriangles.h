@@ -16,7 +16,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 struct SurfaceAreas
@@ -59,6 +59,6 @@ public:
   virtual SurfaceAreas Areas() const = 0;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

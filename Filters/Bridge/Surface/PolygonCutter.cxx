@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 PolygonCutter::PolygonCutter(vtkPoints* points, double rounding)
@@ -192,4 +192,4 @@ void PolygonCutter::Append(
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -19,7 +19,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkCellArray;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // vtkPolygon drops polygons with coincident corners, which Clip and Slice make where they pass
@@ -54,6 +54,6 @@ private:
   vtkNew<vtkIdList> Ids; // of the triangles of the last ring, three places in it each
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <limits>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -163,4 +163,4 @@ vtkSmartPointer<vtkCellArray> triangulate(
   return triangles;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

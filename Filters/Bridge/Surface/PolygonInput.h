@@ -21,7 +21,7 @@ class vtkPoints;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Units of a slice of work with random memory access, for Progress.
@@ -82,6 +82,6 @@ void visitTriangles(vtkCellArray* triangles, Progress& progress, const Visit& vi
   });
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 std::string repairWarning(const RepairCounts& counts)
@@ -31,4 +31,4 @@ std::string repairWarning(const RepairCounts& counts)
   return text.empty() ? text : "The input surface was repaired: " + text;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

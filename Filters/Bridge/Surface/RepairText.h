@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // What was repaired in a surface.
@@ -24,6 +24,6 @@ struct RepairCounts
 // "The input surface was repaired: 2 points in no polygon left out, ..."; empty if nothing was.
 std::string repairWarning(const RepairCounts& counts);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -28,7 +28,7 @@
 #include <utility>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -208,4 +208,4 @@ SurfaceInput::SurfaceInput(vtkDataObject* input, Progress& progress)
   this->Surface = surfaceOf(set, found, this->Cells, progress);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -18,8 +18,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 class SurfaceInput
 {
@@ -46,6 +49,6 @@ private:
   LargeBuffer<vtkIdType> Cells; // by cells of the surface; empty if these are the input's
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

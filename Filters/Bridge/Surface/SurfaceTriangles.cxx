@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 SurfaceTriangles::SurfaceTriangles(
@@ -60,4 +60,4 @@ void SurfaceTriangles::Free()
   this->Corners = {};
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

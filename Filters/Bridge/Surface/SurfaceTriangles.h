@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class SurfaceTriangles
@@ -61,6 +61,6 @@ private:
   std::optional<SplitSurface> Split;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

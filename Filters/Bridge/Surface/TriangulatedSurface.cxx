@@ -17,7 +17,7 @@
 #include <string>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -145,4 +145,4 @@ void TriangulatedSurface::CopyCellData(vtkPolyData* input, Progress& progress)
     this->Surface->GetCellData(), progress);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

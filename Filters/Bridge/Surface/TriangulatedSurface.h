@@ -19,8 +19,11 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class SplitSurface;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Stages from `Begin` to `End` of a run.
 struct SurfaceStages
@@ -77,6 +80,6 @@ private:
   LargeBuffer<vtkIdType> InputCells; // of triangles; empty if they are the input's
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

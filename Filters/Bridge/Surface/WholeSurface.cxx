@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -198,4 +198,4 @@ void WholeSurface::FindAreas(Progress& progress)
   });
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -10,7 +10,7 @@
 
 #include <optional>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class WholeSurface final : public PlacedTriangles
@@ -67,6 +67,6 @@ private:
   double Unit = 1.0;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

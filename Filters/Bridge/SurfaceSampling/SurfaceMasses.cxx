@@ -23,7 +23,7 @@
 #include <optional>
 #include <sstream>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -239,4 +239,4 @@ SurfaceDensityValues RelativeDensity::Values() const
   return found;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -18,7 +18,7 @@ class vtkAbstractArray;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class PlacedTriangles;
@@ -81,6 +81,6 @@ private:
   LargeBuffer<double> Relative; // empty for 1 everywhere
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -18,7 +18,7 @@
 #include <algorithm>
 #include <array>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -122,4 +122,4 @@ void writeSurfaceParticles(const SurfaceInput& input, const PlacedTriangles& sur
   addFieldValue(output, "TotalMass", totalMass);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -14,7 +14,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class PlacedTriangles;
@@ -30,6 +30,6 @@ void writeSurfaceParticles(const SurfaceInput& input, const PlacedTriangles& sur
   const LargeBuffer<PlaceOnTriangle>& places, double totalMass, Progress& progress,
   const double* ends, vtkPolyData* output);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -26,7 +26,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -202,4 +202,4 @@ SurfaceSamplingReport SurfaceSampler::Transport(const SurfaceInput& given,
     surface.RepairWarning() };
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -18,8 +18,12 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
+
 class SurfaceDensity;
 class SurfaceInput;
 
@@ -74,6 +78,6 @@ private:
     Progress& progress, vtkPolyData* output) const;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

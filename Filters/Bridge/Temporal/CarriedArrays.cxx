@@ -14,7 +14,7 @@
 
 #include <algorithm>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -237,4 +237,4 @@ void CarriedArrays::WriteOne(const Carried& carried, const CarriedMoment& moment
   output->GetAttributes(carried.Owner)->AddArray(made);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -25,8 +25,12 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
+
 struct MovingParticles;
 
 // The image of a step, and the name of its density's array, which is not carried.
@@ -84,6 +88,6 @@ private:
   std::vector<std::string> Lacking;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -17,7 +17,7 @@
 #include <functional>
 #include <unordered_map>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -255,4 +255,4 @@ void CarriedLabels::Write(const CarriedMoment& moment, const ImageGrid& geometry
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -23,8 +23,12 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
+
 struct CarriedMoment;
 struct CarryingImage;
 struct MovingParticles;
@@ -67,6 +71,6 @@ private:
   std::vector<Labels> Arrays;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

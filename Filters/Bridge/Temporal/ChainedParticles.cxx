@@ -17,7 +17,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -172,4 +172,4 @@ MovingParticles ChainedParticles::Between(int from, int to, const Ranks& ranks) 
   return particles;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

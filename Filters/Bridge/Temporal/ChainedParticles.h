@@ -17,9 +17,13 @@
 
 namespace RectifiedTransport
 {
-
 class Progress;
 class Ranks;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
+
 struct StepDensity;
 
 // Equal shares of the mass. They begin as samples of the first step, and each interval's map takes
@@ -72,6 +76,6 @@ private:
   std::string Text;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

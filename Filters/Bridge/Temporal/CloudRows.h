@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <functional>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 constexpr double largestCloud = 8.0; // in cells of the output
@@ -107,6 +107,6 @@ private:
   const float* To;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

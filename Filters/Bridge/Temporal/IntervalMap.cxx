@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -144,4 +144,4 @@ template class IntervalMap<1>;
 template class IntervalMap<2>;
 template class IntervalMap<3>;
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -12,8 +12,12 @@
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
+
 struct StepDensity;
 
 // By the optimal map or, where that does not reach the densities or is not wanted, by the flow of
@@ -54,6 +58,6 @@ private:
   std::string Text;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -78,4 +78,4 @@ void KeptSteps::Keep(double time, vtkDataObject* data)
   place->Used = ++this->Clock;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

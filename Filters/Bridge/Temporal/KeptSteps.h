@@ -18,7 +18,7 @@ class vtkAlgorithm;
 class vtkDataObject;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 struct KeptStep
@@ -57,6 +57,6 @@ private:
   vtkMTimeType Changed = 0;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -14,7 +14,7 @@
 #include <tuple>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -308,4 +308,4 @@ template std::unique_ptr<LabelVotes> makeLabelVotes<2>(
 template std::unique_ptr<LabelVotes> makeLabelVotes<3>(
   const CarriedMoment&, const BroughtTuples&, const ImageGrid&, const TupleBox&, Progress&);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

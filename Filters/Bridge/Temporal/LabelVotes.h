@@ -14,8 +14,12 @@
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
+
 struct CarriedMoment;
 
 class LabelVotes
@@ -50,6 +54,6 @@ template <int D>
 std::unique_ptr<LabelVotes> makeLabelVotes(const CarriedMoment& moment, const BroughtTuples& tuples,
   const ImageGrid& geometry, const TupleBox& wanted, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

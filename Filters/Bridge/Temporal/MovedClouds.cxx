@@ -17,7 +17,7 @@
 #include <memory>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -250,4 +250,4 @@ template std::vector<float> cloudsAtImages<2>(const PivotLattice<2>&, const Imag
 template std::vector<float> cloudsAtImages<3>(const PivotLattice<3>&, const ImageGrid&,
   const ImageGrid&, const std::vector<std::int64_t>&, ConstPointSpan<3>, Progress&);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -16,8 +16,11 @@
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 // Lengths of clouds along the axes of index space, of all particles; interleaved. In lengths of the
 // cells of the particle's own step, so that no unit of physical lengths is beyond a float.
@@ -62,6 +65,6 @@ struct MovedClouds
 void splatClouds(const MovedClouds& clouds, const ImageGrid& geometry, double most,
   const TupleBox& wanted, Progress& progress, vtkDoubleArray* density);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

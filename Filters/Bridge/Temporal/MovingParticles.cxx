@@ -17,7 +17,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -234,4 +234,4 @@ MovingParticles makeParticles(const StepDensity& from, const StepDensity& to,
     from, to, settings, progress, end);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -14,8 +14,12 @@
 
 namespace RectifiedTransport
 {
-
 class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
+
 struct StepDensity;
 
 // Of this rank, in the order of their numbers. Those of the first step begin in its cells, with the
@@ -53,6 +57,6 @@ struct MovingSettings
 MovingParticles makeParticles(const StepDensity& from, const StepDensity& to,
   const MovingSettings& settings, Progress& progress, double end);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -63,4 +63,4 @@ std::shared_ptr<const StepDensity> readStepDensity(
   return std::make_shared<const StepDensity>(std::move(step));
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -15,9 +15,13 @@
 
 namespace RectifiedTransport
 {
+class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 class InputDensity;
-class Progress;
 
 struct StepDensity
 {
@@ -45,6 +49,6 @@ struct StepDensity
 std::shared_ptr<const StepDensity> readStepDensity(
   InputDensity& density, std::shared_ptr<const StepDensity> before, Progress& progress);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <iterator>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 StepTimes::StepTimes(vtkInformation* input)
@@ -78,4 +78,4 @@ std::string StepTimes::Title(int step) const
     " (t = " + textOf((*this)[step]) + ")";
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -12,7 +12,7 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkInformation;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // A time within an interval between two consecutive steps; of one step, both are that one.
@@ -53,6 +53,6 @@ private:
   std::vector<double> Times;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -31,7 +31,7 @@
 #include <cmath>
 #include <utility>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -405,4 +405,4 @@ void TemporalInterpolation::WriteStep(
   }
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -28,9 +28,13 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
+class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
 
 class InputDensity;
-class Progress;
 
 struct TemporalSettings
 {
@@ -116,6 +120,6 @@ private:
   vtkSmartPointer<vtkCellArray> Vertices;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

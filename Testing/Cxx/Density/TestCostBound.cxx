@@ -15,7 +15,7 @@ double gapOf(double bound, double cost)
   const RectifiedTransport::ImageGrid grid({ 0, 256, 0, 256, 0, 0 }, { 0, 0, 0 }, { 0.5, 0.5, 1 },
     RectifiedTransport::ImageGrid::Matrix::Identity(), false);
   vtkNew<vtkPolyData> output;
-  RectifiedTransport::addCostBound(output, bound, cost, grid);
+  RectifiedTransport::Bridge::addCostBound(output, bound, cost, grid);
   return output->GetFieldData()->GetArray("OptimalityGap")->GetComponent(0, 0);
 }
 

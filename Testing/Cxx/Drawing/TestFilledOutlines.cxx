@@ -86,7 +86,7 @@ double areaOf(vtkPolyData* data)
 double filledArea(const std::vector<Ring>& rings, bool asLines)
 {
   const auto data = dataOf(rings, asLines);
-  RectifiedTransport::fillOutlines(data);
+  RectifiedTransport::Bridge::fillOutlines(data);
   return areaOf(data);
 }
 
@@ -104,7 +104,7 @@ void expectRegions(Checks& checks, vtkAbstractArray* values, int regions, int li
   writer->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Colours");
   CHECK(checks, writer->Write() == 1);
   checks.That(countOf(file.Text(), "evenodd") == regions, "regions of a file", line, type);
-  RectifiedTransport::fillOutlines(data);
+  RectifiedTransport::Bridge::fillOutlines(data);
   checks.Near(areaOf(data), regions == 2 ? 116 : 84, 1e-9, type.c_str(), line);
 }
 
@@ -177,7 +177,7 @@ void checkData(Checks& checks)
   names->InsertNextValue("eight");
   names->InsertNextValue("square");
   data->GetCellData()->AddArray(names);
-  RectifiedTransport::fillOutlines(data);
+  RectifiedTransport::Bridge::fillOutlines(data);
   CHECK(checks, data->GetNumberOfPoints() == 9);
   auto* found = vtkDoubleArray::SafeDownCast(data->GetPointData()->GetArray("X"));
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
@@ -209,7 +209,7 @@ void checkShortArrays(Checks& checks)
     const vtkIdType cells = data->GetNumberOfCells();
     try
     {
-      RectifiedTransport::fillOutlines(data);
+      RectifiedTransport::Bridge::fillOutlines(data);
       checks.That(false, "is refused", line, text);
     }
     catch (const std::exception& problem)
@@ -227,7 +227,7 @@ void checkShortArrays(Checks& checks)
          "points",
     __LINE__);
   ofPoints->InsertNextValue(1.0);
-  RectifiedTransport::fillOutlines(data);
+  RectifiedTransport::Bridge::fillOutlines(data);
   CHECK_NEAR(checks, areaOf(data), 84.0, 1e-9);
 }
 
@@ -264,7 +264,7 @@ void checkCellsWithoutPoints(Checks& checks, vtkTransportVectorWriter* writer)
       CHECK(checks, writer->Write() == 1);
       checks.That(file.Text() == wanted.Text(), "is the same file", __LINE__, colours);
     }
-    RectifiedTransport::fillOutlines(data);
+    RectifiedTransport::Bridge::fillOutlines(data);
     CHECK_NEAR(checks, areaOf(data), 16.0, 1e-9);
   }
 }

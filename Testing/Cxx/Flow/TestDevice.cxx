@@ -26,6 +26,7 @@ namespace
 {
 
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 constexpr const char* nowhere = "no such device";
 constexpr const char* instead = "; the processor did the work, with the same result";

@@ -19,6 +19,7 @@
 namespace
 {
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 using Corners = std::vector<std::array<double, 3>>;
 

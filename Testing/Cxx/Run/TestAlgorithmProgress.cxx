@@ -15,6 +15,7 @@ namespace
 {
 
 using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 // Runs ranges one by one, with a concurrency of four.
 class CountingExecutor final : public Executor

@@ -181,6 +181,7 @@ void checkMapBeforeTables(Checks& checks)
 void checkExactCounts(Checks& checks)
 {
   using namespace RectifiedTransport;
+  using namespace RectifiedTransport::Bridge;
   const GridSize<2> size{ 40, 30 };
   const Ranks& alone = SoloRanks::Get();
   const auto isRefused = [&](const auto& require) {

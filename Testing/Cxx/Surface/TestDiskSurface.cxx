@@ -12,8 +12,8 @@
 namespace
 {
 
-using RectifiedTransport::DiskSurface;
-using RectifiedTransport::Failure;
+using RectifiedTransport::Bridge::DiskSurface;
+using RectifiedTransport::Bridge::Failure;
 
 class Run
 {

@@ -12,9 +12,9 @@
 namespace
 {
 
-using RectifiedTransport::DiskSurface;
-using RectifiedTransport::Failure;
-using RectifiedTransport::SurfaceInput;
+using RectifiedTransport::Bridge::DiskSurface;
+using RectifiedTransport::Bridge::Failure;
+using RectifiedTransport::Bridge::SurfaceInput;
 
 SurfaceInput read(vtkDataObject* data)
 {

@@ -10,7 +10,7 @@
 
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // nullptr if there is no data object. Throws Failure for another type; `what` begins the message,
@@ -27,6 +27,6 @@ DataT* requireBlock(vtkDataObject* data, const char* what, const char* rule)
   return block;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -19,7 +19,7 @@
 #include <limits>
 #include <string>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -116,4 +116,4 @@ void requireExtents(vtkAlgorithm* filter, vtkInformationVector** inputVector)
   visitLeaves(filter, inputVector, requireExtent);
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

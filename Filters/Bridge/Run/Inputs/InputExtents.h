@@ -13,7 +13,7 @@ class vtkDataObject;
 class vtkInformationVector;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // Calls visit for a data object, which may be nullptr, or for each block of a composite one; for
@@ -33,6 +33,6 @@ std::string textOfExtent(const int* extent);
 // Whether an extent is valid in this sense. The empty extent is valid.
 bool isReadable(const int* extent);
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

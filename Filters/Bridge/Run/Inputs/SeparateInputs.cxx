@@ -16,7 +16,7 @@
 
 #include <algorithm>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -403,4 +403,4 @@ void SeparateInputs::End()
   this->Pointers.clear();
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

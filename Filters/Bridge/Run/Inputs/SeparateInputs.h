@@ -26,7 +26,7 @@ class vtkInformation;
 class vtkInformationVector;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 // For one filter.
@@ -84,6 +84,6 @@ private:
   std::vector<vtkInformationVector*> Pointers;
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif

@@ -23,7 +23,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 namespace
@@ -361,4 +361,4 @@ bool WholeInputs::Compare(vtkAlgorithm* filter, const Inputs& inputs)
   return true;
 }
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge

@@ -25,7 +25,7 @@ class vtkInformation;
 class vtkInformationVector;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
+namespace RectifiedTransport::Bridge
 {
 
 class RankRun;
@@ -98,6 +98,6 @@ private:
   std::string Difference;          // the error message; empty if ranks agreed
 };
 
-} // namespace RectifiedTransport
+} // namespace RectifiedTransport::Bridge
 
 #endif
