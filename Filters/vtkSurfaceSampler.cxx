@@ -76,7 +76,7 @@ const char* vtkSurfaceSampler::GetFlowMapsAsString()
 }
 
 //------------------------------------------------------------------------------
-SurfaceDensity vtkSurfaceSampler::FindDensity(vtkPolyData* surface)
+SurfaceDensityArray vtkSurfaceSampler::FindDensity(vtkPolyData* surface)
 {
   const OptionalArray density =
     findOptionalArray(this->GetInputArrayInformation(0), surface, "density array");

@@ -85,7 +85,7 @@ namespace RectifiedTransport
 {
 namespace Bridge
 {
-class SurfaceDensity;
+class SurfaceDensityArray;
 } // namespace Bridge
 } // namespace RectifiedTransport
 
@@ -313,7 +313,7 @@ protected:
   int FlowMaps;
 
 private:
-  RectifiedTransport::Bridge::SurfaceDensity FindDensity(vtkPolyData* surface);
+  RectifiedTransport::Bridge::SurfaceDensityArray FindDensity(vtkPolyData* surface);
 
   vtkSurfaceSampler(const vtkSurfaceSampler&) = delete;
   void operator=(const vtkSurfaceSampler&) = delete;

@@ -102,9 +102,9 @@ bool DiskSurface::IsPart(std::int64_t triangle) const
   return parts && parts->IsPart(this->Mesh->GivenTriangle(triangle));
 }
 
-PlaceInCell DiskSurface::InCell(const PlaceOnTriangle& place) const
+PointWeights DiskSurface::InCell(const PlaceOnTriangle& place) const
 {
-  PlaceInCell found{ this->CornersOf(place.Triangle), place.Weights };
+  PointWeights found{ this->CornersOf(place.Triangle), place.Weights };
   if (!this->IsPart(place.Triangle))
   {
     return found;

@@ -60,7 +60,7 @@ public:
     return this->Cells().InputCellOf(this->Mesh->GivenTriangle(triangle));
   }
   bool IsPart(std::int64_t triangle) const override;
-  PlaceInCell InCell(const PlaceOnTriangle& place) const override;
+  PointWeights InCell(const PlaceOnTriangle& place) const override;
   TriangleSurface Surface() const override { return this->Disk().Surface(); }
   SurfaceAreas Areas() const override
   {

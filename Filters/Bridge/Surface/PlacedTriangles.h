@@ -26,8 +26,8 @@ struct SurfaceAreas
   double Unit;          // in units of the input
 };
 
-// Points of the input, and what each of them counts.
-struct PlaceInCell
+// Interpolates linearly between three points of the input.
+struct PointWeights
 {
   std::array<std::int64_t, 3> Points;
   std::array<double, 3> Weights;
@@ -45,8 +45,8 @@ public:
   virtual std::array<std::int64_t, 3> CornersOf(std::int64_t triangle) const = 0;
   // Whether a triangle is part of one that was cut at T-junctions.
   virtual bool IsPart(std::int64_t) const { return false; }
-  // A place in its cell before that was cut.
-  virtual PlaceInCell InCell(const PlaceOnTriangle& place) const
+  // The points and weights of a place in its cell, as it was before cutting.
+  virtual PointWeights InCell(const PlaceOnTriangle& place) const
   {
     return { this->CornersOf(place.Triangle), place.Weights };
   }

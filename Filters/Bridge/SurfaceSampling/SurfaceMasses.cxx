@@ -105,7 +105,7 @@ void requireDensity(const DensityRange& range, vtkDataArray* array)
 
 } // namespace
 
-SurfaceDensity::SurfaceDensity(
+SurfaceDensityArray::SurfaceDensityArray(
   vtkPolyData* surface, vtkAbstractArray* found, bool onPoints, const std::string& name)
   : OnPoints(onPoints)
 {
@@ -124,7 +124,7 @@ SurfaceDensity::SurfaceDensity(
 }
 
 SurfaceMasses::SurfaceMasses(vtkPolyData* input, const PlacedTriangles& surface,
-  const SurfaceDensity& density, Progress& progress)
+  const SurfaceDensityArray& density, Progress& progress)
 {
   const SurfaceAreas areas = surface.Areas();
   const std::int64_t triangles = surface.NumberOfTriangles();
@@ -160,7 +160,7 @@ SurfaceMasses::SurfaceMasses(vtkPolyData* input, const PlacedTriangles& surface,
     if (surface.IsPart(triangle))
     {
       constexpr double third = 1.0 / 3.0;
-      const PlaceInCell centre = surface.InCell({ triangle, { third, third, third } });
+      const PointWeights centre = surface.InCell({ triangle, { third, third, third } });
       double mean = 0.0;
       for (std::size_t i = 0; i < 3; ++i)
       {
@@ -209,8 +209,8 @@ SurfaceMasses::SurfaceMasses(vtkPolyData* input, const PlacedTriangles& surface,
   }
 }
 
-RelativeDensity::RelativeDensity(
-  const PlacedTriangles& surface, const SurfaceDensity& density, double largest, Progress& progress)
+RelativeDensity::RelativeDensity(const PlacedTriangles& surface, const SurfaceDensityArray& density,
+  double largest, Progress& progress)
   : OnPoints(density.IsOnPoints())
 {
   vtkDataArray* array = density.Array();

@@ -24,14 +24,14 @@ namespace RectifiedTransport::Bridge
 class PlacedTriangles;
 
 // A density per area of the points or cells of a surface.
-class SurfaceDensity
+class SurfaceDensityArray
 {
 public:
-  SurfaceDensity() = default; // 1 everywhere
+  SurfaceDensityArray() = default; // 1 everywhere
   // Text that holds numbers alone becomes numbers. Throws Failure for an array that is missing
   // (`found` is nullptr), not numeric, of several components or of another length; `name` is the
   // requested name.
-  SurfaceDensity(
+  SurfaceDensityArray(
     vtkPolyData* surface, vtkAbstractArray* found, bool onPoints, const std::string& name);
 
   // nullptr for 1.
@@ -50,8 +50,8 @@ public:
   // linear interpolation, or times the density of its cell. Ghost cells have no mass. Runs as the
   // current stage. Throws Failure for densities that are negative or not finite and for a total
   // mass that is zero or not finite, and Cancelled.
-  SurfaceMasses(vtkPolyData* input, const PlacedTriangles& surface, const SurfaceDensity& density,
-    Progress& progress);
+  SurfaceMasses(vtkPolyData* input, const PlacedTriangles& surface,
+    const SurfaceDensityArray& density, Progress& progress);
 
   // The masses of the triangles, up to a factor.
   const double* Values() const { return this->Masses.data(); }
@@ -71,8 +71,8 @@ class RelativeDensity
 {
 public:
   // Runs as the current stage. Throws Cancelled and std::bad_alloc.
-  RelativeDensity(const PlacedTriangles& surface, const SurfaceDensity& density, double largest,
-    Progress& progress);
+  RelativeDensity(const PlacedTriangles& surface, const SurfaceDensityArray& density,
+    double largest, Progress& progress);
 
   SurfaceDensityValues Values() const;
 

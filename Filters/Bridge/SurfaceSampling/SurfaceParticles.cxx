@@ -56,7 +56,7 @@ vtkSmartPointer<vtkDoubleArray> writeParticles(const SurfaceInput& input,
     for (std::int64_t i = first; i < last; ++i)
     {
       const PlaceOnTriangle& place = places.data()[i];
-      const PlaceInCell in = surface.InCell(place);
+      const PointWeights in = surface.InCell(place);
       Eigen::Vector3d x = Eigen::Vector3d::Zero();
       for (std::size_t corner = 0; corner < 3; ++corner)
       {
@@ -94,7 +94,7 @@ public:
     const PlaceOnTriangle& on = this->Places.data()[place];
     SampledPlace found{};
     found.Count = 3;
-    const PlaceInCell in = this->Surface.InCell(on);
+    const PointWeights in = this->Surface.InCell(on);
     std::copy_n(in.Points.data(), 3, found.Points);
     std::copy_n(in.Weights.data(), 3, found.Weights);
     found.Cell = this->Surface.CellOf(on.Triangle);

@@ -94,15 +94,15 @@ std::vector<std::string> SurfaceSamplingReport::Warnings() const
   return warnings;
 }
 
-SurfaceSamplingReport SurfaceSampler::Run(const SurfaceInput& input, const SurfaceDensity& density,
-  Progress& progress, vtkPolyData* output) const
+SurfaceSamplingReport SurfaceSampler::Run(const SurfaceInput& input,
+  const SurfaceDensityArray& density, Progress& progress, vtkPolyData* output) const
 {
   return this->Method == SurfaceMethod::Flow ? this->Transport(input, density, progress, output)
                                              : this->Relax(input, density, progress, output);
 }
 
 SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
-  const SurfaceDensity& density, Progress& progress, vtkPolyData* output) const
+  const SurfaceDensityArray& density, Progress& progress, vtkPolyData* output) const
 {
   vtkPolyData* input = given.Get();
   SurfaceRelaxationOptions options;
@@ -154,7 +154,7 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
 }
 
 SurfaceSamplingReport SurfaceSampler::Transport(const SurfaceInput& given,
-  const SurfaceDensity& density, Progress& progress, vtkPolyData* output) const
+  const SurfaceDensityArray& density, Progress& progress, vtkPolyData* output) const
 {
   vtkPolyData* input = given.Get();
   SurfaceSamplingOptions options;

@@ -24,7 +24,7 @@ class Progress;
 namespace RectifiedTransport::Bridge
 {
 
-class SurfaceDensity;
+class SurfaceDensityArray;
 class SurfaceInput;
 
 // The numbers of one run, for warnings.
@@ -68,13 +68,13 @@ struct SurfaceSampler
   void Check() const;
 
   // Writes particles. Throws Failure and Cancelled.
-  SurfaceSamplingReport Run(const SurfaceInput& surface, const SurfaceDensity& density,
+  SurfaceSamplingReport Run(const SurfaceInput& surface, const SurfaceDensityArray& density,
     Progress& progress, vtkPolyData* output) const;
 
 private:
-  SurfaceSamplingReport Relax(const SurfaceInput& surface, const SurfaceDensity& density,
+  SurfaceSamplingReport Relax(const SurfaceInput& surface, const SurfaceDensityArray& density,
     Progress& progress, vtkPolyData* output) const;
-  SurfaceSamplingReport Transport(const SurfaceInput& surface, const SurfaceDensity& density,
+  SurfaceSamplingReport Transport(const SurfaceInput& surface, const SurfaceDensityArray& density,
     Progress& progress, vtkPolyData* output) const;
 };
 

@@ -18,7 +18,7 @@ constexpr double mostCells = 1 << 22; // of the density at a time
 constexpr std::int64_t grain = 256;   // blocks a range
 
 template <int Dimension>
-std::pair<Point<Dimension>, Point<Dimension>> sidesOf(const CellBox<Dimension>& box)
+std::pair<Point<Dimension>, Point<Dimension>> sidesOf(const GridBox<Dimension>& box)
 {
   Point<Dimension> low;
   Point<Dimension> high;
@@ -28,9 +28,9 @@ std::pair<Point<Dimension>, Point<Dimension>> sidesOf(const CellBox<Dimension>& 
 }
 
 template <int Dimension>
-CellBox<Dimension> joined(const CellBox<Dimension>& a, const CellBox<Dimension>& b)
+GridBox<Dimension> joined(const GridBox<Dimension>& a, const GridBox<Dimension>& b)
 {
-  CellBox<Dimension> box;
+  GridBox<Dimension> box;
   for (int axis = 0; axis < Dimension; ++axis)
   {
     box.Low[axis] = std::min(a.Low[axis], b.Low[axis]);
@@ -56,7 +56,7 @@ public:
 
   struct Turn
   {
-    CellBox<Dimension> Box{};
+    GridBox<Dimension> Box{};
     std::int64_t First = 0; // of the blocks
     std::int64_t Count = 0;
     bool IsPart = false;  // of one block
@@ -81,7 +81,7 @@ public:
     }
     for (++this->Next; this->HasMore(); ++this->Next, ++turn.Count)
     {
-      const CellBox<Dimension> larger = joined(turn.Box, this->Blocks.Box(this->Next));
+      const GridBox<Dimension> larger = joined(turn.Box, this->Blocks.Box(this->Next));
       if (larger.Cells() > mostCells)
       {
         break;
@@ -124,7 +124,7 @@ template <int Dimension>
 void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dimension>& blocks,
   std::int64_t first, std::int64_t count, double* shares, Progress& progress, double end)
 {
-  const auto shareIn = [&flow](const CellBox<Dimension>& box) {
+  const auto shareIn = [&flow](const GridBox<Dimension>& box) {
     const auto [low, high] = sidesOf(box);
     return flow.Share(low, high);
   };

@@ -13,7 +13,7 @@ namespace RectifiedTransport
 
 // Grid cells from Low up to High.
 template <int Dimension>
-struct CellBox
+struct GridBox
 {
   GridSize<Dimension> Low;
   GridSize<Dimension> High;
@@ -59,9 +59,9 @@ public:
     return block;
   }
 
-  CellBox<Dimension> Box(std::int64_t block) const
+  GridBox<Dimension> Box(std::int64_t block) const
   {
-    CellBox<Dimension> box;
+    GridBox<Dimension> box;
     for (int axis = 0; axis < Dimension; ++axis)
     {
       box.Low[axis] = block % this->Counts[axis] * this->BlockSize;

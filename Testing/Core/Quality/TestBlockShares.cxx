@@ -30,7 +30,7 @@ TEST(BlockShares, BlocksCoverTheGrid)
   std::vector<int> covered(static_cast<std::size_t>(cellCount<3>(size)));
   for (std::int64_t block = 0; block < 12; ++block)
   {
-    const CellBox<3> box = blocks.Box(block);
+    const GridBox<3> box = blocks.Box(block);
     std::int64_t cells = 0;
     for (std::size_t i = 0; i < covered.size(); ++i)
     {

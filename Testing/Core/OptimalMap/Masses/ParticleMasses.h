@@ -6,6 +6,7 @@
 
 #include "Core/OptimalMap/Masses/CellDensity.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Quality/GridBlocks.h"
 
 #include "TestDensities.h"
 
@@ -72,17 +73,9 @@ TestDensity<Dimension> distorted(const TestDensity<Dimension>& density)
   return other;
 }
 
-// The cells [Low, High).
-template <int Dimension>
-struct CellBox
-{
-  GridSize<Dimension> Low;
-  GridSize<Dimension> High;
-};
-
 // Blocks of `side` cells a side that begin at `begin`, as far as they fit.
 template <int Dimension>
-std::vector<CellBox<Dimension>> blocksOf(
+std::vector<GridBox<Dimension>> blocksOf(
   const GridSize<Dimension>& size, std::int64_t side, std::int64_t begin)
 {
   GridSize<Dimension> number;
@@ -90,10 +83,10 @@ std::vector<CellBox<Dimension>> blocksOf(
   {
     number[axis] = (size[axis] - begin) / side;
   }
-  std::vector<CellBox<Dimension>> boxes;
+  std::vector<GridBox<Dimension>> boxes;
   for (std::int64_t i = 0; i < cellCount<Dimension>(number); ++i)
   {
-    CellBox<Dimension> box{ cellAt<Dimension>(i, number), {} };
+    GridBox<Dimension> box{ cellAt<Dimension>(i, number), {} };
     for (int axis = 0; axis < Dimension; ++axis)
     {
       box.Low[axis] = begin + side * box.Low[axis];
@@ -105,11 +98,11 @@ std::vector<CellBox<Dimension>> blocksOf(
 }
 
 template <int Dimension>
-std::vector<CellBox<Dimension>> randomBoxes(const GridSize<Dimension>& size, int number)
+std::vector<GridBox<Dimension>> randomBoxes(const GridSize<Dimension>& size, int number)
 {
   std::mt19937_64 engine(23);
-  std::vector<CellBox<Dimension>> boxes(static_cast<std::size_t>(number));
-  for (CellBox<Dimension>& box : boxes)
+  std::vector<GridBox<Dimension>> boxes(static_cast<std::size_t>(number));
+  for (GridBox<Dimension>& box : boxes)
   {
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -124,7 +117,7 @@ std::vector<CellBox<Dimension>> randomBoxes(const GridSize<Dimension>& size, int
 }
 
 template <int Dimension>
-bool isIn(const GridSize<Dimension>& cell, const CellBox<Dimension>& box)
+bool isIn(const GridSize<Dimension>& cell, const GridBox<Dimension>& box)
 {
   for (int axis = 0; axis < Dimension; ++axis)
   {
@@ -139,7 +132,7 @@ bool isIn(const GridSize<Dimension>& cell, const CellBox<Dimension>& box)
 // The root mean square of the errors of the masses in boxes. Particles without masses are equal.
 template <int Dimension>
 double massError(const CellDensity<Dimension>& density, const Particles<Dimension>& particles,
-  const std::vector<double>& masses, const std::vector<CellBox<Dimension>>& boxes)
+  const std::vector<double>& masses, const std::vector<GridBox<Dimension>>& boxes)
 {
   std::vector<double> rest(static_cast<std::size_t>(density.NumberOfCells()));
   for (std::size_t cell = 0; cell < rest.size(); ++cell)
@@ -152,7 +145,7 @@ double massError(const CellDensity<Dimension>& density, const Particles<Dimensio
       masses.empty() ? 1.0 / static_cast<double>(particles.size()) : masses[i];
   }
   double sum = 0.0;
-  for (const CellBox<Dimension>& box : boxes)
+  for (const GridBox<Dimension>& box : boxes)
   {
     double error = 0.0;
     GridSize<Dimension> sides;

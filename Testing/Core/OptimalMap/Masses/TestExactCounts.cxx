@@ -29,7 +29,7 @@ std::int64_t makeExact(const CellDensity<D>& density, const Point<D>& sides,
 // Expects floor or ceil of its share in each half of a box of at least five particles, and of its
 // halves.
 template <int D>
-void expectExact(const CellDensity<D>& density, const Point<D>& sides, const CellBox<D>& box,
+void expectExact(const CellDensity<D>& density, const Point<D>& sides, const GridBox<D>& box,
   const Particles<D>& particles)
 {
   int axis = -1;
@@ -47,7 +47,7 @@ void expectExact(const CellDensity<D>& density, const Point<D>& sides, const Cel
   {
     return;
   }
-  CellBox<D> halves[2] = { box, box };
+  GridBox<D> halves[2] = { box, box };
   halves[0].High[axis] = box.Low[axis] + (box.High[axis] - box.Low[axis] + 1) / 2;
   halves[1].Low[axis] = halves[0].High[axis];
   double masses[2] = { 0.0, 0.0 };
