@@ -10,7 +10,7 @@ packages_help="qhelpgenerator-qt5 python3-markdown python3-pil"
 packages_render="xvfb xauth"
 packages_examples="python3-scipy python-matplotlib-data openmpi-bin python3-mpi4py"
 packages_test="libgtest-dev libbenchmark-dev librsvg2-bin poppler-utils clang-format pocl-opencl-icd
-  ocl-icd-libopencl1 opencl-c-headers $packages_examples"
+  ocl-icd-libopencl1 opencl-c-headers universal-ctags $packages_examples"
 packages_gui="libqt5svg5 imagemagick xdotool"
 packages_vtk="libtbb-dev"
 

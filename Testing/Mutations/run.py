@@ -39,8 +39,8 @@ DEVICE_OPTIONS = ("Filters/Core/Flow/Devices/FlowPrograms.cxx", '"-cl-std=CL1.2 
 ORDER = [(True, 2), (True, 20), (False, 2), (True, math.inf), (False, 20), (False, math.inf)]
 LEFT_OUT = "long|gui|install|benchmark|example|campaign"
 # Digests tell that something has changed, not that it is wrong; the switch is in no namespace and
-# breaks lines as it likes, and changes can be planted only once.
-LEFT_OUT_NAMES = "^core[.]Bits|TestDigests|TestFormat|abi_namespace|^mutations[.]"
+# breaks lines as it likes, and changes can be planted only once. Budgets of lines leave no room for it.
+LEFT_OUT_NAMES = "^core[.]Bits|TestDigests|TestFormat|abi_namespace|^house[.]|^mutations[.]"
 
 
 def changed(text, mutation, number):
