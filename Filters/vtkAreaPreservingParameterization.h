@@ -106,9 +106,9 @@ public:
    * Whether points are moved after the flow until triangles have their areas. Off: only the paper's
    * method. Default on.
    */
-  vtkSetMacro(Polish, bool);
-  vtkGetMacro(Polish, bool);
-  vtkBooleanMacro(Polish, bool);
+  vtkSetMacro(Polish, vtkTypeBool);
+  vtkGetMacro(Polish, vtkTypeBool);
+  vtkBooleanMacro(Polish, vtkTypeBool);
   ///@}
 
   /**
@@ -145,7 +145,7 @@ protected:
     vtkInformationVector* outputVector) override;
 
   int Resolution;
-  bool Polish;
+  vtkTypeBool Polish;
   int Seams;
 
 private:

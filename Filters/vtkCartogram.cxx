@@ -60,7 +60,7 @@ vtkCartogram::vtkCartogram()
   , EmptyValue(0.0)
   , Tolerance(0.01)
   , MaximumIterations(10)
-  , LeastShare(0.0)
+  , MinimumShare(0.0)
   , Blend(1.0)
   , Internals(new vtkInternals)
 {
@@ -157,20 +157,20 @@ int vtkCartogram::RequestData(
     "above 0 and at most 1");
   requireThat(this->MaximumIterations >= 1 && this->MaximumIterations <= 100, "MaximumIterations",
     this->MaximumIterations, "from 1 to 100");
-  requireThat(this->LeastShare >= 0.0 && this->LeastShare <= 1.0, "LeastShare", this->LeastShare,
-    "from 0 to 1");
+  requireThat(this->MinimumShare >= 0.0 && this->MinimumShare <= 1.0, "MinimumShare",
+    this->MinimumShare, "from 0 to 1");
   requireThat(this->Blend >= 0.0 && this->Blend <= 1.0, "Blend", this->Blend, "from 0 to 1");
   CartogramWorker worker{};
   worker.Options.Resolution = this->Resolution;
   worker.Options.Margin = this->Margin;
-  constexpr SeaDensity seas[] = { SeaDensity::Zero, SeaDensity::Mean, SeaDensity::Least,
+  constexpr SeaDensity seas[] = { SeaDensity::Zero, SeaDensity::Mean, SeaDensity::Minimum,
     SeaDensity::Value }; // as EmptyCells
   worker.Options.Sea = seas[static_cast<int>(sea.Cells)];
   worker.Options.SeaValue = sea.Value;
   worker.Options.Tolerance = this->Tolerance;
   worker.Options.MaximumPasses = this->MaximumIterations;
   worker.IsInDegrees = this->Projection == PROJECTION_EQUAL_AREA;
-  worker.LeastShare = this->LeastShare;
+  worker.MinimumShare = this->MinimumShare;
   worker.Blend = this->Blend;
   worker.Arrays.Mass = arrayName(this->GetInputArrayInformation(0), "MassArray");
   worker.Arrays.Region = arrayName(this->GetInputArrayInformation(1), "RegionArray");
@@ -210,7 +210,7 @@ void vtkCartogram::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "EmptyValue: " << this->EmptyValue << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
-  os << indent << "LeastShare: " << this->LeastShare << "\n";
+  os << indent << "MinimumShare: " << this->MinimumShare << "\n";
   os << indent << "Blend: " << this->Blend << "\n";
 }
 VTK_ABI_NAMESPACE_END

@@ -31,7 +31,7 @@
  * data kept. Cell data `AreaError` is a region's share of the area divided by its share of the
  * mass, less 1; `TargetArea` its area without error; `MassPerArea` its mass by its area in the
  * input. Field data `AreaErrors` has the largest absolute error after each pass, `EnlargedRegions`
- * how many regions LeastShare enlarged. Output 1, "Graticule": lines of a regular grid over the
+ * how many regions MinimumShare enlarged. Output 1, "Graticule": lines of a regular grid over the
  * map, moved. Output 2, "Overlay": the overlay with all its data, moved.
  *
  * Cost: O(Resolution^2 + points * steps) a pass. Memory: about 50 bytes a cell of the raster.
@@ -56,17 +56,6 @@ public:
   static vtkCartogram* New();
   vtkTypeMacro(vtkCartogram, vtkCollectiveAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  /**
-   * What EmptyCells may be.
-   */
-  enum EmptyCellsType
-  {
-    EMPTY_CELLS_ZERO = 0,
-    EMPTY_CELLS_MEAN = 1,
-    EMPTY_CELLS_LEAST = 2,
-    EMPTY_CELLS_VALUE = 3
-  };
 
   ///@{
   /**
@@ -111,12 +100,12 @@ public:
   ///@{
   /**
    * The density of the ground around the regions. Mean (default): that of all regions together.
-   * Least: the least of a region. Value: EmptyValue. Zero: nothing, so that regions fill the box.
+   * Minimum: the least of a region. Value: EmptyValue. Zero: nothing, so that regions fill the box.
    */
   vtkSetMacro(EmptyCells, int);
   vtkGetMacro(EmptyCells, int);
   void SetEmptyCellsToMean() { this->SetEmptyCells(EMPTY_CELLS_MEAN); }
-  void SetEmptyCellsToLeast() { this->SetEmptyCells(EMPTY_CELLS_LEAST); }
+  void SetEmptyCellsToMinimum() { this->SetEmptyCells(EMPTY_CELLS_MINIMUM); }
   void SetEmptyCellsToValue() { this->SetEmptyCells(EMPTY_CELLS_VALUE); }
   void SetEmptyCellsToZero() { this->SetEmptyCells(EMPTY_CELLS_ZERO); }
   const char* GetEmptyCellsAsString();
@@ -153,8 +142,8 @@ public:
    * Regions with less than this share of all mass are enlarged to it, from 0 to 1; from 1 / the
    * number of regions on, all become equal. Default 0.
    */
-  vtkSetMacro(LeastShare, double);
-  vtkGetMacro(LeastShare, double);
+  vtkSetMacro(MinimumShare, double);
+  vtkGetMacro(MinimumShare, double);
   ///@}
 
   ///@{
@@ -202,7 +191,7 @@ protected:
   double EmptyValue;
   double Tolerance;
   int MaximumIterations;
-  double LeastShare;
+  double MinimumShare;
   double Blend;
 
 private:

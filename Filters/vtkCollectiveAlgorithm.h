@@ -17,8 +17,8 @@
 #define vtkCollectiveAlgorithm_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "vtkAlgorithm.h"
 #include "vtkRectifiedTransportModule.h" // for the export macro
+#include "vtkTransportEnumerations.h"
 
 #include <map>    // for the gathered ports
 #include <memory> // for std::unique_ptr
@@ -39,22 +39,11 @@ class WholeInputs;
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataObject;
 
-class VTKRECTIFIEDTRANSPORT_EXPORT vtkCollectiveAlgorithm : public vtkAlgorithm
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkCollectiveAlgorithm : public vtkTransportEnumerations
 {
 public:
-  vtkTypeMacro(vtkCollectiveAlgorithm, vtkAlgorithm);
+  vtkTypeMacro(vtkCollectiveAlgorithm, vtkTransportEnumerations);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  /**
-   * What Threading may be.
-   */
-  enum ThreadingType
-  {
-    THREADING_AUTO = 0,
-    THREADING_VTK = 1,
-    THREADING_OPENMP = 2,
-    THREADING_SERIAL = 3
-  };
 
   ///@{
   /**

@@ -172,17 +172,6 @@ public:
   vtkGetVector2Macro(ValidRange, double);
   ///@}
 
-  /**
-   * What EmptyCells may be, in the filters that have this property.
-   */
-  enum EmptyCellsType
-  {
-    EMPTY_CELLS_ZERO = 0,
-    EMPTY_CELLS_MEAN = 1,
-    EMPTY_CELLS_LEAST = 2,
-    EMPTY_CELLS_VALUE = 3
-  };
-
   ///@{
   /**
    * For inputs other than images: the number of cells along the longest axis of the image that the

@@ -82,14 +82,14 @@ public:
   /**
    * What empty cells count as: cells that are blanked or without a valid value, and ground that
    * data other than images do not cover. Mean (default): the mean of the other cells, so that empty
-   * ground keeps its size. Least: the least of the other cells. Zero: nothing, which shrinks empty
-   * ground to nothing. Value: EmptyValue.
+   * ground keeps its size. Minimum: the least of the other cells. Zero: nothing, which shrinks
+   * empty ground to nothing. Value: EmptyValue.
    */
   vtkSetMacro(EmptyCells, int);
   vtkGetMacro(EmptyCells, int);
   void SetEmptyCellsToZero() { this->SetEmptyCells(EMPTY_CELLS_ZERO); }
   void SetEmptyCellsToMean() { this->SetEmptyCells(EMPTY_CELLS_MEAN); }
-  void SetEmptyCellsToLeast() { this->SetEmptyCells(EMPTY_CELLS_LEAST); }
+  void SetEmptyCellsToMinimum() { this->SetEmptyCells(EMPTY_CELLS_MINIMUM); }
   void SetEmptyCellsToValue() { this->SetEmptyCells(EMPTY_CELLS_VALUE); }
   const char* GetEmptyCellsAsString();
   ///@}

@@ -53,7 +53,7 @@ vtkEqualMassCells::vtkEqualMassCells()
   , Resolution(512)
   , NormExponent(2.0)
   , CostExponent(2.0)
-  , Shape(FLOW)
+  , Shape(SHAPE_FLOW)
   , Measure(UNIFORM)
   , Internals(new vtkInternals)
 {
@@ -190,7 +190,7 @@ int vtkEqualMassCells::RequestData(
   requireResolution("Resolution", this->Resolution);
   requireChoice("Shape", this->Shape, ShapeTexts);
   requireChoice("Measure", this->Measure, MeasureTexts);
-  if (this->Shape == POWER)
+  if (this->Shape == SHAPE_POWER)
   {
     constexpr const char* rule = "2, which Shape Power needs";
     requireThat(this->NormExponent == 2.0, "NormExponent", this->NormExponent, rule);
@@ -208,7 +208,7 @@ int vtkEqualMassCells::RequestData(
   cells.Flow = this->GetFlowOptions();
   cells.Norm = { this->NormExponent, this->CostExponent };
   cells.Resolution = this->Resolution;
-  cells.IsPower = this->Shape == POWER;
+  cells.IsPower = this->Shape == SHAPE_POWER;
   AlgorithmProgress progress(this, this->Threading);
 
   vtkPointSet* input = pointSetOf(inputVector[0]);
@@ -258,7 +258,7 @@ int vtkEqualMassCells::RequestData(
   {
     addFieldValue(output, "OutsideSites", static_cast<double>(report.Outside));
     addFieldValue(output, "SitesWithoutMass", static_cast<double>(report.WithoutMass));
-    if (this->Shape == FLOW)
+    if (this->Shape == SHAPE_FLOW)
     {
       addSteps(output, { report.Flow });
     }
@@ -269,7 +269,7 @@ int vtkEqualMassCells::RequestData(
   if (isWorthWarning(report.Outside, sites))
   {
     const bool isOne = report.Outside == 1;
-    const char* const cell = this->Shape == POWER
+    const char* const cell = this->Shape == SHAPE_POWER
       ? (isOne ? "its cell is of least cost for where it is"
                : "their cells are of least cost for where they are")
       : (isOne ? "its cell is that of the nearest point of the border"

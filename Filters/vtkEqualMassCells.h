@@ -148,8 +148,8 @@ public:
    */
   enum ShapeType
   {
-    FLOW = 0,
-    POWER = 1
+    SHAPE_FLOW = 0,
+    SHAPE_POWER = 1
   };
 
   ///@{
@@ -160,8 +160,8 @@ public:
    */
   vtkSetMacro(Shape, int);
   vtkGetMacro(Shape, int);
-  void SetShapeToFlow() { this->SetShape(FLOW); }
-  void SetShapeToPower() { this->SetShape(POWER); }
+  void SetShapeToFlow() { this->SetShape(SHAPE_FLOW); }
+  void SetShapeToPower() { this->SetShape(SHAPE_POWER); }
   const char* GetShapeAsString();
   ///@}
 

@@ -86,26 +86,6 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * What Association may be.
-   */
-  enum AssociationType
-  {
-    POINTS = 0,
-    CELLS = 1
-  };
-
-  /**
-   * What Kernel may be.
-   */
-  enum KernelType
-  {
-    CLOUD_IN_CELL = 0,
-    NEAREST_CELL = 1,
-    TRIANGULAR_SHAPED_CLOUD = 2,
-    GAUSSIAN = 3
-  };
-
-  /**
    * What Boundary may be.
    */
   enum BoundaryType

@@ -75,15 +75,6 @@ public:
   vtkTypeMacro(vtkSolidDensity, vtkCollectiveAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /**
-   * What Association may be.
-   */
-  enum AssociationType
-  {
-    POINTS = 0,
-    CELLS = 1
-  };
-
   ///@{
   /**
    * The number of cells along the longest side of the image, at least 1. Default 64. Along the

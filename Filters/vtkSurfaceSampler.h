@@ -108,48 +108,6 @@ public:
     FLOW = 1
   };
 
-  /**
-   * What SeedPattern may be.
-   */
-  enum SeedPatternType
-  {
-    BLUE_NOISE = 0,
-    LATTICE = 1,
-    JITTERED = 2,
-    LOW_DISCREPANCY = 3,
-    RANDOM = 4
-  };
-
-  /**
-   * What Integrator may be.
-   */
-  enum IntegratorType
-  {
-    MULTISTEP = 0,
-    RUNGE_KUTTA_4 = 1,
-    EULER = 2,
-    ADAPTIVE = 3
-  };
-
-  /**
-   * What FlowMaps may be.
-   */
-  enum FlowMapsType
-  {
-    FLOW_MAPS_AUTO = 0,
-    FLOW_MAPS_ON = 1,
-    FLOW_MAPS_OFF = 2
-  };
-
-  /**
-   * What TableLookup may be.
-   */
-  enum TableLookupType
-  {
-    INTERPOLATED = 0,
-    NEAREST = 1
-  };
-
   ///@{
   /**
    * The number of particles, at least 1. Default 8192. It is exact unless Method is Flow and

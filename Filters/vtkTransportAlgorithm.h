@@ -53,55 +53,6 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * What Method may be.
-   */
-  enum MethodType
-  {
-    RECTIFIED_FLOW = 0,
-    OPTIMAL = 1
-  };
-
-  /**
-   * What Tables may be.
-   */
-  enum TablesType
-  {
-    TABLES_AUTO = 0,
-    TABLES_WHOLE = 1,
-    TABLES_TILED = 2
-  };
-
-  /**
-   * What Integrator may be.
-   */
-  enum IntegratorType
-  {
-    MULTISTEP = 0,
-    RUNGE_KUTTA_4 = 1,
-    EULER = 2,
-    ADAPTIVE = 3
-  };
-
-  /**
-   * What FlowMaps may be.
-   */
-  enum FlowMapsType
-  {
-    FLOW_MAPS_AUTO = 0,
-    FLOW_MAPS_ON = 1,
-    FLOW_MAPS_OFF = 2
-  };
-
-  /**
-   * What TableLookup may be.
-   */
-  enum TableLookupType
-  {
-    INTERPOLATED = 0,
-    NEAREST = 1
-  };
-
-  /**
    * What Device may be.
    */
   enum DeviceType

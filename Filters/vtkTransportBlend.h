@@ -74,17 +74,6 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * What Kernel may be.
-   */
-  enum KernelType
-  {
-    CLOUD_IN_CELL = 0,
-    NEAREST_CELL = 1,
-    TRIANGULAR_SHAPED_CLOUD = 2,
-    GAUSSIAN = 3
-  };
-
-  /**
    * What MassMode may be.
    */
   enum MassModeType

@@ -34,7 +34,7 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 const char* const MethodTexts[] = { "Linearized", "Certified" };
 const char* const MassDifferenceTexts[] = { "Normalize", "Error" };
 
-constexpr int MaximumDimensions = 100;
+constexpr int MaximumNumberOfCoordinates = 100;
 constexpr int MaximumNumberOfNames = 1000000; // bounds the memory that SetInputName allocates
 constexpr double NoTime = std::numeric_limits<double>::quiet_NaN();
 
@@ -59,9 +59,9 @@ struct vtkTransportDistance::vtkInternals
 //------------------------------------------------------------------------------
 vtkTransportDistance::vtkTransportDistance()
   : Method(LINEARIZED)
-  , MassDifference(MASS_NORMALIZE)
+  , MassDifference(MASS_DIFFERENCE_NORMALIZE)
   , OverTime(false)
-  , Dimensions(2)
+  , NumberOfCoordinates(2)
   , Internals(new vtkInternals)
 {
   this->SetNumberOfInputPorts(1);
@@ -213,9 +213,10 @@ int vtkTransportDistance::RequestData(
 {
   requireChoice("Method", this->Method, MethodTexts);
   requireChoice("MassDifference", this->MassDifference, MassDifferenceTexts);
-  const std::string rule = "from 1 to " + std::to_string(MaximumDimensions);
-  requireThat(this->Dimensions >= 1 && this->Dimensions <= MaximumDimensions, "Dimensions",
-    this->Dimensions, rule.c_str());
+  const std::string rule = "from 1 to " + std::to_string(MaximumNumberOfCoordinates);
+  requireThat(
+    this->NumberOfCoordinates >= 1 && this->NumberOfCoordinates <= MaximumNumberOfCoordinates,
+    "NumberOfCoordinates", this->NumberOfCoordinates, rule.c_str());
   constexpr double endOfInputs = 0.5;
   constexpr double endOfPairs = 0.98;
   AlgorithmProgress progress(this, this->Threading, this->GetRanks());
@@ -248,7 +249,8 @@ int vtkTransportDistance::RequestData(
   {
     writeDistances(inputs, pairs, vtkTable::GetData(outputVector, 0));
     writeBounds(inputs.size(), pairs, vtkTable::GetData(outputVector, 1));
-    writeCoordinates(inputs, pairs, this->Dimensions, progress, vtkTable::GetData(outputVector, 2));
+    writeCoordinates(
+      inputs, pairs, this->NumberOfCoordinates, progress, vtkTable::GetData(outputVector, 2));
   }
   takeFieldsOfFirst(vtkTable::GetData(outputVector, 2)->GetFieldData(), this->GetRanks());
   return 1;
@@ -366,7 +368,7 @@ void vtkTransportDistance::CheckMasses()
   const double excess = *ends.second / *ends.first - 1.0;
   const std::string text = "The masses of the densities differ: they are from " +
     textOfMass(ends.first) + " to " + textOfMass(ends.second);
-  if (this->MassDifference == MASS_ERROR && excess > rounding)
+  if (this->MassDifference == MASS_DIFFERENCE_ERROR && excess > rounding)
   {
     throw Failure(text + "; MassDifference Normalize divides each by its mass");
   }
@@ -384,7 +386,7 @@ void vtkTransportDistance::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Method: " << this->GetMethodAsString() << "\n";
   os << indent << "MassDifference: " << this->GetMassDifferenceAsString() << "\n";
   os << indent << "OverTime: " << (this->OverTime ? "On" : "Off") << "\n";
-  os << indent << "Dimensions: " << this->Dimensions << "\n";
+  os << indent << "NumberOfCoordinates: " << this->NumberOfCoordinates << "\n";
   os << indent << "NumberOfSolutions: " << this->GetNumberOfSolutions() << "\n";
   os << indent << "InputNames:";
   for (const std::string& name : this->Internals->Names)

@@ -78,8 +78,8 @@ public:
    */
   enum MassDifferenceType
   {
-    MASS_NORMALIZE = 0,
-    MASS_ERROR = 1
+    MASS_DIFFERENCE_NORMALIZE = 0,
+    MASS_DIFFERENCE_ERROR = 1
   };
 
   ///@{
@@ -102,8 +102,8 @@ public:
    */
   vtkSetMacro(MassDifference, int);
   vtkGetMacro(MassDifference, int);
-  void SetMassDifferenceToNormalize() { this->SetMassDifference(MASS_NORMALIZE); }
-  void SetMassDifferenceToError() { this->SetMassDifference(MASS_ERROR); }
+  void SetMassDifferenceToNormalize() { this->SetMassDifference(MASS_DIFFERENCE_NORMALIZE); }
+  void SetMassDifferenceToError() { this->SetMassDifference(MASS_DIFFERENCE_ERROR); }
   const char* GetMassDifferenceAsString();
   ///@}
 
@@ -122,8 +122,8 @@ public:
    * The number of coordinates of port 2, 1 to 100. Those that the distances do not need are 0.
    * Default 2.
    */
-  vtkSetMacro(Dimensions, int);
-  vtkGetMacro(Dimensions, int);
+  vtkSetMacro(NumberOfCoordinates, int);
+  vtkGetMacro(NumberOfCoordinates, int);
   ///@}
 
   ///@{
@@ -182,7 +182,7 @@ protected:
   int Method;
   int MassDifference;
   vtkTypeBool OverTime;
-  int Dimensions;
+  int NumberOfCoordinates;
 
 private:
   struct vtkInternals;

@@ -179,13 +179,13 @@ public:
   /**
    * What empty cells count as: cells that are blanked or without a valid value, and ground that
    * data other than images do not cover. Zero (default): nothing. Mean: the mean of the other
-   * cells. Least: the least of the other cells. Value: EmptyValue.
+   * cells. Minimum: the least of the other cells. Value: EmptyValue.
    */
   vtkSetMacro(EmptyCells, int);
   vtkGetMacro(EmptyCells, int);
   void SetEmptyCellsToZero() { this->SetEmptyCells(EMPTY_CELLS_ZERO); }
   void SetEmptyCellsToMean() { this->SetEmptyCells(EMPTY_CELLS_MEAN); }
-  void SetEmptyCellsToLeast() { this->SetEmptyCells(EMPTY_CELLS_LEAST); }
+  void SetEmptyCellsToMinimum() { this->SetEmptyCells(EMPTY_CELLS_MINIMUM); }
   void SetEmptyCellsToValue() { this->SetEmptyCells(EMPTY_CELLS_VALUE); }
   const char* GetEmptyCellsAsString();
   ///@}

@@ -77,16 +77,6 @@ public:
   vtkTypeMacro(vtkTransportQuality, vtkDensityAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /**
-   * What Tables may be.
-   */
-  enum TablesType
-  {
-    TABLES_AUTO = 0,
-    TABLES_WHOLE = 1,
-    TABLES_TILED = 2
-  };
-
   ///@{
   /**
    * The number of cells of the density along each axis in a block of DensityError. The last block

@@ -74,18 +74,6 @@ public:
   vtkTypeMacro(vtkTransportSampler, vtkTransportAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /**
-   * What SeedPattern may be.
-   */
-  enum SeedPatternType
-  {
-    BLUE_NOISE = 0,
-    LATTICE = 1,
-    JITTERED = 2,
-    LOW_DISCREPANCY = 3,
-    RANDOM = 4
-  };
-
   ///@{
   /**
    * The number of particles, at least 1. Default 8192. It is exact unless SeedPattern is Lattice,

@@ -6,6 +6,7 @@
 #include "Bridge/Pipeline/ConsumerExtents.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Temporal/KeptSteps.h"
 #include "Bridge/Temporal/StepTimes.h"
@@ -36,10 +37,8 @@ using namespace RectifiedTransport;
 using namespace RectifiedTransport::Bridge;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-const char* const TemporalMethodTexts[] = { "Optimal", "RectifiedFlow" };
-
 // Bound the list of time steps, which hosts display.
-constexpr int MaximumResample = 1000000;
+constexpr int MaximumResampleFactor = 1000000;
 constexpr double MaximumTimeSteps = 1e7;
 
 // The time that is requested of an output; the first step's, or 0, without a request. A time
@@ -79,9 +78,9 @@ struct vtkTransportTemporalInterpolator::vtkInternals
 //------------------------------------------------------------------------------
 vtkTransportTemporalInterpolator::vtkTransportTemporalInterpolator()
   : Method(OPTIMAL)
-  , Resample(0)
-  , Chain(false)
-  , CarryArrays(true)
+  , ResampleFactor(0)
+  , TrackParticles(false)
+  , AdvectArrays(true)
   , ParticlesPerCell(1)
   , Kernel(CLOUD_IN_CELL)
   , Radius(1.0)
@@ -98,7 +97,7 @@ vtkTransportTemporalInterpolator::~vtkTransportTemporalInterpolator() = default;
 //------------------------------------------------------------------------------
 const char* vtkTransportTemporalInterpolator::GetMethodAsString()
 {
-  return choiceText(TemporalMethodTexts, this->Method);
+  return choiceText(MethodTexts, this->Method);
 }
 
 //------------------------------------------------------------------------------
@@ -150,8 +149,9 @@ int vtkTransportTemporalInterpolator::RequestInformation(
   this->Internals->IsSeries = times.Count() > 0;
   this->Internals->Passes = 0;
   this->Internals->Agreed = -1;
-  const bool resamples = this->Resample > 0 && this->Resample <= MaximumResample &&
-    static_cast<double>(this->Resample) * times.Count() <= MaximumTimeSteps;
+  const bool resamples = this->ResampleFactor > 0 &&
+    this->ResampleFactor <= MaximumResampleFactor &&
+    static_cast<double>(this->ResampleFactor) * times.Count() <= MaximumTimeSteps;
   for (int port = 0; port < this->GetNumberOfOutputPorts() && times.Count() > 0; ++port)
   {
     vtkInformation* output = outputVector->GetInformationObject(port);
@@ -160,7 +160,7 @@ int vtkTransportTemporalInterpolator::RequestInformation(
     output->Remove(Pipeline::TIME_STEPS());
     if (resamples)
     {
-      const std::vector<double> steps = times.Resampled(this->Resample);
+      const std::vector<double> steps = times.Resampled(this->ResampleFactor);
       output->Set(Pipeline::TIME_STEPS(), steps.data(), static_cast<int>(steps.size()));
     }
   }
@@ -186,10 +186,10 @@ int vtkTransportTemporalInterpolator::MissingStep(double time)
   const StepTimes& times = this->Internals->Times;
   const TimePlace place = times.Find(time);
   std::array<int, 2> needed = { place.First, place.Second };
-  const int chained = this->Internals->Interpolation.Chain().Count();
-  if (this->Chain && chained <= place.Second)
+  const int tracked = this->Internals->Interpolation.Tracks().Count();
+  if (this->TrackParticles && tracked <= place.Second)
   {
-    needed = { std::max(0, chained - 1), chained };
+    needed = { std::max(0, tracked - 1), tracked };
   }
   int missing = -1;
   for (const int step : needed)
@@ -268,21 +268,21 @@ void vtkTransportTemporalInterpolator::EndPasses()
 //------------------------------------------------------------------------------
 RectifiedTransport::Bridge::TemporalSettings vtkTransportTemporalInterpolator::GetSettings()
 {
-  requireChoice("Method", this->Method, TemporalMethodTexts);
-  requireThat(this->Resample >= 0 && this->Resample <= MaximumResample, "Resample", this->Resample,
-    "from 0 (any time) to 1000000");
-  const double steps = static_cast<double>(this->Resample) * this->Internals->Times.Count();
+  requireChoice("Method", this->Method, MethodTexts);
+  requireThat(this->ResampleFactor >= 0 && this->ResampleFactor <= MaximumResampleFactor,
+    "ResampleFactor", this->ResampleFactor, "from 0 (any time) to 1000000");
+  const double steps = static_cast<double>(this->ResampleFactor) * this->Internals->Times.Count();
   if (steps > MaximumTimeSteps)
   {
-    throw Failure("Resample is " + std::to_string(this->Resample) + ", which would make about " +
-      textOf(steps) + " time steps; it must make at most 10000000");
+    throw Failure("ResampleFactor is " + std::to_string(this->ResampleFactor) +
+      ", which would make about " + textOf(steps) + " time steps; it must make at most 10000000");
   }
   requireThat(
     this->ParticlesPerCell >= 1, "ParticlesPerCell", this->ParticlesPerCell, "at least 1");
   TemporalSettings settings{};
   settings.Moving = { this->ParticlesPerCell, this->Method == OPTIMAL };
-  settings.Chains = this->Chain != 0;
-  settings.Carries = this->CarryArrays != 0;
+  settings.TracksParticles = this->TrackParticles != 0;
+  settings.AdvectsArrays = this->AdvectArrays != 0;
   settings.Splat = splatOptions(this->Kernel, this->Radius);
   return settings;
 }
@@ -296,8 +296,8 @@ void vtkTransportTemporalInterpolator::RunPass(
   const Ranks& ranks = this->GetRanks();
   const double time = own.TimeOf(request, outputVector);
   requireThat(!std::isnan(time), "The pipeline's time", time, "a number");
-  ChainedParticles& chain = own.Interpolation.Chain();
-  chain.SetSettings(settings.Moving, ranks.Count());
+  TrackedParticles& tracks = own.Interpolation.Tracks();
+  tracks.SetSettings(settings.Moving, ranks.Count());
   if (!own.IsSeries)
   {
     own.Times = StepTimes(time);
@@ -309,15 +309,16 @@ void vtkTransportTemporalInterpolator::RunPass(
   own.ChangedTime = changed;
   if (!onAllRanks(ranks, own.IsSeries && !own.Changed))
   {
-    chain.Recheck();
+    tracks.Recheck();
   }
   own.Changed = !own.IsSeries; // without steps nothing tells which time the data are of
   own.Steps.Keep(own.Times[own.Requested], vtkDataObject::GetData(inputVector[0], 0));
   const TimePlace place = own.Times.Find(time);
   if (own.Passes++ == 0)
   {
-    // A chain requests one step after the other; else one may be missing yet.
-    const int more = settings.Chains ? place.Second - own.Requested : this->MissingStep(time) >= 0;
+    // Tracked particles need one step after the other; else one may be missing yet.
+    const int more =
+      settings.TracksParticles ? place.Second - own.Requested : this->MissingStep(time) >= 0;
     own.AllPasses = 1 + std::max(0, more);
   }
   // A step that changed where it lies makes more passes than were counted.
@@ -338,7 +339,7 @@ void vtkTransportTemporalInterpolator::RunPass(
       this->RequestNextPass();
       return;
     }
-  } while (settings.Chains && this->ExtendChain(place.Second, progress));
+  } while (settings.TracksParticles && this->ExtendTracks(place.Second, progress));
   this->Interpolate(time, progress, outputVector);
 }
 
@@ -372,11 +373,12 @@ bool vtkTransportTemporalInterpolator::ReadStep(
 
 //------------------------------------------------------------------------------
 // Returns whether there is more to do.
-bool vtkTransportTemporalInterpolator::ExtendChain(int last, RectifiedTransport::Progress& progress)
+bool vtkTransportTemporalInterpolator::ExtendTracks(
+  int last, RectifiedTransport::Progress& progress)
 {
   vtkInternals& own = *this->Internals;
-  ChainedParticles& chain = own.Interpolation.Chain();
-  const int next = chain.Count();
+  TrackedParticles& tracks = own.Interpolation.Tracks();
+  const int next = tracks.Count();
   if (next > last)
   {
     return false;
@@ -391,22 +393,22 @@ bool vtkTransportTemporalInterpolator::ExtendChain(int last, RectifiedTransport:
   if (!(step.Density->Mass > 0.0))
   {
     throw Failure(step.Title +
-      " has no mass, and Chain follows particles through all steps; "
-      "Chain Off lets mass appear and disappear");
+      " has no mass, and TrackParticles follows particles through all steps; "
+      "TrackParticles Off lets mass appear and disappear");
   }
   if (next > 0)
   {
     requireOneSpace(before, step);
   }
-  constexpr double partOfChain = 0.7;
-  if (chain.Extend(next > 0 ? before.Density.get() : nullptr, *step.Density, progress,
-        progress.StageEnd() + 0.5 * (partOfChain - progress.StageEnd())))
+  constexpr double partOfTracks = 0.7;
+  if (tracks.Extend(next > 0 ? before.Density.get() : nullptr, *step.Density, progress,
+        progress.StageEnd() + 0.5 * (partOfTracks - progress.StageEnd())))
   {
     own.Interpolation.CountMap();
   }
-  if (!chain.Warning().empty())
+  if (!tracks.Warning().empty())
   {
-    this->WarnOnFirstRank(step.Title + ": " + chain.Warning());
+    this->WarnOnFirstRank(step.Title + ": " + tracks.Warning());
   }
   return true;
 }
@@ -460,9 +462,9 @@ void vtkTransportTemporalInterpolator::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Method: " << this->GetMethodAsString() << "\n";
-  os << indent << "Resample: " << this->Resample << "\n";
-  os << indent << "Chain: " << (this->Chain ? "On" : "Off") << "\n";
-  os << indent << "CarryArrays: " << (this->CarryArrays ? "On" : "Off") << "\n";
+  os << indent << "ResampleFactor: " << this->ResampleFactor << "\n";
+  os << indent << "TrackParticles: " << (this->TrackParticles ? "On" : "Off") << "\n";
+  os << indent << "AdvectArrays: " << (this->AdvectArrays ? "On" : "Off") << "\n";
   os << indent << "ParticlesPerCell: " << this->ParticlesPerCell << "\n";
   os << indent << "Kernel: " << this->GetKernelAsString() << "\n";
   os << indent << "Radius: " << this->Radius << "\n";

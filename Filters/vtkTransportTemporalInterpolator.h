@@ -24,17 +24,17 @@
  * input, bitwise, and port 1 has the particles of that step alone. A time before the first step or
  * after the last one is that one.
  *
- * With Chain, port 1 has the same particles at all times, with equal shares of the mass and
- * `SeedId`: they start as samples of the first step, and the map of each interval takes all of them
- * together to the next step. vtkTemporalPathLineFilter then makes their paths. A time requires all
- * steps before it, once; 24 bytes a particle are kept for each. The density is that of these
+ * With TrackParticles, port 1 has the same particles at all times, with equal shares of the mass
+ * and `SeedId`: they start as samples of the first step, and the map of each interval takes all of
+ * them together to the next step. vtkTemporalPathLineFilter then makes their paths. A time requires
+ * all steps before it, once; 24 bytes a particle are kept for each. The density is that of these
  * particles, at the steps, too.
  *
  * Steps may differ in their grids, but not in axes, planes and direction matrices. Between them the
  * output is on the smallest box that contains both, at the finer spacing. If one of two steps has
- * no mass, that of the other one stays where it is and fades or grows; with Chain it is an error.
- * Repeated times count once. An input with one step, or without steps, comes out as it is, at all
- * times.
+ * no mass, that of the other one stays where it is and fades or grows; with TrackParticles it is an
+ * error. Repeated times count once. An input with one step, or without steps, comes out as it is,
+ * at all times.
  *
  * Data before this filter are requested only within its own requests, so that no interval is made
  * ahead.
@@ -75,26 +75,6 @@ public:
   vtkTypeMacro(vtkTransportTemporalInterpolator, vtkDensityAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /**
-   * What Method may be.
-   */
-  enum MethodType
-  {
-    OPTIMAL = 0,
-    RECTIFIED_FLOW = 1
-  };
-
-  /**
-   * What Kernel may be.
-   */
-  enum KernelType
-  {
-    CLOUD_IN_CELL = 0,
-    NEAREST_CELL = 1,
-    TRIANGULAR_SHAPED_CLOUD = 2,
-    GAUSSIAN = 3
-  };
-
   ///@{
   /**
    * What moves the mass. Optimal (default): the map of least mean squared distance; where it does
@@ -115,17 +95,17 @@ public:
    * Else TIME_STEPS of so many equal parts of each interval are announced as well, up to 1000000
    * parts and 10000000 steps.
    */
-  vtkSetMacro(Resample, int);
-  vtkGetMacro(Resample, int);
+  vtkSetMacro(ResampleFactor, int);
+  vtkGetMacro(ResampleFactor, int);
   ///@}
 
   ///@{
   /**
    * Whether particles keep their identity through all intervals. Off by default.
    */
-  vtkSetMacro(Chain, vtkTypeBool);
-  vtkGetMacro(Chain, vtkTypeBool);
-  vtkBooleanMacro(Chain, vtkTypeBool);
+  vtkSetMacro(TrackParticles, vtkTypeBool);
+  vtkGetMacro(TrackParticles, vtkTypeBool);
+  vtkBooleanMacro(TrackParticles, vtkTypeBool);
   ///@}
 
   ///@{
@@ -137,9 +117,9 @@ public:
    * that of one of the steps, the one that has most of the mass there, or without mass that of the
    * nearer step at the place. On by default.
    */
-  vtkSetMacro(CarryArrays, vtkTypeBool);
-  vtkGetMacro(CarryArrays, vtkTypeBool);
-  vtkBooleanMacro(CarryArrays, vtkTypeBool);
+  vtkSetMacro(AdvectArrays, vtkTypeBool);
+  vtkGetMacro(AdvectArrays, vtkTypeBool);
+  vtkBooleanMacro(AdvectArrays, vtkTypeBool);
   ///@}
 
   ///@{
@@ -207,9 +187,9 @@ protected:
   void EndPasses() override;
 
   int Method;
-  int Resample;
-  vtkTypeBool Chain;
-  vtkTypeBool CarryArrays;
+  int ResampleFactor;
+  vtkTypeBool TrackParticles;
+  vtkTypeBool AdvectArrays;
   int ParticlesPerCell;
   int Kernel;
   double Radius;
@@ -225,7 +205,7 @@ private:
     vtkInformationVector* outputVector);
   bool ReadStep(int step, RectifiedTransport::Progress& progress,
     RectifiedTransport::Bridge::TemporalStep& read);
-  bool ExtendChain(int last, RectifiedTransport::Progress& progress);
+  bool ExtendTracks(int last, RectifiedTransport::Progress& progress);
   void Interpolate(
     double time, RectifiedTransport::Progress& progress, vtkInformationVector* outputVector);
 

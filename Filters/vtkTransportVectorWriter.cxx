@@ -99,7 +99,7 @@ int vtkTransportVectorWriter::RequestData(
     throw Failure("FileName is empty; it must be the file to write");
   }
   TransportVectorWriter writer{ this->Width, this->PageMargin, {}, this->PointRadius,
-    this->LineWidth, this->FillOutlines, this->LookupTable };
+    this->LineWidth, this->FillOutlines != 0, this->LookupTable };
   std::copy_n(this->PageBounds, writer.PageBounds.size(), writer.PageBounds.begin());
   writer.Check();
   AlgorithmProgress progress(this, this->Threading);

@@ -116,9 +116,9 @@ public:
    * the lines, which are black then. Lines with the same cell data are one region: what is inside
    * an odd number of them. Only with a ColorArray. Default off.
    */
-  vtkSetMacro(FillOutlines, bool);
-  vtkGetMacro(FillOutlines, bool);
-  vtkBooleanMacro(FillOutlines, bool);
+  vtkSetMacro(FillOutlines, vtkTypeBool);
+  vtkGetMacro(FillOutlines, vtkTypeBool);
+  vtkBooleanMacro(FillOutlines, vtkTypeBool);
   ///@}
 
   ///@{
@@ -155,7 +155,7 @@ protected:
   double PageBounds[6];
   double PointRadius;
   double LineWidth;
-  bool FillOutlines;
+  vtkTypeBool FillOutlines;
   vtkScalarsToColors* LookupTable;
 
 private:

@@ -45,18 +45,6 @@ public:
   vtkTypeMacro(vtkUniformSeedSource, vtkCollectiveAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /**
-   * What Pattern may be.
-   */
-  enum PatternType
-  {
-    BLUE_NOISE = 0,
-    LATTICE = 1,
-    JITTERED = 2,
-    LOW_DISCREPANCY = 3,
-    RANDOM = 4
-  };
-
   ///@{
   /**
    * The box (xmin, xmax, ymin, ymax, zmin, zmax) that the points fill. Bounds are finite, each

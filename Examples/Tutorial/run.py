@@ -180,7 +180,7 @@ def between_two_steps(pixels, frames):
     view = example.new_session([pixels, pixels], "Tutorial")
     plume = simple.XMLImageDataReader(registrationName="Plume", FileName=PLUME)
     between = simple.TransportTemporalInterpolator(plume, registrationName="Between",
-                                                   Resample=frames - 1)
+                                                   ResampleFactor=frames - 1)
     between.DensityArray = ["POINTS", "Smoke"]
     surface = simple.Contour(registrationName="Surface", Input=between)
     surface.ContourBy = ["POINTS", "Smoke"]

@@ -5,44 +5,86 @@
 
 #include "vtkObjectFactory.h"
 #include "vtkPVXMLElement.h"
+#include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 
+#include <iterator>
 #include <sstream>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkSMTransportStateProxy);
 
 namespace
 {
 
-bool hasProperty(vtkPVXMLElement* element, const std::string& name)
+// The element of a property, or null.
+vtkPVXMLElement* findProperty(vtkPVXMLElement* state, const std::string& name)
 {
-  for (unsigned int i = 0; i < element->GetNumberOfNestedElements(); ++i)
+  for (unsigned int i = 0; i < state->GetNumberOfNestedElements(); ++i)
   {
-    vtkPVXMLElement* nested = element->GetNestedElement(i);
+    vtkPVXMLElement* nested = state->GetNestedElement(i);
     const char* found = nested->GetAttribute("name");
     if (std::string(nested->GetName()) == "Property" && found && found == name)
     {
-      return true;
+      return nested;
     }
   }
-  return false;
+  return nullptr;
 }
 
-// Whether a state was written before the filter had the property. States have all properties, but
-// for those of an undone change.
-bool isFromBefore(vtkPVXMLElement* state, vtkPVXMLElement* hint)
+// Whether a state has all properties that a hint calls `written`.
+bool hasWritten(vtkPVXMLElement* state, vtkPVXMLElement* hint)
 {
   std::istringstream written(hint->GetAttributeOrEmpty("written"));
   std::string name;
   while (written >> name)
   {
-    if (!hasProperty(state, name))
+    if (!findProperty(state, name))
     {
       return false;
     }
   }
-  return !hasProperty(state, hint->GetAttributeOrEmpty("name"));
+  return true;
+}
+
+void loadWithoutProperty(vtkSMProxy* proxy, vtkPVXMLElement* state, vtkPVXMLElement* hint)
+{
+  const char* name = hint->GetAttributeOrEmpty("name");
+  int value = 0;
+  if (hint->GetScalarAttribute("value", &value) && hasWritten(state, hint) &&
+    !findProperty(state, name))
+  {
+    vtkSMPropertyHelper(proxy, name).Set(value);
+  }
+}
+
+void loadRenamed(
+  vtkSMProxy* proxy, vtkPVXMLElement* state, vtkPVXMLElement* hint, vtkSMProxyLocator* locator)
+{
+  vtkPVXMLElement* before = findProperty(state, hint->GetAttributeOrEmpty("from"));
+  vtkSMProperty* property = proxy->GetProperty(hint->GetAttributeOrEmpty("name"));
+  if (before && property)
+  {
+    property->LoadState(before, locator);
+  }
+}
+
+void loadRenumbered(vtkSMProxy* proxy, vtkPVXMLElement* state, vtkPVXMLElement* hint)
+{
+  const char* name = hint->GetAttributeOrEmpty("name");
+  if (!hasWritten(state, hint) || !findProperty(state, name))
+  {
+    return;
+  }
+  std::istringstream values(hint->GetAttributeOrEmpty("values"));
+  const std::vector<int> now{ std::istream_iterator<int>(values), {} };
+  vtkSMPropertyHelper property(proxy, name);
+  const int before = property.GetAsInt();
+  if (before >= 0 && before < static_cast<int>(now.size()))
+  {
+    property.Set(now[before]);
+  }
 }
 
 } // namespace
@@ -54,11 +96,18 @@ int vtkSMTransportStateProxy::LoadXMLState(vtkPVXMLElement* element, vtkSMProxyL
   for (unsigned int i = 0; isLoaded && hints && i < hints->GetNumberOfNestedElements(); ++i)
   {
     vtkPVXMLElement* hint = hints->GetNestedElement(i);
-    int value = 0;
-    if (std::string(hint->GetName()) == "WithoutProperty" &&
-      hint->GetScalarAttribute("value", &value) && isFromBefore(element, hint))
+    const std::string name = hint->GetName();
+    if (name == "WithoutProperty")
     {
-      vtkSMPropertyHelper(this, hint->GetAttribute("name")).Set(value);
+      loadWithoutProperty(this, element, hint);
+    }
+    else if (name == "RenamedProperty")
+    {
+      loadRenamed(this, element, hint, locator);
+    }
+    else if (name == "RenumberedProperty")
+    {
+      loadRenumbered(this, element, hint);
     }
   }
   return isLoaded;

@@ -4,11 +4,17 @@
  * @brief   a filter that old state files give what they gave
  *
  * The XML element TransportStateProxy. ParaView gives properties that a state file lacks their
- * defaults. Where what there was before a property is not its default, hints of the filter say so:
+ * defaults, and ignores those that the filter does not have any more. Hints of the filter say what
+ * an older state means:
  *
  *   <WithoutProperty name="EmptyCells" value="0" written="Blend DensityArray"/>
+ *   <RenamedProperty from="Chain" name="TrackParticles"/>
+ *   <RenumberedProperty name="Method" values="1 0" written="Chain"/>
  *
- * A state that has the properties `written` and lacks `name`, of integers, was written before it.
+ * WithoutProperty: a state that has the properties `written` and lacks `name`, of integers, was
+ * written before there was `name`, and gets `value`. RenamedProperty: `from` is what `name` was
+ * called. RenumberedProperty: in a state that has the properties `written`, value i of the
+ * enumeration `name` is the i-th of `values` now.
  */
 #ifndef vtkSMTransportStateProxy_h
 #define vtkSMTransportStateProxy_h

@@ -25,8 +25,8 @@ void drawDistance(Settings& settings)
   settings.Draw<Distance, int>("Method", &Distance::SetMethod, { 0, 1 }, { -1, 2 }, 0.6);
   settings.Draw<Distance, int>(
     "MassDifference", &Distance::SetMassDifference, { 0, 1 }, { -1, 2 }, 0.1);
-  settings.Draw<Distance, int>(
-    "Dimensions", &Distance::SetDimensions, { 1, 2, 3, 100 }, { 0, -1, 101 }, 0.5);
+  settings.Draw<Distance, int>("NumberOfCoordinates", &Distance::SetNumberOfCoordinates,
+    { 1, 2, 3, 100 }, { 0, -1, 101 }, 0.5);
   settings.Draw<Distance, vtkTypeBool>("OverTime", &Distance::SetOverTime, { 0, 1 }, {}, 0.05);
   if (settings.GetRandom().Chance(0.2))
   {
@@ -58,7 +58,7 @@ State expectDistance(vtkAlgorithm* filter, const Inputs& inputs)
   }
   auto* distance = Distance::SafeDownCast(filter);
   const bool mayRefuse =
-    distance->GetMassDifference() != Distance::MASS_NORMALIZE || distance->GetOverTime();
+    distance->GetMassDifference() != Distance::MASS_DIFFERENCE_NORMALIZE || distance->GetOverTime();
   return worse(state, mayRefuse ? State::Odd : State::Sound);
 }
 
@@ -87,7 +87,7 @@ void checkDistance(vtkAlgorithm* filter, const Inputs& inputs, Findings& finding
     }
   }
   vtkTable* coordinates = distance->GetCoordinates();
-  for (int axis = 0; axis < distance->GetDimensions(); ++axis)
+  for (int axis = 0; axis < distance->GetNumberOfCoordinates(); ++axis)
   {
     const std::string name = "Coordinate" + std::to_string(axis);
     requireArray(coordinates->GetRowData(), name.c_str(), 1, count, findings);
@@ -106,7 +106,7 @@ void checkDistance(vtkAlgorithm* filter, const Inputs& inputs, Findings& finding
 
 void quickDistance(RandomSource&, vtkAlgorithm* filter)
 {
-  Distance::SafeDownCast(filter)->SetDimensions(2);
+  Distance::SafeDownCast(filter)->SetNumberOfCoordinates(2);
   Distance::SafeDownCast(filter)->OverTimeOff();
 }
 

@@ -32,8 +32,8 @@ void drawCartogram(Settings& settings)
     { 0.0, -1.0, 1.5, NaN, Infinity }, 0.6);
   settings.Draw<T, int>(
     "MaximumIterations", &T::SetMaximumIterations, { 1, 2, 3 }, { 0, -1, 101 }, 1.0);
-  settings.Draw<T, double>(
-    "LeastShare", &T::SetLeastShare, { 0.0, 0.01, 0.2, 1.0 }, { -0.1, 1.1, NaN, Infinity }, 0.3);
+  settings.Draw<T, double>("MinimumShare", &T::SetMinimumShare, { 0.0, 0.01, 0.2, 1.0 },
+    { -0.1, 1.1, NaN, Infinity }, 0.3);
   settings.Draw<T, double>(
     "Blend", &T::SetBlend, { 0.0, 0.5, 1.0, 5e-324 }, { -0.1, 1.1, NaN, Infinity }, 0.3);
   settings.Draw<T, int>("Projection", &T::SetProjection,

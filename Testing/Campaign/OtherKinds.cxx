@@ -80,7 +80,7 @@ State expectCells(vtkAlgorithm* filter, const Inputs& inputs)
   {
     state = worse(state, State::Open); // cells have no optimal map
   }
-  if (set->GetNumberOfPoints() > cells->GetResolution() || cells->GetShape() == Cells::POWER)
+  if (set->GetNumberOfPoints() > cells->GetResolution() || cells->GetShape() == Cells::SHAPE_POWER)
   {
     // There may be less than a pixel for each site; a domain or cost that has no power cells.
     state = worse(state, State::Odd);

@@ -216,11 +216,11 @@ class TestCartogram(unittest.TestCase):
         wide.GetCellData().GetArray("Mass").SetValue(3, 0.0)
         targets = cell_values(cartogram(wide)[0].GetRegions(), "TargetArea")
         self.assertAlmostEqual(targets[3], 1e-4 * 200, delta=1e-6)
-        algorithm, listener = cartogram(sixteen(), LeastShare=0.05)
-        self.assertIn("15 of 16 regions (93.8 %) are enlarged to LeastShare", listener.warnings[0])
+        algorithm, listener = cartogram(sixteen(), MinimumShare=0.05)
+        self.assertIn("15 of 16 regions (93.8 %) are enlarged to MinimumShare", listener.warnings[0])
         self.check_shares(ring_areas(algorithm.GetRegions()), [0.25 if i == 5 else 0.05 for i in range(16)])
         self.assertEqual(algorithm.GetRegions().GetFieldData().GetArray("EnlargedRegions").GetValue(0), 15)
-        algorithm, listener = cartogram(sixteen(), LeastShare=0.5)
+        algorithm, listener = cartogram(sixteen(), MinimumShare=0.5)
         self.check_shares(ring_areas(algorithm.GetRegions()), [1.0] * 16)
         data = map_of([square(0, 4), rectangle(3, 0, 8, 4)], [1.0, 2.0])
         self.assertIn("Regions overlap by 11 % of their area", cartogram(data)[1].warnings[0])
@@ -232,7 +232,7 @@ class TestCartogram(unittest.TestCase):
                       name=["land", "land", "pond"])
         _, listener = cartogram(lake, regions="name", Resolution=32)
         self.assertIn("the raster cannot hold the region 'pond' (off by", listener.warnings[-1])
-        self.assertIn("LeastShare", listener.warnings[-1])
+        self.assertIn("MinimumShare", listener.warnings[-1])
 
     def test_errors(self):
         nan = sixteen()
@@ -274,7 +274,7 @@ class TestCartogram(unittest.TestCase):
                 (sixteen(), dict(EmptyCells=7), "EmptyCells is 7"),
                 (sixteen(), dict(EmptyValue=-1.0), "EmptyValue is -1"),
                 (sixteen(), dict(MaximumIterations=0), "MaximumIterations is 0"),
-                (sixteen(), dict(LeastShare=1.5), "LeastShare is 1.5; it must be from 0 to 1"),
+                (sixteen(), dict(MinimumShare=1.5), "MinimumShare is 1.5; it must be from 0 to 1"),
                 (sixteen(), dict(Blend=2.0), "Blend is 2")):
             with self.subTest(text=text):
                 algorithm, listener = cartogram(data, **options)
@@ -341,10 +341,10 @@ class TestCartogram(unittest.TestCase):
                 (sixteen(place=lambda x, y: (10 * x, 40 + 10 * y, 0.0)), {},
                  ["The coordinates look like degrees of longitude and latitude, in which areas are wrong; set "
                   "Projection to EqualArea, or project the map with the Calculator or QGIS"]),
-                (no_mass, dict(Tolerance=1.0, LeastShare=0.01),
+                (no_mass, dict(Tolerance=1.0, MinimumShare=0.01),
                  ["2 of 4 regions (50 %) have no mass (the first is the region of cell 0); they get a "
                   "ten-thousandth of the mean density, as no area can be shown",
-                  "2 of 4 regions (50 %) are enlarged to LeastShare"])):
+                  "2 of 4 regions (50 %) are enlarged to MinimumShare"])):
             with self.subTest(texts=texts):
                 algorithm, listener = cartogram(data, **options)
                 self.assertEqual(listener.errors, [])

@@ -239,7 +239,7 @@ def distance_runs():
     yield "distances turned", distance, [
         [image((23, 17, 19), direction=TURN, seed=s) for s in range(3)]], dict(Method=1)
     yield "distances of other sizes", distance, [
-        [image(cells=False), image(cells=False, seed=5)]], dict(Component=0, Dimensions=1)
+        [image(cells=False), image(cells=False, seed=5)]], dict(Component=0, NumberOfCoordinates=1)
 
 
 def temporal_runs():
@@ -253,7 +253,7 @@ def temporal_runs():
     for kernel, name in enumerate(KERNELS):
         yield f"temporal {name}", temporal, [Series(steps, points=True)], dict(
             time=0.4, Kernel=kernel, ParticlesPerCell=kernel + 1, Radius=1.5)
-    yield "temporal chain", temporal, [Series(steps)], dict(time=1.5, Chain=1)
+    yield "temporal tracked", temporal, [Series(steps)], dict(time=1.5, TrackParticles=1)
 
 
 def warp_runs():

@@ -140,7 +140,7 @@ class Coordinates(unittest.TestCase):
         inputs = bells((10, 20), (14, 28), (22, 14))
         stresses = []
         for dimensions in (1, 2, 5):
-            table = run(inputs, Dimensions=dimensions).GetCoordinates()
+            table = run(inputs, NumberOfCoordinates=dimensions).GetCoordinates()
             self.assertIsNone(table.GetColumnByName("Coordinate%d" % dimensions))
             self.assertEqual(len(column(table, "Coordinate%d" % (dimensions - 1))), 3)
             stresses.append(table.GetFieldData().GetArray("Stress").GetValue(0))
@@ -168,7 +168,7 @@ class Kept(unittest.TestCase):
                 np.testing.assert_array_equal(changed(inputs[::-1]), before[::-1, ::-1])
                 copies = bells((10, 20), (14, 28), (22, 14), (25, 25))
                 np.testing.assert_array_equal(changed(copies), before)
-                algorithm.SetDimensions(3)
+                algorithm.SetNumberOfCoordinates(3)
                 algorithm.SetInputName(0, "first")
                 algorithm.Update()
                 self.assertEqual(algorithm.GetNumberOfSolutions(), first)
@@ -232,7 +232,7 @@ class Masses(unittest.TestCase):
         algorithm = algorithm_of([image(bell(12, 20)), image(4 * bell(24, 20))])
         listener = Listener(algorithm)
         for dimensions in (1, 2, 3):
-            algorithm.SetDimensions(dimensions)
+            algorithm.SetNumberOfCoordinates(dimensions)
             algorithm.Update()
         self.assertEqual(len(listener.warnings), 1)
 
@@ -393,7 +393,7 @@ class BadInputs(unittest.TestCase):
         self.refused("Input 3 of 3: The density array 'Density' has a total mass of zero", [*good, zero])
         self.refused("negative value", [*good, negative])
         self.refused("axes", [good[0], density_image((4, 4, 4))])
-        for name, value in ("Method", 2), ("MassDifference", -1), ("Dimensions", 0), ("Dimensions", 101):
+        for name, value in ("Method", 2), ("MassDifference", -1), ("NumberOfCoordinates", 0), ("NumberOfCoordinates", 101):
             self.refused("%s is %d; it must be" % (name, value), good, **{name: value})
         algorithm = algorithm_of([*good, other])
         algorithm.SetInputArrayToProcess(0, 0, 0, 1, "Density")

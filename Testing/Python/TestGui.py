@@ -330,12 +330,12 @@ SetActiveSource(sampler)
 
     def test_series_between_its_steps(self):
         """With Resample the play button runs over times between the steps, to the last one; then back."""
-        resample = PANEL + "Resample/IntRangeWidget/LineEdit"
+        resample = PANEL + "ResampleFactor/IntRangeWidget/LineEdit"
         first = ("VCRToolbar/1QToolButton0", "activate", "")
         make = (choose("Filters", "TransportTemporalInterpolator"), (resample, "set_string", "4"), APPLY)
         saved = self.states_after("gui-series.png", (*make, PLAY), (first,), script_text=OPEN_STEPS)
         for state, time in zip(saved, (1, 0)):
-            self.assertEqual(numbers(state, "TransportTemporalInterpolator", "Resample"), [4])
+            self.assertEqual(numbers(state, "TransportTemporalInterpolator", "ResampleFactor"), [4])
             self.assertEqual(numbers(state, "TimeKeeper", "TimestepValues"), [0, 0.25, 0.5, 0.75, 1])
             self.assertEqual(numbers(state, "TimeKeeper", "Time"), [time])
 

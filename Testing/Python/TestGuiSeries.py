@@ -12,7 +12,7 @@ from rt_testing import OUTPUT, SOURCE, main, need_display
 from rt_window import APPLY, LOADED, PANEL, choose
 
 N = 32
-RESAMPLE = (PANEL + "Resample/IntRangeWidget/LineEdit", "set_string", "4")
+RESAMPLE = (PANEL + "ResampleFactor/IntRangeWidget/LineEdit", "set_string", "4")
 DELETE = ("propertiesDock/propertiesPanel/Delete", "activate", "")
 FIRST, BACK, PLAY_BACK, PLAY, NEXT, LAST = (
     ("VCRToolbar/1QToolButton%d" % button, "activate", "") for button in range(6))

@@ -379,7 +379,7 @@ class Errors(unittest.TestCase):
                 ("ValidRange is nan to 1; it must", dict(ValidRange=(math.nan, 1))),
                 ("ValidRange is 0 to nan; it must", dict(ValidRange=(0, math.nan))),
                 ("NaNValues is 2; it must be 0 (Error) or 1 (Empty)", dict(NaNValues=2)),
-                ("EmptyCells is 4; it must be 0 (Zero), 1 (Mean), 2 (Least) or 3 (Value)",
+                ("EmptyCells is 4; it must be 0 (Zero), 1 (Mean), 2 (Minimum) or 3 (Value)",
                  dict(EmptyCells=4)),
                 ("EmptyValue is -1; it must be finite and at least 0", dict(EmptyValue=-1)),
                 ("EmptyValue is inf; it must", dict(EmptyValue=math.inf)),

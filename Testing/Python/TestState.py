@@ -129,12 +129,12 @@ class State(unittest.TestCase):
         points.Transform.Scale = [16, 16, 1]
         warp = simple.DensityEqualizingWarp(points, Density=gaps, registrationName="Warp")
         expected = {}
-        for rule in ("Zero", "Least", "Mean"):
+        for rule in ("Zero", "Minimum", "Mean"):
             warp.EmptyCells = rule
             expected[rule] = digest(output_of(warp))
         self.assertEqual(len(set(expected.values())), 3)
         self.assertEqual(simple.DensityEqualizingWarp(points, Density=gaps).EmptyCells, "Mean")
-        for rule in ("Least", "Mean"):
+        for rule in ("Minimum", "Mean"):
             warp.EmptyCells = rule
             path = os.path.join(OUTPUT, "empty-cells.pvsm")
             simple.SaveState(path)

@@ -70,7 +70,7 @@ class Times(unittest.TestCase):
     def test_units_of_lengths_do_not_matter(self):
         """To the last bit in units that are powers of two; in others as far as rounding leaves the map."""
         spreading = [blob(20, 24, 4), blob(26, 24, 7)]
-        for method, share in ((0, 1e-3), (1, 1e-12)):
+        for method, share in ((1, 1e-3), (0, 1e-12)):
             found = {}
             for spacing in (1.0, 2.0 ** -200, 2.0 ** 200, 1e-60, 1e60):
                 algorithm = interpolator(Series(spreading, spacing=(spacing, spacing, 1)), Method=method)
@@ -101,7 +101,7 @@ class Times(unittest.TestCase):
             info = algorithm.GetOutputInformation(port)
             self.assertEqual(list(info.Get(Pipeline.TIME_RANGE())), [0, 3])
             self.assertFalse(info.Has(Pipeline.TIME_STEPS()))
-        algorithm.SetResample(4)
+        algorithm.SetResampleFactor(4)
         algorithm.UpdateInformation()
         for port in (0, 1):
             steps = algorithm.GetOutputInformation(port).Get(Pipeline.TIME_STEPS())
@@ -167,7 +167,7 @@ class Times(unittest.TestCase):
             algorithm = interpolator(Series(MOVING), **properties)
             algorithm.UpdateTimeStep(0.4)
             return digest(algorithm.GetDensity()) + digest(algorithm.GetParticles())
-        runs = [run(), run(Method=1), run(Chain=1), run(ParticlesPerCell=4), run(ParticlesPerCell=3), run(Kernel=1),
+        runs = [run(), run(Method=0), run(TrackParticles=1), run(ParticlesPerCell=4), run(ParticlesPerCell=3), run(Kernel=1),
                 run(Kernel=2), run(Kernel=3), run(Kernel=3, Radius=2), run(InvertDensity=1)]
         self.assertEqual(len(set(runs)), len(runs))
 
@@ -186,7 +186,7 @@ class Times(unittest.TestCase):
 class Chains(unittest.TestCase):
     def test_particles_keep_their_identity(self):
         for method in (0, 1):
-            algorithm = interpolator(Series(MOVING), Chain=1, Method=method)
+            algorithm = interpolator(Series(MOVING), TrackParticles=1, Method=method)
             at = {}
             for time in (0, 0.5, 1, 1.5, 2):
                 algorithm.UpdateTimeStep(time)
@@ -203,36 +203,36 @@ class Chains(unittest.TestCase):
             np.testing.assert_allclose(at[1.5], 0.5 * (at[1] + at[2]), atol=1e-9)
 
     def test_a_late_time_is_as_after_those_before_it(self):
-        late = interpolator(Series(MOVING), Chain=1)
+        late = interpolator(Series(MOVING), TrackParticles=1)
         late.UpdateTimeStep(1.75)
-        played = interpolator(Series(MOVING), Chain=1)
+        played = interpolator(Series(MOVING), TrackParticles=1)
         for time in (0, 1.5, 0.25, 1.75):
             played.UpdateTimeStep(time)
         self.assertEqual(digest(late.GetParticles()), digest(played.GetParticles()))
         self.assertEqual(played.GetNumberOfMaps(), 3)  # the samples of the first step count
 
     def test_a_change_of_a_property_counts(self):
-        algorithm = interpolator(Series(MOVING), Chain=1)
+        algorithm = interpolator(Series(MOVING), TrackParticles=1)
         algorithm.UpdateTimeStep(1.5)
-        for name, value in (("Method", 1), ("ParticlesPerCell", 2)):
+        for name, value in (("Method", 0), ("ParticlesPerCell", 2)):
             getattr(algorithm, "Set" + name)(value)
             algorithm.UpdateTimeStep(1.5)
-            fresh = interpolator(Series(MOVING), Chain=1, Method=1, ParticlesPerCell=algorithm.GetParticlesPerCell())
+            fresh = interpolator(Series(MOVING), TrackParticles=1, Method=0, ParticlesPerCell=algorithm.GetParticlesPerCell())
             fresh.UpdateTimeStep(1.5)
             self.assertEqual(digest(algorithm.GetParticles()), digest(fresh.GetParticles()), name)
 
     def test_a_change_of_what_is_read_counts(self):
-        algorithm = interpolator(Series(MOVING), Chain=1)
+        algorithm = interpolator(Series(MOVING), TrackParticles=1)
         algorithm.UpdateTimeStep(1.5)
         algorithm.SetInvertDensity(1)
         algorithm.UpdateTimeStep(1.5)
-        fresh = interpolator(Series(MOVING), Chain=1, InvertDensity=1)
+        fresh = interpolator(Series(MOVING), TrackParticles=1, InvertDensity=1)
         fresh.UpdateTimeStep(1.5)
         self.assertEqual(digest(algorithm.GetParticles()), digest(fresh.GetParticles()))
 
     def test_a_change_of_an_early_step_counts(self):
         series = Series(MOVING)
-        algorithm = interpolator(series, Chain=1)
+        algorithm = interpolator(series, TrackParticles=1)
         algorithm.UpdateTimeStep(1.5)
         before = digest(algorithm.GetParticles())
         series.Modified()
@@ -242,7 +242,7 @@ class Chains(unittest.TestCase):
         series.Modified()
         algorithm.UpdateTimeStep(1.5)
         self.assertNotEqual(digest(algorithm.GetParticles()), before)
-        fresh = interpolator(series, Chain=1)
+        fresh = interpolator(series, TrackParticles=1)
         fresh.UpdateTimeStep(1.5)
         self.assertEqual(digest(algorithm.GetParticles()), digest(fresh.GetParticles()))
 
@@ -275,11 +275,11 @@ class Carrying(unittest.TestCase):
                 self.assertTrue((values(algorithm, name) == steps[time][name].ravel()).all())
 
     def test_off_gives_the_density_alone(self):
-        algorithm = interpolator(Series(self.steps()), CarryArrays=0)
+        algorithm = interpolator(Series(self.steps()), AdvectArrays=0)
         for time in (0, 0.5):
             algorithm.UpdateTimeStep(time)
             self.assertEqual(algorithm.GetDensity().GetCellData().GetNumberOfArrays(), 1)
-        algorithm.SetCarryArrays(1)
+        algorithm.SetAdvectArrays(1)
         algorithm.Update()
         self.assertEqual(algorithm.GetDensity().GetCellData().GetNumberOfArrays(), 4)
         self.assertEqual(algorithm.GetNumberOfMaps(), 1)
@@ -307,7 +307,7 @@ class Upstream(unittest.TestCase):
             runs = []
             algorithm.AddObserver("EndEvent", lambda *_, runs=runs: runs.append(1))
             if make is not rectifiedtransport.vtkTransportMap:
-                algorithm.SetResample(1)
+                algorithm.SetResampleFactor(1)
             statistics = vtkTemporalStatistics()
             statistics.SetInputConnection(algorithm.GetOutputPort())
             statistics.Update()
@@ -349,7 +349,7 @@ class InParaView(unittest.TestCase):
 
     def test_paths(self):
         proxy = simple.TransportTemporalInterpolator(self.reader("temporal-paths", MOVING), DensityArray=["CELLS", "rho"],
-                                                     Chain=1, Resample=2)
+                                                     TrackParticles=1, ResampleFactor=2)
         proxy.UpdatePipelineInformation()
         self.assertEqual(list(proxy.TimestepValues), [0, 0.5, 1, 1.5, 2])
         paths = simple.TemporalParticlesToPathlines(simple.OutputPort(proxy, 1), MaskPoints=100, MaxTrackLength=10,

@@ -84,7 +84,7 @@ class Labels(unittest.TestCase):
             series = Labelled(moving(), steps)
             for chain in (0, 1):
                 for time in TIMES:
-                    algorithm = between(series, time, Chain=chain)
+                    algorithm = between(series, time, TrackParticles=chain)
                     for name in ("band", "disk"):
                         with self.subTest(form, name=name, time=time, chain=chain):
                             found = values(algorithm, name)

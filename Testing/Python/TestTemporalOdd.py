@@ -42,7 +42,7 @@ class Odd(unittest.TestCase):
         for chain in (0, 1):
             series = Series(MOVING)
             series.broken = 1
-            algorithm = interpolator(series, Chain=chain)
+            algorithm = interpolator(series, TrackParticles=chain)
             listener = Listener(algorithm)
             algorithm.UpdateTimeStep(0.5)
             self.assertIn("The input could not be made at the time 1; mend the error", "".join(listener.errors))
@@ -80,16 +80,16 @@ class Odd(unittest.TestCase):
         self.assertEqual(listener.errors, [])
         self.assertTrue(any("Time step 1 of 4 (t = 0) has no mass: that of the next step appears where it is" in text
                             for text in listener.warnings), listener.warnings)
-        text, algorithm = self.error(Series([MOVING[0], empty, MOVING[1]]), 1.5, Chain=1)
-        self.assertIn("Time step 2 of 3 (t = 1) has no mass, and Chain follows particles through all steps; Chain Off", text)
-        algorithm.SetChain(0)  # as it advises
+        text, algorithm = self.error(Series([MOVING[0], empty, MOVING[1]]), 1.5, TrackParticles=1)
+        self.assertIn("Time step 2 of 3 (t = 1) has no mass, and TrackParticles follows particles through all steps; TrackParticles Off", text)
+        algorithm.SetTrackParticles(0)  # as it advises
         algorithm.UpdateTimeStep(1.5)
         self.assertGreater(algorithm.GetDensity().GetNumberOfPoints(), 0)
 
     def test_one_step_and_none(self):
         for times in ([5], []):
             for chain in (0, 1):
-                algorithm = interpolator(Series([MOVING[0]], times=times), Chain=chain)
+                algorithm = interpolator(Series([MOVING[0]], times=times), TrackParticles=chain)
                 listener = Listener(algorithm)
                 for time in (5, 3, 8):
                     algorithm.UpdateTimeStep(time)
@@ -103,17 +103,17 @@ class Odd(unittest.TestCase):
     def test_no_times_after_a_series(self):
         """Nothing of the series is left, whether it could be followed to its end or not."""
         for steps, times in ((MOVING, None), ([MOVING[0], np.zeros((N, N))], None), (MOVING[:1], [np.nan])):
-            algorithm = interpolator(Series(steps, times=times), Chain=1)
+            algorithm = interpolator(Series(steps, times=times), TrackParticles=1)
             algorithm.UpdateTimeStep(0.5)
             single = Series([blob(30, 10)], times=[])
             algorithm.SetInputConnection(single.GetOutputPort())
             algorithm.UpdateTimeStep(0.5)
-            fresh = interpolator(single, Chain=1)
+            fresh = interpolator(single, TrackParticles=1)
             fresh.UpdateTimeStep(0.5)
             self.assertEqual(digest(algorithm.GetParticles()), digest(fresh.GetParticles()))
 
     def test_repeated_and_unordered_times(self):
-        algorithm = interpolator(Series([MOVING[2], MOVING[0], MOVING[0], MOVING[1]], times=[2, 0, 0, 1]), Resample=2)
+        algorithm = interpolator(Series([MOVING[2], MOVING[0], MOVING[0], MOVING[1]], times=[2, 0, 0, 1]), ResampleFactor=2)
         algorithm.UpdateInformation()
         steps = algorithm.GetOutputInformation(0).Get(Pipeline.TIME_STEPS())
         np.testing.assert_allclose(steps, [0, 0.5, 1, 1.5, 2])
@@ -125,7 +125,7 @@ class Odd(unittest.TestCase):
 
     def test_times_at_the_ends_of_numbers(self):
         """Times that are not finite count as none; between the largest ones parts are what they are."""
-        algorithm = interpolator(Series(MOVING, times=[-1.5e308, 1.5e308, np.inf]), Resample=2)
+        algorithm = interpolator(Series(MOVING, times=[-1.5e308, 1.5e308, np.inf]), ResampleFactor=2)
         plain = interpolator(Series(MOVING[:2], times=[0, 1]))
         plain.UpdateTimeStep(0.5)
         algorithm.UpdateTimeStep(0)
@@ -198,7 +198,7 @@ class Odd(unittest.TestCase):
         self.assertIn("direction", text)
 
     def test_properties_out_of_range(self):
-        for name, value, rule in (("Resample", -1, "Resample is -1; it must be from 0 (any time) to 1000000"),
+        for name, value, rule in (("ResampleFactor", -1, "ResampleFactor is -1; it must be from 0 (any time) to 1000000"),
                                   ("ParticlesPerCell", 0, "ParticlesPerCell is 0; it must be at least 1"),
                                   ("Radius", 0, "Radius is 0"), ("Method", 2, "Method is 2; it must be 0 (Optimal)"),
                                   ("Kernel", 9, "Kernel is 9")):
@@ -217,7 +217,7 @@ class Odd(unittest.TestCase):
         self.assertGreater(algorithm.GetDensity().GetNumberOfPoints(), 0)
 
     def test_progress_moves(self):
-        for properties in ({}, {"Chain": 1}):
+        for properties in ({}, {"TrackParticles": 1}):
             algorithm = interpolator(Series(MOVING), **properties)
             seen = []
             algorithm.AddObserver("ProgressEvent", lambda caller, event: seen.append(caller.GetProgress()))

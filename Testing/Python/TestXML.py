@@ -101,8 +101,8 @@ def result(proxy, values, domain=None):
     connect_inputs(filter_, shape, number)
     if hasattr(filter_, "SetNumberOfParticles"):
         filter_.SetNumberOfParticles(30)
-    if hasattr(filter_, "SetChain") and "Chain" not in values:
-        filter_.SetChain(1)  # else the kernel has no effect on a single step
+    if hasattr(filter_, "SetTrackParticles") and "TrackParticles" not in values:
+        filter_.SetTrackParticles(1)  # else the kernel has no effect on a single step
     if hasattr(filter_, "SetNumberOfPoints"):
         filter_.SetNumberOfPoints(30)
     if hasattr(filter_, "SetResolution"):

@@ -26,7 +26,7 @@ def give_missing(image, cells, hidden):
         give("missing sample " + name, simple.SampleDensity(
             density, NumberOfParticles=300, SampleArrays=0, **properties))
         for tables in ("Whole", "Tiled"):
-            for rule in ("Mean", "Least", "Value"):
+            for rule in ("Mean", "Minimum", "Value"):
                 give("missing map %s %s %s" % (name, rule, tables), simple.TransportMap(
                     density, EmptyCells=rule, EmptyValue=170, Tables=tables, **properties))
             warp = dict(Tables=tables, Margin=0.15, **properties)

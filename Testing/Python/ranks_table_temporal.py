@@ -42,7 +42,7 @@ def give_temporal():
     flat = series(simple.ExtractSubset(Input=image, VOI=[-4, 8, 3, 3, 0, 10]))
     inputs = {"points": (moving, "POINTS"), "cells": (cells, "CELLS"), "flat": (flat, "POINTS"),
               "wider": (series(with_ghosts(image, 2)), "POINTS"), "finer": (series(image, FINER), "POINTS")}
-    choices = [dict(), dict(Chain=1), dict(Method="RectifiedFlow"), dict(Kernel="Gaussian", ParticlesPerCell=2)]
+    choices = [dict(), dict(TrackParticles=1), dict(Method="RectifiedFlow"), dict(Kernel="Gaussian", ParticlesPerCell=2)]
     for name, (source, owner) in inputs.items():
         for choice in choices if name == "points" else choices[:2]:
             simple.SetActiveSource(None)

@@ -112,7 +112,7 @@ def region_map():
 def surface_for(algorithm):
     """A surface that an algorithm takes: those with corners map a disk to a square, and those of masses of
     regions need a map."""
-    if hasattr(algorithm, "GetLeastShare"):
+    if hasattr(algorithm, "GetMinimumShare"):
         return region_map()
     return disk_surface() if hasattr(algorithm, "GetNumberOfCorners") else closed_surface()
 

@@ -244,7 +244,7 @@ private:
         " have no mass (the first is the region " + first +
         "); they get a ten-thousandth of the mean density, as no area can be shown");
     }
-    const double share = this->Worker.LeastShare;
+    const double share = this->Worker.MinimumShare;
     if (share > 0.0)
     {
       this->Enlarged = raiseMasses(masses, share);
@@ -252,7 +252,7 @@ private:
       {
         this->Warnings.push_back(
           describePart(this->Enlarged, static_cast<std::int64_t>(masses.size()), "regions") +
-          " are enlarged to LeastShare");
+          " are enlarged to MinimumShare");
       }
     }
   }

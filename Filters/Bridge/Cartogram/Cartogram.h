@@ -44,7 +44,7 @@ struct CartogramWorker
   CartogramOptions Options;
   RegionArrays Arrays;
   bool IsInDegrees; // project to equal areas
-  double LeastShare;
+  double MinimumShare;
   double Blend;
 
   // Returns warnings. Throws Failure, InvalidDensity and Cancelled.

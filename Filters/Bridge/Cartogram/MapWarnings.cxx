@@ -72,7 +72,7 @@ private:
            << percentText(std::abs(this->Result.Errors[indexOf(small[i])])) << ")";
     }
     text << (small.size() > most ? ", ..." : "")
-         << ": raise Resolution, or enlarge small regions with LeastShare";
+         << ": raise Resolution, or enlarge small regions with MinimumShare";
     return text.str();
   }
 
@@ -118,7 +118,7 @@ void addWarnings(const CartogramResult& result, const std::vector<std::string>& 
   {
     warnings.push_back("A pass would turn over " + describePart(result.Folded, rings, "outlines") +
       " (the first of the region " + names[indexOf(result.FirstFolded)] +
-      ") even with 4096 steps and is left out; raise Resolution or LeastShare");
+      ") even with 4096 steps and is left out; raise Resolution or MinimumShare");
   }
   MissedRegions(result, names, tolerance).Add(warnings);
 }

@@ -40,7 +40,7 @@ double densityOfEmptyCells(const EmptyRule& rule, const FilledCells& filled)
   {
     return rule.Value;
   }
-  if (rule.Cells == EmptyCells::Least)
+  if (rule.Cells == EmptyCells::Minimum)
   {
     return std::isfinite(filled.Least) ? filled.Least : 0.0;
   }

@@ -13,7 +13,7 @@ namespace RectifiedTransport::Bridge
 
 // Indexed by the enumerations of vtkDensityAlgorithm.
 constexpr const char* NaNValuesTexts[] = { "Error", "Empty" };
-constexpr const char* EmptyCellsTexts[] = { "Zero", "Mean", "Least", "Value" };
+constexpr const char* EmptyCellsTexts[] = { "Zero", "Mean", "Minimum", "Value" };
 
 // Which values of an array mark empty cells.
 struct MissingValues
@@ -58,7 +58,7 @@ enum class EmptyCells
 {
   Zero,
   Mean,
-  Least,
+  Minimum,
   Value
 };
 

@@ -2,7 +2,7 @@
 #include "Bridge/Temporal/LabelVotes.h"
 
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Temporal/CarriedArrays.h"
+#include "Bridge/Temporal/AdvectedArrays.h"
 #include "Bridge/Temporal/CloudRows.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
@@ -211,13 +211,13 @@ private:
 
 template <int D>
 std::vector<Vote<D>> votesOf(
-  const CarriedMoment& moment, const BroughtTuples& tuples, const ImageGrid& geometry)
+  const AdvectedMoment& moment, const BroughtTuples& tuples, const ImageGrid& geometry)
 {
   const MovedClouds& clouds = moment.Clouds;
   const CloudPlaces<D> places(clouds, geometry);
   const std::int64_t count = clouds.Points->GetNumberOfTuples();
   std::vector<Vote<D>> votes;
-  votes.reserve(static_cast<std::size_t>(count * tuples.Parts * (moment.Chains ? 2 : 1)));
+  votes.reserve(static_cast<std::size_t>(count * tuples.Parts * (moment.TracksParticles ? 2 : 1)));
   for (std::int64_t i = 0; i < count; ++i)
   {
     const std::int64_t particle = clouds.First + i;
@@ -237,7 +237,7 @@ std::vector<Vote<D>> votesOf(
       {
         const double ofEnd = end == 0 ? 1.0 - clouds.Part : clouds.Part;
         const bool isOwn = (particle < clouds.OfFirst) == (end == 0);
-        const double share = moment.Chains ? ofEnd : isOwn ? 1.0 : 0.0;
+        const double share = moment.TracksParticles ? ofEnd : isOwn ? 1.0 : 0.0;
         vote.Mass = share * clouds.Masses[i] / tuples.Parts;
         vote.Tuple = tuples.At[end][static_cast<std::size_t>(particle * tuples.Parts + part)];
         if (vote.Mass > 0.0)
@@ -283,8 +283,9 @@ std::vector<Vote<D>> exchangeVotes(
 } // namespace
 
 template <int D>
-std::unique_ptr<LabelVotes> makeLabelVotes(const CarriedMoment& moment, const BroughtTuples& tuples,
-  const ImageGrid& geometry, const TupleBox& wanted, Progress& progress)
+std::unique_ptr<LabelVotes> makeLabelVotes(const AdvectedMoment& moment,
+  const BroughtTuples& tuples, const ImageGrid& geometry, const TupleBox& wanted,
+  Progress& progress)
 {
   const GridSize<D> size = geometry.Size<D>();
   const LatticePart<D> part = latticePartOf<D>(wanted, geometry);
@@ -302,10 +303,10 @@ std::unique_ptr<LabelVotes> makeLabelVotes(const CarriedMoment& moment, const Br
 }
 
 template std::unique_ptr<LabelVotes> makeLabelVotes<1>(
-  const CarriedMoment&, const BroughtTuples&, const ImageGrid&, const TupleBox&, Progress&);
+  const AdvectedMoment&, const BroughtTuples&, const ImageGrid&, const TupleBox&, Progress&);
 template std::unique_ptr<LabelVotes> makeLabelVotes<2>(
-  const CarriedMoment&, const BroughtTuples&, const ImageGrid&, const TupleBox&, Progress&);
+  const AdvectedMoment&, const BroughtTuples&, const ImageGrid&, const TupleBox&, Progress&);
 template std::unique_ptr<LabelVotes> makeLabelVotes<3>(
-  const CarriedMoment&, const BroughtTuples&, const ImageGrid&, const TupleBox&, Progress&);
+  const AdvectedMoment&, const BroughtTuples&, const ImageGrid&, const TupleBox&, Progress&);
 
 } // namespace RectifiedTransport::Bridge

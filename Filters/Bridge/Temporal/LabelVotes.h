@@ -20,7 +20,7 @@ class Progress;
 namespace RectifiedTransport::Bridge
 {
 
-struct CarriedMoment;
+struct AdvectedMoment;
 
 class LabelVotes
 {
@@ -51,8 +51,9 @@ struct BroughtTuples
 // On ranks each gets the clouds that reach its wanted cells, in the order of their numbers.
 // Collective. Throws Failure.
 template <int D>
-std::unique_ptr<LabelVotes> makeLabelVotes(const CarriedMoment& moment, const BroughtTuples& tuples,
-  const ImageGrid& geometry, const TupleBox& wanted, Progress& progress);
+std::unique_ptr<LabelVotes> makeLabelVotes(const AdvectedMoment& moment,
+  const BroughtTuples& tuples, const ImageGrid& geometry, const TupleBox& wanted,
+  Progress& progress);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -126,13 +126,13 @@ vtkSmartPointer<vtkDoubleArray> partOf(
   return part;
 }
 
-CarryingImage carryingImage(const TemporalStep& step)
+AdvectedImage advectedImage(const TemporalStep& step)
 {
   const StepDensity& density = *step.Density;
   return { step.Input->ImageIn(density.Grid.Extent()), density.Grid, density.ArrayName };
 }
 
-std::string describeMissing(const TemporalMoment& moment, const CarriedArrays& arrays)
+std::string describeMissing(const TemporalMoment& moment, const AdvectedArrays& arrays)
 {
   std::string names;
   for (const std::string& name : arrays.Missing())
@@ -172,7 +172,7 @@ std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment
   const ImageGrid between = gridBetween(moment.First, moment.Second);
   std::vector<std::string> warnings;
   Interval& interval = this->Find(moment, settings, progress, partOfMap, warnings);
-  const bool isStep = !settings.Chains && (moment.Part <= 0.0 || moment.Part >= 1.0);
+  const bool isStep = !settings.TracksParticles && (moment.Part <= 0.0 || moment.Part >= 1.0);
   const TemporalStep& nearest = moment.Part < 1.0 ? moment.First : moment.Second;
   const ImageGrid& geometry = isStep ? nearest.Density->Grid : between;
   applyGrid(geometry, output.Image);
@@ -181,7 +181,7 @@ std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment
   progress.BeginStage(1.0);
   if (isStep)
   {
-    WriteStep(nearest, settings.Carries, progress, output);
+    WriteStep(nearest, settings.AdvectsArrays, progress, output);
   }
   else
   {
@@ -211,14 +211,14 @@ TemporalInterpolation::Interval& TemporalInterpolation::Find(const TemporalMomen
     std::find_if(this->Intervals.begin(), this->Intervals.end(), [&](const Interval& interval) {
       return interval.First->IsSameAs(*moment.First.Density) &&
         interval.Second->IsSameAs(*moment.Second.Density) && interval.Settings == settings.Moving &&
-        interval.Chains == settings.Chains && interval.Length == moment.Length &&
+        interval.TracksParticles == settings.TracksParticles && interval.Length == moment.Length &&
         interval.Ranks == progress.Group().Count();
     });
-  // What a chain makes of an interval depends on the intervals before it.
+  // What tracked particles do in an interval depends on the intervals before it.
   const bool isKept = onAllRanks(progress.Group(), found != this->Intervals.end()) &&
-    !(settings.Chains &&
+    !(settings.TracksParticles &&
       found->Particles.From !=
-        this->Chained.Between(moment.First.Number, moment.Second.Number, progress.Group()).From);
+        this->Tracked.Between(moment.First.Number, moment.Second.Number, progress.Group()).From);
   if (isKept)
   {
     this->Intervals.splice(this->Intervals.begin(), this->Intervals, found);
@@ -236,14 +236,14 @@ TemporalInterpolation::Interval& TemporalInterpolation::Find(const TemporalMomen
     this->Intervals.push_front(std::move(interval));
   }
   Interval& interval = this->Intervals.front();
-  if (settings.Carries && !interval.Carries)
+  if (settings.AdvectsArrays && !interval.AdvectsArrays)
   {
     progress.BeginStage(end);
-    interval.Arrays.Make(carryingImage(moment.First), carryingImage(moment.Second),
+    interval.Arrays.Make(advectedImage(moment.First), advectedImage(moment.Second),
       interval.Particles, gridBetween(moment.First, moment.Second), progress);
     warnings.push_back(describeMissing(moment, interval.Arrays));
   }
-  interval.Carries = settings.Carries;
+  interval.AdvectsArrays = settings.AdvectsArrays;
   warnings.erase(std::remove(warnings.begin(), warnings.end(), ""), warnings.end());
   return interval;
 }
@@ -256,13 +256,13 @@ void TemporalInterpolation::Make(const TemporalMoment& moment, const TemporalSet
   interval.First = moment.First.Density;
   interval.Second = moment.Second.Density;
   interval.Settings = settings.Moving;
-  interval.Chains = settings.Chains;
+  interval.TracksParticles = settings.TracksParticles;
   interval.Length = moment.Length;
   interval.Ranks = progress.Group().Count();
-  if (settings.Chains)
+  if (settings.TracksParticles)
   {
     interval.Particles =
-      this->Chained.Between(moment.First.Number, moment.Second.Number, progress.Group());
+      this->Tracked.Between(moment.First.Number, moment.Second.Number, progress.Group());
   }
   else
   {
@@ -288,10 +288,10 @@ void TemporalInterpolation::WriteParticles(const Interval& interval, const Image
   const MovingParticles& particles = interval.Particles;
   const std::int64_t all = particles.Count();
   // At its ends an interval has the particles of one step alone.
-  this->Begin = !interval.Chains && part >= 1.0 ? particles.OfFirst : 0;
+  this->Begin = !interval.TracksParticles && part >= 1.0 ? particles.OfFirst : 0;
   const std::int64_t count = (part <= 0.0 ? particles.OfFirst : all) - this->Begin;
-  const double chainMass = (1.0 - part) * interval.First->Mass + part * interval.Second->Mass;
-  const double ofFirst = interval.Chains ? chainMass : 1.0 - part;
+  const double trackedMass = (1.0 - part) * interval.First->Mass + part * interval.Second->Mass;
+  const double ofFirst = interval.TracksParticles ? trackedMass : 1.0 - part;
   this->Points = newArray<vtkDoubleArray>("Points", 3, count);
   this->Masses = newArray<vtkDoubleArray>("Mass", 1, count);
   const std::vector<vtkSmartPointer<vtkDoubleArray>> ends = {
@@ -314,7 +314,7 @@ void TemporalInterpolation::WriteParticles(const Interval& interval, const Image
   vtkPointData* data = output.Particles->GetPointData();
   data->AddArray(this->Masses);
   data->SetVectors(partOf(interval.Velocities, this->Begin, count));
-  if (interval.Chains)
+  if (interval.TracksParticles)
   {
     auto ids = newArray<vtkIdTypeArray>("SeedId", 1, count);
     std::copy_n(particles.Numbers.begin(), count, ids->GetPointer(0));
@@ -360,15 +360,15 @@ void TemporalInterpolation::WriteImage(const Interval& interval, const TemporalS
     splatDistributed(this->Points, masses, 0.0, order, target, box, progress, density);
   }
   output.Image->GetAttributes(ownerOf(geometry))->SetScalars(density);
-  if (settings.Carries)
+  if (settings.AdvectsArrays)
   {
-    interval.Arrays.Write(
-      { clouds, order, interval.Chains }, geometry, settings.Splat, wanted, progress, output.Image);
+    interval.Arrays.Write({ clouds, order, interval.TracksParticles }, geometry, settings.Splat,
+      wanted, progress, output.Image);
   }
 }
 
 void TemporalInterpolation::WriteStep(
-  const TemporalStep& step, bool carries, Progress& progress, const TemporalOutput& output)
+  const TemporalStep& step, bool advects, Progress& progress, const TemporalOutput& output)
 {
   const StepDensity& density = *step.Density;
   const Extent& whole = density.Grid.Extent();
@@ -387,17 +387,17 @@ void TemporalInterpolation::WriteStep(
     }
   });
   output.Image->GetAttributes(owner)->SetScalars(values);
-  if (!carries)
+  if (!advects)
   {
     return;
   }
-  const CarryingImage image{ step.Input->ImageIn(wanted), density.Grid, density.ArrayName };
+  const AdvectedImage image{ step.Input->ImageIn(wanted), density.Grid, density.ArrayName };
   for (const int type : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
     vtkDataSetAttributes* attributes = image.Image->GetAttributes(type);
     for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
     {
-      if (isCarried(image, type, attributes->GetAbstractArray(i)))
+      if (isAdvected(image, type, attributes->GetAbstractArray(i)))
       {
         output.Image->GetAttributes(type)->AddArray(attributes->GetAbstractArray(i));
       }

@@ -4,10 +4,10 @@
 #ifndef RectifiedTransport_TemporalInterpolation_h
 #define RectifiedTransport_TemporalInterpolation_h
 
-#include "Bridge/Temporal/CarriedArrays.h"
-#include "Bridge/Temporal/ChainedParticles.h"
+#include "Bridge/Temporal/AdvectedArrays.h"
 #include "Bridge/Temporal/MovingParticles.h"
 #include "Bridge/Temporal/StepDensity.h"
+#include "Bridge/Temporal/TrackedParticles.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Splat/Splat.h"
 
@@ -39,8 +39,8 @@ class InputDensity;
 struct TemporalSettings
 {
   MovingSettings Moving;
-  bool Chains;
-  bool Carries;
+  bool TracksParticles;
+  bool AdvectsArrays;
   SplatOptions Splat;
 };
 
@@ -74,13 +74,13 @@ void requireOneSpace(const TemporalStep& first, const TemporalStep& second);
 class TemporalInterpolation
 {
 public:
-  // With Chains: its positions must reach the second step. Returns warnings of new intervals.
-  // Keeps the last two intervals. Collective. Throws Failure and Cancelled.
+  // With TracksParticles: its positions must reach the second step. Returns warnings of new
+  // intervals. Keeps the last two intervals. Collective. Throws Failure and Cancelled.
   std::vector<std::string> Run(const TemporalMoment& moment, const TemporalSettings& settings,
     Progress& progress, const TemporalOutput& output);
 
-  ChainedParticles& Chain() { return this->Chained; }
-  // How many intervals have been solved, of Run and of the chain.
+  TrackedParticles& Tracks() { return this->Tracked; }
+  // How many intervals have been solved, of Run and of tracked particles.
   std::int64_t NumberOfMaps() const { return this->Made; }
   void CountMap() { ++this->Made; }
 
@@ -90,13 +90,13 @@ private:
     std::shared_ptr<const StepDensity> First;
     std::shared_ptr<const StepDensity> Second;
     MovingSettings Settings;
-    bool Chains;
+    bool TracksParticles;
     double Length;
     int Ranks;
     MovingParticles Particles;
     vtkSmartPointer<vtkDoubleArray> Velocities;
-    bool Carries = false; // whether the arrays were made
-    CarriedArrays Arrays;
+    bool AdvectsArrays = false; // whether the arrays were made
+    AdvectedArrays Arrays;
   };
 
   Interval& Find(const TemporalMoment& moment, const TemporalSettings& settings, Progress& progress,
@@ -108,10 +108,10 @@ private:
   void WriteImage(const Interval& interval, const TemporalSettings& settings,
     const ImageGrid& geometry, double part, Progress& progress, const TemporalOutput& output);
   static void WriteStep(
-    const TemporalStep& step, bool carries, Progress& progress, const TemporalOutput& output);
+    const TemporalStep& step, bool advects, Progress& progress, const TemporalOutput& output);
 
   std::list<Interval> Intervals; // the last one first
-  ChainedParticles Chained;
+  TrackedParticles Tracked;
   std::int64_t Made = 0;
   // Of the particles at the moment, before they go to their owners.
   vtkSmartPointer<vtkDoubleArray> Points;

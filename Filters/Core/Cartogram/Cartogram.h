@@ -29,10 +29,10 @@ constexpr double leastOverlap = 1e-4;
 // The density of the ground around the regions.
 enum class SeaDensity
 {
-  Mean,  // of the regions, in every pass: they keep their area
-  Least, // of the regions' densities
-  Value, // a given one, in the map as it is
-  Zero   // 1e-7 of the mean: regions take all of the box
+  Mean,    // of the regions, in every pass: they keep their area
+  Minimum, // of the regions' densities
+  Value,   // a given one, in the map as it is
+  Zero     // 1e-7 of the mean: regions take all of the box
 };
 
 struct CartogramOptions

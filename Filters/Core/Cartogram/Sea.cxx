@@ -24,7 +24,7 @@ double densityBefore(const CartogramOptions& options, const CartogramBox& box, d
   const std::vector<double>& masses, const std::vector<double>& areas)
 {
   double density = 0.0;
-  if (options.Sea == SeaDensity::Least)
+  if (options.Sea == SeaDensity::Minimum)
   {
     density = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < masses.size(); ++i)

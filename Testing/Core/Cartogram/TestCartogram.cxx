@@ -173,7 +173,7 @@ TEST(Cartogram, Seas)
   const std::vector<double> masses = masses16(4.0);
   double land[4];
   for (const SeaDensity sea :
-    { SeaDensity::Mean, SeaDensity::Least, SeaDensity::Value, SeaDensity::Zero })
+    { SeaDensity::Mean, SeaDensity::Minimum, SeaDensity::Value, SeaDensity::Zero })
   {
     CartogramOptions options = coarse();
     options.Sea = sea;
@@ -410,7 +410,7 @@ TEST(Cartogram, Cancelled)
   EXPECT_THROW(make(squares(4), masses16(9.0), coarse(), nullptr, context), Cancelled);
 }
 
-TEST(RaiseMasses, ToTheLeastShare)
+TEST(RaiseMasses, ToTheMinimumShare)
 {
   std::vector<double> masses{ 1.0, 2.0, 97.0, 1000.0 };
   EXPECT_EQ(raiseMasses(masses, 0.1), 3);

@@ -162,7 +162,7 @@ void checkKeptTables(Checks& checks)
     }
     return arrayValues(cells->GetSites()->GetPointData()->GetArray("CellMass"));
   };
-  for (const int shape : { vtkEqualMassCells::FLOW, vtkEqualMassCells::POWER })
+  for (const int shape : { vtkEqualMassCells::SHAPE_FLOW, vtkEqualMassCells::SHAPE_POWER })
   {
     const Values alone = masses(shape, false, false);
     CHECK(checks, alone.size() == 12);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Particles that keep their identity through all steps of a series.
-#ifndef RectifiedTransport_ChainedParticles_h
-#define RectifiedTransport_ChainedParticles_h
+#ifndef RectifiedTransport_TrackedParticles_h
+#define RectifiedTransport_TrackedParticles_h
 
 #include "Bridge/Temporal/MovingParticles.h"
 #include "Core/Geometry/ImageGrid.h"
@@ -29,7 +29,7 @@ struct StepDensity;
 // Equal shares of the mass. They begin as samples of the first step, and each interval's map takes
 // all of them together to the next step, so that errors of masses do not add up. Of each rank its
 // share.
-class ChainedParticles
+class TrackedParticles
 {
 public:
   // Forgets positions that other settings made.

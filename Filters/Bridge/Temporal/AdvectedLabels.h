@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Arrays of two images that have nothing between their values: integers, bits and texts. They move
 // along with the mass.
-#ifndef RectifiedTransport_CarriedLabels_h
-#define RectifiedTransport_CarriedLabels_h
+#ifndef RectifiedTransport_AdvectedLabels_h
+#define RectifiedTransport_AdvectedLabels_h
 
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Temporal/LabelVotes.h"
@@ -29,8 +29,8 @@ class Progress;
 namespace RectifiedTransport::Bridge
 {
 
-struct CarriedMoment;
-struct CarryingImage;
+struct AdvectedMoment;
+struct AdvectedImage;
 struct MovingParticles;
 
 // Whether the values of an array are labels.
@@ -40,15 +40,15 @@ bool isOfLabels(vtkAbstractArray* array);
 // brings both tuples, with its mass divided by the time. A cell or point gets the tuple that has
 // most of the mass there; of two that have as much, that of the first step. Without mass, it gets
 // the tuple at the place itself, of the nearer step.
-class CarriedLabels
+class AdvectedLabels
 {
 public:
   // Takes arrays of the points or cells (`owner`) of both images. Throws Failure.
-  void Make(int owner, const std::vector<std::string>& names, const CarryingImage& first,
-    const CarryingImage& second, const MovingParticles& particles);
+  void Make(int owner, const std::vector<std::string>& names, const AdvectedImage& first,
+    const AdvectedImage& second, const MovingParticles& particles);
   // Adds the arrays on an extent of the image. Runs as the current stage. Collective. The same for
   // every number of threads and ranks. Throws Failure and Cancelled.
-  void Write(const CarriedMoment& moment, const ImageGrid& geometry, const Extent& wanted,
+  void Write(const AdvectedMoment& moment, const ImageGrid& geometry, const Extent& wanted,
     Progress& progress, vtkImageData* output) const;
   bool IsEmpty() const { return this->Arrays.empty(); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Temporal/ChainedParticles.h"
+#include "Bridge/Temporal/TrackedParticles.h"
 
 #include "Bridge/Blend/ParticlePositions.h"
 #include "Bridge/Run/Memory.h"
@@ -54,7 +54,7 @@ vtkSmartPointer<vtkDoubleArray> physicalOf(
 
 } // namespace
 
-void ChainedParticles::SetSettings(const MovingSettings& settings, int ranks)
+void TrackedParticles::SetSettings(const MovingSettings& settings, int ranks)
 {
   if (!(this->Settings == settings) || this->NumberOfRanks != ranks)
   {
@@ -65,10 +65,10 @@ void ChainedParticles::SetSettings(const MovingSettings& settings, int ranks)
   this->NumberOfRanks = ranks;
 }
 
-bool ChainedParticles::Extend(
+bool TrackedParticles::Extend(
   const StepDensity* before, const StepDensity& density, Progress& progress, double end)
 {
-  using Self = ChainedParticles;
+  using Self = TrackedParticles;
   this->Text.clear();
   const auto next = static_cast<std::size_t>(this->Checked);
   const bool isKnown = next < this->Steps.size() && this->Steps[next].Density->IsSameAs(density);
@@ -103,7 +103,7 @@ bool ChainedParticles::Extend(
 }
 
 template <int D>
-void ChainedParticles::Begin(const StepDensity& density, Progress& progress, double end)
+void TrackedParticles::Begin(const StepDensity& density, Progress& progress, double end)
 {
   const PivotLattice<D> pivot =
     pivotLattice<D>(density.Grid.Size<D>(), this->Settings.ParticlesPerCell);
@@ -122,7 +122,7 @@ void ChainedParticles::Begin(const StepDensity& density, Progress& progress, dou
 }
 
 template <int D>
-void ChainedParticles::Follow(
+void TrackedParticles::Follow(
   const StepDensity& before, const StepDensity& density, Progress& progress, double end)
 {
   constexpr double partOfMap = 0.6;
@@ -149,7 +149,7 @@ void ChainedParticles::Follow(
   this->Steps.push_back(step);
 }
 
-MovingParticles ChainedParticles::Between(int from, int to, const Ranks& ranks) const
+MovingParticles TrackedParticles::Between(int from, int to, const Ranks& ranks) const
 {
   const Step& first = this->Steps[static_cast<std::size_t>(from)];
   const Step& second = this->Steps[static_cast<std::size_t>(to)];

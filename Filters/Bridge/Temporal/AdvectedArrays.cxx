@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Temporal/CarriedArrays.h"
+#include "Bridge/Temporal/AdvectedArrays.h"
 
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Run/Memory.h"
@@ -83,7 +83,7 @@ double between(double first, double second, double part)
 
 } // namespace
 
-bool isCarried(const CarryingImage& image, int owner, vtkAbstractArray* array)
+bool isAdvected(const AdvectedImage& image, int owner, vtkAbstractArray* array)
 {
   const bool isDensity = array && array->GetName() && image.Density == array->GetName() &&
     owner == (image.Grid.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL);
@@ -92,7 +92,7 @@ bool isCarried(const CarryingImage& image, int owner, vtkAbstractArray* array)
     array->GetNumberOfTuples() == image.Image->GetNumberOfElements(owner);
 }
 
-void CarriedArrays::Make(const CarryingImage& first, const CarryingImage& second,
+void AdvectedArrays::Make(const AdvectedImage& first, const AdvectedImage& second,
   const MovingParticles& particles, const ImageGrid& geometry, Progress& progress)
 {
   this->Arrays.clear();
@@ -103,12 +103,12 @@ void CarriedArrays::Make(const CarryingImage& first, const CarryingImage& second
   }
 }
 
-void CarriedArrays::MakeOf(int owner, const CarryingImage& first, const CarryingImage& second,
+void AdvectedArrays::MakeOf(int owner, const AdvectedImage& first, const AdvectedImage& second,
   const MovingParticles& particles, const ImageGrid& geometry, Progress& progress)
 {
-  const auto find = [owner](const CarryingImage& image, const char* name) {
+  const auto find = [owner](const AdvectedImage& image, const char* name) {
     vtkAbstractArray* array = image.Image->GetAttributes(owner)->GetAbstractArray(name);
-    return isCarried(image, owner, array) ? array : nullptr;
+    return isAdvected(image, owner, array) ? array : nullptr;
   };
   std::vector<std::string> names;
   for (const auto& [one, other] : { std::pair(&first, &second), std::pair(&second, &first) })
@@ -117,7 +117,7 @@ void CarriedArrays::MakeOf(int owner, const CarryingImage& first, const Carrying
     for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
     {
       vtkAbstractArray* array = attributes->GetAbstractArray(i);
-      if (!isCarried(*one, owner, array))
+      if (!isAdvected(*one, owner, array))
       {
         continue;
       }
@@ -160,7 +160,7 @@ void CarriedArrays::MakeOf(int owner, const CarryingImage& first, const Carrying
   }
 }
 
-void CarriedArrays::Write(const CarriedMoment& moment, const ImageGrid& geometry,
+void AdvectedArrays::Write(const AdvectedMoment& moment, const ImageGrid& geometry,
   const SplatOptions& splat, const Extent& wanted, Progress& progress, vtkImageData* output) const
 {
   for (const int owner : { vtkDataObject::CELL, vtkDataObject::POINT })
@@ -169,9 +169,9 @@ void CarriedArrays::Write(const CarriedMoment& moment, const ImageGrid& geometry
     const SplatTarget target{ own, splat, false };
     const TupleBox box = tuplesOf(wanted, owner, geometry.Extent());
     vtkSmartPointer<vtkDoubleArray> mass;
-    for (const Carried& carried : this->Arrays)
+    for (const Advected& advected : this->Arrays)
     {
-      if (carried.Owner != owner)
+      if (advected.Owner != owner)
       {
         continue;
       }
@@ -181,28 +181,28 @@ void CarriedArrays::Write(const CarriedMoment& moment, const ImageGrid& geometry
         splatDistributed(moment.Clouds.Points, moment.Clouds.Masses, 0.0, moment.Numbers, target,
           box, progress, mass);
       }
-      this->WriteOne(carried, moment, target, box, mass, progress, output);
+      this->WriteOne(advected, moment, target, box, mass, progress, output);
     }
-    const CarriedLabels& labels = this->Labels[owner == vtkDataObject::POINT ? 1 : 0];
+    const AdvectedLabels& labels = this->Labels[owner == vtkDataObject::POINT ? 1 : 0];
     labels.Write(moment, geometry, wanted, progress, output);
   }
 }
 
-void CarriedArrays::WriteOne(const Carried& carried, const CarriedMoment& moment,
+void AdvectedArrays::WriteOne(const Advected& advected, const AdvectedMoment& moment,
   const SplatTarget& target, const TupleBox& wanted, vtkDoubleArray* mass, Progress& progress,
   vtkImageData* output) const
 {
   const MovedClouds& clouds = moment.Clouds;
-  const auto& [first, second] = carried.OfParticles;
-  const auto& [firstHere, secondHere] = carried.InPlace;
+  const auto& [first, second] = advected.OfParticles;
+  const auto& [firstHere, secondHere] = advected.InPlace;
   const int components = first->GetNumberOfComponents();
   const std::int64_t particles = clouds.Points->GetNumberOfTuples();
-  const TupleBox all = tuplesOf(target.Geometry.Extent(), carried.Owner, target.Geometry.Extent());
-  const auto made = vtkSmartPointer<vtkDataArray>::Take(carried.Like->NewInstance());
-  made->SetName(carried.Name.c_str());
+  const TupleBox all = tuplesOf(target.Geometry.Extent(), advected.Owner, target.Geometry.Extent());
+  const auto made = vtkSmartPointer<vtkDataArray>::Take(advected.Like->NewInstance());
+  made->SetName(advected.Name.c_str());
   made->SetNumberOfComponents(components);
-  made->CopyComponentNames(carried.Like);
-  withMemory("the array " + carried.Name, 8.0 * static_cast<double>(wanted.Count()) * components,
+  made->CopyComponentNames(advected.Like);
+  withMemory("the array " + advected.Name, 8.0 * static_cast<double>(wanted.Count()) * components,
     [&]() { made->SetNumberOfTuples(wanted.Count()); });
   const auto moments = newArray<vtkDoubleArray>("Moments", 1, particles);
   const auto sums = newArray<vtkDoubleArray>("Sums", 1, wanted.Count());
@@ -234,7 +234,7 @@ void CarriedArrays::WriteOne(const Carried& carried, const CarriedMoment& moment
       made->SetComponent(i, c, sum[i]);
     }
   }
-  output->GetAttributes(carried.Owner)->AddArray(made);
+  output->GetAttributes(advected.Owner)->AddArray(made);
 }
 
 } // namespace RectifiedTransport::Bridge

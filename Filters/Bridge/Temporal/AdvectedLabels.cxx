@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Temporal/CarriedLabels.h"
+#include "Bridge/Temporal/AdvectedLabels.h"
 
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Temporal/CarriedArrays.h"
+#include "Bridge/Temporal/AdvectedArrays.h"
 #include "Bridge/Temporal/MovingParticles.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
@@ -167,8 +167,8 @@ bool isOfLabels(vtkAbstractArray* array)
   return type != VTK_DOUBLE && type != VTK_FLOAT;
 }
 
-void CarriedLabels::Make(int owner, const std::vector<std::string>& names,
-  const CarryingImage& first, const CarryingImage& second, const MovingParticles& particles)
+void AdvectedLabels::Make(int owner, const std::vector<std::string>& names,
+  const AdvectedImage& first, const AdvectedImage& second, const MovingParticles& particles)
 {
   this->Owner = owner;
   this->Arrays.clear();
@@ -176,7 +176,7 @@ void CarriedLabels::Make(int owner, const std::vector<std::string>& names,
   this->Grids = { first.Grid.WithValuesOn(onPoints), second.Grid.WithValuesOn(onPoints) };
   for (const std::string& name : names)
   {
-    const auto arrayOf = [&](const CarryingImage& image) {
+    const auto arrayOf = [&](const AdvectedImage& image) {
       return copyOf(image.Image->GetAttributes(owner)->GetAbstractArray(name.c_str()));
     };
     Labels labels{ name, { arrayOf(first), arrayOf(second) }, {} };
@@ -205,7 +205,7 @@ void CarriedLabels::Make(int owner, const std::vector<std::string>& names,
 }
 
 // Takes the step that is nearer in time, if both have the place or neither has.
-vtkIdType CarriedLabels::InPlace(
+vtkIdType AdvectedLabels::InPlace(
   const ImageGrid& grid, const TupleBox& box, std::int64_t number, double part) const
 {
   const Eigen::Vector3d x =
@@ -218,7 +218,7 @@ vtkIdType CarriedLabels::InPlace(
     : tupleAt(this->Grids[1], x.data()) + static_cast<vtkIdType>(this->Grids[0].NumberOfCells());
 }
 
-void CarriedLabels::Write(const CarriedMoment& moment, const ImageGrid& geometry,
+void AdvectedLabels::Write(const AdvectedMoment& moment, const ImageGrid& geometry,
   const Extent& wanted, Progress& progress, vtkImageData* output) const
 {
   if (this->Arrays.empty())

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The other arrays of two images, whose values move along with the mass.
-#ifndef RectifiedTransport_CarriedArrays_h
-#define RectifiedTransport_CarriedArrays_h
+#ifndef RectifiedTransport_AdvectedArrays_h
+#define RectifiedTransport_AdvectedArrays_h
 
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Splat/MassSplat.h"
-#include "Bridge/Temporal/CarriedLabels.h"
+#include "Bridge/Temporal/AdvectedLabels.h"
 #include "Bridge/Temporal/MovedClouds.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/ImageGrid.h"
@@ -33,8 +33,8 @@ namespace RectifiedTransport::Bridge
 
 struct MovingParticles;
 
-// The image of a step, and the name of its density's array, which is not carried.
-struct CarryingImage
+// The image of a step, and the name of its density's array, which is not advected.
+struct AdvectedImage
 {
   vtkSmartPointer<vtkImageData> Image;
   ImageGrid Grid; // with the density's association
@@ -42,35 +42,35 @@ struct CarryingImage
 };
 
 // The particles of an interval at a moment.
-struct CarriedMoment
+struct AdvectedMoment
 {
   MovedClouds Clouds;          // their numbers are those of Make
   const std::int64_t* Numbers; // as splatDistributed takes them
-  bool Chains;                 // each particle is of both steps
+  bool TracksParticles;        // each particle is of both steps
 };
 
-// Whether an array of an image may be carried: with a name, and neither the density nor ghosts.
-bool isCarried(const CarryingImage& image, int owner, vtkAbstractArray* array);
+// Whether an array of an image may be advected: with a name, and neither the density nor ghosts.
+bool isAdvected(const AdvectedImage& image, int owner, vtkAbstractArray* array);
 
 // A floating-point value is the mean, by mass, of those of the particles around a cell or point.
 // Each of them moves linearly in time from the value where the particle begins to that where it
 // ends. Where there is no mass, the value at the place itself does so. Other arrays are labels.
-class CarriedArrays
+class AdvectedArrays
 {
 public:
   // Takes the arrays that both images have with one type and number of components. Runs as the
   // current stage. Throws Failure and Cancelled.
-  void Make(const CarryingImage& first, const CarryingImage& second,
+  void Make(const AdvectedImage& first, const AdvectedImage& second,
     const MovingParticles& particles, const ImageGrid& geometry, Progress& progress);
   // The names of arrays that one of the two lacks.
   const std::vector<std::string>& Missing() const { return this->Lacking; }
   // Adds the arrays on an extent of the image. Runs as the current stage. Collective.
-  void Write(const CarriedMoment& moment, const ImageGrid& geometry, const SplatOptions& splat,
+  void Write(const AdvectedMoment& moment, const ImageGrid& geometry, const SplatOptions& splat,
     const Extent& wanted, Progress& progress, vtkImageData* output) const;
 
 private:
   using Ends = std::array<vtkSmartPointer<vtkDoubleArray>, 2>; // in the first and the second image
-  struct Carried
+  struct Advected
   {
     std::string Name;
     int Owner;                          // vtkDataObject::POINT or CELL
@@ -78,13 +78,13 @@ private:
     Ends OfParticles;
     Ends InPlace; // of the tuples of the whole geometry
   };
-  void MakeOf(int owner, const CarryingImage& first, const CarryingImage& second,
+  void MakeOf(int owner, const AdvectedImage& first, const AdvectedImage& second,
     const MovingParticles& particles, const ImageGrid& geometry, Progress& progress);
-  void WriteOne(const Carried& carried, const CarriedMoment& moment, const SplatTarget& target,
+  void WriteOne(const Advected& advected, const AdvectedMoment& moment, const SplatTarget& target,
     const TupleBox& wanted, vtkDoubleArray* mass, Progress& progress, vtkImageData* output) const;
 
-  std::vector<Carried> Arrays;
-  std::array<CarriedLabels, 2> Labels; // of cells and of points
+  std::vector<Advected> Arrays;
+  std::array<AdvectedLabels, 2> Labels; // of cells and of points
   std::vector<std::string> Lacking;
 };
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTransportEnumerations.h"
+
+VTK_ABI_NAMESPACE_BEGIN
+//------------------------------------------------------------------------------
+vtkTransportEnumerations::vtkTransportEnumerations() = default;
+
+//------------------------------------------------------------------------------
+vtkTransportEnumerations::~vtkTransportEnumerations() = default;
+
+//------------------------------------------------------------------------------
+void vtkTransportEnumerations::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}
+VTK_ABI_NAMESPACE_END
