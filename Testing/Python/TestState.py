@@ -62,6 +62,16 @@ def in_a_process(script, path):
     return [line for line in done.stdout.splitlines() if line.startswith("HASHES")][0].split()[1:]
 
 
+def load_data(name):
+    """Loads a state of the tests' data."""
+    with open(os.path.join(SOURCE, "Testing", "Data", name), encoding="utf-8") as file:
+        state = file.read().replace("@SOURCE@", SOURCE)
+    path = os.path.join(OUTPUT, name)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(state)
+    simple.LoadState(path)
+
+
 class State(unittest.TestCase):
     def setUp(self):
         simple.ResetSession()
@@ -95,13 +105,7 @@ class State(unittest.TestCase):
 
     def test_state_of_before(self):
         """A state without the properties and defaults of now gives what it gave."""
-        path = os.path.join(SOURCE, "Testing", "Data", "before-sample-arrays.pvsm")
-        with open(path, encoding="utf-8") as file:
-            state = file.read().replace("@SOURCE@", SOURCE)
-        path = os.path.join(OUTPUT, "before-sample-arrays.pvsm")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(state)
-        simple.LoadState(path)
+        load_data("before-sample-arrays.pvsm")
         quality = simple.FindSource("Quality")
         self.assertEqual(quality.BlockSize, 8)
         row = output_of(quality)
@@ -117,6 +121,36 @@ class State(unittest.TestCase):
         arrays = particles.GetPointData()
         self.assertEqual([arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays())],
                          ["SeedId", "SeedPosition", "Displacement", "Mass", "PNGImage"])
+
+    def test_state_before_renames(self):
+        """A state with the names and numbers of before gives what it gave."""
+        load_data("before-renames.pvsm")
+        part, masses = simple.FindSource("Part"), simple.FindSource("Masses")
+        crops = [simple.FindSource(name) for name in ("Crop0", "Lit0", "Lit1")]
+        now = {
+            "Tracked": simple.TransportTemporalInterpolator(
+                part, Method="RectifiedFlow", ResampleFactor=3, TrackParticles=1, AdvectArrays=0),
+            "Usual": simple.TransportTemporalInterpolator(part, ResampleFactor=2),
+            "Distances": simple.TransportDistance(Input=crops, NumberOfCoordinates=3),
+            "Regions": simple.Cartogram(masses, MassArray=["CELLS", "Mass"], Resolution=60, MinimumShare=0.2,
+                                        EmptyCells="Minimum"),
+        }
+        self.assertEqual(now["Usual"].Method, "Optimal")
+        for name, expected in now.items():
+            found = simple.FindSource(name)
+            for filter_ in (found, expected):
+                filter_.UpdatePipeline(0.4)
+            for key in expected.ListProperties():
+                with self.subTest(name, property=key):
+                    if key not in ("Input", "Overlay", "InputNames"):
+                        self.assertEqual(str(getattr(found, key)), str(getattr(expected, key)))
+            with self.subTest(name):
+                outputs = [[filter_.GetClientSideObject().GetOutputDataObject(port)
+                            for port in range(filter_.GetNumberOfOutputPorts())]
+                           for filter_ in (found, expected)]
+                self.assertEqual(*[[digest(output) for output in ports[1:]] for ports in outputs])
+                self.assertGreater(size_of(outputs[0][1]), 0)
+        self.assertEqual(len(simple.FindSource("Tracked").TimestepValues), 4)
 
     def test_state_before_empty_cells(self):
         """A warp of a state without EmptyCells counts empty cells as nothing, as then; any other state
