@@ -12,32 +12,25 @@ Progress::Progress(Context context)
 {
 }
 
-void Progress::BeginStage(double end, std::int64_t units)
+Progress::operator Context()
 {
-  this->Begin = this->End;
-  this->End = end;
+  Context part(
+    *this->Parent.Threads, [this](double fraction) { this->Report(fraction); },
+    this->Parent.IsCancelled);
+  part.Group = this->Parent.Group;
+  part.Device = this->Parent.Device;
+  return part;
+}
+
+Progress& Progress::Expect(std::int64_t units)
+{
   this->Units = std::max<std::int64_t>(units, 1);
-  this->HasUnits = units > 0;
+  this->HasUnits = true;
   this->Done = 0;
   this->SliceUnits = 0;
   this->Pending = 0;
   this->SliceStart = Clock::now();
-}
-
-void Progress::BeginRound(int round, int usual, double begin, double end, std::int64_t units)
-{
-  const double left = usual / (round + 1.0 + usual);
-  this->BeginStage(end - left * (end - begin), units);
-}
-
-Context Progress::Stage()
-{
-  Context stage(
-    *this->Parent.Threads, [this](double fraction) { this->Report(fraction); },
-    this->Parent.IsCancelled);
-  stage.Group = this->Parent.Group;
-  stage.Device = this->Parent.Device;
-  return stage;
+  return *this;
 }
 
 void Progress::For(std::int64_t count, std::int64_t grain, RangeKernel kernel, std::int64_t units)
@@ -122,11 +115,11 @@ bool Progress::ShouldStop()
   return this->IsCancelled();
 }
 
-void Progress::ReportFrom(double fractionOfStage)
+void Progress::ReportFrom(double fraction)
 {
   if (std::this_thread::get_id() == this->Caller)
   {
-    this->Report(fractionOfStage);
+    this->Report(fraction);
   }
 }
 
@@ -138,11 +131,10 @@ void Progress::Check()
   }
 }
 
-// Never decreases, though a stage may consist of several loops.
-void Progress::Report(double fractionOfStage)
+// Never decreases, though the work may consist of several loops.
+void Progress::Report(double fraction)
 {
-  this->Reported =
-    std::max(this->Reported, this->Begin + (this->End - this->Begin) * fractionOfStage);
+  this->Reported = std::max(this->Reported, fraction);
   if (this->Parent.Report)
   {
     this->Parent.Report(this->Reported);

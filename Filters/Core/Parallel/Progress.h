@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Long work in stages, and in slices of about 30 ms. After each slice, progress is reported and
-// cancellation is polled. Results do not depend on the slices.
+// Long work in slices of about 30 ms. After each slice, progress is reported and cancellation is
+// polled. Results do not depend on the slices. Work of several stages: see Stages.h.
 #ifndef RectifiedTransport_Progress_h
 #define RectifiedTransport_Progress_h
 
@@ -26,19 +26,16 @@ public:
   const Ranks& Group() const { return *this->Parent.Group; }
   DeviceUse* Device() const { return this->Parent.Device; } // may be null
 
-  // Begins a stage: its `units` of work take the progress from the end of the last stage to `end`.
-  // All its loops count as a part of them; with 0 units each loop is the whole stage.
-  void BeginStage(double end, std::int64_t units = 0);
-  // Begins a stage for a round, from 0 on, of which nobody knows how many there will be. All rounds
-  // lead from `begin` towards `end`, the first `usual` ones half of the way.
-  void BeginRound(int round, int usual, double begin, double end, std::int64_t units);
-  double StageEnd() const { return this->End; }
-  // The context of a computation that is the work of the current stage and reports its own progress
-  // in [0,1]. Must not outlive this object.
-  Context Stage();
+  // For a computation that is this work, or a part of it: it reports to this object, which never
+  // goes back. Must not outlive this object.
+  operator Context(); // NOLINT: whoever runs a computation decides what is reported
 
-  // Runs a kernel over [0, count), in ranges of `grain`, as the work of the current stage, or as
-  // `count` of its units. The first slice has `units`, which should take a few milliseconds (the
+  // The loops that follow are parts of so many units of work together. Without it each loop is all
+  // of the work. Returns this object.
+  Progress& Expect(std::int64_t units);
+
+  // Runs a kernel over [0, count), in ranges of `grain`, as all of the work, or as `count` of the
+  // units that are expected. The first slice has `units`, which should take a few milliseconds (the
   // default is for memory-bound work), and a range for every thread. Throws Cancelled, and what the
   // kernel throws.
   void For(
@@ -61,9 +58,9 @@ public:
   // throws.
   bool ShouldStop();
   bool IsCancelled() const { return this->Stop.load(std::memory_order_relaxed); }
-  // For long work within a range, on any thread: reports a part of the current stage as done. Only
-  // the thread that constructed this object reports.
-  void ReportFrom(double fractionOfStage);
+  // For long work within a range, on any thread: reports a fraction of the work as done. Only the
+  // thread that constructed this object reports.
+  void ReportFrom(double fraction);
 
 private:
   using Clock = std::chrono::steady_clock;
@@ -71,16 +68,14 @@ private:
 
   void Run(const Executor& executor, std::int64_t count, std::int64_t grain,
     const RangeKernel& kernel, std::int64_t units);
-  void Report(double fractionOfStage);
+  void Report(double fraction);
   void Poll();
 
   const Context Parent;
   const std::thread::id Caller = std::this_thread::get_id();
   double Reported = 0.0;
-  double Begin = 0.0;
-  double End = 0.0;
   std::int64_t Units = 1;
-  bool HasUnits = false; // else each loop sets them
+  bool HasUnits = false; // otherwise each loop sets them
   std::int64_t Done = 0;
   std::int64_t SliceUnits = 0;
   std::int64_t Pending = 0; // of Add
