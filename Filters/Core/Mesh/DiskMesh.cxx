@@ -3,7 +3,7 @@
 
 #include "Core/Mesh/SurfaceOrientation.h"
 #include "Core/Mesh/UnitScale.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <Eigen/Geometry>
 
@@ -94,23 +94,20 @@ DiskMesh::DiskMesh(const TriangleSurface& surface, const Context& context)
   , Shares(surface.NumberOfTriangles)
 {
   Progress progress(context);
-  progress.BeginStage(0.05);
-  this->CopyPoints(surface.Points, progress);
-  progress.BeginStage(0.1);
-  this->CopyTriangles(surface, progress);
-  progress.BeginStage(0.2);
-  this->FindAreas(progress);
-  progress.BeginStage(0.25);
-  this->RequireUsedPoints(progress);
-  progress.BeginStage(0.5);
-  this->Sides = std::make_unique<SurfaceEdges>(this->Surface(), progress.Stage());
+  Stages stages(progress,
+    { { "points", 5 }, { "triangles", 5 }, { "areas", 10 }, { "unused points", 5 }, { "edges", 25 },
+      { "orientation", 30 }, { "boundary", 20 } });
+  this->CopyPoints(surface.Points, stages["points"]);
+  this->CopyTriangles(surface, stages["triangles"]);
+  this->FindAreas(stages["areas"]);
+  this->RequireUsedPoints(stages["unused points"]);
+  this->Sides = std::make_unique<SurfaceEdges>(this->Surface(), stages["edges"]);
   if (this->Sides->NonManifold() > 0)
   {
     throw NotADisk(DiskDefect::NonManifoldEdges, this->Sides->NonManifold());
   }
-  progress.BeginStage(0.8);
-  this->Orient(progress.Stage());
-  this->FindBoundary(progress);
+  this->Orient(stages["orientation"]);
+  this->FindBoundary(stages["boundary"]);
 }
 
 DiskMesh::~DiskMesh() = default;
@@ -272,8 +269,8 @@ void DiskMesh::FindBoundary(Progress& progress)
   // leaves it.
   std::vector<std::int64_t> start(static_cast<std::size_t>(points), -1);
   std::vector<std::int64_t> valence(static_cast<std::size_t>(points), 0);
-  progress.BeginStage(0.85);
-  progress.ForInOrder(
+  Stages stages(progress, { { "starts", 1 }, { "pinched points", 2 }, { "loops", 1 } });
+  stages["starts"].ForInOrder(
     sides, grain,
     [&](std::int64_t begin, std::int64_t last) {
       for (std::int64_t side = begin; side < last; ++side)
@@ -287,7 +284,7 @@ void DiskMesh::FindBoundary(Progress& progress)
       }
     },
     randomAccess);
-  progress.BeginStage(0.95, points);
+  Progress& pinches = stages["pinched points"].Expect(points);
   std::int64_t pinched = 0;
   std::int64_t firstPinched = -1;
   for (std::int64_t point = 0; point < points; ++point)
@@ -304,20 +301,20 @@ void DiskMesh::FindBoundary(Progress& progress)
     {
       firstPinched = pinched++ == 0 ? point : firstPinched;
     }
-    progress.Add(1);
+    pinches.Add(1);
   }
   if (pinched > 0)
   {
     throw NotADisk(DiskDefect::NonManifoldPoints, pinched, firstPinched);
   }
 
-  progress.BeginStage(1.0, sides);
+  Progress& search = stages["loops"].Expect(sides);
   std::int64_t loops = 0;
   std::int64_t open = 0;
   std::vector<unsigned char> passed(static_cast<std::size_t>(points), 0);
   for (std::int64_t side = 0; side < sides; ++side)
   {
-    progress.Add(1);
+    search.Add(1);
     open += this->Sides->Other(side) < 0 ? 1 : 0;
     if (this->Sides->Other(side) >= 0 || passed[static_cast<std::size_t>(from[side])])
     {
@@ -353,7 +350,7 @@ void DiskMesh::FindBoundary(Progress& progress)
   {
     throw NotADisk(DiskDefect::FewBoundaryPoints, static_cast<std::int64_t>(this->Loop.size()));
   }
-  progress.EndSlice(sides);
+  search.EndSlice(sides);
 }
 
 } // namespace RectifiedTransport

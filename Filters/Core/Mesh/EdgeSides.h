@@ -5,7 +5,7 @@
 
 #include "Core/Mesh/SurfaceEdges.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -38,19 +38,18 @@ SideCorners(std::int64_t, std::int64_t, PointOf, IsLeftOut) -> SideCorners<Point
 
 // Calls visit(sides, count) for each edge, on any thread: its sides ascend. The sides are sorted by
 // their ends, in O(sides log sides) for any valence of the points. Memory: 8 bytes a side and 8 a
-// point. Progress reaches `end`. Throws std::bad_alloc and Cancelled.
+// point. Throws std::bad_alloc and Cancelled.
 template <class PointOf, class IsLeftOut, class Visit>
-void visitEdges(const SideCorners<PointOf, IsLeftOut>& corners, Progress& progress, double end,
-  const Visit& visit)
+void visitEdges(
+  const SideCorners<PointOf, IsLeftOut>& corners, Progress& progress, const Visit& visit)
 {
   // Triangles in a range, and in the first slice, which takes some milliseconds: access is
   // scattered.
   constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
   constexpr std::int64_t units = std::int64_t{ 1 } << 16;
-  const double begin = progress.StageEnd();
-  const auto forSides = [&](double part, const auto& visitSide) {
-    progress.BeginStage(begin + part * (end - begin));
-    progress.ForInOrder(
+  Stages stages(progress, { { "counts", 2 }, { "lists", 3 }, { "edges", 5 } });
+  const auto forSides = [&](Progress& stage, const auto& visitSide) {
+    stage.ForInOrder(
       corners.NumberOfTriangles, grain,
       [&](std::int64_t from, std::int64_t to) {
         for (std::int64_t triangle = from; triangle < to; ++triangle)
@@ -73,14 +72,14 @@ void visitEdges(const SideCorners<PointOf, IsLeftOut>& corners, Progress& progre
   std::int64_t* first = firstMemory.data();
   std::int64_t* sides = sidesMemory.data();
   std::fill_n(first, points + 2, std::int64_t{ 0 });
-  forSides(0.2, [&](std::int64_t side) { ++first[corners.Low(side) + 2]; });
+  forSides(stages["counts"], [&](std::int64_t side) { ++first[corners.Low(side) + 2]; });
   for (std::int64_t point = 1; point < points + 2; ++point)
   {
     first[point] += first[point - 1];
   }
-  forSides(0.5, [&](std::int64_t side) { sides[first[corners.Low(side) + 1]++] = side; });
-  progress.BeginStage(end);
-  progress.For(
+  forSides(
+    stages["lists"], [&](std::int64_t side) { sides[first[corners.Low(side) + 1]++] = side; });
+  stages["edges"].For(
     points, 2 * grain,
     [&](std::int64_t from, std::int64_t to) {
       for (std::int64_t point = from; point < to; ++point)

@@ -4,7 +4,7 @@
 #include "Core/Mesh/FlatShape.h"
 #include "Core/Mesh/SurfaceEdges.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <array>
@@ -30,22 +30,22 @@ public:
   void Run(const Context& context)
   {
     Progress progress(context);
-    progress.BeginStage(0.5);
+    Stages stages(progress, { { "edges", 1 }, { "triangles", 1 } });
     {
       const SurfaceEdges edges(
-        { this->Edited.Positions, this->Edited.Points, this->Edited.Count }, progress.Stage());
+        { this->Edited.Positions, this->Edited.Points, this->Edited.Count }, stages["edges"]);
       for (std::int64_t side = 0; side < this->Others.size(); ++side)
       {
         this->Others.data()[side] = edges.Other(side);
       }
     }
-    progress.BeginStage(1.0, this->Edited.Count);
+    Progress& triangles = stages["triangles"].Expect(this->Edited.Count);
     for (std::int64_t triangle = 0; triangle < this->Edited.Count; ++triangle)
     {
-      this->Remove(triangle, progress);
-      progress.Add(1);
+      this->Remove(triangle, triangles);
+      triangles.Add(1);
     }
-    progress.EndSlice(0);
+    triangles.EndSlice(0);
   }
 
 private:

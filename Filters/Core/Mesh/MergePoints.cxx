@@ -4,7 +4,7 @@
 #include "Core/Geometry/Bins.h"
 #include "Core/Mesh/Trees.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <array>
@@ -163,12 +163,11 @@ void mergeSame(ConstPointSpan<Dimension> points, std::int64_t* firsts, const Con
   const auto mask = static_cast<std::uint64_t>(memory.size() - 1);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
   Progress progress(context);
-  progress.BeginStage(0.1);
-  progress.ForInOrder(memory.size(), grain, [table](std::int64_t first, std::int64_t last) {
+  Stages stages(progress, { { "table", 1 }, { "points", 9 } });
+  stages["table"].ForInOrder(memory.size(), grain, [table](std::int64_t first, std::int64_t last) {
     std::fill(table + first, table + last, std::int64_t{ -1 });
   });
-  progress.BeginStage(1.0);
-  progress.ForInOrder(
+  stages["points"].ForInOrder(
     points.size(), grain,
     [=](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
@@ -207,17 +206,17 @@ bool mergeNearPoints(
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
   const std::int64_t count = points.size();
   Progress progress(context);
-  progress.BeginStage(0.3);
-  mergePoints(points, firsts, progress.Stage());
+  Stages stages(
+    progress, { { "equal", 3 }, { "clusters", 2 }, { "neighbours", 4 }, { "firsts", 1 } });
+  mergePoints(points, firsts, stages["equal"]);
   LargeBuffer<bool> isDistinct(count);
   for (std::int64_t i = 0; i < count; ++i)
   {
     isDistinct.data()[i] = firsts[i] == i;
   }
   Clusters clusters(points, distance, firsts);
-  const auto forDistinct = [&](double end, void (Clusters::*step)(std::int64_t)) {
-    progress.BeginStage(end);
-    progress.ForInOrder(
+  const auto forDistinct = [&](Progress& stage, void (Clusters::*step)(std::int64_t)) {
+    stage.ForInOrder(
       count, grain,
       [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = first; i < last; ++i)
@@ -230,11 +229,10 @@ bool mergeNearPoints(
       },
       grain);
   };
-  forDistinct(0.5, &Clusters::Enter);
-  forDistinct(0.9, &Clusters::JoinBeside);
+  forDistinct(stages["clusters"], &Clusters::Enter);
+  forDistinct(stages["neighbours"], &Clusters::JoinBeside);
   bool isMerged = false;
-  progress.BeginStage(1.0);
-  progress.ForInOrder(
+  stages["firsts"].ForInOrder(
     count, grain,
     [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
@@ -259,7 +257,7 @@ std::vector<RepeatedTriangle> findRepeatedTriangles(
   };
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
   Progress progress(context);
-  progress.BeginStage(0.5);
+  Stages stages(progress, { { "lists", 1 }, { "comparison", 1 } });
   // By their lowest points, so that few are compared.
   Bins<std::int64_t> triangles;
   triangles.Fill(static_cast<std::size_t>(surface.Points.size()), [&](const auto& add) {
@@ -271,34 +269,34 @@ std::vector<RepeatedTriangle> findRepeatedTriangles(
         add(static_cast<std::size_t>(points[0]), triangle);
       }
     }
-    progress.Check();
+    stages["lists"].Check();
   });
-  progress.BeginStage(1.0);
   std::vector<RepeatedTriangle> repeated;
   std::vector<std::pair<Triple, std::int64_t>> group;
-  progress.ForInOrder(surface.Points.size(), grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t point = begin; point < end; ++point)
-    {
-      group.clear();
-      for (const std::int64_t triangle : triangles[static_cast<std::size_t>(point)])
+  stages["comparison"].ForInOrder(
+    surface.Points.size(), grain, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t point = begin; point < end; ++point)
       {
-        group.emplace_back(pointsOf(triangle), triangle);
-      }
-      std::sort(group.begin(), group.end());
-      auto first = group.begin();
-      for (auto next = group.begin(); next != group.end(); ++next)
-      {
-        if (next->first != first->first)
+        group.clear();
+        for (const std::int64_t triangle : triangles[static_cast<std::size_t>(point)])
         {
-          first = next;
+          group.emplace_back(pointsOf(triangle), triangle);
         }
-        else if (next != first)
+        std::sort(group.begin(), group.end());
+        auto first = group.begin();
+        for (auto next = group.begin(); next != group.end(); ++next)
         {
-          repeated.push_back({ next->second, first->second });
+          if (next->first != first->first)
+          {
+            first = next;
+          }
+          else if (next != first)
+          {
+            repeated.push_back({ next->second, first->second });
+          }
         }
       }
-    }
-  });
+    });
   std::sort(repeated.begin(), repeated.end(),
     [](const auto& a, const auto& b) { return a.Triangle < b.Triangle; });
   return repeated;

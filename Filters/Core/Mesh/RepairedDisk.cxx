@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/RepairedDisk.h"
 
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <Eigen/Geometry>
 
@@ -57,15 +57,14 @@ RepairedDisk::RepairedDisk(const TriangleSurface& surface, double rounding, cons
   Progress progress(context);
   if (surface.NumberOfTriangles == 0 || !areFinite(surface.Points))
   {
-    progress.BeginStage(1.0);
-    this->Disk.emplace(surface, progress.Stage()); // throws
+    this->Disk.emplace(surface, progress); // throws
     return;
   }
   const double least = roundingOfDoubles(surface.Points);
   const double most = std::max(least, rounding);
+  Rounds rounds(progress, 1);
   const auto isDisk = [&](const SurfaceRepairOptions& options) {
-    progress.BeginStage(progress.StageEnd() + 0.5 * (1.0 - progress.StageEnd()));
-    return this->Try(surface, options, progress.Stage());
+    return this->Try(surface, options, rounds.Next());
   };
   const auto isDiskWith = [&](bool merges) {
     return isDisk({ least, merges }) ||
@@ -100,11 +99,10 @@ bool RepairedDisk::Try(
   const TriangleSurface& surface, const SurfaceRepairOptions& options, const Context& context)
 {
   Progress progress(context);
-  progress.BeginStage(0.1);
-  if (!options.MergesEqualPoints && !needsRepair(surface, options.Rounding, progress.Stage()))
+  Stages stages(progress, { { "check", 1 }, { "given", 3 }, { "repair", 2 }, { "repaired", 4 } });
+  if (!options.MergesEqualPoints && !needsRepair(surface, options.Rounding, stages["check"]))
   {
-    progress.BeginStage(0.4);
-    if (this->TryAs(surface, {}, progress.Stage()))
+    if (this->TryAs(surface, {}, stages["given"]))
     {
       return true;
     }
@@ -114,10 +112,8 @@ bool RepairedDisk::Try(
       return false;
     }
   }
-  progress.BeginStage(0.6);
-  std::optional<RepairedSurface> made = repairSurface(surface, options, progress.Stage());
-  progress.BeginStage(1.0);
-  return this->TryAs(surface, std::move(made), progress.Stage());
+  std::optional<RepairedSurface> made = repairSurface(surface, options, stages["repair"]);
+  return this->TryAs(surface, std::move(made), stages["repaired"]);
 }
 
 bool RepairedDisk::TryAs(

@@ -23,8 +23,8 @@ class SplitSurface
 {
 public:
   // The T-junctions are in the order of findTJunctions; their points are points of the surface.
-  // Triangles with `isLeftOut`, if that is not null, have no parts. Runs as the current stage.
-  // Memory: 32 bytes a triangle. On one thread. Throws std::bad_alloc and Cancelled.
+  // Triangles with `isLeftOut`, if that is not null, have no parts. Memory: 32 bytes a
+  // triangle. On one thread. Throws std::bad_alloc and Cancelled.
   SplitSurface(const TriangleSurface& given, const std::vector<TJunction>& junctions,
     Progress& progress, const unsigned char* isLeftOut = nullptr);
 

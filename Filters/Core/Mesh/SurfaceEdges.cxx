@@ -17,7 +17,7 @@ SurfaceEdges::SurfaceEdges(const TriangleSurface& surface, const Context& contex
   visitEdges(SideCorners{ surface.NumberOfTriangles, surface.Points.size(),
                [triangles](std::int64_t corner) { return triangles[corner]; },
                [](std::int64_t) { return false; } },
-    progress, 1.0, [this, triangles](const std::int64_t* sides, std::int64_t count) {
+    progress, [this, triangles](const std::int64_t* sides, std::int64_t count) {
       this->Pair(triangles, sides, count);
     });
 }

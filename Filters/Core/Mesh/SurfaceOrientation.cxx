@@ -126,7 +126,7 @@ SurfaceOrientation orientSurface(const TriangleSurface& surface, const SurfaceEd
   LargeBuffer<signed char> signs(count);
   SurfaceOrientation found{ true, 0 };
   Progress progress(context);
-  progress.BeginStage(1.0, count);
+  progress.Expect(count);
   found.IsOrientable =
     visitPatches(surface, edges, signs.data(), progress, [&](const SurfacePatch& patch) {
       ++found.Components;

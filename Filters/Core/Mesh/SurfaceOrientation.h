@@ -30,8 +30,8 @@ struct SurfacePatch
 
 // Orients each patch like most of its area and calls visit(patch), in the order of their first
 // triangles. By then `signs` has 1 for each of its triangles that stays and -1 for each that is
-// turned. Runs as the current stage; each triangle is a unit. Returns whether all patches can be
-// oriented. Memory: 8 bytes a triangle. On one thread. Throws std::bad_alloc and Cancelled.
+// turned. Each triangle is a unit of progress. Returns whether all patches can be oriented. Memory:
+// 8 bytes a triangle. On one thread. Throws std::bad_alloc and Cancelled.
 bool visitPatches(const TriangleSurface& surface, const SurfaceEdges& edges, signed char* signs,
   Progress& progress, const std::function<void(const SurfacePatch&)>& visit);
 

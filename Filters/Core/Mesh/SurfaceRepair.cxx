@@ -6,7 +6,7 @@
 #include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/SurfaceOrientation.h"
 #include "Core/Mesh/Trees.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <array>
@@ -71,21 +71,17 @@ public:
   RepairedSurface Run(const Context& context)
   {
     Progress progress(context);
-    progress.BeginStage(0.2);
-    this->FindRoots(progress);
-    progress.BeginStage(0.25);
-    this->KeepTriangles(progress);
-    progress.BeginStage(0.3);
-    this->LeaveOutRepeated(progress.Stage());
-    progress.BeginStage(0.5);
-    this->Orient(progress.Stage());
-    progress.BeginStage(0.8);
-    this->RemoveFlat(progress.Stage());
-    progress.BeginStage(0.9);
-    this->NumberPoints(progress);
-    progress.BeginStage(1.0);
+    Stages stages(progress,
+      { { "merge", 20 }, { "triangles", 5 }, { "repeated triangles", 5 }, { "orientation", 20 },
+        { "flat triangles", 30 }, { "points", 10 }, { "counts", 10 } });
+    this->FindRoots(stages["merge"]);
+    this->KeepTriangles(stages["triangles"]);
+    this->LeaveOutRepeated(stages["repeated triangles"]);
+    this->Orient(stages["orientation"]);
+    this->RemoveFlat(stages["flat triangles"]);
+    this->NumberPoints(stages["points"]);
     this->CountRepairs();
-    progress.EndSlice(1);
+    stages["counts"].EndSlice(1);
     return std::move(this->Made);
   }
 
@@ -102,7 +98,7 @@ private:
     }
     if (this->Options.MergesEqualPoints)
     {
-      this->MergePlaces(progress.Stage());
+      this->MergePlaces(progress);
     }
     progress.ForInOrder(
       this->Given.NumberOfTriangles, grain,
@@ -204,15 +200,14 @@ private:
   void Orient(const Context& context)
   {
     Progress progress(context);
-    progress.BeginStage(0.7);
-    const SurfaceEdges edges(this->Kept(), progress.Stage());
+    Stages stages(progress, { { "edges", 7 }, { "orientation", 3 } });
+    const SurfaceEdges edges(this->Kept(), stages["edges"]);
     if (edges.Reversed() == 0)
     {
       return;
     }
-    progress.BeginStage(1.0);
     LargeBuffer<std::int64_t> oriented(3 * this->Count);
-    orientSurface(this->Kept(), edges, oriented.data(), progress.Stage());
+    orientSurface(this->Kept(), edges, oriented.data(), stages["orientation"]);
     for (std::int64_t triangle = 0; triangle < this->Count; ++triangle)
     {
       if (oriented.data()[3 * triangle + 1] != this->Triangles.data()[3 * triangle + 1])
@@ -370,7 +365,6 @@ bool needsRepair(const TriangleSurface& surface, double rounding, const Context&
   LargeBuffer<unsigned char> isUsed(surface.Points.size());
   std::fill_n(isUsed.data(), isUsed.size(), static_cast<unsigned char>(0));
   bool isFlat = false;
-  progress.BeginStage(1.0);
   progress.ForInOrder(
     surface.NumberOfTriangles, grain,
     [&](std::int64_t first, std::int64_t last) {

@@ -3,7 +3,7 @@
 
 #include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/PlaceOnSide.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <iterator>
@@ -36,17 +36,17 @@ public:
     , Merged(merged.data())
     , Rounding(rounding)
     , Scope(scope)
-    , Work(progress.Stage())
   {
-    this->Work.BeginStage(0.3);
-    this->Open = openSidesOf(surface, { this->Merged, nullptr }, this->Work);
-    this->Work.BeginStage(0.4);
-    const std::int64_t flat = this->FindFlat();
+    Stages stages(progress, { { "open sides", 3 }, { "flat triangles", 1 }, { "T-junctions", 6 } });
+    this->Open = openSidesOf(surface, { this->Merged, nullptr }, stages["open sides"]);
+    const std::int64_t flat = this->FindFlat(stages["flat triangles"]);
+    const double withFlat = flat > 0 ? 1.0 : 0.0;
+    Stages searches(stages["T-junctions"],
+      { { "without flat", 2.0 * withFlat }, { "open sides", withFlat }, { "all", 1 } });
     if (flat > 0)
     {
-      this->Find(0.7, this->IsFlat.data());
-      this->Work.BeginStage(0.85);
-      if (this->Made.Parts && this->CountOpen() <= this->Open.size())
+      this->Find(this->IsFlat.data(), searches["without flat"]);
+      if (this->Made.Parts && this->CountOpen(searches["open sides"]) <= this->Open.size())
       {
         this->Made.FlatTriangles = flat;
         return;
@@ -55,7 +55,7 @@ public:
     }
     if (scope == TJunctionScope::All)
     {
-      this->Find(1.0, nullptr);
+      this->Find(nullptr, searches["all"]);
     }
   }
 
@@ -63,12 +63,12 @@ public:
   TJunctionRepair Take() { return std::move(this->Made); }
 
 private:
-  std::int64_t FindFlat()
+  std::int64_t FindFlat(Progress& progress)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
     const std::int64_t count = this->Surface.NumberOfTriangles;
     PointBounds bounds;
-    this->Work.ForInOrder(3 * count, grain, [&](std::int64_t first, std::int64_t last) {
+    progress.ForInOrder(3 * count, grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t corner = first; corner < last; ++corner)
       {
         bounds.Add(this->Surface.Points[this->Surface.Triangles[corner]]);
@@ -76,7 +76,7 @@ private:
     });
     const PlaceOnSide place(bounds, this->Rounding);
     this->IsFlat = LargeBuffer<unsigned char>(count);
-    this->Work.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+    progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t triangle = first; triangle < last; ++triangle)
       {
         this->IsFlat.data()[triangle] = this->IsLine(triangle, place) ? 1 : 0;
@@ -105,13 +105,12 @@ private:
     return false;
   }
 
-  void Find(double end, const unsigned char* isLeftOut)
+  void Find(const unsigned char* isLeftOut, Progress& progress)
   {
-    const double begin = this->Work.StageEnd();
-    const auto next = [&](double part) { this->Work.BeginStage(begin + part * (end - begin)); };
-    next(0.3);
-    std::vector<OpenSide> sides =
-      isLeftOut ? openSidesOf(this->Surface, { this->Merged, isLeftOut }, this->Work) : this->Open;
+    Stages stages(progress, { { "open sides", 3 }, { "search", 4 }, { "parts", 3 } });
+    std::vector<OpenSide> sides = isLeftOut
+      ? openSidesOf(this->Surface, { this->Merged, isLeftOut }, stages["open sides"])
+      : this->Open;
     if (this->Scope == TJunctionScope::OfFlatTriangles)
     {
       std::vector<OpenSide> opened;
@@ -119,16 +118,14 @@ private:
         std::back_inserter(opened), isBefore);
       sides = std::move(opened);
     }
-    next(0.7);
     std::vector<TJunction> junctions =
-      findTJunctions(this->Surface.Points, sides, this->Rounding, this->Work);
+      findTJunctions(this->Surface.Points, sides, this->Rounding, stages["search"]);
     if (junctions.empty())
     {
       return;
     }
     this->Unmerge(sides, junctions);
-    next(1.0);
-    this->Made.Parts.emplace(this->Surface, junctions, this->Work, isLeftOut);
+    this->Made.Parts.emplace(this->Surface, junctions, stages["parts"], isLeftOut);
     this->Made.TJunctions = std::count_if(junctions.begin(), junctions.end(),
       [this](const TJunction& junction) { return isAmong(this->Open, junction.Side); });
   }
@@ -152,11 +149,11 @@ private:
     }
   }
 
-  std::size_t CountOpen()
+  std::size_t CountOpen(Progress& progress)
   {
     const SplitSurface& parts = *this->Made.Parts;
     return openSidesOf({ this->Surface.Points, parts.Triangles(), parts.NumberOfTriangles() },
-      { this->Merged, nullptr }, this->Work)
+      { this->Merged, nullptr }, progress)
       .size();
   }
 
@@ -164,7 +161,6 @@ private:
   const std::int64_t* Merged;
   const double Rounding;
   const TJunctionScope Scope;
-  Progress Work;
   std::vector<OpenSide> Open; // of all triangles
   LargeBuffer<unsigned char> IsFlat;
   TJunctionRepair Made;
@@ -177,22 +173,20 @@ TJunctionRepair repairTJunctions(
 {
   Progress progress(context);
   LargeBuffer<std::int64_t> merged(surface.Points.size());
-  progress.BeginStage(0.05);
-  const double rounding = roundingOfCorners(surface, progress);
-  progress.BeginStage(0.15);
-  mergePoints(surface.Points, merged.data(), progress.Stage());
-  progress.BeginStage(0.5);
-  RepairRun equal(surface, merged, rounding, scope, progress);
+  Stages stages(progress,
+    { { "rounding", 5 }, { "equal points", 10 }, { "merged equal", 35 }, { "near points", 10 },
+      { "merged near", 40 } });
+  const double rounding = roundingOfCorners(surface, stages["rounding"]);
+  mergePoints(surface.Points, merged.data(), stages["equal points"]);
+  RepairRun equal(surface, merged, rounding, scope, stages["merged equal"]);
   TJunctionRepair repair = equal.Take();
   if (equal.OpenSides() == 0 || rounding == 0.0)
   {
     return repair;
   }
-  progress.BeginStage(0.6);
-  if (mergeNearPoints(surface.Points, rounding, merged.data(), progress.Stage()))
+  if (mergeNearPoints(surface.Points, rounding, merged.data(), stages["near points"]))
   {
-    progress.BeginStage(1.0);
-    RepairRun near(surface, merged, rounding, scope, progress);
+    RepairRun near(surface, merged, rounding, scope, stages["merged near"]);
     TJunctionRepair other = near.Take();
     if (near.OpenSides() < equal.OpenSides() && other.TJunctions > repair.TJunctions)
     {

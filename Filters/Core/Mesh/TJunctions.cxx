@@ -333,9 +333,8 @@ std::vector<OpenSide> openSidesOf(
   const std::int64_t count = 3 * surface.NumberOfTriangles;
   LargeBuffer<unsigned char> isOpen(count);
   std::fill_n(isOpen.data(), count, static_cast<unsigned char>(0));
-  Progress own(progress.Stage());
   visitEdges(SideCorners{ surface.NumberOfTriangles, surface.Points.size(), pointOf, isLeftOut },
-    own, 1.0, [&isOpen](const std::int64_t* sides, std::int64_t number) {
+    progress, [&isOpen](const std::int64_t* sides, std::int64_t number) {
       isOpen.data()[sides[0]] = number == 1 ? 1 : 0;
     });
   std::vector<OpenSide> open;

@@ -38,8 +38,7 @@ struct TJunction
 };
 
 // What rounding leaves of the differences of coordinates at one place; that of float if the
-// coordinates of all triangles are floats, else that of double. Runs as the current stage. Throws
-// Cancelled.
+// coordinates of all triangles are floats, else that of double. Throws Cancelled.
 double roundingOfCorners(const TriangleSurface& surface, Progress& progress);
 
 // How sides of a surface are compared.
@@ -50,7 +49,7 @@ struct SideOptions
 };
 
 // The open sides of a surface, in their order. Triangles with a point twice have no sides. O(sides
-// log sides). Runs as the current stage. Memory: 27 bytes a triangle and 8 a point.
+// log sides). Memory: 27 bytes a triangle and 8 a point.
 std::vector<OpenSide> openSidesOf(
   const TriangleSurface& surface, const SideOptions& options, Progress& progress);
 
@@ -59,8 +58,8 @@ std::vector<OpenSide> openSidesOf(
 // part that is a side, or part of a side, of another triangle: a triangle that only touches an edge
 // makes no T-junction. They are sorted by sides and places.
 //
-// O(sides log sides), besides the points that are found. Runs as the current stage. Memory: 250
-// bytes a side. On one thread. Throws std::bad_alloc and Cancelled.
+// O(sides log sides), besides the points that are found. Memory: 250 bytes a side. On one thread.
+// Throws std::bad_alloc and Cancelled.
 std::vector<TJunction> findTJunctions(ConstPointSpan<3> points,
   const std::vector<OpenSide>& openSides, double rounding, Progress& progress);
 
