@@ -27,9 +27,9 @@ struct CouplingCost
 // their rounding leaves counts as if it had to cross the whole box. In the squared lengths of the
 // map's spacing; the nodes fill the box of the densities. Both densities have the same size.
 //
-// The same bits for every number of threads. Adds to the units of the current stage about 15 a cell
-// on a line, 50 in the plane and 30 in space, and those of two solutions of NodePoisson on nodes
-// two cells apart. Throws std::invalid_argument for different sizes, std::bad_alloc and Cancelled.
+// The same bits for every number of threads. Adds about 15 units of work a cell on a line, 50 in
+// the plane and 30 in space, and those of two solutions of NodePoisson on nodes two cells apart.
+// Throws std::invalid_argument for different sizes, std::bad_alloc and Cancelled.
 template <int Dimension>
 CouplingCost couplingCost(const CellDensity<Dimension>& source,
   const CellDensity<Dimension>& target, NodeMap<Dimension> map, Progress& progress);

@@ -11,8 +11,8 @@
 #include "Core/OptimalMap/PairSlack.h"
 #include "Core/OptimalMap/PotentialSolver.h"
 #include "Core/OptimalMap/StillCells.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/SmallWork.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <limits>
@@ -30,7 +30,6 @@ namespace
 {
 
 constexpr std::int64_t group = 64; // of particles that are read together
-constexpr double endOfImages = 0.9;
 
 void check(const OptimalMapOptions& options)
 {
@@ -52,8 +51,7 @@ void check(const OptimalMapOptions& options)
   }
 }
 
-// kernel(index of the result, point) of all particles, as `source.Count()` units of the current
-// stage.
+// kernel(index of the result, point) of all particles, as `source.Count()` units of work.
 template <int Dimension, class Kernel>
 void forParticles(ParticleSource<Dimension>& source, Progress& progress, const Kernel& kernel)
 {
@@ -151,12 +149,11 @@ struct OptimalMap<Dimension>::Implementation
     std::optional<StillCells<Dimension>> Still;
     std::optional<CorrectedMap<Dimension>> Moving;
   };
-  const Direction& MapFrom(int side, Progress& progress, double end)
+  const Direction& MapFrom(int side, Progress& progress)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     Direction& map = this->Maps[static_cast<std::size_t>(side)];
     const auto to = static_cast<std::size_t>(1 - side);
-    progress.BeginStage(end);
     if (!map.Still)
     {
       map.Still.emplace(this->Solver, side, this->Densities[to], progress);
@@ -206,7 +203,6 @@ OptimalMap<Dimension>::OptimalMap(const DensitySource<Dimension>& density,
   checkBox<Dimension>(pointOf<Dimension>(0.0), sides);
   check<Dimension>(density.Size, "a density");
   Progress progress(contextForSize(context, numberOfCells<Dimension>(density.Size)));
-  progress.BeginStage(1.0);
   const std::array<Point<Dimension>, 2> whole{ pointOf<Dimension>(0.0), pointOf<Dimension>(1.0) };
   this->Self = std::make_unique<Implementation>(CellDensity<Dimension>(density.Size),
     CellDensity<Dimension>(density, progress), sides, std::array{ whole, whole }, options);
@@ -240,11 +236,10 @@ OptimalMap<Dimension>::OptimalMap(const PlacedDensity<Dimension>& source,
   Progress progress(contextForSize(context,
     std::max(
       numberOfCells<Dimension>(source.Source.Size), numberOfCells<Dimension>(target.Source.Size))));
-  progress.BeginStage(0.5);
-  CellDensity<Dimension> first(source.Source, progress);
-  progress.BeginStage(1.0);
-  CellDensity<Dimension> second(target.Source, progress);
-  second.TakeIfSame(first, progress);
+  Stages stages(progress, { { "source", 1 }, { "target", 1 } });
+  CellDensity<Dimension> first(source.Source, stages["source"]);
+  CellDensity<Dimension> second(target.Source, stages["target"]);
+  second.TakeIfSame(first, stages["target"]);
   this->Self =
     std::make_unique<Implementation>(std::move(first), std::move(second), sides, parts, options);
 }
@@ -260,10 +255,11 @@ template <int Dimension>
 void OptimalMap<Dimension>::Solve(const Context& context)
 {
   Progress progress(context);
-  this->Self->Solver.Solve(progress, 0.9);
-  progress.BeginStage(1.0);
-  const double bound = this->Self->Options.RefineBound ? this->Self->Solver.RefinedBound(progress)
-                                                       : this->Self->Solver.Bound();
+  const bool refines = this->Self->Options.RefineBound;
+  Stages stages(progress, { { "potentials", 9 }, { "bound", refines ? 1.0 : 0.0 } });
+  this->Self->Solver.Solve(stages["potentials"]);
+  const double bound =
+    refines ? this->Self->Solver.RefinedBound(stages["bound"]) : this->Self->Solver.Bound();
   this->Self->Bound = std::max(0.0, bound);
   this->Self->Info.Iterations = this->Self->Solver.Iterations();
 }
@@ -278,7 +274,7 @@ template <int Dimension>
 double OptimalMap<Dimension>::MassError(const Context& context) const
 {
   Progress progress(contextForSize(context, this->Self->Nodes()));
-  const auto& map = this->Self->MapFrom(0, progress, 1.0);
+  const auto& map = this->Self->MapFrom(0, progress);
   return map.Moving ? map.Moving->MassError() : 0.0;
 }
 
@@ -299,14 +295,15 @@ double OptimalMap<Dimension>::UpperBound(const Context& context, double enough) 
   Progress progress(contextForSize(context, this->Self->Nodes()));
   double least = std::numeric_limits<double>::infinity();
   bool goesOn = true;
+  Parts sides(progress, 2);
   for (int side = 0; side < 2 && goesOn; ++side)
   {
-    progress.BeginStage(0.5 * (side + 1));
+    Progress& part = sides[side];
     auto map = NodeMap<Dimension>::On(this->Self->Solver.Grid());
-    writeGradientMap<Dimension>(this->Self->Solver.Side(side).Potential.data(), map, progress);
+    writeGradientMap<Dimension>(this->Self->Solver.Side(side).Potential.data(), map, part);
     const auto from = static_cast<std::size_t>(side);
     const CouplingCost cost = couplingCost<Dimension>(
-      this->Self->Densities[from], this->Self->Densities[1 - from], std::move(map), progress);
+      this->Self->Densities[from], this->Self->Densities[1 - from], std::move(map), part);
     least = std::min(least, cost.All);
     goesOn = cost.All - cost.OfSpread > enough;
   }
@@ -323,7 +320,6 @@ void OptimalMap<Dimension>::Slack(ConstPointSpan<Dimension> points,
       std::to_string(images.size()) + " images, there must be as many of both");
   }
   Progress progress(context);
-  progress.BeginStage(1.0);
   findSlack<Dimension>(this->Self->Solver, points, images, slack, progress);
 }
 
@@ -364,31 +360,31 @@ template <int Dimension>
 FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds<Dimension>& seeds,
   PointSpan<Dimension> positions, const Context& context)
 {
-  constexpr double endOfMap = 0.4;
-  constexpr double endOfPoints = 0.8;
   Progress progress(contextForSize(context, this->ValuesOf(positions)));
-  const Direction& map = this->MapFrom(side, progress, endOfMap);
+  Stages stages(progress, { { "map", 4 }, { "points", 6 } });
+  const Direction& map = this->MapFrom(side, stages["map"]);
   const auto from = static_cast<std::size_t>(side);
   ParticleSource<Dimension> source(seeds, this->Densities[from].Size(), positions.size());
   const bool areFinished = seeds.AreSamples() && map.Moving;
   // What stands still is finished with the others, and then returns.
   const bool returns = areFinished && !map.Still->AreNone();
   LargeBuffer<double> starts(returns ? positions.size() * Dimension : 0);
-  progress.BeginStage(areFinished ? endOfPoints : 1.0, source.Count());
-  forParticles(source, progress, [&](std::int64_t index, const Point<Dimension>& point) {
-    Point<Dimension> image = point;
-    if (areFinished || !map.Still->Keep(image.data()))
-    {
-      image = map.Moving->At(point.data());
-    }
-    double* start = returns ? starts.data() + index * Dimension : nullptr;
-    std::copy_n(point.begin(), returns ? Dimension : 0, start);
-    std::copy(image.begin(), image.end(), positions[index]);
-  });
+  Stages steps(stages["points"], { { "images", 4 }, { "finish", areFinished ? 2.0 : 0.0 } });
+  forParticles(source, steps["images"].Expect(source.Count()),
+    [&](std::int64_t index, const Point<Dimension>& point) {
+      Point<Dimension> image = point;
+      if (areFinished || !map.Still->Keep(image.data()))
+      {
+        image = map.Moving->At(point.data());
+      }
+      double* start = returns ? starts.data() + index * Dimension : nullptr;
+      std::copy_n(point.begin(), returns ? Dimension : 0, start);
+      std::copy(image.begin(), image.end(), positions[index]);
+    });
   if (areFinished)
   {
     finishSamples<Dimension>(
-      this->Densities[1 - from], this->CellSides(1 - from), positions, progress);
+      this->Densities[1 - from], this->CellSides(1 - from), positions, steps["finish"]);
   }
   if (returns)
   {
@@ -401,20 +397,20 @@ template <int Dimension>
 FlowReport OptimalMap<Dimension>::Implementation::Undo(
   const FlowSeeds<Dimension>& points, PointSpan<Dimension> positions, const Context& context)
 {
-  constexpr double endOfMap = 0.4;
   Progress progress(contextForSize(context, this->ValuesOf(positions)));
-  const Direction& map = this->MapFrom(0, progress, endOfMap);
-  const PointMap<Dimension>& back = this->MapBack(progress);
+  Stages stages(progress, { { "maps", 4 }, { "points", 6 } });
+  const Direction& map = this->MapFrom(0, stages["maps"]);
+  const PointMap<Dimension>& back = this->MapBack(stages["maps"]);
   ParticleSource<Dimension> source(points, this->Densities[1].Size(), positions.size());
-  progress.BeginStage(1.0, source.Count());
-  forParticles(source, progress, [&](std::int64_t index, const Point<Dimension>& point) {
-    Point<Dimension> image = point;
-    if (!map.Still->KeepBack(image.data()))
-    {
-      image = back.At(map.Moving->Uncorrected(point.data()).data());
-    }
-    std::copy(image.begin(), image.end(), positions[index]);
-  });
+  forParticles(source, stages["points"].Expect(source.Count()),
+    [&](std::int64_t index, const Point<Dimension>& point) {
+      Point<Dimension> image = point;
+      if (!map.Still->KeepBack(image.data()))
+      {
+        image = back.At(map.Moving->Uncorrected(point.data()).data());
+      }
+      std::copy(image.begin(), image.end(), positions[index]);
+    });
   return {};
 }
 
@@ -445,26 +441,26 @@ FlowReport OptimalMap<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds,
   LargeBuffer<double> coordinates(count * Dimension);
   const PointSpan<Dimension> images(coordinates.data(), count);
   Progress progress(context);
-  progress.BeginStage(endOfImages);
-  const FlowReport report = this->Self->Move(0, seeds, images, progress.Stage());
-  progress.BeginStage(1.0, count);
+  Stages stages(progress, { { "images", 9 }, { "times", 1 } });
+  const FlowReport report = this->Self->Move(0, seeds, images, stages["images"]);
   ParticleSource<Dimension> source(seeds, this->Size(), count);
   const auto& target = this->Self->Solver.Side(1).Placement;
   const auto& from = this->Self->Solver.Side(0).Placement;
-  forParticles(source, progress, [&](std::int64_t index, const Point<Dimension>& point) {
-    // The place of the point in the index space of the target.
-    const Point<Dimension> begins = target.FromNodes(from.ToNodes(point.data()).data());
-    const double* image = images[index];
-    for (std::int64_t t = 0; t < several; ++t)
-    {
-      const double time = times[static_cast<std::size_t>(t)];
-      double* position = positions[index * several + t];
-      for (int axis = 0; axis < Dimension; ++axis)
+  forParticles(
+    source, stages["times"].Expect(count), [&](std::int64_t index, const Point<Dimension>& point) {
+      // The place of the point in the index space of the target.
+      const Point<Dimension> begins = target.FromNodes(from.ToNodes(point.data()).data());
+      const double* image = images[index];
+      for (std::int64_t t = 0; t < several; ++t)
       {
-        position[axis] = begins[axis] + time * (image[axis] - begins[axis]);
+        const double time = times[static_cast<std::size_t>(t)];
+        double* position = positions[index * several + t];
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          position[axis] = begins[axis] + time * (image[axis] - begins[axis]);
+        }
       }
-    }
-  });
+    });
   return report;
 }
 
@@ -480,11 +476,10 @@ FlowReport OptimalMap<Dimension>::ForwardToCells(const FlowSeeds<Dimension>& see
   LargeBuffer<double> coordinates(count * Dimension);
   const PointSpan<Dimension> images(coordinates.data(), count);
   Progress progress(context);
-  progress.BeginStage(endOfImages);
-  const FlowReport report = this->Self->Move(0, seeds, images, progress.Stage());
-  progress.BeginStage(1.0);
+  Stages stages(progress, { { "images", 9 }, { "cells", 1 } });
+  const FlowReport report = this->Self->Move(0, seeds, images, stages["images"]);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+  stages["cells"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       cells[i] = this->Self->Densities[1].CellOf(images[i]);

@@ -11,8 +11,7 @@ namespace RectifiedTransport
 class Progress;
 
 // Of points in the index space of the source and images in that of the target, as many as points:
-// |x - y|^2 / 2 less both potentials, which are interpolated. At least 0. Runs as the current
-// stage. Throws Cancelled.
+// |x - y|^2 / 2 less both potentials, which are interpolated. At least 0. Throws Cancelled.
 template <int Dimension>
 void findSlack(const PotentialSolver<Dimension>& solver, ConstPointSpan<Dimension> points,
   ConstPointSpan<Dimension> images, double* slack, Progress& progress);

@@ -7,9 +7,9 @@
 #include "Core/OptimalMap/Nodes/NodeLevels.h"
 #include "Core/OptimalMap/Nodes/Prolongation.h"
 #include "Core/OptimalMap/Nodes/PushForward.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/SmallWork.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -186,7 +186,7 @@ double PotentialSolver<Dimension>::MemoryForRefined(
 }
 
 template <int Dimension>
-void PotentialSolver<Dimension>::Solve(Progress& progress, double end)
+void PotentialSolver<Dimension>::Solve(Progress& progress)
 {
   std::vector<Point<Dimension>> cellSides;
   for (const BoxedDensity<Dimension>& given : this->Given)
@@ -204,36 +204,28 @@ void PotentialSolver<Dimension>::Solve(Progress& progress, double end)
   }
   const auto levels =
     nodeLevels<Dimension>(finestNodeCells<Dimension>(cellSides, this->Options.MostNodes));
-  const auto costOf = [&](std::size_t level) {
+  std::vector<double> costs;
+  for (std::size_t level = 0; level < levels.size(); ++level)
+  {
     const int iterations = level + 1 == levels.size() ? std::max(1, this->Options.LeastIterations)
                                                       : this->Options.CoarseIterations;
-    return numberOfCells<Dimension>(levels[level]) * (iterations + 1);
-  };
-  double all = 0.0;
-  for (std::size_t level = 0; level < levels.size(); ++level)
-  {
-    all += costOf(level);
+    costs.push_back(numberOfCells<Dimension>(levels[level]) * (iterations + 1));
   }
-  const double begin = progress.StageEnd();
-  double done = 0.0;
+  Stages stages(progress, { { "cells", 3 }, { "potentials", 97 } });
+  this->MakeCells(levels, stages["cells"]);
   NodeValues potential;
-  constexpr double partOfReading = 0.03;
-  progress.BeginStage(begin + partOfReading * (end - begin));
-  this->MakeCells(levels, progress);
+  Parts parts(stages["potentials"], costs);
   for (std::size_t level = 0; level < levels.size(); ++level)
   {
-    done += costOf(level);
-    progress.BeginStage(
-      begin + (end - begin) * (partOfReading + (1.0 - partOfReading) * done / all));
-    Progress work(contextForSize(progress.Stage(), numberOfCells<Dimension>(levels[level])));
-    constexpr double partOfBegin = 0.1;
-    work.BeginStage(partOfBegin);
-    this->Begin(levels, level, std::move(potential), work);
+    Progress work(contextForSize(
+      parts[static_cast<std::int64_t>(level)], numberOfCells<Dimension>(levels[level])));
+    Stages steps(work, { { "begin", 1 }, { "iterations", 9 } });
+    this->Begin(levels, level, std::move(potential), steps["begin"]);
     const bool isFinest = level + 1 == levels.size();
     if (!isFinest || this->Options.MostIterations > 0)
     {
       Scratch scratch(this->Nodes, work);
-      this->Iterate(scratch, isFinest, work);
+      this->Iterate(scratch, isFinest, steps["iterations"]);
     }
     if (level + 1 < levels.size())
     {
@@ -352,14 +344,14 @@ void PotentialSolver<Dimension>::Iterate(Scratch& scratch, bool isFinest, Progre
   const int least = isFinest ? this->Options.LeastIterations : 0;
   const std::int64_t units =
     unitsOfIteration<Dimension>(this->Nodes.NumberOfNodes(), this->IsWeighted);
-  const double begin = progress.StageEnd();
+  Rounds rounds(progress, std::max(1, isFinest ? least : most));
   int iteration = 0;
   for (bool goesOn = true; goesOn && iteration < most; ++iteration)
   {
-    progress.BeginRound(iteration, std::max(1, isFinest ? least : most), begin, 1.0, units);
+    Progress& round = rounds.Next().Expect(units);
     const double before = this->BoundNow;
-    this->HalfStep(scratch, 0, progress);
-    this->HalfStep(scratch, 1, progress);
+    this->HalfStep(scratch, 0, round);
+    this->HalfStep(scratch, 1, round);
     const double gain = this->BoundNow - before;
     goesOn =
       gain >= 0.25 * this->Options.Tolerance * std::abs(this->BoundNow) || iteration + 1 < least;

@@ -65,8 +65,8 @@ public:
   PotentialSolver(const BoxedDensity<Dimension>& source, const BoxedDensity<Dimension>& target,
     const Point<Dimension>& sides, const SolverOptions& options);
 
-  // Takes the progress to `end`. Throws std::bad_alloc and Cancelled.
-  void Solve(Progress& progress, double end);
+  // Throws std::bad_alloc and Cancelled.
+  void Solve(Progress& progress);
 
   const NodeGrid<Dimension>& Grid() const { return this->Nodes; }
   const SolverSide<Dimension>& Side(int side) const { return this->Sides[Index(side)]; }
@@ -74,7 +74,7 @@ public:
   // Not above the least squared distance; may be below 0.
   double Bound() const { return this->BoundNow - this->Rounding; }
   // The bound on twice as many nodes along each axis, if they are not more than the most, else
-  // Bound. Runs as the current stage. Throws std::bad_alloc and Cancelled.
+  // Bound. Throws std::bad_alloc and Cancelled.
   double RefinedBound(Progress& progress) const;
   int Iterations() const { return this->FineIterations; }
 

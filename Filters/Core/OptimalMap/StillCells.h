@@ -21,9 +21,8 @@ template <int Dimension>
 class StillCells
 {
 public:
-  // Under the map from a side of a solver to the other one, whose density is the target. Runs as
-  // part of the current stage. The same bits for every number of threads. Throws std::bad_alloc and
-  // Cancelled.
+  // Under the map from a side of a solver to the other one, whose density is the target. The same
+  // bits for every number of threads. Throws std::bad_alloc and Cancelled.
   StillCells(const PotentialSolver<Dimension>& solver, int from,
     const CellDensity<Dimension>& target, Progress& progress);
 

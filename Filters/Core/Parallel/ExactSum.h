@@ -35,7 +35,7 @@ private:
 };
 
 // The sum over [0, count) of what kernel(first, last, sum) adds for its ranges, on the progress's
-// threads. Runs as the current stage. Sum has Add(const Sum&).
+// threads. Sum has Add(const Sum&).
 template <class Sum, class Kernel>
 Sum sumExactly(Progress& progress, std::int64_t count, std::int64_t grain, const Kernel& kernel)
 {

@@ -16,9 +16,9 @@ namespace RectifiedTransport
 
 // Calls kernel(first, last), which returns a Part, once for each chunk of `grain` of [0, count), on
 // the progress's threads. Returns combine(combine(nothing, part), part)... of the parts in the
-// order of the chunks, `nothing` if there are none. Runs as the current stage. The first slice has
-// `units`, as in Progress::For. Memory: a Part a chunk. Throws std::bad_alloc, Cancelled, and what
-// the kernel throws.
+// order of the chunks, `nothing` if there are none. The first slice has `units`, as in
+// Progress::For. Memory: a Part a chunk. Throws std::bad_alloc, Cancelled, and what the kernel
+// throws.
 template <class Part, class Kernel, class Combine>
 Part reduceChunks(Progress& progress, std::int64_t count, std::int64_t grain, const Part& nothing,
   const Kernel& kernel, const Combine& combine, std::int64_t units = std::int64_t{ 1 } << 18)

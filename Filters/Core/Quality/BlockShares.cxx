@@ -122,26 +122,23 @@ private:
 
 template <int Dimension>
 void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dimension>& blocks,
-  std::int64_t first, std::int64_t count, double* shares, Progress& progress, double end)
+  std::int64_t first, std::int64_t count, double* shares, Progress& progress)
 {
   const auto shareIn = [&flow](const GridBox<Dimension>& box) {
     const auto [low, high] = sidesOf(box);
     return flow.Share(low, high);
   };
-  const double start = progress.StageEnd();
+  progress.Expect(count);
   BlockTurns<Dimension> turns(blocks, first, count);
   while (!onAllRanks(progress.Group(), !turns.HasMore()))
   {
     const auto turn = turns.Take();
     flow.PrepareShares(turn.Box.Low, turn.Box.High);
-    const auto done = static_cast<double>(turn.First + turn.Count - first);
-    progress.BeginStage(
-      start + (end - start) * done / static_cast<double>(std::max<std::int64_t>(1, count)));
     double* found = shares + (turn.First - first);
     if (turn.IsPart)
     {
       *found = shareIn(turn.Box) + (turn.IsFirst ? 0.0 : *found);
-      progress.Check();
+      progress.EndSlice(turn.IsFirst ? 1 : 0);
       continue;
     }
     progress.For(
@@ -156,11 +153,11 @@ void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dime
   }
 }
 
-template void findBlockShares<1>(const RectifiedFlow<1>&, const GridBlocks<1>&, std::int64_t,
-  std::int64_t, double*, Progress&, double);
-template void findBlockShares<2>(const RectifiedFlow<2>&, const GridBlocks<2>&, std::int64_t,
-  std::int64_t, double*, Progress&, double);
-template void findBlockShares<3>(const RectifiedFlow<3>&, const GridBlocks<3>&, std::int64_t,
-  std::int64_t, double*, Progress&, double);
+template void findBlockShares<1>(
+  const RectifiedFlow<1>&, const GridBlocks<1>&, std::int64_t, std::int64_t, double*, Progress&);
+template void findBlockShares<2>(
+  const RectifiedFlow<2>&, const GridBlocks<2>&, std::int64_t, std::int64_t, double*, Progress&);
+template void findBlockShares<3>(
+  const RectifiedFlow<3>&, const GridBlocks<3>&, std::int64_t, std::int64_t, double*, Progress&);
 
 } // namespace RectifiedTransport

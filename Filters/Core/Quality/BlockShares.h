@@ -13,12 +13,12 @@ namespace RectifiedTransport
 
 class Progress;
 
-// The shares of `count` blocks from `first` on. Progress reaches `end`. Collective on the ranks of
-// the progress, each for its own blocks; a rank holds a few million cells of the density at a time.
-// Throws std::bad_alloc and Cancelled.
+// The shares of `count` blocks from `first` on. Collective on the ranks of the progress, each for
+// its own blocks; a rank holds a few million cells of the density at a time. Throws std::bad_alloc
+// and Cancelled.
 template <int Dimension>
 void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dimension>& blocks,
-  std::int64_t first, std::int64_t count, double* shares, Progress& progress, double end);
+  std::int64_t first, std::int64_t count, double* shares, Progress& progress);
 
 } // namespace RectifiedTransport
 

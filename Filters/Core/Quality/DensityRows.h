@@ -46,8 +46,8 @@ public:
       1, static_cast<std::int64_t>(most / numberOfCells<Dimension>(this->Density.Size) * layers));
   }
 
-  // Reads a box of cells, which may be empty; in 2D and 3D its rows are completed. Runs as the
-  // current stage. Collective, if the density is distributed. Throws std::bad_alloc and Cancelled.
+  // Reads a box of cells, which may be empty; in 2D and 3D its rows are completed. Collective, if
+  // the density is distributed. Throws std::bad_alloc and Cancelled.
   void Read(LatticePart<Dimension> box, Progress& progress)
   {
     if (Dimension > 1 && !box.IsEmpty())

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Quality/MapBlocks.h"
 
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Reduction.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Quality/BlockCells.h"
 #include "Core/Quality/BlockImages.h"
 #include "Core/Quality/BoundaryIntegrals.h"
@@ -32,12 +32,10 @@ class BlocksRun
 {
 public:
   BlocksRun(const MapSamples<Dimension>& map, const DensitySource<Dimension>& density, double total,
-    Progress& progress, double end)
+    const Ranks& ranks)
     : Map(map)
     , Images(map)
-    , Work(progress)
-    , Start(progress.StageEnd())
-    , End(end)
+    , Group(ranks)
     , Size(density.Size)
     , Distributed(density.IsDistributed())
     , Cells(map.Lattice, density.Size)
@@ -56,54 +54,57 @@ public:
 
   // `shares` are those that the images of the blocks are to have of the mass, negative for blocks
   // that do not count; none: those of the domain.
-  BlockErrors Forward(std::vector<double> shares = {})
+  BlockErrors Forward(Progress& progress, std::vector<double> shares = {})
   {
     this->Wanted = std::move(shares);
-    const LatticePart<Dimension> cells = this->CellsAround();
+    Stages stages(progress, { { "cells", 1 }, { "masses", 99 } });
+    const LatticePart<Dimension> cells = this->CellsAround(stages["cells"]);
     if constexpr (Dimension < 3)
     {
       std::vector<ItemsByLayer> faces;
       for (int axis = 0; axis < Dimension; ++axis)
       {
-        faces.push_back(this->FacesByLayer(axis, cells));
+        faces.push_back(this->FacesByLayer(axis, cells, stages["cells"]));
       }
-      this->InLayers(cells, this->Start, this->End, [&](const LayerSpan& batch) {
+      this->InLayers(cells, stages["masses"], [&](const LayerSpan& batch, Progress& work) {
         const MassIntegral<Dimension> mass(this->Rows);
         for (int axis = 0; axis < Dimension; ++axis)
         {
           const std::vector<std::int64_t>& found = faces[static_cast<std::size_t>(axis)].In(batch);
-          this->AddThrough(mass, axis, static_cast<std::int64_t>(found.size()),
-            [&found](std::int64_t i) { return found[static_cast<std::size_t>(i)]; });
+          this->AddThrough(
+            mass, axis, static_cast<std::int64_t>(found.size()),
+            [&found](std::int64_t i) { return found[static_cast<std::size_t>(i)]; }, work);
         }
       });
-      return largestErrors(countedOf(this->Errors([&](std::int64_t block) {
+      const auto errorOf = [&](std::int64_t block) {
         return this->MassError(block, this->Inside(this->Blocks.CellOf(block)));
-      })),
-        this->Work.Group());
+      };
+      return largestErrors(countedOf(this->Errors(errorOf, stages["masses"])), this->Group);
     }
     else
     {
-      return this->ForwardInSpace(cells);
+      return this->ForwardInSpace(cells, stages["masses"]);
     }
   }
 
-  // The masses of the blocks; negative for those that do not count. Progress reaches `end`.
-  std::vector<double> Masses(double end)
+  // The masses of the blocks; negative for those that do not count.
+  std::vector<double> Masses(Progress& progress)
   {
     const auto count = static_cast<std::size_t>(this->Count);
     std::vector<double> masses(count, 0.0);
     std::vector<double> least(count, std::numeric_limits<double>::infinity());
-    this->InLayers(this->Cells.Of(this->Blocks), this->Start, end, [&](const LayerSpan& batch) {
-      const auto blocks = this->BlocksIn(batch);
-      const std::int64_t begin = blocks[0];
-      this->Work.For(blocks[1] - begin, grain, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = begin + first; i < begin + last; ++i)
-        {
-          const auto at = static_cast<std::size_t>(i);
-          this->Cells.AddMass(this->Blocks.CellOf(i), this->Rows, masses[at], least[at]);
-        }
+    this->InLayers(
+      this->Cells.Of(this->Blocks), progress, [&](const LayerSpan& batch, Progress& work) {
+        const auto blocks = this->BlocksIn(batch);
+        const std::int64_t begin = blocks[0];
+        work.For(blocks[1] - begin, grain, [&](std::int64_t first, std::int64_t last) {
+          for (std::int64_t i = begin + first; i < begin + last; ++i)
+          {
+            const auto at = static_cast<std::size_t>(i);
+            this->Cells.AddMass(this->Blocks.CellOf(i), this->Rows, masses[at], least[at]);
+          }
+        });
       });
-    });
     for (std::size_t i = 0; i < count; ++i)
     {
       masses[i] = least[i] > leastOfMean * this->Mean() ? masses[i] : Uncounted;
@@ -112,9 +113,9 @@ public:
   }
 
   // The same, in shares of the total.
-  std::vector<double> Shares()
+  std::vector<double> Shares(Progress& progress)
   {
-    std::vector<double> shares = this->Masses(this->End);
+    std::vector<double> shares = this->Masses(progress);
     for (double& share : shares)
     {
       share = share < 0.0 ? Uncounted : share / this->Rows.TotalMass();
@@ -122,18 +123,17 @@ public:
     return shares;
   }
 
-  BlockErrors Backward()
+  BlockErrors Backward(Progress& progress)
   {
-    constexpr double partOfMasses = 0.7;
-    const std::vector<double> masses =
-      this->Masses(this->Start + partOfMasses * (this->End - this->Start));
-    this->Work.BeginStage(this->End);
+    Stages stages(progress, { { "masses", 7 }, { "measures", 3 } });
+    const std::vector<double> masses = this->Masses(stages["masses"]);
+    Progress& work = stages["measures"];
     for (int axis = 0; axis<Dimension&& this->Count> 0; ++axis)
     {
       this->AddThrough(
-        MeasureIntegral(), axis, this->Faces[axis].Count(), [](std::int64_t i) { return i; });
+        MeasureIntegral(), axis, this->Faces[axis].Count(), [](std::int64_t i) { return i; }, work);
     }
-    return largestErrors(countedOf(this->Errors([&](std::int64_t block) {
+    const auto errorOf = [&](std::int64_t block) {
       const double mass = masses[static_cast<std::size_t>(block)];
       if (mass < 0.0)
       {
@@ -141,8 +141,8 @@ public:
       }
       const double wanted = mass / this->Mean(); // of the measure
       return std::abs(this->Inside(this->Blocks.CellOf(block)) - wanted) / wanted;
-    })),
-      this->Work.Group());
+    };
+    return largestErrors(countedOf(this->Errors(errorOf, work)), this->Group);
   }
 
 private:
@@ -150,10 +150,11 @@ private:
 
   // Over faces across an axis, whose numbers are numberOf(0 ... count - 1).
   template <class Integral, class NumberOf>
-  void AddThrough(const Integral& integral, int axis, std::int64_t count, const NumberOf& numberOf)
+  void AddThrough(const Integral& integral, int axis, std::int64_t count, const NumberOf& numberOf,
+    Progress& progress)
   {
     const LatticePart<Dimension>& faces = this->Faces[axis];
-    this->Work.For(
+    progress.For(
       count, grain,
       [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = first; i < last; ++i)
@@ -169,15 +170,15 @@ private:
   // `samplesOf` gives the samples of an item. In one batch all lie in all layers, and in 1D mass
   // below a layer counts, too.
   template <class SamplesOf>
-  ItemsByLayer ByLayer(
-    std::int64_t count, const LatticePart<Dimension>& cells, const SamplesOf& samplesOf)
+  ItemsByLayer ByLayer(std::int64_t count, const LatticePart<Dimension>& cells,
+    const SamplesOf& samplesOf, Progress& progress)
   {
     std::vector<LayerSpan> spans(
       static_cast<std::size_t>(count), { cells.Low[Last], cells.End(Last) });
     const std::int64_t each = this->Rows.LayersAtOnce();
     if (Dimension > 1 && !cells.IsEmpty() && cells.Low[Last] / each != (cells.End(Last) - 1) / each)
     {
-      this->Work.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+      progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = first; i < last; ++i)
         {
           spans[static_cast<std::size_t>(i)] =
@@ -188,15 +189,16 @@ private:
     return ItemsByLayer(std::move(spans));
   }
 
-  ItemsByLayer FacesByLayer(int axis, const LatticePart<Dimension>& cells)
+  ItemsByLayer FacesByLayer(int axis, const LatticePart<Dimension>& cells, Progress& progress)
   {
     const LatticePart<Dimension>& faces = this->Faces[axis];
-    return this->ByLayer(this->Count > 0 ? faces.Count() : 0, cells, [&, axis](std::int64_t i) {
+    const auto samplesOf = [&, axis](std::int64_t i) {
       LatticePart<Dimension> samples =
         MapBlocks<Dimension>::SamplesOf({ faces.CellOf(i), oneBlock() });
       samples.Cells[axis] = 1;
       return samples;
-    });
+    };
+    return this->ByLayer(this->Count > 0 ? faces.Count() : 0, cells, samplesOf, progress);
   }
 
   // The blocks that cover cells of a batch of layers, the first and the end: they are numbered by
@@ -219,19 +221,19 @@ private:
   }
 
   // Fast for all blocks, then exactly for those that seem to have the largest errors.
-  BlockErrors ForwardInSpace(const LatticePart<Dimension>& cells)
+  BlockErrors ForwardInSpace(const LatticePart<Dimension>& cells, Progress& progress)
   {
     constexpr std::int64_t partExactly = 20;
-    const Ranks& ranks = this->Work.Group();
-    const double middle = 0.5 * (this->Start + this->End);
+    const Ranks& ranks = this->Group;
+    Stages stages(progress, { { "all", 1 }, { "largest", 1 } });
     std::vector<double> masses(static_cast<std::size_t>(this->Count), 0.0);
     std::vector<std::int64_t> blocks(masses.size());
     std::iota(blocks.begin(), blocks.end(), std::int64_t{ 0 });
-    this->AddInLayers(cells, middle, blocks, TriangleRule::Centroid, masses);
+    this->AddInLayers(cells, blocks, TriangleRule::Centroid, masses, stages["all"]);
     const auto errorOf = [&](std::int64_t block) {
       return this->MassError(block, masses[static_cast<std::size_t>(block)]);
     };
-    std::vector<double> errors = this->Errors(errorOf);
+    std::vector<double> errors = this->Errors(errorOf, stages["all"]);
     const std::vector<double> own = countedOf(errors);
     const std::int64_t all = sumOverRanks(ranks, static_cast<std::int64_t>(own.size()));
     const std::vector<double> largest =
@@ -250,7 +252,7 @@ private:
         masses[static_cast<std::size_t>(block)] = 0.0;
       }
     }
-    this->AddInLayers(cells, this->End, blocks, TriangleRule::Exact, masses);
+    this->AddInLayers(cells, blocks, TriangleRule::Exact, masses, stages["largest"]);
     std::transform(errors.begin(), errors.end(), errors.begin(),
       [](double e) { return e < 0.0 ? Uncounted : 0.0; });
     for (const std::int64_t block : blocks)
@@ -260,30 +262,31 @@ private:
     return largestErrors(countedOf(std::move(errors)), ranks);
   }
 
-  // Adds the masses in the images of blocks. Progress reaches `end`.
-  void AddInLayers(const LatticePart<Dimension>& cells, double end,
-    const std::vector<std::int64_t>& blocks, TriangleRule rule, std::vector<double>& masses)
+  // Adds the masses in the images of blocks.
+  void AddInLayers(const LatticePart<Dimension>& cells, const std::vector<std::int64_t>& blocks,
+    TriangleRule rule, std::vector<double>& masses, Progress& progress)
   {
-    const double start = this->Work.StageEnd();
+    const auto samplesOf = [&](std::int64_t i) {
+      const std::int64_t number = blocks[static_cast<std::size_t>(i)];
+      return MapBlocks<Dimension>::SamplesOf({ this->Blocks.CellOf(number), oneBlock() });
+    };
+    Stages stages(progress, { { "order", 1 }, { "masses", 99 } });
     ItemsByLayer items =
-      this->ByLayer(static_cast<std::int64_t>(blocks.size()), cells, [&](std::int64_t i) {
-        const std::int64_t number = blocks[static_cast<std::size_t>(i)];
-        return MapBlocks<Dimension>::SamplesOf({ this->Blocks.CellOf(number), oneBlock() });
-      });
-    this->InLayers(cells, start, end, [&](const LayerSpan& batch) {
+      this->ByLayer(static_cast<std::int64_t>(blocks.size()), cells, samplesOf, stages["order"]);
+    this->InLayers(cells, stages["masses"], [&](const LayerSpan& batch, Progress& work) {
       std::vector<std::int64_t> found = items.In(batch);
       std::transform(found.begin(), found.end(), found.begin(),
         [&](std::int64_t i) { return blocks[static_cast<std::size_t>(i)]; });
-      this->AddInside(found, rule, masses);
+      this->AddInside(found, rule, masses, work);
     });
   }
 
   // In the rows that are held, each with sums that begin in the block's middle.
-  void AddInside(
-    const std::vector<std::int64_t>& blocks, TriangleRule rule, std::vector<double>& masses)
+  void AddInside(const std::vector<std::int64_t>& blocks, TriangleRule rule,
+    std::vector<double>& masses, Progress& progress)
   {
     constexpr std::int64_t size = MapBlocks<Dimension>::Size;
-    this->Work.For(
+    progress.For(
       static_cast<std::int64_t>(blocks.size()), grain,
       [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = first; i < last; ++i)
@@ -340,7 +343,7 @@ private:
   }
 
   // The grid cells that the images of the samples of this rank's blocks are in, or more.
-  LatticePart<Dimension> CellsAround()
+  LatticePart<Dimension> CellsAround(Progress& progress)
   {
     const auto whole = LatticePart<Dimension>::WholeOf(this->Size);
     if (this->Count == 0 || (!this->Distributed && this->Rows.LayersAtOnce() >= this->Size[Last]))
@@ -365,7 +368,7 @@ private:
       return a;
     };
     const Bounds bounds = reduceChunks(
-      this->Work, samples.Count(), 4096, none,
+      progress, samples.Count(), 4096, none,
       [&](std::int64_t first, std::int64_t last) {
         Bounds found = none;
         for (std::int64_t i = first; i < last; ++i)
@@ -390,34 +393,29 @@ private:
     return cells;
   }
 
-  // Calls visit(batch) with the rows of one batch after the other of the layers of the grid that
-  // the cells are in. Where batches begin does not depend on the cells.
+  // Calls visit(batch, progress) with the rows of one batch after the other of the layers of the
+  // grid that the cells are in. Where batches begin does not depend on the cells.
   template <class Visit>
-  void InLayers(const LatticePart<Dimension>& cells, double start, double end, const Visit& visit)
+  void InLayers(const LatticePart<Dimension>& cells, Progress& progress, const Visit& visit)
   {
     const std::int64_t each = this->Rows.LayersAtOnce();
-    const std::int64_t all = cells.Cells[Last];
     std::int64_t low = cells.Low[Last] / each * each;
-    while (!onAllRanks(this->Work.Group(), low >= cells.End(Last)))
+    const std::int64_t count = std::max<std::int64_t>(1, (cells.End(Last) - low + each - 1) / each);
+    Parts parts(progress, count);
+    for (std::int64_t i = 0; !onAllRanks(this->Group, low >= cells.End(Last)); ++i)
     {
       LatticePart<Dimension> layers = cells;
       layers.Low[Last] = std::min(low, this->Size[Last]);
       layers.Cells[Last] = low < cells.End(Last) ? std::min(each, this->Size[Last] - low) : 0;
       low += each;
-      const auto done = static_cast<double>(std::min(all, low - cells.Low[Last]));
-      const double before = this->Work.StageEnd();
-      const double after =
-        start + (end - start) * done / static_cast<double>(std::max<std::int64_t>(1, all));
-      constexpr double reading = 0.2;
-      this->Work.BeginStage(before + reading * (after - before));
-      this->Rows.Read(layers, this->Work);
-      this->Work.BeginStage(after);
+      // Other ranks may have more batches.
+      Stages stages(parts[std::min(i, count - 1)], { { "reading", 1 }, { "visit", 4 } });
+      this->Rows.Read(layers, stages["reading"]);
       if (!layers.IsEmpty())
       {
-        visit(LayerSpan{ layers.Low[Last], layers.End(Last) });
+        visit(LayerSpan{ layers.Low[Last], layers.End(Last) }, stages["visit"]);
       }
     }
-    this->Work.BeginStage(end);
   }
 
   static GridSize<Dimension> oneBlock()
@@ -428,10 +426,10 @@ private:
   }
 
   template <class Error>
-  std::vector<double> Errors(const Error& error)
+  std::vector<double> Errors(const Error& error, Progress& progress)
   {
     std::vector<double> errors(static_cast<std::size_t>(this->Count));
-    this->Work.For(this->Count, 16 * grain, [&](std::int64_t first, std::int64_t last) {
+    progress.For(this->Count, 16 * grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         errors[static_cast<std::size_t>(i)] = error(i);
@@ -443,9 +441,7 @@ private:
   static constexpr int Last = Dimension - 1;
   const MapSamples<Dimension>& Map;
   const BlockImages<Dimension> Images;
-  Progress& Work;
-  const double Start;
-  const double End;
+  const Ranks& Group;
   const GridSize<Dimension> Size;
   const bool Distributed;
   const BlockCells<Dimension> Cells;
@@ -461,37 +457,37 @@ private:
 
 template <int Dimension>
 BlockErrors measureBlocks(const MapSamples<Dimension>& map, const DensitySource<Dimension>& density,
-  double total, FlowDirection direction, Progress& progress, double end)
+  double total, FlowDirection direction, Progress& progress)
 {
-  BlocksRun<Dimension> run(map, density, total, progress, end);
-  return direction == FlowDirection::Backward ? run.Backward() : run.Forward();
+  BlocksRun<Dimension> run(map, density, total, progress.Group());
+  return direction == FlowDirection::Backward ? run.Backward(progress) : run.Forward(progress);
 }
 
 template <int Dimension>
 BlockErrors measureBlocksBetween(const MapSamples<Dimension>& map,
   const SummedDensity<Dimension>& source, const SummedDensity<Dimension>& target,
-  Progress& progress, double end)
+  Progress& progress)
 {
-  constexpr double partOfShares = 0.2;
-  const double middle = progress.StageEnd() + partOfShares * (end - progress.StageEnd());
+  const Ranks& ranks = progress.Group();
+  Stages stages(progress, { { "shares", 1 }, { "errors", 4 } });
   std::vector<double> shares =
-    BlocksRun<Dimension>(map, source.Density, source.Total, progress, middle).Shares();
-  return BlocksRun<Dimension>(map, target.Density, target.Total, progress, end)
-    .Forward(std::move(shares));
+    BlocksRun<Dimension>(map, source.Density, source.Total, ranks).Shares(stages["shares"]);
+  return BlocksRun<Dimension>(map, target.Density, target.Total, ranks)
+    .Forward(stages["errors"], std::move(shares));
 }
 
 template BlockErrors measureBlocks<1>(
-  const MapSamples<1>&, const DensitySource<1>&, double, FlowDirection, Progress&, double);
+  const MapSamples<1>&, const DensitySource<1>&, double, FlowDirection, Progress&);
 template BlockErrors measureBlocks<2>(
-  const MapSamples<2>&, const DensitySource<2>&, double, FlowDirection, Progress&, double);
+  const MapSamples<2>&, const DensitySource<2>&, double, FlowDirection, Progress&);
 template BlockErrors measureBlocks<3>(
-  const MapSamples<3>&, const DensitySource<3>&, double, FlowDirection, Progress&, double);
+  const MapSamples<3>&, const DensitySource<3>&, double, FlowDirection, Progress&);
 
 template BlockErrors measureBlocksBetween<1>(
-  const MapSamples<1>&, const SummedDensity<1>&, const SummedDensity<1>&, Progress&, double);
+  const MapSamples<1>&, const SummedDensity<1>&, const SummedDensity<1>&, Progress&);
 template BlockErrors measureBlocksBetween<2>(
-  const MapSamples<2>&, const SummedDensity<2>&, const SummedDensity<2>&, Progress&, double);
+  const MapSamples<2>&, const SummedDensity<2>&, const SummedDensity<2>&, Progress&);
 template BlockErrors measureBlocksBetween<3>(
-  const MapSamples<3>&, const SummedDensity<3>&, const SummedDensity<3>&, Progress&, double);
+  const MapSamples<3>&, const SummedDensity<3>&, const SummedDensity<3>&, Progress&);
 
 } // namespace RectifiedTransport

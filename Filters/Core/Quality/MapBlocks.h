@@ -72,11 +72,11 @@ struct MapBlocks
 // - Backward, of the measure: |the image's share of the domain - the block's share of the mass| /
 //   the latter, of the blocks all of whose grid cells have more than leastOfMean of the mean
 //   density.
-// The same bits for any number of ranks and threads. Collective; progress reaches `end`. Memory: 8
-// bytes a block and axis, and 34 MB or a layer of the density. Throws std::bad_alloc and Cancelled.
+// The same bits for any number of ranks and threads. Collective. Memory: 8 bytes a block and axis,
+// and 34 MB or a layer of the density. Throws std::bad_alloc and Cancelled.
 template <int Dimension>
 BlockErrors measureBlocks(const MapSamples<Dimension>& map, const DensitySource<Dimension>& density,
-  double total, FlowDirection direction, Progress& progress, double end);
+  double total, FlowDirection direction, Progress& progress);
 
 template <int Dimension>
 struct SummedDensity
@@ -91,7 +91,7 @@ struct SummedDensity
 template <int Dimension>
 BlockErrors measureBlocksBetween(const MapSamples<Dimension>& map,
   const SummedDensity<Dimension>& source, const SummedDensity<Dimension>& target,
-  Progress& progress, double end);
+  Progress& progress);
 
 } // namespace RectifiedTransport
 

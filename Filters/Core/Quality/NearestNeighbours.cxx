@@ -3,8 +3,8 @@
 
 #include "Core/Geometry/BoxTree.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,7 @@ public:
   }
 
   // Throws Cancelled.
-  void Build(ConstPointSpan<3> points, Progress& progress, double end)
+  void Build(ConstPointSpan<3> points, Progress& progress)
   {
     const std::int64_t count = this->Points.size();
     // Every level of the tree reads each point twice.
@@ -58,7 +58,7 @@ public:
     {
       passes += 2;
     }
-    progress.BeginStage(end, passes * count);
+    progress.Expect(passes * count);
     this->Read(points, progress);
     this->Boxes = makeBoxTree<TreeBox>(
       count,
@@ -189,7 +189,6 @@ private:
 };
 
 constexpr std::int64_t grain = 512;
-constexpr double endOfOwn = 0.7; // of the work, where other ranks follow
 
 constexpr std::size_t mostAsked = std::size_t{ 1 } << 18; // points at a time, of one rank
 
@@ -225,9 +224,10 @@ void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, c
   Progress& progress)
 {
   const std::vector<TreeBox> boxes = gatherValues(ranks, tree.Bounds());
+  Parts parts(progress, ranks.Count() - 1);
   for (int step = 1; step < ranks.Count(); ++step)
   {
-    progress.BeginStage(endOfOwn + (1.0 - endOfOwn) * step / (ranks.Count() - 1));
+    Progress& part = parts[step - 1];
     const auto other = static_cast<std::size_t>((ranks.Own() + step) % ranks.Count());
     std::int64_t next = boxes[other].Last > 0 ? 0 : count;
     do
@@ -247,7 +247,7 @@ void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, c
       std::vector<std::vector<double>> answers;
       for (const std::vector<Query>& those : exchangeValues(ranks, std::move(queries)))
       {
-        answers.push_back(answersTo(those, tree, progress));
+        answers.push_back(answersTo(those, tree, part));
       }
       const std::vector<double> found = exchangeValues(ranks, std::move(answers))[other];
       for (std::size_t i = 0; i < asked.size(); ++i)
@@ -264,10 +264,11 @@ void nearestDistances(ConstPointSpan<3> points, double* distances, const Context
 {
   const bool areSeveral = context.Group->AreSeveral();
   Progress progress(context);
+  Stages stages(progress,
+    { { "tree", 4 }, { "search", areSeveral ? 3.0 : 6.0 }, { "ranks", areSeveral ? 3.0 : 0.0 } });
   PointTree tree(points.size());
-  tree.Build(points, progress, 0.4);
-  progress.BeginStage(areSeveral ? endOfOwn : 1.0);
-  progress.For(
+  tree.Build(points, stages["tree"]);
+  stages["search"].For(
     points.size(), grain,
     [&](std::int64_t first, std::int64_t last) {
       // Neighbours in the tree are neighbours in space.
@@ -281,7 +282,7 @@ void nearestDistances(ConstPointSpan<3> points, double* distances, const Context
     grain);
   if (areSeveral)
   {
-    searchOnRanks(tree, points.size(), distances, *context.Group, progress);
+    searchOnRanks(tree, points.size(), distances, *context.Group, stages["ranks"]);
     for (std::int64_t i = 0; i < points.size(); ++i)
     {
       distances[i] = std::sqrt(distances[i]);

@@ -4,9 +4,9 @@
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankOrder.h"
 #include "Core/Parallel/RankShare.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Quality/BlockShares.h"
 #include "Core/Quality/GridBlocks.h"
 #include "Core/Quality/NearestNeighbours.h"
@@ -49,17 +49,16 @@ class QualityRun
 {
 public:
   QualityRun(const ParticleSample& particles, const RectifiedFlow<Dimension>& flow,
-    const ImageGrid& grid, std::int64_t blockSize, const Context& context)
+    const ImageGrid& grid, std::int64_t blockSize, const Ranks& ranks)
     : Particles(particles)
     , Flow(flow)
     , Grid(grid)
     , Scale(grid)
     , Blocks(grid.Size<Dimension>(), blockSize)
     , NumberOfBlocks(static_cast<std::int64_t>(this->Blocks.Count()))
-    , Group(*context.Group)
+    , Group(ranks)
     , OwnBlocks(this->NumberOfBlocks, this->Group)
     , Count(particles.Points.size())
-    , Work(context)
     , Points(3 * this->Count)
     , Block(this->Count)
     , Spacing(this->Count)
@@ -68,36 +67,34 @@ public:
   {
   }
 
-  ParticleQuality Measure()
+  ParticleQuality Measure(Progress& progress)
   {
+    Stages stages(progress,
+      { { "blocks", 10 }, { "masses", 10 }, { "cost", 5 }, { "shares", 15 }, { "neighbours", 27 },
+        { "spacings", 30 }, { "average", 3 } });
     this->Quality.Particles = sumOverRanks(this->Group, this->Count);
     this->Quality.TotalMass = this->Flow.Total() * this->Grid.CellMeasure();
-    this->Work.BeginStage(0.1);
-    this->Place();
-    this->Work.BeginStage(0.2);
+    this->Place(stages["blocks"]);
     if (this->Group.AreSeveral())
     {
-      this->Order.emplace(this->Count, this->Particles.Order, 1, this->Group, this->Work);
+      this->Order.emplace(this->Count, this->Particles.Order, 1, this->Group, stages["masses"]);
     }
-    this->AddMasses();
-    this->Work.BeginStage(0.25);
-    this->MeasureCost();
-    this->CompareBlocks();
-    this->Work.BeginStage(2.0 / 3.0);
+    this->AddMasses(stages["masses"]);
+    this->MeasureCost(stages["cost"]);
+    this->CompareBlocks(stages["shares"]);
     nearestDistances(
-      { this->Points.data(), this->Count }, this->Spacing.data(), this->Work.Stage());
-    this->RelateSpacings();
-    this->Work.BeginStage(1.0);
-    this->AverageSpacings();
+      { this->Points.data(), this->Count }, this->Spacing.data(), stages["neighbours"]);
+    this->RelateSpacings(stages["spacings"]);
+    this->AverageSpacings(stages["average"]);
     return this->Quality;
   }
 
 private:
   // Runs kernel(i) in order on this thread: for sums, whose order then never changes.
   template <class Kernel>
-  void InOrder(std::int64_t count, const Kernel& kernel)
+  void InOrder(std::int64_t count, Progress& progress, const Kernel& kernel)
   {
-    this->Work.ForInOrder(count, grain, [&kernel](std::int64_t first, std::int64_t last) {
+    progress.ForInOrder(count, grain, [&kernel](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         kernel(i);
@@ -107,12 +104,12 @@ private:
 
   // The sum of value(i) over the particles of all ranks in their order.
   template <class Value>
-  double SumInOrder(const Value& value)
+  double SumInOrder(Progress& progress, const Value& value)
   {
     double sum = 0.0;
     if (!this->Order)
     {
-      this->InOrder(this->Count, [&](std::int64_t i) { sum += value(i); });
+      this->InOrder(this->Count, progress, [&](std::int64_t i) { sum += value(i); });
       return sum;
     }
     const std::vector<double> share = this->Order->Bring(value);
@@ -127,11 +124,11 @@ private:
   }
 
   // Finds the block that each particle is in.
-  void Place()
+  void Place(Progress& progress)
   {
     std::atomic<std::int64_t> outside{ 0 };
     std::atomic<std::int64_t> inEmpty{ 0 };
-    this->Work.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+    progress.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         const double* x = this->Particles.Points[i];
@@ -156,7 +153,7 @@ private:
     this->Quality.InEmptyCells = sumOverRanks(this->Group, inEmpty.load());
   }
 
-  void AddMasses()
+  void AddMasses(Progress& progress)
   {
     if (onAllRanks(this->Group, !this->Particles.Masses || this->Count == 0))
     {
@@ -164,7 +161,7 @@ private:
       return;
     }
     const double total =
-      this->SumInOrder([this](std::int64_t i) { return this->Particles.Masses[i]; });
+      this->SumInOrder(progress, [this](std::int64_t i) { return this->Particles.Masses[i]; });
     if (!(total > 0.0) || std::isinf(total))
     {
       throw std::invalid_argument("The masses of the particles sum to " + std::to_string(total) +
@@ -173,13 +170,13 @@ private:
     this->ParticleMass = total;
   }
 
-  void MeasureCost()
+  void MeasureCost(Progress& progress)
   {
     if (onAllRanks(this->Group, this->Particles.Displacements.size() == 0))
     {
       return;
     }
-    this->Quality.TransportCost = this->SumInOrder([this](std::int64_t i) {
+    this->Quality.TransportCost = this->SumInOrder(progress, [this](std::int64_t i) {
       const double* d = this->Particles.Displacements[i];
       return this->Share(i) * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     });
@@ -193,13 +190,13 @@ private:
   };
 
   // Adds the shares of the particles to this rank's blocks, in the order of the particles.
-  void AddShares()
+  void AddShares(Progress& progress)
   {
     double* found = this->Found.data();
     std::fill_n(found, this->OwnBlocks.Count, 0.0);
     if (!this->Order)
     {
-      this->InOrder(this->Count, [&](std::int64_t i) {
+      this->InOrder(this->Count, progress, [&](std::int64_t i) {
         if (this->Block.data()[i] != noBlock)
         {
           found[this->Block.data()[i]] += this->Share(i);
@@ -234,22 +231,21 @@ private:
   }
 
   // The relative L2 distance of two densities that are constant on blocks.
-  void CompareBlocks()
+  void CompareBlocks(Progress& progress)
   {
-    this->Work.BeginStage(0.3);
-    this->AddShares();
+    Stages stages(progress, { { "particles", 1 }, { "density", 1 }, { "errors", 1 } });
+    this->AddShares(stages["particles"]);
     const double* found = this->Found.data();
     const double* expected = this->Expected.data();
     findBlockShares<Dimension>(this->Flow, this->Blocks, this->OwnBlocks.First,
-      this->OwnBlocks.Count, this->Expected.data(), this->Work, 0.35);
-    this->Work.BeginStage(0.4);
+      this->OwnBlocks.Count, this->Expected.data(), stages["density"]);
     struct Squares
     {
       double Difference = 0.0;
       double Norm = 0.0;
     };
     const Squares squares = sumInTurn(this->Group, Squares(), [&](Squares& sums) {
-      this->InOrder(this->OwnBlocks.Count, [&](std::int64_t i) {
+      this->InOrder(this->OwnBlocks.Count, stages["errors"], [&](std::int64_t i) {
         const double measure = this->Blocks.Box(this->OwnBlocks.First + i).Cells();
         const double off = found[i] - expected[i];
         sums.Difference += off * off / measure;
@@ -259,7 +255,7 @@ private:
     this->Quality.DensityError = std::sqrt(squares.Difference / squares.Norm);
     const double cells = numberOfCells<Dimension>(this->Grid.template Size<Dimension>());
     std::vector<double> errors;
-    this->InOrder(this->OwnBlocks.Count, [&](std::int64_t i) {
+    this->InOrder(this->OwnBlocks.Count, stages["errors"], [&](std::int64_t i) {
       const double measure = this->Blocks.Box(this->OwnBlocks.First + i).Cells() / cells;
       if (expected[i] > leastOfMean * measure)
       {
@@ -271,15 +267,15 @@ private:
 
   // Divides the distance of each nearest neighbour by the largest spacing at the density of that
   // place; -1 where it is not defined.
-  void RelateSpacings()
+  void RelateSpacings(Progress& progress)
   {
+    Stages stages(progress, { { "shares", 3 }, { "measures", 25 }, { "spacings", 2 } });
     double* spacing = this->Spacing.data();
     // The points in units are no longer needed.
     const PointSpan<Dimension> index(this->Points.data(), this->Count);
     LargeBuffer<double> measures(this->Count);
     double* measure = measures.data();
-    this->Work.BeginStage(0.7);
-    this->Work.For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
+    stages["shares"].For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         const double share = this->Share(i);
@@ -290,12 +286,10 @@ private:
         this->Grid.template NearestIndex<Dimension>(this->Particles.Points[i], index[i]);
       }
     });
-    this->Work.BeginStage(0.95);
     this->Flow.MeasuresOfShares(
-      index, boxAspect<Dimension>(this->Grid), measure, measure, this->Work.Stage());
+      index, boxAspect<Dimension>(this->Grid), measure, measure, stages["measures"]);
     const double side = this->Scale.ToUnits(root<Dimension>(this->Grid.CellMeasure()));
-    this->Work.BeginStage(0.97);
-    this->Work.For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
+    stages["spacings"].For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         spacing[i] = spacing[i] < 0.0 ? spacing[i]
@@ -304,7 +298,7 @@ private:
     });
   }
 
-  void AverageSpacings()
+  void AverageSpacings(Progress& progress)
   {
     struct Spacings
     {
@@ -318,7 +312,7 @@ private:
     const double* all = this->Order ? brought.data() : this->Spacing.data();
     const std::int64_t count = this->Order ? this->Order->Count() : this->Count;
     const Spacings found = sumInTurn(this->Group, Spacings(), [&](Spacings& sums) {
-      this->InOrder(count, [&](std::int64_t i) {
+      this->InOrder(count, progress, [&](std::int64_t i) {
         if (all[i] >= 0.0)
         {
           sums.Sum += all[i];
@@ -349,7 +343,6 @@ private:
   const Ranks& Group;
   const RankShare OwnBlocks;
   const std::int64_t Count;
-  Progress Work;
   LargeBuffer<double> Points; // in units of Scale
   LargeBuffer<std::int64_t> Block;
   LargeBuffer<double> Spacing;
@@ -385,7 +378,9 @@ ParticleQuality measureQuality(const ParticleSample& particles,
     throw std::invalid_argument(
       "BlockSize is " + std::to_string(blockSize) + ", it must be at least 1");
   }
-  return QualityRun<Dimension>(particles, flow, grid, blockSize, context).Measure();
+  Progress progress(context);
+  return QualityRun<Dimension>(particles, flow, grid, blockSize, progress.Group())
+    .Measure(progress);
 }
 
 template Point<1> boxAspect<1>(const ImageGrid&);

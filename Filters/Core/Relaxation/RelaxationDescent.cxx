@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Relaxation/RelaxationDescent.h"
 
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,6 @@ RelaxationDescent<Dimension>::RelaxationDescent(RelaxationEnergy<Dimension>& ene
   : Function(energy)
   , Frame(frame)
   , Settings(settings)
-  , Work(progress)
   , X(x)
   , Gradient(x.size())
   , Spacings(x.size() / Dimension)
@@ -41,19 +40,19 @@ RelaxationDescent<Dimension>::RelaxationDescent(RelaxationEnergy<Dimension>& ene
   , NextSpacings(x.size() / Dimension)
 {
   this->Function.Sort({ x.data(), static_cast<std::int64_t>(x.size()) / Dimension }, progress);
-  this->Value = this->Evaluate(this->X, this->Gradient, this->Spacings);
+  this->Value = this->Evaluate(this->X, this->Gradient, this->Spacings, progress);
 }
 
 template <int Dimension>
-RelaxationReport RelaxationDescent<Dimension>::Run(const RelaxationOptions& options)
+RelaxationReport RelaxationDescent<Dimension>::Run(
+  const RelaxationOptions& options, Progress& progress)
 {
-  const double begin = this->Work.StageEnd();
+  Parts steps(progress, options.MaximumIterations);
   RelaxationReport report{ { this->Value * this->Settings.EnergiesAUnit } };
   for (int iteration = 0; iteration < options.MaximumIterations; ++iteration)
   {
-    this->Work.BeginStage(begin + (1.0 - begin) * (iteration + 1.0) / options.MaximumIterations);
     const double before = this->Value;
-    if (!this->Step())
+    if (!this->Step(steps[iteration]))
     {
       break;
     }
@@ -67,22 +66,24 @@ RelaxationReport RelaxationDescent<Dimension>::Run(const RelaxationOptions& opti
 }
 
 template <int Dimension>
-double RelaxationDescent<Dimension>::Evaluate(const Vector& x, Vector& gradient, Vector& spacings)
+double RelaxationDescent<Dimension>::Evaluate(
+  const Vector& x, Vector& gradient, Vector& spacings, Progress& progress)
 {
   const auto count = static_cast<std::int64_t>(spacings.size());
   return this->Function.Evaluate(
-    { x.data(), count }, { gradient.data(), count }, spacings.data(), this->Work);
+    { x.data(), count }, { gradient.data(), count }, spacings.data(), progress);
 }
 
 template <int Dimension>
-bool RelaxationDescent<Dimension>::Step()
+bool RelaxationDescent<Dimension>::Step(Progress& progress)
 {
   const bool isFresh = this->Hessian.IsEmpty();
-  bool isDone = this->Search(true);
+  bool isDone = this->Search(true, progress);
   if (!isDone)
   {
     this->Hessian.Forget();
-    isDone = (!isFresh && this->Search(true)) || (!this->Aimed.empty() && this->Search(false));
+    isDone = (!isFresh && this->Search(true, progress)) ||
+      (!this->Aimed.empty() && this->Search(false, progress));
   }
   if (!isDone)
   {
@@ -91,7 +92,7 @@ bool RelaxationDescent<Dimension>::Step()
   if (++this->Steps % stepsBetweenSorts == 0)
   {
     this->Function.Sort(
-      { this->X.data(), static_cast<std::int64_t>(this->Spacings.size()) }, this->Work);
+      { this->X.data(), static_cast<std::int64_t>(this->Spacings.size()) }, progress);
   }
   return true;
 }
@@ -103,7 +104,7 @@ bool RelaxationDescent<Dimension>::IsHeld(std::size_t i) const
 }
 
 template <int Dimension>
-void RelaxationDescent<Dimension>::FindDirection()
+void RelaxationDescent<Dimension>::FindDirection(Progress& progress)
 {
   for (std::size_t i = 0; i < this->X.size(); ++i)
   {
@@ -111,7 +112,7 @@ void RelaxationDescent<Dimension>::FindDirection()
     this->Diagonal[i] = h * h;
     this->Free[i] = this->IsHeld(i) ? 0.0 : this->Gradient[i];
   }
-  this->Hessian.FindDirection(this->Free, this->Diagonal, this->Direction, this->Work);
+  this->Hessian.FindDirection(this->Free, this->Diagonal, this->Direction, progress);
   double scale = 1.0;
   if (this->Hessian.IsEmpty() && this->Settings.FirstStep > 0.0)
   {
@@ -151,28 +152,29 @@ void RelaxationDescent<Dimension>::ShortenDirection()
 }
 
 template <int Dimension>
-bool RelaxationDescent<Dimension>::Search(bool hasAims)
+bool RelaxationDescent<Dimension>::Search(bool hasAims, Progress& progress)
 {
-  this->FindDirection();
+  this->FindDirection(progress);
   this->Aimed.clear();
   if (hasAims)
   {
     const auto count = static_cast<std::int64_t>(this->Spacings.size());
     this->Function.Aim(
-      { this->X.data(), count }, { this->Direction.data(), count }, this->Aimed, this->Work);
+      { this->X.data(), count }, { this->Direction.data(), count }, this->Aimed, progress);
   }
   double part = 1.0;
   for (int tries = 0; tries < mostEvaluations; ++tries)
   {
-    const double slope = this->Move(part);
+    const double slope = this->Move(part, progress);
     if (!(slope < 0.0))
     {
       return false;
     }
-    const double found = this->Evaluate(this->Next, this->NextGradient, this->NextSpacings);
+    const double found =
+      this->Evaluate(this->Next, this->NextGradient, this->NextSpacings, progress);
     if (found <= this->Value + sufficient * slope && found < this->Value)
     {
-      this->Accept(found);
+      this->Accept(found, progress);
       return true;
     }
     // The minimum of the parabola through what is known, within bounds.
@@ -182,7 +184,7 @@ bool RelaxationDescent<Dimension>::Search(bool hasAims)
 }
 
 template <int Dimension>
-double RelaxationDescent<Dimension>::Move(double part)
+double RelaxationDescent<Dimension>::Move(double part, Progress& progress)
 {
   // The least part of the distance to the border that stays: points that met at a corner would
   // never leave each other.
@@ -196,7 +198,7 @@ double RelaxationDescent<Dimension>::Move(double part)
     this->Next[i] = std::clamp(x + part * this->Direction[i], rest * x, side - rest * (side - x));
   }
   const auto count = static_cast<std::int64_t>(this->Spacings.size());
-  this->Function.Constrain({ this->X.data(), count }, { this->Next.data(), count }, this->Work);
+  this->Function.Constrain({ this->X.data(), count }, { this->Next.data(), count }, progress);
   double slope = 0.0;
   for (std::size_t i = 0; i < this->X.size(); ++i)
   {
@@ -206,14 +208,14 @@ double RelaxationDescent<Dimension>::Move(double part)
 }
 
 template <int Dimension>
-void RelaxationDescent<Dimension>::Accept(double found)
+void RelaxationDescent<Dimension>::Accept(double found, Progress& progress)
 {
   for (std::size_t i = 0; i < this->X.size(); ++i)
   {
     this->Taken[i] = this->Next[i] - this->X[i];
     this->Change[i] = this->NextGradient[i] - this->Gradient[i];
   }
-  this->Hessian.Add(this->Taken, this->Change, this->Work);
+  this->Hessian.Add(this->Taken, this->Change, progress);
   this->X.swap(this->Next);
   this->Gradient.swap(this->NextGradient);
   this->Spacings.swap(this->NextSpacings);

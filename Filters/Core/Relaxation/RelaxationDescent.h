@@ -31,31 +31,30 @@ public:
 
   // Whether the energy of the points could be computed. Otherwise do not call Run.
   bool HasEnergy() const { return std::isfinite(this->Value); }
-  // Takes steps according to the options. Each is a stage; the last one ends at 1.
-  RelaxationReport Run(const RelaxationOptions& options);
+  // Takes steps according to the options.
+  RelaxationReport Run(const RelaxationOptions& options, Progress& progress);
 
 private:
   using Vector = std::vector<double>;
 
   // Moves all points at once. If that lowers the energy nowhere along the direction of descent,
   // returns false and leaves the points unchanged.
-  bool Step();
-  double Evaluate(const Vector& x, Vector& gradient, Vector& spacings);
+  bool Step(Progress& progress);
+  double Evaluate(const Vector& x, Vector& gradient, Vector& spacings, Progress& progress);
   double Side(std::size_t i) const { return this->Frame.Sides[i % Dimension]; }
   // Whether a coordinate is at the border and descends outwards.
   bool IsHeld(std::size_t i) const;
-  void FindDirection();
+  void FindDirection(Progress& progress);
   void ShortenDirection();
   // Searches along a new direction. Without aims, points may stay at forbidden places.
-  bool Search(bool hasAims);
+  bool Search(bool hasAims, Progress& progress);
   // Moves by a part of the direction into Next. Returns the change of the energy to first order.
-  double Move(double part);
-  void Accept(double found);
+  double Move(double part, Progress& progress);
+  void Accept(double found, Progress& progress);
 
   RelaxationEnergy<Dimension>& Function;
   const RelaxationFrame<Dimension> Frame;
   const DescentSettings Settings;
-  Progress& Work;
   Vector& X;
   double Value = 0.0;
   Vector Gradient;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Relaxation/BlueNoiseRelaxation.h"
 #include "Core/Relaxation/RelaxationDescent.h"
 #include "Core/Relaxation/RelaxedPoints.h"
@@ -34,57 +34,58 @@ class RepulsionRun
 {
 public:
   RepulsionRun(const RectifiedFlow<Dimension>& flow, const Point<Dimension>& spacing,
-    PointSpan<Dimension> points, const Context& context)
+    PointSpan<Dimension> points)
     : Flow(flow)
     , Given(points)
     , Frame(flow.Size(), spacing, points.size())
     , Points(points, Frame)
-    , Work(context)
   {
   }
 
-  RelaxationReport Relax(const RelaxationOptions& options)
+  RelaxationReport Relax(const RelaxationOptions& options, Progress& progress)
   {
-    this->Work.BeginStage(0.05);
+    Stages stages(progress, { { "points", 5 }, { "energy", 15 }, { "descent", 80 } });
     const RepulsionWidth& width = repulsionWidth<Dimension>;
-    this->MakeTree(std::numeric_limits<double>::infinity());
-    this->Points.Separate(
-      [this](const Point<Dimension>& x) {
-        return this->Tree->Evaluate(this->Tree->Spacing(), this->Tree->Locate(x))[0];
-      },
-      this->Work);
-    const double limit =
-      affordableSpacing<Dimension>(*this->Tree, this->Points.Get(), width.Reach(), this->Work);
-    if (!std::isinf(limit))
-    {
-      this->MakeTree(limit);
-    }
-    this->Points.Arrange(this->Work);
-    this->Work.BeginStage(0.2);
+    this->Prepare(width, stages["points"]);
     RepulsionEnergy<Dimension> energy(
-      this->Flow, this->Frame, *this->Tree, this->Points.Size(), width, this->Work);
+      this->Flow, this->Frame, *this->Tree, this->Points.Size(), width, stages["energy"]);
     const RelaxationReport report = RelaxationDescent<Dimension>(
-      energy, this->Frame, descent, this->Points.Coordinates(), this->Work)
-                                      .Run(options);
+      energy, this->Frame, descent, this->Points.Coordinates(), stages["energy"])
+                                      .Run(options, stages["descent"]);
     this->Points.Write(this->Flow.Size(), this->Given);
-    this->Work.BeginStage(1.0);
-    this->Work.EndSlice(1);
+    progress.EndSlice(1);
     return report;
   }
 
 private:
-  void MakeTree(double largest)
+  void Prepare(const RepulsionWidth& width, Progress& progress)
+  {
+    this->MakeTree(std::numeric_limits<double>::infinity(), progress);
+    this->Points.Separate(
+      [this](const Point<Dimension>& x) {
+        return this->Tree->Evaluate(this->Tree->Spacing(), this->Tree->Locate(x))[0];
+      },
+      progress);
+    const double limit =
+      affordableSpacing<Dimension>(*this->Tree, this->Points.Get(), width.Reach(), progress);
+    if (!std::isinf(limit))
+    {
+      this->MakeTree(limit, progress);
+    }
+    this->Points.Arrange(progress);
+  }
+
+  void MakeTree(double largest, Progress& progress)
   {
     this->Tree.reset();
     this->Tree = std::make_unique<SpacingTree<Dimension>>(
-      this->Flow, this->Frame, this->Points.Size(), finestLeaf<Dimension>, largest, this->Work);
+      this->Flow, this->Frame, this->Points.Size(), finestLeaf<Dimension>, largest, progress);
   }
 
   const RectifiedFlow<Dimension>& Flow;
   const PointSpan<Dimension> Given;
   const RelaxationFrame<Dimension> Frame;
   RelaxedPoints<Dimension> Points;
-  Progress Work;
   std::unique_ptr<SpacingTree<Dimension>> Tree;
 };
 
@@ -104,7 +105,8 @@ RelaxationReport relaxByRepulsion(const DensitySource<Dimension>& density,
   {
     return { { 0.0 } };
   }
-  return RepulsionRun<Dimension>(flow, spacing, points, context).Relax(options);
+  Progress progress(context);
+  return RepulsionRun<Dimension>(flow, spacing, points).Relax(options, progress);
 }
 
 template RelaxationReport relaxByRepulsion<2>(const DensitySource<2>&, const RectifiedFlow<2>&,

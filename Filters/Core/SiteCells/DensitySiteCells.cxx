@@ -3,7 +3,7 @@
 
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/EqualizeSiteMasses.h"
 #include "Core/SiteCells/JoinSpecks.h"
 #include "Core/SiteCells/SiteDensity.h"
@@ -94,22 +94,22 @@ std::vector<Point<Dimension>> meansOf(
   return means;
 }
 
-// Reaches a progress of 0.985. Moving pixels may cut off others.
+// Moving pixels may cut off others.
 template <int Dimension>
 void equalize(const SiteGroups& groups, const PixelMasses<Dimension>& masses,
   const std::vector<Point<Dimension>>& places, const Point<Dimension>& spacing,
   std::int64_t* labels, Progress& progress)
 {
   constexpr int mostRounds = 8;
-  progress.BeginStage(0.955);
-  joinSpecks<Dimension>(groups, masses, labels, progress);
-  double left = 0.02;
-  for (int round = 0; round < mostRounds; ++round, left /= 2.0)
+  Stages stages(progress, { { "specks", 5 }, { "rounds", 30 } });
+  joinSpecks<Dimension>(groups, masses, labels, stages["specks"]);
+  Rounds rounds(stages["rounds"], 1);
+  for (int round = 0; round < mostRounds; ++round)
   {
-    progress.BeginStage(0.985 - 0.6 * left);
-    equalizeSiteMasses<Dimension>(groups, masses, places, spacing, labels, progress.Stage());
-    progress.BeginStage(0.985 - 0.5 * left);
-    if (round + 1 == mostRounds || joinSpecks<Dimension>(groups, masses, labels, progress) == 0)
+    Stages steps(rounds.Next(), { { "masses", 9 }, { "specks", 1 } });
+    equalizeSiteMasses<Dimension>(groups, masses, places, spacing, labels, steps["masses"]);
+    if (round + 1 == mostRounds ||
+      joinSpecks<Dimension>(groups, masses, labels, steps["specks"]) == 0)
     {
       return;
     }
@@ -135,8 +135,8 @@ DensitySiteCells<Dimension>::DensitySiteCells(ConstPointSpan<3> sites, const Ima
   std::atomic<std::int64_t> outside{ 0 };
   const PointSpan<Dimension> inside(this->Inside);
   Progress progress(context);
-  progress.BeginStage(0.3);
-  progress.For(sites.size(), grain, [&](std::int64_t first, std::int64_t last) {
+  Stages stages(progress, { { "sites", 3 }, { "pixels", 7 } });
+  stages["sites"].For(sites.size(), grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       std::copy_n(sites[i], 3, this->Given[static_cast<std::size_t>(i)].begin());
@@ -144,8 +144,7 @@ DensitySiteCells<Dimension>::DensitySiteCells(ConstPointSpan<3> sites, const Ima
     }
   });
   this->Outside = outside;
-  progress.BeginStage(1.0);
-  this->Pixels.emplace(density, total, grid.Size<Dimension>(), progress);
+  this->Pixels.emplace(density, total, grid.Size<Dimension>(), stages["pixels"]);
   if (sites.size() > this->Pixels->PixelsWithMass())
   {
     throw TooFewPixels(sites.size(), this->Pixels->PixelsWithMass());
@@ -161,24 +160,24 @@ FlowReport DensitySiteCells<Dimension>::Label(const PointTransport<Dimension>& f
   if constexpr (Dimension == 1)
   {
     this->LabelIntervals(labels);
+    this->Masses().RemoveEmptyPixels(labels, progress);
   }
   else
   {
-    progress.BeginStage(0.95);
-    const SiteGroups groups = this->LabelGroups(flow, labels, options, progress.Stage(), report);
+    Stages stages(
+      progress, { { "groups", 950 }, { "masses", 35 }, { "sites", 5 }, { "empty pixels", 10 } });
+    const SiteGroups groups = this->LabelGroups(flow, labels, options, stages["groups"], report);
     Point<Dimension> spacing = this->Place.template Lengths<Dimension>();
     for (int axis = 0; axis < Dimension; ++axis)
     {
       spacing[axis] /= static_cast<double>(this->Masses().Size()[axis]);
     }
-    equalize<Dimension>(
-      groups, this->Masses(), meansOf<Dimension>(groups, this->Inside), spacing, labels, progress);
-    progress.BeginStage(0.99);
+    equalize<Dimension>(groups, this->Masses(), meansOf<Dimension>(groups, this->Inside), spacing,
+      labels, stages["masses"]);
     splitGroupsByMass<Dimension>(
-      groups, this->Masses(), this->Inside, spacing, labels, progress.Stage());
+      groups, this->Masses(), this->Inside, spacing, labels, stages["sites"]);
+    this->Masses().RemoveEmptyPixels(labels, stages["empty pixels"]);
   }
-  progress.BeginStage(1.0);
-  this->Masses().RemoveEmptyPixels(labels, progress);
   return report;
 }
 
@@ -214,12 +213,13 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const PointTransport<Dimensi
   const GridSize<Dimension> size = this->Masses().Size();
   const std::int64_t pixels = this->Masses().NumberOfPixels();
   Progress progress(context);
-  progress.BeginStage(0.02);
+  Stages stages(progress,
+    { { "scales", 2 }, { "sites", 3 }, { "pixels", 15 }, { "positions", 1 }, { "flow", 2 },
+      { "labels", 74 }, { "groups", 1 }, { "merge", 2 } });
   std::vector<Point<Dimension>> even(this->Inside); // where the sites come to
-  rescale<Dimension>(even, size, flow.Size(), progress);
-  progress.BeginStage(0.05);
-  report = flow.Backward(even, even, refined(options), progress.Stage());
-  rescale<Dimension>(even, flow.Size(), size, progress);
+  rescale<Dimension>(even, size, flow.Size(), stages["scales"]);
+  report = flow.Backward(even, even, refined(options), stages["sites"]);
+  rescale<Dimension>(even, flow.Size(), size, stages["sites"]);
   const SiteDensity<Dimension> sites(size, even);
   SiteGroups groups = sites.Groups();
   if (groups.NumberOfGroups() == 1)
@@ -230,23 +230,17 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const PointTransport<Dimensi
   {
     LargeBuffer<double> memory(pixels * Dimension);
     const PointSpan<Dimension> positions(memory.data(), pixels);
-    progress.BeginStage(0.2);
     flow.Backward(
-      FlowSeeds<Dimension>::Lattice(size), positions, refined(options), progress.Stage());
-    progress.BeginStage(0.21);
-    rescale<Dimension>(positions, flow.Size(), size, progress);
-    progress.BeginStage(0.23);
-    const RectifiedFlow<Dimension> toSites(sites, progress.Stage());
-    progress.BeginStage(0.97);
-    toSites.ForwardToCells(positions, labels, options, progress.Stage());
+      FlowSeeds<Dimension>::Lattice(size), positions, refined(options), stages["pixels"]);
+    rescale<Dimension>(positions, flow.Size(), size, stages["positions"]);
+    const RectifiedFlow<Dimension> toSites(sites, stages["flow"]);
+    toSites.ForwardToCells(positions, labels, options, stages["labels"]);
   }
-  progress.BeginStage(0.98);
-  progress.For(pixels, grain, [&](std::int64_t first, std::int64_t last) {
+  stages["groups"].For(pixels, grain, [&](std::int64_t first, std::int64_t last) {
     std::transform(labels + first, labels + last, labels + first,
       [&sites](std::int64_t pixel) { return sites.Find(pixel); });
   });
-  progress.BeginStage(1.0);
-  this->MergeGroups(flow, even, groups, labels, options, progress.Stage());
+  this->MergeGroups(flow, even, groups, labels, options, stages["merge"]);
   return groups;
 }
 
@@ -260,16 +254,17 @@ void DensitySiteCells<Dimension>::MergeGroups(const PointTransport<Dimension>& f
   const PixelMasses<Dimension>& masses = this->Masses();
   const GridSize<Dimension> size = masses.Size();
   Progress progress(context);
-  progress.BeginStage(0.3);
+  Stages stages(progress, { { "masses", 3 }, { "points", 3 }, { "labels", 4 } });
   std::vector<std::int64_t> mass(static_cast<std::size_t>(groups.NumberOfGroups()), 0);
   std::int64_t heaviest = 0;
-  progress.ForInOrder(masses.NumberOfPixels(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t pixel = first; pixel < last; ++pixel)
-    {
-      mass[labels[pixel]] += masses[pixel];
-      heaviest = masses[pixel] > masses[heaviest] ? pixel : heaviest;
-    }
-  });
+  stages["masses"].ForInOrder(
+    masses.NumberOfPixels(), grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t pixel = first; pixel < last; ++pixel)
+      {
+        mass[labels[pixel]] += masses[pixel];
+        heaviest = masses[pixel] > masses[heaviest] ? pixel : heaviest;
+      }
+    });
   // Of each group without mass, a point of the density that comes to its sites.
   std::vector<std::int64_t> without;
   std::vector<Point<Dimension>> points;
@@ -285,10 +280,9 @@ void DensitySiteCells<Dimension>::MergeGroups(const PointTransport<Dimension>& f
   {
     return;
   }
-  progress.BeginStage(0.6);
-  rescale<Dimension>(points, size, flow.Size(), progress);
-  flow.Forward(points, points, refined(options), progress.Stage());
-  rescale<Dimension>(points, flow.Size(), size, progress);
+  rescale<Dimension>(points, size, flow.Size(), stages["points"]);
+  flow.Forward(points, points, refined(options), stages["points"]);
+  rescale<Dimension>(points, flow.Size(), size, stages["points"]);
   std::vector<std::int64_t> joined(mass.size());
   std::iota(joined.begin(), joined.end(), std::int64_t{ 0 });
   for (std::size_t i = 0; i < without.size(); ++i)
@@ -319,8 +313,7 @@ void DensitySiteCells<Dimension>::MergeGroups(const PointTransport<Dimension>& f
     }
   }
   groups = std::move(merged);
-  progress.BeginStage(1.0);
-  progress.For(masses.NumberOfPixels(), grain, [&](std::int64_t first, std::int64_t last) {
+  stages["labels"].For(masses.NumberOfPixels(), grain, [&](std::int64_t first, std::int64_t last) {
     std::transform(labels + first, labels + last, labels + first,
       [&](std::int64_t group) { return number[joined[group]]; });
   });

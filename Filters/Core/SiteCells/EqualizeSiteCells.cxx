@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SiteCells/EqualizeSiteCells.h"
 
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/BorderMaxFlow.h"
 
 #include <algorithm>
@@ -23,12 +23,11 @@ template <int Dimension>
 class Balance
 {
 public:
-  Balance(const SiteDensity<Dimension>& sites, const Point<Dimension>& spacing,
-    std::int64_t* owners, Progress& progress)
+  Balance(
+    const SiteDensity<Dimension>& sites, const Point<Dimension>& spacing, std::int64_t* owners)
     : Sites(sites)
     , Size(sites.Size())
     , Owners(owners)
-    , Work(progress)
     , Cells(sites.NumberOfPixels())
     , Excess(static_cast<std::size_t>(this->Cells), 0)
     , Count(static_cast<std::size_t>(this->Cells), 0)
@@ -46,10 +45,10 @@ public:
   }
 
   // Throws Cancelled.
-  void Run()
+  void Run(Progress& progress)
   {
-    this->Work.BeginStage(0.2, this->Rows);
-    this->VisitRows([this](std::int64_t row) {
+    Stages stages(progress, { { "counts", 1 }, { "rounds", 4 } });
+    this->VisitRows(stages["counts"].Expect(this->Rows), [this](std::int64_t row) {
       const std::int64_t* owner = this->Owners + row * this->Size[0];
       for (std::int64_t i = 0; i < this->Size[0]; ++i)
       {
@@ -63,6 +62,7 @@ public:
       this->FillIntervals();
       return;
     }
+    Rounds rounds(stages["rounds"], 1);
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
     for (int round = 0, idle = 0; round < mostRounds && idle < mostIdleRounds; ++round, ++idle)
     {
@@ -76,11 +76,11 @@ public:
         least = excess;
         idle = 0;
       }
-      this->Work.BeginStage(1.0 - 0.8 / (round + 2.0), 2 * this->Rows);
+      Progress& work = rounds.Next().Expect(2 * this->Rows);
       this->Moved = 0;
-      this->FindBorders();
-      this->Borders.Plan(this->Excess, this->Count, this->Work);
-      this->Move();
+      this->FindBorders(work);
+      this->Borders.Plan(this->Excess, this->Count, work);
+      this->Move(work);
       if (this->Moved == 0)
       {
         break;
@@ -100,26 +100,26 @@ private:
   };
 
   template <class Visit>
-  void VisitRows(const Visit& visit)
+  void VisitRows(Progress& progress, const Visit& visit)
   {
     constexpr std::int64_t pixels = std::int64_t{ 1 } << 16;
     const std::int64_t smallest = std::max<std::int64_t>(1, pixels / this->Size[0]);
     for (std::int64_t row = 0; row < this->Rows;)
     {
-      const std::int64_t slice = std::min(this->Rows - row, this->Work.NextSlice(smallest));
+      const std::int64_t slice = std::min(this->Rows - row, progress.NextSlice(smallest));
       for (const std::int64_t end = row + slice; row < end; ++row)
       {
         visit(row);
       }
-      this->Work.EndSlice(slice);
+      progress.EndSlice(slice);
     }
   }
 
   // Calls visit(pixel, neighbour) for all faces between pixels of two site cells.
   template <class Visit>
-  void VisitBorders(const Visit& visit)
+  void VisitBorders(Progress& progress, const Visit& visit)
   {
-    this->VisitRows([&](std::int64_t row) {
+    this->VisitRows(progress, [&](std::int64_t row) {
       std::int64_t position[Dimension] = {};
       for (std::int64_t rest = row, axis = 1; axis < Dimension; ++axis)
       {
@@ -211,10 +211,10 @@ private:
         std::int64_t sum, std::int64_t excess) { return sum + std::max<std::int64_t>(excess, 0); });
   }
 
-  void FindBorders()
+  void FindBorders(Progress& progress)
   {
     this->Borders.Clear();
-    this->VisitBorders([this](std::int64_t pixel, std::int64_t other) {
+    this->VisitBorders(progress, [this](std::int64_t pixel, std::int64_t other) {
       const auto [low, high] = std::minmax(this->Owners[pixel], this->Owners[other]);
       ++this->Borders[this->Borders.Add(low, high)].Extent;
     });
@@ -240,7 +240,7 @@ private:
     return cost;
   }
 
-  void Move()
+  void Move(Progress& progress)
   {
     std::vector<std::int64_t> first(this->Borders.Size() + 1, 0);
     for (std::size_t i = 0; i < this->Borders.Size(); ++i)
@@ -249,7 +249,7 @@ private:
     }
     std::vector<Candidate> candidates(static_cast<std::size_t>(first.back()));
     std::vector<std::int64_t> next(first);
-    this->VisitBorders([&](std::int64_t pixel, std::int64_t other) {
+    this->VisitBorders(progress, [&](std::int64_t pixel, std::int64_t other) {
       std::int64_t low = this->Owners[pixel];
       std::int64_t high = this->Owners[other];
       if (low > high)
@@ -268,7 +268,7 @@ private:
     std::vector<std::size_t> pending;
     for (std::size_t i = 0; i < this->Borders.Size(); ++i)
     {
-      this->Work.Check();
+      progress.Check();
       if (this->Borders[i].Flow != 0)
       {
         std::sort(candidates.begin() + first[i], candidates.begin() + first[i + 1]);
@@ -290,7 +290,7 @@ private:
         }
       }
       pending.resize(left);
-      this->Work.Check();
+      progress.Check();
     }
   }
 
@@ -322,7 +322,6 @@ private:
   const SiteDensity<Dimension>& Sites;
   const GridSize<Dimension> Size;
   std::int64_t* Owners;
-  Progress& Work;
   const std::int64_t Cells;
   std::vector<std::int64_t> Excess; // pixels of a site cell less its target
   std::vector<std::int64_t> Count;
@@ -340,7 +339,7 @@ void equalizeSiteCells(const SiteDensity<Dimension>& sites, const Point<Dimensio
   std::int64_t* owners, const Context& context)
 {
   Progress progress(context);
-  Balance<Dimension>(sites, spacing, owners, progress).Run();
+  Balance<Dimension>(sites, spacing, owners).Run(progress);
 }
 
 template void equalizeSiteCells<1>(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SiteCells/EqualizeSiteMasses.h"
 
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/BorderMaxFlow.h"
 
 #include <algorithm>
@@ -29,14 +29,12 @@ class MassBalance
 {
 public:
   MassBalance(const SiteGroups& groups, const PixelMasses<Dimension>& masses,
-    ConstPointSpan<Dimension> places, const Point<Dimension>& spacing, std::int64_t* owners,
-    Progress& progress)
+    ConstPointSpan<Dimension> places, const Point<Dimension>& spacing, std::int64_t* owners)
     : Groups(groups)
     , Masses(masses)
     , Size(masses.Size())
     , Places(places)
     , Owners(owners)
-    , Work(progress)
     , Count(groups.NumberOfGroups())
     , Mass(static_cast<std::size_t>(this->Count), 0)
     , Excess(this->Mass)
@@ -57,10 +55,11 @@ public:
   }
 
   // Throws Cancelled.
-  void Run()
+  void Run(Progress& progress)
   {
-    this->Work.BeginStage(0.2, this->Masses.NumberOfPixels());
-    this->SumMasses();
+    Stages stages(progress, { { "masses", 1 }, { "rounds", 4 } });
+    this->SumMasses(stages["masses"]);
+    Rounds rounds(stages["rounds"], 1);
     double least = 2.0 * static_cast<double>(this->Masses.Total());
     int stuck = 0;
     for (int round = 0, idle = 0; round < mostRounds && idle < mostIdleRounds && stuck < 3;
@@ -87,14 +86,14 @@ public:
       {
         break;
       }
-      this->Work.BeginStage(1.0 - 0.8 / (round + 2.0), 2 * this->Rows);
+      Progress& work = rounds.Next().Expect(2 * this->Rows);
       this->TakesLighter = isSettled;
-      this->FindFaces();
+      this->FindFaces(work);
       this->FindBorders();
       this->Borders.Plan(
-        isSettled ? this->LargeExcess(round % 2 == 0) : this->Excess, this->Mass, this->Work);
+        isSettled ? this->LargeExcess(round % 2 == 0) : this->Excess, this->Mass, work);
       // Without a move only the other kinds of rounds may still find one.
-      stuck = this->Move() ? 0 : stuck + 1;
+      stuck = this->Move(work) ? 0 : stuck + 1;
       idle = stuck > 0 ? std::max(idle, idleRounds) : idle;
     }
   }
@@ -120,11 +119,11 @@ private:
 
   // Calls visit(row) on all threads.
   template <class Visit>
-  void VisitRows(const Visit& visit)
+  void VisitRows(Progress& progress, const Visit& visit) const
   {
     constexpr std::int64_t pixels = std::int64_t{ 1 } << 14;
     const std::int64_t grain = std::max<std::int64_t>(1, pixels / this->Size[0]);
-    this->Work.For(
+    progress.For(
       this->Rows, grain,
       [&visit](std::int64_t first, std::int64_t last) {
         for (std::int64_t row = first; row < last; ++row)
@@ -135,9 +134,9 @@ private:
       grain);
   }
 
-  void SumMasses()
+  void SumMasses(Progress& progress)
   {
-    this->Work.ForInOrder(this->Masses.NumberOfPixels(), std::int64_t{ 1 } << 16,
+    progress.ForInOrder(this->Masses.NumberOfPixels(), std::int64_t{ 1 } << 16,
       [this](std::int64_t first, std::int64_t last) {
         for (std::int64_t pixel = first; pixel < last; ++pixel)
         {
@@ -196,17 +195,17 @@ private:
   }
 
   // All faces between groups, in the order of the rows.
-  void FindFaces()
+  void FindFaces(Progress& progress)
   {
     this->FirstFace[0] = 0;
-    this->VisitRows([this](std::int64_t row) {
+    this->VisitRows(progress, [this](std::int64_t row) {
       std::int64_t faces = 0;
       this->VisitFaces(row, [&faces](std::int64_t, std::int64_t) { ++faces; });
       this->FirstFace[row + 1] = faces;
     });
     std::partial_sum(this->FirstFace.begin(), this->FirstFace.end(), this->FirstFace.begin());
     this->Faces.resize(static_cast<std::size_t>(this->FirstFace.back()));
-    this->VisitRows([this](std::int64_t row) {
+    this->VisitRows(progress, [this](std::int64_t row) {
       Face* face = this->Faces.data() + this->FirstFace[row];
       this->VisitFaces(row, [&face](std::int64_t pixel, std::int64_t other) {
         *face++ = { pixel, other, -1 };
@@ -246,7 +245,7 @@ private:
   }
 
   // Returns whether a pixel with mass moved.
-  bool Move()
+  bool Move(Progress& progress)
   {
     this->FirstCandidate.assign(this->Borders.Size() + 1, 0);
     for (const Face& face : this->Faces)
@@ -278,7 +277,7 @@ private:
     {
       if (this->Borders[i].Flow != 0)
       {
-        this->Work.Check();
+        progress.Check();
         isMoved =
           this->MoveOver(this->Borders[i], this->FirstCandidate[i], this->FirstCandidate[i + 1]) ||
           isMoved;
@@ -376,7 +375,6 @@ private:
   const GridSize<Dimension> Size;
   const ConstPointSpan<Dimension> Places;
   std::int64_t* Owners;
-  Progress& Work;
   const std::int64_t Count;
   std::vector<std::int64_t> Mass;
   std::vector<std::int64_t> Excess; // mass of a group less its target
@@ -403,7 +401,7 @@ void equalizeSiteMasses(const SiteGroups& groups, const PixelMasses<Dimension>& 
   const Context& context)
 {
   Progress progress(context);
-  MassBalance<Dimension>(groups, masses, places, spacing, owners, progress).Run();
+  MassBalance<Dimension>(groups, masses, places, spacing, owners).Run(progress);
 }
 
 template void equalizeSiteMasses<2>(const SiteGroups&, const PixelMasses<2>&, ConstPointSpan<2>,

@@ -20,7 +20,6 @@ template <int Dimension>
 class CellParts
 {
 public:
-  // Runs as the current stage.
   CellParts(const PixelMasses<Dimension>& masses, std::int64_t* owners, Progress& progress)
     : Pixels(masses.NumberOfPixels())
     , Size(masses.Size())

@@ -16,8 +16,7 @@ class Progress;
 // `owners` has the number of each pixel's group of sites. The pixels of a group that are connected
 // by their faces are a part of it. Each part but a group's heaviest one joins the group with which
 // it has most faces in common, if it has at most a tenth of the mass for a site. Returns how many
-// parts join. Runs as the current stage; takes 8 bytes a pixel. Throws std::bad_alloc and
-// Cancelled.
+// parts join. Takes 8 bytes a pixel. Throws std::bad_alloc and Cancelled.
 template <int Dimension>
 std::int64_t joinSpecks(const SiteGroups& groups, const PixelMasses<Dimension>& masses,
   std::int64_t* owners, Progress& progress);

@@ -15,8 +15,8 @@ namespace RectifiedTransport
 class Progress;
 
 // Writes the number of a polygon for each pixel, axis 0 fastest. Polygon i has the corners
-// [first[i], first[i + 1]), in index space; together they cover the grid to rounding. Runs as the
-// current stage. Throws std::bad_alloc and Cancelled.
+// [first[i], first[i + 1]), in index space; together they cover the grid to rounding. Throws
+// std::bad_alloc and Cancelled.
 void labelPolygons(const std::vector<Point<2>>& corners, const std::vector<std::int64_t>& first,
   const GridSize<2>& size, std::int64_t* labels, Progress& progress);
 

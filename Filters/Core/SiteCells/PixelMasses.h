@@ -20,8 +20,8 @@ template <int Dimension>
 class PixelMasses
 {
 public:
-  // `total` is the sum of the density's values, which must be valid. Runs as the current stage:
-  // O(pixels + cells). Takes 8 bytes a pixel. Throws std::bad_alloc and Cancelled.
+  // `total` is the sum of the density's values, which must be valid. O(pixels + cells). Takes 8
+  // bytes a pixel. Throws std::bad_alloc and Cancelled.
   PixelMasses(const DensitySource<Dimension>& density, double total,
     const GridSize<Dimension>& pixels, Progress& progress);
 
@@ -31,7 +31,7 @@ public:
   std::int64_t Total() const { return this->Found.Total; } // about 2^58
   std::int64_t Heaviest() const { return this->Found.Heaviest; }
   std::int64_t PixelsWithMass() const { return this->Found.WithMass; }
-  // Writes -1 for the pixels without mass. Runs as the current stage. Throws Cancelled.
+  // Writes -1 for the pixels without mass. Throws Cancelled.
   void RemoveEmptyPixels(std::int64_t* labels, Progress& progress) const;
 
 private:

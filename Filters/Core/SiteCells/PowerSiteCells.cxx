@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SiteCells/PowerSiteCells.h"
 
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/PowerCells/EqualMassPartition.h"
 #include "Core/PowerCells/RectangleFit.h"
 #include "Core/PowerCells/SeparateSites.h"
@@ -100,7 +100,7 @@ void PowerSiteCells::Solve(
     throw std::invalid_argument("The axes of the domain are not at right angles");
   }
   Progress progress(context);
-  progress.BeginStage(0.02);
+  Stages stages(progress, { { "sites", 2 }, { "cells", 98 } });
   const Point<2> lengths = grid.Lengths<2>();
   this->Unit =
     std::sqrt(lengths[0]) * std::sqrt(lengths[1]) / std::sqrt(static_cast<double>(sites.size()));
@@ -130,16 +130,15 @@ void PowerSiteCells::Solve(
   const std::vector<Point<2>> given = flat;
   // A site far outside leaves little room to the others.
   const double scale = std::clamp(moveIntoDomain(sides, flat), 1e-5, 1.0);
-  separateSites(flat, leastSiteDistance * scale, SiteBounds(), progress);
+  separateSites(flat, leastSiteDistance * scale, SiteBounds(), stages["sites"]);
   moveIntoDomain(sides, flat); // those that were at one point are still crowded
 
-  progress.BeginStage(1.0);
   EqualMassPartition partition(RowMoments(density,
                                  { sides[0] / static_cast<double>(density.Size[0]),
                                    sides[1] / static_cast<double>(density.Size[1]) },
-                                 static_cast<double>(flat.size()), progress),
+                                 static_cast<double>(flat.size()), stages["cells"]),
     sites.size());
-  if (!partition.Solve(flat, progress))
+  if (!partition.Solve(flat, stages["cells"]))
   {
     throw std::runtime_error(this->DensityMass
         ? "The masses of the sites' cells do not become equal: the sites are too far from "
@@ -193,7 +192,6 @@ void PowerSiteCells::Keep(const EqualMassPartition& partition, const std::vector
 void PowerSiteCells::Label(std::int64_t* labels, const Context& context) const
 {
   Progress progress(context);
-  progress.BeginStage(1.0);
   labelPolygons(this->Corners, this->First, this->Place.Size<2>(), labels, progress);
 }
 

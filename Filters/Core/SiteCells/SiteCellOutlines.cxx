@@ -220,7 +220,6 @@ SiteCellOutlines<Dimension> outlineSiteCells(
   const ImageGrid& grid, const std::int64_t* labels, const Context& context)
 {
   Progress progress(context);
-  progress.BeginStage(1.0);
   return Outlines<Dimension>(grid, labels).Find(progress);
 }
 

@@ -2,7 +2,7 @@
 #include "Core/SiteCells/SiteCellPolygons.h"
 
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <iterator>
@@ -67,8 +67,8 @@ public:
   // Once. Throws Cancelled.
   SiteCellPolygons Find(Progress& progress)
   {
-    progress.BeginStage(0.5);
-    this->FindRings(progress);
+    Stages stages(progress, { { "rings", 5 }, { "cut rings", 2 }, { "corners", 3 } });
+    this->FindRings(stages["rings"]);
     if (!this->Holes.empty())
     {
       this->Cuts.resize(static_cast<std::size_t>(this->Size[0] * this->Size[1]), false);
@@ -76,16 +76,14 @@ public:
       {
         this->CutFrom(hole);
       }
-      progress.BeginStage(0.7);
-      this->FindRings(progress);
+      this->FindRings(stages["cut rings"]);
     }
     std::stable_sort(this->Outer.begin(), this->Outer.end(),
       [this](const Edge& a, const Edge& b) { return this->LabelAt(a) < this->LabelAt(b); });
     this->PointIds = LargeBuffer<std::int64_t>((this->Size[0] + 1) * (this->Size[1] + 1));
     std::fill_n(this->PointIds.data(), this->PointIds.size(), none);
     const auto count = static_cast<std::int64_t>(this->Outer.size());
-    progress.BeginStage(1.0);
-    progress.ForInOrder(
+    stages["corners"].ForInOrder(
       count, 1,
       [this](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = first; i < last; ++i)

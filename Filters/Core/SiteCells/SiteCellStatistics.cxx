@@ -208,7 +208,6 @@ double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* l
   const CostNorm& norm, const SiteCellStatistics& statistics, const Context& context)
 {
   Progress progress(context);
-  progress.BeginStage(1.0);
   const std::vector<CellSum<Dimension>> sums =
     CellSums<Dimension, EqualPixels>(cells.Grid(), labels, cells.Sites(), {}).Run(norm, progress);
   const SiteDensity<Dimension>& shared = cells.Pixels();
@@ -255,7 +254,6 @@ double measureSiteCells(const DensitySiteCells<Dimension>& cells, const std::int
   const Context& context)
 {
   Progress progress(context);
-  progress.BeginStage(1.0);
   const std::vector<CellSum<Dimension>> sums = CellSums<Dimension, PixelsByMass<Dimension>>(
     cells.Grid(), labels, cells.Sites(), { cells.Masses() })
                                                  .Run(norm, progress);

@@ -2,7 +2,7 @@
 #include "Core/SiteCells/SiteCells.h"
 
 #include "Core/Flow/RectifiedFlow.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/EqualizeSiteCells.h"
 #include "Core/SiteCells/SplitSharedPixels.h"
 
@@ -31,7 +31,6 @@ SiteCells<Dimension>::SiteCells(
   const PointSpan<Dimension> inside(this->Inside);
   std::atomic<std::int64_t> outside{ 0 };
   Progress progress(context);
-  progress.BeginStage(1.0);
   progress.For(sites.size(), grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
@@ -55,6 +54,8 @@ FlowReport SiteCells<Dimension>::Label(
   const GridSize<Dimension> size = sites.Size();
   const auto pixels = this->Place.NumberOfCells();
   Progress progress(context);
+  Stages stages(
+    progress, { { "flow", 3 }, { "map", 90 }, { "labels", 2 }, { "areas", 4 }, { "sites", 1 } });
   FlowReport report;
   if (sites.NumberOfPixels() == 1)
   {
@@ -62,13 +63,10 @@ FlowReport SiteCells<Dimension>::Label(
   }
   else
   {
-    progress.BeginStage(0.03);
-    const RectifiedFlow<Dimension> flow(sites, progress.Stage());
-    progress.BeginStage(0.93);
+    const RectifiedFlow<Dimension> flow(sites, stages["flow"]);
     report =
-      flow.ForwardToCells(FlowSeeds<Dimension>::Lattice(size), labels, options, progress.Stage());
-    progress.BeginStage(0.95);
-    progress.For(pixels, grain, [&](std::int64_t first, std::int64_t last) {
+      flow.ForwardToCells(FlowSeeds<Dimension>::Lattice(size), labels, options, stages["map"]);
+    stages["labels"].For(pixels, grain, [&](std::int64_t first, std::int64_t last) {
       std::transform(labels + first, labels + last, labels + first,
         [&sites](std::int64_t pixel) { return sites.Find(pixel); });
     });
@@ -78,10 +76,8 @@ FlowReport SiteCells<Dimension>::Label(
   {
     spacing[axis] /= static_cast<double>(size[axis]);
   }
-  progress.BeginStage(0.99);
-  equalizeSiteCells<Dimension>(sites, spacing, labels, progress.Stage());
-  progress.BeginStage(1.0);
-  splitSharedPixels<Dimension>(sites, this->Inside, spacing, labels, progress.Stage());
+  equalizeSiteCells<Dimension>(sites, spacing, labels, stages["areas"]);
+  splitSharedPixels<Dimension>(sites, this->Inside, spacing, labels, stages["sites"]);
   return report;
 }
 
@@ -90,11 +86,10 @@ std::vector<std::int64_t> labelSiteCells(ConstPointSpan<3> sites, const ImageGri
   const FlowOptions& options, const Context& context)
 {
   Progress progress(context);
-  progress.BeginStage(0.02);
-  const SiteCells<Dimension> cells(sites, grid, progress.Stage());
+  Stages stages(progress, { { "sites", 2 }, { "labels", 98 } });
+  const SiteCells<Dimension> cells(sites, grid, stages["sites"]);
   std::vector<std::int64_t> labels(static_cast<std::size_t>(grid.NumberOfCells()));
-  progress.BeginStage(1.0);
-  cells.Label(labels.data(), options, progress.Stage());
+  cells.Label(labels.data(), options, stages["labels"]);
   return labels;
 }
 

@@ -104,7 +104,6 @@ std::vector<std::uint8_t> colourSiteCells(const GridSize<Dimension>& size,
   const std::int64_t* labels, std::int64_t sites, const Context& context)
 {
   Progress progress(context);
-  progress.BeginStage(1.0);
   std::int64_t rows = 1;
   for (std::size_t axis = 1; axis < Dimension; ++axis)
   {

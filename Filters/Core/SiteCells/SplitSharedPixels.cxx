@@ -2,7 +2,7 @@
 #include "Core/SiteCells/SplitSharedPixels.h"
 
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <utility>
@@ -281,6 +281,7 @@ void split(const SiteGroups& groups, const GridSize<Dimension>& size,
   std::int64_t* owners, const Context& context)
 {
   Progress progress(context);
+  Stages stages(progress, { { "counts", 1 }, { "pixels", 1 }, { "bisection", 8 } });
   std::int64_t pixels = 1;
   for (const std::int64_t cells : size)
   {
@@ -289,8 +290,7 @@ void split(const SiteGroups& groups, const GridSize<Dimension>& size,
   // The pixels of each site cell of several sites.
   const std::int64_t cells = groups.NumberOfGroups();
   Numbers first(static_cast<std::size_t>(cells) + 1, 0);
-  progress.BeginStage(0.1);
-  progress.ForInOrder(pixels, sliceOfPixels, [&](std::int64_t begin, std::int64_t end) {
+  stages["counts"].ForInOrder(pixels, sliceOfPixels, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t pixel = begin; pixel < end; ++pixel)
     {
       first[owners[pixel] + 1] += groups.SitesIn(owners[pixel]) > 1 ? 1 : 0;
@@ -303,8 +303,7 @@ void split(const SiteGroups& groups, const GridSize<Dimension>& size,
   }
   LargeBuffer<std::int64_t> members(first.back());
   Numbers next(first);
-  progress.BeginStage(0.2);
-  progress.ForInOrder(pixels, sliceOfPixels, [&](std::int64_t begin, std::int64_t end) {
+  stages["pixels"].ForInOrder(pixels, sliceOfPixels, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t pixel = begin; pixel < end; ++pixel)
     {
       const std::int64_t cell = owners[pixel];
@@ -315,9 +314,8 @@ void split(const SiteGroups& groups, const GridSize<Dimension>& size,
       owners[pixel] = groups.Site(cell, 0);
     }
   });
-  progress.BeginStage(1.0, first.back());
   CellBisection<Dimension, Weight> bisection(
-    size, coordinates, spacing, weight, owners, progress, largest);
+    size, coordinates, spacing, weight, owners, stages["bisection"].Expect(first.back()), largest);
   Numbers group;
   for (std::int64_t cell = 0; cell < cells; ++cell)
   {

@@ -52,12 +52,12 @@ class CellDensity
 public:
   // The uniform measure on such a grid. It keeps no values.
   explicit CellDensity(const GridSize<Dimension>& size);
-  // Reads a density as the work of the current stage. Collective, for a density on ranks. Throws
-  // InvalidDensity, std::bad_alloc and Cancelled.
+  // Reads a density. Collective, for a density on ranks. Throws InvalidDensity, std::bad_alloc and
+  // Cancelled.
   CellDensity(const DensitySource<Dimension>& density, Progress& progress);
 
   // Takes the shares of another density on the same cells if they differ by rounding alone, as
-  // those of a density and of three times it. As the work of the current stage.
+  // those of a density and of three times it.
   void TakeIfSame(const CellDensity& other, Progress& progress);
 
   const GridSize<Dimension>& Size() const { return this->Cells; }

@@ -22,9 +22,9 @@ class Progress;
 // with mass. `sides` are those of a cell, in lengths.
 //
 // Particles are in the density's index space, in its box. The same bits for every number of
-// threads, but another order of the particles may give others. Runs as the current stage, or as the
-// number of particles of its units. Memory: memoryForExactCounts. Returns how many moves it made.
-// Not collective. Throws std::bad_alloc and Cancelled.
+// threads, but another order of the particles may give others. Adds a unit of work a particle.
+// Memory: memoryForExactCounts. Returns how many moves it made. Not collective. Throws
+// std::bad_alloc and Cancelled.
 template <int Dimension>
 std::int64_t makeCountsExact(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
   PointSpan<Dimension> particles, Progress& progress);

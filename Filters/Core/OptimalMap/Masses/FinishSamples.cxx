@@ -4,8 +4,8 @@
 #include "Core/OptimalMap/Masses/ExactCounts.h"
 #include "Core/OptimalMap/Masses/MassCorrection.h"
 #include "Core/OptimalMap/Masses/SpreadInCells.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -30,18 +30,15 @@ template <int Dimension>
 void finishAll(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
   PointSpan<Dimension> samples, Progress& progress)
 {
-  constexpr double endOfMasses = 0.9;
-  constexpr double endOfCounts = 0.97;
-  progress.BeginStage(endOfMasses);
+  Stages stages(progress, { { "masses", 10 }, { "counts", 7 }, { "spread", 3 } });
   if (areEnough(static_cast<double>(samples.size()), static_cast<double>(density.NumberOfCells())))
   {
     const MassCorrection<Dimension> correction(
-      density, sides, samplesCellsANode, samples, nullptr, progress);
+      density, sides, samplesCellsANode, samples, nullptr, stages["masses"]);
   }
-  progress.BeginStage(endOfCounts);
-  makeCountsExact<Dimension>(density, sides, samples, progress);
-  progress.BeginStage(1.0, 2 * Dimension * samples.size());
-  spreadInCells<Dimension>(density.Size(), samples, progress);
+  makeCountsExact<Dimension>(density, sides, samples, stages["counts"]);
+  spreadInCells<Dimension>(
+    density.Size(), samples, stages["spread"].Expect(2 * Dimension * samples.size()));
 }
 
 } // namespace

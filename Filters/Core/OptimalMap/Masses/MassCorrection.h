@@ -27,8 +27,8 @@ public:
   // masses all are equal. `sides` are those of the target's cells, in lengths. Nodes fill the
   // target's box: one for each cell, or for each block of `cellsANode` cells a side, an even number
   // along each axis. The target must live as long. Keeps a vector a node for each step. The same
-  // bits for every number of threads. Adds to the units of the current stage, for each step, twice
-  // the number of images, the nodes, and those of a solution of NodePoisson. Not collective. Throws
+  // bits for every number of threads. Adds, for each step, units of work: twice the number of
+  // images, the nodes, and those of a solution of NodePoisson. Not collective. Throws
   // std::bad_alloc and Cancelled.
   MassCorrection(const CellDensity<Dimension>& target, const Point<Dimension>& sides,
     int cellsANode, PointSpan<Dimension> images, const double* masses, Progress& progress);

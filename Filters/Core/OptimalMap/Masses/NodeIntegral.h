@@ -14,7 +14,7 @@ class Progress;
 
 // The integral over a density of the multilinear interpolant of values at nodes: the sum of the
 // products of these and hatMasses, which needs no memory for the nodes. The same bits for every
-// number of threads. Runs as a part of the current stage. Throws std::bad_alloc and Cancelled.
+// number of threads. Throws std::bad_alloc and Cancelled.
 template <int Dimension>
 double integrateOver(const CellDensity<Dimension>& density,
   const CellPlacement<Dimension>& placement, const NodeGrid<Dimension>& grid, const double* values,

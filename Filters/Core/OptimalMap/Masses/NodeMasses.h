@@ -11,7 +11,7 @@ namespace RectifiedTransport
 
 class Progress;
 
-// The sums below run as parts of the current stage and throw std::bad_alloc and Cancelled.
+// The sums below throw std::bad_alloc and Cancelled.
 
 // Where the cells of a density are on a grid of nodes, whose box contains them.
 template <int Dimension>

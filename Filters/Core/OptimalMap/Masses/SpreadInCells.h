@@ -20,9 +20,9 @@ class Progress;
 // Particles that are independent samples hardly move.
 //
 // Particles are in index space, in the box. The same bits for every number of threads and every
-// order of the particles. Runs as the current stage, or as 2 * Dimension times the number of
-// particles of its units. Takes at most about 32 bytes a particle or 8 MB, on several threads up to
-// twice that. Not collective. Throws std::bad_alloc and Cancelled.
+// order of the particles. Adds 2 * Dimension units of work a particle. Takes at most about 32 bytes
+// a particle or 8 MB, on several threads up to twice that. Not collective. Throws std::bad_alloc
+// and Cancelled.
 template <int Dimension>
 void spreadInCells(
   const GridSize<Dimension>& size, PointSpan<Dimension> particles, Progress& progress);

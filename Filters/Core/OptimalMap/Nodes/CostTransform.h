@@ -11,9 +11,8 @@ namespace RectifiedTransport
 
 class Progress;
 
-// to(y) = min over the nodes x of |x - y|^2 / 2 - from(x), for finite values. `to` may be
-// `from`. Adds the number of nodes for each axis to the units of the current stage. Throws
-// Cancelled and std::bad_alloc.
+// to(y) = min over the nodes x of |x - y|^2 / 2 - from(x), for finite values. `to` may be `from`.
+// Adds a unit of work for each node and axis. Throws Cancelled and std::bad_alloc.
 template <int Dimension>
 void costTransform(
   const NodeGrid<Dimension>& grid, const double* from, double* to, Progress& progress);

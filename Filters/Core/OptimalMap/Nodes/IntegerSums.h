@@ -68,8 +68,8 @@ public:
     std::int64_t* const Own;
   };
 
-  // Calls visit(i, sum) and sets the sums to 0; no thread has a part then. Runs as `count` units of
-  // the current stage. Throws Cancelled.
+  // Calls visit(i, sum) and sets the sums to 0; no thread has a part then. Adds `count` units of
+  // work. Throws Cancelled.
   template <class Visit>
   void Finish(Progress& progress, const Visit& visit)
   {

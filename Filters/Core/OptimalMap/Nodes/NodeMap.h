@@ -48,14 +48,14 @@ struct NodeMap
 };
 
 // x - grad potential(x) at the nodes, by central differences, moved into the box; from and to
-// physical lengths by the grid's spacing. Adds the nodes for each axis to the units of the current
-// stage. Throws Cancelled. The map has memory already.
+// physical lengths by the grid's spacing. Adds a unit of work for each node and axis. Throws
+// Cancelled. The map has memory already.
 template <int Dimension>
 void writeGradientMap(const double* potential, NodeMap<Dimension>& map, Progress& progress);
 
 // Averages the images of each node and its neighbours, with weights 1, 2, 1 along each axis: those
 // of a potential that is transformed on nodes form stairs. Nodes at the ends of an axis keep theirs
-// along it. Adds units to the current stage. Throws Cancelled.
+// along it. Adds units of work. Throws Cancelled.
 template <int Dimension>
 void smoothMap(NodeMap<Dimension>& map, Progress& progress);
 
@@ -345,7 +345,7 @@ private:
 
 // A fineness, or a lower one for maps that stretch most cells, as those of noise do: there are
 // about four samples a cell at most, by those of every eighth row, so that the time is that of
-// other maps. Adds no units to the current stage. Throws Cancelled.
+// other maps. Adds no units of work. Throws Cancelled.
 template <int Dimension>
 SampleFineness limitFineness(
   const NodeMap<Dimension>& map, const double* masses, SampleFineness fineness, Progress& progress);

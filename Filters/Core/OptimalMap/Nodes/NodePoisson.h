@@ -16,7 +16,7 @@ class Progress;
 // The mass of each node is that of its hat function; the whole box has volume 1. Nodes at the
 // border stand for a part of a cell: half of one for each side that they lie on. Reusable, but by
 // one caller at a time. All results have the same bits for every number of threads. Each solution
-// adds a number of units to the current stage (see UnitsOf). Throws Cancelled and std::bad_alloc.
+// adds units of work (see UnitsOf). Throws Cancelled and std::bad_alloc.
 template <int Dimension>
 class NodePoisson
 {

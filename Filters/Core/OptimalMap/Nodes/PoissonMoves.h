@@ -18,8 +18,8 @@ template <int Dimension>
 class NodeMoves
 {
 public:
-  // -grad q in cells of the nodes, by central differences; none across the faces of the box. Adds
-  // the nodes to the units of the current stage. Throws std::bad_alloc and Cancelled.
+  // -grad q in cells of the nodes, by central differences; none across the faces of the box. Adds a
+  // unit of work a node. Throws std::bad_alloc and Cancelled.
   NodeMoves(const NodeGrid<Dimension>& grid, const double* q, Progress& progress)
     : Cells(grid.Cells)
     , Moves(grid.NumberOfNodes() * Dimension)

@@ -10,8 +10,7 @@ namespace RectifiedTransport
 
 class Progress;
 
-// The multilinear interpolant at the nodes of another grid. Runs as a part of the current stage.
-// Throws std::bad_alloc and Cancelled.
+// The multilinear interpolant at the nodes of another grid. Throws std::bad_alloc and Cancelled.
 template <int Dimension>
 NodeValues prolong(const NodeValues& values, const GridSize<Dimension>& from,
   const GridSize<Dimension>& to, Progress& progress);

@@ -10,8 +10,8 @@ namespace RectifiedTransport
 {
 
 // Adds the masses of the nodes' hats in the image of a density, of which the cells between the
-// nodes have the masses `cells`, null if each has 1. Adds the cells to the units of the current
-// stage. Throws std::bad_alloc and Cancelled.
+// nodes have the masses `cells`, null if each has 1. Adds a unit of work a cell. Throws
+// std::bad_alloc and Cancelled.
 template <int Dimension>
 void pushForward(const NodeMap<Dimension>& map, const double* cells, const SampleFineness& fineness,
   NodeSums<Dimension>& sums, Progress& progress);

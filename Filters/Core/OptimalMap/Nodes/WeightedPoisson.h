@@ -24,8 +24,8 @@ public:
 
   explicit WeightedPoisson(const NodeGrid<Dimension>& grid);
 
-  // The first call takes the memory. Adds to the current stage the nodes, and four times their
-  // number and what the preconditioner adds for each iteration.
+  // The first call takes the memory. Adds as many units of work as there are nodes, and for each
+  // iteration four times as many and what the preconditioner adds.
   void Solve(const double* masses, const double* density, double floor, int iterations,
     const Preconditioner& precondition, double* p, Progress& progress);
 
