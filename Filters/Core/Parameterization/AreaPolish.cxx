@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Parameterization/AreaPolish.h"
 
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/MapRegions.h"
 
 #include <Eigen/Geometry>
@@ -252,18 +252,19 @@ void polishAreas(
 {
   Progress progress(context);
   const auto groups = makeRegions(parts.Disk, positions, tilePoints, sweep);
-  std::int64_t done = 0;
+  Parts stages(progress, static_cast<std::int64_t>(groups.size()));
+  std::int64_t number = 0;
   for (const std::vector<MapRegion>& group : groups)
   {
     const auto regions = static_cast<std::int64_t>(group.size());
-    progress.BeginStage(static_cast<double>(++done) / static_cast<double>(groups.size()));
-    progress.For(
+    Progress& stage = stages[number++];
+    stage.For(
       regions, 1,
       [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t region = first; region < last; ++region)
         {
           LocalMap map(parts, group[static_cast<std::size_t>(region)], positions);
-          TilePolish(parts, map, sweep == 0).Run(progress);
+          TilePolish(parts, map, sweep == 0).Run(stage);
           map.Store(positions);
         }
       },

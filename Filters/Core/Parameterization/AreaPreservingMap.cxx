@@ -3,7 +3,7 @@
 
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/AreaPolish.h"
 #include "Core/Parameterization/FlipRepair.h"
 #include "Core/Parameterization/MassRaster.h"
@@ -36,14 +36,13 @@ public:
   {
     Progress progress(context);
     const GridSize<2> size{ this->Resolution, this->Resolution };
-    progress.BeginStage(0.3);
+    Stages stages(
+      progress, { { "masses", 30 }, { "tables", 10 }, { "map", 55 }, { "positions", 5 } });
     rasterizeMass({ positions, this->Disk.Triangle(0), this->Disk.AreaShares(),
                     this->Disk.NumberOfTriangles() },
-      size, this->Masses.data(), progress.Stage());
-    progress.BeginStage(0.4);
+      size, this->Masses.data(), stages["masses"]);
     const DensityArray<2, double> density(this->Masses.data(), size);
-    const RectifiedFlow<2> flow(density, progress.Stage());
-    progress.BeginStage(0.95);
+    const RectifiedFlow<2> flow(density, stages["tables"]);
     const auto cells = static_cast<double>(this->Resolution);
     for (std::size_t i = 0; i < positions.size(); ++i)
     {
@@ -60,8 +59,7 @@ public:
     FlowOptions options;
     options.LeastSteps = 256;
     options.Maps = FlowMaps::Off; // most of the time goes elsewhere
-    flow.Backward(positions, positions, options, progress.Stage());
-    progress.BeginStage(1.0);
+    flow.Backward(positions, positions, options, stages["map"]);
     for (std::size_t i = 0; i < positions.size(); ++i)
     {
       for (std::size_t axis = 0; axis < 2; ++axis)
@@ -70,7 +68,7 @@ public:
           this->IsOnSide(i, axis) ? this->Square.Positions[i][axis] : positions[i][axis] / cells;
       }
     }
-    progress.EndSlice(1);
+    stages["positions"].EndSlice(1);
   }
 
 private:
@@ -125,28 +123,22 @@ AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& confo
   Progress progress(context);
   AreaPreservingMap map;
   map.Positions = conformal.Positions;
-  const auto measure = [&]() {
-    map.Distortion = measureDistortion(disk, map.Positions, progress.Stage());
+  const auto measure = [&](Progress& stage) {
+    map.Distortion = measureDistortion(disk, map.Positions, stage);
   };
-  // How far the progress is after a part of what is left of it: how many sweeps there will be is
-  // not known.
-  const auto beginNext = [&progress](double part) {
-    progress.BeginStage(progress.StageEnd() + part * (1.0 - progress.StageEnd()));
-  };
-
-  beginNext(0.02);
-  measure();
+  Stages stages(progress,
+    { { "distortion", 2 }, { "flow", 39 }, { "distortion of flow", 1 },
+      { "sweeps", options.Polish ? 49.0 : 0.0 }, { "flips", options.Polish ? 9.0 : 0.0 } });
+  measure(stages["distortion"]);
   const CollapsedTriangles collapsed = findCollapsed(disk, conformal);
   const double goal = std::hypot(goalFor(map.Distortion), std::sqrt(collapsed.AreaShare));
   AreaFlow flow(disk, conformal, options.Resolution);
   const bool isKept = isNear(map.Distortion, goal) && map.Distortion.Flipped <= collapsed.Count;
   if (!options.Polish || !isKept) // the integrator's error may be larger than what there is to mend
   {
-    beginNext(0.4);
-    flow.Run(map.Positions, progress.Stage());
+    flow.Run(map.Positions, stages["flow"]);
     ++map.Flows;
-    beginNext(0.02);
-    measure();
+    measure(stages["distortion of flow"]);
   }
   if (options.Polish)
   {
@@ -155,28 +147,29 @@ AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& confo
       return isNear(map.Distortion, goal) &&
         (map.Distortion.Flipped <= collapsed.Count || map.Sweeps >= sweepsBeforeFlips);
     };
+    Rounds sweeps(stages["sweeps"], 2);
     for (; map.Sweeps < mostSweeps && !isDone(); ++map.Sweeps)
     {
-      if (map.Sweeps > 0 && map.Sweeps % sweepsBeforeFlow == 0 && map.Distortion.Area95 > distant)
+      const bool flows =
+        map.Sweeps > 0 && map.Sweeps % sweepsBeforeFlow == 0 && map.Distortion.Area95 > distant;
+      Stages sweep(
+        sweeps.Next(), { { "flow", flows ? 15.0 : 0.0 }, { "polish", 15 }, { "distortion", 1 } });
+      if (flows)
       {
-        beginNext(0.3);
-        flow.Run(map.Positions, progress.Stage());
+        flow.Run(map.Positions, sweep["flow"]);
         ++map.Flows;
       }
-      beginNext(0.3);
-      polishAreas(parts, map.Sweeps, map.Positions, progress.Stage());
-      beginNext(0.02);
-      measure();
+      polishAreas(parts, map.Sweeps, map.Positions, sweep["polish"]);
+      measure(sweep["distortion"]);
     }
+    Rounds repairs(stages["flips"], 1);
     for (int rings = 2; rings <= mostRings && map.Distortion.Flipped > collapsed.Count; ++rings)
     {
-      beginNext(0.5);
-      repairFlips(parts, rings, map.Positions, progress.Stage());
-      beginNext(0.1);
-      measure();
+      Stages repair(repairs.Next(), { { "flips", 10 }, { "distortion", 1 } });
+      repairFlips(parts, rings, map.Positions, repair["flips"]);
+      measure(repair["distortion"]);
     }
   }
-  progress.BeginStage(1.0);
   progress.EndSlice(1);
   return map;
 }

@@ -2,7 +2,7 @@
 #include "Core/Parameterization/ConformalMap.h"
 
 #include "Core/Algebra/SparseCholesky.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/IntrinsicDelaunay.h"
 
 #include <algorithm>
@@ -212,9 +212,9 @@ ConformalMap mapConformally(
   values.fill(std::vector<double>(points, 0.0));
   placeSides(disk, corners, map.Square, values);
 
-  progress.BeginStage(0.1);
-  const IntrinsicTriangles triangles = triangulateDelaunay(disk, progress.Stage());
-  progress.BeginStage(1.0);
+  Stages stages(progress, { { "triangles", 1 }, { "solution", 9 } });
+  const IntrinsicTriangles triangles = triangulateDelaunay(disk, stages["triangles"]);
+  Progress& solution = stages["solution"];
   const auto solve = [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t axis = first; axis < last; ++axis)
     {
@@ -224,7 +224,7 @@ ConformalMap mapConformally(
         [known](unsigned char sides) { return (sides & known) != 0; });
       const double begin = 0.5 * static_cast<double>(axis);
       HarmonicProblem(triangles, values[static_cast<std::size_t>(axis)], isKnown)
-        .Solve(progress, { begin, begin + 0.5 });
+        .Solve(solution, { begin, begin + 0.5 });
     }
   };
   // Large problems one after the other on this thread, which reports; memory is that of one.
@@ -235,7 +235,7 @@ ConformalMap mapConformally(
   }
   else
   {
-    progress.For(2, 1, solve, 1);
+    solution.For(2, 1, solve, 1);
   }
 
   map.Square.Positions.resize(points);

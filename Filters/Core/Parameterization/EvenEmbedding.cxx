@@ -2,7 +2,7 @@
 #include "Core/Parameterization/EvenEmbedding.h"
 
 #include "Core/Algebra/SparseCholesky.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/LocalMap.h"
 
 #include <Eigen/Geometry>
@@ -106,7 +106,6 @@ public:
     : Disk(disk)
     , Positions(std::move(positions))
     , Unknowns(this->Positions.size(), -1)
-    , Run(progress)
   {
     for (std::size_t point = 0; point < this->Unknowns.size(); ++point)
     {
@@ -115,7 +114,7 @@ public:
         this->Unknowns[point] = this->Count++;
       }
     }
-    progress.BeginStage(0.05, 3 * disk.NumberOfTriangles());
+    progress.Expect(3 * disk.NumberOfTriangles());
     this->Edges = findEdges(disk, this->Unknowns, progress);
   }
 
@@ -123,22 +122,22 @@ public:
   const std::vector<Point<2>>& Result() const { return this->Positions; }
 
   // Returns false if the weights differ by too much for numbers of this precision.
-  bool Solve()
+  bool Solve(Progress& progress)
   {
     const SparseCholesky::Matrix matrix = this->MakeMatrix();
-    this->Run.Check();
+    progress.Check();
     if (!this->IsAnalyzed)
     {
-      this->Factor.Analyze(matrix, this->Run);
+      this->Factor.Analyze(matrix, progress);
       this->IsAnalyzed = true;
     }
-    if (!this->Factor.Factorize(matrix, this->Run))
+    if (!this->Factor.Factorize(matrix, progress))
     {
       return false;
     }
     for (std::size_t axis = 0; axis < 2; ++axis)
     {
-      this->Run.Check();
+      progress.Check();
       const SparseCholesky::Vector solution = this->Factor.Solve(this->RightSide(axis));
       for (std::size_t point = 0; point < this->Positions.size(); ++point)
       {
@@ -152,7 +151,7 @@ public:
     return true;
   }
 
-  void ChangeWeights()
+  void ChangeWeights(Progress& progress)
   {
     constexpr double most = 1e3; // of one change
     std::vector<double> images(this->Positions.size(), 0.0);
@@ -167,7 +166,7 @@ public:
         areas[point] += this->Disk.AreaShare(t);
       }
     }
-    this->Run.Check();
+    progress.Check();
     const auto stretch = [&](std::int64_t id) {
       const auto point = static_cast<std::size_t>(id);
       return std::clamp(images[point] / areas[point], 1.0 / most, most);
@@ -234,7 +233,6 @@ private:
   std::vector<WeightedEdge> Edges;
   SparseCholesky Factor;
   bool IsAnalyzed = false;
-  Progress& Run;
 };
 
 } // namespace
@@ -259,12 +257,14 @@ SquareMap embedEvenly(const DiskMesh& disk, const SquareMap& conformal, const Co
   Progress progress(context);
   SquareMap best = conformal;
   placeByLength(disk, conformal, best.Positions);
-  Embedding embedding(disk, conformal, best.Positions, progress);
+  Stages stages(progress, { { "edges", 5 }, { "iterations", 95 } });
+  Embedding embedding(disk, conformal, best.Positions, stages["edges"]);
+  Parts iterations(stages["iterations"], most);
   double least = HUGE_VAL;
   for (int i = 0; i < most && embedding.HasUnknowns(); ++i)
   {
-    progress.BeginStage(0.05 + 0.95 * (i + 1.0) / most);
-    if (!embedding.Solve())
+    Progress& iteration = iterations[i];
+    if (!embedding.Solve(iteration))
     {
       break;
     }
@@ -279,9 +279,8 @@ SquareMap embedEvenly(const DiskMesh& disk, const SquareMap& conformal, const Co
     {
       break;
     }
-    embedding.ChangeWeights();
+    embedding.ChangeWeights(iteration);
   }
-  progress.BeginStage(1.0);
   progress.EndSlice(1);
   return best;
 }

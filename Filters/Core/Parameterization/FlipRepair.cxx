@@ -237,7 +237,6 @@ void repairFlips(
     addRing(parts, isIn, points);
   }
   const std::vector<Patch> patches = separate(parts, isIn, points);
-  progress.BeginStage(1.0);
   progress.For(
     static_cast<std::int64_t>(patches.size()), 1,
     [&](std::int64_t first, std::int64_t last) {

@@ -68,7 +68,7 @@ public:
     const std::int64_t most = 10 * sides;
     constexpr std::int64_t polled = std::int64_t{ 1 } << 16;
     std::int64_t flips = 0;
-    progress.BeginStage(1.0, sides);
+    progress.Expect(sides);
     for (std::int64_t start = 0; start < sides; ++start)
     {
       progress.Add(1);

@@ -2,8 +2,8 @@
 #include "Core/Parameterization/MapDistortion.h"
 
 #include "Core/Mesh/FlatShape.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
+#include "Core/Parallel/Stages.h"
 
 #include <Eigen/Geometry>
 
@@ -109,9 +109,9 @@ MapDistortion measureDistortion(
   constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
   Progress progress(context);
   std::vector<std::pair<double, double>> deviations(static_cast<std::size_t>(count));
-  progress.BeginStage(0.5);
+  Stages stages(progress, { { "sums", 1 }, { "quantiles", 1 } });
   const Sums sums = reduceChunks(
-    progress, count, grain, Sums{ 0.0, 0.0, 0, 0 },
+    stages["sums"], count, grain, Sums{ 0.0, 0.0, 0, 0 },
     [&](std::int64_t first, std::int64_t last) {
       Sums part{ 0.0, 0.0, 0, 0 };
       for (std::int64_t t = first; t < last; ++t)
@@ -132,8 +132,7 @@ MapDistortion measureDistortion(
         a.FlippedNeedles + b.FlippedNeedles };
     });
   std::sort(deviations.begin(), deviations.end());
-  progress.BeginStage(1.0);
-  progress.EndSlice(1);
+  stages["quantiles"].EndSlice(1);
   return { std::sqrt(sums.Square), quantile(deviations, 0.5), quantile(deviations, 0.95),
     sums.Angle, sums.Flipped, sums.FlippedNeedles };
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Parameterization/MassRaster.h"
 
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <array>
@@ -103,11 +103,10 @@ public:
 
   void Run(Progress& progress)
   {
-    progress.BeginStage(0.3);
+    Stages stages(progress, { { "lists", 3 }, { "bands", 7 } });
     this->ListTriangles();
-    progress.Check();
-    progress.BeginStage(1.0);
-    progress.For(
+    stages["lists"].Check();
+    stages["bands"].For(
       this->Bands, 1,
       [this](std::int64_t first, std::int64_t last) {
         for (std::int64_t band = first; band < last; ++band)

@@ -3,7 +3,7 @@
 
 #include "Core/Mesh/FlatShape.h"
 #include "Core/Mesh/SurfaceRepair.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Seams/HoleFans.h"
 #include "Core/Seams/OpenedComponent.h"
 #include "Core/Seams/SeamMesh.h"
@@ -61,24 +61,22 @@ void requireTriangles(const TriangleSurface& surface)
 // Merges with the smallest rounding that leaves no more edges open than a larger one.
 RepairedSurface repaired(const TriangleSurface& surface, double rounding, Progress& progress)
 {
-  const auto next = [&progress](double part) {
-    progress.BeginStage(progress.StageEnd() + part * (0.3 - progress.StageEnd()));
-  };
-  const auto openEdges = [&](const RepairedSurface& made) {
-    next(0.3);
-    return SurfaceEdges(made.Surface(), progress.Stage()).Open();
+  const auto openEdges = [](const RepairedSurface& made, Progress& stage) {
+    return SurfaceEdges(made.Surface(), stage).Open();
   };
   const double least = roundingOfDoubles(surface.Points);
-  next(0.5);
-  RepairedSurface made = repairSurface(surface, { least, true }, progress.Stage());
+  const double larger = rounding > least ? 1.0 : 0.0;
+  Stages stages(progress,
+    { { "least rounding", 50 }, { "its edges", 15.0 * larger }, { "rounding", 18.0 * larger },
+      { "edges", 5.0 * larger } });
+  RepairedSurface made = repairSurface(surface, { least, true }, stages["least rounding"]);
   if (rounding > least)
   {
-    const std::int64_t open = openEdges(made);
+    const std::int64_t open = openEdges(made, stages["its edges"]);
     if (open > 0)
     {
-      next(0.5);
-      RepairedSurface other = repairSurface(surface, { rounding, true }, progress.Stage());
-      if (openEdges(other) < open)
+      RepairedSurface other = repairSurface(surface, { rounding, true }, stages["rounding"]);
+      if (openEdges(other, stages["edges"]) < open)
       {
         return other;
       }
@@ -102,16 +100,16 @@ public:
   {
     requireTriangles(this->Surface);
     Progress progress(context);
-    const RepairedSurface repair = repaired(this->Surface, options.Rounding, progress);
-    this->KeepTriangles(repair, progress);
+    Stages stages(progress, { { "repair", 30 }, { "parts", 5 }, { "cuts", 65 } });
+    const RepairedSurface repair = repaired(this->Surface, options.Rounding, stages["repair"]);
+    this->KeepTriangles(repair, stages["repair"]);
     const TriangleSurface kept{ repair.Surface().Points, this->Triangles.data(),
       static_cast<std::int64_t>(this->Repaired.size()) };
     if (kept.NumberOfTriangles == 0)
     {
       throw NotADisk(DiskDefect::TrianglesWithoutArea, this->Surface.NumberOfTriangles, 0);
     }
-    progress.BeginStage(0.35);
-    const SurfaceParts parts(kept, progress.Stage());
+    const SurfaceParts parts(kept, stages["parts"]);
     SurfaceCuts& counts = this->Made.Counts;
     counts.UnusedPoints = repair.Repairs().UnusedPoints;
     counts.MergedPoints = repair.Repairs().MergedPoints;
@@ -119,16 +117,17 @@ public:
     counts.NonManifoldEdges = parts.NonManifoldEdges();
 
     this->Prepare(repair);
-    std::int64_t done = 0;
+    std::vector<double> sizes;
     for (const std::vector<std::int64_t>& component : parts.Components())
     {
-      done += static_cast<std::int64_t>(component.size());
-      constexpr double begin = 0.35;
-      progress.BeginStage(begin +
-        (1.0 - begin) * static_cast<double>(done) / static_cast<double>(kept.NumberOfTriangles));
-      this->CutOpen({ kept, parts, component, repair }, options, progress);
+      sizes.push_back(static_cast<double>(component.size()));
     }
-    progress.BeginStage(1.0);
+    Parts cuts(stages["cuts"], sizes);
+    std::int64_t number = 0;
+    for (const std::vector<std::int64_t>& component : parts.Components())
+    {
+      this->CutOpen({ kept, parts, component, repair }, options, cuts[number++]);
+    }
     progress.EndSlice(1);
     this->PlaceRepeated(repair);
     for (std::int64_t point = 0; point < this->Surface.Points.size(); ++point)
@@ -193,10 +192,10 @@ private:
 
   void CutOpen(const Component& component, const SeamOptions& options, Progress& progress)
   {
-    SeamMesh mesh = this->MeshOf(component, progress);
-    Progress opening(progress.Stage());
-    OpenedDisk opened = openComponent(
-      mesh, static_cast<std::int64_t>(component.Triangles.size()), options.MaximumRounds, opening);
+    Stages stages(progress, { { "mesh", 1 }, { "seams", 9 } });
+    SeamMesh mesh = this->MeshOf(component, stages["mesh"]);
+    OpenedDisk opened = openComponent(mesh, static_cast<std::int64_t>(component.Triangles.size()),
+      options.MaximumRounds, stages["seams"]);
     CutDisk& disk = opened.Disk;
     disk.FirstPoint = this->NumberOfPoints;
     const auto number = static_cast<std::int64_t>(this->Made.AllDisks.size());
@@ -306,11 +305,10 @@ private:
       origins.push_back(
         component.Repair.GivenTriangle(this->Repaired[static_cast<std::size_t>(triangle)]));
     }
-    SeamMesh mesh(std::move(points), std::move(triangles), std::move(origins), progress.Stage());
+    SeamMesh mesh(std::move(points), std::move(triangles), std::move(origins), progress);
     const HoleFans fans = closeManyHoles(mesh, progress);
-    return fans.Points.empty()
-      ? std::move(mesh)
-      : mesh.With(fans.Points, fans.Triangles, fans.Origins, progress.Stage());
+    return fans.Points.empty() ? std::move(mesh)
+                               : mesh.With(fans.Points, fans.Triangles, fans.Origins, progress);
   }
 
   const TriangleSurface Surface;

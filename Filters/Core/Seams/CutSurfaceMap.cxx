@@ -2,7 +2,7 @@
 #include "Core/Seams/CutSurfaceMap.h"
 
 #include "Core/Mesh/FlatShape.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/EvenEmbedding.h"
 #include "Core/Parameterization/LocalMap.h"
 #include "Core/Parameterization/SquareCorners.h"
@@ -70,33 +70,33 @@ AreaPreservingOptions optionsFor(
 class SeamedDiskMap
 {
 public:
-  SeamedDiskMap(const CutDisk& disk, const AreaPreservingOptions& options, const Context& context)
+  SeamedDiskMap(const CutDisk& disk, const AreaPreservingOptions& options)
     : Disk(*disk.Mesh)
     , Conformal(disk.Conformal->Square)
     , Options(options)
     , Collapsed(countCollapsed(this->Disk, this->Conformal.Corners))
-    , Run(context)
   {
   }
 
   // From what promises the better angles, and if areas are not reached, from the other one, too.
-  AreaPreservingMap Find()
+  AreaPreservingMap Find(const Context& context)
   {
+    Progress progress(context);
+    Stages stages(progress, { { "first map", 1 }, { "other map", 1 } });
     constexpr double uneven = 1.3; // of conformal maps: below, angles gain nothing
     const bool isUneven = areaUnevenness(this->Disk, this->Conformal.Positions) >= uneven;
-    AreaPreservingMap found = this->MapFrom(isUneven, 0.0);
+    AreaPreservingMap found = this->MapFrom(isUneven, stages["first map"]);
     constexpr double wrong = 0.05; // of which the filter warns
     if (this->FlipsOf(found) > 0 || found.Distortion.Area95 > wrong)
     {
-      AreaPreservingMap other = this->MapFrom(!isUneven, 0.5);
+      AreaPreservingMap other = this->MapFrom(!isUneven, stages["other map"]);
       if (std::make_pair(this->FlipsOf(other), other.Distortion.Area95) <
         std::make_pair(this->FlipsOf(found), found.Distortion.Area95))
       {
         found = std::move(other);
       }
     }
-    this->Run.BeginStage(1.0);
-    this->Run.EndSlice(1);
+    progress.EndSlice(1);
     return found;
   }
 
@@ -106,30 +106,27 @@ private:
     return std::max<std::int64_t>(map.Distortion.Flipped - this->Collapsed, 0);
   }
 
-  AreaPreservingMap MapFrom(bool embedding, double begin)
+  AreaPreservingMap MapFrom(bool embedding, Progress& progress)
   {
     if (!embedding)
     {
-      this->Run.BeginStage(begin + 0.5);
-      return mapAreaPreserving(this->Disk, this->Conformal, this->Options, this->Run.Stage());
+      return mapAreaPreserving(this->Disk, this->Conformal, this->Options, progress);
     }
-    this->Run.BeginStage(begin + 0.25);
-    const SquareMap even = embedEvenly(this->Disk, this->Conformal, this->Run.Stage());
-    this->Run.BeginStage(begin + 0.5);
-    return mapAreaPreserving(this->Disk, even, this->Options, this->Run.Stage());
+    Stages stages(progress, { { "embedding", 1 }, { "map", 1 } });
+    const SquareMap even = embedEvenly(this->Disk, this->Conformal, stages["embedding"]);
+    return mapAreaPreserving(this->Disk, even, this->Options, stages["map"]);
   }
 
   const DiskMesh& Disk;
   const SquareMap& Conformal;
   const AreaPreservingOptions Options;
   const std::int64_t Collapsed;
-  Progress Run;
 };
 
 AreaPreservingMap mapDisk(
   const CutDisk& disk, const AreaPreservingOptions& options, const Context& context)
 {
-  return disk.HasSeams ? SeamedDiskMap(disk, options, context).Find()
+  return disk.HasSeams ? SeamedDiskMap(disk, options).Find(context)
                        : mapAreaPreserving(*disk.Mesh, disk.Conformal->Square, options, context);
 }
 
@@ -140,9 +137,11 @@ CutSurfaceMap mapCutSurface(
 {
   const std::vector<CutDisk>& disks = cut.Disks();
   std::vector<double> areas;
+  std::vector<double> points;
   for (const CutDisk& disk : disks)
   {
     areas.push_back(disk.Area / partOf(disk));
+    points.push_back(static_cast<double>(disk.NumberOfPoints));
   }
   const std::vector<AtlasSquare> squares = arrangeSquares(areas);
 
@@ -150,11 +149,10 @@ CutSurfaceMap mapCutSurface(
   map.Conformal.resize(static_cast<std::size_t>(cut.NumberOfPoints()));
   map.Positions.resize(map.Conformal.size());
   Progress progress(context);
+  Parts parts(progress, points);
   for (std::size_t i = 0; i < disks.size(); ++i)
   {
     const CutDisk& disk = disks[i];
-    progress.BeginStage(static_cast<double>(disk.FirstPoint + disk.NumberOfPoints) /
-      static_cast<double>(cut.NumberOfPoints()));
     const double square = squares[i].Side * squares[i].Side;
     if (!disk.Mesh)
     {
@@ -166,7 +164,7 @@ CutSurfaceMap mapCutSurface(
     }
     const SquareMap& conformal = disk.Conformal->Square;
     const AreaPreservingMap found =
-      mapDisk(disk, optionsFor(disk, disks.size(), options), progress.Stage());
+      mapDisk(disk, optionsFor(disk, disks.size(), options), parts[static_cast<std::int64_t>(i)]);
     map.Coverage += coveredBy(disk, found.Positions) * square;
     put(conformal.Positions, squares[i], disk.FirstPoint, map.Conformal);
     put(found.Positions, squares[i], disk.FirstPoint, map.Positions);

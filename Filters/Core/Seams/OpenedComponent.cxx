@@ -2,7 +2,7 @@
 #include "Core/Seams/OpenedComponent.h"
 
 #include "Core/Mesh/FlatShape.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/EvenEmbedding.h"
 #include "Core/Parameterization/SquareCorners.h"
 #include "Core/Seams/CutGraph.h"
@@ -33,65 +33,65 @@ double unevennessOf(const DiskMesh& disk, const ConformalMap& map)
 class ComponentCutting
 {
 public:
-  ComponentCutting(SeamMesh& mesh, std::int64_t given, Progress& progress)
+  ComponentCutting(SeamMesh& mesh, std::int64_t given)
     : Mesh(mesh)
     , NumberOfGiven(given)
-    , Run(progress)
   {
   }
 
-  OpenedDisk Open(int rounds)
+  OpenedDisk Open(int rounds, Progress& progress)
   {
     constexpr std::int64_t disk = 1; // the Euler characteristic, also of the projective plane
-    this->Next(0.2);
     if (this->Mesh.EulerCharacteristic() == disk && !this->Mesh.IsClosed())
     {
-      return this->OpenDisk();
+      return this->OpenDisk(progress);
     }
-    openToDisk(this->Mesh, this->Run);
-    shortenSeams(this->Mesh, this->Run);
-    auto last = std::make_shared<OpenedDisk>(this->Make());
+    Stages stages(progress,
+      { { "seams", 20 }, { "map", 22 }, { "extensions", rounds > 0 ? 42.0 : 0.0 },
+        { "corners", 16 } });
+    openToDisk(this->Mesh, stages["seams"]);
+    shortenSeams(this->Mesh, stages["seams"]);
+    auto last = std::make_shared<OpenedDisk>(this->Make(stages["map"]));
     std::shared_ptr<OpenedDisk> best = last;
-    for (int round = 0; round < rounds && this->Extend(*last); ++round)
+    Rounds extensions(stages["extensions"], 2);
+    for (int round = 0; round < rounds; ++round)
     {
-      last = std::make_shared<OpenedDisk>(this->Make());
+      Stages extension(extensions.Next(), { { "seams", 1 }, { "map", 3 } });
+      if (!this->Extend(*last, extension["seams"]))
+      {
+        break;
+      }
+      last = std::make_shared<OpenedDisk>(this->Make(extension["map"]));
       best = last->Unevenness < best->Unevenness ? last : best;
     }
     last.reset();
     best->Disk.HasSeams = true;
-    this->TurnCorners(*best);
+    this->TurnCorners(*best, stages["corners"]);
     return std::move(*best);
   }
 
 private:
-  // Takes the progress on by a part of what is left of it: how many rounds there will be is not
-  // known.
-  void Next(double part)
-  {
-    this->Run.BeginStage(this->Run.StageEnd() + part * (1.0 - this->Run.StageEnd()));
-  }
-
-  OpenedDisk OpenDisk()
+  OpenedDisk OpenDisk(Progress& progress)
   {
     if (this->Mesh.NumberOfTriangles() > 1)
     {
       if (this->HasThreePointsOnBoundary())
       {
-        this->JoinInnerPoint();
+        this->JoinInnerPoint(progress);
       }
-      return this->Make();
+      return this->Make(progress);
     }
-    SeamMesh::Cut cut = this->Mesh.MakeCut(this->Run);
+    SeamMesh::Cut cut = this->Mesh.MakeCut(progress);
     const auto at = [&](std::size_t i) { return this->Mesh.Position(cut.Origins[i]).data(); };
     const FlatShape shape(at(0), at(1), at(2));
     return { { {}, {}, 0, 3, 0.5 * shape.Length * shape.Height }, std::move(cut), 0.0 };
   }
 
   // The triangles cut along the seams that there are now.
-  OpenedDisk Make()
+  OpenedDisk Make(Progress& progress)
   {
-    SeamMesh::Cut cut = this->Mesh.MakeCut(this->Run);
-    this->Run.Check();
+    SeamMesh::Cut cut = this->Mesh.MakeCut(progress);
+    progress.Check();
     const auto points = static_cast<std::int64_t>(cut.Origins.size());
     LargeBuffer<double> places(3 * points);
     for (std::int64_t i = 0; i < points; ++i)
@@ -99,12 +99,12 @@ private:
       const Point<3>& place = this->Mesh.Position(cut.Origins[static_cast<std::size_t>(i)]);
       std::copy(place.begin(), place.end(), places.data() + 3 * i);
     }
-    this->Run.Check();
-    this->Next(0.1);
+    progress.Check();
+    Stages stages(progress, { { "mesh", 1 }, { "map", 2 } });
     CutDisk disk{ {}, {}, 0, points, 0.0 };
     const TriangleSurface surface{ { places.data(), points }, cut.Triangles.data(),
       this->Mesh.NumberOfTriangles() };
-    disk.Mesh.emplace(surface, this->Run.Stage());
+    disk.Mesh.emplace(surface, stages["mesh"]);
     disk.Area = disk.Mesh->Area() * disk.Mesh->Unit() * disk.Mesh->Unit();
     if (this->NumberOfGiven < this->Mesh.NumberOfTriangles())
     {
@@ -114,24 +114,22 @@ private:
       disk.AreaShareOfHoles = HoleFans::AreaShare;
       disk.Mesh->SetShareFrom(this->NumberOfGiven, disk.AreaShareOfHoles);
     }
-    this->Next(0.2);
-    disk.Conformal = mapConformally(*disk.Mesh, chooseCorners(*disk.Mesh), this->Run.Stage());
+    disk.Conformal = mapConformally(*disk.Mesh, chooseCorners(*disk.Mesh), stages["map"]);
     const double unevenness = unevennessOf(*disk.Mesh, *disk.Conformal);
-    this->Run.Check();
+    progress.Check();
     return { std::move(disk), std::move(cut), unevenness };
   }
 
   // Lets seams grow to where the map squeezes areas. Returns whether one does.
-  bool Extend(const OpenedDisk& opened)
+  bool Extend(const OpenedDisk& opened, Progress& progress)
   {
     // Near where seams meet they enclose small angles, which the sides of the square straighten.
     // That also squeezes areas, and seams there would not help.
     constexpr double least = 0.5; // of a side of a square of the area that is squeezed
-    this->Next(0.05);
+    Stages stages(progress, { { "squeezed points", 1 }, { "seams", 1 } });
     const std::vector<SqueezedPoint> tips = findSqueezedPoints(*opened.Disk.Mesh,
-      opened.Disk.Conformal->Square.Positions, SqueezeLimits(), this->Run.Stage());
-    this->Next(0.05);
-    SeamSearch search(this->Mesh, this->Run);
+      opened.Disk.Conformal->Square.Positions, SqueezeLimits(), stages["squeezed points"]);
+    SeamSearch search(this->Mesh, stages["seams"]);
     bool isLonger = false;
     for (const SqueezedPoint& tip : tips)
     {
@@ -143,7 +141,7 @@ private:
   }
 
   // Tries other corners, if that does not take long.
-  void TurnCorners(OpenedDisk& opened)
+  void TurnCorners(OpenedDisk& opened, Progress& progress)
   {
     constexpr std::int64_t mostPoints = std::int64_t{ 1 } << 17;
     const DiskMesh& disk = *opened.Disk.Mesh;
@@ -152,17 +150,18 @@ private:
       return;
     }
     const SquareCorners corners = opened.Disk.Conformal->Square.Corners;
-    for (const double part : { 1.0 / 16.0, 2.0 / 16.0, 3.0 / 16.0 })
+    constexpr int turns = 3;
+    Parts parts(progress, turns);
+    for (int turn = 0; turn < turns; ++turn)
     {
-      const SquareCorners turned = turnCorners(disk, corners, part);
+      const SquareCorners turned = turnCorners(disk, corners, (turn + 1) / 16.0);
       if (turned == corners)
       {
         continue;
       }
-      this->Next(0.3);
-      ConformalMap map = mapConformally(disk, turned, this->Run.Stage());
+      ConformalMap map = mapConformally(disk, turned, parts[turn]);
       const double unevenness = unevennessOf(disk, map);
-      this->Run.Check();
+      progress.Check();
       if (unevenness < opened.Unevenness)
       {
         opened.Unevenness = unevenness;
@@ -181,27 +180,26 @@ private:
     return count == 3;
   }
 
-  void JoinInnerPoint()
+  void JoinInnerPoint(Progress& progress)
   {
     std::int64_t inner = 0;
     while (this->Mesh.IsOnSeam(inner))
     {
       ++inner;
     }
-    SeamSearch search(this->Mesh, this->Run);
+    SeamSearch search(this->Mesh, progress);
     joinToSeams(this->Mesh, search, inner);
   }
 
   SeamMesh& Mesh;
   const std::int64_t NumberOfGiven;
-  Progress& Run;
 };
 
 } // namespace
 
 OpenedDisk openComponent(SeamMesh& mesh, std::int64_t given, int rounds, Progress& progress)
 {
-  return ComponentCutting(mesh, given, progress).Open(rounds);
+  return ComponentCutting(mesh, given).Open(rounds, progress);
 }
 
 } // namespace RectifiedTransport

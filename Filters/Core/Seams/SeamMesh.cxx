@@ -3,7 +3,7 @@
 
 #include "Core/Mesh/FlatShape.h"
 #include "Core/Mesh/Trees.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <cmath>
 #include <numeric>
@@ -30,15 +30,15 @@ SeamMesh::SeamMesh(std::vector<Point<3>> points, std::vector<std::int64_t> trian
   , Degrees(this->Points.size(), 0)
 {
   Progress progress(context);
-  progress.BeginStage(0.6);
+  Stages stages(progress, { { "edges", 6 }, { "corners", 4 } });
   this->Edges = std::make_unique<SurfaceEdges>(
     TriangleSurface{ this->Points, this->Triangles.data(), this->NumberOfTriangles() },
-    progress.Stage());
-  progress.BeginStage(1.0, 2 * this->NumberOfSides());
+    stages["edges"]);
+  Progress& corners = stages["corners"].Expect(2 * this->NumberOfSides());
   for (const std::int64_t point : this->Triangles)
   {
     ++this->FirstCorner[static_cast<std::size_t>(point) + 1];
-    progress.Add(1);
+    corners.Add(1);
   }
   std::partial_sum(this->FirstCorner.begin(), this->FirstCorner.end(), this->FirstCorner.begin());
   std::vector<std::int64_t> next(this->FirstCorner.begin(), this->FirstCorner.end() - 1);
@@ -50,7 +50,7 @@ SeamMesh::SeamMesh(std::vector<Point<3>> points, std::vector<std::int64_t> trian
     {
       this->SetSeam(side, true);
     }
-    progress.Add(1);
+    corners.Add(1);
   }
 }
 

@@ -150,7 +150,7 @@ std::vector<SqueezedPoint> findSqueezedPoints(const DiskMesh& disk,
   const std::vector<Point<2>>& positions, const SqueezeLimits& limits, const Context& context)
 {
   Progress progress(context);
-  progress.BeginStage(1.0, disk.NumberOfPoints());
+  progress.Expect(disk.NumberOfPoints());
   return PeakSearch(disk, positions, progress).Find(limits);
 }
 

@@ -4,7 +4,7 @@
 #include "Core/Mesh/SurfaceEdges.h"
 #include "Core/Mesh/SurfaceOrientation.h"
 #include "Core/Mesh/Trees.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Seams/SeamMesh.h"
 
 #include <algorithm>
@@ -18,13 +18,14 @@ SurfaceParts::SurfaceParts(const TriangleSurface& surface, const Context& contex
 {
   const std::int64_t sides = this->Points.size();
   Progress progress(context);
-  progress.BeginStage(0.3);
+  Stages stages(
+    progress, { { "edges", 3 }, { "points", 2 }, { "edges of parts", 3 }, { "components", 2 } });
   {
-    const SurfaceEdges edges(surface, progress.Stage());
+    const SurfaceEdges edges(surface, stages["edges"]);
     this->Parted = edges.NonManifold();
     LargeBuffer<std::int64_t> trees(sides);
     std::iota(trees.data(), trees.data() + sides, std::int64_t{ 0 });
-    progress.BeginStage(0.5, 2 * sides);
+    Progress& points = stages["points"].Expect(2 * sides);
     for (std::int64_t side = 0; side < sides; ++side)
     {
       if (edges.Other(side) > side)
@@ -32,13 +33,13 @@ SurfaceParts::SurfaceParts(const TriangleSurface& surface, const Context& contex
         joinCorners(surface.Triangles, side, edges.Other(side),
           [&](std::int64_t a, std::int64_t b) { joinTrees(trees.data(), a, b); });
       }
-      progress.Add(1);
+      points.Add(1);
     }
     for (std::int64_t side = 0; side < sides; ++side)
     {
       const std::int64_t root = rootOf(trees.data(), side); // the lowest corner
       this->Points.data()[side] = root == side ? this->Count++ : this->Points.data()[root];
-      progress.Add(1);
+      points.Add(1);
     }
   }
   // Of an edge that was parted, what still has the same two points belongs together.
@@ -52,11 +53,10 @@ SurfaceParts::SurfaceParts(const TriangleSurface& surface, const Context& contex
   progress.Check();
   const TriangleSurface parted{ { places.data(), this->Count }, this->Points.data(),
     surface.NumberOfTriangles };
-  progress.BeginStage(0.8);
-  const SurfaceEdges edges(parted, progress.Stage());
+  const SurfaceEdges edges(parted, stages["edges of parts"]);
   LargeBuffer<signed char> signs(surface.NumberOfTriangles);
-  progress.BeginStage(1.0, surface.NumberOfTriangles);
-  visitPatches(parted, edges, signs.data(), progress, [this](const SurfacePatch& patch) {
+  Progress& components = stages["components"].Expect(surface.NumberOfTriangles);
+  visitPatches(parted, edges, signs.data(), components, [this](const SurfacePatch& patch) {
     this->Triangles.emplace_back(patch.Triangles, patch.Triangles + patch.Count);
     std::sort(this->Triangles.back().begin(), this->Triangles.back().end());
   });
