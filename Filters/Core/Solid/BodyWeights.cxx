@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Solid/BodyWeights.h"
 
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Solid/SurfaceCuts.h"
 
 #include <algorithm>
@@ -30,14 +30,15 @@ public:
     {
       this->Parents.data()[i] = i;
     }
-    progress.BeginStage(0.3, this->Surface.NumberOfTriangles);
+    Stages stages(progress, { { "trees", this->Given ? 0.0 : 3.0 }, { "numbers", 1 } });
+    Progress& trees = stages["trees"].Expect(this->Surface.NumberOfTriangles);
     for (Index i = 0; !this->Given && i < this->Surface.NumberOfTriangles; ++i)
     {
       const Index* ids = this->Surface.Triangles + 3 * i;
       this->Join(this->Join(this->RootOf(ids[0]), this->RootOf(ids[1])), this->RootOf(ids[2]));
-      progress.Add(1);
+      trees.Add(1);
     }
-    progress.BeginStage(0.4, this->Surface.NumberOfTriangles);
+    Progress& numbers = stages["numbers"].Expect(this->Surface.NumberOfTriangles);
     for (Index i = 0; i < this->Surface.NumberOfTriangles; ++i)
     {
       const Index root = this->RootOf(this->NodeOf(i));
@@ -45,7 +46,7 @@ public:
       {
         this->Parents.data()[root] = -1 - this->Number++;
       }
-      progress.Add(1);
+      numbers.Add(1);
     }
   }
 
@@ -170,12 +171,11 @@ public:
 
   void Choose(Progress& progress)
   {
-    progress.BeginStage(0.5, this->Surface.NumberOfTriangles);
-    this->ForTriangles(progress, [](Probe* probes, Index triangle, const Place& place) {
+    Stages stages(progress, { { "largest", 1 }, { "outermost", 1 } });
+    this->ForTriangles(stages["largest"], [](Probe* probes, Index triangle, const Place& place) {
       probes[place.Area > 0.0 ? 0 : 1].Choose(triangle, std::abs(place.Area), place);
     });
-    progress.BeginStage(0.6, this->Surface.NumberOfTriangles);
-    this->ForTriangles(progress, [](Probe* probes, Index triangle, const Place& place) {
+    this->ForTriangles(stages["outermost"], [](Probe* probes, Index triangle, const Place& place) {
       // Slivers at the rim tell nothing.
       constexpr double least = 0.01;
       if (std::abs(place.Area) >= least * std::max(probes[0].Key, probes[1].Key))
@@ -205,7 +205,7 @@ public:
   // Counts the winding numbers before all probes.
   void Count(Progress& progress)
   {
-    progress.BeginStage(0.9, this->Surface.NumberOfTriangles);
+    progress.Expect(this->Surface.NumberOfTriangles);
     this->SortIntoBoxes();
     for (Index i = 0; i < this->Surface.NumberOfTriangles; ++i)
     {
@@ -245,6 +245,7 @@ private:
   template <class Visit>
   void ForTriangles(Progress& progress, const Visit& visit)
   {
+    progress.Expect(this->Surface.NumberOfTriangles);
     for (Index i = 0; i < this->Surface.NumberOfTriangles; ++i)
     {
       const Place place = placeOf(cornersOf(this->Surface, i));
@@ -358,7 +359,7 @@ private:
 // Of one body, which way it is turned.
 signed char weightOfOne(const TriangleSurface& surface, Progress& progress)
 {
-  progress.BeginStage(0.9, surface.NumberOfTriangles);
+  progress.Expect(surface.NumberOfTriangles);
   double volume = 0.0;
   for (Index i = 0; i < surface.NumberOfTriangles; ++i)
   {
@@ -377,22 +378,25 @@ LargeBuffer<signed char> weighBodies(const SolidSurface& solid, const Context& c
   const TriangleSurface& surface = solid.Triangles;
   LargeBuffer<signed char> weights(surface.NumberOfTriangles);
   Progress progress(context);
-  Bodies bodies(solid, progress);
+  Stages stages(progress, { { "bodies", 4 }, { "weights", 6 } });
+  Bodies bodies(solid, stages["bodies"]);
   if (bodies.Count() < 2)
   {
-    const signed char weight = bodies.Count() == 1 ? weightOfOne(surface, progress) : 1;
+    const signed char weight = bodies.Count() == 1 ? weightOfOne(surface, stages["weights"]) : 1;
     std::fill_n(weights.data(), surface.NumberOfTriangles, weight);
     return weights;
   }
   BodyProbes probes(surface, bodies);
-  probes.Choose(progress);
-  probes.Count(progress);
+  Stages steps(
+    stages["weights"], { { "probes", 2 }, { "winding numbers", 3 }, { "triangles", 1 } });
+  probes.Choose(steps["probes"]);
+  probes.Count(steps["winding numbers"]);
   const std::vector<signed char> ofBodies = probes.Weights();
-  progress.BeginStage(1.0, surface.NumberOfTriangles);
+  Progress& triangles = steps["triangles"].Expect(surface.NumberOfTriangles);
   for (Index i = 0; i < surface.NumberOfTriangles; ++i)
   {
     weights.data()[i] = ofBodies[static_cast<std::size_t>(bodies.Of(i))];
-    progress.Add(1);
+    triangles.Add(1);
   }
   return weights;
 }

@@ -5,7 +5,7 @@
 #include "Core/Mesh/SplitSurface.h"
 #include "Core/Mesh/SurfaceEdges.h"
 #include "Core/Mesh/TJunctions.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Solid/OrientedBodies.h"
 #include "Core/Solid/RepeatedTriangles.h"
 
@@ -89,26 +89,22 @@ ClosedMesh::ClosedMesh(const TriangleSurface& surface, const Context& context)
   : Coordinates(3 * surface.Points.size())
 {
   Progress progress(context);
-  progress.BeginStage(0.1);
-  copyPoints(surface.Points, this->Coordinates.data(), progress);
-  progress.BeginStage(0.4);
-  this->Merge(progress.Stage());
+  Stages stages(progress,
+    { { "points", 10 }, { "equal points", 30 }, { "triangles", 10 }, { "edges", 20 },
+      { "near points", 10 }, { "their triangles", 5 }, { "their edges", 5 },
+      { "T-junctions", 10 } });
+  copyPoints(surface.Points, this->Coordinates.data(), stages["points"]);
+  this->Merge(stages["equal points"]);
   this->Reserve(surface.NumberOfTriangles);
-  progress.BeginStage(0.5);
-  addTriangles(surface, progress, *this);
-  progress.BeginStage(0.7);
-  this->CountEdges(progress.Stage());
+  addTriangles(surface, stages["triangles"], *this);
+  this->CountEdges(stages["edges"]);
   const double distance = NearDistance * this->LongestSide();
-  progress.BeginStage(0.8);
-  if (!this->Closed && distance > 0.0 && this->MergeNear(distance, progress.Stage()))
+  if (!this->Closed && distance > 0.0 && this->MergeNear(distance, stages["near points"]))
   {
-    progress.BeginStage(0.85);
-    addTriangles(surface, progress, *this);
-    progress.BeginStage(0.9);
-    this->CountEdges(progress.Stage());
+    addTriangles(surface, stages["their triangles"], *this);
+    this->CountEdges(stages["their edges"]);
   }
-  progress.BeginStage(1.0);
-  this->CloseTJunctions(distance, progress.Stage());
+  this->CloseTJunctions(distance, stages["T-junctions"]);
 }
 
 ClosedMesh::ClosedMesh(LargeBuffer<double> coordinates, const Context& context)
@@ -186,12 +182,11 @@ void ClosedMesh::CountEdges(const Context& context)
 {
   this->Firsts = {}; // its memory is needed now
   Progress progress(context);
-  progress.BeginStage(0.5);
-  this->CountEdgesAlone(progress.Stage());
-  progress.BeginStage(1.0);
+  Stages stages(progress, { { "edges", 1 }, { "repeated triangles", 1 } });
+  this->CountEdgesAlone(stages["edges"]);
   if (this->Edges->NonManifold() > 0)
   {
-    this->DropRepeated(progress.Stage());
+    this->DropRepeated(stages["repeated triangles"]);
   }
   this->Closed = this->NumberOpen == 0 && this->NumberNonManifold == 0;
 }
@@ -214,57 +209,51 @@ void ClosedMesh::DropRepeated(const Context& context)
     return;
   }
   Progress progress(context);
+  Parts tries(progress, static_cast<std::int64_t>(ways.size()) + 1);
+  std::int64_t next = 0;
   const std::int64_t number = this->NumberOfTriangles;
   LargeBuffer<std::int64_t> all(3 * number);
   std::copy_n(this->Triangles.data(), 3 * number, all.data());
   const auto drop = [&](const std::vector<std::int64_t>& dropped) {
     this->NumberOfTriangles = dropTriangles(
       { this->Surface().Points, all.data(), number }, dropped, this->Triangles.data());
-    this->CountEdgesAlone(progress.Stage());
+    this->CountEdgesAlone(tries[next++]);
     return this->NumberOpen + this->NumberNonManifold == 0;
   };
-  double end = 0.0;
   for (const std::vector<std::int64_t>& way : ways)
   {
-    end += 0.25;
-    progress.BeginStage(end);
     if (drop(way))
     {
       return;
     }
   }
-  progress.BeginStage(1.0);
   drop(ways.front());
 }
 
 bool ClosedMesh::CloseTJunctions(double distance, const Context& context)
 {
   Progress progress(context);
-  progress.BeginStage(0.3);
+  Stages stages(progress,
+    { { "open sides", 30 }, { "search", 20 }, { "split", 10 }, { "edges", 20 }, { "undo", 20 } });
   std::vector<TJunction> junctions;
   if (this->NumberOpen > 0)
   {
     const TriangleSurface surface = this->Surface();
-    const std::vector<OpenSide> open = openSidesOf(surface, {}, progress);
-    progress.BeginStage(0.5);
-    junctions = findTJunctions(surface.Points, open, distance, progress);
+    const std::vector<OpenSide> open = openSidesOf(surface, {}, stages["open sides"]);
+    junctions = findTJunctions(surface.Points, open, distance, stages["search"]);
   }
-  progress.BeginStage(0.6);
   if (junctions.empty())
   {
-    progress.BeginStage(1.0);
     progress.EndSlice(1);
     return this->Closed;
   }
-  const SplitSurface split(this->Surface(), junctions, progress);
+  const SplitSurface split(this->Surface(), junctions, stages["split"]);
   LargeBuffer<std::int64_t> before = std::move(this->Triangles);
   const std::int64_t numberBefore = this->NumberOfTriangles;
   this->Reserve(split.NumberOfTriangles());
   this->NumberOfTriangles = split.NumberOfTriangles();
   std::copy_n(split.Triangles(), 3 * this->NumberOfTriangles, this->Triangles.data());
-  progress.BeginStage(0.8);
-  this->CountEdges(progress.Stage());
-  progress.BeginStage(1.0);
+  this->CountEdges(stages["edges"]);
   if (this->Closed)
   {
     this->NumberOfTJunctions = split.NumberOfTJunctions();
@@ -274,7 +263,7 @@ bool ClosedMesh::CloseTJunctions(double distance, const Context& context)
   }
   this->Triangles = std::move(before);
   this->NumberOfTriangles = numberBefore;
-  this->CountEdges(progress.Stage());
+  this->CountEdges(stages["undo"]);
   return false;
 }
 

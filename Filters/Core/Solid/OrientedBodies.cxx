@@ -4,7 +4,7 @@
 #include "Core/Mesh/SurfaceOrientation.h"
 #include "Core/Mesh/Trees.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <array>
@@ -67,7 +67,10 @@ public:
 
   OrientedBodies Run(Index* triangles, Progress& progress)
   {
-    if (!this->FindPatches(progress))
+    Stages stages(progress,
+      { { "patches", 80 }, { "fans", this->Edges.NonManifold() > 0 ? 10.0 : 0.0 },
+        { "triangles", 10 } });
+    if (!this->FindPatches(stages["patches"]))
     {
       return { false, {} };
     }
@@ -76,15 +79,14 @@ public:
     std::iota(this->Roots.begin(), this->Roots.end(), Index{ 0 });
     if (this->Edges.NonManifold() > 0)
     {
-      this->FindFans(progress);
-      progress.BeginStage(0.9);
+      this->FindFans(stages["fans"]);
       if (!this->TurnUnbalanced())
       {
         return { false, {} };
       }
       this->JoinPatches();
     }
-    progress.BeginStage(1.0, this->Surface.NumberOfTriangles);
+    Progress& turns = stages["triangles"].Expect(this->Surface.NumberOfTriangles);
     for (Index i = 0; i < this->Surface.NumberOfTriangles; ++i)
     {
       Index& patch = this->Patches.data()[i];
@@ -93,7 +95,7 @@ public:
         std::swap(triangles[3 * i + 1], triangles[3 * i + 2]);
       }
       patch = this->RootOf(patch);
-      progress.Add(1);
+      turns.Add(1);
     }
     return { true, std::move(this->Patches) };
   }
@@ -102,7 +104,7 @@ private:
   // Numbers the patches and orients each by most of its area.
   bool FindPatches(Progress& progress)
   {
-    progress.BeginStage(0.8, this->Surface.NumberOfTriangles);
+    progress.Expect(this->Surface.NumberOfTriangles);
     return visitPatches(
       this->Surface, this->Edges, this->Signs.data(), progress, [this](const SurfacePatch& patch) {
         bool isMended = false;
@@ -120,7 +122,7 @@ private:
   // The sides at edges of more than two, by edges.
   void FindFans(Progress& progress)
   {
-    progress.BeginStage(0.85, this->Surface.NumberOfTriangles);
+    progress.Expect(this->Surface.NumberOfTriangles);
     for (Index side = 0; side < 3 * this->Surface.NumberOfTriangles; ++side)
     {
       if (this->Edges.Other(side) < 0)

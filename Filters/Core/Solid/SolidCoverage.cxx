@@ -2,7 +2,7 @@
 #include "Core/Solid/SolidCoverage.h"
 
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Solid/BodyWeights.h"
 #include "Core/Solid/SignedVolumes.h"
 #include "Core/Solid/SolidLines.h"
@@ -170,14 +170,14 @@ CoverageReport coverPartOfSolid(const SolidSurface& surface, const GridSize<3>& 
     return {};
   }
   Progress progress(context);
-  progress.BeginStage(0.1);
-  const LargeBuffer<signed char> weights = weighBodies(surface, progress.Stage());
+  Stages stages(progress, { { "weights", 1 }, { "layers", 1 }, { "cells", 8 } });
+  const LargeBuffer<signed char> weights = weighBodies(surface, stages["weights"]);
   const TriangleLayers layers(
-    surface.Triangles, cells[2], part.Low[2], part.Low[2] + part.Cells[2], 0.15, 0.2, progress);
+    surface.Triangles, cells[2], part.Low[2], part.Low[2] + part.Cells[2], stages["layers"]);
+  Progress& work = stages["cells"];
   CoverageRun run(
-    surface.Triangles, layers, weights.data(), cells, part, supersampling, coverage, progress);
-  progress.BeginStage(1.0);
-  progress.For(
+    surface.Triangles, layers, weights.data(), cells, part, supersampling, coverage, work);
+  work.For(
     part.Cells[2], 1, [&run](Index first, Index last) { run.CoverLayers(first, last); }, 1);
   return { run.OpenLines() };
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Solid/TriangleLayers.h"
 
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace RectifiedTransport
 {
 
 TriangleLayers::TriangleLayers(const TriangleSurface& surface, std::int64_t layers,
-  std::int64_t firstLayer, std::int64_t endLayer, double counted, double listed, Progress& progress)
+  std::int64_t firstLayer, std::int64_t endLayer, Progress& progress)
   : Surface(surface)
   , FirstLayer(firstLayer)
   , EndLayer(endLayer)
@@ -18,11 +18,12 @@ TriangleLayers::TriangleLayers(const TriangleSurface& surface, std::int64_t laye
 {
   // Counted as differences along the layers: O(1) for a triangle of any height.
   std::fill_n(this->First.data(), layers + 2, std::int64_t{ 0 });
-  progress.BeginStage(counted, surface.NumberOfTriangles);
-  this->ForTriangles(progress, [this](std::int64_t, const Range& range) {
-    ++this->First.data()[range.First + 1];
-    --this->First.data()[range.End + 1];
-  });
+  Stages stages(progress, { { "counts", 1 }, { "lists", 1 } });
+  this->ForTriangles(
+    stages["counts"].Expect(surface.NumberOfTriangles), [this](std::int64_t, const Range& range) {
+      ++this->First.data()[range.First + 1];
+      --this->First.data()[range.End + 1];
+    });
   std::int64_t* first = this->First.data();
   std::int64_t open = 0;
   std::int64_t sum = 0;
@@ -35,13 +36,13 @@ TriangleLayers::TriangleLayers(const TriangleSurface& surface, std::int64_t laye
   this->Triangles = LargeBuffer<std::int64_t>(sum);
   LargeBuffer<std::int64_t> next(layers);
   std::copy_n(first, layers, next.data());
-  progress.BeginStage(listed, surface.NumberOfTriangles + sum);
-  this->ForTriangles(progress, [&, this](std::int64_t triangle, const Range& range) {
+  Progress& lists = stages["lists"].Expect(surface.NumberOfTriangles + sum);
+  this->ForTriangles(lists, [&, this](std::int64_t triangle, const Range& range) {
     for (std::int64_t k = range.First; k < range.End; ++k)
     {
       this->Triangles.data()[next.data()[k]++] = triangle;
     }
-    progress.Add(range.End - range.First);
+    lists.Add(range.End - range.First);
   });
 }
 

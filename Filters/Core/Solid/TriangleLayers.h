@@ -19,11 +19,10 @@ class Progress;
 class TriangleLayers
 {
 public:
-  // Lists for the layers [firstLayer, endLayer) of `layers`. Works in two stages, up to the given
-  // progresses. Memory: 8 bytes for each layer that a triangle crosses. Throws std::bad_alloc and
-  // Cancelled.
+  // Lists for the layers [firstLayer, endLayer) of `layers`. Memory: 8 bytes for each layer
+  // that a triangle crosses. Throws std::bad_alloc and Cancelled.
   TriangleLayers(const TriangleSurface& surface, std::int64_t layers, std::int64_t firstLayer,
-    std::int64_t endLayer, double counted, double listed, Progress& progress);
+    std::int64_t endLayer, Progress& progress);
 
   std::int64_t Begin(std::int64_t layer) const { return this->First.data()[layer]; }
   std::int64_t End(std::int64_t layer) const { return this->First.data()[layer + 1]; }

@@ -2,7 +2,7 @@
 #include "Core/SurfaceRelaxation/DensityLevels.h"
 
 #include "Core/Mesh/Trees.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,32 +32,28 @@ struct Part
 class LevelsRun
 {
 public:
-  LevelsRun(WalkedSurface& surface, const SurfaceDensity& density, double massOfDot, double* levels,
-    Progress& progress)
+  LevelsRun(WalkedSurface& surface, const SurfaceDensity& density, double massOfDot, double* levels)
     : Surface(surface)
     , Density(density)
     , MassOfDot(massOfDot)
     , Levels(levels)
     , Count(surface.NumberOfTriangles())
-    , Work(progress)
     , PartOf(this->Count)
   {
   }
 
-  void Run(double begin, double end)
+  void Run(Progress& progress)
   {
-    const auto stage = [&](double of) { this->Work.BeginStage(begin + of * (end - begin)); };
-    stage(0.1);
-    this->Work.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+    Stages stages(progress, { { "means", 1 }, { "parts", 2 }, { "roots", 1 }, { "levels", 6 } });
+    stages["means"].For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t t = first; t < last; ++t)
       {
         this->Levels[t] = this->Density.MeanOf(t);
         this->PartOf.data()[t] = t;
       }
     });
-    stage(0.3);
     bool hasJumps = false;
-    this->ForSides([&](std::int64_t side, std::int64_t other) {
+    this->ForSides(stages["parts"], [&](std::int64_t side, std::int64_t other) {
       const bool isJump = this->IsJump(side, other);
       hasJumps = hasJumps || isJump;
       if (!isJump)
@@ -65,31 +61,28 @@ public:
         joinTrees(this->PartOf.data(), side / 3, other / 3);
       }
     });
-    stage(0.4);
-    this->ForTriangles(
+    this->ForTriangles(stages["roots"],
       [&](std::int64_t t) { this->PartOf.data()[t] = rootOf(this->PartOf.data(), t); });
     if (hasJumps)
     {
-      stage(0.6);
-      this->Measure();
-      stage(0.8);
-      this->FindWide();
-      this->CloseJumps();
-      stage(1.0);
-      this->SmoothNoise();
+      Stages steps(
+        stages["levels"], { { "measures", 2 }, { "wide", 1 }, { "jumps", 1 }, { "noise", 2 } });
+      this->Measure(steps["measures"]);
+      this->FindWide(steps["wide"]);
+      this->CloseJumps(steps["jumps"]);
+      this->SmoothNoise(steps["noise"]);
     }
     else
     {
-      stage(1.0);
-      this->ForTriangles([&](std::int64_t t) { this->SetLevel(t); });
+      this->ForTriangles(stages["levels"], [&](std::int64_t t) { this->SetLevel(t); });
     }
   }
 
 private:
   template <class Visit>
-  void ForTriangles(const Visit& visit)
+  void ForTriangles(Progress& progress, const Visit& visit)
   {
-    this->Work.ForInOrder(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+    progress.ForInOrder(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t t = first; t < last; ++t)
       {
         visit(t);
@@ -98,9 +91,9 @@ private:
   }
   // Pairs of sides, once each.
   template <class Visit>
-  void ForSides(const Visit& visit)
+  void ForSides(Progress& progress, const Visit& visit)
   {
-    this->ForTriangles([&](std::int64_t t) {
+    this->ForTriangles(progress, [&](std::int64_t t) {
       for (std::int64_t side = 3 * t; side < 3 * t + 3; ++side)
       {
         const std::int64_t other = this->Surface.Across(side);
@@ -143,17 +136,17 @@ private:
     return std::sqrt(dot(edge, edge));
   }
 
-  void Measure()
+  void Measure(Progress& progress)
   {
     this->Parts = LargeBuffer<Part>(this->Count);
     std::fill_n(this->Parts.data(), this->Count, Part{});
-    this->ForTriangles([&](std::int64_t t) {
+    this->ForTriangles(progress, [&](std::int64_t t) {
       Part& part = this->Parts.data()[this->PartOf.data()[t]];
       const double area = this->Surface.Area(t);
       part.Area += area;
       part.Mass += area * this->Levels[t];
     });
-    this->ForSides([&](std::int64_t side, std::int64_t other) {
+    this->ForSides(progress, [&](std::int64_t side, std::int64_t other) {
       const std::int64_t sides[2] = { side, other };
       for (int i = 0; i < 2; ++i)
       {
@@ -170,10 +163,10 @@ private:
     });
   }
 
-  void FindWide()
+  void FindWide(Progress& progress)
   {
     this->IsWide = LargeBuffer<char>(this->Count);
-    this->ForTriangles([&](std::int64_t t) {
+    this->ForTriangles(progress, [&](std::int64_t t) {
       if (this->PartOf.data()[t] != t)
       {
         return;
@@ -192,16 +185,17 @@ private:
   }
   bool InWide(std::int64_t t) const { return this->IsWide.data()[this->PartOf.data()[t]]; }
 
-  void CloseJumps()
+  void CloseJumps(Progress& progress)
   {
     this->SeenBy = LargeBuffer<std::int64_t>(this->Count);
     std::fill_n(this->SeenBy.data(), this->Count, std::int64_t{ -1 });
-    this->ForSides([&](std::int64_t side, std::int64_t other) {
+    this->ForSides(progress, [&](std::int64_t side, std::int64_t other) {
       const std::int64_t a = side / 3;
       const std::int64_t b = other / 3;
       if (this->InWide(a) && this->InWide(b) && this->Surface.Area(a) > 0.0 &&
         this->Surface.Area(b) > 0.0 && this->IsJump(side, other) &&
-        (this->PartOf.data()[a] != this->PartOf.data()[b] || this->JumpsAround(side, other)))
+        (this->PartOf.data()[a] != this->PartOf.data()[b] ||
+          this->JumpsAround(side, other, progress)))
       {
         const bool isEmpty = this->Levels[a] == 0.0 || this->Levels[b] == 0.0;
         const std::int64_t with = isEmpty ? WalkedSurface::Boundary : WalkedSurface::Wall;
@@ -213,14 +207,14 @@ private:
 
   // Whether the means of the triangles around both sides of an edge jump, too, where a part meets
   // itself. In a part with noise they do not.
-  bool JumpsAround(std::int64_t side, std::int64_t other)
+  bool JumpsAround(std::int64_t side, std::int64_t other, Progress& progress)
   {
     constexpr std::size_t mostTriangles = 32;
     double means[2];
     for (int i = 0; i < 2; ++i)
     {
       const std::int64_t start = i == 0 ? side : other;
-      means[i] = this->MeanAround(start / 3, start, mostTriangles,
+      means[i] = this->MeanAround(start / 3, start, mostTriangles, progress,
         [this](std::int64_t a, std::int64_t b) { return !this->IsJump(a, b); });
     }
     return std::max(means[0], means[1]) > largestStep * std::min(means[0], means[1]);
@@ -229,8 +223,8 @@ private:
   // The mean density of the nearest triangles over edges, up to the mass of some dots. Leaves those
   // in Queue, and marks them, and some more, by `mark`.
   template <class IsWay>
-  double MeanAround(
-    std::int64_t start, std::int64_t mark, std::size_t mostTriangles, const IsWay& isWay)
+  double MeanAround(std::int64_t start, std::int64_t mark, std::size_t mostTriangles,
+    Progress& progress, const IsWay& isWay)
   {
     double mass = 0.0;
     double area = 0.0;
@@ -256,7 +250,7 @@ private:
       }
     }
     this->Queue.resize(next);
-    this->Work.Add(static_cast<std::int64_t>(next));
+    progress.Add(static_cast<std::int64_t>(next));
     return area > 0.0 ? mass / area : 0.0;
   }
 
@@ -266,19 +260,19 @@ private:
   }
 
   // The mean of the triangles around each that has noise; all of these get the same.
-  void SmoothNoise()
+  void SmoothNoise(Progress& progress)
   {
     LargeBuffer<double> smooth(this->Count);
     std::fill_n(this->SeenBy.data(), this->Count, std::int64_t{ -1 });
     std::fill_n(smooth.data(), this->Count, DensityLevels::Given);
-    this->ForTriangles([&](std::int64_t start) {
+    this->ForTriangles(progress, [&](std::int64_t start) {
       if (this->InWide(start) || smooth.data()[start] >= 0.0)
       {
         return;
       }
       constexpr auto all = static_cast<std::size_t>(-1);
-      const double mean =
-        this->MeanAround(start, start, all, [](std::int64_t, std::int64_t) { return true; });
+      const double mean = this->MeanAround(
+        start, start, all, progress, [](std::int64_t, std::int64_t) { return true; });
       for (const std::int64_t t : this->Queue)
       {
         if (!this->InWide(t) && smooth.data()[t] < 0.0)
@@ -287,7 +281,7 @@ private:
         }
       }
     });
-    this->ForTriangles([&](std::int64_t t) {
+    this->ForTriangles(progress, [&](std::int64_t t) {
       if (this->Levels[t] > 0.0 && smooth.data()[t] > 0.0)
       {
         this->Levels[t] = smooth.data()[t];
@@ -304,7 +298,6 @@ private:
   const double MassOfDot;
   double* Levels;
   const std::int64_t Count;
-  Progress& Work;
   LargeBuffer<std::int64_t> PartOf;
   LargeBuffer<Part> Parts;
   LargeBuffer<char> IsWide;
@@ -314,12 +307,11 @@ private:
 
 } // namespace
 
-DensityLevels::DensityLevels(WalkedSurface& surface, const SurfaceDensity& density,
-  double massOfDot, Progress& progress, double end)
+DensityLevels::DensityLevels(
+  WalkedSurface& surface, const SurfaceDensity& density, double massOfDot, Progress& progress)
   : Levels(surface.NumberOfTriangles())
 {
-  LevelsRun run(surface, density, massOfDot, this->Levels.data(), progress);
-  run.Run(progress.StageEnd(), end);
+  LevelsRun(surface, density, massOfDot, this->Levels.data()).Run(progress);
 }
 
 double DensityLevels::MemoryFor(std::int64_t triangles)

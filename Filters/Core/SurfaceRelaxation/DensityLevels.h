@@ -19,15 +19,14 @@ class Progress;
 // parts jump, as walls, and around wide parts of density 0, as boundaries.
 //
 // The levels: 0 on triangles of density 0; the mean density, above 0, where it is noise; `Given`
-// where the density itself counts. Runs in the progress's current stage up to `end`. Throws
-// std::bad_alloc and Cancelled.
+// where the density itself counts. Throws std::bad_alloc and Cancelled.
 class DensityLevels
 {
 public:
   static constexpr double Given = -1.0;
 
-  DensityLevels(WalkedSurface& surface, const SurfaceDensity& density, double massOfDot,
-    Progress& progress, double end);
+  DensityLevels(
+    WalkedSurface& surface, const SurfaceDensity& density, double massOfDot, Progress& progress);
   static double MemoryFor(std::int64_t triangles);
 
   const double* data() const { return this->Levels.data(); }

@@ -3,7 +3,7 @@
 
 #include "Core/Geometry/LowDiscrepancy.h"
 #include "Core/Geometry/ReproducibleMath.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/SurfaceRelaxation/DotTree.h"
 
 #include <algorithm>
@@ -45,14 +45,13 @@ std::uint32_t spreadBits(double x)
 class TriangleOrder
 {
 public:
-  TriangleOrder(const WalkedSurface& surface, Progress& progress, double end)
+  TriangleOrder(const WalkedSurface& surface, Progress& progress)
     : Order(surface.NumberOfTriangles())
   {
     const std::int64_t count = this->Order.size();
     LargeBuffer<std::uint32_t> keys(count);
-    const double begin = progress.StageEnd();
-    progress.BeginStage(begin + 0.3 * (end - begin));
-    progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+    Stages stages(progress, { { "keys", 3 }, { "low bits", 3 }, { "high bits", 4 } });
+    stages["keys"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t t = first; t < last; ++t)
       {
         const Point<3> centre =
@@ -62,8 +61,8 @@ public:
       }
     });
     LargeBuffer<std::int64_t> other(count);
-    this->Pass(keys, nullptr, other.data(), 0, progress, begin + 0.6 * (end - begin));
-    this->Pass(keys, other.data(), this->Order.data(), 3 * bitsOfAxis / 2, progress, end);
+    this->Pass(keys, nullptr, other.data(), 0, stages["low bits"]);
+    this->Pass(keys, other.data(), this->Order.data(), 3 * bitsOfAxis / 2, stages["high bits"]);
   }
 
   std::int64_t operator[](std::int64_t place) const { return this->Order.data()[place]; }
@@ -71,13 +70,13 @@ public:
 private:
   // A stable counting sort by 15 bits.
   void Pass(const LargeBuffer<std::uint32_t>& keys, const std::int64_t* from, std::int64_t* to,
-    int shift, Progress& progress, double end)
+    int shift, Progress& progress)
   {
     constexpr std::uint32_t buckets = 1u << (3 * bitsOfAxis / 2);
     const auto bucketOf = [&](std::int64_t t) { return keys.data()[t] >> shift & (buckets - 1u); };
     std::vector<std::int64_t> next(buckets + 1, 0);
     const std::int64_t count = keys.size();
-    progress.BeginStage(end, 2 * count);
+    progress.Expect(2 * count);
     progress.ForInOrder(count, grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t t = first; t < last; ++t)
       {
@@ -179,18 +178,17 @@ private:
 };
 
 LargeBuffer<SurfacePlace> makeSamples(const WalkedSurface& surface, const SurfaceDensity& density,
-  double total, std::int64_t count, std::uint64_t seed, Progress& progress, double end)
+  double total, std::int64_t count, std::uint64_t seed, Progress& progress)
 {
-  const double begin = progress.StageEnd();
+  Stages stages(progress, { { "order", 4 }, { "counts", 2 }, { "samples", 4 } });
   const std::int64_t triangles = surface.NumberOfTriangles();
-  const TriangleOrder order(surface, progress, begin + 0.4 * (end - begin));
+  const TriangleOrder order(surface, stages["order"]);
   // The first sample of each triangle, at equal steps of the mass from a random one on.
   LargeBuffer<std::int64_t> firsts(triangles + 1);
   const double offset = unitReal(randomWord(seed + 2, 0));
   double mass = 0.0;
   firsts.data()[0] = 0;
-  progress.BeginStage(begin + 0.6 * (end - begin));
-  progress.ForInOrder(triangles, grain, [&](std::int64_t first, std::int64_t last) {
+  stages["counts"].ForInOrder(triangles, grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       mass += density.MassOf(order[i]);
@@ -206,9 +204,8 @@ LargeBuffer<SurfacePlace> makeSamples(const WalkedSurface& surface, const Surfac
   }
   std::fill(firsts.data() + used, firsts.data() + triangles + 1, count);
   LargeBuffer<SurfacePlace> samples(count);
-  progress.BeginStage(end);
   constexpr std::int64_t triangleGrain = 256;
-  progress.For(
+  stages["samples"].For(
     triangles, triangleGrain,
     [&](std::int64_t from, std::int64_t to) {
       for (std::int64_t i = from; i < to; ++i)
@@ -244,48 +241,53 @@ struct DotRange
 class SampleCuts
 {
 public:
-  SampleCuts(LargeBuffer<SurfacePlace>& samples, const SurfaceDensity& density, std::int64_t ofDot,
-    Progress& progress)
+  SampleCuts(LargeBuffer<SurfacePlace>& samples, const SurfaceDensity& density, std::int64_t ofDot)
     : Samples(samples.data())
     , Density(density)
     , OfDot(ofDot)
-    , Work(progress)
   {
   }
 
   // Puts the sample of each dot first among those of the dot.
-  void Run(std::int64_t dots, double end)
+  void Run(std::int64_t dots, Progress& progress)
   {
-    constexpr std::size_t manyRanges = 256;
+    constexpr int mostLevels = 8; // 256 ranges
     constexpr std::int64_t fewDots = 256;
-    const double begin = this->Work.StageEnd();
-    std::vector<DotRange> ranges{ { 0, dots } };
-    for (int level = 0; ranges.size() < manyRanges && (dots >> level) > fewDots; ++level)
+    int levels = 0;
+    while (levels < mostLevels && (dots >> levels) > fewDots)
     {
-      const double part = 0.06 * (level + 1); // of about log2(dots) equal levels
-      this->Work.BeginStage(begin + part * (end - begin));
+      ++levels;
+    }
+    constexpr double ofLevel = 0.06; // of about log2(dots) equal levels
+    Stages stages(progress, { { "levels", ofLevel * levels }, { "dots", 1.0 - ofLevel * levels } });
+    Parts cuts(stages["levels"], levels);
+    std::vector<DotRange> ranges{ { 0, dots } };
+    for (int level = 0; level < levels; ++level)
+    {
+      Progress& cut = cuts[level];
       std::vector<DotRange> halves(2 * ranges.size());
-      this->For(ranges, [&](std::int64_t i) {
+      this->For(cut, ranges, [&](std::int64_t i) {
         const DotRange range = ranges[static_cast<std::size_t>(i)];
-        const std::int64_t middle = this->Cut(range);
+        const std::int64_t middle = this->Cut(range, cut);
         halves[static_cast<std::size_t>(2 * i)] = { range.First, middle };
         halves[static_cast<std::size_t>(2 * i + 1)] = { middle, range.Last };
       });
       ranges = std::move(halves);
     }
-    this->Work.BeginStage(end);
-    this->For(ranges, [&](std::int64_t i) { this->Finish(ranges[static_cast<std::size_t>(i)]); });
+    Progress& rest = stages["dots"];
+    this->For(rest, ranges,
+      [&](std::int64_t i) { this->Finish(ranges[static_cast<std::size_t>(i)], rest); });
   }
 
   // Where the density jumps among the samples of a dot, the one next to their mean would be a
   // sparse one too often. Chooses from the sparse or from the dense ones so that both have their
   // shares over all dots.
-  void ShareJumps(std::int64_t dots)
+  void ShareJumps(std::int64_t dots, Progress& progress)
   {
     double owed = 0.5; // to the sparse side
     std::vector<std::pair<double, std::int64_t>> byDensity(static_cast<std::size_t>(this->OfDot));
     std::vector<SurfacePlace> side;
-    this->Work.ForInOrder(dots, grain, [&](std::int64_t from, std::int64_t to) {
+    progress.ForInOrder(dots, grain, [&](std::int64_t from, std::int64_t to) {
       for (std::int64_t dot = from; dot < to; ++dot)
       {
         SurfacePlace* const first = this->At(dot);
@@ -324,9 +326,9 @@ public:
 
 private:
   template <class Visit>
-  void For(const std::vector<DotRange>& ranges, const Visit& visit)
+  void For(Progress& progress, const std::vector<DotRange>& ranges, const Visit& visit)
   {
-    this->Work.For(
+    progress.For(
       static_cast<std::int64_t>(ranges.size()), 1,
       [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = first; i < last; ++i)
@@ -339,18 +341,18 @@ private:
 
   SurfacePlace* At(std::int64_t dot) const { return this->Samples + dot * this->OfDot; }
 
-  void CountComparisons(int& comparisons) const
+  static void countComparison(int& comparisons, Progress& progress)
   {
     constexpr int interval = 1 << 17;
     if (++comparisons == interval)
     {
       comparisons = 0;
-      this->Work.Check();
+      progress.Check();
     }
   }
 
   // Cuts the samples of a range across their longest extent. Returns where the second half begins.
-  std::int64_t Cut(const DotRange& range) const
+  std::int64_t Cut(const DotRange& range, Progress& progress) const
   {
     SurfacePlace* const first = this->At(range.First);
     SurfacePlace* const last = this->At(range.Last);
@@ -372,7 +374,7 @@ private:
     const std::int64_t middle = range.First + dotsBeforeCut(range.Last - range.First);
     int comparisons = 0;
     std::nth_element(first, this->At(middle), last, [&](const auto& a, const auto& b) {
-      this->CountComparisons(comparisons);
+      countComparison(comparisons, progress);
       return isBefore(a, b, longest);
     });
     return middle;
@@ -392,13 +394,13 @@ private:
     return a.Triangle < b.Triangle;
   }
 
-  void Finish(const DotRange& range) const
+  void Finish(const DotRange& range, Progress& progress) const
   {
     if (range.Last - range.First > 1)
     {
-      const std::int64_t middle = this->Cut(range);
-      this->Finish({ range.First, middle });
-      this->Finish({ middle, range.Last });
+      const std::int64_t middle = this->Cut(range, progress);
+      this->Finish({ range.First, middle }, progress);
+      this->Finish({ middle, range.Last }, progress);
     }
     else if (range.Last > range.First)
     {
@@ -428,29 +430,28 @@ private:
   SurfacePlace* Samples;
   const SurfaceDensity& Density;
   const std::int64_t OfDot;
-  Progress& Work;
 };
 
 } // namespace
 
 LargeBuffer<SurfacePlace> startDots(const WalkedSurface& surface, const SurfaceDensity& density,
-  double total, const SurfaceRelaxationOptions& options, Progress& progress, double end)
+  double total, const SurfaceRelaxationOptions& options, Progress& progress)
 {
   const std::int64_t dots = options.NumberOfSamples;
   const std::int64_t ofDot = samplesOfDot(dots);
-  const double begin = progress.StageEnd();
-  LargeBuffer<SurfacePlace> samples = makeSamples(surface, density, total, ofDot * dots,
-    options.RandomSeed, progress, begin + 0.3 * (end - begin));
-  SampleCuts cuts(samples, density, ofDot, progress);
-  cuts.Run(dots, begin + 0.9 * (end - begin));
+  Stages stages(progress,
+    { { "samples", 30 }, { "cuts", 60 }, { "jumps", density.IsUniform() ? 0.0 : 5.0 },
+      { "dots", 5 } });
+  LargeBuffer<SurfacePlace> samples =
+    makeSamples(surface, density, total, ofDot * dots, options.RandomSeed, stages["samples"]);
+  SampleCuts cuts(samples, density, ofDot);
+  cuts.Run(dots, stages["cuts"]);
   if (!density.IsUniform())
   {
-    progress.BeginStage(begin + 0.95 * (end - begin));
-    cuts.ShareJumps(dots);
+    cuts.ShareJumps(dots, stages["jumps"]);
   }
-  progress.BeginStage(end);
   LargeBuffer<SurfacePlace> chosen(dots);
-  progress.For(dots, grain, [&](std::int64_t first, std::int64_t last) {
+  stages["dots"].For(dots, grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t dot = first; dot < last; ++dot)
     {
       chosen.data()[dot] = samples.data()[dot * ofDot];

@@ -15,10 +15,9 @@ class Progress;
 
 // Several samples a dot, in proportion to mass, are halved by k-d cuts with whole numbers of dots;
 // of the samples of one dot it takes the one in their middle. `total` is the surface's mass. The
-// order of the dots is that of the cuts (DotTree.h). Runs in the progress's current stage up to
-// `end`. Throws std::bad_alloc and Cancelled.
+// order of the dots is that of the cuts (DotTree.h). Throws std::bad_alloc and Cancelled.
 LargeBuffer<SurfacePlace> startDots(const WalkedSurface& surface, const SurfaceDensity& density,
-  double total, const SurfaceRelaxationOptions& options, Progress& progress, double end);
+  double total, const SurfaceRelaxationOptions& options, Progress& progress);
 
 // Bytes that it takes at most, about, with the dots.
 double memoryForStart(std::int64_t triangles, std::int64_t dots);

@@ -2,8 +2,8 @@
 #include "Core/SurfaceRelaxation/SurfaceRelaxation.h"
 
 #include "Core/Geometry/ReproducibleMath.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/SurfaceRelaxation/DensityLevels.h"
 #include "Core/SurfaceRelaxation/DotTree.h"
 #include "Core/SurfaceRelaxation/StratifiedStart.h"
@@ -80,20 +80,17 @@ public:
     , Shares(this->Places.size())
     , Tree(this->Places.size())
     , Boundary(surface, progress)
-    , Work(progress)
   {
   }
 
-  // The units of a stage that is an iteration.
-  std::int64_t Units() const { return this->Dots.size() + 2 * this->Tree.Blocks(); }
-
   // The first step, the last one, or a part of the way between them.
-  void Iterate(double part)
+  void Iterate(double part, Progress& progress)
   {
+    progress.Expect(this->Dots.size() + 2 * this->Tree.Blocks());
     this->Step = firstStep + part * (lastStep - firstStep);
     const bool isFirst = !this->HasSquares;
     this->HasSquares = true;
-    this->Work.For(this->Dots.size(), grain, [&](std::int64_t first, std::int64_t last) {
+    progress.For(this->Dots.size(), grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         const SurfacePlace& place = this->Places.data()[i];
@@ -109,10 +106,10 @@ public:
           std::sqrt(inverse), square };
       }
     });
-    this->Tree.Update(this->Dots.data(), this->Work);
+    this->Tree.Update(this->Dots.data(), progress);
     constexpr std::int64_t blocksOfGroup = 8;
     constexpr std::int64_t blockGrain = 4 * blocksOfGroup;
-    this->Work.For(
+    progress.For(
       this->Tree.Blocks(), blockGrain,
       [&](std::int64_t first, std::int64_t last) {
         Scratch scratch;
@@ -129,10 +126,10 @@ public:
       blockGrain);
   }
 
-  LargeBuffer<PlaceOnTriangle> Result() const
+  LargeBuffer<PlaceOnTriangle> Result(Progress& progress) const
   {
     LargeBuffer<PlaceOnTriangle> places(this->Places.size());
-    this->Work.For(places.size(), grain, [&](std::int64_t first, std::int64_t last) {
+    progress.For(places.size(), grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         places.data()[i] =
@@ -253,7 +250,6 @@ private:
   LargeBuffer<double> Shares;
   DotTree Tree;
   const SurfaceBoundary Boundary;
-  Progress& Work;
   double Step = 0.0;
   bool HasSquares = false;
   const SumDots Sum = dotKernel();
@@ -280,11 +276,12 @@ SurfaceRelaxation relaxOnSurface(const TriangleSurface& given, const SurfaceDens
 {
   check(options);
   Progress progress(context);
-  WalkedSurface surface(given, options.Rounding, progress, 0.1);
-  progress.BeginStage(0.11);
-  const SurfaceDensity density(surface, values, progress);
-  progress.BeginStage(0.12);
-  const Sum sum = measure(surface, density, progress);
+  Stages stages(progress,
+    { { "surface", 10 }, { "density", 1 }, { "sums", 1 }, { "levels", 3 }, { "start", 15 },
+      { "boundary", 2 }, { "iterations", 66 }, { "places", 2 } });
+  WalkedSurface surface(given, options.Rounding, stages["surface"]);
+  const SurfaceDensity density(surface, values, stages["density"]);
+  const Sum sum = measure(surface, density, stages["sums"]);
   if (!(sum.Area > 0.0))
   {
     throw std::invalid_argument("no triangle of the surface has an area");
@@ -300,7 +297,6 @@ SurfaceRelaxation relaxOnSurface(const TriangleSurface& given, const SurfaceDens
   relaxed.NonManifoldEdges = surface.NonManifoldEdges();
   if (options.NumberOfSamples == 0)
   {
-    progress.BeginStage(1.0);
     progress.EndSlice(1);
     return relaxed;
   }
@@ -308,19 +304,17 @@ SurfaceRelaxation relaxOnSurface(const TriangleSurface& given, const SurfaceDens
   std::unique_ptr<DensityLevels> levels;
   if (!density.IsUniform())
   {
-    levels = std::make_unique<DensityLevels>(surface, density, massOfDot, progress, 0.15);
+    levels = std::make_unique<DensityLevels>(surface, density, massOfDot, stages["levels"]);
   }
-  LargeBuffer<SurfacePlace> start = startDots(surface, density, sum.Mass, options, progress, 0.3);
-  progress.BeginStage(0.32);
-  DotRelaxation relaxation(
-    surface, density, levels ? levels->data() : nullptr, massOfDot, std::move(start), progress);
+  LargeBuffer<SurfacePlace> start = startDots(surface, density, sum.Mass, options, stages["start"]);
+  DotRelaxation relaxation(surface, density, levels ? levels->data() : nullptr, massOfDot,
+    std::move(start), stages["boundary"]);
+  Parts iterations(stages["iterations"], options.Iterations);
   for (int i = 0; i < options.Iterations; ++i)
   {
-    progress.BeginStage(0.32 + 0.66 * (i + 1.0) / options.Iterations, relaxation.Units());
-    relaxation.Iterate(i / std::max(options.Iterations - 1.0, 1.0));
+    relaxation.Iterate(i / std::max(options.Iterations - 1.0, 1.0), iterations[i]);
   }
-  progress.BeginStage(1.0);
-  relaxed.Places = relaxation.Result();
+  relaxed.Places = relaxation.Result(stages["places"]);
   return relaxed;
 }
 

@@ -5,8 +5,8 @@
 #include "Core/Mesh/EdgeSides.h"
 #include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/TJunctions.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <atomic>
@@ -64,8 +64,7 @@ PointBounds boundsOfTriangles(const TriangleSurface& surface, std::int64_t first
 
 } // namespace
 
-WalkedSurface::WalkedSurface(
-  const TriangleSurface& surface, double rounding, Progress& progress, double end)
+WalkedSurface::WalkedSurface(const TriangleSurface& surface, double rounding, Progress& progress)
   : GivenSurface(surface)
   , Triangles(surface.Triangles)
   , Count(surface.NumberOfTriangles)
@@ -74,11 +73,11 @@ WalkedSurface::WalkedSurface(
   {
     throw std::invalid_argument("the surface has no triangles");
   }
-  const double begin = progress.StageEnd();
-  const auto part = [=](double of) { return begin + of * (end - begin); };
-  progress.BeginStage(part(0.1));
+  Stages stages(progress,
+    { { "bounds", 10 }, { "positions", 10 }, { "equal points", 30 }, { "sides", 40 },
+      { "T-junctions", 5 }, { "sides of parts", 5 } });
   const PointBounds bounds = reduceChunks(
-    progress, this->Count, grain, PointBounds(),
+    stages["bounds"], this->Count, grain, PointBounds(),
     [&](std::int64_t first, std::int64_t last) { return boundsOfTriangles(surface, first, last); },
     [](PointBounds all, const PointBounds& more) {
       all.Add(more);
@@ -98,8 +97,7 @@ WalkedSurface::WalkedSurface(
     std::ldexp(1.0, -exponent - -exponent / 2 - 1) };
   const std::int64_t points = surface.Points.size();
   this->Positions = LargeBuffer<double>(3 * points);
-  progress.BeginStage(part(0.2));
-  progress.For(points, grain, [&](std::int64_t first, std::int64_t last) {
+  stages["positions"].For(points, grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t point = first; point < last; ++point)
     {
       for (std::size_t axis = 0; axis < 3; ++axis)
@@ -110,17 +108,15 @@ WalkedSurface::WalkedSurface(
     }
   });
   LargeBuffer<std::int64_t> welded(points);
-  progress.BeginStage(part(0.5));
-  mergePoints(surface.Points, welded.data(), progress.Stage());
+  mergePoints(surface.Points, welded.data(), stages["equal points"]);
   for (std::int64_t point = 0; point < points; ++point)
   {
     this->NumberWelded += welded.data()[point] != point ? 1 : 0;
   }
-  this->PairSides(welded.data(), points, progress, part(0.9));
-  progress.BeginStage(part(0.95));
-  if (this->Cut(welded.data(), rounding, progress))
+  this->PairSides(welded.data(), points, stages["sides"]);
+  if (this->Cut(welded.data(), rounding, stages["T-junctions"]))
   {
-    this->PairSides(welded.data(), points, progress, end);
+    this->PairSides(welded.data(), points, stages["sides of parts"]);
   }
 }
 
@@ -143,8 +139,7 @@ double WalkedSurface::Area(std::int64_t triangle) const
   return isFlat(squared, dot(b, b) + dot(c, c)) ? 0.0 : 0.5 * std::sqrt(squared);
 }
 
-void WalkedSurface::PairSides(
-  const std::int64_t* welded, std::int64_t points, Progress& progress, double end)
+void WalkedSurface::PairSides(const std::int64_t* welded, std::int64_t points, Progress& progress)
 {
   this->Sides = LargeBuffer<std::int64_t>(3 * this->Count);
   std::fill_n(this->Sides.data(), 3 * this->Count, Boundary);
@@ -153,7 +148,7 @@ void WalkedSurface::PairSides(
   visitEdges(SideCorners{ this->Count, points,
                [=](std::int64_t corner) { return welded[this->Triangles[corner]]; },
                [=](std::int64_t triangle) { return this->IsLine(triangle, welded); } },
-    progress, end, [&](const std::int64_t* sides, std::int64_t count) {
+    progress, [&](const std::int64_t* sides, std::int64_t count) {
       open += count == 1 ? 1 : 0;
       nonManifold += count > 2 ? 1 : 0;
       this->PairEdge(sides, count);

@@ -36,10 +36,9 @@ public:
   static constexpr std::int64_t Boundary = -1;
   static constexpr std::int64_t Wall = -2; // there is surface, but no way
 
-  // Keeps a view of the triangles. `rounding` is by how much coordinates may be off. Runs in the
-  // progress's current stage up to `end`. Throws std::invalid_argument, std::bad_alloc and
-  // Cancelled.
-  WalkedSurface(const TriangleSurface& surface, double rounding, Progress& progress, double end);
+  // Keeps a view of the triangles. `rounding` is by how much coordinates may be off. Throws
+  // std::invalid_argument, std::bad_alloc and Cancelled.
+  WalkedSurface(const TriangleSurface& surface, double rounding, Progress& progress);
   // Bytes that the constructor takes at most, about; without T-junctions, 32 a triangle less.
   static double MemoryFor(std::int64_t points, std::int64_t triangles);
 
@@ -85,7 +84,7 @@ public:
 private:
   struct Frame; // of a triangle, as the walk needs it
 
-  void PairSides(const std::int64_t* welded, std::int64_t points, Progress& progress, double end);
+  void PairSides(const std::int64_t* welded, std::int64_t points, Progress& progress);
   bool IsLine(std::int64_t triangle, const std::int64_t* welded) const;
   bool Cut(const std::int64_t* welded, double rounding, Progress& progress);
   void PairEdge(const std::int64_t* sides, std::int64_t count);

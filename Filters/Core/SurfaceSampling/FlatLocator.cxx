@@ -48,7 +48,7 @@ FlatLocator::FlatLocator(const FlatMesh& mesh, const Context& context)
   {
     passes += 2;
   }
-  progress.BeginStage(1.0, passes * mesh.NumberOfTriangles);
+  progress.Expect(passes * mesh.NumberOfTriangles);
   this->ReadTriangles(progress);
   if (this->NumberOfItems == 0)
   {

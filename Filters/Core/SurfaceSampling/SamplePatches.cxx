@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SurfaceSampling/SamplePatches.h"
 
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <Eigen/Geometry>
 
@@ -125,14 +125,13 @@ double patchError(const DiskMesh& disk, const double* masses,
   Progress progress(context);
   // About as many levels as halve the triangles to patches.
   const double patches = std::max(static_cast<double>(places.size()) / samplesOfPatch, 1.0);
-  progress.BeginStage(0.9,
-    static_cast<std::int64_t>(
-      (2.0 + std::log2(patches)) * static_cast<double>(disk.NumberOfTriangles())));
+  Stages stages(progress, { { "patches", 9 }, { "error", 1 } });
+  Progress& division = stages["patches"].Expect(static_cast<std::int64_t>(
+    (2.0 + std::log2(patches)) * static_cast<double>(disk.NumberOfTriangles())));
   PatchTree tree(disk, masses);
-  tree.Divide(tree.TotalMass() / patches, progress);
-  progress.BeginStage(1.0);
+  tree.Divide(tree.TotalMass() / patches, division);
   const double error = tree.Error(places);
-  progress.EndSlice(1);
+  stages["error"].EndSlice(1);
   return error;
 }
 

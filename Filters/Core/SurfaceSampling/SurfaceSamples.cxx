@@ -2,7 +2,7 @@
 #include "Core/SurfaceSampling/SurfaceSamples.h"
 
 #include "Core/Flow/RectifiedFlow.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/AreaPreservingMap.h"
 #include "Core/Parameterization/MassRaster.h"
 #include "Core/SurfaceSampling/SamplePatches.h"
@@ -37,11 +37,10 @@ struct FlatMap
 RectifiedFlow<2> flowOf(const FlatMesh& flat, const GridSize<2>& size, Progress& progress)
 {
   LargeBuffer<double> masses(size[0] * size[1]);
-  progress.BeginStage(0.1);
+  Stages stages(progress, { { "masses", 2 }, { "tables", 3 } });
   rasterizeMass({ flat.Positions, flat.Triangles, flat.Masses, flat.NumberOfTriangles }, size,
-    masses.data(), progress.Stage());
-  progress.BeginStage(0.25);
-  return RectifiedFlow<2>(DensityArray<2, double>(masses.data(), size), progress.Stage());
+    masses.data(), stages["masses"]);
+  return RectifiedFlow<2>(DensityArray<2, double>(masses.data(), size), stages["tables"]);
 }
 
 SurfaceSamples sampleMap(const DiskMesh& disk, const FlatMap& map, const double* masses,
@@ -56,34 +55,32 @@ SurfaceSamples sampleMap(const DiskMesh& disk, const FlatMap& map, const double*
   const auto count = static_cast<std::int64_t>(seeds.Count());
   SurfaceSamples samples;
   samples.Places = LargeBuffer<PlaceOnTriangle>(count);
+  Stages stages(progress,
+    { { "flow", 25 }, { "seeds", 5 }, { "map", 30 }, { "locator", 15 }, { "places", 20 },
+      { "error", 5 } });
   LargeBuffer<double> coordinates(2 * count);
   const PointSpan<2> points(coordinates.data(), count);
   {
-    const RectifiedFlow<2> flow = flowOf(flat, size, progress);
-    progress.BeginStage(0.3);
-    seeds.Generate(points, progress.Stage());
+    const RectifiedFlow<2> flow = flowOf(flat, size, stages["flow"]);
+    seeds.Generate(points, stages["seeds"]);
     for (std::int64_t i = 0; i < 2 * count; ++i)
     {
       coordinates.data()[i] *= static_cast<double>(size[static_cast<std::size_t>(i % 2)]);
     }
-    progress.BeginStage(0.6);
     FlowOptions integration = options.Flow;
     integration.Particles = static_cast<double>(count);
-    samples.Flow = flow.Forward(points, points, integration, progress.Stage());
+    samples.Flow = flow.Forward(points, points, integration, stages["map"]);
   }
-  progress.BeginStage(0.75);
-  const FlatLocator locator(flat, progress.Stage());
-  progress.BeginStage(0.95);
+  const FlatLocator locator(flat, stages["locator"]);
   PlaceOnTriangle* places = samples.Places.data();
-  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+  stages["places"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       places[i] = locator.Locate({ points[i][0] / static_cast<double>(size[0]),
         points[i][1] / static_cast<double>(size[1]) });
     }
   });
-  progress.BeginStage(1.0);
-  samples.PatchError = patchError(disk, masses, samples.Places, progress.Stage());
+  samples.PatchError = patchError(disk, masses, samples.Places, stages["error"]);
   return samples;
 }
 
@@ -121,21 +118,20 @@ SurfaceSamples sampleSurface(const DiskMesh& disk, const ConformalMap& map, cons
       std::to_string(options.NumberOfSamples) + "; it must be at least 0");
   }
   Progress progress(context);
-  progress.BeginStage(0.5);
-  SurfaceSamples samples =
-    sampleMap(disk, { map.Square.Positions, map.AspectRatio }, masses, options, progress.Stage());
+  Stages stages(
+    progress, { { "conformal map", 5 }, { "area-preserving map", 3 }, { "samples", 2 } });
+  SurfaceSamples samples = sampleMap(
+    disk, { map.Square.Positions, map.AspectRatio }, masses, options, stages["conformal map"]);
   if (samples.PatchError > SurfaceSamples::AcceptableError)
   {
     samples.Places = {}; // its memory is needed now
-    progress.BeginStage(0.8);
     AreaPreservingOptions flat;
     flat.Resolution = options.Resolution;
-    const AreaPreservingMap kept = mapAreaPreserving(disk, map.Square, flat, progress.Stage());
-    progress.BeginStage(1.0);
-    samples = sampleMap(disk, { kept.Positions, 1.0 }, masses, options, progress.Stage());
+    const AreaPreservingMap kept =
+      mapAreaPreserving(disk, map.Square, flat, stages["area-preserving map"]);
+    samples = sampleMap(disk, { kept.Positions, 1.0 }, masses, options, stages["samples"]);
     samples.IsAreaPreserving = true;
   }
-  progress.BeginStage(1.0);
   progress.EndSlice(1);
   return samples;
 }

@@ -279,14 +279,14 @@ TEST(SurfaceDensities, SquaresOfFewDots)
   for (const double dots : { 5.0, 20.0 }) // in a sparse square
   {
     Progress progress{ Context() };
-    WalkedSurface surface(box.Surface(), 0.0, progress, 0.2);
+    WalkedSurface surface(box.Surface(), 0.0, progress);
     const SurfaceDensity density(surface, byTriangles(values), progress);
     double square = 0.0; // its mass
     for (std::int64_t t = 0; t < surface.NumberOfTriangles(); ++t)
     {
       square += surface.Area(t) / (6.0 * squares * squares * 3.0);
     }
-    const DensityLevels levels(surface, density, square / dots, progress, 1.0);
+    const DensityLevels levels(surface, density, square / dots, progress);
     int sparse = 0;
     int noisy = 0;
     for (std::int64_t t = 0; t < surface.NumberOfTriangles(); ++t)

@@ -34,7 +34,7 @@ Mesh foldedPaper(int quads, bool flat)
 WalkedSurface walkedSurface(const Mesh& mesh)
 {
   Progress progress{ Context() };
-  return WalkedSurface(mesh.Surface(), 0.0, progress, 1.0);
+  return WalkedSurface(mesh.Surface(), 0.0, progress);
 }
 
 SurfacePlace placeAt(const WalkedSurface& surface, const PlaceOnTriangle& place)
