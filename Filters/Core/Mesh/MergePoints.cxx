@@ -273,30 +273,30 @@ std::vector<RepeatedTriangle> findRepeatedTriangles(
   });
   std::vector<RepeatedTriangle> repeated;
   std::vector<std::pair<Triple, std::int64_t>> group;
-  stages["comparison"].ForInOrder(
-    surface.Points.size(), grain, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t point = begin; point < end; ++point)
+  Progress& comparison = stages["comparison"];
+  comparison.ForInOrder(surface.Points.size(), grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t point = begin; point < end; ++point)
+    {
+      group.clear();
+      for (const std::int64_t triangle : triangles[static_cast<std::size_t>(point)])
       {
-        group.clear();
-        for (const std::int64_t triangle : triangles[static_cast<std::size_t>(point)])
+        group.emplace_back(pointsOf(triangle), triangle);
+      }
+      std::sort(group.begin(), group.end());
+      auto first = group.begin();
+      for (auto next = group.begin(); next != group.end(); ++next)
+      {
+        if (next->first != first->first)
         {
-          group.emplace_back(pointsOf(triangle), triangle);
+          first = next;
         }
-        std::sort(group.begin(), group.end());
-        auto first = group.begin();
-        for (auto next = group.begin(); next != group.end(); ++next)
+        else if (next != first)
         {
-          if (next->first != first->first)
-          {
-            first = next;
-          }
-          else if (next != first)
-          {
-            repeated.push_back({ next->second, first->second });
-          }
+          repeated.push_back({ next->second, first->second });
         }
       }
-    });
+    }
+  });
   std::sort(repeated.begin(), repeated.end(),
     [](const auto& a, const auto& b) { return a.Triangle < b.Triangle; });
   return repeated;

@@ -13,8 +13,8 @@ namespace RectifiedTransport
 
 // One sweep over the points in regions: Gauss-Newton steps on the sum over triangles of (area in
 // the square - area share)^2 / area share, damped by the surface's Dirichlet form. The first sweep,
-// 0, is damped more and smooths the map; borders of regions differ between sweeps. Runs as the
-// current stage. Throws std::bad_alloc and Cancelled.
+// 0, is damped more and smooths the map; borders of regions differ between sweeps. Throws
+// std::bad_alloc and Cancelled.
 void polishAreas(const MapParts& parts, int sweep, std::vector<Point<2>>& positions,
   const Context& context = Context());
 

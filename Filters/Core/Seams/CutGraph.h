@@ -14,8 +14,8 @@ class Progress;
 // two points far apart. Otherwise the edges that a spanning tree of the triangles does not cross,
 // less those that lead nowhere; the tree crosses the edges that are farthest from the boundary, or
 // from a first point, first (Erickson and Whittlesey 2005; Gu, Gortler and Hoppe 2002,
-// doi:10.1145/566654.566589). Near-linear. Memory: 60 bytes a triangle, 60 a point. Runs as the
-// current stage. Throws std::bad_alloc and Cancelled.
+// doi:10.1145/566654.566589). Near-linear. Memory: 60 bytes a triangle, 60 a point. Throws
+// std::bad_alloc and Cancelled.
 void openToDisk(SeamMesh& mesh, Progress& progress);
 
 // Makes the seams shorter one by one: without one of them there are two boundaries, which a

@@ -38,7 +38,7 @@ public:
   static double MemoryFor(std::int64_t dots);
 
   std::int64_t Blocks() const { return this->NumberOfBlocks; }
-  // Bounds the dots. Runs as a part of the current stage. Throws Cancelled.
+  // Bounds the dots. Throws Cancelled.
   void Update(const ScaledDot* dots, Progress& progress);
 
   const DotBox& BoxOf(std::int64_t block) const { return this->Leaves.data()[block]; }

@@ -20,7 +20,7 @@ class Progress;
 class SurfaceBoundary
 {
 public:
-  // Keeps a view of the surface. Runs as the current stage. Throws std::bad_alloc and Cancelled.
+  // Keeps a view of the surface. Throws std::bad_alloc and Cancelled.
   SurfaceBoundary(const WalkedSurface& surface, Progress& progress);
   // Bytes that it takes at most, about, for a number of sides.
   static double MemoryFor(double sides);

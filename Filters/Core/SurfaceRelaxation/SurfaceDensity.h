@@ -18,8 +18,8 @@ constexpr double largestStep = 2.0;
 class SurfaceDensity
 {
 public:
-  // Keeps views of the surface and the values. Runs as the current stage. Throws InvalidDensity for
-  // values that are negative or not finite, or 0 everywhere.
+  // Keeps views of the surface and the values. Throws InvalidDensity for values that are
+  // negative or not finite, or 0 everywhere.
   SurfaceDensity(
     const WalkedSurface& surface, const SurfaceDensityValues& values, Progress& progress);
 
