@@ -46,7 +46,6 @@ PixelMasses<Dimension> massesOf(const TestDensity<Dimension>& density,
   const NotDeduced<GridSize<Dimension>>& pixels, const Context& context = Context())
 {
   Progress progress(context);
-  progress.BeginStage(1.0);
   const double total = std::accumulate(density.Values.begin(), density.Values.end(), 0.0);
   return PixelMasses<Dimension>(density.Source(), total, pixels, progress);
 }

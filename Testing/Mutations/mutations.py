@@ -76,6 +76,11 @@ OTHERS = [
     E(CORE + "Splat/Kernels/SplatBlock.txx", "mass[i] = «job.Scale * masses[first + begin + i]»",
       "masses[first + begin + i]"),
     E(CORE + "Splat/Kernels/SplatGaussian.txx", "for (; __builtin_fabs(x) > «0.5»", "4.0"),
+    # progress
+    E(CORE + "Parallel/Stages.cxx", "if («this->Begun == &*found»)", "false"),
+    E(CORE + "Parallel/Stages.cxx", "return «this->Usual / (rounds + this->Usual)»;",
+      "this->Usual / (rounds + 2.0 * this->Usual)"),
+    E(CORE + "Parallel/Progress.cxx", "this->Reported = «std::max(this->Reported, fraction)»;", "fraction"),
     # cells, solids, quality
     E(CORE + "SiteCells/BorderMaxFlow.cxx", "this->Capacity(from.Border, «-from.Sign») > 0", "from.Sign"),
     E(CORE + "SiteCells/SiteDensity.cxx", "«*next < first + count»", "*next <= first + count - 2"),
@@ -388,7 +393,7 @@ OTHERS = [
     E(CORE + "Distance/ClassicalScaling.cxx", "return entry < 0.0 ? «-1.0» : 1.0;", "1.0"),
     E(CORE + "Distance/ClassicalScaling.cxx", "const double factor = signOf(vector) * «std::sqrt(value)»;", "value"),
     E(CORE + "Distance/DensityMoments.cxx", "moments.Covariance[a][a]) + «side * side / 12.0»;", "0.0"),
-    E(CORE + "Distance/CertifiedDistance.cxx", "map.UpperBound(progress.Stage(), «(1.0 + enough) * bracket.Lower»)",
+    E(CORE + "Distance/CertifiedDistance.cxx", "«(1.0 + enough) * bracket.Lower»)",
       "2.0 * bracket.Lower"),
     E(CORE + "Distance/ReferenceImages.cxx", "coordinates[i * Dimension + axis] = image[axis] * «cell[axis]»;",
       "cell[0]"),

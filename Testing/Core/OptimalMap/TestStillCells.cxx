@@ -266,7 +266,6 @@ TEST(LimitedFineness, BoundsTheSamples)
   std::generate_n(map.Images[0].data(), grid.NumberOfNodes(), [&]() { return x(random); });
   std::generate_n(map.Images[1].data(), grid.NumberOfNodes(), [&]() { return y(random); });
   Progress progress{ Context() };
-  progress.BeginStage(1.0);
   const auto countWith = [&](const SampleFineness& fineness) {
     ImageSamples<2> samples(map, fineness);
     double visited = 0.0;

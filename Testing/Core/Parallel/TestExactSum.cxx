@@ -130,7 +130,6 @@ TEST(ExactSum, RangesOfAnyExecutor)
   const std::vector<double> terms = mixedTerms();
   const auto sumIn = [&](const Executor& executor) {
     Progress progress{ Context(executor) };
-    progress.BeginStage(1.0);
     return sumExactly<ExactSum>(progress, static_cast<std::int64_t>(terms.size()), 64,
       [&](std::int64_t first, std::int64_t last, ExactSum& sum) {
         for (std::int64_t i = first; i < last; ++i)

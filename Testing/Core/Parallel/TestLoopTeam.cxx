@@ -175,7 +175,6 @@ TEST(LoopTeam, IsNotCalledForShortSlices)
 {
   const CountingExecutor executor;
   Progress progress(executor);
-  progress.BeginStage(1.0);
   std::int64_t done = 0;
   const auto kernel = [&done](std::int64_t first, std::int64_t last) { done += last - first; };
   progress.For(15, 1, kernel, 1024);

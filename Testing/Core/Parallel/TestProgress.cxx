@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stages of long work, within one another, and its slices: what is run, reported and thrown.
+// Long work in slices: what is run, reported and thrown.
+#include "Core/Device/DeviceUse.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 #include "RecordingContext.h"
 #include "TestSplat.h"
 
@@ -37,7 +39,7 @@ TEST(Context, IsOfOpenMPOrOfAnExecutor)
 TEST(Progress, NeedsNoCallbacks)
 {
   Progress progress(serial);
-  progress.BeginStage(1.0, 10);
+  progress.Expect(10);
   std::int64_t sum = 0;
   progress.For(
     count, 3, [&sum](std::int64_t first, std::int64_t last) { sum += last - first; }, 1);
@@ -48,115 +50,78 @@ TEST(Progress, NeedsNoCallbacks)
   EXPECT_EQ(sum, count);
 }
 
-TEST(Progress, StagesFollow)
+// Loops are all of the work, each of them, unless units are expected.
+TEST(Progress, EachLoopIsAllOfTheWork)
 {
   RecordingContext recorder(serial);
   Progress progress(recorder.Context());
-  progress.BeginStage(0.25);
-  EXPECT_EQ(progress.StageEnd(), 0.25);
+  progress.For(count, 1, nothing, 1);
+  EXPECT_GT(recorder.Reported.size(), 2u);
+  recorder.ExpectReported(0.0, 1.0);
+  progress.ForInOrder(count, 1, nothing, 1);
+  recorder.ExpectReported(1.0, 1.0);
+}
+
+TEST(Progress, LoopsAddToExpectedUnits)
+{
+  RecordingContext recorder(serial);
+  Progress progress(recorder.Context());
+  EXPECT_EQ(&progress.Expect(4 * count), &progress);
   progress.For(count, 1, nothing, 1);
   EXPECT_GT(recorder.Reported.size(), 2u);
   recorder.ExpectReported(0.0, 0.25);
-  progress.BeginStage(0.75, 8);
-  EXPECT_EQ(progress.StageEnd(), 0.75);
-  progress.EndSlice(2);
-  recorder.ExpectReported(0.25, 0.375);
-  progress.EndSlice(6);
-  recorder.ExpectReported(0.375, 0.75);
-  progress.EndSlice(6); // more than was said
-  recorder.ExpectReported(0.75, 0.75);
-  progress.BeginStage(1.0);
-  progress.ForInOrder(count, 1, nothing, 1);
-  recorder.ExpectReported(0.75, 1.0);
+  progress.EndSlice(count);
+  recorder.ExpectReported(0.25, 0.5);
+  progress.ForInOrder(2 * count, 1, nothing, 1);
+  recorder.ExpectReported(0.5, 1.0);
+  progress.For(count, 1, nothing, 1); // more than was said
+  recorder.ExpectReported(1.0, 1.0);
 }
 
-TEST(Progress, StagesNest)
+// A computation that reports to it is this work or a part of it.
+TEST(Progress, IsAContext)
 {
   RecordingContext recorder(serial);
-  Progress outer(recorder.Context());
-  outer.BeginStage(0.5);
-  {
-    Progress inner(outer.Stage());
-    EXPECT_EQ(&inner.Threads(), &serial);
-    inner.BeginStage(0.5);
-    inner.For(count, 1, nothing, 1);
-    recorder.ExpectReported(0.0, 0.25);
-    inner.BeginStage(1.0);
-    Progress innermost(inner.Stage());
-    innermost.BeginStage(1.0);
-    innermost.For(count, 1, nothing, 1);
-    recorder.ExpectReported(0.25, 0.5);
-  }
-  outer.BeginStage(0.75);
-  Progress next(outer.Stage());
-  next.BeginStage(1.0, 4);
-  next.EndSlice(1);
-  recorder.ExpectReported(0.5, 0.5625);
-  next.EndSlice(3);
-  recorder.ExpectReported(0.5625, 0.75);
-  // All levels see the cancellation.
+  const SoloRanks ranks;
+  DeviceUse device("none");
+  Context given = recorder.Context();
+  given.Group = &ranks;
+  given.Device = &device;
+  Progress outer(given);
+  const Context context = outer;
+  EXPECT_EQ(context.Threads, &serial);
+  EXPECT_EQ(context.Group, &ranks);
+  EXPECT_EQ(context.Device, &device);
+  Progress inner(context);
+  EXPECT_EQ(&inner.Threads(), &serial);
+  EXPECT_EQ(&inner.Group(), &ranks);
+  EXPECT_EQ(inner.Device(), &device);
+  inner.Expect(4);
+  inner.EndSlice(1);
+  recorder.ExpectReported(0.25, 0.25);
+  inner.EndSlice(3);
+  recorder.ExpectReported(1.0, 1.0);
+  // Both see the cancellation.
   recorder.MaximumQueries = 0;
-  EXPECT_THROW(next.Check(), Cancelled);
+  EXPECT_THROW(inner.Check(), Cancelled);
   EXPECT_THROW(outer.Check(), Cancelled);
 }
 
-// Loops of a stage whose units are declared are parts of it, whatever else reports units.
-TEST(Progress, LoopsAddToDeclaredUnits)
+TEST(Progress, NeverGoesBack)
 {
   RecordingContext recorder(serial);
   Progress progress(recorder.Context());
-  progress.BeginStage(0.5, 4 * count);
-  progress.For(count, 1, nothing, 1);
-  EXPECT_GT(recorder.Reported.size(), 2u);
-  recorder.ExpectReported(0.0, 0.125);
-  progress.EndSlice(count);
-  recorder.ExpectReported(0.125, 0.25);
-  progress.ForInOrder(2 * count, 1, nothing, 1);
-  recorder.ExpectReported(0.25, 0.5);
-  progress.For(count, 1, nothing, 1); // more than was said
+  progress.Expect(2).EndSlice(1);
   recorder.ExpectReported(0.5, 0.5);
-  progress.BeginStage(1.0);
-  progress.For(count, 1, nothing, 1);
-  recorder.ExpectReported(0.5, 1.0);
-}
-
-// However many rounds there are, each goes on.
-TEST(Progress, RoundsLeadTowardsTheirEnd)
-{
-  RecordingContext recorder(serial);
-  Progress progress(recorder.Context());
-  progress.BeginStage(0.2);
-  double last = 0.2;
-  for (int round = 0; round < 100; ++round)
-  {
-    progress.BeginRound(round, 4, 0.2, 0.6, count);
-    progress.For(count, 1, nothing, 1);
-    EXPECT_EQ(recorder.Reported.back(), progress.StageEnd());
-    EXPECT_GT(progress.StageEnd(), last + 1e-4);
-    EXPECT_LT(progress.StageEnd(), 0.6);
-    last = progress.StageEnd();
-    if (round == 3)
-    {
-      EXPECT_NEAR(last, 0.4, 1e-15);
-    }
-  }
-}
-
-// Several loops may be the work of one stage, or repeat it.
-TEST(Progress, IsNeverTakenBack)
-{
-  RecordingContext recorder(serial);
-  Progress progress(recorder.Context());
-  progress.BeginStage(0.5);
-  progress.For(count, 1, nothing, 1);
-  recorder.ExpectReported(0.0, 0.5);
-  progress.For(count, 1, nothing, 1);
-  EXPECT_EQ(recorder.Reported.front(), 0.5);
+  progress.Expect(4).EndSlice(1);
   recorder.ExpectReported(0.5, 0.5);
-  Progress inner(progress.Stage());
-  inner.BeginStage(1.0);
-  inner.ForInOrder(count, 1, nothing, 1);
+  Progress inner{ Context(progress) };
+  inner.Expect(4).EndSlice(1);
   recorder.ExpectReported(0.5, 0.5);
+  inner.EndSlice(2);
+  recorder.ExpectReported(0.75, 0.75);
+  progress.EndSlice(1);
+  recorder.ExpectReported(0.75, 0.75);
 }
 
 TEST(Progress, AddReportsInIntervals)
@@ -164,7 +129,7 @@ TEST(Progress, AddReportsInIntervals)
   RecordingContext recorder(serial);
   Progress progress(recorder.Context());
   constexpr std::int64_t total = 1000000;
-  progress.BeginStage(1.0, total);
+  progress.Expect(total);
   for (std::int64_t i = 0; i < 1000; ++i)
   {
     progress.Add(1);
@@ -178,8 +143,8 @@ TEST(Progress, AddReportsInIntervals)
   EXPECT_EQ(recorder.Reported.size(), 15u); // 2^16 at a time
   EXPECT_EQ(recorder.Queries, 15);
   recorder.ExpectReported(0.0, 15.0 * 0x1p16 / total);
-  // Work that a stage has not reported does not count in the next one.
-  progress.BeginStage(2.0, total);
+  // Work before that was not reported does not count.
+  progress.Expect(total);
   progress.Add(0xffff);
   EXPECT_TRUE(recorder.Reported.empty());
   recorder.MaximumQueries = 0;
@@ -195,7 +160,6 @@ TEST(Progress, ForRunsAll)
     const BackwardExecutor threads(concurrency);
     RecordingContext recorder(threads);
     Progress progress(recorder.Context());
-    progress.BeginStage(1.0);
     for (const std::int64_t grain : { 1, 7, 100, 5000 })
     {
       for (const std::int64_t units : { 1, 50, 100000 })
@@ -230,7 +194,6 @@ TEST(Progress, ForThrowsWhatTheKernelThrows)
   {
     RecordingContext recorder(*executor);
     Progress progress(recorder.Context());
-    progress.BeginStage(1.0);
     std::atomic<std::int64_t> last{ 0 };
     const auto kernel = [&last](std::int64_t first, std::int64_t end) {
       if (first >= 500)
@@ -255,7 +218,6 @@ TEST(Progress, ForThrowsCancelled)
     RecordingContext recorder(threads);
     recorder.MaximumQueries = 2;
     Progress progress(recorder.Context());
-    progress.BeginStage(1.0);
     std::atomic<std::int64_t> done{ 0 };
     const auto kernel = [&done](std::int64_t first, std::int64_t last) { done += last - first; };
     if (inOrder)
@@ -281,7 +243,6 @@ TEST(Progress, ForInOrderRunsHereInOrder)
 {
   const OpenMPExecutor threads;
   Progress progress(threads);
-  progress.BeginStage(1.0);
   std::int64_t next = 0;
   const auto here = std::this_thread::get_id();
   progress.ForInOrder(
@@ -299,7 +260,7 @@ TEST(Progress, ForInOrderRunsHereInOrder)
 TEST(Progress, SlicesAreMultiplesOfTheSmallest)
 {
   Progress progress(serial);
-  progress.BeginStage(1.0, 1 << 20);
+  progress.Expect(1 << 20);
   EXPECT_EQ(progress.NextSlice(24), 24);
   std::int64_t slice = 24;
   for (int i = 0; i < 50; ++i)
@@ -312,7 +273,7 @@ TEST(Progress, SlicesAreMultiplesOfTheSmallest)
     slice = next;
   }
   EXPECT_GT(slice, 24); // work of no time
-  progress.BeginStage(1.0, 1 << 20);
+  progress.Expect(1 << 20);
   EXPECT_EQ(progress.NextSlice(24), 24);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reductions by chunks: each chunk once and as it was cut, parts in order, whatever the executor.
 #include "Core/Parallel/Reduction.h"
+#include "Core/Parallel/Stages.h"
 
 #include <gtest/gtest.h>
 
@@ -65,7 +66,6 @@ TEST(Reduction, SumOfTheChunksInOrder)
     for (const Executor* executor : executors)
     {
       Progress progress(*executor);
-      progress.BeginStage(1.0);
       EXPECT_EQ(reduceChunks(progress, count, 100, 0.0, sumOf, std::plus<>()), expected) << count;
     }
   }
@@ -80,7 +80,6 @@ TEST(Reduction, EachChunkOnce)
   for (const Executor* executor : executors)
   {
     Progress progress(*executor);
-    progress.BeginStage(1.0);
     const auto chunks = [&](std::int64_t count) {
       return reduceChunks(progress, count, 4, std::string(), chunk, std::plus<>());
     };
@@ -105,7 +104,6 @@ TEST(Reduction, Extremum)
   for (const Executor* executor : executors)
   {
     Progress progress(*executor);
-    progress.BeginStage(1.0);
     EXPECT_EQ(reduceChunks(progress, 5000, 7, nothing, largest, larger), largest(0, 5000));
     EXPECT_EQ(reduceChunks(progress, 0, 7, nothing, largest, larger), nothing);
   }
@@ -118,12 +116,13 @@ TEST(Reduction, ReportsAndStops)
     threads, [&heard](double done) { heard.push_back(done); },
     [&heard]() { return !heard.empty() && heard.back() > 0.6; });
   Progress progress(context);
-  progress.BeginStage(0.5);
-  EXPECT_EQ(reduceChunks(progress, 1 << 20, 1024, 0.0, sumOf, std::plus<>()),
-    reduceChunks(progress, 1 << 20, 1024, 0.0, sumOf, std::plus<>()));
+  Stages stages(progress, { { "whole", 1 }, { "cancelled", 1 } });
+  Progress& whole = stages["whole"];
+  EXPECT_EQ(reduceChunks(whole, 1 << 20, 1024, 0.0, sumOf, std::plus<>()),
+    reduceChunks(whole, 1 << 20, 1024, 0.0, sumOf, std::plus<>()));
   EXPECT_EQ(heard.back(), 0.5);
-  progress.BeginStage(1.0);
-  EXPECT_THROW(reduceChunks(progress, 1 << 24, 1024, 0.0, sumOf, std::plus<>()), Cancelled);
+  EXPECT_THROW(
+    reduceChunks(stages["cancelled"], 1 << 24, 1024, 0.0, sumOf, std::plus<>()), Cancelled);
 }
 
 TEST(Reduction, WhatAKernelThrowsComesOut)

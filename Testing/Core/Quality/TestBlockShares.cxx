@@ -59,7 +59,7 @@ std::vector<double> sharesOf(
   const RankShare own(static_cast<std::int64_t>(blocks.Count()), *context.Group);
   std::vector<double> shares(static_cast<std::size_t>(own.Count));
   Progress progress(context);
-  findBlockShares<Dimension>(flow, blocks, own.First, own.Count, shares.data(), progress, 1.0);
+  findBlockShares<Dimension>(flow, blocks, own.First, own.Count, shares.data(), progress);
   return shares;
 }
 

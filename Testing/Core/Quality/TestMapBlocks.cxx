@@ -44,7 +44,7 @@ BlockErrors errorsOf(const DensitySource<Dimension>& density, double total,
   const MapSamples<Dimension>& samples, FlowDirection direction, const Context& context = Context())
 {
   Progress progress(context);
-  return measureBlocks<Dimension>(samples, density, total, direction, progress, 1.0);
+  return measureBlocks<Dimension>(samples, density, total, direction, progress);
 }
 
 template <int Dimension>
@@ -455,7 +455,7 @@ BlockErrors errorsBetween(const TestDensity<Dimension>& source,
   };
   Progress progress{ Context() };
   return measureBlocksBetween<Dimension>({ lattice, whole, whole, positions },
-    { source.Source(), sum(source) }, { target.Source(), sum(target) }, progress, 1.0);
+    { source.Source(), sum(source) }, { target.Source(), sum(target) }, progress);
 }
 
 // The identity, between densities of which one half of the box has another value.

@@ -324,7 +324,6 @@ TEST(PowerSiteCells, GapsAreLabelled)
       { 2.5 + gap, 1.5 + gap }, { 4, 1.5 + gap }, { 4, 3 }, { 2.5 + gap, 3 } };
     Labels labels(12, -1);
     Progress progress{ Context() };
-    progress.BeginStage(1.0);
     labelPolygons(corners, { 0, 4, 8, 12 }, { 4, 3 }, labels.data(), progress);
     for (std::size_t pixel = 0; pixel < 12; ++pixel)
     {

@@ -22,7 +22,6 @@ std::int64_t makeExact(const CellDensity<D>& density, const Point<D>& sides,
   Particles<D>& particles, const Executor& threads = SerialExecutor())
 {
   Progress progress(threads);
-  progress.BeginStage(1.0);
   return makeCountsExact<D>(density, sides, particles, progress);
 }
 
@@ -359,9 +358,9 @@ TYPED_TEST(ExactCounts, ReportAndCancel)
   {
     Particles<D> particles = before;
     Progress progress(recording.Context());
-    progress.BeginStage(0.4, static_cast<std::int64_t>(before.size()));
+    progress.Expect(static_cast<std::int64_t>(before.size()));
     makeCountsExact<D>(density, unitSides<D>(), particles, progress);
-    recording.ExpectReported(0.0, 0.4);
+    recording.ExpectReported(0.0, 1.0);
   }
   const int queries = recording.Queries;
   EXPECT_GT(queries, 30);
@@ -371,7 +370,6 @@ TYPED_TEST(ExactCounts, ReportAndCancel)
     recording.Queries = 0;
     recording.MaximumQueries = most;
     Progress progress(recording.Context());
-    progress.BeginStage(1.0);
     EXPECT_THROW(makeCountsExact<D>(density, unitSides<D>(), particles, progress), Cancelled);
   }
 }

@@ -21,7 +21,6 @@ MassCorrection<D> correct(const CellDensity<D>& target, const Point<D>& sides, i
   const Executor& threads = SerialExecutor())
 {
   Progress progress(threads);
-  progress.BeginStage(1.0);
   return MassCorrection<D>(
     target, sides, cellsANode, images, masses.empty() ? nullptr : masses.data(), progress);
 }
@@ -303,11 +302,11 @@ TYPED_TEST(MassCorrections, ReportAndCancel)
   const auto run = [&]() {
     Particles<D> images = before;
     Progress progress(recording.Context());
-    progress.BeginStage(0.4, 4 * static_cast<std::int64_t>(before.size()));
+    progress.Expect(4 * static_cast<std::int64_t>(before.size()));
     const MassCorrection<D> correction(target, evenPoint<D>(1.0), 1, images, nullptr, progress);
   };
   run();
-  recording.ExpectReported(0.0, 0.4);
+  recording.ExpectReported(0.0, 1.0);
   const int queries = recording.Queries;
   EXPECT_GT(queries, 20);
   for (const int most : { 0, queries / 2, queries - 2 })

@@ -38,7 +38,6 @@ double integralOf(const CellDensity<D>& density, const CellPlacement<D>& placeme
   const NodeGrid<D>& grid, const NodeValues& values, const Executor& threads = SerialExecutor())
 {
   Progress progress(threads);
-  progress.BeginStage(1.0);
   return integrateOver<D>(density, placement, grid, values.data(), progress);
 }
 

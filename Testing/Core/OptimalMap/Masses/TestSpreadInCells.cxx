@@ -18,7 +18,7 @@ Particles<D> spread(const GridSize<D>& size, Particles<D> particles,
   const Context& context = Context(SerialExecutor()))
 {
   Progress progress(context);
-  progress.BeginStage(1.0, 2 * D * static_cast<std::int64_t>(particles.size()));
+  progress.Expect(2 * D * static_cast<std::int64_t>(particles.size()));
   spreadInCells<D>(size, particles, progress);
   return particles;
 }

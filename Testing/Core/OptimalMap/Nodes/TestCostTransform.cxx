@@ -108,7 +108,7 @@ std::vector<double> transformOf(const NodeGrid<Dimension>& grid, const std::vect
   const Context& context = Context(SerialExecutor()))
 {
   Progress progress(context);
-  progress.BeginStage(1.0, Dimension * grid.NumberOfNodes());
+  progress.Expect(Dimension * grid.NumberOfNodes());
   std::vector<double> to(from.size());
   costTransform<Dimension>(grid, from.data(), to.data(), progress);
   return to;
@@ -119,7 +119,7 @@ std::vector<std::int64_t> minimizersOf(
   const NodeGrid<Dimension>& grid, const std::vector<double>& from, const Context& context)
 {
   Progress progress(context);
-  progress.BeginStage(1.0, Dimension * grid.NumberOfNodes());
+  progress.Expect(Dimension * grid.NumberOfNodes());
   std::vector<std::int64_t> minimizers(from.size());
   costMinimizers<Dimension>(grid, from.data(), minimizers.data(), progress);
   return minimizers;

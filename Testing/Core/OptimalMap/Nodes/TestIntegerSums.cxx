@@ -27,7 +27,6 @@ TEST(IntegerSums, DoNotDependOnTheThreads)
   {
     const ThreadsExecutor executor(threads);
     Progress progress{ Context(executor) };
-    progress.BeginStage(1.0);
     IntegerSums sums(count, items, progress);
     const auto add = [&]() {
       progress.For(items, 50, [&](std::int64_t first, std::int64_t last) {

@@ -55,7 +55,6 @@ void smooth(NodeMap<D>& map, int threads)
 {
   const ThreadsExecutor executor(threads);
   Progress progress{ Context(executor) };
-  progress.BeginStage(1.0);
   smoothMap<D>(map, progress);
 }
 

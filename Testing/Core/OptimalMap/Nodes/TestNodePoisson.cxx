@@ -142,7 +142,7 @@ std::vector<double> solved(const NodeGrid<Dimension>& grid, const std::vector<do
 {
   NodePoisson<Dimension> poisson(grid);
   Progress progress(context);
-  progress.BeginStage(1.0, NodePoisson<Dimension>::UnitsOf(grid));
+  progress.Expect(NodePoisson<Dimension>::UnitsOf(grid));
   std::vector<double> p(masses.size());
   poisson.Solve(masses.data(), p.data(), progress);
   return p;
@@ -155,7 +155,7 @@ std::vector<double> solvedWeighted(const NodeGrid<Dimension>& grid,
 {
   NodePoisson<Dimension> poisson(grid);
   Progress progress(context);
-  progress.BeginStage(1.0, NodePoisson<Dimension>::UnitsOfWeighted(grid, iterations));
+  progress.Expect(NodePoisson<Dimension>::UnitsOfWeighted(grid, iterations));
   std::vector<double> p(masses.size());
   poisson.SolveWeighted(masses.data(), density.data(), floor, iterations, p.data(), progress);
   return p;
