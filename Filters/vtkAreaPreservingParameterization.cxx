@@ -6,6 +6,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/CornerSettings.h"
 #include "Bridge/Surface/SurfaceInput.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -52,14 +53,15 @@ int vtkAreaPreservingParameterization::RequestData(
   parameterization.Seams = this->Seams;
   parameterization.Check();
   AlgorithmProgress progress(this, this->Threading);
+  Stages stages(progress, { { "surface", 1 }, { "map", 99 } });
 
-  const SurfaceInput input(vtkDataObject::GetData(inputVector[0]), progress);
+  const SurfaceInput input(vtkDataObject::GetData(inputVector[0]), stages["surface"]);
   if (!input.Get())
   {
     return 1;
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
-  const ParameterizationReport report = parameterization.Run(input.Get(), progress, output);
+  const ParameterizationReport report = parameterization.Run(input.Get(), stages["map"], output);
   layFlat(output, vtkPolyData::GetData(outputVector, 1));
   this->WarnOnFirstRank(report.Warnings());
   return 1;

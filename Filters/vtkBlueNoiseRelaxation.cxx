@@ -10,6 +10,7 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/WarningLimit.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkCellData.h"
 #include "vtkInformation.h"
@@ -97,7 +98,8 @@ int vtkBlueNoiseRelaxation::RequestData(
     "at least 0 and less than 1");
   AlgorithmProgress progress(this, this->Threading);
   vtkPointSet* input = pointSetOf(inputVector[0]);
-  const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
+  Stages stages(progress, { { "reading", 5 }, { "relaxation", 95 } });
+  const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, stages["reading"]);
   if (!density || !input || input->GetNumberOfPoints() == 0)
   {
     return 1;
@@ -113,7 +115,7 @@ int vtkBlueNoiseRelaxation::RequestData(
   relaxation.Options.MaximumIterations = this->MaximumIterations;
   relaxation.Options.Tolerance = this->Tolerance;
   const BlueNoiseRelaxation::Report report =
-    relaxation.Run(*density, input, counted, this->GetFlowCache(), progress, output);
+    relaxation.Run(*density, input, counted, this->GetFlowCache(), stages["relaxation"], output);
   addReadings(output, { density->HowRead() });
   addFieldValues(output, "Energy", report.Energy);
   addFieldValue(output, "OutsidePoints", static_cast<double>(report.PointsMoved));

@@ -7,6 +7,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/MissingData.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkFieldData.h"
@@ -175,10 +176,11 @@ int vtkCartogram::RequestData(
   worker.Arrays.Mass = arrayName(this->GetInputArrayInformation(0), "MassArray");
   worker.Arrays.Region = arrayName(this->GetInputArrayInformation(1), "RegionArray");
   AlgorithmProgress progress(this, this->Threading);
+  Stages stages(progress, { { "reading", 1 }, { "cartogram", 99 } });
 
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   const std::vector<DensityBlock> blocks =
-    input ? densityBlocks(input, nullptr, &progress) : std::vector<DensityBlock>();
+    input ? densityBlocks(input, nullptr, &stages["reading"]) : std::vector<DensityBlock>();
   if (blocks.empty())
   {
     return 1;
@@ -195,7 +197,7 @@ int vtkCartogram::RequestData(
     vtkDataObject::GetData(outputVector, 2)->GetFieldData()->Initialize();
   }
   this->WarnOnFirstRank(worker.Run(blocks, vtkCompositeDataSet::SafeDownCast(input) != nullptr,
-    this->Internals->Kept, progress, outputs));
+    this->Internals->Kept, stages["cartogram"], outputs));
   return 1;
 }
 

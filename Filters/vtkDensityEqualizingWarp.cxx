@@ -15,6 +15,7 @@
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Device/DeviceUse.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkCellData.h"
 #include "vtkInformation.h"
@@ -104,8 +105,10 @@ int vtkDensityEqualizingWarp::RequestData(
   DeviceUse device = this->BeginDevice();
   AlgorithmProgress progress(this, this->Threading, ranks, &device);
   vtkPointSet* input = pointSetOf(inputVector[0]);
-  const std::unique_ptr<InputDensity> density = withMargin(this->ReadDensity(inputVector, progress),
-    this->Margin, emptyRule(this->EmptyCells, this->EmptyValue));
+  Stages stages(progress, { { "reading", 5 }, { "warp", 95 } });
+  const std::unique_ptr<InputDensity> density =
+    withMargin(this->ReadDensity(inputVector, stages["reading"]), this->Margin,
+      emptyRule(this->EmptyCells, this->EmptyValue));
   // A rank without points takes part in what is collective.
   if (!density || !input || (input->GetNumberOfPoints() == 0 && !ranks.AreSeveral()))
   {
@@ -117,7 +120,7 @@ int vtkDensityEqualizingWarp::RequestData(
   output->GetPointData()->PassData(input->GetPointData());
   output->GetCellData()->PassData(input->GetCellData());
   const DensityEqualizingWarp::Report report =
-    warp.Run(*density, input, this->GetFlowCache(), progress, output);
+    warp.Run(*density, input, this->GetFlowCache(), stages["warp"], output);
   addReadings(output, { density->HowRead() });
   this->EndDevice(device);
   const std::int64_t outside = sumOverRanks(ranks, report.Outside);

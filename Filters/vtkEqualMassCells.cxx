@@ -18,6 +18,7 @@
 #include "Bridge/SiteCells/LabelGrid.h"
 #include "Bridge/SiteCells/SiteColorArray.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/DensitySiteCells.h"
 
 #include "vtkImageData.h"
@@ -210,6 +211,8 @@ int vtkEqualMassCells::RequestData(
   cells.Resolution = this->Resolution;
   cells.IsPower = this->Shape == SHAPE_POWER;
   AlgorithmProgress progress(this, this->Threading);
+  Stages stages(progress,
+    { { "reading", this->Measure == DENSITY ? 5.0 : 0.0 }, { "cells", 94 }, { "colours", 1 } });
 
   vtkPointSet* input = pointSetOf(inputVector[0]);
   requireReadableCells(input, "input");
@@ -225,13 +228,13 @@ int vtkEqualMassCells::RequestData(
   EqualMassCells::Report report;
   if (this->Measure == DENSITY)
   {
-    const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
+    const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, stages["reading"]);
     if (!density || !input || input->GetNumberOfPoints() == 0)
     {
       return 1;
     }
-    report =
-      cells.Run(input, *density, this->GetFlowCache(), this->Internals->Labels, progress, outputs);
+    report = cells.Run(
+      input, *density, this->GetFlowCache(), this->Internals->Labels, stages["cells"], outputs);
     for (vtkDataObject* output : outputs.All())
     {
       addReadings(output, { density->HowRead() });
@@ -245,9 +248,9 @@ int vtkEqualMassCells::RequestData(
     {
       return 1;
     }
-    report = cells.Run(input, domain, this->Internals->Labels, progress, outputs);
+    report = cells.Run(input, domain, this->Internals->Labels, stages["cells"], outputs);
   }
-  addSiteColors(labels, outputs.Polygons, input->GetNumberOfPoints(), progress);
+  addSiteColors(labels, outputs.Polygons, input->GetNumberOfPoints(), stages["colours"]);
   // Without a Domain the grid may not be known before the data.
   if (!this->RunsForAllRanks()) // else ShareOutputs does so
   {

@@ -11,6 +11,7 @@
 #include "Bridge/Surface/SurfaceInput.h"
 #include "Bridge/SurfaceSampling/SurfaceMasses.h"
 #include "Bridge/SurfaceSampling/SurfaceSampler.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -103,15 +104,16 @@ int vtkSurfaceSampler::RequestData(
   sampler.Pattern = seedPattern("SeedPattern", this->SeedPattern);
   sampler.Check();
   AlgorithmProgress progress(this, this->Threading);
+  Stages stages(progress, { { "surface", 1 }, { "particles", 99 } });
 
-  const SurfaceInput input(vtkDataObject::GetData(inputVector[0]), progress);
+  const SurfaceInput input(vtkDataObject::GetData(inputVector[0]), stages["surface"]);
   if (!input.Get())
   {
     return 1;
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const SurfaceSamplingReport report =
-    sampler.Run(input, this->FindDensity(input.Get()), progress, output);
+    sampler.Run(input, this->FindDensity(input.Get()), stages["particles"], output);
   this->WarnOnFirstRank(report.Warnings());
   return 1;
 }

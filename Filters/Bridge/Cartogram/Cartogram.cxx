@@ -11,7 +11,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PartText.h"
 #include "Core/Cartogram/RegionRaster.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
@@ -61,26 +61,28 @@ void divideEdge(vtkPointData* data, vtkIdType point, const DividingPoint& added)
 class CartogramJob
 {
 public:
-  CartogramJob(const CartogramWorker& worker, RegionCells cells, KeptMap& kept, Progress& progress,
+  CartogramJob(const CartogramWorker& worker, RegionCells cells, KeptMap& kept,
     const CartogramOutputs& outputs)
     : Worker(worker)
     , Cells(std::move(cells))
     , Kept(kept)
-    , Work(progress)
     , Outputs(outputs)
   {
   }
 
-  std::vector<std::string> Run()
+  std::vector<std::string> Run(Progress& progress)
   {
-    this->ReadPoints();
+    Stages stages(progress,
+      { { "points", 3 }, { "holes", 1 }, { "overlay", 1 }, { "comparison", 1 }, { "cartogram", 90 },
+        { "regions", 1 }, { "moved overlay", 1 } });
+    this->ReadPoints(stages["points"]);
     if (!this->Cells.OpenLines.empty())
     {
       this->Warnings.push_back(this->Cells.OpenLines);
     }
     this->FindFrame();
-    this->Work.Check();
-    this->MakeMap();
+    progress.Check();
+    this->MakeMap(stages["holes"]);
     this->MassesBefore = this->Cells.Masses;
     this->CheckMasses();
     this->Box = boxAround(this->Map, this->Worker.Options);
@@ -95,14 +97,13 @@ public:
     {
       place = this->Box.ToIndex(place);
     }
-    this->Work.Check();
+    progress.Check();
     const MapPlace place{ this->Projection, *this->Frame, this->Box, this->Worker.Blend };
-    MapFellows fellows(place, this->Map, this->Outputs.Overlay, this->Work);
-    CartogramStart start = this->FindStart();
+    MapFellows fellows(place, this->Map, this->Outputs.Overlay, stages["overlay"]);
+    CartogramStart start = this->FindStart(stages["comparison"]);
     this->RequireMemory();
-    this->Work.BeginStage(0.98);
     this->Result = runCartogram(this->Map, this->Cells.Masses, this->Box, this->Worker.Options,
-      fellows.Points(), start, this->Work.Stage());
+      fellows.Points(), start, stages["cartogram"]);
     this->Kept.Start = start;
     if (!this->Result.Crossing.empty())
     {
@@ -111,22 +112,21 @@ public:
     }
     addWarnings(this->Result, this->Cells.Names, this->Map.Rings(), this->Worker.Options.Tolerance,
       this->Warnings);
-    this->WriteRegions(place);
-    this->Work.BeginStage(1.0);
+    this->WriteRegions(place, stages["regions"]);
     fellows.WriteGraticule(this->Outputs.Graticule);
-    fellows.WriteOverlay(this->Work);
-    this->Work.Check();
+    fellows.WriteOverlay(stages["moved overlay"]);
+    progress.Check();
     return std::move(this->Warnings);
   }
 
 private:
   static std::size_t Index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-  void ReadPoints()
+  void ReadPoints(Progress& progress)
   {
     vtkPoints* points = this->Cells.Data->GetPoints();
     this->Places.resize(Index(points->GetNumberOfPoints()));
-    visitPoints(this->Cells.Data, "input", this->Work, [this](std::int64_t i, const double* x) {
+    visitPoints(this->Cells.Data, "input", progress, [this](std::int64_t i, const double* x) {
       this->Places[Index(i)] = { x[0], x[1], x[2] };
     });
     if (this->Worker.IsInDegrees)
@@ -190,7 +190,7 @@ private:
     }
   }
 
-  void MakeMap()
+  void MakeMap(Progress& progress)
   {
     for (const Point<3>& place : this->Places)
     {
@@ -201,8 +201,7 @@ private:
       this->IsOpen(cell) ? this->Map.AddLine(ring)
                          : this->Map.AddRing(this->Cells.Regions[Index(cell)], ring);
     });
-    this->Work.BeginStage(0.07);
-    this->Added = this->Map.FindHoles(this->Work.Stage());
+    this->Added = this->Map.FindHoles(progress);
     this->Before = this->Map.Areas(static_cast<std::int32_t>(this->Cells.Masses.size()));
     this->Land = std::accumulate(this->Before.begin(), this->Before.end(), 0.0);
     std::int64_t empty = 0;
@@ -266,7 +265,7 @@ private:
       bytesOfCell * side * side + RegionRaster::BytesOf(this->Map, this->Box.Side));
   }
 
-  CartogramStart FindStart()
+  CartogramStart FindStart(Progress& progress)
   {
     DataContent content;
     vtkPolyData* data = this->Cells.Data;
@@ -283,17 +282,16 @@ private:
     content.AddNumber(static_cast<std::uint64_t>(this->Worker.Options.Resolution));
     content.AddNumber(this->Worker.IsInDegrees ? 1 : 0);
     content.AddNumbers(&this->Worker.Options.Margin, 1);
-    this->Work.BeginStage(this->Work.StageEnd());
-    if (content.IsSameAs(this->Kept.Content, this->Work))
+    if (content.IsSameAs(this->Kept.Content, progress))
     {
       return this->Kept.Start;
     }
-    content.Keep(this->Work);
+    content.Keep(progress);
     this->Kept = { std::move(content), {} }; // an abort may follow
     return {};
   }
 
-  void WriteRegions(const MapPlace& where)
+  void WriteRegions(const MapPlace& where, Progress& progress)
   {
     vtkPolyData* input = this->Cells.Data;
     vtkPolyData* output = this->Outputs.Regions;
@@ -304,11 +302,11 @@ private:
     const auto old = static_cast<vtkIdType>(before.size());
     output->GetPointData()->CopyData(input->GetPointData(), 0, old, 0);
     constexpr std::int64_t work = 8; // units, of the arrays of a point
-    this->Work.BeginStage(0.99, work * (points - old) + points);
+    progress.Expect(work * (points - old) + points);
     this->Added.insert(this->Added.end(), this->Result.Added.begin(), this->Result.Added.end());
     for (std::size_t i = 0; i < this->Added.size(); ++i)
     {
-      this->Work.Add(work);
+      progress.Add(work);
       const DividingPoint& added = this->Added[i];
       const Point<3>& a = before[Index(added.First)];
       const Point<3>& b = before[Index(added.Second)];
@@ -322,7 +320,7 @@ private:
     }
     for (vtkIdType i = 0; i < points; ++i)
     {
-      this->Work.Add(1);
+      progress.Add(1);
       const Point<3> place = this->Worker.Blend > 0.0
         ? where.Blended(this->Result.Before[Index(i)], this->Map.Points()[Index(i)],
             this->Frame->Distance(before[Index(i)]))
@@ -332,7 +330,7 @@ private:
     vtkNew<vtkPoints> outputPoints;
     outputPoints->SetData(moved);
     output->SetPoints(outputPoints);
-    this->Work.Check();
+    progress.Check();
     this->WriteCells(output);
     addFieldValues(output, "AreaErrors", this->LargestErrors());
     addFieldValue(output, "EnlargedRegions", this->Enlarged);
@@ -408,7 +406,6 @@ private:
   const CartogramWorker& Worker;
   RegionCells Cells;
   KeptMap& Kept;
-  Progress& Work;
   const CartogramOutputs& Outputs;
   std::vector<std::string> Warnings;
   std::vector<Point<3>> Places; // of the input's points
@@ -429,9 +426,9 @@ private:
 std::vector<std::string> CartogramWorker::Run(const std::vector<DensityBlock>& blocks,
   bool isComposite, KeptMap& kept, Progress& progress, const CartogramOutputs& outputs) const
 {
-  RegionCells cells = readRegions(blocks, isComposite, this->Arrays, progress);
-  progress.BeginStage(0.05);
-  return CartogramJob(*this, std::move(cells), kept, progress, outputs).Run();
+  Stages stages(progress, { { "regions", 2 }, { "cartogram", 98 } });
+  RegionCells cells = readRegions(blocks, isComposite, this->Arrays, stages["regions"]);
+  return CartogramJob(*this, std::move(cells), kept, outputs).Run(stages["cartogram"]);
 }
 
 } // namespace RectifiedTransport::Bridge

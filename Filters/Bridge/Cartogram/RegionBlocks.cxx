@@ -5,6 +5,7 @@
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/Failure.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkCell.h"
@@ -220,14 +221,16 @@ vtkSmartPointer<vtkPolyData> numberedBlock(
 vtkSmartPointer<vtkPolyData> joinedData(const std::vector<DensityBlock>& blocks, Progress& progress)
 {
   constexpr std::size_t most = 64;
+  const auto count = static_cast<std::int64_t>(blocks.size());
+  Stages stages(progress, { { "blocks", 2 }, { "append", 1 } });
   std::vector<vtkSmartPointer<vtkPolyData>> parts;
+  Parts each(stages["blocks"], count);
   for (std::size_t i = 0; i < blocks.size(); ++i)
   {
-    progress.BeginStage(0.01 * static_cast<double>(i + 1) / static_cast<double>(blocks.size()));
-    parts.push_back(numberedBlock(blocks[i], i, progress));
+    parts.push_back(numberedBlock(blocks[i], i, each[static_cast<std::int64_t>(i)]));
   }
   unifyTypes(parts);
-  progress.BeginStage(0.015, static_cast<std::int64_t>(blocks.size()));
+  Progress& appended = stages["append"].Expect(count);
   do
   {
     std::vector<vtkSmartPointer<vtkPolyData>> joined;
@@ -241,7 +244,7 @@ vtkSmartPointer<vtkPolyData> joinedData(const std::vector<DensityBlock>& blocks,
       }
       append->Update();
       joined.emplace_back(append->GetOutput());
-      progress.EndSlice(append->GetNumberOfInputConnections(0));
+      appended.EndSlice(append->GetNumberOfInputConnections(0));
     }
     parts = std::move(joined);
   } while (parts.size() > 1);

@@ -31,7 +31,7 @@ struct RegionBlocks
 
 // Joins blocks that are vtkPolyData, or vtkUnstructuredGrid with cells that a vtkPolyData may have.
 // Triangle strips and quadratic cells come as their outlines. Throws Failure for others and for
-// data that cannot be read; and Cancelled. Takes the progress to 0.015.
+// data that cannot be read; and Cancelled.
 RegionBlocks joinRegionBlocks(const std::vector<DensityBlock>& blocks, Progress& progress);
 
 } // namespace RectifiedTransport::Bridge

@@ -7,6 +7,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/NumbersOfText.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
@@ -64,9 +65,9 @@ public:
     const RegionArrays& arrays, Progress& progress)
     : Blocks(blocks)
     , Arrays(arrays)
-    , Work(progress)
+    , Work(progress, { { "blocks", 3 }, { "regions", 1 } })
   {
-    this->Joined = joinRegionBlocks(blocks, progress);
+    this->Joined = joinRegionBlocks(blocks, this->Work["blocks"]);
     this->Found.Data = this->Joined.Data;
     this->ByBlock = isComposite && blocks.size() > 1;
   }
@@ -74,9 +75,10 @@ public:
   RegionCells Read()
   {
     this->FindOpenLines();
-    this->Work.Check();
+    Progress& progress = this->Work["regions"];
+    progress.Check();
     this->FindMass();
-    this->FindRegions();
+    this->FindRegions(progress);
     return std::move(this->Found);
   }
 
@@ -196,7 +198,7 @@ private:
     return only;
   }
 
-  void FindRegions()
+  void FindRegions(Progress& progress)
   {
     vtkPolyData* data = this->Found.Data;
     vtkCellData* cells = data->GetCellData();
@@ -214,10 +216,10 @@ private:
     this->Found.Regions.assign(static_cast<std::size_t>(count), -1);
     constexpr std::int64_t work = 8; // units, of a value
     std::string value;
-    this->Work.BeginStage(0.02, work * count);
+    progress.Expect(work * count);
     for (vtkIdType cell = data->GetNumberOfVerts(); cell < count; ++cell)
     {
-      this->Work.Add(work);
+      progress.Add(work);
       if (this->IsOpen[static_cast<std::size_t>(cell)] != 0)
       {
         continue;
@@ -297,7 +299,7 @@ private:
 
   const std::vector<DensityBlock>& Blocks;
   const RegionArrays& Arrays;
-  Progress& Work;
+  Stages Work;
   bool ByBlock = false;
   RegionBlocks Joined;
   std::vector<unsigned char> IsOpen; // of cells

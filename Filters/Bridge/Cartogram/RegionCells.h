@@ -43,7 +43,7 @@ struct RegionCells
 // is the cells' active scalars, else their only numeric array. Cells with one value of the region
 // array are one region; without one those of a block, if there are several, else each cell. Throws
 // Failure as joinRegionBlocks, and for no regions, no or bad masses, and masses that differ in a
-// region; and Cancelled. Takes the progress to 0.02.
+// region; and Cancelled.
 RegionCells readRegions(const std::vector<DensityBlock>& blocks, bool isComposite,
   const RegionArrays& arrays, Progress& progress);
 

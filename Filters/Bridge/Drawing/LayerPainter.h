@@ -11,7 +11,7 @@ class Drawing;
 class DrawnLayer;
 class PageLayout;
 
-// Draws the shapes of a layer as the work of the current stage. Throws Failure and Cancelled.
+// Draws the shapes of a layer. Throws Failure and Cancelled.
 void paintLayer(
   const DrawnLayer& layer, const PageLayout& layout, Drawing& drawing, Progress& progress);
 

@@ -45,7 +45,7 @@ public:
   // An upper bound, as units of work.
   std::int64_t Count() const;
 
-  // Calls visit(shape) for all of them, as the work of the current stage. Throws Cancelled.
+  // Calls visit(shape) for all of them. Throws Cancelled.
   template <class Visit>
   void ForEach(Progress& progress, const Visit& visit) const
   {

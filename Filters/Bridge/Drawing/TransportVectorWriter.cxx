@@ -10,6 +10,7 @@
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDataArray.h"
 #include "vtkLookupTable.h"
@@ -268,25 +269,25 @@ void TransportVectorWriter::Run(
 
   std::vector<DrawnLayer> layers;
   layers.reserve(data.size());
-  progress.BeginStage(0.1, points);
+  Stages stages(progress, { { "points", 1 }, { "extent", 1 }, { "spacing", 3 }, { "drawing", 5 } });
+  Progress& reading = stages["points"].Expect(points);
   for (const DrawnData& drawn : data)
   {
-    layers.emplace_back(drawn, table, progress);
+    layers.emplace_back(drawn, table, reading);
     if (this->FillOutlines)
     {
       layers.back().FillOutlines();
     }
   }
-  progress.BeginStage(0.2, 2 * shapes);
-  Extent extent = extentOf(layers, progress);
+  Progress& visits = stages["extent"].Expect(2 * shapes);
+  Extent extent = extentOf(layers, visits);
   if (extent.NumberOfDots > 0)
   {
     double radius = this->PointRadius;
     if (radius == 0.0)
     {
-      const LargeBuffer<double> dots = dotsOf(layers, extent.NumberOfDots, progress);
-      progress.BeginStage(0.5);
-      radius = radiusOfDots({ dots.data(), extent.NumberOfDots }, progress.Stage());
+      const LargeBuffer<double> dots = dotsOf(layers, extent.NumberOfDots, visits);
+      radius = radiusOfDots({ dots.data(), extent.NumberOfDots }, stages["spacing"]);
       radius = radius > 0.0 ? radius : radiusWithoutNeighbours(extent.Points);
     }
     for (DrawnLayer& layer : layers)
@@ -312,10 +313,10 @@ void TransportVectorWriter::Run(
 
   drawing.Begin(
     { layout.Size(), isGiven(this->PageBounds) ? this->PageMargin : 0.0, this->LineWidth });
-  progress.BeginStage(1.0, shapes);
+  Progress& painting = stages["drawing"].Expect(shapes);
   for (const DrawnLayer& layer : layers)
   {
-    paintLayer(layer, layout, drawing, progress);
+    paintLayer(layer, layout, drawing, painting);
   }
   drawing.End();
 }

@@ -80,7 +80,7 @@ struct RegionBatch
 };
 
 // Calls use(batch) for all regions in their order. Edges reach slabs that are nearer than `margin`
-// grid cells. Runs as the current stage. Throws Cancelled.
+// grid cells. Throws Cancelled.
 void visitRegions(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
   const MeshSlabs<2>& slabs, double margin, Progress& progress,
   const std::function<void(const RegionBatch&)>& use);

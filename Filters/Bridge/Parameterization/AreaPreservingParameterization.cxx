@@ -7,6 +7,7 @@
 #include "Bridge/Surface/DiskSurface.h"
 #include "Bridge/Surface/OpenedSurface.h"
 #include "Bridge/Surface/SurfaceTriangles.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/AreaPreservingMap.h"
 #include "Core/Seams/CutSurfaceMap.h"
 
@@ -172,7 +173,7 @@ MapDistortion measureCells(const DiskSurface& surface, const AreaPreservingMap& 
     },
     progress);
   distortions.Repeat(surface.Repaired().Repeated(), surface.FirstCell());
-  return measureDistortion(triangles, map.Positions, progress.Stage());
+  return measureDistortion(triangles, map.Positions, progress);
 }
 
 template <class Map>
@@ -258,12 +259,14 @@ void AreaPreservingParameterization::Check() const
 ParameterizationReport AreaPreservingParameterization::Run(
   vtkPolyData* input, Progress& progress, vtkPolyData* output) const
 {
+  Stages stages(progress, { { "triangles", 5 }, { "disk", 5 }, { "map", 90 } });
   SurfaceTriangles triangles(input,
-    this->Seams == AutomaticSeams ? "it must be a surface" : "it must be a disk", progress, 0.05);
+    this->Seams == AutomaticSeams ? "it must be a surface" : "it must be a disk",
+    stages["triangles"]);
   std::optional<DiskSurface> disk;
   try
   {
-    disk.emplace(triangles, progress, 0.1);
+    disk.emplace(triangles, stages["disk"]);
   }
   catch (const NoDiskSurface& defect)
   {
@@ -277,30 +280,26 @@ ParameterizationReport AreaPreservingParameterization::Run(
         "; or give no Corners, which only a disk can have: " + "then it is cut along seams");
     }
   }
-  if (disk)
-  {
-    return this->MapDisk(*disk, progress, output);
-  }
-  OpenedSurface opened(triangles, progress, 0.5);
-  return this->MapOpened(opened, progress, output);
+  return disk ? this->MapDisk(*disk, stages["map"], output)
+              : this->MapOpened(triangles, stages["map"], output);
 }
 
 ParameterizationReport AreaPreservingParameterization::MapDisk(
   const DiskSurface& surface, Progress& progress, vtkPolyData* output) const
 {
   const DiskMesh& disk = surface.Disk();
-  progress.BeginStage(0.4);
-  const ConformalMap conformal = mapDisk(disk, this->Corners.Of(surface.Repaired()), progress);
-  progress.BeginStage(0.95);
+  Stages stages(
+    progress, { { "conformal map", 30 }, { "area-preserving map", 55 }, { "distortion", 5 } });
+  const ConformalMap conformal =
+    mapDisk(disk, this->Corners.Of(surface.Repaired()), stages["conformal map"]);
   const AreaPreservingMap map = withFlowMemory(disk.NumberOfPoints(), this->Resolution, [&]() {
     return mapAreaPreserving(
-      disk, conformal.Square, { this->Resolution, this->Polish }, progress.Stage());
+      disk, conformal.Square, { this->Resolution, this->Polish }, stages["area-preserving map"]);
   });
 
-  progress.BeginStage(1.0);
   vtkPolyData* triangles = surface.Triangulated();
   CellDistortions distortions(triangles->GetNumberOfCells(), map.Positions);
-  const MapDistortion figures = measureCells(surface, map, distortions, progress);
+  const MapDistortion figures = measureCells(surface, map, distortions, stages["distortion"]);
   output->CopyStructure(triangles);
   output->GetFieldData()->PassData(triangles->GetFieldData());
   output->GetCellData()->PassData(triangles->GetCellData());
@@ -313,15 +312,15 @@ ParameterizationReport AreaPreservingParameterization::MapDisk(
 }
 
 ParameterizationReport AreaPreservingParameterization::MapOpened(
-  OpenedSurface& surface, Progress& progress, vtkPolyData* output) const
+  SurfaceTriangles& read, Progress& progress, vtkPolyData* output) const
 {
+  Stages stages(progress, { { "seams", 40 }, { "map", 45 }, { "distortion", 3 }, { "output", 2 } });
+  OpenedSurface surface(read, stages["seams"]);
   const CutSurface& cut = surface.Cut();
-  progress.BeginStage(0.95);
   const CutSurfaceMap map = withFlowMemory(cut.NumberOfPoints(), this->Resolution, [&]() {
-    return mapCutSurface(cut, { this->Resolution, this->Polish }, progress.Stage());
+    return mapCutSurface(cut, { this->Resolution, this->Polish }, stages["map"]);
   });
 
-  progress.BeginStage(0.98);
   const CutTriangles given(cut, surface.Given());
   const MeasuredTriangles triangles = given.Measured();
   const std::vector<Point<2>> scaled = scaledToUnitArea(map);
@@ -331,12 +330,11 @@ ParameterizationReport AreaPreservingParameterization::MapOpened(
     [&](std::int64_t triangle) {
       return surface.FirstCell() + static_cast<vtkIdType>(given.Given(triangle));
     },
-    progress);
+    stages["distortion"]);
   distortions.Repeat(cut.Repeated(), surface.FirstCell());
-  const MapDistortion figures = measureDistortion(triangles, scaled, progress.Stage());
-  progress.BeginStage(1.0);
+  const MapDistortion figures = measureDistortion(triangles, scaled, stages["distortion"]);
   surface.PlaceFlatCells(map.Positions);
-  surface.CopyTo(output, progress);
+  surface.CopyTo(output, stages["output"]);
   distortions.Attach(output->GetCellData());
   attachOrigins(surface, output);
   attachCoordinates(surface, map.Conformal, map.Positions, output);

@@ -24,7 +24,7 @@ namespace RectifiedTransport::Bridge
 {
 
 class DiskSurface;
-class OpenedSurface;
+class SurfaceTriangles;
 
 // How far the map is from its goal.
 struct ParameterizationReport
@@ -61,7 +61,7 @@ private:
   ParameterizationReport MapDisk(
     const DiskSurface& surface, Progress& progress, vtkPolyData* output) const;
   ParameterizationReport MapOpened(
-    OpenedSurface& surface, Progress& progress, vtkPolyData* output) const;
+    SurfaceTriangles& triangles, Progress& progress, vtkPolyData* output) const;
 };
 
 // Makes a surface that Run has made lie in the unit square. It shares all arrays but the points.

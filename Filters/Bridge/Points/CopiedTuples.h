@@ -41,8 +41,8 @@ void requireTuples(
 void requireTuples(vtkDataSet* data, const std::string& name);
 
 // Copies the arrays of the source: element i of `count` gets the tuples of element idOf(i). What
-// `to` copies is for the caller to set. Runs as the current stage. Throws Failure if an array has
-// too few tuples or there is no memory, and Cancelled.
+// `to` copies is for the caller to set. Throws Failure if an array has too few tuples or there is
+// no memory, and Cancelled.
 void copyTuples(const TupleSource& source, std::int64_t count,
   const std::function<vtkIdType(vtkIdType)>& idOf, vtkDataSetAttributes* to, Progress& progress);
 

@@ -21,8 +21,8 @@ class CountedPoints;
 class DoubleTuples
 {
 public:
-  // All tuples. A vtkDoubleArray is referenced and must outlive this object; others are copied, as
-  // the work of the current stage. Throws Failure if memory is short, and Cancelled.
+  // All tuples. A vtkDoubleArray is referenced and must outlive this object; others are copied.
+  // Throws Failure if memory is short, and Cancelled.
   DoubleTuples(vtkDataArray* array, Progress& progress);
   // The tuples of the points that are not ghosts, of an array with a tuple for every point.
   DoubleTuples(vtkDataArray* array, const CountedPoints& counted, Progress& progress);

@@ -18,7 +18,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport::Bridge
 {
 
-// They run as the current stage and throw Failure and Cancelled.
+// They throw Failure and Cancelled.
 vtkSmartPointer<vtkCellArray> newParticleCells(
   vtkIdType count, vtkIdType pointsEach, Progress& progress);
 // Sets the points of particles, and their cells: vertices, or lines of several points.

@@ -5,8 +5,8 @@
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/ExactSum.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
@@ -18,13 +18,6 @@
 
 namespace RectifiedTransport::Bridge
 {
-
-namespace
-{
-
-constexpr double partOfPoints = 0.8; // of the time to write; the rest is for the vtkCells
-
-} // namespace
 
 template <int D>
 ParticleSet<D>::ParticleSet(const ImageGrid& geometry, const std::string& purpose, double count,
@@ -88,10 +81,9 @@ PointSpan<3> ParticleSet<D>::PhysicalSeeds()
 template <int D>
 template <class Write>
 double ParticleSet<D>::WriteEach(
-  const LengthScale& scale, Progress& progress, double end, const Write& write) const
+  const LengthScale& scale, Progress& progress, const Write& write) const
 {
   const std::int64_t chunk = std::max<std::int64_t>(1, 4096 / this->Times);
-  progress.BeginStage(progress.StageEnd() + partOfPoints * (end - progress.StageEnd()));
   const auto total = sumExactly<ExactSum>(progress, this->NumberOfParticles, chunk,
     [&write](std::int64_t first, std::int64_t last, ExactSum& sum) {
       for (std::int64_t i = first; i < last; ++i)
@@ -128,8 +120,7 @@ void ParticleSet<D>::ToPhysical(
 }
 
 template <int D>
-double ParticleSet<D>::WriteParticles(
-  double totalMass, Progress& progress, double end, vtkPolyData* output)
+double ParticleSet<D>::WriteParticles(double totalMass, Progress& progress, vtkPolyData* output)
 {
   const std::int64_t count = this->NumberOfParticles;
   auto ids = newArray<vtkIdTypeArray>("SeedId", 1, count);
@@ -145,7 +136,8 @@ double ParticleSet<D>::WriteParticles(
   const double share = totalMass / static_cast<double>(this->AllParticles);
   const LengthScale scale(this->Geometry);
 
-  const double cost = this->WriteEach(scale, progress, end, [&](std::int64_t i) {
+  Stages stages(progress, { { "points", 8 }, { "cells", 2 } });
+  const double cost = this->WriteEach(scale, stages["points"], [&](std::int64_t i) {
     double index[D];
     std::copy_n(seeds + i * D, D, index); // in 3D the same memory as the physical seed
     double* seed = physicalSeeds + i * 3;
@@ -161,8 +153,7 @@ double ParticleSet<D>::WriteParticles(
     return scale.SquaredDistanceInUnits(x, seed);
   });
 
-  progress.BeginStage(end);
-  setParticles(output, std::exchange(this->Points, nullptr), 1, progress);
+  setParticles(output, std::exchange(this->Points, nullptr), 1, stages["cells"]);
   vtkPointData* data = output->GetPointData();
   data->AddArray(ids);
   data->AddArray(std::exchange(this->SeedPosition, nullptr));
@@ -172,8 +163,8 @@ double ParticleSet<D>::WriteParticles(
 }
 
 template <int D>
-double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& times,
-  Progress& progress, double end, vtkPolyData* output)
+double ParticleSet<D>::WritePaths(
+  double totalMass, const std::vector<double>& times, Progress& progress, vtkPolyData* output)
 {
   const std::int64_t count = this->NumberOfParticles;
   const std::int64_t each = this->Times;
@@ -189,7 +180,8 @@ double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& t
   const double share = totalMass / static_cast<double>(this->AllParticles);
   const LengthScale scale(this->Geometry);
 
-  const double cost = this->WriteEach(scale, progress, end, [&](std::int64_t i) {
+  Stages stages(progress, { { "points", 8 }, { "cells", 2 } });
+  const double cost = this->WriteEach(scale, stages["points"], [&](std::int64_t i) {
     const double* index = seeds + i * D;
     double seed[3];
     this->ToPhysicalSeed(i, index, seed);
@@ -203,8 +195,7 @@ double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& t
     return scale.SquaredDistanceInUnits(points + ((i + 1) * each - 1) * 3, seed);
   });
 
-  progress.BeginStage(end);
-  setParticles(output, std::exchange(this->Points, nullptr), each, progress);
+  setParticles(output, std::exchange(this->Points, nullptr), each, stages["cells"]);
   vtkPointData* data = output->GetPointData();
   data->AddArray(ids);
   data->AddArray(timeArray);

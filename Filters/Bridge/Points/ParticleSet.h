@@ -56,17 +56,16 @@ public:
 
   // Writes points with vertices, SeedId, SeedPosition, Displacement and Mass and does not keep
   // them; seeds and positions are undefined afterwards. Returns the mean squared displacement of
-  // the particles of all ranks. Progress reaches `end`. Collective. Throws Failure and Cancelled.
-  double WriteParticles(double totalMass, Progress& progress, double end, vtkPolyData* output);
+  // the particles of all ranks. Collective. Throws Failure and Cancelled.
+  double WriteParticles(double totalMass, Progress& progress, vtkPolyData* output);
 
   // The same with polylines, SeedId, Time and Mass.
-  double WritePaths(double totalMass, const std::vector<double>& times, Progress& progress,
-    double end, vtkPolyData* output);
+  double WritePaths(
+    double totalMass, const std::vector<double>& times, Progress& progress, vtkPolyData* output);
 
 private:
   template <class Write>
-  double WriteEach(
-    const LengthScale& scale, Progress& progress, double end, const Write& write) const;
+  double WriteEach(const LengthScale& scale, Progress& progress, const Write& write) const;
   void ToPhysicalSeed(std::int64_t particle, const double* index, double* seed) const;
   void ToPhysical(
     const double* index, const double* indexSeed, const double* seed, double* x) const;

@@ -34,7 +34,7 @@ vtkPointSet* pointSetOf(vtkInformationVector* port);
 // Modified(); vtkBoundingBox::ComputeBounds takes 100 ns a point. `points` may be nullptr. Without
 // points, lower bounds are above the upper ones. Collective, for the points of all ranks.
 void findBounds(vtkPointSet* points, const Ranks& ranks, double bounds[6]);
-// The same as the work of the current stage, on the ranks of the progress. Throws Cancelled.
+// The same on the ranks of the progress. Throws Cancelled.
 void findBounds(vtkPointSet* points, Progress& progress, double bounds[6]);
 // The union of the bounds of all ranks, without those whose lower bounds are above the upper ones.
 // Collective.
@@ -105,8 +105,8 @@ private:
   const Visit& VisitPoint;
 };
 
-// Calls visit(i, x) for every point of a set, on several threads, as the work of the current stage.
-// Throws Failure for coordinates that are not finite, naming the input as `what`, and Cancelled.
+// Calls visit(i, x) for every point of a set, on several threads. Throws Failure for
+// coordinates that are not finite, naming the input as `what`, and Cancelled.
 template <class Visit>
 void visitPoints(
   vtkPointSet* points, const std::string& what, Progress& progress, const Visit& visit)

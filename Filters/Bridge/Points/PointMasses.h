@@ -35,9 +35,8 @@ public:
   static constexpr std::int64_t Chunk = std::int64_t{ 1 } << 13;
 
   PointMasses() = default;
-  // Reads an array of the points, nullptr for the mass 1 each, as the work of the current stage.
-  // Ghosts have no mass. Throws Failure for values that are not finite and for ghost arrays of
-  // another length, and Cancelled.
+  // Reads an array of the points, nullptr for the mass 1 each. Ghosts have no mass. Throws Failure
+  // for values that are not finite and for ghost arrays of another length, and Cancelled.
   PointMasses(vtkPointSet* points, vtkDataArray* array, Progress& progress);
 
   // One mass a point; nullptr if each is 1.

@@ -3,7 +3,7 @@
 
 #include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkArrayDispatch.h"
@@ -421,25 +421,22 @@ void sampleBlocks(const Sampling& sampling, const SampledPlaces& places, Progres
 
 } // namespace
 
-void sampleArrays(const ArraySource& source, const SampledPlaces& places, Progress& progress,
-  double end, vtkPointData* output)
+void sampleArrays(
+  const ArraySource& source, const SampledPlaces& places, Progress& progress, vtkPointData* output)
 {
   Sampling sampling;
   const std::int64_t count = places.Count();
   prepare(newArrays(source, false, output), count, false, source.KeepActive, sampling, output);
   prepare(newArrays(source, true, output), count, true, false, sampling, output);
-  const double begin = progress.StageEnd();
-  const auto stages = static_cast<double>(sampling.Others.size() + 1);
+  Parts parts(progress, static_cast<std::int64_t>(sampling.Others.size() + 1));
   if (!sampling.Blocks.empty())
   {
-    progress.BeginStage(begin + (end - begin) / stages);
-    sampleBlocks(sampling, places, progress);
+    sampleBlocks(sampling, places, parts[0]);
   }
-  for (std::size_t i = 0; i < sampling.Others.size(); ++i)
+  std::int64_t part = 0;
+  for (const Sampling::InOrder& array : sampling.Others)
   {
-    const Sampling::InOrder& array = sampling.Others[i];
-    progress.BeginStage(begin + (end - begin) * static_cast<double>(i + 2) / stages);
-    sampleTuples(array.From, array.To, places, array.OfCells, progress);
+    sampleTuples(array.From, array.To, places, array.OfCells, parts[++part]);
   }
 }
 

@@ -63,9 +63,9 @@ struct ArraySource
 //
 // Adds the point arrays, interpolated, and the values of the cell arrays at the given places to the
 // data of points, except names that exist already, ghost arrays, ids of points and global ids.
-// Progress reaches `end`. Throws Failure and Cancelled.
-void sampleArrays(const ArraySource& source, const SampledPlaces& places, Progress& progress,
-  double end, vtkPointData* output);
+// Throws Failure and Cancelled.
+void sampleArrays(
+  const ArraySource& source, const SampledPlaces& places, Progress& progress, vtkPointData* output);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -14,6 +14,7 @@
 #include "Bridge/Run/NumbersOfText.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Quality/GridBlocks.h"
 
 #include "vtkDataArray.h"
@@ -69,34 +70,32 @@ vtkSmartPointer<vtkDataArray> findArray(vtkPointSet* particles, const char* name
 class ParticleArrays
 {
 public:
-  ParticleArrays(vtkPointSet* particles, const CountedPoints& counted, Progress& progress)
+  ParticleArrays(vtkPointSet* particles, const CountedPoints& counted, const Ranks& group)
     : Counted(counted)
-    , Group(progress.Group())
-    , Work(progress)
+    , Group(group)
     , Particles(particles)
   {
   }
 
-  // As the work of the current stage.
-  ParticleSample Read()
+  ParticleSample Read(Progress& progress)
   {
-    visitPoints(this->Particles, "input point set", this->Work, [](std::int64_t, const double*) {});
-    this->Points.emplace(this->Particles->GetPoints()->GetData(), this->Counted, this->Work);
+    visitPoints(this->Particles, "input point set", progress, [](std::int64_t, const double*) {});
+    this->Points.emplace(this->Particles->GetPoints()->GetData(), this->Counted, progress);
     ParticleSample sample;
     sample.Points = { this->Points->data(), this->Counted.Count() };
     this->MassArray = this->Find("Mass", 1);
     if (this->MassArray)
     {
-      this->Masses.emplace(this->MassArray, this->Counted, this->Work);
+      this->Masses.emplace(this->MassArray, this->Counted, progress);
       sample.Masses = this->Masses->data();
     }
-    this->CheckMasses(sample.Masses);
+    this->CheckMasses(sample.Masses, progress);
     this->DisplacementArray = this->Find("Displacement", 3);
     if (this->DisplacementArray)
     {
-      this->Displacements.emplace(this->DisplacementArray, this->Counted, this->Work);
+      this->Displacements.emplace(this->DisplacementArray, this->Counted, progress);
       sample.Displacements = { this->Displacements->data(), this->Counted.Count() };
-      this->CheckDisplacements();
+      this->CheckDisplacements(progress);
     }
     return sample;
   }
@@ -127,11 +126,11 @@ private:
   }
 
   // nullptr for none on this rank.
-  void CheckMasses(const double* masses)
+  void CheckMasses(const double* masses, Progress& progress)
   {
     double total = 0.0;
     const std::int64_t count = masses ? this->Counted.Count() : 0;
-    this->Work.ForInOrder(count, grain, [&](std::int64_t first, std::int64_t last) {
+    progress.ForInOrder(count, grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         if (!(masses[i] >= 0.0) || std::isinf(masses[i]))
@@ -155,10 +154,10 @@ private:
     }
   }
 
-  void CheckDisplacements()
+  void CheckDisplacements(Progress& progress)
   {
     const ConstPointSpan<3> displacements(this->Displacements->data(), this->Counted.Count());
-    this->Work.ForInOrder(this->Counted.Count(), grain, [&](std::int64_t first, std::int64_t last) {
+    progress.ForInOrder(this->Counted.Count(), grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         double squared = 0.0;
@@ -177,7 +176,6 @@ private:
 
   const CountedPoints& Counted;
   const Ranks& Group;
-  Progress& Work;
   vtkPointSet* Particles;
   vtkSmartPointer<vtkDataArray> MassArray;
   vtkSmartPointer<vtkDataArray> DisplacementArray;
@@ -204,9 +202,8 @@ ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid,
     std::to_string(static_cast<std::int64_t>(blocks)) + " blocks (see BlockSize)";
   const double bytes = static_cast<double>(count) * eachParticle + blocks * eachBlock;
   requireMemory(purpose, bytes);
-  return withMemory(purpose, bytes, [&]() {
-    return measureQuality<D>(particles, flow.Flow<D>(), grid, blockSize, progress.Stage());
-  });
+  return withMemory(purpose, bytes,
+    [&]() { return measureQuality<D>(particles, flow.Flow<D>(), grid, blockSize, progress); });
 }
 
 template <int D>
@@ -222,21 +219,19 @@ ParticleQuality TransportQuality::Run(const DistributedPoints& particles, InputD
   FlowCache& cache, Progress& progress) const
 {
   const CountedPoints& counted = particles.Counted();
-  constexpr double partOfReading = 0.1;
   const double all = Cost::Comparison * static_cast<double>(counted.Count());
-  const auto ends =
-    stageEnds({ Cost::tables(cache, density), partOfReading * all, (1.0 - partOfReading) * all });
+  Stages stages(progress,
+    { { "tables", Cost::tables(cache, density) }, { "reading", 0.1 * all },
+      { "comparison", 0.9 * all } });
   const ImageGrid& grid = density.Grid();
   const FlowTables tables = dispatchDimension(grid.Dimension(), choose<1>, choose<2>, choose<3>)(
     this->Tables, grid, counted.Count());
-  const SharedFlow& flow = cache.Update(density, progress, ends[0], tables);
-  progress.BeginStage(ends[1]);
-  ParticleArrays arrays(particles.Set(), counted, progress);
-  ParticleSample sample = arrays.Read();
+  const SharedFlow& flow = cache.Update(density, stages["tables"], tables);
+  ParticleArrays arrays(particles.Set(), counted, progress.Group());
+  ParticleSample sample = arrays.Read(stages["reading"]);
   sample.Order = particles.Keys();
-  progress.BeginStage(1.0);
   return dispatchDimension(grid.Dimension(), measure<1>, measure<2>, measure<3>)(
-    sample, grid, this->BlockSize, flow, progress);
+    sample, grid, this->BlockSize, flow, stages["comparison"]);
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -9,6 +9,7 @@
 #include "Bridge/Points/SeedInput.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
@@ -41,33 +42,32 @@ template <int D>
 class PlacedPoints
 {
 public:
-  PlacedPoints(const ImageGrid& grid, const CountedPoints& counted, Progress& progress)
+  PlacedPoints(const ImageGrid& grid, const CountedPoints& counted)
     : Grid(grid)
     , Counted(counted)
-    , Work(progress)
   {
   }
 
   // Returns how many points were moved to the domain.
-  std::int64_t Read(vtkPointSet* input, const std::string& purpose)
+  std::int64_t Read(vtkPointSet* input, const std::string& purpose, Progress& progress)
   {
     const vtkIdType count = input->GetNumberOfPoints();
     const std::int64_t coordinates = this->Counted.Count() * D;
     this->Points = newArray<vtkDoubleArray>("Points", 3, count);
     withMemory(purpose, static_cast<double>(coordinates) * sizeof(double),
       [&]() { this->Index = LargeBuffer<double>(coordinates); });
-    return readSeeds<D>(input, this->Counted, "input point set", this->Grid, this->Work,
+    return readSeeds<D>(input, this->Counted, "input point set", this->Grid, progress,
       this->Relaxed(), { this->Points->GetPointer(0), count });
   }
 
   PointSpan<D> Relaxed() { return { this->Index.data(), this->Counted.Count() }; }
 
   // Points that are where they were keep their coordinates to the last bit.
-  void Write(vtkPointSet* output)
+  void Write(vtkPointSet* output, Progress& progress)
   {
     double* points = this->Points->GetPointer(0);
     const PointSpan<D> relaxed = this->Relaxed();
-    this->Work.For(relaxed.size(), grain, [&](std::int64_t first, std::int64_t last) {
+    progress.For(relaxed.size(), grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         double* x = points + 3 * this->Counted.Point(i);
@@ -88,7 +88,6 @@ public:
 private:
   const ImageGrid& Grid;
   const CountedPoints& Counted;
-  Progress& Work;
   vtkSmartPointer<vtkDoubleArray> Points;
   LargeBuffer<double> Index;
 };
@@ -149,9 +148,11 @@ BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, InputDens
   const auto cells = static_cast<double>(density.Grid().NumberOfCells());
   const auto count = static_cast<double>(counted.Count());
   const double all = static_cast<double>(input->GetNumberOfPoints());
-  const auto ends = stageEnds({ settings.ByTransport ? 0.0 : Cost::tables(cache, density),
-    Cost::Reading * cells, Cost::Seed * all,
-    Cost::Relaxation * count * (settings.Options.MaximumIterations + 1.0), Cost::Seed * count });
+  Stages stages(progress,
+    { { "tables", settings.ByTransport ? 0.0 : Cost::tables(cache, density) },
+      { "density", Cost::Reading * cells }, { "points", Cost::Seed * all },
+      { "relaxation", Cost::Relaxation * count * (settings.Options.MaximumIterations + 1.0) },
+      { "output", Cost::Seed * count } });
   const std::string purpose = "the relaxation of " + std::to_string(counted.Count()) +
     " points in " + std::to_string(density.Grid().NumberOfCells()) + " cells of the density";
   const double bytes = coreMemory(settings.ByTransport, D, cells, count);
@@ -160,33 +161,29 @@ BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, InputDens
   const SharedFlow* flow = nullptr;
   if (!settings.ByTransport)
   {
-    flow = &cache.Update(density, progress, ends[0]);
+    flow = &cache.Update(density, stages["tables"]);
   }
   else if (cache.IsOutdated(density))
   {
     cache.Release();
   }
-  progress.BeginStage(ends[1]);
-  density.Prepare(FlowTables::Whole, progress);
+  density.Prepare(FlowTables::Whole, stages["density"]);
   if (settings.ByTransport)
   {
     // A physical mass that is no double is an error here, too.
-    massOf(density, progress);
+    massOf(density, stages["density"]);
   }
-  progress.BeginStage(ends[2]);
-  PlacedPoints<D> points(density.Grid(), counted, progress);
+  PlacedPoints<D> points(density.Grid(), counted);
   BlueNoiseRelaxation::Report report;
-  report.PointsMoved = points.Read(input, purpose);
-  progress.BeginStage(ends[3]);
+  report.PointsMoved = points.Read(input, purpose, stages["points"]);
   if (counted.Count() > 0)
   {
     withMemory(purpose, bytes, [&]() {
       report.Energy =
-        relaxPoints<D>(settings, density, flow, points.Relaxed(), progress.Stage()).Energy;
+        relaxPoints<D>(settings, density, flow, points.Relaxed(), stages["relaxation"]).Energy;
     });
   }
-  progress.BeginStage(1.0);
-  points.Write(output);
+  points.Write(output, stages["output"]);
   return report;
 }
 

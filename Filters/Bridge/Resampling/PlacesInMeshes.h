@@ -26,8 +26,8 @@ namespace RectifiedTransport::Bridge
 class PlacesInMeshes : public SampledPlaces
 {
 public:
-  // `places` are physical, in grid cells that cells of the blocks reach. Runs as the current stage.
-  // Throws Failure and Cancelled.
+  // `places` are physical, in grid cells that cells of the blocks reach. Throws Failure and
+  // Cancelled.
   PlacesInMeshes(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
     ConstPointSpan<3> places, Progress& progress);
 

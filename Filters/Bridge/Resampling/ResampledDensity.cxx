@@ -16,7 +16,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/ExactSum.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Tables/DensityInspection.h"
 
 #include "vtkCellData.h"
@@ -136,8 +136,7 @@ public:
     vtkPointData* output) const override
   {
     const std::vector<BlockValues>& meshes = this->Made.Meshes;
-    constexpr double partOfSearch = 0.5;
-    progress.BeginStage(progress.StageEnd() + partOfSearch * (1.0 - progress.StageEnd()));
+    Stages stages(progress, { { "places", 1 }, { "arrays", 1 } });
     ArraySource source{ {}, "input", false };
     for (const BlockValues& mesh : meshes)
     {
@@ -145,12 +144,12 @@ public:
     }
     if (this->Made.Lattice)
     {
-      const PlacesInLattice places(*this->Made.Lattice, meshes, particles, progress);
-      sampleArrays(source, places, progress, 1.0, output);
+      const PlacesInLattice places(*this->Made.Lattice, meshes, particles, stages["places"]);
+      sampleArrays(source, places, stages["arrays"], output);
       return;
     }
-    const PlacesInMeshes places(meshes, this->Grid(), particles, progress);
-    sampleArrays(source, places, progress, 1.0, output);
+    const PlacesInMeshes places(meshes, this->Grid(), particles, stages["places"]);
+    sampleArrays(source, places, stages["arrays"], output);
   }
 
 private:

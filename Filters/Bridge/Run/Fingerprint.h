@@ -21,7 +21,7 @@ namespace RectifiedTransport::Bridge
 {
 
 // A hash of the bits of the arrays' values; 0 if one is not contiguous in memory. Arrays may be
-// null. Runs as the current stage. Throws Cancelled.
+// null. Throws Cancelled.
 std::uint64_t fingerprint(const std::vector<vtkDataArray*>& arrays, Progress& progress);
 
 } // namespace RectifiedTransport::Bridge

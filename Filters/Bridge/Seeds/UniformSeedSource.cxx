@@ -5,8 +5,8 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankShare.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Seeds/UnitSeeds.h"
 
 #include "vtkDoubleArray.h"
@@ -63,17 +63,16 @@ void fillBox(
   auto coordinates = newArray<vtkDoubleArray>("Points", 3, count);
   double* points = coordinates->GetPointer(0);
   LargeBuffer<double> separate;
-  progress.BeginStage(0.6);
+  Stages stages(progress, { { "pattern", 6 }, { "points", 2 }, { "cells", 2 } });
   withMemory(purpose, static_cast<double>(count) * D * sizeof(double), [&]() {
     separate = LargeBuffer<double>(D == 3 ? 0 : count * D);
     const PointSpan<D> made(D == 3 ? points : separate.data(), count);
-    seeds.GenerateFrom(share.First, made, progress.Stage());
+    seeds.GenerateFrom(share.First, made, stages["pattern"]);
   });
   const double* unit = D == 3 ? points : separate.data();
 
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-  progress.BeginStage(0.8);
-  progress.For(count, grain, [=](std::int64_t first, std::int64_t last) {
+  stages["points"].For(count, grain, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       for (int a = 0; a < D; ++a)
@@ -88,8 +87,7 @@ void fillBox(
       }
     }
   });
-  progress.BeginStage(1.0);
-  setParticles(output, coordinates, 1, progress);
+  setParticles(output, coordinates, 1, stages["cells"]);
 }
 
 } // namespace

@@ -47,7 +47,7 @@ void addStatistics(
 template <int Dimension>
 void writeOutlines(SiteCellOutlines<Dimension> outlines, vtkPolyData* output);
 
-// With the data of the output's sites. Runs as the current stage. Throws Failure and Cancelled.
+// With the data of the output's sites. Throws Failure and Cancelled.
 void writePolygons(SiteCellPolygons polygons, const CellOutputs& outputs, Progress& progress);
 
 } // namespace RectifiedTransport::Bridge

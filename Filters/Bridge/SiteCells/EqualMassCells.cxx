@@ -13,6 +13,7 @@
 #include "Bridge/SiteCells/LabelGrid.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/DensitySiteCells.h"
 #include "Core/SiteCells/PixelMasses.h"
 #include "Core/SiteCells/PowerSiteCells.h"
@@ -66,50 +67,49 @@ SiteCells<D> placeSites(vtkPointSet* sites, const ImageGrid& grid, Progress& pro
   constexpr double eachSite = (D + 3 + 4) * sizeof(double);
   return withMemory(
     "the " + std::to_string(count) + " sites", static_cast<double>(count) * eachSite, [&]() {
-      return SiteCells<D>({ points.data(), count }, grid, progress.Stage());
+      return SiteCells<D>({ points.data(), count }, grid, progress);
     });
 }
 
-// The kept labels, or those that label(labels) writes; it returns the report of the flow.
+// The kept labels, or those that label(labels, progress) writes; it returns the report of the flow.
 template <int D, class Label>
 SiteLabels::Division updateLabels(vtkPointSet* sites, const SiteLabels::Settings& settings,
   double bytes, SiteLabels& kept, Progress& progress, const Label& label)
 {
   const ImageGrid& grid = settings.Grid;
+  Stages stages(progress, { { "comparison", 1 }, { "labels", 92 } });
   const auto make = [&]() -> SiteLabels::Division {
-    progress.BeginStage(0.95);
     auto labels = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
     const FlowReport flow = withMemory("labels of " + describeSize<D>(grid.Size<D>()) + " pixels",
-      bytes, [&]() { return label(labels->GetPointer(0)); });
+      bytes, [&]() { return label(labels->GetPointer(0), stages["labels"]); });
     return { labels, nullptr, flow };
   };
-  return kept.Update(sites, settings, progress, make);
+  return kept.Update(sites, settings, stages["comparison"], make);
 }
 
-// Writes the labels, what measure(statistics) measures of the sites' cells, and their outlines.
+// Writes the labels, what measure(statistics, progress) measures of the sites' cells, and their
+// outlines.
 template <int D, class Measure>
 void writeCells(const ImageGrid& grid, SiteIdArray* labels, vtkIdType sites, Progress& progress,
   const CellOutputs& outputs, const Measure& measure)
 {
   outputs.Labels->GetCellData()->SetScalars(labels);
-  progress.BeginStage(0.98);
+  Stages stages(progress,
+    { { "statistics", 6 }, { "outlines", 2 }, { "polygons", 1 }, { "written polygons", 1 } });
   const double bytes = static_cast<double>(sites) * 2.0 * (D + 2) * sizeof(double);
   const auto withSums = [&](const SiteCellStatistics& statistics) {
     return withMemory("the sums of the " + std::to_string(sites) + " cells", bytes,
-      [&]() { return measure(statistics); });
+      [&]() { return measure(statistics, stages["statistics"]); });
   };
   addStatistics(outputs, withSums);
-  progress.BeginStage(D == 2 ? 0.99 : 1.0);
   writeOutlines<D>(
-    outlineSiteCells<D>(grid, labels->GetPointer(0), progress.Stage()), outputs.Outlines);
+    outlineSiteCells<D>(grid, labels->GetPointer(0), stages["outlines"]), outputs.Outlines);
   if constexpr (D == 2)
   {
-    progress.BeginStage(0.995);
     SiteCellPolygons polygons =
       withMemory("the polygons of the cells", 9.0 * static_cast<double>(grid.NumberOfCells()),
-        [&]() { return polygonsOfSiteCells(grid, labels->GetPointer(0), progress.Stage()); });
-    progress.BeginStage(1.0);
-    writePolygons(std::move(polygons), outputs, progress);
+        [&]() { return polygonsOfSiteCells(grid, labels->GetPointer(0), stages["polygons"]); });
+    writePolygons(std::move(polygons), outputs, stages["written polygons"]);
   }
 }
 
@@ -117,17 +117,15 @@ template <int D>
 EqualMassCells::Report divide(const EqualMassCells& cells, vtkPointSet* sites,
   const ImageGrid& grid, SiteLabels& kept, Progress& progress, const CellOutputs& outputs)
 {
-  progress.BeginStage(0.01);
-  const SiteCells<D> placed = placeSites<D>(sites, grid, progress);
-  progress.BeginStage(0.02);
-  const SiteLabels::Division division =
-    updateLabels<D>(sites, { grid, false, cells.Flow }, bytesOfLabelling<D>(grid), kept, progress,
-      [&](std::int64_t* values) { return placed.Label(values, cells.Flow, progress.Stage()); });
+  Stages stages(progress, { { "sites", 1 }, { "labels", 94 }, { "output", 5 } });
+  const SiteCells<D> placed = placeSites<D>(sites, grid, stages["sites"]);
+  const SiteLabels::Division division = updateLabels<D>(sites, { grid, false, cells.Flow },
+    bytesOfLabelling<D>(grid), kept, stages["labels"],
+    [&](std::int64_t* values, Progress& work) { return placed.Label(values, cells.Flow, work); });
   SiteIdArray* labels = division.Labels;
-  writeCells<D>(grid, labels, static_cast<vtkIdType>(placed.NumberOfSites()), progress, outputs,
-    [&](const SiteCellStatistics& statistics) {
-      return measureSiteCells<D>(
-        placed, labels->GetPointer(0), cells.Norm, statistics, progress.Stage());
+  writeCells<D>(grid, labels, static_cast<vtkIdType>(placed.NumberOfSites()), stages["output"],
+    outputs, [&](const SiteCellStatistics& statistics, Progress& work) {
+      return measureSiteCells<D>(placed, labels->GetPointer(0), cells.Norm, statistics, work);
     });
   return { placed.NumberOutside(), 0, division.Flow };
 }
@@ -139,19 +137,20 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
   Progress& progress, const CellOutputs& outputs)
 {
   const auto count = static_cast<vtkIdType>(sites->GetNumberOfPoints());
-  progress.BeginStage(0.02);
-  const SharedFlow& flow = cache.Update(density, progress, 0.04);
-  progress.BeginStage(0.05);
-  density.Prepare(FlowTables::Whole, progress);
-  visitPoints(sites, "input point set", progress, [](std::int64_t, const double*) {});
-  const DoubleTuples points(sites->GetPoints()->GetData(), progress);
-  progress.BeginStage(0.06);
+  Stages stages(progress,
+    { { "tables", 4 }, { "reading", 1 }, { "masses", 1 }, { "hash", 1 }, { "labels", 88 },
+      { "output", 5 } });
+  const SharedFlow& flow = cache.Update(density, stages["tables"]);
+  Progress& reading = stages["reading"];
+  density.Prepare(FlowTables::Whole, reading);
+  visitPoints(sites, "input point set", reading, [](std::int64_t, const double*) {});
+  const DoubleTuples points(sites->GetPoints()->GetData(), reading);
   const double bytes = numberOfValues(grid) * sizeof(std::int64_t);
   const auto placed = withMemory("the masses of " + describeValues(grid) + " pixels", bytes, [&]() {
     try
     {
       return DensitySiteCells<D>({ points.data(), count }, grid, density.Source<D>(),
-        flow.Flow<D>().Total(), progress.Stage());
+        flow.Flow<D>().Total(), stages["masses"]);
     }
     catch (const TooFewPixels& few)
     {
@@ -161,46 +160,46 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
         " pixels; raise Resolution until there is a pixel with mass for each");
     }
   });
-  progress.BeginStage(0.07);
+  const SiteLabels::Settings settings{ grid, false, cells.Flow, true,
+    kept.HashOf(density, stages["hash"]) };
   const SiteLabels::Division division =
-    updateLabels<D>(sites, { grid, false, cells.Flow, true, kept.HashOf(density, progress) },
-      bytesOfLabellingByMass<D>(grid), kept, progress, [&](std::int64_t* values) {
-        return placed.Label(flow.Flow<D>(), values, cells.Flow, progress.Stage());
+    updateLabels<D>(sites, settings, bytesOfLabellingByMass<D>(grid), kept, stages["labels"],
+      [&](std::int64_t* values, Progress& work) {
+        return placed.Label(flow.Flow<D>(), values, cells.Flow, work);
       });
   SiteIdArray* labels = division.Labels;
   EqualMassCells::Report report{ placed.NumberOutside(), 0, division.Flow };
-  writeCells<D>(grid, labels, count, progress, outputs, [&](const SiteCellStatistics& statistics) {
-    const double cost = measureSiteCells<D>(
-      placed, labels->GetPointer(0), flow.TotalMass(), cells.Norm, statistics, progress.Stage());
-    report.WithoutMass = std::count(statistics.Mass, statistics.Mass + count, 0.0);
-    return cost;
-  });
+  writeCells<D>(grid, labels, count, stages["output"], outputs,
+    [&](const SiteCellStatistics& statistics, Progress& work) {
+      const double cost = measureSiteCells<D>(
+        placed, labels->GetPointer(0), flow.TotalMass(), cells.Norm, statistics, work);
+      report.WithoutMass = std::count(statistics.Mass, statistics.Mass + count, 0.0);
+      return cost;
+    });
   return report;
 }
 
-// make(points, context) returns the power cells of the sites.
+// make(points, progress) returns the power cells of the sites.
 template <class Make>
 SiteLabels::Division makePowerCells(
   vtkPointSet* sites, const ImageGrid& grid, double moreBytes, Progress& progress, const Make& make)
 {
   const std::int64_t count = sites->GetNumberOfPoints();
-  progress.BeginStage(0.03);
-  visitPoints(sites, "input point set", progress, [](std::int64_t, const double*) {});
-  const DoubleTuples points(sites->GetPoints()->GetData(), progress);
+  Stages stages(progress, { { "points", 1 }, { "cells", 87 }, { "labels", 5 } });
+  visitPoints(sites, "input point set", stages["points"], [](std::int64_t, const double*) {});
+  const DoubleTuples points(sites->GetPoints()->GetData(), stages["points"]);
   SiteLabels::Division division;
   // The factors of the linear systems are the peak.
   constexpr double eachSite = 1500.0;
   withMemory("the power cells of " + std::to_string(count) + " sites",
     static_cast<double>(count) * eachSite + moreBytes, [&]() {
-      progress.BeginStage(0.9);
       division.Power = std::make_shared<PowerSiteCells>(
-        make(ConstPointSpan<3>(points.data(), count), progress.Stage()));
+        make(ConstPointSpan<3>(points.data(), count), stages["cells"]));
     });
   division.Labels =
     newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
-  progress.BeginStage(0.95);
   withMemory("the polygons in the rows of pixels", static_cast<double>(count) * sizeof(double),
-    [&]() { division.Power->Label(division.Labels->GetPointer(0), progress.Stage()); });
+    [&]() { division.Power->Label(division.Labels->GetPointer(0), stages["labels"]); });
   return division;
 }
 
@@ -211,7 +210,6 @@ std::int64_t writePowerCells(
   outputs.Labels->GetCellData()->SetScalars(division.Labels);
   addStatistics(
     outputs, [&power](const SiteCellStatistics& statistics) { return power.Measure(statistics); });
-  progress.BeginStage(1.0);
   const double bytes = 60.0 * 6.0 * static_cast<double>(power.NumberOfSites());
   withMemory(
     "the outlines", bytes, [&]() { writeOutlines<2>(power.Outlines(), outputs.Outlines); });
@@ -223,13 +221,14 @@ std::int64_t writePowerCells(
 std::int64_t divideByPower(vtkPointSet* sites, const ImageGrid& grid, SiteLabels& kept,
   Progress& progress, const CellOutputs& outputs)
 {
-  progress.BeginStage(0.02);
-  const auto make = [&](ConstPointSpan<3> points, const Context& context) {
-    return PowerSiteCells(points, grid, context);
+  Stages stages(progress, { { "comparison", 2 }, { "cells", 93 }, { "output", 5 } });
+  const auto make = [&](ConstPointSpan<3> points, Progress& work) {
+    return PowerSiteCells(points, grid, work);
   };
-  return writePowerCells(kept.Update(sites, { grid, true, {} }, progress,
-                           [&]() { return makePowerCells(sites, grid, 0.0, progress, make); }),
-    progress, outputs);
+  const SiteLabels::Division& division =
+    kept.Update(sites, { grid, true, {} }, stages["comparison"],
+      [&]() { return makePowerCells(sites, grid, 0.0, stages["cells"], make); });
+  return writePowerCells(division, stages["output"], outputs);
 }
 
 std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, InputDensity& density,
@@ -237,18 +236,17 @@ std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, InputD
 {
   constexpr double rowMoments = 18.0; // bytes a cell of the density
   double mass = 0.0;
-  progress.BeginStage(0.01);
-  const SiteLabels::Settings settings{ grid, true, {}, true, kept.HashOf(density, progress) };
-  progress.BeginStage(0.02);
-  const auto make = [&](ConstPointSpan<3> points, const Context& context) {
-    Progress work(context);
-    work.BeginStage(0.02);
-    density.Prepare(FlowTables::Whole, work);
-    mass = massOf(density, work);
-    work.BeginStage(1.0);
+  Stages stages(progress,
+    { { "hash", 1 }, { "comparison", 1 }, { "cells", 93 }, { "empty pixels", 1 },
+      { "output", 4 } });
+  const SiteLabels::Settings settings{ grid, true, {}, true, kept.HashOf(density, stages["hash"]) };
+  const auto make = [&](ConstPointSpan<3> points, Progress& work) {
+    Stages parts(work, { { "density", 2 }, { "cells", 98 } });
+    density.Prepare(FlowTables::Whole, parts["density"]);
+    mass = massOf(density, parts["density"]);
     try
     {
-      return PowerSiteCells(points, grid, density.Source<2>(), mass, work.Stage());
+      return PowerSiteCells(points, grid, density.Source<2>(), mass, parts["cells"]);
     }
     catch (const InvalidDensity& invalid)
     {
@@ -257,18 +255,19 @@ std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, InputD
   };
   const double bytes = rowMoments * static_cast<double>(density.Grid().NumberOfCells());
   const auto makeWithoutEmpty = [&]() {
-    SiteLabels::Division division = makePowerCells(sites, grid, bytes, progress, make);
+    SiteLabels::Division division = makePowerCells(sites, grid, bytes, stages["cells"], make);
     withMemory("the masses of " + describeValues(grid) + " pixels",
       numberOfValues(grid) * sizeof(std::int64_t), [&]() {
-        progress.BeginStage(0.96);
+        Progress& work = stages["empty pixels"];
         const PixelMasses<2> masses(
-          density.Source<2>(), mass / density.Grid().CellMeasure(), grid.Size<2>(), progress);
-        masses.RemoveEmptyPixels(division.Labels->GetPointer(0), progress);
+          density.Source<2>(), mass / density.Grid().CellMeasure(), grid.Size<2>(), work);
+        masses.RemoveEmptyPixels(division.Labels->GetPointer(0), work);
       });
     return division;
   };
-  return writePowerCells(
-    kept.Update(sites, settings, progress, makeWithoutEmpty), progress, outputs);
+  const SiteLabels::Division& division =
+    kept.Update(sites, settings, stages["comparison"], makeWithoutEmpty);
+  return writePowerCells(division, stages["output"], outputs);
 }
 
 void requirePlane(const ImageGrid& grid)
@@ -290,10 +289,11 @@ std::string describeLabels(const ImageGrid& grid)
 EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* domain,
   SiteLabels& kept, Progress& progress, const CellOutputs& outputs) const
 {
+  Stages stages(progress, { { "points", 1 }, { "cells", 99 } });
   if (!domain)
   {
     // Coordinates that are not finite have no bounds.
-    visitPoints(sites, "input point set", progress, [](std::int64_t, const double*) {});
+    visitPoints(sites, "input point set", stages["points"], [](std::int64_t, const double*) {});
   }
   const LabelGrid pixels{ this->Resolution };
   const ImageGrid grid = domain ? pixels.On(domain) : pixels.Around(sites);
@@ -313,10 +313,10 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* do
   writeSites(sites, outputs.Sites);
   if (this->IsPower)
   {
-    return { divideByPower(sites, grid, kept, progress, outputs), 0, {} };
+    return { divideByPower(sites, grid, kept, stages["cells"], outputs), 0, {} };
   }
   return dispatchDimension(grid.Dimension(), divide<1>, divide<2>, divide<3>)(
-    *this, sites, grid, kept, progress, outputs);
+    *this, sites, grid, kept, stages["cells"], outputs);
 }
 
 EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, InputDensity& density,

@@ -32,7 +32,7 @@ template <int D>
 Colors colorsOf(
   const ImageGrid& grid, const std::int64_t* labels, vtkIdType sites, Progress& progress)
 {
-  return colourSiteCells<D>(grid.Size<D>(), labels, sites, progress.Stage());
+  return colourSiteCells<D>(grid.Size<D>(), labels, sites, progress);
 }
 
 // 0 for elements of no site.
@@ -73,7 +73,6 @@ void addSiteColors(vtkImageData* labels, vtkPolyData* polygons, vtkIdType sites,
   constexpr double eachSite = 120.0; // a dozen neighbours
   const Colors ofSites = withMemory("the neighbours of the " + std::to_string(sites) + " sites",
     static_cast<double>(sites) * eachSite, [&]() {
-      progress.BeginStage(1.0);
       return dispatchDimension(grid.Dimension(), colorsOf<1>, colorsOf<2>, colorsOf<3>)(
         grid, ids->GetPointer(0), sites, progress);
     });

@@ -59,7 +59,7 @@ public:
   };
 
   // Identifies a density. Does not read its values if modification times show that the division is
-  // of it. Runs as the current stage. Throws Cancelled.
+  // of it. Throws Cancelled.
   ContentHash HashOf(InputDensity& density, Progress& progress) const
   {
     return this->Of.Density.IsOf(density) ? this->Of.Density : ContentHash(density, progress);
@@ -70,8 +70,8 @@ public:
   bool IsFor(vtkPointSet* sites, const Settings& settings) const;
 
   // Returns the division of these sites and settings: the kept one if valid, else the one that
-  // make() returns. Comparing the sites is the work of the current stage. Throws Cancelled, and
-  // what make() throws; then none is kept.
+  // make() returns. `progress` is of comparing the sites alone. Throws Cancelled, and what make()
+  // throws; then none is kept.
   template <class Make>
   const Division& Update(
     vtkPointSet* sites, const Settings& settings, Progress& progress, const Make& make)

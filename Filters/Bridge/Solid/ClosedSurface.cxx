@@ -8,6 +8,7 @@
 #include "Bridge/Surface/RepairText.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
@@ -89,26 +90,25 @@ std::array<double, 6> polygonBounds(vtkPolyData* surface)
   return bounds;
 }
 
-ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
+ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress)
   : NumberOfPoints(input->GetNumberOfPoints())
 {
   const std::string points = std::to_string(this->NumberOfPoints) + " points";
-  const double begin = progress.StageEnd();
-  const auto at = [begin, end](double part) { return begin + part * (end - begin); };
   constexpr double bytesOfPoint = 64.0; // with the table
-  progress.BeginStage(at(0.1));
+  Stages stages(progress,
+    { { "points", 10 }, { "table", 15 }, { "polygons", 45 }, { "rounding", 15 },
+      { "float rounding", 5 }, { "gaps", 10 } });
   LargeBuffer<double> coordinates =
-    readSurfacePoints(input, "a solid needs a closed surface", progress, bytesOfPoint);
+    readSurfacePoints(input, "a solid needs a closed surface", stages["points"], bytesOfPoint);
   this->Box = polygonBounds(input);
   this->Rounding = lastPlacesIn(this->Box);
-  progress.BeginStage(at(0.25));
   withMemory("the table of the surface's " + points,
     static_cast<double>(this->NumberOfPoints) * 4.0 * sizeof(std::int64_t),
-    [&]() { this->Mesh.emplace(std::move(coordinates), progress.Stage()); });
+    [&]() { this->Mesh.emplace(std::move(coordinates), stages["table"]); });
   std::string problem;
   try
   {
-    this->ReadPolygons(input, progress, at(0.25), at(0.7));
+    this->ReadPolygons(input, stages["polygons"]);
     if (this->Mesh->IsClosed())
     {
       return;
@@ -121,14 +121,14 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
   }
   const std::array<double, 2> roundings =
     roundingsIn(this->Box, input->GetPoints()->GetDataType() == VTK_FLOAT);
-  if (this->CloseNear(input, roundings[0], progress, at(0.7), at(0.85)))
+  if (this->CloseNear(input, roundings[0], stages["rounding"]))
   {
     return;
   }
   problem =
     this->Mesh->OpenEdges() + this->Mesh->NonManifoldEdges() > 0 ? this->Openness() : problem;
-  if (!this->CloseNear(input, roundings[1], progress, at(0.85), at(0.9)) &&
-    !this->CloseGaps(progress, at(0.9), at(1.0)))
+  if (!this->CloseNear(input, roundings[1], stages["float rounding"]) &&
+    !this->CloseGaps(stages["gaps"]))
   {
     throw Failure(problem);
   }
@@ -144,70 +144,64 @@ std::string ClosedSurface::RepairWarning() const
 
 // Merges points nearer than a distance, and cuts triangles at T-junctions within it; returns
 // whether that closes the surface.
-bool ClosedSurface::CloseNear(
-  vtkPolyData* input, double distance, Progress& progress, double begin, double end)
+bool ClosedSurface::CloseNear(vtkPolyData* input, double distance, Progress& progress)
 {
-  const auto at = [begin, end](double part) { return begin + part * (end - begin); };
+  Stages stages(progress, { { "points", 3 }, { "polygons", 4 }, { "T-junctions", 3 } });
   const std::string points = std::to_string(this->NumberOfPoints) + " points";
-  progress.BeginStage(at(0.3));
   const bool isMerged = distance > 0.0 &&
     withMemory("the table of the surface's " + points,
       static_cast<double>(this->NumberOfPoints) * 9.0 * sizeof(std::int64_t),
-      [&]() { return this->Mesh->MergeNear(distance, progress.Stage()); });
+      [&]() { return this->Mesh->MergeNear(distance, stages["points"]); });
   if (isMerged)
   {
     try
     {
-      this->ReadPolygons(input, progress, at(0.3), at(0.7));
+      this->ReadPolygons(input, stages["polygons"]);
     }
     catch (const Failure&)
     {
       return false; // what was wrong before is said
     }
   }
-  progress.BeginStage(end);
   if (isMerged && this->Mesh->IsClosed())
   {
     return true;
   }
-  return this->CloseTJunctions(distance, progress);
+  return this->CloseTJunctions(distance, stages["T-junctions"]);
 }
 
 // Cuts triangles at T-junctions that gape by more than rounding: no more than it takes to close the
 // surface.
-bool ClosedSurface::CloseGaps(Progress& progress, double begin, double end)
+bool ClosedSurface::CloseGaps(Progress& progress)
 {
+  Parts parts(progress, static_cast<std::int64_t>(gaps.size()));
   for (std::size_t i = 0; i < gaps.size() && !this->HasGaps; ++i)
   {
-    const double part = static_cast<double>(i + 1) / static_cast<double>(gaps.size());
-    progress.BeginStage(begin + part * (end - begin));
-    this->HasGaps = this->CloseTJunctions(gaps[i] * longestSideOf(this->Box), progress);
+    this->HasGaps = this->CloseTJunctions(
+      gaps[i] * longestSideOf(this->Box), parts[static_cast<std::int64_t>(i)]);
   }
   return this->HasGaps;
 }
 
-// As the current stage; returns whether that closes the surface.
+// Returns whether that closes the surface.
 bool ClosedSurface::CloseTJunctions(double distance, Progress& progress)
 {
   const std::int64_t triangles = this->Mesh->Surface().NumberOfTriangles;
   return triangles > 0 && distance > 0.0 && std::isfinite(distance) &&
     withMemory("the edges of the surface's " + std::to_string(triangles) + " triangles",
       static_cast<double>(triangles) * 110.0,
-      [&]() { return this->Mesh->CloseTJunctions(distance, progress.Stage()); });
+      [&]() { return this->Mesh->CloseTJunctions(distance, progress); });
 }
 
-void ClosedSurface::ReadPolygons(vtkPolyData* input, Progress& progress, double begin, double end)
+void ClosedSurface::ReadPolygons(vtkPolyData* input, Progress& progress)
 {
-  const auto stage = [&progress, begin, end](
-                       double part) { progress.BeginStage(begin + part * (end - begin)); };
+  Stages stages(progress, { { "cut", 2 }, { "triangles", 3 }, { "edges", 5 } });
   const vtkSmartPointer<vtkCellArray> triangles =
-    cutIntoTriangles(input, *this->Mesh, progress, begin + 0.2 * (end - begin));
+    cutIntoTriangles(input, *this->Mesh, stages["cut"]);
   withMemory("the surface's " + std::to_string(triangles->GetNumberOfCells()) + " triangles",
     static_cast<double>(triangles->GetNumberOfCells()) * 9.0 * sizeof(std::int64_t), [&]() {
-      stage(0.5);
-      this->ReadTriangles(triangles, progress);
-      stage(1.0);
-      this->Mesh->CountEdges(progress.Stage());
+      this->ReadTriangles(triangles, stages["triangles"]);
+      this->Mesh->CountEdges(stages["edges"]);
     });
   if (this->Mesh->Surface().NumberOfTriangles == 0)
   {
@@ -248,14 +242,14 @@ std::string ClosedSurface::Openness() const
   return message.str();
 }
 
-SolidSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress, double end)
+SolidSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress)
 {
+  Stages stages(progress, { { "points", 1 }, { "orientation", 1 } });
   double* points = this->Mesh->Points().data();
   const double spacing = grid.Spacing()[0];
   const Eigen::Vector3d corner = grid.Origin();
   const double rounding = this->Rounding;
-  progress.BeginStage(0.5 * (progress.StageEnd() + end));
-  progress.For(this->NumberOfPoints, Grain, [=](std::int64_t first, std::int64_t last) {
+  stages["points"].For(this->NumberOfPoints, Grain, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       for (std::size_t a = 0; a < 3; ++a)
@@ -266,11 +260,10 @@ SolidSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress, d
       }
     }
   });
-  progress.BeginStage(end);
   const std::int64_t triangles = this->Mesh->Surface().NumberOfTriangles;
   const bool oriented = withMemory("the orientation of the surface's triangles",
     static_cast<double>(triangles) * (2 * sizeof(std::int64_t) + 1),
-    [&]() { return this->Mesh->Orient(progress.Stage()); });
+    [&]() { return this->Mesh->Orient(stages["orientation"]); });
   if (!oriented)
   {
     throw Failure("The input surface is not orientable: it has one side only, as a Klein bottle; "

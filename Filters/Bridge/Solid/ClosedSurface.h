@@ -32,16 +32,15 @@ std::array<double, 6> polygonBounds(vtkPolyData* surface);
 class ClosedSurface
 {
 public:
-  // Merges points with equal coordinates and cuts polygons and strips into triangles; progress then
-  // reaches `end`. Lines and vertices are ignored. If edges are then open, merges points that
-  // differ by rounding: by less than 1e-9 of the longest side of the polygons' bounds; if that
-  // leaves edges open and the coordinates are float, by less than 4 of their rounding errors. After
-  // each of both, if edges are still open, triangles are cut at T-junctions if that closes the
-  // surface (see TJunctions.h); at last also at those that gape by up to 1e-5, 1e-4, 1e-3 or 1e-2
-  // of the longest side, the least of these that closes it. Throws Failure if the input has no
-  // polygons, coordinates that are not finite, or edges of an odd number of triangles, and
-  // Cancelled.
-  ClosedSurface(vtkPolyData* input, Progress& progress, double end);
+  // Merges points with equal coordinates and cuts polygons and strips into triangles. Lines and
+  // vertices are ignored. If edges are then open, merges points that differ by rounding: by less
+  // than 1e-9 of the longest side of the polygons' bounds; if that leaves edges open and the
+  // coordinates are float, by less than 4 of their rounding errors. After each of both, if edges
+  // are still open, triangles are cut at T-junctions if that closes the surface (see TJunctions.h);
+  // at last also at those that gape by up to 1e-5, 1e-4, 1e-3 or 1e-2 of the longest side, the
+  // least of these that closes it. Throws Failure if the input has no polygons, coordinates that
+  // are not finite, or edges of an odd number of triangles, and Cancelled.
+  ClosedSurface(vtkPolyData* input, Progress& progress);
 
   // A warning that counts T-junctions that were closed; empty if there were none.
   std::string RepairWarning() const;
@@ -51,15 +50,15 @@ public:
 
   // Returns the surface in the index coordinates of a grid, the triangles of each component with
   // one orientation. Coordinates are rounded to four units in the last place of the largest one:
-  // smaller differences, as between ranks, give the same bits. Progress reaches `end`. Throws
-  // Failure if a component is not orientable, and Cancelled.
-  SolidSurface InCells(const ImageGrid& grid, Progress& progress, double end);
+  // smaller differences, as between ranks, give the same bits. Throws Failure if a component is not
+  // orientable, and Cancelled.
+  SolidSurface InCells(const ImageGrid& grid, Progress& progress);
 
 private:
-  bool CloseNear(vtkPolyData* input, double distance, Progress& progress, double begin, double end);
-  bool CloseGaps(Progress& progress, double begin, double end);
+  bool CloseNear(vtkPolyData* input, double distance, Progress& progress);
+  bool CloseGaps(Progress& progress);
   bool CloseTJunctions(double distance, Progress& progress);
-  void ReadPolygons(vtkPolyData* input, Progress& progress, double begin, double end);
+  void ReadPolygons(vtkPolyData* input, Progress& progress);
   void ReadTriangles(vtkCellArray* triangles, Progress& progress);
   std::string Openness() const;
 

@@ -10,6 +10,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Solid/ClosedSurface.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Solid/SolidCoverage.h"
 
 #include "vtkDataSetAttributes.h"
@@ -32,12 +33,11 @@ vtkSmartPointer<vtkDoubleArray> cover(const SolidSurface& surface, const GridSiz
   const double count = numberOfCells<3>(part.Cells);
   requireMemory("a density of " + grid, count * sizeof(double));
   auto density = newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(count));
-  progress.BeginStage(1.0);
   const CoverageReport report = withMemory("the surface's " +
       std::to_string(surface.Triangles.NumberOfTriangles) + " triangles in the layers of " + grid,
     static_cast<double>(surface.Triangles.NumberOfTriangles) * sizeof(vtkIdType), [&]() {
       return coverPartOfSolid(
-        surface, cells, part, supersampling, density->GetPointer(0), progress.Stage());
+        surface, cells, part, supersampling, density->GetPointer(0), progress);
     });
   if (report.OpenLines > 0)
   {
@@ -70,16 +70,17 @@ SolidDensityReport SolidDensity::Run(vtkPolyData* surface,
   const std::function<Extent(const ImageGrid&)>& chooseExtent, Progress& progress,
   vtkImageData* output) const
 {
-  ClosedSurface closed(surface, progress, 0.4);
+  Stages stages(progress, { { "surface", 4 }, { "orientation", 1 }, { "coverage", 5 } });
+  ClosedSurface closed(surface, stages["surface"]);
   const ImageGrid cells = solidGrid(closed.Bounds(), this->Resolution, this->Padding);
   const ImageGrid grid = this->OnPoints ? cells.AtCellCentres() : cells;
   const Extent wanted = chooseExtent(grid);
-  const SolidSurface triangles = closed.InCells(cells, progress, 0.5);
+  const SolidSurface triangles = closed.InCells(cells, stages["orientation"]);
   const int owner = this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
   // The values are those of cells, or of the points at their centres.
   const auto part = latticePartOf<3>(tuplesOf(wanted, owner, grid.Extent()), cells);
   const vtkSmartPointer<vtkDoubleArray> density =
-    cover(triangles, cells.Size<3>(), part, this->Supersampling, progress);
+    cover(triangles, cells.Size<3>(), part, this->Supersampling, stages["coverage"]);
   applyGrid(grid, output);
   Extent extent = wanted; // VTK takes no constant one
   output->SetExtent(extent.data());

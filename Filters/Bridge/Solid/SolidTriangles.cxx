@@ -5,6 +5,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/PolygonCutter.h"
 #include "Bridge/Surface/PolygonInput.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkCellArray.h"
 #include "vtkIdList.h"
@@ -202,17 +203,16 @@ private:
 } // namespace
 
 vtkSmartPointer<vtkCellArray> cutIntoTriangles(
-  vtkPolyData* surface, const ClosedMesh& mesh, Progress& progress, double end)
+  vtkPolyData* surface, const ClosedMesh& mesh, Progress& progress)
 {
   if (isAllTriangles(surface))
   {
     return surface->GetPolys();
   }
   PolygonCut cut(surface, mesh);
-  progress.BeginStage(0.5 * (progress.StageEnd() + end));
-  cut.CutPolygons(progress);
-  progress.BeginStage(end);
-  cut.CutOthers(progress);
+  Stages stages(progress, { { "polygons", 1 }, { "others", 1 } });
+  cut.CutPolygons(stages["polygons"]);
+  cut.CutOthers(stages["others"]);
   return cut.Take();
 }
 

@@ -3,6 +3,7 @@
 
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/RepairText.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -11,27 +12,25 @@
 namespace RectifiedTransport::Bridge
 {
 
-DiskSurface::DiskSurface(SurfaceTriangles& input, Progress& progress, double end)
+DiskSurface::DiskSurface(SurfaceTriangles& input, Progress& progress)
 {
-  this->Make(input, { progress, progress.StageEnd(), end });
+  this->Make(input, progress);
 }
 
-DiskSurface::DiskSurface(vtkPolyData* input, Progress& progress, double end)
+DiskSurface::DiskSurface(vtkPolyData* input, Progress& progress)
 {
-  const SurfaceStages stages{ progress, progress.StageEnd(), end };
-  SurfaceTriangles read(
-    input, "it must be a disk", progress, stages.Begin + 0.45 * (end - stages.Begin));
-  this->Make(read, { progress, progress.StageEnd(), end });
+  Stages stages(progress, { { "triangles", 45 }, { "disk", 55 } });
+  SurfaceTriangles read(input, "it must be a disk", stages["triangles"]);
+  this->Make(read, stages["disk"]);
 }
 
-void DiskSurface::Make(SurfaceTriangles& input, const SurfaceStages& stages)
+void DiskSurface::Make(SurfaceTriangles& input, Progress& progress)
 {
-  Progress& progress = stages.Run;
+  Stages stages(progress, { { "disk", 5 }, { "T-junctions", 2 }, { "repaired disk", 3 } });
   std::optional<NoDiskSurface> defect;
-  stages.Next(0.5);
   try
   {
-    this->MakeDisk(input, progress);
+    this->MakeDisk(input, stages["disk"]);
   }
   catch (const NoDiskSurface& found)
   {
@@ -39,19 +38,17 @@ void DiskSurface::Make(SurfaceTriangles& input, const SurfaceStages& stages)
   }
   // A cut that makes the surface a disk stays open.
   const TJunctionScope scope = defect ? TJunctionScope::All : TJunctionScope::OfFlatTriangles;
-  stages.Next(0.7);
-  const bool isCut =
-    (defect || this->Mesh->Repairs().FlatTriangles > 0) && input.CloseTJunctions(scope, progress);
+  const bool isCut = (defect || this->Mesh->Repairs().FlatTriangles > 0) &&
+    input.CloseTJunctions(scope, stages["T-junctions"]);
   if (defect && !isCut)
   {
     throw NoDiskSurface(*defect);
   }
-  stages.Next(0.9);
   if (isCut)
   {
     try
     {
-      this->MakeDisk(input, progress);
+      this->MakeDisk(input, stages["repaired disk"]);
     }
     catch (const NoDiskSurface& found)
     {
@@ -61,7 +58,6 @@ void DiskSurface::Make(SurfaceTriangles& input, const SurfaceStages& stages)
   }
   this->Input = std::move(input);
   this->Input->Free();
-  stages.Next(1.0);
   progress.EndSlice(1);
 }
 
@@ -74,7 +70,7 @@ void DiskSurface::MakeDisk(const SurfaceTriangles& input, Progress& progress)
         std::to_string(surface.NumberOfTriangles) + " triangles",
       static_cast<double>(surface.Points.size()) * 40.0 +
         static_cast<double>(surface.NumberOfTriangles) * 80.0,
-      [&]() { this->Mesh.emplace(surface, input.Rounding(), progress.Stage()); });
+      [&]() { this->Mesh.emplace(surface, input.Rounding(), progress); });
   }
   catch (const NotADisk& defect)
   {
@@ -145,7 +141,7 @@ ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progres
   {
     return withMemory("the conformal map of " + std::to_string(points) + " points",
       bytesOfPoint * static_cast<double>(points),
-      [&]() { return mapConformally(disk, corners, progress.Stage()); });
+      [&]() { return mapConformally(disk, corners, progress); });
   }
   catch (const std::invalid_argument& error)
   {

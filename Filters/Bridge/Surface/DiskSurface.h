@@ -34,14 +34,13 @@ public:
 class DiskSurface final : public PlacedTriangles
 {
 public:
-  // Checks that triangles are a disk, and takes them; progress then reaches `end`. If they are no
-  // disk, unused points and triangles without area are left out, and points at the same position
-  // are merged (see RepairedDisk); if that does not help, triangles are cut at T-junctions. Throws
-  // NoDiskSurface if they are no disk, after which `input` can still be used, Failure and
-  // Cancelled.
-  DiskSurface(SurfaceTriangles& input, Progress& progress, double end);
+  // Checks that triangles are a disk, and takes them. If they are no disk, unused points and
+  // triangles without area are left out, and points at the same position are merged (see
+  // RepairedDisk); if that does not help, triangles are cut at T-junctions. Throws NoDiskSurface if
+  // they are no disk, after which `input` can still be used, Failure and Cancelled.
+  DiskSurface(SurfaceTriangles& input, Progress& progress);
   // The same for the triangles of a surface that has points (see SurfaceTriangles).
-  DiskSurface(vtkPolyData* input, Progress& progress, double end);
+  DiskSurface(vtkPolyData* input, Progress& progress);
 
   const DiskMesh& Disk() const { return this->Mesh->Mesh(); }
 
@@ -81,7 +80,7 @@ public:
   std::string RepairWarning() const;
 
 private:
-  void Make(SurfaceTriangles& input, const SurfaceStages& stages);
+  void Make(SurfaceTriangles& input, Progress& progress);
   void MakeDisk(const SurfaceTriangles& input, Progress& progress);
   const TriangulatedSurface& Cells() const { return this->Input->Cells(); }
 
@@ -89,8 +88,7 @@ private:
   std::optional<RepairedDisk> Mesh;
 };
 
-// The conformal map of a disk, with the errors of a run. Runs as the current stage. Throws Failure
-// and Cancelled.
+// The conformal map of a disk, with the errors of a run. Throws Failure and Cancelled.
 ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progress& progress);
 
 // A warning about triangles that have no area in the map; Corners help if the surface is not cut.

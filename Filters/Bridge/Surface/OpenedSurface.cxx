@@ -6,6 +6,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/PolygonInput.h"
 #include "Bridge/Surface/RepairText.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -34,12 +35,11 @@ constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
 
 } // namespace
 
-OpenedSurface::OpenedSurface(SurfaceTriangles& input, Progress& progress, double end)
+OpenedSurface::OpenedSurface(SurfaceTriangles& input, Progress& progress)
   : Input(std::move(input))
 {
-  const SurfaceStages stages{ progress, progress.StageEnd(), end };
-  stages.Next(0.05);
-  this->Input.CloseTJunctions(TJunctionScope::All, progress);
+  Stages stages(progress, { { "T-junctions", 5 }, { "seams", 93 }, { "points", 2 } });
+  this->Input.CloseTJunctions(TJunctionScope::All, stages["T-junctions"]);
   const std::int64_t points = this->Given().Points.size();
   const std::int64_t triangles = this->Given().NumberOfTriangles;
   constexpr double bytesOfTriangle = 250.0;
@@ -49,12 +49,10 @@ OpenedSurface::OpenedSurface(SurfaceTriangles& input, Progress& progress, double
     withMemory("the seams of " + std::to_string(triangles) + " triangles",
       static_cast<double>(triangles) * bytesOfTriangle + static_cast<double>(points) * bytesOfPoint,
       [&]() {
-        stages.Next(0.98);
         SeamOptions options;
         options.Rounding = this->Input.Rounding();
-        this->Disks.emplace(this->Given(), options, progress.Stage());
-        stages.Next(1.0);
-        this->NumberPoints(progress);
+        this->Disks.emplace(this->Given(), options, stages["seams"]);
+        this->NumberPoints(stages["points"]);
       });
   }
   catch (const std::exception& error)

@@ -22,9 +22,9 @@ namespace RectifiedTransport::Bridge
 class OpenedSurface
 {
 public:
-  // Takes triangles and cuts them at T-junctions, and then into disks; progress then reaches `end`.
-  // Throws Failure if they have no area or no conformal map, and Cancelled.
-  OpenedSurface(SurfaceTriangles& input, Progress& progress, double end);
+  // Takes triangles and cuts them at T-junctions, and then into disks. Throws Failure if they have
+  // no area or no conformal map, and Cancelled.
+  OpenedSurface(SurfaceTriangles& input, Progress& progress);
 
   const CutSurface& Cut() const { return *this->Disks; }
   vtkPolyData* Triangulated() const { return this->Input.Cells().Get(); }
@@ -47,8 +47,7 @@ public:
   // cut surface, so that they do not lie across it.
   void PlaceFlatCells(ConstPointSpan<2> positions);
   // Makes the output the triangles with the points and data of the input, without the ids of
-  // points, which would no longer be unique. Runs as the current stage. Throws Failure and
-  // Cancelled.
+  // points, which would no longer be unique. Throws Failure and Cancelled.
   void CopyTo(vtkPolyData* output, Progress& progress) const;
   // A warning that counts what was left out, merged, closed and parted; empty if nothing was.
   std::string RepairWarning() const;

@@ -27,8 +27,8 @@ namespace RectifiedTransport::Bridge
 // Units of a slice of work with random memory access, for Progress.
 constexpr std::int64_t RandomAccessUnits = std::int64_t{ 1 } << 16;
 
-// The coordinates of all points, three each, as the work of the current stage. Throws Failure if
-// they are not finite, Cancelled and std::bad_alloc.
+// The coordinates of all points, three each. Throws Failure if they are not finite, Cancelled and
+// std::bad_alloc.
 LargeBuffer<double> readPoints(vtkPolyData* surface, Progress& progress);
 
 // By how much the coordinates of one position may differ by rounding. It is that of float if all of
@@ -51,13 +51,13 @@ bool isAllTriangles(vtkPolyData* surface);
 std::int64_t trianglesOf(vtkCellArray* cells, vtkIdType cell);
 
 // Polygons and strips as triangles, in their order, as many as trianglesOf() counts. Coincident or
-// collinear corners of polygons give triangles without area. Runs as the current stage. Throws
-// Failure if edges of a polygon cross, and Cancelled.
+// collinear corners of polygons give triangles without area. Throws Failure if edges of a polygon
+// cross, and Cancelled.
 vtkSmartPointer<vtkCellArray> triangulate(
   vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips, Progress& progress);
 
-// Calls visit(i, points) for every triangle i in order, as the work of the current stage. All cells
-// must be triangles. Throws Cancelled.
+// Calls visit(i, points) for every triangle i in order. All cells must be triangles. Throws
+// Cancelled.
 template <class Visit>
 void visitTriangles(vtkCellArray* triangles, Progress& progress, const Visit& visit)
 {

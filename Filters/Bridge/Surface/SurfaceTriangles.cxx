@@ -3,6 +3,7 @@
 
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/PolygonInput.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,19 +11,16 @@
 namespace RectifiedTransport::Bridge
 {
 
-SurfaceTriangles::SurfaceTriangles(
-  vtkPolyData* input, const std::string& need, Progress& progress, double end)
+SurfaceTriangles::SurfaceTriangles(vtkPolyData* input, const std::string& need, Progress& progress)
 {
-  const SurfaceStages stages{ progress, progress.StageEnd(), end };
-  stages.Next(0.2);
-  this->Coordinates = readSurfacePoints(input, need, progress);
+  Stages stages(progress, { { "points", 2 }, { "triangles", 7 }, { "corners", 1 } });
+  this->Coordinates = readSurfacePoints(input, need, stages["points"]);
   this->RoundingOfPoints = roundingOf(input->GetPoints());
-  this->Triangulated.emplace(input, stages, 0.9);
+  this->Triangulated.emplace(input, stages["triangles"]);
   const std::int64_t triangles = this->Cells().NumberOfTriangles();
-  stages.Next(1.0);
   withMemory("the surface's " + std::to_string(triangles) + " triangles",
     static_cast<double>(triangles) * 3.0 * sizeof(std::int64_t),
-    [&]() { this->Corners = this->Cells().Corners(progress); });
+    [&]() { this->Corners = this->Cells().Corners(stages["corners"]); });
 }
 
 bool SurfaceTriangles::CloseTJunctions(TJunctionScope scope, Progress& progress)
@@ -39,10 +37,8 @@ bool SurfaceTriangles::CloseTJunctions(TJunctionScope scope, Progress& progress)
 
 void SurfaceTriangles::Cut(TJunctionScope scope, Progress& progress)
 {
-  Progress own(progress.Stage());
-  own.BeginStage(0.8);
-  TJunctionRepair repair = repairTJunctions(this->Surface(), scope, own.Stage());
-  own.BeginStage(1.0);
+  Stages stages(progress, { { "T-junctions", 8 }, { "parts", 2 } });
+  TJunctionRepair repair = repairTJunctions(this->Surface(), scope, stages["T-junctions"]);
   if (repair.Parts)
   {
     this->NumberOfTJunctions = repair.TJunctions;
@@ -50,7 +46,7 @@ void SurfaceTriangles::Cut(TJunctionScope scope, Progress& progress)
     this->Split = std::move(repair.Parts);
     this->Corners = LargeBuffer<std::int64_t>(3 * this->Split->NumberOfTriangles());
     std::copy_n(this->Split->Triangles(), this->Corners.size(), this->Corners.data());
-    this->Triangulated->Cut(*this->Split, own);
+    this->Triangulated->Cut(*this->Split, stages["parts"]);
   }
 }
 

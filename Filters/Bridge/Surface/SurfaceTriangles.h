@@ -20,10 +20,10 @@ namespace RectifiedTransport::Bridge
 class SurfaceTriangles
 {
 public:
-  // `input` has points. Reads them and cuts polygons and strips into triangles; progress then
-  // reaches `end`. `need` is that of readSurfacePoints. Throws Failure if the input has no
-  // polygons, coordinates that are not finite or polygons that cannot be cut, and Cancelled.
-  SurfaceTriangles(vtkPolyData* input, const std::string& need, Progress& progress, double end);
+  // `input` has points. Reads them and cuts polygons and strips into triangles. `need` is that of
+  // readSurfacePoints. Throws Failure if the input has no polygons, coordinates that are not finite
+  // or polygons that cannot be cut, and Cancelled.
+  SurfaceTriangles(vtkPolyData* input, const std::string& need, Progress& progress);
 
   const TriangulatedSurface& Cells() const { return *this->Triangulated; }
   // See roundingOf.
@@ -37,7 +37,7 @@ public:
 
   // Cuts triangles at T-junctions (see repairTJunctions), unless that was done before. Cells() then
   // has their parts, each with the data of the cell that it is part of. Returns whether there are
-  // any. Runs as the current stage. Throws Failure and Cancelled.
+  // any. Throws Failure and Cancelled.
   bool CloseTJunctions(TJunctionScope scope, Progress& progress);
   std::int64_t TJunctions() const { return this->NumberOfTJunctions; }
   // Left out.

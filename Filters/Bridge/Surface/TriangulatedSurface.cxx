@@ -5,6 +5,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/PolygonInput.h"
 #include "Core/Mesh/SplitSurface.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -27,30 +28,25 @@ constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
 
 } // namespace
 
-TriangulatedSurface::TriangulatedSurface(
-  vtkPolyData* input, const SurfaceStages& stages, double part)
+TriangulatedSurface::TriangulatedSurface(vtkPolyData* input, Progress& progress)
   : Surface(input)
   , FirstPolygon(input->GetNumberOfVerts() + input->GetNumberOfLines())
 {
   if (isAllTriangles(input))
   {
-    stages.Next(part);
     return;
   }
-  Progress& progress = stages.Run;
-  stages.Next(0.6 * part);
+  Stages stages(progress, { { "triangles", 5 }, { "cells", 2 }, { "arrays", 3 } });
   const vtkSmartPointer<vtkCellArray> triangles =
-    triangulate(input->GetPoints(), input->GetPolys(), input->GetStrips(), progress);
+    triangulate(input->GetPoints(), input->GetPolys(), input->GetStrips(), stages["triangles"]);
   this->Surface = this->WithTriangles(triangles);
-  stages.Next(0.75 * part);
   const auto count = static_cast<std::int64_t>(triangles->GetNumberOfCells());
   withMemory("the cells of the surface's " + std::to_string(count) + " triangles",
     static_cast<double>(count) * sizeof(vtkIdType), [&]() {
       this->InputCells = LargeBuffer<vtkIdType>(count);
-      this->FindInputCells(input, progress);
+      this->FindInputCells(input, stages["cells"]);
     });
-  stages.Next(part);
-  this->CopyCellData(input, progress);
+  this->CopyCellData(input, stages["arrays"]);
 }
 
 // What the surface is, but for the cell data and for its polygons.

@@ -25,26 +25,12 @@ class SplitSurface;
 namespace RectifiedTransport::Bridge
 {
 
-// Stages from `Begin` to `End` of a run.
-struct SurfaceStages
-{
-  Progress& Run;
-  double Begin;
-  double End;
-
-  void Next(double part) const
-  {
-    this->Run.BeginStage(this->Begin + part * (this->End - this->Begin));
-  }
-};
-
 class TriangulatedSurface
 {
 public:
-  // `input` has polygons or strips, whose points exist. Cuts them into triangles; progress is then
-  // at `part` of the stages. Throws Failure if there are polygons that cannot be cut, and
-  // Cancelled.
-  TriangulatedSurface(vtkPolyData* input, const SurfaceStages& stages, double part);
+  // `input` has polygons or strips, whose points exist. Cuts them into triangles. Throws Failure if
+  // there are polygons that cannot be cut, and Cancelled.
+  TriangulatedSurface(vtkPolyData* input, Progress& progress);
 
   // The input itself if all polygons are triangles and there are no strips. Else its points,
   // vertices, lines and triangles, with all point and field data, and the cell data of the cells
@@ -63,11 +49,11 @@ public:
   {
     return this->InputCells.size() > 0 ? this->InputCells.data()[triangle] : this->CellOf(triangle);
   }
-  // Three points a triangle, as the work of the current stage. Throws Cancelled and std::bad_alloc.
+  // Three points a triangle. Throws Cancelled and std::bad_alloc.
   LargeBuffer<std::int64_t> Corners(Progress& progress) const;
 
-  // Replaces the triangles by their parts, which are cells of the same data as above. Runs as the
-  // current stage. Throws Failure and Cancelled.
+  // Replaces the triangles by their parts, which are cells of the same data as above. Throws
+  // Failure and Cancelled.
   void Cut(const SplitSurface& parts, Progress& progress);
 
 private:

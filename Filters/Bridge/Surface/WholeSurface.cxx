@@ -9,6 +9,7 @@
 #include "Core/Mesh/TJunctions.h"
 #include "Core/Mesh/UnitScale.h"
 #include "Core/Parallel/Reduction.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDataObject.h"
 #include "vtkPolyData.h"
@@ -32,25 +33,24 @@ constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
 
 } // namespace
 
-WholeSurface::WholeSurface(vtkPolyData* input, Progress& progress, double end)
+WholeSurface::WholeSurface(vtkPolyData* input, Progress& progress)
 {
-  const SurfaceStages stages{ progress, progress.StageEnd(), end };
-  stages.Next(0.2);
-  this->Coordinates = readSurfacePoints(input, "it must be a surface", progress);
-  this->Cells.emplace(input, stages, 0.6);
+  Stages stages(progress,
+    { { "points", 20 }, { "triangles", 40 }, { "corners", 20 }, { "repeated triangles", 15 },
+      { "scale", 2 }, { "areas", 3 } });
+  this->Coordinates = readSurfacePoints(input, "it must be a surface", stages["points"]);
+  this->Cells.emplace(input, stages["triangles"]);
   const std::int64_t triangles = this->Cells->NumberOfTriangles();
   withMemory("the surface's " + std::to_string(triangles) + " triangles",
     static_cast<double>(triangles) * 80.0 + static_cast<double>(this->Coordinates.size()) * 16.0,
     [&]() {
-      stages.Next(0.8);
-      this->Corners = this->Cells->Corners(progress);
-      this->LeaveOutGhosts(input, progress);
-      this->LeaveOutRepeated(stages);
-      const double rounding = roundingOfCorners(this->Surface(), progress);
-      this->ScalePoints(progress);
+      this->Corners = this->Cells->Corners(stages["corners"]);
+      this->LeaveOutGhosts(input, stages["corners"]);
+      this->LeaveOutRepeated(stages["repeated triangles"]);
+      const double rounding = roundingOfCorners(this->Surface(), stages["scale"]);
+      this->ScalePoints(stages["scale"]);
       this->RoundingOfPoints = rounding / this->Unit;
-      stages.Next(1.0);
-      this->FindAreas(progress);
+      this->FindAreas(stages["areas"]);
     });
 }
 
@@ -140,27 +140,24 @@ void WholeSurface::LeaveOutGhosts(vtkPolyData* input, Progress& progress)
 }
 
 // Points at one place are one.
-void WholeSurface::LeaveOutRepeated(const SurfaceStages& stages)
+void WholeSurface::LeaveOutRepeated(Progress& progress)
 {
-  Progress& progress = stages.Run;
+  Stages stages(progress, { { "points", 1 }, { "search", 1 }, { "removal", 1 } });
   const TriangleSurface surface = this->Surface();
   LargeBuffer<std::int64_t> firsts(surface.Points.size());
-  stages.Next(0.85);
-  mergePoints(surface.Points, firsts.data(), progress.Stage());
-  stages.Next(0.9);
+  mergePoints(surface.Points, firsts.data(), stages["points"]);
   LargeBuffer<std::int64_t> merged(3 * surface.NumberOfTriangles);
   std::transform(surface.Triangles, surface.Triangles + merged.size(), merged.data(),
     [&firsts](std::int64_t point) { return firsts.data()[point]; });
   const std::vector<RepeatedTriangle> repeated = findRepeatedTriangles(
-    { surface.Points, merged.data(), surface.NumberOfTriangles }, progress.Stage());
+    { surface.Points, merged.data(), surface.NumberOfTriangles }, stages["search"]);
   this->NumberOfRepeated = static_cast<std::int64_t>(repeated.size());
-  stages.Next(0.95);
   this->LeaveOut(
     [&repeated](std::int64_t triangle) {
       return std::binary_search(repeated.begin(), repeated.end(), RepeatedTriangle{ triangle, -1 },
         [](const auto& a, const auto& b) { return a.Triangle < b.Triangle; });
     },
-    progress);
+    stages["removal"]);
 }
 
 void WholeSurface::FindAreas(Progress& progress)

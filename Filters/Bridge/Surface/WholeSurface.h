@@ -16,11 +16,11 @@ namespace RectifiedTransport::Bridge
 class WholeSurface final : public PlacedTriangles
 {
 public:
-  // `input` has points. Cuts polygons and strips into triangles; progress then reaches `end`. Ghost
-  // cells (duplicate, blanked or refined) are left out, and triangles with the places of one
-  // before. Throws Failure if the input has no polygons or no area, coordinates that are not finite
-  // or polygons that cannot be cut, and Cancelled.
-  WholeSurface(vtkPolyData* input, Progress& progress, double end);
+  // `input` has points. Cuts polygons and strips into triangles. Ghost cells (duplicate, blanked or
+  // refined) are left out, and triangles with the places of one before. Throws Failure if the input
+  // has no polygons or no area, coordinates that are not finite or polygons that cannot be cut, and
+  // Cancelled.
+  WholeSurface(vtkPolyData* input, Progress& progress);
 
   vtkPolyData* Triangulated() const override { return this->Cells->Get(); }
   std::int64_t NumberOfTriangles() const override { return this->Corners.size() / 3; }
@@ -49,7 +49,7 @@ private:
   template <class IsLeftOut>
   void LeaveOut(const IsLeftOut& isLeftOut, Progress& progress);
   void LeaveOutGhosts(vtkPolyData* input, Progress& progress);
-  void LeaveOutRepeated(const SurfaceStages& stages);
+  void LeaveOutRepeated(Progress& progress);
   void FindAreas(Progress& progress);
   std::int64_t Given(std::int64_t triangle) const
   {

@@ -47,9 +47,9 @@ class SurfaceMasses
 {
 public:
   // The mass of a triangle is its area times the mean of the density at its points, exact for
-  // linear interpolation, or times the density of its cell. Ghost cells have no mass. Runs as the
-  // current stage. Throws Failure for densities that are negative or not finite and for a total
-  // mass that is zero or not finite, and Cancelled.
+  // linear interpolation, or times the density of its cell. Ghost cells have no mass. Throws
+  // Failure for densities that are negative or not finite and for a total mass that is zero or not
+  // finite, and Cancelled.
   SurfaceMasses(vtkPolyData* input, const PlacedTriangles& surface,
     const SurfaceDensityArray& density, Progress& progress);
 
@@ -70,7 +70,7 @@ private:
 class RelativeDensity
 {
 public:
-  // Runs as the current stage. Throws Cancelled and std::bad_alloc.
+  // Throws Cancelled and std::bad_alloc.
   RelativeDensity(const PlacedTriangles& surface, const SurfaceDensityArray& density,
     double largest, Progress& progress);
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/SurfaceSampling/SurfaceParticles.h"
 
+#include "Bridge/Density/CostModel.h"
 #include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Points/SampledArrays.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/PlacedTriangles.h"
 #include "Bridge/Surface/SurfaceInput.h"
+#include "Core/Parallel/Stages.h"
 
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
@@ -25,6 +28,14 @@ namespace
 {
 
 constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
+
+// To sample the surface's arrays, relative to Cost::Write.
+double costOfArrays(vtkPolyData* surface)
+{
+  return 2.0 *
+    (1.0 + surface->GetPointData()->GetNumberOfArrays() +
+      surface->GetCellData()->GetNumberOfArrays());
+}
 
 Eigen::Vector3d normalOf(const TriangleSurface& surface, std::int64_t triangle)
 {
@@ -110,16 +121,21 @@ private:
 
 void writeSurfaceParticles(const SurfaceInput& input, const PlacedTriangles& surface,
   const LargeBuffer<PlaceOnTriangle>& places, double totalMass, Progress& progress,
-  const double* ends, vtkPolyData* output)
+  vtkPolyData* output)
 {
-  progress.BeginStage(ends[0]);
+  Stages stages(progress,
+    { { "points", 1 }, { "cells", 1 }, { "arrays", costOfArrays(surface.Triangulated()) } });
   const vtkSmartPointer<vtkDoubleArray> points =
-    writeParticles(input, surface, places, totalMass, progress, output);
-  progress.BeginStage(ends[1]);
-  setParticles(output, points, 1, progress);
+    writeParticles(input, surface, places, totalMass, stages["points"], output);
+  setParticles(output, points, 1, stages["cells"]);
   sampleArrays({ { surface.Triangulated() }, "input surface", true },
-    PlacesOnSurface(surface, places), progress, ends[2], output->GetPointData());
+    PlacesOnSurface(surface, places), stages["arrays"], output->GetPointData());
   addFieldValue(output, "TotalMass", totalMass);
+}
+
+double costOfSurfaceParticles(double particles, vtkPolyData* surface)
+{
+  return Cost::Write * particles * (2.0 + costOfArrays(surface));
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -24,11 +24,12 @@ class SurfaceInput;
 constexpr double BytesOfSurfaceParticle = 9 * sizeof(double) + 4 * sizeof(vtkIdType);
 
 // Writes a vertex for each place, with SeedId, Mass (equal shares), CellId, Normal, and the
-// surface's arrays there; field data TotalMass. Progress reaches the ends of three stages. Throws
-// Failure and Cancelled.
+// surface's arrays there; field data TotalMass. Throws Failure and Cancelled.
 void writeSurfaceParticles(const SurfaceInput& input, const PlacedTriangles& surface,
   const LargeBuffer<PlaceOnTriangle>& places, double totalMass, Progress& progress,
-  const double* ends, vtkPolyData* output);
+  vtkPolyData* output);
+// An estimate of its time in nanoseconds.
+double costOfSurfaceParticles(double particles, vtkPolyData* surface);
 
 } // namespace RectifiedTransport::Bridge
 

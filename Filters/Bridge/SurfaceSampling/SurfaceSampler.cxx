@@ -14,12 +14,11 @@
 #include "Bridge/SurfaceSampling/SurfaceMasses.h"
 #include "Bridge/SurfaceSampling/SurfaceParticles.h"
 #include "Core/Flow/RectifiedFlow.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/AreaPreservingMap.h"
 #include "Core/SurfaceRelaxation/SurfaceRelaxation.h"
 #include "Core/SurfaceSampling/SurfaceSamples.h"
 
-#include "vtkCellData.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 
 #include <cmath>
@@ -31,11 +30,6 @@ namespace RectifiedTransport::Bridge
 
 namespace
 {
-
-double numberOfArrays(vtkPolyData* input)
-{
-  return input->GetPointData()->GetNumberOfArrays() + input->GetCellData()->GetNumberOfArrays();
-}
 
 // Nanoseconds, as measured on one thread.
 double costOfMap(double points)
@@ -111,21 +105,20 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
   options.RandomSeed = static_cast<std::uint64_t>(this->RandomSeed);
   const auto size = static_cast<double>(input->GetNumberOfPoints());
   const auto asked = static_cast<double>(this->NumberOfParticles);
-  const auto ends = stageEnds({ 500.0 * size, 50.0 * size,
-    2000.0 * size + (3000.0 + 500.0 * this->RelaxationIterations) * asked, Cost::Write * asked,
-    Cost::Write * asked, 2.0 * Cost::Write * asked * (1.0 + numberOfArrays(input)) });
+  Stages stages(progress,
+    { { "triangles", 500.0 * size }, { "masses", 50.0 * size },
+      { "relaxation", 2000.0 * size + (3000.0 + 500.0 * this->RelaxationIterations) * asked },
+      { "particles", costOfSurfaceParticles(asked, input) } });
   const std::string particles =
     std::to_string(this->NumberOfParticles) + " particles (see NumberOfParticles)";
   const double bytes = asked * BytesOfSurfaceParticle;
   requireMemory(particles, bytes);
 
-  const WholeSurface surface(input, progress, ends[0]);
+  const WholeSurface surface(input, stages["triangles"]);
   options.Rounding = surface.Rounding();
-  progress.BeginStage(ends[1]);
-  const SurfaceMasses masses(input, surface, density, progress);
-  const RelativeDensity relative(surface, density, masses.Largest(), progress);
+  const SurfaceMasses masses(input, surface, density, stages["masses"]);
+  const RelativeDensity relative(surface, density, masses.Largest(), stages["masses"]);
   const TriangleSurface triangles = surface.Surface();
-  progress.BeginStage(ends[2]);
   const SurfaceRelaxation samples = withMemory("the relaxation of " + particles,
     bytes +
       memoryForSurfaceRelaxation(triangles.Points.size(), triangles.NumberOfTriangles,
@@ -133,7 +126,7 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
     [&]() {
       try
       {
-        return relaxOnSurface(triangles, relative.Values(), options, progress.Stage());
+        return relaxOnSurface(triangles, relative.Values(), options, stages["relaxation"]);
       }
       catch (const std::invalid_argument&) // all else was checked before
       {
@@ -143,7 +136,7 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
       }
     });
   writeSurfaceParticles(
-    given, surface, samples.Places, masses.Total(), progress, ends.data() + 3, output);
+    given, surface, samples.Places, masses.Total(), stages["particles"], output);
   SurfaceSamplingReport report;
   report.Particles = samples.Places.size();
   RepairCounts repairs; // of what else is wrong, nothing changes the result
@@ -166,34 +159,31 @@ SurfaceSamplingReport SurfaceSampler::Transport(const SurfaceInput& given,
   const auto size = static_cast<double>(input->GetNumberOfPoints());
   const auto asked = static_cast<double>(this->NumberOfParticles);
   const double cells = static_cast<double>(this->Resolution) * this->Resolution;
-  const auto ends = stageEnds({ 1500.0 * size, costOfMap(size), 50.0 * size,
-    30.0 * cells + 1500.0 * size + (1000.0 + Cost::flow(this->Flow, 2)) * asked,
-    Cost::Write * asked, Cost::Write * asked,
-    2.0 * Cost::Write * asked * (1.0 + numberOfArrays(input)) });
+  Stages stages(progress,
+    { { "triangles", 1500.0 * size }, { "map", costOfMap(size) }, { "masses", 50.0 * size },
+      { "flow", 30.0 * cells + 1500.0 * size + (1000.0 + Cost::flow(this->Flow, 2)) * asked },
+      { "particles", costOfSurfaceParticles(asked, input) } });
   const std::string particles =
     std::to_string(this->NumberOfParticles) + " particles (see NumberOfParticles)";
   constexpr double bytesOfParticle = BytesOfSurfaceParticle + sizeof(PlaceOnTriangle);
   requireMemory(particles, asked * bytesOfParticle);
 
-  const DiskSurface surface(input, progress, ends[0]);
+  const DiskSurface surface(input, stages["triangles"]);
   const DiskMesh& disk = surface.Disk();
-  progress.BeginStage(ends[1]);
-  const ConformalMap map = mapDisk(disk, this->Corners.Of(surface.Repaired()), progress);
-  progress.BeginStage(ends[2]);
-  const SurfaceMasses masses(input, surface, density, progress);
+  const ConformalMap map = mapDisk(disk, this->Corners.Of(surface.Repaired()), stages["map"]);
+  const SurfaceMasses masses(input, surface, density, stages["masses"]);
 
   const GridSize<2> grid = flatGrid(map.AspectRatio, this->Resolution);
   const double tables = numberOfCells<2>(grid) * sizeof(double) + RectifiedFlow<2>::MemoryFor(grid);
   const std::string flow = "the flow on " + std::to_string(grid[0]) + " x " +
     std::to_string(grid[1]) + " cells (see Resolution)";
   requireMemory(flow, tables);
-  progress.BeginStage(ends[3]);
   const SurfaceSamples samples = withMemory(flow + " and " + particles,
     tables + asked * bytesOfParticle + 80.0 * static_cast<double>(disk.NumberOfTriangles()),
-    [&]() { return sampleSurface(disk, map, masses.Values(), options, progress.Stage()); });
+    [&]() { return sampleSurface(disk, map, masses.Values(), options, stages["flow"]); });
 
   writeSurfaceParticles(
-    given, surface, samples.Places, masses.Total(), progress, ends.data() + 4, output);
+    given, surface, samples.Places, masses.Total(), stages["particles"], output);
   addFieldValue(output, "MovedParticles", static_cast<double>(samples.Flow.MovedToMass));
   addSteps(output, { samples.Flow });
   return { samples.Places.size(), samples.Flow.MovedToMass,

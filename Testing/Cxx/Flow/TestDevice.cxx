@@ -336,11 +336,11 @@ protected:
     DeviceUse device = this->BeginDevice();
     {
       AlgorithmProgress progress(this, this->Threading, this->GetRanks(), &device);
-      this->IsHandedOn =
-        this->IsHandedOn && progress.Device() == &device && progress.Stage().Device == &device;
+      this->IsHandedOn = this->IsHandedOn && progress.Device() == &device &&
+        RectifiedTransport::Context(progress).Device == &device;
       for (int i = 0; i < 2; ++i) // the second time it does not serve any more
       {
-        progress.Stage().Device->Run([this](const RectifiedTransport::Device&) {
+        progress.Device()->Run([this](const RectifiedTransport::Device&) {
           ++this->Runs;
           throw LostDevice("The device 'x' is lost");
         });

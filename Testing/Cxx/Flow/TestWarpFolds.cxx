@@ -58,7 +58,6 @@ std::array<std::int64_t, 2> turnedBy(vtkPointSet* before, int dimension, const M
   const ImageGrid grid = gridOf(image, false);
   const SerialExecutor serial;
   Progress progress{ Context(serial) };
-  progress.BeginStage(1.0);
   const TurnedCells found = countTurnedCells(grid, before, after, progress);
   return { found.Turned, found.All };
 }

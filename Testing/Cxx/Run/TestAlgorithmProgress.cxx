@@ -40,7 +40,6 @@ void checkLongRanges(Checks& checks)
   const CountingExecutor executor;
   std::vector<std::int64_t>& called = executor.Ranges;
   Progress progress{ Context(executor) };
-  progress.BeginStage(1.0);
   constexpr std::int64_t count = 1030;
   std::vector<int> visits(count, 0);
   progress.For(

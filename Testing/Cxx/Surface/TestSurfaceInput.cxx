@@ -77,7 +77,7 @@ void checkGrid(Checks& checks)
     CHECK(checks, numbers && numbers->GetTuple1(cell) == static_cast<double>(wanted));
   }
   RectifiedTransport::Progress progress{ RectifiedTransport::Context() };
-  const DiskSurface disk(surface, progress, 1.0);
+  const DiskSurface disk(surface, progress);
   CHECK(checks, disk.Disk().NumberOfTriangles() == 8);
   CHECK(checks, disk.Disk().NumberOfPoints() == 9);
   CHECK(checks, disk.IsRepaired());
@@ -163,7 +163,7 @@ void checkCorners(Checks& checks)
       cell.push_back(i);
     }
     RectifiedTransport::Progress progress{ RectifiedTransport::Context() };
-    const DiskSurface disk(makePolygons(polygon.Points, cell), progress, 1.0);
+    const DiskSurface disk(makePolygons(polygon.Points, cell), progress);
     CHECK(checks, disk.Triangulated()->GetNumberOfPolys() == corners - 2);
     CHECK(checks, trianglesWithArea(disk.Triangulated()) == polygon.WithArea);
     const RectifiedTransport::DiskMesh& mesh = disk.Disk();
