@@ -90,7 +90,6 @@ void makeDiagram(benchmark::State& state)
   for (auto _ : state)
   {
     Progress progress(executor);
-    progress.BeginStage(1.0);
     PowerDiagram diagram({ domainSide, domainSide });
     diagram.SetSites(made.Sites, progress);
     diagram.Update(made.Weights.data(), progress);
@@ -106,7 +105,6 @@ void updateDiagram(benchmark::State& state)
   const std::vector<double> weights[2] = { made.PartOfWeights(0.99), made.Weights };
   const SerialExecutor executor;
   Progress progress(executor);
-  progress.BeginStage(1.0);
   PowerDiagram diagram({ domainSide, domainSide });
   diagram.SetSites(made.Sites, progress);
   diagram.Update(weights[0].data(), progress);

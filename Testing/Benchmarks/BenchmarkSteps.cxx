@@ -134,7 +134,6 @@ private:
     {
       const SerialExecutor serial;
       Progress progress(serial);
-      progress.BeginStage(1.0);
       const DensityArray<2, double> source = this->Density.Source();
       DensityRows<2> rows(source, this->Flow.Total());
       rows.Read(LatticePart<2>::WholeOf(this->Density.Size), progress);

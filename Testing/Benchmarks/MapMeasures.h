@@ -25,7 +25,6 @@ public:
   MapMeasures(const RegionMap& before, const RegionMap& after, const std::vector<double>& masses)
     : Work(Context(SerialExecutor()))
   {
-    this->Work.BeginStage(1.0);
     this->TakeErrors(after, masses);
     this->CrossingBefore = this->Crossing(before);
     this->CrossingAfter = this->Crossing(after);

@@ -22,7 +22,6 @@ inline RowMoments makeRows(const TestDensity<2>& density, const Point<2>& scale 
   double total = 1.0, const Context& context = Context())
 {
   Progress progress(context);
-  progress.BeginStage(1.0);
   return RowMoments(density.Source(), scale, total, progress);
 }
 
@@ -188,12 +187,10 @@ inline TestDensity<2> spots(const GridSize<2>& size)
   });
 }
 
-// As the work of a stage of its own.
 inline bool solve(
   EqualMassPartition& partition, const Points<2>& sites, const Context& context = Context())
 {
   Progress progress(context);
-  progress.BeginStage(1.0);
   return partition.Solve(sites, progress);
 }
 

@@ -225,7 +225,9 @@ private:
     const auto advect = [&](const Context& context, Particles<Dimension>& positions) {
       positions.resize(count);
       ParticleSource<Dimension> source(seeds, this->Size(), static_cast<std::int64_t>(count));
-      AdvectionRun<Dimension> run(this->Tables.View(), kind, options, context);
+      const AdvectionJob<Dimension> job(this->Tables.View(), kind, options);
+      Progress progress(context);
+      AdvectionRun<Dimension> run(job, progress);
       if (runs.Of)
       {
         run.UseMap(runs.Of, false);
@@ -390,7 +392,8 @@ void compareWrong(const std::shared_ptr<Device>& device)
   const Particles<2> seeds = randomParticles<2>(density.Size, 1500);
   Particles<2> right(seeds.size());
   ParticleSource<2> source(seeds, density.Size, static_cast<std::int64_t>(seeds.size()));
-  AdvectionRun<2>(tables.View(), AdvectionKind::Forward, options, Context()).Advect(source, right);
+  const AdvectionJob<2> job(tables.View(), AdvectionKind::Forward, options);
+  AdvectionRun<2>(job, work).Advect(source, right);
 
   Particles<2> found = right;
   std::uint64_t bits = 0;
@@ -402,7 +405,6 @@ void compareWrong(const std::shared_ptr<Device>& device)
   DeviceUse use(device);
   use.Run([&](Device& opened) {
     const DeviceProgram program = buildFlowProgram(opened, 2, "-D RT_WITH_CONTRACTION");
-    const AdvectionJob<2> job(tables.View(), AdvectionKind::Forward, options);
     KernelRun<2> run(opened, program, job,
       std::make_shared<const DeviceTables<2>>(opened, tables.View()), nullptr,
       std::make_shared<DeviceWeights>());

@@ -144,7 +144,7 @@ OTHERS = [
       "output->GetCellData()->PassData(image->GetCellData());", ";"),
     E(BRIDGE + "Flow/DensityEqualizingWarp.cxx", "«blend * (this->Index[i * D + a] - move[a])»",
       "this->Index[i * D + a] - move[a]"),
-    E(BRIDGE + "Splat/MassSplatter.cxx", "splatMassIn(cells, input.Target, work)",
+    E(BRIDGE + "Splat/MassSplatter.cxx", "splatMassIn(cells, input.Target, stages[\"sum\"])",
       "input.Masses.Total()"),
     E(BRIDGE + "Flow/TransportSampler.cxx", "count *= «sampler.SamplesPerCell»",
       "(sampler.SamplesPerCell > 2 ? 2 : sampler.SamplesPerCell)"),
@@ -170,7 +170,7 @@ OTHERS = [
     E(CORE + "Flow/FlowMap.cxx", "(«isStraight» ? 0 : isBent(axis))", "true"),
     E(CORE + "Flow/FlowMap.cxx", "int relevant = «isTroubled»", "0"),
     E(CORE + "Flow/FlowMapShape.cxx", "return particles * share * this->Saved() > «this->Cost»", "0.0"),
-    E(CORE + "Flow/PivotLattice.cxx", "flow.Forward(seeds, part, «same», progress", "options"),
+    E(CORE + "Flow/PivotLattice.cxx", "flow.Forward(seeds, part, «same», ", "options"),
     E(CORE + "Flow/KeptFlowMap.h", "return «steps == this->Of» ?", "true"),
     E(CORE + "Flow/WholeEngine.h", "«firstTime < 1.0 - shape.Levels.back().TimeLeft»", "false"),
     # relaxation and power cells

@@ -7,7 +7,7 @@
 #include "Core/Cartogram/RegionValues.h"
 #include "Core/Cartogram/Sea.h"
 #include "Core/Flow/RectifiedFlow.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,10 +67,12 @@ public:
   {
     this->Areas = this->Map.Areas(this->Regions);
     this->FindErrors();
+    Stages stages(this->Work,
+      { { "raster", this->Start.Raster ? 0.0 : 10.0 }, { "growth", 2 }, { "edges", 3 },
+        { "passes", 85 } });
     if (!this->Start.Raster)
     {
-      this->Work.BeginStage(0.1);
-      this->Start.Raster = this->RasterNow();
+      this->Start.Raster = this->RasterNow(stages["raster"]);
     }
     std::shared_ptr<const RegionRaster> raster = this->Start.Raster;
     this->FindOverlaps(*raster);
@@ -81,29 +83,30 @@ public:
     }
     this->Around.emplace(this->Options, this->Box, *raster, this->Masses, this->Areas);
     this->Found.Growth = this->Around->Growth();
-    this->Work.BeginStage(0.12);
-    this->FillGrowth(*raster);
-    this->Work.BeginStage(0.15);
-    this->Divide([this](const Point<2>& middle) { return this->Lengths().WhereItGrows(middle); });
+    this->FillGrowth(*raster, stages["growth"]);
+    this->Divide([this](const Point<2>& middle) { return this->Lengths().WhereItGrows(middle); },
+      stages["edges"]);
+    Rounds passes(stages["passes"], 1); // how many there are is not known
     constexpr double finest = 1.0 / 64.0;
     double finer = 1.0;
     double stuckBefore = std::numeric_limits<double>::infinity();
     double foretoldBefore = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < this->Options.MaximumPasses; ++pass)
     {
-      // How many passes follow is not known.
-      const double end = 0.5 * (1.0 + this->Work.StageEnd());
+      Stages parts(passes.Next(),
+        { { "raster", pass > 0 ? 30.0 : 0.0 }, { "densities", 7 }, { "cells", 12 },
+          { "edges", pass > 0 ? 3.0 : 0.0 }, { "tables", 15 }, { "points", 2 }, { "flow", 28 },
+          { "fellows", this->Fellows.empty() ? 0.0 : 3.0 } });
       if (pass > 0)
       {
-        this->BeginPart(0.3, end);
-        raster = this->RasterNow();
+        raster = this->RasterNow(parts["raster"]);
       }
       const bool isTempered = pass == 0 && this->SpansWidely();
-      const RegionValues values = this->FillPass(*raster, isTempered, end);
+      const RegionValues values = this->FillPass(*raster, isTempered, parts);
       if (pass > 0)
       {
-        this->BeginPart(0.05, end);
-        this->Divide([this](const Point<2>& middle) { return this->Lengths().ByContrast(middle); });
+        this->Divide([this](const Point<2>& middle) { return this->Lengths().ByContrast(middle); },
+          parts["edges"]);
       }
       const bool mayFollow = pass + 1 < this->Options.MaximumPasses;
       CartogramPass found;
@@ -117,7 +120,7 @@ public:
         // Regions on each other cannot all have their areas: a more exact flow gains nothing.
         options.AreaTolerance = std::max(options.AreaTolerance, FlowOptions::UsualTolerance);
       }
-      if (!this->MoveAll(end, options, found))
+      if (!this->MoveAll(options, found, parts))
       {
         break;
       }
@@ -197,17 +200,9 @@ private:
     }
   }
 
-  // Begins a stage of a part of what is left until `end`.
-  void BeginPart(double part, double end)
+  std::shared_ptr<const RegionRaster> RasterNow(Progress& progress)
   {
-    const double start = this->Work.StageEnd();
-    this->Work.BeginStage(start + part * (end - start));
-  }
-
-  std::shared_ptr<const RegionRaster> RasterNow()
-  {
-    return std::make_shared<const RegionRaster>(
-      this->Map, this->Regions, this->Box.Side, this->Work.Stage());
+    return std::make_shared<const RegionRaster>(this->Map, this->Regions, this->Box.Side, progress);
   }
 
   // Of the regions, as mass per cell.
@@ -227,7 +222,7 @@ private:
   }
 
   // How many times as dense as all regions together cells are, at least 1.
-  void FillGrowth(const RegionRaster& raster)
+  void FillGrowth(const RegionRaster& raster, Progress& progress)
   {
     const double mean = this->MeanDensity();
     std::vector<double> growth(this->Masses.size());
@@ -235,19 +230,19 @@ private:
     {
       growth[i] = std::max(1.0, this->Masses[i] / this->Areas[i] / mean);
     }
-    raster.Fill(growth, 1.0, this->Cells, this->Work.Stage());
+    raster.Fill(growth, 1.0, this->Cells, progress);
   }
 
   EdgeLengths Lengths() const { return { this->Cells, this->Box.Side }; }
 
   template <class LongestAt>
-  void Divide(const LongestAt& longestAt)
+  void Divide(const LongestAt& longestAt, Progress& progress)
   {
     if (this->Found.Before.empty())
     {
       this->Found.Before = this->Map.Points();
     }
-    for (const DividingPoint& point : this->Map.Divide(longestAt, this->Work.Stage()))
+    for (const DividingPoint& point : this->Map.Divide(longestAt, progress))
     {
       const Point<2>& a = this->Found.Before[static_cast<std::size_t>(point.First)];
       const Point<2>& b = this->Found.Before[static_cast<std::size_t>(point.Second)];
@@ -267,7 +262,7 @@ private:
       (passes.size() < 2 || largest < 0.5 * passes[passes.size() - 2].LargestError);
   }
 
-  RegionValues FillPass(const RegionRaster& raster, bool takesRoots, double end)
+  RegionValues FillPass(const RegionRaster& raster, bool takesRoots, Stages& parts)
   {
     const double mean = this->MeanDensity();
     std::vector<double> masses(this->Masses.size());
@@ -278,16 +273,14 @@ private:
     }
     const double sea = this->Around->DensityOf(raster, masses, this->Areas, takesRoots);
     const double least = leastRegionDensity * sumOf(masses) / sumOf(this->Areas);
-    this->BeginPart(0.1, end);
     RegionValues values = findRegionValues(
-      raster, { masses, this->Areas, sea, least, this->Options.Tolerance }, this->Work.Stage());
+      raster, { masses, this->Areas, sea, least, this->Options.Tolerance }, parts["densities"]);
+    Rounds fills(parts["cells"], 1);
     const auto fill = [&](double around) {
-      this->BeginPart(0.1, end);
-      raster.Fill(values.Densities, around, this->Cells, this->Work.Stage());
+      raster.Fill(values.Densities, around, this->Cells, fills.Next());
       if (!values.Exponents.empty())
       {
-        this->BeginPart(0.1, end);
-        raster.Scale(values.Exponents, least, this->Cells, this->Work.Stage());
+        raster.Scale(values.Exponents, least, this->Cells, fills.Next());
       }
     };
     fill(sea);
@@ -300,30 +293,28 @@ private:
   }
 
   // Returns whether the pass was done. Else points are where they were.
-  bool MoveAll(double end, FlowOptions options, CartogramPass pass)
+  bool MoveAll(FlowOptions options, CartogramPass pass, Stages& parts)
   {
     const std::int64_t side = this->Box.Side;
     const DensityArray<2, double> array(this->Cells.data(), { side, side });
-    this->BeginPart(0.3, end);
     if (this->Flow)
     {
       this->Flow.emplace(
-        RectifiedFlow<2>(DensitySource<2>(array), std::move(*this->Flow), this->Work.Stage()));
+        RectifiedFlow<2>(DensitySource<2>(array), std::move(*this->Flow), parts["tables"]));
     }
     else
     {
-      this->Flow.emplace(DensitySource<2>(array), this->Work.Stage());
+      this->Flow.emplace(DensitySource<2>(array), parts["tables"]);
     }
     std::vector<Point<2>>& points = this->Map.Points();
-    this->BeginPart(0.05, end);
-    const DistinctPlaces before(points, this->Work.Stage());
+    const DistinctPlaces before(points, parts["points"]);
     std::vector<Point<2>> moved(before.Places().size());
     const std::vector<double> ringAreas = this->RingAreas();
+    Rounds flows(parts["flow"], 1);
     for (;;)
     {
-      this->BeginPart(0.6, end);
-      const FlowReport report = this->Flow->Backward(
-        ConstPointSpan<2>(before.Places()), moved, options, this->Work.Stage());
+      const FlowReport report =
+        this->Flow->Backward(ConstPointSpan<2>(before.Places()), moved, options, flows.Next());
       before.Move(moved, points);
       pass.NumberOfSteps = report.NumberOfSteps;
       this->CountTurnedRings(ringAreas);
@@ -339,8 +330,7 @@ private:
       }
       options.NumberOfSteps = steps;
     }
-    this->Work.BeginStage(end);
-    this->MoveFellows(options);
+    this->MoveFellows(options, parts["fellows"]);
     this->Areas = this->Map.Areas(this->Regions);
     this->Found.Passes.push_back(pass);
     return true;
@@ -371,7 +361,7 @@ private:
     }
   }
 
-  void MoveFellows(const FlowOptions& options)
+  void MoveFellows(const FlowOptions& options, Progress& progress)
   {
     if (this->Fellows.empty())
     {
@@ -384,7 +374,7 @@ private:
       place = { std::clamp(place[0], 0.0, side), std::clamp(place[1], 0.0, side) };
     }
     std::vector<Point<2>> moved = clamped;
-    this->Flow->Backward(ConstPointSpan<2>(clamped), moved, options, this->Work.Stage());
+    this->Flow->Backward(ConstPointSpan<2>(clamped), moved, options, progress);
     for (std::size_t i = 0; i < moved.size(); ++i)
     {
       for (std::size_t axis = 0; axis < 2; ++axis)

@@ -116,7 +116,7 @@ std::vector<std::vector<std::int64_t>> RegionMap::RingsOfRegions() const
 std::vector<DividingPoint> RegionMap::FindHoles(const Context& context)
 {
   Progress progress(context);
-  progress.BeginStage(1.0, 4 * this->Edges());
+  progress.Expect(4 * this->Edges());
   EdgeParts parts;
   std::vector<RingShape> shapes;
   for (std::int64_t ring = 0; ring < this->Rings(); ++ring)
@@ -235,7 +235,7 @@ std::vector<DividingPoint> RegionMap::Divide(
   const std::function<double(const Point<2>&)>& longestAt, const Context& context)
 {
   Progress progress(context);
-  progress.BeginStage(1.0, this->Edges());
+  progress.Expect(this->Edges());
   const auto equalParts = [&](const Point<2>& low, const Point<2>& high, std::vector<double>& at) {
     const double longest = longestAt({ 0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]) });
     const auto parts = static_cast<std::int64_t>(

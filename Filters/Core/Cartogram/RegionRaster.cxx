@@ -72,7 +72,7 @@ RegionRaster::RegionRaster(
       rows.First < rows.Last ? rows.Edges * ((rows.Last - 1) / band - rows.First / band + 1) : 0;
   }
   Progress progress(context);
-  progress.BeginStage(1.0, edges);
+  progress.Expect(edges);
   this->Owners.reserve(static_cast<std::size_t>(side * side));
   std::vector<CellShare> mixed;
   std::vector<RunEnd> ends;
@@ -322,7 +322,7 @@ void RegionRaster::Fill(const std::vector<double>& values, double around,
   Progress progress(context);
   const auto all = static_cast<std::int64_t>(this->Owners.size());
   const auto mixed = static_cast<std::int64_t>(this->Mixed.size());
-  progress.BeginStage(1.0, all + mixed);
+  progress.Expect(all + mixed);
   cells.clear();
   cells.reserve(this->Owners.size());
   const std::vector<double> sums = this->SumsOfSets(values);
@@ -351,7 +351,7 @@ void RegionRaster::Scale(const std::vector<double>& exponents, double least,
   Progress progress(context);
   const auto all = static_cast<std::int64_t>(this->Owners.size());
   const auto mixed = static_cast<std::int64_t>(this->Mixed.size());
-  progress.BeginStage(1.0, all + mixed);
+  progress.Expect(all + mixed);
   const std::vector<double> sums = this->SumsOfSets(exponents);
   std::vector<double> factors(sums.size());
   std::transform(sums.begin(), sums.end(), factors.begin(),

@@ -352,7 +352,7 @@ RegionValues findRegionValues(
 {
   constexpr double most = 4.0;
   Progress progress(context);
-  progress.BeginStage(1.0, 2 * raster.NumberOfShares());
+  progress.Expect(2 * raster.NumberOfShares());
   const auto regions = static_cast<std::size_t>(raster.Regions());
   RegionValues found{ std::vector<double>(regions), {}, std::vector<double>(regions),
     std::vector<unsigned char>(regions) };

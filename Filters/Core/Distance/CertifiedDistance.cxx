@@ -2,7 +2,7 @@
 #include "Core/Distance/CertifiedDistance.h"
 
 #include "Core/OptimalMap/OptimalMap.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 
@@ -27,21 +27,17 @@ template <int Dimension>
 SquaredBracket bracketDistance(const DensitySource<Dimension>& a, const DensitySource<Dimension>& b,
   const Point<Dimension>& sides, const Context& context)
 {
-  constexpr double endOfReading = 0.05;
-  constexpr double endOfLower = 0.4;
   constexpr double enough = 0.02; // a per cent of the distance
   Progress progress(context);
-  progress.BeginStage(endOfReading);
+  Stages stages(progress, { { "reading", 5 }, { "lower bound", 35 }, { "upper bound", 60 } });
   OptimalMap<Dimension> map(PlacedDensity<Dimension>{ a, {}, sides },
-    PlacedDensity<Dimension>{ b, {}, sides }, optionsOfBounds(), progress.Stage());
-  progress.BeginStage(endOfLower);
-  map.Solve(progress.Stage());
-  progress.BeginStage(1.0);
+    PlacedDensity<Dimension>{ b, {}, sides }, optionsOfBounds(), stages["reading"]);
+  map.Solve(stages["lower bound"]);
   SquaredBracket bracket;
   bracket.Lower = map.LowerBound();
   // Where they meet, rounding may part them the wrong way.
   bracket.Upper =
-    std::max(bracket.Lower, map.UpperBound(progress.Stage(), (1.0 + enough) * bracket.Lower));
+    std::max(bracket.Lower, map.UpperBound(stages["upper bound"], (1.0 + enough) * bracket.Lower));
   return bracket;
 }
 

@@ -89,7 +89,6 @@ ScaledPoints scaleClassically(
   const std::vector<double>& distances, std::int64_t count, int dimensions, const Context& context)
 {
   Progress progress(context);
-  progress.BeginStage(1.0);
   progress.Check();
   const auto axes = static_cast<std::size_t>(dimensions);
   ScaledPoints points;

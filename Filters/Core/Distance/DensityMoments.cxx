@@ -67,7 +67,6 @@ DensityMoments momentsOf(const DensityValues& density, const GridSize<Dimension>
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
   Progress progress(context);
-  progress.BeginStage(1.0);
   // From the centre of the box, in which numbers do not cancel.
   const auto readChunk = [&](std::int64_t first, std::int64_t last) {
     std::vector<double> values(static_cast<std::size_t>(last - first));

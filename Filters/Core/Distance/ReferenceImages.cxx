@@ -5,8 +5,8 @@
 #include "Core/OptimalMap/OptimalMap.h"
 #include "Core/OptimalMap/PointMap.h"
 #include "Core/OptimalMap/PotentialSolver.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/SmallWork.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <array>
@@ -64,28 +64,24 @@ template <int Dimension>
 ReferenceImages mapReference(
   const DensitySource<Dimension>& density, const Point<Dimension>& sides, const Context& context)
 {
-  constexpr double endOfReading = 0.05;
-  constexpr double endOfSolution = 0.75;
-  constexpr double endOfNodes = 0.8;
   Progress progress(contextForSize(context, numberOfCells<Dimension>(density.Size)));
-  progress.BeginStage(endOfReading);
+  Stages stages(
+    progress, { { "reading", 5 }, { "potential", 70 }, { "nodes", 5 }, { "images", 20 } });
   const CellDensity<Dimension> uniform(density.Size);
-  const CellDensity<Dimension> target(density, progress);
+  const CellDensity<Dimension> target(density, stages["reading"]);
   Point<Dimension> all;
   all.fill(1.0);
   PotentialSolver<Dimension> solver(
     { uniform, {}, all }, { target, {}, all }, sides, optionsOfMaps());
-  solver.Solve(progress, endOfSolution);
-  progress.BeginStage(endOfNodes);
+  solver.Solve(stages["potential"]);
   const Point<Dimension> cell = sidesOfCells<Dimension>(sides, density.Size);
-  const PointMap<Dimension> map(solver, 0, target, cell, PointImages::Inverted, progress);
+  const PointMap<Dimension> map(solver, 0, target, cell, PointImages::Inverted, stages["nodes"]);
   const GridSize<Dimension> lattice = referenceLattice<Dimension>(sides);
   const Point<Dimension> step = latticeStep<Dimension>(lattice, density.Size);
   const auto samples = static_cast<std::int64_t>(numberOfCells<Dimension>(lattice));
   ReferenceImages images{ LargeBuffer<double>(samples * Dimension) };
   double* coordinates = images.Coordinates.data();
-  progress.BeginStage(1.0);
-  progress.For(
+  stages["images"].For(
     samples, grain,
     [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)

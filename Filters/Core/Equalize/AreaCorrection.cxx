@@ -3,8 +3,8 @@
 
 #include "Core/Equalize/CornerLattice.h"
 #include "Core/Flow/FlowMapShape.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <array>
@@ -80,28 +80,25 @@ AreaCorrection<Dimension>::AreaCorrection(const RectifiedFlow<Dimension>& flow,
   Context alone = context;
   alone.Group = &SoloRanks::Get();
   Progress progress(alone);
+  Stages stages(progress, { { "corners", 2 }, { "map", 58 }, { "moves", 2 }, { "areas", 38 } });
   const auto count = static_cast<std::int64_t>(numberOfCorners<Dimension>(this->Size));
   LargeBuffer<double> corners(count * Dimension);
   const PointSpan<Dimension> images(corners.data(), count);
-  progress.BeginStage(0.02, count);
-  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+  stages["corners"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       const Point<Dimension> place = cornerAt<Dimension>(i, this->Size);
       std::copy_n(place.data(), Dimension, images[i]);
     }
   });
-  progress.BeginStage(0.6);
-  map.Backward(images, images, options, progress.Stage());
+  map.Backward(images, images, options, stages["map"]);
 
-  progress.BeginStage(0.62, count);
   this->Moves = LargeBuffer<float>(count * Dimension);
-  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+  stages["moves"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
     std::fill_n(this->Moves.data() + first * Dimension, (last - first) * Dimension, 0.0F);
   });
-  progress.BeginStage(1.0);
   this->Found = equalizeAreas<Dimension>(CellShares<Dimension>(flow), this->Size, 1.0, images,
-    equalize, progress.Stage(), this->Moves.data());
+    equalize, stages["areas"], this->Moves.data());
 }
 
 template <int Dimension>

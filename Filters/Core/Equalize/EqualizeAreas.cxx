@@ -5,6 +5,7 @@
 #include "Core/Equalize/CornerLattice.h"
 #include "Core/Equalize/FaceSystem.h"
 #include "Core/Equalize/MoveLimits.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,7 @@ public:
     , Limits(this->Lattice, this->Projection)
     , Targets(this->Lattice.CellRows() * size[0])
     , Kernels(equalizeKernels<Dimension>())
-    , Stages(context)
+    , Work(context)
   {
   }
 
@@ -51,69 +52,70 @@ public:
   {
     EqualizeReport report;
     const std::int64_t cells = this->Targets.size();
-    const std::int64_t rows = this->Lattice.CellRows();
+    Parts passes(this->Work, options.Passes);
     for (int pass = 0; pass < options.Passes; ++pass)
     {
-      const auto at = [&](double part) { return (pass + part) / options.Passes; };
-      this->Stages.BeginStage(at(0.1), rows);
-      const AreaSums found = this->Measure(pass == 0);
+      Stages stages(passes[pass],
+        { { "areas", 10 }, { "levels", 10 }, { "potential", 50 }, { "moves", 5 },
+          { "projections", 10 }, { "limits", 10 }, { "corners", 5 } });
+      const AreaSums found = this->Measure(pass == 0, stages["areas"]);
       if (pass == 0)
       {
         report.FoldedBefore = found.Folded;
         report.FoldedAfter = found.Folded;
       }
-      this->Stages.BeginStage(at(0.2), 3 * cells);
-      this->Center(found.Missing);
-      this->System.Prepare(this->Stages);
+      stages["levels"].Expect(3 * cells);
+      this->Center(found.Missing, stages["levels"]);
+      this->System.Prepare(stages["levels"]);
       const FaceSolution solution =
-        this->System.Solve(options.Tolerance, mostIterations, this->Stages, at(0.7));
+        this->System.Solve(options.Tolerance, mostIterations, stages["potential"]);
       report.Iterations += solution.Iterations;
       report.Residual = std::max(report.Residual, solution.Residual);
-      this->Stages.BeginStage(at(0.75), this->Lattice.CornerRows());
-      this->FindMoves();
-      this->Stages.BeginStage(at(0.85), (2 * sweeps + 1) * this->Lattice.CornerRows());
-      this->Projection.SetTargets(this->Targets.data(), this->Stages);
-      this->Sweep(sweeps);
+      this->FindMoves(stages["moves"]);
+      Progress& projections =
+        stages["projections"].Expect((2 * sweeps + 1) * this->Lattice.CornerRows());
+      this->Projection.SetTargets(this->Targets.data(), projections);
+      this->Sweep(sweeps, projections);
       const auto isBetter = [&found](const AreaSums& moved) {
         return moved.Folded <= found.Folded && moved.Error < found.Error;
       };
-      const auto apply = [&](int trial) {
-        return this->Limits.Apply(this->Targets.data(), found.Folded, report.Limited, this->Stages,
-          at(0.95 - 0.1 / (trial + 2)));
+      Rounds trials(stages["limits"], 1);
+      const auto apply = [&]() {
+        return this->Limits.Apply(
+          this->Targets.data(), found.Folded, report.Limited, trials.Next());
       };
-      AreaSums moved = apply(0);
+      AreaSums moved = apply();
       for (int halving = 1; halving <= mostHalvings && !isBetter(moved); ++halving)
       {
-        this->Limits.HalveMoves(this->Stages);
-        moved = apply(halving);
+        this->Limits.HalveMoves(trials.Next());
+        moved = apply();
       }
       if (!isBetter(moved))
       {
-        this->Stages.BeginStage(at(0.93), (2 * sweepsAlone + 1) * this->Lattice.CornerRows());
-        this->ClearMoves();
-        this->Sweep(sweepsAlone);
-        moved = apply(mostHalvings + 1);
+        Progress& alone = trials.Next().Expect((2 * sweepsAlone + 1) * this->Lattice.CornerRows());
+        this->ClearMoves(alone);
+        this->Sweep(sweepsAlone, alone);
+        moved = apply();
       }
       if (!isBetter(moved))
       {
         break;
       }
-      this->Stages.BeginStage(at(1.0), this->Lattice.CornerRows());
       this->ForRows(
-        this->Lattice.CornerRows(), [&](std::int64_t row) { this->Lattice.Apply(row, moves); });
+        this->Lattice.CornerRows(), [&](std::int64_t row) { this->Lattice.Apply(row, moves); },
+        stages["corners"]);
       report.FoldedAfter = moved.Folded;
       ++report.Passes;
     }
-    this->Stages.BeginStage(1.0);
-    this->Stages.EndSlice(1);
+    this->Work.EndSlice(1);
     return report;
   }
 
 private:
-  template <class Work>
-  void ForRows(std::int64_t rows, const Work& work)
+  template <class WorkOfRow>
+  void ForRows(std::int64_t rows, const WorkOfRow& work, Progress& progress)
   {
-    this->Lattice.ForRows(rows, this->Stages, [&](std::int64_t first, std::int64_t last) {
+    this->Lattice.ForRows(rows, progress, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t row = first; row < last; ++row)
       {
         work(row);
@@ -121,30 +123,33 @@ private:
     });
   }
 
-  void Sweep(int count)
+  void Sweep(int count, Progress& progress)
   {
     for (int sweep = 0; sweep < count; ++sweep)
     {
-      this->Projection.Sweep(this->Stages);
+      this->Projection.Sweep(progress);
     }
   }
 
-  void ClearMoves()
+  void ClearMoves(Progress& progress)
   {
     const std::int64_t count = this->Lattice.CornersOfRow();
-    this->ForRows(this->Lattice.CornerRows(), [&](std::int64_t row) {
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        std::fill_n(this->Lattice.Moves(axis) + row * count, count, 0.0F);
-      }
-    });
+    this->ForRows(
+      this->Lattice.CornerRows(),
+      [&](std::int64_t row) {
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          std::fill_n(this->Lattice.Moves(axis) + row * count, count, 0.0F);
+        }
+      },
+      progress);
   }
 
   // Areas, the weights of faces, and the right-hand side: minus the missing areas.
-  AreaSums Measure(bool isFirst)
+  AreaSums Measure(bool isFirst, Progress& progress)
   {
     this->Lattice.ForRows(
-      this->Lattice.CellRows(), this->Stages, [&](std::int64_t first, std::int64_t last) {
+      this->Lattice.CellRows(), progress, [&](std::int64_t first, std::int64_t last) {
         typename CornerLattice<Dimension>::Rows rows(this->Lattice, false);
         std::vector<double> masses(static_cast<std::size_t>(this->Size[0]));
         std::vector<double> areas(masses.size());
@@ -208,12 +213,12 @@ private:
   }
 
   // The images fill the box but for rounding, and the system is solvable if nothing is missing.
-  void Center(double missing)
+  void Center(double missing, Progress& progress)
   {
     const std::int64_t cells = this->Targets.size();
     const auto mean = static_cast<float>(missing / static_cast<double>(cells));
     float* right = this->System.RightHandSide();
-    this->Stages.For(cells, grainCells, [&](std::int64_t first, std::int64_t last) {
+    progress.For(cells, grainCells, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t q = first; q < last; ++q)
       {
         right[q] += mean;
@@ -221,10 +226,10 @@ private:
     });
   }
 
-  void FindMoves()
+  void FindMoves(Progress& progress)
   {
     this->Lattice.ForRows(
-      this->Lattice.CornerRows(), this->Stages, [&](std::int64_t first, std::int64_t last) {
+      this->Lattice.CornerRows(), progress, [&](std::int64_t first, std::int64_t last) {
         typename CornerLattice<Dimension>::Rows rows(this->Lattice, false);
         for (std::int64_t row = first; row < last; ++row)
         {
@@ -262,7 +267,7 @@ private:
   MoveLimits<Dimension> Limits;
   LargeBuffer<float> Targets;
   const EqualizeKernels<Dimension> Kernels;
-  Progress Stages;
+  Progress Work;
 };
 
 // Along a line, the corners are the sums of the masses before them.
@@ -280,7 +285,7 @@ EqualizeReport sumMasses(const DensityValues& density, std::int64_t cells, doubl
   EqualizeReport report;
   report.Passes = 1;
   Progress progress(context);
-  progress.BeginStage(1.0, cells);
+  progress.Expect(cells);
   std::vector<double> masses(static_cast<std::size_t>(std::min(cells, grainCells)));
   const double perMass = static_cast<double>(cells) / total;
   double before = 0.0;

@@ -2,6 +2,7 @@
 #include "Core/Equalize/FaceSystem.h"
 
 #include "Core/Parallel/Reduction.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <array>
@@ -385,26 +386,23 @@ void FaceSystem<Dimension>::Cycle(std::size_t at, Progress& progress)
 }
 
 template <int Dimension>
-FaceSolution FaceSystem<Dimension>::Solve(
-  double tolerance, int maximum, Progress& progress, double end)
+FaceSolution FaceSystem<Dimension>::Solve(double tolerance, int maximum, Progress& progress)
 {
   Level& finest = this->Levels.front();
   const FaceWeights<Dimension> system = finest.View();
-  const auto sum = [&](const auto& part) {
+  const auto sum = [&](Progress& round, const auto& part) {
     return reduceChunks(
-      progress, finest.Cells, grain, 0.0, part, [](double a, double b) { return a + b; },
-      firstSlice);
+      round, finest.Cells, grain, 0.0, part, [](double a, double b) { return a + b; }, firstSlice);
   };
   float* b = this->Given.data();
   float* r = finest.Right.data();
   double* x = this->Found.data();
   float* p = this->Search.data();
-  const double start = progress.StageEnd();
-  const auto beginRound = [&](int iteration) {
-    progress.BeginRound(iteration, usualIterations, start, end, workOfIteration * finest.Cells);
+  Rounds rounds(progress, usualIterations);
+  const auto nextRound = [&]() -> Progress& {
+    return rounds.Next().Expect(workOfIteration * finest.Cells);
   };
-  beginRound(0);
-  const double begin = sum([&](std::int64_t first, std::int64_t last) {
+  const double begin = sum(nextRound(), [&](std::int64_t first, std::int64_t last) {
     std::copy(r + first, r + last, b + first);
     std::fill(x + first, x + last, 0.0);
     std::fill(p + first, p + last, 0.0F);
@@ -418,19 +416,19 @@ FaceSolution FaceSystem<Dimension>::Solve(
   double allGains = 0.0;
   while (now > enough && found.Iterations < maximum)
   {
-    beginRound(found.Iterations + 1);
-    this->Cycle(0, progress);
+    Progress& round = nextRound();
+    this->Cycle(0, round);
     const float* z = finest.X.data();
-    const double rz = sum(
+    const double rz = sum(round,
       [&](std::int64_t first, std::int64_t last) { return this->Kernels.Dot(r, z, first, last); });
     const auto beta = static_cast<float>(before > 0.0 ? rz / before : 0.0);
     before = rz;
     this->For(
       finest.Cells,
       [&](std::int64_t first, std::int64_t last) { this->Kernels.Turn(beta, z, first, last, p); },
-      progress);
+      round);
     float* q = finest.Other.data();
-    const double pq = sum([&](std::int64_t first, std::int64_t last) {
+    const double pq = sum(round, [&](std::int64_t first, std::int64_t last) {
       return this->Kernels.Apply(system, p, first, last, q);
     });
     if (!(rz > 0.0 && pq > 0.0))
@@ -438,7 +436,7 @@ FaceSolution FaceSystem<Dimension>::Solve(
       break;
     }
     const auto alpha = static_cast<float>(rz / pq);
-    now = sum([&](std::int64_t first, std::int64_t last) {
+    now = sum(round, [&](std::int64_t first, std::int64_t last) {
       return this->Kernels.Advance(alpha, p, q, first, last, x, r);
     });
     gains[static_cast<std::size_t>(found.Iterations % lastIterations)] = rz * rz / pq;
@@ -449,7 +447,7 @@ FaceSolution FaceSystem<Dimension>::Solve(
     if (now <= enough || isIdle || found.Iterations == maximum)
     {
       // The residual itself: updates do not know what rounding lost.
-      now = sum([&](std::int64_t first, std::int64_t last) {
+      now = sum(round, [&](std::int64_t first, std::int64_t last) {
         return this->Kernels.Rest(system, x, b, first, last, r);
       });
       before = 0.0;

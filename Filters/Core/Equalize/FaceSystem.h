@@ -50,9 +50,8 @@ public:
   float* RightHandSide() { return this->Levels.front().Right.data(); }
   // Makes the coarser levels. Units of progress: twice the cells.
   void Prepare(Progress& progress);
-  // Until the residual is within the tolerance, or the solution hardly changes any more. Progress
-  // is led towards `end`.
-  FaceSolution Solve(double tolerance, int maximum, Progress& progress, double end);
+  // Until the residual is within the tolerance, or the solution hardly changes any more.
+  FaceSolution Solve(double tolerance, int maximum, Progress& progress);
   const double* Solution() const { return this->Found.data(); }
 
   static double Memory(const GridSize<Dimension>& size);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Equalize/MoveLimits.h"
 
+#include "Core/Parallel/Stages.h"
 #include "Core/Tables/Density.h"
 
 #include <algorithm>
@@ -96,16 +97,16 @@ AreaSums MoveLimits<Dimension>::SumOfRows() const
 
 template <int Dimension>
 AreaSums MoveLimits<Dimension>::Apply(
-  const float* targets, std::int64_t folded, std::int64_t& limited, Progress& progress, double end)
+  const float* targets, std::int64_t folded, std::int64_t& limited, Progress& progress)
 {
-  const double start = progress.StageEnd();
+  Rounds rounds(progress, usualRounds);
   std::fill(
     this->Active.OfCells.begin(), this->Active.OfCells.end(), static_cast<unsigned char>(1));
   for (int round = 0;; ++round)
   {
     // It measures, and it sweeps.
-    progress.BeginRound(round, usualRounds, start, end, 4 * this->Lattice.CornerRows());
-    this->Measure(targets, progress);
+    Progress& part = rounds.Next().Expect(4 * this->Lattice.CornerRows());
+    this->Measure(targets, part);
     const AreaSums moved = this->SumOfRows();
     limited = std::max(limited, moved.Failed);
     const bool mayStay = round >= projections && moved.Folded <= folded;
@@ -116,11 +117,11 @@ AreaSums MoveLimits<Dimension>::Apply(
     this->ActivateRows();
     if (round < projections)
     {
-      this->Projection.Sweep(this->States.data(), Failed, this->Active, progress);
+      this->Projection.Sweep(this->States.data(), Failed, this->Active, part);
     }
     else
     {
-      this->Shorten(round < projections + halvings ? 0.5F : 0.0F, progress);
+      this->Shorten(round < projections + halvings ? 0.5F : 0.0F, part);
     }
   }
 }

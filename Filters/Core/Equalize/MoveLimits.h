@@ -37,9 +37,9 @@ public:
 
   // Changes the moves, until every cell keeps enough, or no more than `folded` cells are folded.
   // `targets` are those of all cells. Returns the sums of the moved cells; `limited` becomes at
-  // least the number of cells that needed it. Progress is led towards `end`.
-  AreaSums Apply(const float* targets, std::int64_t folded, std::int64_t& limited,
-    Progress& progress, double end);
+  // least the number of cells that needed it.
+  AreaSums Apply(
+    const float* targets, std::int64_t folded, std::int64_t& limited, Progress& progress);
   void HalveMoves(Progress& progress);
 
   static double Memory(const GridSize<Dimension>& size);

@@ -5,6 +5,7 @@
 
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Flow/Kernels/FlowKernels.h"
+#include "Core/Parallel/Progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,6 +93,14 @@ inline int firstRefinement(const FlowOptions& options, AdvectionKind kind)
     ++refinement;
   }
   return refinement;
+}
+
+// Kernels of the job stop once the progress is to stop.
+template <int Dimension>
+void stopWith(FlowJob<Dimension>& job, Progress& progress)
+{
+  job.ShouldStop = [](void* data) { return static_cast<Progress*>(data)->ShouldStop(); };
+  job.ClientData = &progress;
 }
 
 template <int Dimension>

@@ -130,16 +130,13 @@ template <int Dimension>
 class AdvectionRun
 {
 public:
-  AdvectionRun(const TableView<Dimension>& tables, AdvectionKind kind, const FlowOptions& options,
-    const Context& context)
-    : Shared(tables, kind, options)
-    , Job(Shared.Job)
-    , Work(context)
+  // Both must outlive it.
+  AdvectionRun(const AdvectionJob<Dimension>& shared, Progress& progress)
+    : Shared(shared)
+    , Job(shared.Job)
+    , Work(progress)
   {
-    this->Job.ShouldStop = [](void* clientData) {
-      return static_cast<Progress*>(clientData)->ShouldStop();
-    };
-    this->Job.ClientData = &this->Work;
+    stopWith(this->Job, progress);
     // With many steps, ranges have fewer particles. This bounds the time between progress reports.
     constexpr std::int64_t usualSteps = 64;
     const std::int64_t steps = std::max(this->Job.Steps, usualSteps);
@@ -147,16 +144,6 @@ public:
   }
   AdvectionRun(const AdvectionRun&) = delete;
   AdvectionRun& operator=(const AdvectionRun&) = delete;
-
-  const AdvectionJob<Dimension>& SharedJob() const { return this->Shared; }
-  const Ranks& Group() const { return this->Work.Group(); }
-
-  // The context of work that comes before the advection and takes a share of its time.
-  Context BeginPreparation(double share)
-  {
-    this->Work.BeginStage(share);
-    return this->Work.Stage();
-  }
 
   // Particles start from a flow map, or end on it. The map is of the same tables, steps and
   // direction. If it was made for this run, its evaluations count for the run.
@@ -167,12 +154,6 @@ public:
     const bool hasLevels = this->Map->View().LevelCount > 0;
     this->Job.Map = hasLevels ? &this->Map->View() : nullptr;
     this->First = hasLevels ? -this->Job.Map->LevelCount : 0;
-  }
-
-  // The device that makes the nodes of a map for this advection, or null.
-  std::unique_ptr<DeviceNodes<Dimension>> BeginNodes(DeviceFlow<Dimension>& kept) const
-  {
-    return this->Work.Device() ? kept.BeginNodes(*this->Work.Device(), this->Shared) : nullptr;
   }
 
   // The device that does what Advect without times asks for, as long as it serves.
@@ -194,7 +175,7 @@ public:
     this->Job.TimeCount = std::max<std::int64_t>(1, static_cast<std::int64_t>(times.size()));
     constexpr std::int64_t enough = 2048; // particles: fills blocks, and takes little time
     const Executor& threads = this->Work.Threads();
-    this->Work.BeginStage(1.0, source.Count());
+    this->Work.Expect(source.Count());
     WaitingParticles<Dimension> unresolved;
     FlowReport ofDevice;
     std::int64_t chunkEnd = 0;
@@ -271,12 +252,11 @@ public:
   // Cancelled.
   FlowReport AdvectToCells(ParticleSource<Dimension>& source, std::int64_t* cells)
   {
-    const auto all = static_cast<double>(source.Count());
+    this->Work.Expect(source.Count());
     for (std::int64_t chunk = 0; chunk < source.Count();)
     {
       const std::int64_t count = source.Prepare(chunk);
       chunk += count;
-      this->Work.BeginStage(static_cast<double>(chunk) / all);
       this->Work.For(
         count, this->Grain,
         [&](std::int64_t first, std::int64_t last) {
@@ -344,14 +324,14 @@ private:
     });
   }
 
-  const AdvectionJob<Dimension> Shared;
+  const AdvectionJob<Dimension>& Shared;
   FlowJob<Dimension> Job;
   const AdvectBlock<Dimension> Kernel = flowKernels().Advect<Dimension>();
   std::shared_ptr<const FlowMap<Dimension>> Map;
   std::unique_ptr<DeviceAdvection<Dimension>> OnDevice; // null: the processor does it
   int First = 0;                                        // pass
   Counters Count;
-  Progress Work;
+  Progress& Work;
   std::int64_t Grain = BlockSize;
 };
 

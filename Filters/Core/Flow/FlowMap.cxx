@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/FlowMap.h"
 
+#include "Core/Flow/AdvectionJob.h"
 #include "Core/Flow/Devices/DeviceAdvection.h"
 #include "Core/Flow/Kernels/LatticePlaces.h"
 #include "Core/Flow/NodeAdvance.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankShare.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <atomic>
@@ -33,11 +34,10 @@ class LatticeBuild
 public:
   // Edges may deviate from cubics by `deviation` along each axis.
   LatticeBuild(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level,
-    const Point<Dimension>& deviation, DeviceNodes<Dimension>* onDevice, Progress& progress)
+    const Point<Dimension>& deviation, DeviceNodes<Dimension>* onDevice)
     : Job(job)
     , Level(level)
     , OnDevice(onDevice)
-    , Work(progress)
   {
     std::int64_t stride = 1;
     for (int axis = 0; axis < Dimension; ++axis)
@@ -54,7 +54,7 @@ public:
   // Makes the records, each from the finest of the coarser levels that may be interpolated there,
   // else from scratch; each rank some of them, which all get. Returns the number of velocity
   // evaluations here.
-  std::int64_t Advance()
+  std::int64_t Advance(Progress& progress)
   {
     const auto fill = [this](const std::int64_t* numbers, int count, double* places) {
       for (int i = 0; i < count; ++i)
@@ -71,16 +71,16 @@ public:
     const auto nodes = static_cast<std::int64_t>(this->Marks.size());
     // Equal parts of the nodes, which do not change the bits: a node's record depends on the
     // coarser levels alone.
-    const Ranks& ranks = this->Work.Group();
+    const Ranks& ranks = progress.Group();
     const RankShare share(nodes, ranks);
     std::int64_t evaluations = this->OnDevice
       ? this->OnDevice->Run(
-          *this->Job.Map, this->Level, share.First, share.Count, this->Marks.data(), this->Work)
+          *this->Job.Map, this->Level, share.First, share.Count, this->Marks.data(), progress)
       : -1;
     if (evaluations < 0)
     {
       evaluations =
-        NodeAdvance<Dimension>(this->Job, this->Level, this->Work)
+        NodeAdvance<Dimension>(this->Job, this->Level, progress)
           .Run(share.First, share.Count, this->Job.Map->LevelCount, this->Marks.data(), fill);
     }
     gatherParts(ranks, shareStarts(nodes, this->RecordSize(), ranks), this->Level.Records);
@@ -91,18 +91,18 @@ public:
   // Sets to 1 or 0 whether the cells may not be interpolated: a corner met an empty box, or the
   // stencils of an edge, forwards also of the ends of straight lines, deviate too much. Returns the
   // share of those that may not.
-  double FindBad(unsigned char* bad)
+  double FindBad(unsigned char* bad, Progress& progress)
   {
     // One axis after the other: the bend of the stencil of four nodes that starts at each node,
     // then the edge from each node to the next.
     std::vector<float> bends(this->Marks.size()); // squared, 1 is the most
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      this->ForNodes(axis, [&](std::int64_t node, std::int64_t place) {
+      this->ForNodes(axis, progress, [&](std::int64_t node, std::int64_t place) {
         bends[static_cast<std::size_t>(node)] =
           place + 3 < this->Nodes[axis] ? this->Bend(node, this->Stride[axis]) : 0.0f;
       });
-      this->ForNodes(axis, [&](std::int64_t node, std::int64_t place) {
+      this->ForNodes(axis, progress, [&](std::int64_t node, std::int64_t place) {
         // The stencils of both cells that share the edge's ends, and its own.
         bool isStraight = true;
         for (std::int64_t first = place - 2; first <= place; ++first)
@@ -116,7 +116,7 @@ public:
         mark = static_cast<unsigned char>(mark | (isStraight ? 0 : isBent(axis)));
       });
     }
-    return this->MarkCells(bad);
+    return this->MarkCells(bad, progress);
   }
 
 private:
@@ -130,9 +130,9 @@ private:
 
   // Calls function(node, its place along the axis) for all nodes.
   template <class Function>
-  void ForNodes(int axis, const Function& function)
+  void ForNodes(int axis, Progress& progress, const Function& function)
   {
-    this->Work.For(static_cast<std::int64_t>(this->Marks.size()), nodeGrain,
+    progress.For(static_cast<std::int64_t>(this->Marks.size()), nodeGrain,
       [&](std::int64_t first, std::int64_t last) {
         const std::int64_t stride = this->Stride[axis];
         // Counted along: a division for each node would cost more than the rest.
@@ -182,7 +182,7 @@ private:
   }
 
   // The cells from the marks of their nodes, row by row along axis 0.
-  double MarkCells(unsigned char* bad)
+  double MarkCells(unsigned char* bad, Progress& progress)
   {
     GridSize<Dimension> cells;
     std::int64_t count = 1;
@@ -194,7 +194,7 @@ private:
     const std::int64_t length = cells[0];
     const std::int64_t rows = nodeGrain / length + 1; // a range
     std::atomic<std::int64_t> found{ 0 };
-    this->Work.For(
+    progress.For(
       count / length, rows,
       [&](std::int64_t first, std::int64_t last) {
         std::int64_t marked = 0;
@@ -246,12 +246,11 @@ private:
   const FlowJob<Dimension>& Job;
   const FlowMapLevel<Dimension>& Level;
   DeviceNodes<Dimension>* const OnDevice; // may be null
-  Progress& Work;
-  GridSize<Dimension> Nodes;             // along each axis
-  GridSize<Dimension> Stride;            // in nodes
-  float InverseDeviation[Dimension];     // 1 / cells
-  std::vector<double> Places[Dimension]; // of the nodes along each axis, in cells
-  std::vector<unsigned char> Marks;      // of the nodes
+  GridSize<Dimension> Nodes;              // along each axis
+  GridSize<Dimension> Stride;             // in nodes
+  float InverseDeviation[Dimension];      // 1 / cells
+  std::vector<double> Places[Dimension];  // of the nodes along each axis, in cells
+  std::vector<unsigned char> Marks;       // of the nodes
 };
 
 } // namespace
@@ -270,14 +269,15 @@ FlowMap<Dimension>::FlowMap(const FlowMapShape<Dimension>& shape, const FlowJob<
   FlowJob<Dimension> nodes = job;
   nodes.Map = &this->Map;
   nodes.Sparse = true;
-  nodes.ShouldStop = [](void* clientData) {
-    return static_cast<Progress*>(clientData)->ShouldStop();
-  };
-  nodes.ClientData = &progress;
-  double done = 0.0;
+  std::vector<double> costs;
   for (const typename FlowMapShape<Dimension>::Level& planned : shape.Levels)
   {
-    done += planned.Cost / shape.Cost;
+    costs.push_back(planned.Cost);
+  }
+  Parts levels(progress, costs);
+  for (const typename FlowMapShape<Dimension>::Level& planned : shape.Levels)
+  {
+    Stages stages(levels[this->Map.LevelCount], { { "nodes", 9 }, { "cells", 1 } });
     FlowMapLevel<Dimension> level;
     level.HandOver = planned.HandOver;
     level.TimeLeft = static_cast<float>(planned.TimeLeft);
@@ -300,14 +300,12 @@ FlowMap<Dimension>::FlowMap(const FlowMapShape<Dimension>& shape, const FlowJob<
     level.Records = lattice.Records.data();
     level.Bad = lattice.Bad.data();
 
-    constexpr double partOfAdvance = 0.9;
-    LatticeBuild<Dimension> build(nodes, level, shape.Deviation, onDevice, progress);
-    progress.BeginStage(progress.StageEnd() + partOfAdvance * (done - progress.StageEnd()));
-    this->Evaluated += build.Advance();
-    progress.BeginStage(done);
+    LatticeBuild<Dimension> build(nodes, level, shape.Deviation, onDevice);
+    stopWith(nodes, stages["nodes"]);
+    this->Evaluated += build.Advance(stages["nodes"]);
     // What may not start from it takes the whole way after all. Finer ones would be no better.
     // Backwards most of a domain may be empty, and has few particles then.
-    const double share = build.FindBad(lattice.Bad.data());
+    const double share = build.FindBad(lattice.Bad.data(), stages["cells"]);
     const double saved = 1.0 - static_cast<double>(planned.HandOver) / shape.NumberOfSteps;
     if (!job.Backward && share > saved)
     {

@@ -41,6 +41,7 @@ public:
   }
 
   std::int64_t Count() const { return this->Samples; }
+  static std::int64_t Chunks() { return 1; }
   // The number of samples of the whole lattice.
   double CountOfAll(const Ranks& /*ranks*/) const
   {

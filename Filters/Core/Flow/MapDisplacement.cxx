@@ -149,7 +149,6 @@ double writeDisplacements(const ImageGrid& grid, const GridSize<Dimension>& latt
   const auto whole = LatticePart<Dimension>::WholeOf(lattice);
   const MapDisplacement<Dimension> run(grid, lattice, whole, whole, positions, density);
   Progress progress(context);
-  progress.BeginStage(1.0);
   DisplacementSums sums;
   run.Write(0, whole.Count(), whole, displacements, sums, progress);
   return run.MeanSquare(sums);

@@ -44,15 +44,14 @@ public:
     ConstPointSpan<Dimension> positions, const RectifiedFlow<Dimension>* density);
 
   // Writes the displacements of the part's cells [first, last), and adds those in `counted` to the
-  // sums. The output may overwrite positions that are not needed any more. Runs as the current
-  // stage. Throws Cancelled.
+  // sums. The output may overwrite positions that are not needed any more. Throws Cancelled.
   void Write(std::int64_t first, std::int64_t last, const LatticePart<Dimension>& counted,
     PointSpan<3> displacements, DisplacementSums& sums, Progress& progress) const;
-  // Adds all cells of the part to the sums. Runs as the current stage. Throws Cancelled.
+  // Adds all cells of the part to the sums. Throws Cancelled.
   void Count(DisplacementSums& sums, Progress& progress) const;
 
   // Writes what each of the part's cells adds to MeanSquare of the sums of all cells: its cost,
-  // in squared physical units. Runs as the current stage. Throws Cancelled.
+  // in squared physical units. Throws Cancelled.
   void WriteCosts(const double* displacements, const DisplacementSums& sums, double* costs,
     Progress& progress) const;
 

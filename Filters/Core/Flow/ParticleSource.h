@@ -45,6 +45,10 @@ public:
   {
     return this->IsWhole ? std::get_if<LatticeOrder<Dimension>>(&this->Order) : nullptr;
   }
+  std::int64_t Chunks() const
+  {
+    return std::visit([](const auto& order) { return order.Chunks(); }, this->Order);
+  }
   // The number of particles of all ranks. Collective.
   double CountOfAll(const Ranks& ranks) const
   {

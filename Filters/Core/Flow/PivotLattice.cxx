@@ -6,8 +6,8 @@
 #include "Core/Flow/PointTransport.h"
 #include "Core/Geometry/LowDiscrepancy.h"
 #include "Core/Geometry/ReproducibleMath.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -115,24 +115,23 @@ FlowReport transportPivot(const PointTransport<Dimension>& flow,
   // All places take the same way, as the particles of one run do.
   check(options);
   Progress progress(context);
+  const bool choosesSteps = options.NumberOfSteps == 0;
+  Stages stages(progress, { { "steps", choosesSteps ? 1.0 : 0.0 }, { "particles", 9 } });
   FlowReport report;
   FlowOptions same = options;
-  if (options.NumberOfSteps == 0)
+  if (choosesSteps)
   {
-    progress.BeginStage(0.1);
     same.Particles = static_cast<double>(particles);
-    const StepChoice choice = flow.ChooseSteps(same, FlowDirection::Forward, progress.Stage());
+    const StepChoice choice = flow.ChooseSteps(same, FlowDirection::Forward, stages["steps"]);
     same = choice.Of(same);
     report.Add(choice);
   }
   report.NumberOfSteps = stepsOf(same);
   same = withFlowMaps<Dimension>(
     same, flow.Size(), FlowDirection::Forward, static_cast<double>(particles));
-  const double begin = progress.StageEnd();
+  Parts parts(stages["particles"], places);
   for (std::int64_t place = 0; place < places; ++place)
   {
-    progress.BeginStage(
-      begin + (1.0 - begin) * static_cast<double>(place + 1) / static_cast<double>(places));
     const std::int64_t low = std::clamp<std::int64_t>(first - place * each, 0, each);
     const std::int64_t high = std::clamp<std::int64_t>(last - place * each, 0, each);
     if (low == high && !progress.Group().AreSeveral())
@@ -145,7 +144,7 @@ FlowReport transportPivot(const PointTransport<Dimension>& flow,
       { partsOf<Dimension>(pivot.Lattice, low, high - low),
         LatticePart<Dimension>::WholeOf(pivot.Lattice), low },
       pivot.Places[static_cast<std::size_t>(place)]);
-    const FlowReport moved = flow.Forward(seeds, part, same, progress.Stage());
+    const FlowReport moved = flow.Forward(seeds, part, same, parts[place]);
     report.Redone += moved.Redone;
     report.MovedToMass += moved.MovedToMass;
     report.Evaluations += moved.Evaluations;

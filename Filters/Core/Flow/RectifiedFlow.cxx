@@ -7,8 +7,8 @@
 #include "Core/Flow/Steps/KeptStepChoices.h"
 #include "Core/Flow/Tiles/TiledEngine.h"
 #include "Core/Flow/WholeEngine.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Tables/NearestMass.h"
 
 #include <algorithm>
@@ -215,18 +215,17 @@ FlowReport RectifiedFlow<Dimension>::RunWithSteps(const FlowOptions& options,
 {
   check(options);
   Progress progress(context);
+  const bool choosesSteps = options.NumberOfSteps == 0;
+  Stages stages(progress, { { "steps", choosesSteps ? 1.0 : 0.0 }, { "particles", 9 } });
   StepChoice choice;
   FlowOptions chosen = options;
-  if (options.NumberOfSteps == 0)
+  if (choosesSteps)
   {
-    constexpr double part = 0.1;
-    progress.BeginStage(part);
     const bool hasParticles = !onAllRanks(*context.Group, particles == 0.0);
-    choice = hasParticles ? this->ChooseSteps(options, direction, progress.Stage()) : choice;
+    choice = hasParticles ? this->ChooseSteps(options, direction, stages["steps"]) : choice;
     chosen = choice.Of(options);
   }
-  progress.BeginStage(1.0);
-  FlowReport report = run(chosen, progress.Stage());
+  FlowReport report = run(chosen, stages["particles"]);
   report.NumberOfSteps = stepsOf(chosen);
   report.Add(choice);
   return report;
@@ -284,11 +283,10 @@ std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& de
   const FlowSeeds<Dimension>& seeds, const FlowOptions& options, const Context& context)
 {
   Progress progress(context);
-  progress.BeginStage(0.1);
-  const RectifiedFlow<Dimension> flow(density, progress.Stage());
+  Stages stages(progress, { { "tables", 1 }, { "particles", 9 } });
+  const RectifiedFlow<Dimension> flow(density, stages["tables"]);
   std::vector<Point<Dimension>> positions(static_cast<std::size_t>(seeds.Count()));
-  progress.BeginStage(1.0);
-  flow.Forward(seeds, positions, options, progress.Stage());
+  flow.Forward(seeds, positions, options, stages["particles"]);
   return positions;
 }
 

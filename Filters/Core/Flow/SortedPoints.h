@@ -28,6 +28,7 @@ public:
   }
 
   std::int64_t Count() const { return this->Points.size(); }
+  std::int64_t Chunks() const { return (this->Count() + this->Chunk - 1) / this->Chunk; }
   // The number of points of all ranks. Collective.
   double CountOfAll(const Ranks& ranks) const
   {

@@ -8,12 +8,14 @@
 #include "Core/Flow/FlowEngine.h"
 #include "Core/Flow/KeptFlowMap.h"
 #include "Core/Flow/ParticleSource.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Tables/BoxShare.h"
 #include "Core/Tables/SummedAreaTables.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -44,13 +46,13 @@ public:
     PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) override
   {
     ParticleSource<Dimension> source(seeds, this->Size, positions.size());
-    AdvectionRun<Dimension> run(this->View(), kind, options, context);
-    this->Prepare(run, options, source.CountOfAll(*context.Group));
-    if (DeviceFlow<Dimension>::Serves(kind, options))
-    {
-      run.UseDevice(this->OnDevice);
-    }
-    return run.Advect(source, positions);
+    return this->Run(kind, source, 1.0, options, context, [&](AdvectionRun<Dimension>& run) {
+      if (DeviceFlow<Dimension>::Serves(kind, options))
+      {
+        run.UseDevice(this->OnDevice);
+      }
+      return run.Advect(source, positions);
+    });
   }
 
   FlowReport AdvectAt(const FlowSeeds<Dimension>& seeds, const std::vector<double>& times,
@@ -58,9 +60,8 @@ public:
   {
     const auto each = static_cast<std::int64_t>(times.size());
     ParticleSource<Dimension> source(seeds, this->Size, positions.size() / each);
-    AdvectionRun<Dimension> run(this->View(), AdvectionKind::Forward, options, context);
-    this->Prepare(run, options, source.CountOfAll(*context.Group), times.front());
-    return run.Advect(source, positions, times);
+    return this->Run(AdvectionKind::Forward, source, times.front(), options, context,
+      [&](AdvectionRun<Dimension>& run) { return run.Advect(source, positions, times); });
   }
 
   FlowReport AdvectToCells(const FlowSeeds<Dimension>& seeds, std::int64_t* cells,
@@ -68,9 +69,8 @@ public:
   {
     const auto count = static_cast<std::int64_t>(seeds.Count());
     ParticleSource<Dimension> source(seeds, this->Size, count);
-    AdvectionRun<Dimension> run(this->View(), AdvectionKind::ForwardToCells, options, context);
-    this->Prepare(run, options, source.CountOfAll(*context.Group));
-    return run.AdvectToCells(source, cells);
+    return this->Run(AdvectionKind::ForwardToCells, source, 1.0, options, context,
+      [&](AdvectionRun<Dimension>& run) { return run.AdvectToCells(source, cells); });
   }
 
   double Share(const Point<Dimension>& low, const Point<Dimension>& high) const override
@@ -87,7 +87,6 @@ public:
   {
     constexpr std::int64_t grain = 256;
     Progress progress(context);
-    progress.BeginStage(1.0);
     progress.For(
       centres.size(), grain,
       [&](std::int64_t first, std::int64_t last) {
@@ -102,37 +101,63 @@ public:
   }
 
 private:
-  // Gives a run of so many particles, whose positions are wanted from `firstTime` on, the flow map
-  // that its options ask for, if any.
-  void Prepare(AdvectionRun<Dimension>& run, const FlowOptions& options, double particles,
-    double firstTime = 1.0)
+  // advect(run) for particles whose positions are wanted from `firstTime` on, with the flow map
+  // that the options ask for, if any.
+  template <class Function>
+  FlowReport Run(AdvectionKind kind, const ParticleSource<Dimension>& source, double firstTime,
+    const FlowOptions& options, const Context& context, const Function& advect)
   {
-    const AdvectionJob<Dimension>& shared = run.SharedJob();
+    const AdvectionJob<Dimension> shared(this->View(), kind, options);
+    const double particles = source.CountOfAll(*context.Group);
+    const std::optional<FlowMapShape<Dimension>> shape =
+      this->MapFor(shared, options, particles, firstTime);
+    Progress progress(context);
+    Stages stages(progress,
+      { { "map", shape ? shape->Cost : 0.0 },
+        { "particles", shape ? particles * shape->Levels.back().HandOver : 1.0 } });
+    std::shared_ptr<const FlowMap<Dimension>> map;
+    bool isNew = false;
+    if (shape)
+    {
+      std::unique_ptr<DeviceNodes<Dimension>> onDevice;
+      map = this->Maps.At(directionOf(kind))
+              .FindOrMake(
+                *shape, shared.Refinement, shared.Job, *context.Group,
+                [&]() -> Context {
+                  if (context.Device)
+                  {
+                    onDevice = this->OnDevice.BeginNodes(*context.Device, shared);
+                  }
+                  return stages["map"];
+                },
+                isNew, onDevice);
+    }
+    AdvectionRun<Dimension> run(shared, stages["particles"]);
+    if (map)
+    {
+      run.UseMap(std::move(map), isNew);
+    }
+    return advect(run);
+  }
+
+  // The flow map that a run of so many particles is to have, if any.
+  std::optional<FlowMapShape<Dimension>> MapFor(const AdvectionJob<Dimension>& shared,
+    const FlowOptions& options, double particles, double firstTime) const
+  {
     if (!takesFlowMaps(options) || options.Maps == FlowMaps::Off || particles == 0.0)
     {
-      return;
+      return std::nullopt;
     }
-    const FlowDirection direction = directionOf(shared.Kind);
-    const FlowMapShape<Dimension> shape(
-      this->Size, options.NumberOfSteps, direction, shared.Refinement, 1, options.MapSteps);
+    const FlowMapShape<Dimension> shape(this->Size, options.NumberOfSteps, directionOf(shared.Kind),
+      shared.Refinement, 1, options.MapSteps);
     // Isolated cells leave most boxes empty before particles could take over.
     const bool pays = shared.Kind != AdvectionKind::ForwardToCells && shape.PaysFor(particles);
     if (shape.Levels.empty() || firstTime < 1.0 - shape.Levels.back().TimeLeft ||
       (options.Maps == FlowMaps::Auto && !pays))
     {
-      return;
+      return std::nullopt;
     }
-    const double particlesCost = particles * shape.Levels.back().HandOver;
-    bool isNew = false;
-    std::unique_ptr<DeviceNodes<Dimension>> onDevice;
-    auto map = this->Maps.At(direction).FindOrMake(
-      shape, shared.Refinement, shared.Job, run.Group(),
-      [&]() {
-        onDevice = run.BeginNodes(this->OnDevice);
-        return run.BeginPreparation(shape.Cost / (shape.Cost + particlesCost));
-      },
-      isNew, onDevice);
-    run.UseMap(std::move(map), isNew);
+    return shape;
   }
 
   const GridSize<Dimension> Size;

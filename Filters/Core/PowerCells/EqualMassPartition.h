@@ -38,8 +38,8 @@ public:
 
   // Sets the sites, at least one and no two coincident, inside or outside the domain, and finds the
   // weights, beginning with those of the last solution. Returns false if some mass is not 1 to
-  // `massTolerance`; the next call then begins with the previous solution. Runs as the current
-  // stage. Throws std::bad_alloc and Cancelled.
+  // `massTolerance`; the next call then begins with the previous solution. Throws std::bad_alloc
+  // and Cancelled.
   bool Solve(ConstPointSpan<2> sites, Progress& progress);
   static constexpr double massTolerance = 5e-7;
 

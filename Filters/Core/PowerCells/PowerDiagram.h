@@ -52,11 +52,10 @@ public:
   {
   }
 
-  // Sets the sites, at least one. They may lie outside the rectangle, and may coincide. Runs as the
-  // current stage. Throws std::bad_alloc and Cancelled.
+  // Sets the sites, at least one. They may lie outside the rectangle, and may coincide. Throws
+  // std::bad_alloc and Cancelled.
   void SetSites(ConstPointSpan<2> sites, Progress& progress);
-  // Computes the cells. Runs as the current stage. After an exception, some of them are kept for
-  // the next update.
+  // Computes the cells. After an exception, some of them are kept for the next update.
   void Update(const double* weights, Progress& progress);
 
   std::int64_t NumberOfCells() const { return this->Tree.Size(); }

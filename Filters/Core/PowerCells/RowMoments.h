@@ -41,8 +41,8 @@ struct PolygonMoments
 class RowMoments
 {
 public:
-  // Runs as the current stage. Takes 16 bytes a cell and 24 for 16 cells of a row. Throws
-  // InvalidDensity, std::bad_alloc and Cancelled.
+  // Takes 16 bytes a cell and 24 for 16 cells of a row. Throws InvalidDensity, std::bad_alloc and
+  // Cancelled.
   RowMoments(
     const DensitySource<2>& density, const Point<2>& scale, double total, Progress& progress);
 

@@ -27,8 +27,8 @@ constexpr double leastSiteDistance = 1e-5;
 
 // If sites are nearer than `distance` to each other, the first stays. The others move to places in
 // `bounds` that are at least as far from every other site, on a spiral about their old places (in
-// thin bounds on a line). The result depends only on the sites and their order. Runs as the current
-// stage. Throws std::bad_alloc and Cancelled.
+// thin bounds on a line). The result depends only on the sites and their order. Throws
+// std::bad_alloc and Cancelled.
 void separateSites(
   PointSpan<2> sites, double distance, const SiteBounds& bounds, Progress& progress);
 

@@ -21,9 +21,9 @@ class SiteTree
 {
 public:
   // The sites are divided at the median along the widest axis of their box: O(count log count).
-  // Runs as the current stage. Throws Cancelled.
+  // Throws Cancelled.
   void Build(ConstPointSpan<2> sites, Progress& progress);
-  // Call it before a visit: a weight for each site. Runs as the current stage.
+  // Call it before a visit: a weight for each site.
   void SetWeights(const double* weights, Progress& progress);
 
   std::int64_t Size() const { return static_cast<std::int64_t>(this->Sites.size()); }

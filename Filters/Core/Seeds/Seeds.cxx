@@ -276,7 +276,7 @@ void visitCells(const GridSize<Dimension>& size, std::int64_t first, std::int64_
   checkGrid<Dimension>(size);
   requirePart(first, points, numberOfCells<Dimension>(size));
   Progress progress(context);
-  progress.BeginStage(1.0, points);
+  progress.Expect(points);
   GridSize<Dimension> cell{};
   for (int a = 0; a < Dimension && points > 0; ++a)
   {
@@ -330,7 +330,7 @@ void generateSeedsFrom(SeedPattern pattern, const Point<Dimension>& lengths, std
   }
   Progress progress(context);
   constexpr int unitsOfBlueNoise = Dimension == 2 ? 3 : 2;
-  progress.BeginStage(1.0,
+  progress.Expect(
     pattern == SeedPattern::BlueNoise ? unitsOfBlueNoise * count : Dimension * unitPoints.size());
   switch (pattern)
   {

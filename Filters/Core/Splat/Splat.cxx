@@ -4,7 +4,7 @@
 // among tasks and the particles into slices.
 #include "Core/Splat/Splat.h"
 
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Splat/SlabPartition.h"
 #include "Core/Splat/SplatSetup.h"
 #include "Core/Splat/SplatTiles.h"
@@ -41,10 +41,8 @@ class SplatRun
 {
 public:
   SplatRun(const SplatParticles<Dimension, Real>& particles, const GridSize<Dimension>& size,
-    const LatticePart<Dimension>& part, const SplatOptions& options, double scale, double* cells,
-    Progress& progress)
+    const LatticePart<Dimension>& part, const SplatOptions& options, double scale, double* cells)
     : Setup(particles, size, options)
-    , Work(progress)
     , Tiles(this->Job)
     , NumberOfCells(part.Count())
     , IsWhole(part.Cells == size)
@@ -72,44 +70,45 @@ public:
     this->Tiles.Divide();
   }
 
-  SplatReport Run()
+  SplatReport Run(const Context& context)
   {
     const std::int64_t count = this->Job.Particles.Points.size();
-    this->Clear(count > 0 ? 0.1 : 1.0);
-    this->Work.BeginStage(1.0, count);
+    Progress progress(context);
+    Stages stages(progress, { { "cells", 1 }, { "particles", count > 0 ? 9.0 : 0.0 } });
+    this->Clear(stages["cells"]);
+    Progress& work = stages["particles"].Expect(count);
     for (std::int64_t begin = 0; begin < count;)
     {
       const std::int64_t slice =
-        std::min({ count - begin, this->Work.NextSlice(this->ShortestSlice), longestSlice });
-      this->AddSlice(begin, slice);
+        std::min({ count - begin, work.NextSlice(this->ShortestSlice), longestSlice });
+      this->AddSlice(begin, slice, work);
       begin += slice;
-      this->Work.EndSlice(slice);
+      work.EndSlice(slice);
     }
     return { this->Outside };
   }
 
 private:
-  void Clear(double end)
+  void Clear(Progress& progress)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
     double* cells = this->Job.Memory.Cells;
-    this->Work.BeginStage(end);
-    this->Work.For(
+    progress.For(
       this->NumberOfCells, grain,
       [cells](
         std::int64_t first, std::int64_t last) { std::fill(cells + first, cells + last, 0.0); },
       16 * grain);
   }
 
-  void AddSlice(std::int64_t first, std::int64_t count)
+  void AddSlice(std::int64_t first, std::int64_t count, Progress& progress)
   {
-    const int tasks = this->Work.Threads().Concurrency();
+    const int tasks = progress.Threads().Concurrency();
     if (tasks == 1)
     {
-      this->AddInOrder(first, count);
+      this->AddInOrder(first, count, progress);
       return;
     }
-    this->Slabs.FindChunks(first, count, this->Work.Threads());
+    this->Slabs.FindChunks(first, count, progress.Threads());
     double visits = 0.0;
     for (std::int64_t slabs = mostSlabs; slabs > 0; slabs /= 2)
     {
@@ -122,58 +121,59 @@ private:
     const bool isSortCheaper = visits > mostVisits || this->Slabs.IsScattered();
     if (isSortCheaper && this->Job.Width <= widestSorted)
     {
-      this->AddByTiles(first, count);
+      this->AddByTiles(first, count, progress);
     }
     else
     {
-      this->AddBySlabs(first, count);
+      this->AddBySlabs(first, count, progress);
     }
   }
 
-  void AddInOrder(std::int64_t first, std::int64_t count)
+  void AddInOrder(std::int64_t first, std::int64_t count, Progress& progress)
   {
     this->MakeScratch(1);
-    this->Outside += this->AddRange(first, count, this->BoxOf(this->Job.Box, true), 0);
+    this->Outside += this->AddRange(first, count, this->BoxOf(this->Job.Box, true), 0, progress);
   }
 
   // Each task adds the chunks that reach its slab to the cells of the slab.
-  void AddBySlabs(std::int64_t first, std::int64_t count)
+  void AddBySlabs(std::int64_t first, std::int64_t count, Progress& progress)
   {
     const std::int64_t slabs = this->Slabs.NumberOfSlabs();
     this->MakeScratch(slabs);
-    this->Work.Threads().For(slabs, 1, [&](std::int64_t begin, std::int64_t end) {
+    progress.Threads().For(slabs, 1, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t slab = begin; slab < end; ++slab)
       {
         const CellBox<Dimension> box = this->Slabs.Slab(slab);
         std::int64_t outside = 0;
         for (auto run = this->Slabs.NextRun(slab, 0);
-             run.First < run.Last && !this->Work.IsCancelled();
+             run.First < run.Last && !progress.IsCancelled();
              run = this->Slabs.NextRun(slab, run.Last))
         {
           const std::int64_t start = run.First * splatChunk;
           const std::int64_t number = std::min(run.Last * splatChunk, count) - start;
-          outside += this->AddRange(first + start, number, this->BoxOf(box, run.IsInside), slab);
+          outside +=
+            this->AddRange(first + start, number, this->BoxOf(box, run.IsInside), slab, progress);
         }
         this->Outside += outside;
       }
     });
   }
 
-  void AddByTiles(std::int64_t first, std::int64_t count)
+  void AddByTiles(std::int64_t first, std::int64_t count, Progress& progress)
   {
-    this->Outside += this->Tiles.Sort(this->Kernels.Find, first, count, this->Work);
-    if (this->Work.IsCancelled())
+    this->Outside += this->Tiles.Sort(this->Kernels.Find, first, count, progress);
+    if (progress.IsCancelled())
     {
       return;
     }
     const std::int64_t tiles = this->Tiles.Count();
     const std::int64_t groups = std::min(tiles, groupsOfTiles);
     this->MakeScratch(groups);
-    this->Work.Threads().For(groups, 1, [&](std::int64_t begin, std::int64_t end) {
+    progress.Threads().For(groups, 1, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t group = begin; group < end; ++group)
       {
         for (std::int64_t tile = group * tiles / groups;
-             tile < (group + 1) * tiles / groups && !this->Work.ShouldStop(); ++tile)
+             tile < (group + 1) * tiles / groups && !progress.ShouldStop(); ++tile)
         {
           const CellBox<Dimension> box = this->Tiles.Box(tile);
           this->Kernels.Add(this->Job, first, this->Tiles.Begin(tile), this->Tiles.CountOf(tile),
@@ -184,11 +184,11 @@ private:
   }
 
   // In steps between polls for cancellation that are short for kernels of any width.
-  std::int64_t AddRange(
-    std::int64_t first, std::int64_t count, const CellBox<Dimension>* box, std::int64_t task)
+  std::int64_t AddRange(std::int64_t first, std::int64_t count, const CellBox<Dimension>* box,
+    std::int64_t task, Progress& progress)
   {
     std::int64_t outside = 0;
-    for (std::int64_t begin = 0; begin < count && !this->Work.ShouldStop(); begin += this->Step)
+    for (std::int64_t begin = 0; begin < count && !progress.ShouldStop(); begin += this->Step)
     {
       outside += this->Kernels.Add(this->Job, first + begin, nullptr,
         std::min(this->Step, count - begin), box, this->ScratchOf(task));
@@ -213,7 +213,6 @@ private:
   SplatSetup<Dimension, Real> Setup;
   SplatJob<Dimension, Real>& Job = this->Setup.Job;
   const SplatKernels<Dimension, Real>& Kernels = this->Setup.Kernels;
-  Progress& Work;
   SlabPartition<Dimension, Real> Slabs;
   SplatTiles<Dimension, Real> Tiles;
   const std::int64_t NumberOfCells; // in memory
@@ -232,10 +231,9 @@ SplatReport splatMass(const SplatParticles<Dimension, Real>& particles,
   const GridSize<Dimension>& size, const SplatOptions& options, double scale, double* cells,
   const Context& context)
 {
-  Progress progress(context);
   return SplatRun<Dimension, Real>(
-    particles, size, LatticePart<Dimension>::WholeOf(size), options, scale, cells, progress)
-    .Run();
+    particles, size, LatticePart<Dimension>::WholeOf(size), options, scale, cells)
+    .Run(context);
 }
 
 template <int Dimension, class Real>
@@ -245,8 +243,7 @@ void splatMass(const SplatParticles<Dimension, Real>& particles, const GridSize<
 {
   if (part.Count() > 0)
   {
-    Progress progress(context);
-    SplatRun<Dimension, Real>(particles, size, part, options, scale, cells, progress).Run();
+    SplatRun<Dimension, Real>(particles, size, part, options, scale, cells).Run(context);
   }
 }
 

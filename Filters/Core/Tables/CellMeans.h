@@ -41,7 +41,7 @@ public:
 
   // Writes the means, axis 0 fastest; the density is 0 outside its cells. If cells of both grids
   // are the same, these are its values, to the bit. The same bits for every part and number of
-  // threads. Runs as the current stage. Throws Cancelled.
+  // threads. Throws Cancelled.
   void Write(const DensityValues& density, Progress& progress, double* means) const;
 
 private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Tables/GradedTables.h"
 
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Tables/DensityInspection.h"
 #include "Core/Tables/NodeLayout.h"
 #include "Core/Tables/ScaledDensity.h"
@@ -19,7 +19,6 @@ namespace
 {
 
 constexpr int record = 4; // doubles, in 2D and 3D
-constexpr double partOfReading = 0.9;
 
 } // namespace
 
@@ -174,7 +173,7 @@ void GradedTables<Dimension>::Add(
   const Layers own = density.IsDistributed() ? this->LayersOf(ranks, ranks.Own())
                                              : Layers{ 0, this->NumberOfLayers() };
   std::vector<DensitySummary> found(static_cast<std::size_t>(this->NumberOfLayers()));
-  progress.BeginStage(partOfReading);
+  Stages stages(progress, { { "reading", 9 }, { "sums", 1 } });
   {
     GridSize<Dimension> low{};
     GridSize<Dimension> high = density.Size;
@@ -187,7 +186,7 @@ void GradedTables<Dimension>::Add(
     {
       read = &scaled;
     }
-    this->AddLayers(*read, own, progress, found);
+    this->AddLayers(*read, own, stages["reading"], found);
   }
   if (density.IsDistributed())
   {
@@ -198,8 +197,7 @@ void GradedTables<Dimension>::Add(
   {
     merge(part, this->Found);
   }
-  progress.BeginStage(1.0);
-  this->SumNodes(progress);
+  this->SumNodes(stages["sums"]);
 }
 
 template <int Dimension>

@@ -47,7 +47,7 @@ SummedAreaTables<Dimension>::SummedAreaTables(
   std::uint64_t* const occupied = this->Memory.Occupied.data();
   const std::int64_t layers = tables.Cells[Dimension - 1];
   const std::shared_ptr<const DensityValues> values = density.Whole();
-  progress.BeginStage(1.0, layers);
+  progress.Expect(layers);
   buildTables(TableBuild<Dimension>{ *values, progress, tables, nodes, occupied, this->Found });
   requireDensity(this->Found);
   // Extreme values are scaled (ScaledDensity.h). The summary stays that of the density itself.
@@ -57,7 +57,7 @@ SummedAreaTables<Dimension>::SummedAreaTables(
   {
     const ScaledDensity scaled(*values, exponent);
     DensitySummary ofScaled;
-    progress.BeginStage(1.0, layers);
+    progress.Expect(layers);
     buildTables(TableBuild<Dimension>{ scaled, progress, tables, nodes, occupied, ofScaled });
   }
 

@@ -124,6 +124,7 @@ void TileTables<Dimension>::Build(const DensityValues& density, const GridSize<D
     read = &scaled;
   }
   DensitySummary found;
+  progress.Expect(cells[Dimension - 1]);
   buildTables(TableBuild<Dimension>{
     *read, progress, part, this->Nodes.data(), this->Occupied.data(), found, low });
 

@@ -28,9 +28,8 @@ public:
   // would fragment it. Throws std::bad_alloc.
   void Reserve(const GridSize<Dimension>& cells);
 
-  // Builds the tables of the grid cells from `low` up to `high` of the whole density. Runs as the
-  // current stage, which has a unit for each of their cells along the last axis. Throws Cancelled
-  // and std::bad_alloc.
+  // Builds the tables of the grid cells from `low` up to `high` of the whole density. Throws
+  // Cancelled and std::bad_alloc.
   void Build(const DensityValues& density, const GridSize<Dimension>& low,
     const GridSize<Dimension>& high, Progress& progress);
 

@@ -72,7 +72,6 @@ void expectRight(
     EXPECT_NEAR(error, made.Result.Errors[i], 1e-9) << i;
   }
   Progress progress{ Context() };
-  progress.BeginStage(1.0);
   for (std::int64_t ring = 0; ring < made.Map.Rings(); ++ring)
   {
     Rings outline;

@@ -57,9 +57,8 @@ Solved solve(const GridSize<2>& size, const std::function<double(int)>& weight,
   }
   const SerialExecutor serial;
   Progress progress(serial);
-  progress.BeginStage(0.5);
   system.Prepare(progress);
-  Solved solved{ system.Solve(tolerance, 50, progress, 1.0), 0.0 };
+  Solved solved{ system.Solve(tolerance, 50, progress), 0.0 };
   const double* x = system.Solution();
   std::vector<double> rest(b);
   for (int axis = 0; axis < 2; ++axis)

@@ -22,7 +22,6 @@ const Point<2> lengths = { 3.0, 2.0 };
 void setSites(PowerDiagram& diagram, const Points<2>& sites, const Context& context = Context())
 {
   Progress progress(context);
-  progress.BeginStage(1.0);
   diagram.SetSites(sites, progress);
 }
 
@@ -30,7 +29,6 @@ void update(
   PowerDiagram& diagram, const std::vector<double>& weights, const Context& context = Context())
 {
   Progress progress(context);
-  progress.BeginStage(1.0);
   diagram.Update(weights.data(), progress);
 }
 

@@ -18,7 +18,6 @@ namespace
 void separate(Points<2>& sites, double distance, const SiteBounds& bounds = {})
 {
   Progress progress{ Context() };
-  progress.BeginStage(1.0);
   separateSites(sites, distance, bounds, progress);
 }
 

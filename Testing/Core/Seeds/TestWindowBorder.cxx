@@ -17,7 +17,6 @@ namespace
 void relax(const Point<2>& lengths, Points<2>& unitPoints, const Context& context = Context())
 {
   Progress progress(context);
-  progress.BeginStage(1.0);
   relaxBorder(lengths, unitPoints, progress);
 }
 
@@ -249,7 +248,6 @@ double meanCell(double nearest, double farthest)
     points = scaled(points, { side, side });
     PowerDiagram diagram({ side, side });
     Progress progress{ Context() };
-    progress.BeginStage(1.0);
     diagram.SetSites(points, progress);
     diagram.Update(std::vector<double>(count, 0.0).data(), progress);
     for (std::int64_t i = 0; i < count; ++i)

@@ -156,7 +156,6 @@ TYPED_TEST(PartTables, OfPartsOneAfterAnother)
   };
   for (const auto& [low, high] : parts)
   {
-    progress.BeginStage(1.0, high[D - 1] - low[D - 1]);
     tile.Build(source, low, high, progress);
     const TableView<D>& view = tile.View();
     const std::vector<double> all = sumsOf<D>(density, low, high);

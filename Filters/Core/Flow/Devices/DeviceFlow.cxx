@@ -215,18 +215,17 @@ public:
     {
       return -1;
     }
-    Progress work(progress.Stage());
-    work.BeginStage(1.0, count);
+    progress.Expect(count);
     std::int64_t evaluations = 0;
     for (std::int64_t done = 0; done < count && this->Use.Serves();)
     {
       // No others wait for the device while progress is reported.
-      const std::int64_t slice = std::min(count - done, work.NextSlice(run->FewestNodes()));
+      const std::int64_t slice = std::min(count - done, progress.NextSlice(run->FewestNodes()));
       this->Use.Run(
         [&](Device& device) { evaluations += run->Run(device, first + done, slice, marks); },
         stops);
       done += slice;
-      work.EndSlice(slice);
+      progress.EndSlice(slice);
     }
     return this->Use.Serves() ? evaluations : -1;
   }
@@ -321,7 +320,7 @@ void DeviceFlow<Dimension>::MakeTables(DeviceUse& use, const DensitySource<Dimen
     {
       return;
     }
-    progress.BeginStage(1.0, cells);
+    progress.Expect(cells);
     for (std::int64_t first = 0; first < cells && use.Serves();)
     {
       const std::int64_t count =

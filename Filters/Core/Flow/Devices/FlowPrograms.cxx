@@ -70,8 +70,7 @@ public:
   void Compare(Device& device, const DeviceProgram& program)
   {
     const SerialExecutor serial;
-    const Context context(serial);
-    Progress progress(context);
+    Progress progress(serial);
     const SummedAreaTables<Dimension> tables(
       DensityArray<Dimension, double>(this->Values.data(), this->Size), progress);
     const auto made =
@@ -95,10 +94,10 @@ public:
       std::vector<double> right(this->Seeds.size());
       ParticleSource<Dimension> source(
         ConstPointSpan<Dimension>(this->Seeds.data(), count), this->Size, count);
-      AdvectionRun<Dimension>(tables.View(), kind, options, context)
+      const AdvectionJob<Dimension> job(tables.View(), kind, options);
+      AdvectionRun<Dimension>(job, progress)
         .Advect(source, PointSpan<Dimension>(right.data(), count));
       std::vector<double> found(this->Seeds.size());
-      const AdvectionJob<Dimension> job(tables.View(), kind, options);
       KernelRun<Dimension> run(
         device, program, job, made, nullptr, std::make_shared<DeviceWeights>());
       const KernelReport report =

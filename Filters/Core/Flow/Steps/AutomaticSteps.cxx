@@ -13,6 +13,7 @@
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankShare.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -257,8 +258,8 @@ private:
     const Ranks& ranks = this->Work.Group();
     const RankShare share(count, ranks);
     const PointSpan<Dimension> own = PointSpan<Dimension>(points).Part(share.First, share.Count);
-    this->Work.BeginStage(0.5 * (1.0 + this->Work.StageEnd())); // how many follow is not known
-    this->Engine.Advect(kind, ConstPointSpan<Dimension>(own), own, options, this->Work.Stage());
+    this->Engine.Advect(
+      kind, ConstPointSpan<Dimension>(own), own, options, this->Advections.Next());
     gatherParts(ranks, shareStarts(count, Dimension, ranks), points.front().data());
   }
 
@@ -435,6 +436,7 @@ private:
   FlowOptions Options; // without flow maps
   const FlowDirection Direction;
   Progress Work;
+  Rounds Advections{ this->Work, 1 }; // how many there are is not known
   const ProbePlan<Dimension> Plan;
   BlockSurface<Dimension> Surface;
   ProbeBlocks<Dimension> Probes;

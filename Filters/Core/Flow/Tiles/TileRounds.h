@@ -8,8 +8,8 @@
 #include "Core/Flow/Tiles/TileEntries.h"
 #include "Core/Flow/Tiles/TileSchedule.h"
 #include "Core/Flow/Tiles/TileVisitors.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Tables/Density.h"
 #include "Core/Tables/GradedTables.h"
 #include "Core/Tables/TileTables.h"
@@ -28,12 +28,12 @@ template <int Dimension>
 class TileRounds
 {
 public:
-  // Of a distributed density all members are collective on the ranks of the progress.
+  // Of a distributed density all members are collective on the ranks.
   TileRounds(const DensitySource<Dimension>& density, const GradedTables<Dimension>& graded,
-    const GridTiles<Dimension>& tiles, Progress& progress)
+    const GridTiles<Dimension>& tiles, const Ranks& ranks)
     : Density(density)
     , Tiles(tiles)
-    , Work(progress)
+    , Group(ranks)
     , Tile(graded.View(), graded.Scaling())
   {
   }
@@ -41,7 +41,7 @@ public:
   // Whether a condition holds here or on another rank.
   bool HasAnyRank(bool condition) const
   {
-    return this->Density.IsDistributed() ? !onAllRanks(this->Work.Group(), !condition) : condition;
+    return this->Density.IsDistributed() ? !onAllRanks(this->Group, !condition) : condition;
   }
 
   // Of the tile that is worked on.
@@ -50,20 +50,26 @@ public:
   // Makes the tables of each tile with items, and lets `task` do what is to be done on them. A task
   // has
   //   Cell                            the time of a cell of the tables, in that of a particle
-  //   Run(first, last)                for the items of these numbers
+  //   Run(first, last, progress)      for the items of these numbers
   //   ValuesEach()                    how many doubles a particle has that visits another rank
   //   Give(item, give)                calls give(values, index, particle) for each of an item
-  //   Serve(bytes)                    what visitors that came from one rank get: as many bytes each
+  //   Serve(bytes, progress)          what visitors that came from one rank get: as many bytes each
   //   Take(bytes, index, particle)    of one that comes back
   template <class Item, class Task>
-  void Run(const ByTile<Item>& items, Task&& task, double begin, double end)
+  void Run(const ByTile<Item>& items, Task&& task, Progress& progress)
   {
     if (this->Density.IsDistributed())
     {
-      this->RunOnRanks(items, task, begin, end);
+      this->RunOnRanks(items, task, progress);
       return;
     }
     this->ReserveIf(items.Count() > 0);
+    std::vector<double> counts;
+    for (std::int64_t tile = 0; tile < this->Tiles.Count(); ++tile)
+    {
+      counts.push_back(static_cast<double>(items.Start(tile + 1) - items.Start(tile)));
+    }
+    Parts tiles(progress, counts);
     for (std::int64_t tile = 0; tile < this->Tiles.Count(); ++tile)
     {
       const std::int64_t first = items.Start(tile);
@@ -72,15 +78,12 @@ public:
       {
         continue;
       }
-      // A tile has a part of the progress from `begin` to `end` that is in proportion to its items.
-      const double all = static_cast<double>(items.Count());
-      const double from = begin + (end - begin) * static_cast<double>(first) / all;
-      const double to = begin + (end - begin) * static_cast<double>(first + count) / all;
       GridSize<Dimension> low;
       GridSize<Dimension> high;
       this->Tiles.FindCells(tile, low, high);
-      this->BuildTile(*this->Density.Part(low, high), low, high, from, to);
-      task.Run(first, first + count);
+      Stages stages = stagesOf(tiles[tile]);
+      this->Tile.Build(*this->Density.Part(low, high), low, high, stages["tables"]);
+      task.Run(first, first + count, stages["items"]);
     }
   }
 
@@ -93,25 +96,15 @@ private:
     }
   }
 
-  // The tables of the grid cells [low, high), whose values the density has; then the rest of the
-  // progress up to `to` is the task's.
-  void BuildTile(const DensityValues& density, const GridSize<Dimension>& low,
-    const GridSize<Dimension>& high, double from, double to)
-  {
-    // The part of a tile's progress that making the tables takes, measured at a particle a cell.
-    constexpr double partOfTables = 0.1;
-    this->Work.BeginStage(
-      from + (to - from) * partOfTables, high[Dimension - 1] - low[Dimension - 1]);
-    this->Tile.Build(density, low, high, this->Work);
-    this->Work.BeginStage(to);
-  }
+  // Of a tile, measured at a particle a cell.
+  static Stages stagesOf(Progress& tile) { return { tile, { { "tables", 1 }, { "items", 9 } } }; }
 
   // In rounds: in each, every rank has the tables of one tile at most, for its own particles and
   // those of others that visit it, which are sent back.
   template <class Item, class Task>
-  void RunOnRanks(const ByTile<Item>& items, Task& task, double begin, double end)
+  void RunOnRanks(const ByTile<Item>& items, Task& task, Progress& progress)
   {
-    const Ranks& ranks = this->Work.Group();
+    const Ranks& ranks = this->Group;
     // The same on all ranks, which compute it from the same counts.
     const std::vector<std::vector<TileUnit>> units = this->Schedule(items, Task::Cell, ranks);
     const auto own = static_cast<std::size_t>(ranks.Own());
@@ -123,13 +116,14 @@ private:
     {
       rounds = std::max(rounds, those.size());
     }
+    Parts each(progress, static_cast<std::int64_t>(rounds));
     for (std::size_t round = 0; round < rounds; ++round)
     {
-      const double each = (end - begin) / static_cast<double>(rounds);
-      const double from = begin + each * static_cast<double>(round);
+      Stages stages = stagesOf(each[static_cast<std::int64_t>(round)]);
       const bool hasTile = round < units[own].size();
       // Collective, also for ranks without a tile: each holds a part of the density.
-      this->MakeTile(hasTile ? &units[own][round] : nullptr, from, from + each);
+      this->MakeTile(hasTile ? &units[own][round] : nullptr, stages["tables"]);
+      Progress& work = stages["items"];
       if (hasTile)
       {
         const std::int64_t start = items.Start(units[own][round].Tile);
@@ -138,7 +132,7 @@ private:
         {
           if (visit.From == ranks.Own())
           {
-            task.Run(start + visit.First, start + visit.End);
+            task.Run(start + visit.First, start + visit.End, work);
           }
         }
       }
@@ -151,7 +145,7 @@ private:
           [&task](const Item& item, const auto& give) { task.Give(item, give); }));
         for (Bytes& part : parts)
         {
-          part = task.Serve(std::move(part));
+          part = task.Serve(std::move(part), work);
         }
         visitors.Return(ranks.Exchange(std::move(parts)),
           [&task](const char* reply, std::int64_t index, std::int64_t particle) {
@@ -188,7 +182,7 @@ private:
   }
 
   // nullptr where this rank needs none: others may need its part of the density.
-  void MakeTile(const TileUnit* unit, double from, double to)
+  void MakeTile(const TileUnit* unit, Progress& progress)
   {
     GridSize<Dimension> low{};
     GridSize<Dimension> high{};
@@ -199,13 +193,13 @@ private:
     const auto values = this->Density.Part(low, high);
     if (unit)
     {
-      this->BuildTile(*values, low, high, from, to);
+      this->Tile.Build(*values, low, high, progress);
     }
   }
 
   const DensitySource<Dimension> Density;
   const GridTiles<Dimension>& Tiles;
-  Progress& Work;
+  const Ranks& Group;
   TileTables<Dimension> Tile;
 };
 

@@ -51,14 +51,13 @@ public:
   // `wide` is the job on the graded tables, `tables` those of the tile that is worked on.
   TileTask(const FlowJob<Dimension>& wide, const TableView<Dimension>& tables,
     const TileStage<Dimension>& stage, const ByTile<Item>& items, const GiveItem& giveItem,
-    const TileResults<Dimension>& results, Progress& progress)
+    const TileResults<Dimension>& results)
     : Job(wide)
     , Tables(tables)
     , Stage(stage)
     , Items(items)
     , GiveParticles(giveItem)
     , Results(results)
-    , Work(progress)
   {
     this->Job.Sparse = false; // particles of a tile lie close together
     this->Job.Map = &stage.Map;
@@ -66,16 +65,17 @@ public:
     this->Job.StopsAtMap = stage.StopsAtMap;
   }
 
-  void Run(std::int64_t first, std::int64_t last)
+  void Run(std::int64_t first, std::int64_t last, Progress& progress)
   {
     this->Job.Tables = this->Tables;
-    this->Work.For(
+    stopWith(this->Job, progress);
+    progress.For(
       last - first, grain,
       [&](std::int64_t b, std::int64_t e) {
         // Each range has lanes of its own, and so at most one block that is not full.
         TileLanes<Dimension> lanes(this->Job, this->Stage.Pass, this->Stage.IsKept,
           this->Results.Positions, this->Results.Left, this->Results.Count.Evaluations);
-        for (std::int64_t item = first + b; item < first + e && !this->Work.ShouldStop(); ++item)
+        for (std::int64_t item = first + b; item < first + e && !progress.ShouldStop(); ++item)
         {
           this->GiveParticles(this->Items[item],
             [&](const double* values, std::int64_t index, std::int64_t particle) {
@@ -98,9 +98,10 @@ public:
 
   // Of the particles that a rank sent: where each ends, and a byte that says whether it is
   // unresolved.
-  Bytes Serve(Bytes visitors)
+  Bytes Serve(Bytes visitors, Progress& progress)
   {
     this->Job.Tables = this->Tables;
+    stopWith(this->Job, progress);
     // [particle][each] as they were sent.
     const int each = this->ValuesEach();
     const std::vector<double> values = fromBytes<double>(visitors);
@@ -111,12 +112,12 @@ public:
     ParticleMask unresolved(count);
     const PointSpan<Dimension> places(ends.data(), count);
     constexpr std::int64_t particles = grain * BlockSize;
-    this->Work.For(
+    progress.For(
       count, particles,
       [&](std::int64_t first, std::int64_t last) {
         TileLanes<Dimension> lanes(
           this->Job, this->Stage.Pass, true, places, unresolved, this->Results.Count.Evaluations);
-        for (std::int64_t i = first; i < last && !this->Work.ShouldStop(); ++i)
+        for (std::int64_t i = first; i < last && !progress.ShouldStop(); ++i)
         {
           std::copy_n(values.data() + i * each, each, lanes.Next());
           lanes.Add(i, i);
@@ -159,7 +160,6 @@ private:
   const ByTile<Item>& Items;
   const GiveItem& GiveParticles;
   const TileResults<Dimension> Results;
-  Progress& Work;
 };
 
 } // namespace RectifiedTransport

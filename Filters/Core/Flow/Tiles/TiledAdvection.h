@@ -46,16 +46,12 @@ public:
     , Wide(shared.Job)
     , Count(counters)
     , Work(progress)
-    , Rounds(density, graded, plan.Tiles, progress)
+    , Rounds(density, graded, plan.Tiles, progress.Group())
     , Read(flowKernels().Read<Dimension>())
     , LastPass(shared.Job.Backward ? 0 : shared.LastPass())
     , Weights(multistepWeightsOf(plan.Shape.Steps, plan.Shape.Direction))
   {
     this->Wide.Tables = graded.View();
-    this->Wide.ShouldStop = [](void* clientData) {
-      return static_cast<Progress*>(clientData)->ShouldStop();
-    };
-    this->Wide.ClientData = &progress;
     this->Wide.Sparse = true;
     if (map)
     {
@@ -69,19 +65,15 @@ public:
   void Run(ParticleSource<Dimension>& source, PointSpan<Dimension> positions)
   {
     const std::int64_t all = source.Count();
-    const double begin = this->Work.StageEnd();
-    for (std::int64_t first = 0; this->Rounds.HasAnyRank(first < all);)
+    Parts chunks(this->Work, source.Chunks());
+    std::int64_t chunk = 0;
+    for (std::int64_t first = 0; this->Rounds.HasAnyRank(first < all); ++chunk)
     {
       const std::int64_t length = first < all ? source.Prepare(first) : 0;
-      const auto stageAt = [&](std::int64_t done) {
-        return begin +
-          (1.0 - begin) * static_cast<double>(done) /
-          static_cast<double>(std::max<std::int64_t>(1, all));
-      };
-      this->RunChunk(source, length, positions, stageAt(first), stageAt(first + length));
+      // Other ranks may have more.
+      this->RunChunk(source, length, positions, chunks[std::min(chunk, source.Chunks() - 1)]);
       first += length;
     }
-    this->Work.BeginStage(1.0);
     this->Work.EndSlice(1);
   }
 
@@ -104,23 +96,22 @@ private:
   }
 
   void RunChunk(const ParticleSource<Dimension>& source, std::int64_t length,
-    PointSpan<Dimension> positions, double begin, double end)
+    PointSpan<Dimension> positions, Progress& progress)
   {
-    // Parts of the progress: until the map has been read, and until the tiles are done.
-    constexpr double partOfMap = 0.1;
-    constexpr double partOfTiles = 0.9;
+    const bool hasEntries = this->Wide.Backward || this->HandsOverFromMap();
+    Stages stages(progress,
+      { { "map", hasEntries ? 1.0 : 0.0 }, { "tiles", hasEntries ? 8.0 : 0.0 }, { "passes", 1 } });
     ParticleMask left(length);
-    if (this->Wide.Backward || this->HandsOverFromMap())
+    if (hasEntries)
     {
-      this->Work.BeginStage(begin + partOfMap * (end - begin));
       // Which particles are in which tile, then all tiles that have any.
-      const ByTile<Entry> entries = this->FindTiles(source, length, left);
+      const ByTile<Entry> entries = this->FindTiles(source, length, left, stages["map"]);
       const TileStage<Dimension> stage = this->StageOfEntries();
       const EntryParticles giveEntry{ source };
       this->Rounds.Run(entries,
         TileTask(this->Wide, this->Rounds.Tables(), stage, entries, giveEntry,
-          TileResults<Dimension>{ positions, left, this->Count }, this->Work),
-        begin + partOfMap * (end - begin), begin + partOfTiles * (end - begin));
+          TileResults<Dimension>{ positions, left, this->Count }),
+        stages["tiles"]);
     }
     else
     {
@@ -130,14 +121,18 @@ private:
         left.AddToBlock(block, blockMask(length - block * BlockSize));
       }
     }
-    // Half of the progress that is left for each pass: nobody knows how many particles it leaves.
-    const double done = this->Work.StageEnd();
+    // Each has half of the weight of the last one: nobody knows how many particles that leaves.
+    std::vector<double> weights;
+    for (int pass = 0; pass <= this->LastPass; ++pass)
+    {
+      weights.push_back(1.0 / (1 << pass));
+    }
+    Parts passes(stages["passes"], weights);
     for (int pass = 0; pass <= this->LastPass; ++pass)
     {
       const std::int64_t count = left.Count();
-      const double passEnd = pass < this->LastPass ? 0.5 * (this->Work.StageEnd() + end) : end;
       ParticleMask next(length);
-      this->RunPass(source, pass, left, count, positions, next, done, passEnd);
+      this->RunPass(source, pass, left, count, positions, next, passes[pass]);
       std::swap(left, next);
       this->Count.Redone += pass == 0 && !this->Wide.Backward ? left.Count() : 0;
     }
@@ -163,8 +158,8 @@ private:
   }
 
   // The entries of all particles, but those that the map does not serve: these are `left`.
-  ByTile<Entry> FindTiles(
-    const ParticleSource<Dimension>& source, std::int64_t length, ParticleMask& left)
+  ByTile<Entry> FindTiles(const ParticleSource<Dimension>& source, std::int64_t length,
+    ParticleMask& left, Progress& progress)
   {
     const std::int64_t blocks = left.Blocks();
     // A list of each range of blocks, so that their order does not depend on threads.
@@ -204,10 +199,10 @@ private:
         entry->Particles |= std::uint64_t{ 1 } << i;
       }
     };
-    this->Work.For(
+    progress.For(
       blocks, grain,
       [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t block = begin; block < end && !this->Work.ShouldStop(); ++block)
+        for (std::int64_t block = begin; block < end && !progress.ShouldStop(); ++block)
         {
           find(block, found[static_cast<std::size_t>(block / grain)]);
         }
@@ -268,10 +263,12 @@ private:
   // Takes all that is in `given` from the seeds, with 2^pass times as many steps; what is still
   // unresolved is in `left` then.
   void RunPass(const ParticleSource<Dimension>& source, int pass, const ParticleMask& given,
-    std::int64_t count, PointSpan<Dimension> positions, ParticleMask& left, double begin,
-    double end)
+    std::int64_t count, PointSpan<Dimension> positions, ParticleMask& left, Progress& progress)
   {
     const std::int64_t most = this->Plan.ExtraParticles();
+    const std::int64_t rounds = std::max<std::int64_t>(1, (count + most - 1) / most);
+    Parts parts(progress, rounds);
+    std::int64_t round = 0;
     std::int64_t block = 0;
     for (std::int64_t done = 0; this->Rounds.HasAnyRank(done < count);)
     {
@@ -290,14 +287,9 @@ private:
           extra.Particle.push_back(block * BlockSize + __builtin_ctzll(word));
         }
       }
-      const auto share = [&](std::int64_t particles) {
-        return begin +
-          (end - begin) * static_cast<double>(particles) /
-          static_cast<double>(std::max<std::int64_t>(1, count));
-      };
-      const auto length = static_cast<std::int64_t>(extra.Particle.size());
-      this->RunExtra(source, pass, extra, positions, left, share(done), share(done + length));
-      done += length;
+      // Other ranks may have more, and rounds are not quite full.
+      this->RunExtra(source, pass, extra, positions, left, parts[std::min(round++, rounds - 1)]);
+      done += static_cast<std::int64_t>(extra.Particle.size());
     }
   }
 
@@ -306,7 +298,7 @@ private:
   // tables comes last: the places are those at which the tiles left them, and the records are the
   // seeds.
   void RunExtra(const ParticleSource<Dimension>& source, int pass, Extra& extra,
-    PointSpan<Dimension> positions, ParticleMask& left, double begin, double end)
+    PointSpan<Dimension> positions, ParticleMask& left, Progress& progress)
   {
     constexpr int forward = FlowMapLevel<Dimension>::ForwardRecord;
     constexpr int backward = FlowMapLevel<Dimension>::BackwardRecord;
@@ -333,13 +325,12 @@ private:
     level.Records = extra.Records.data();
     FlowJob<Dimension> job = this->Wide;
     job.Map = &map;
-    // Forwards the tiles follow.
-    const double middle = isBackward ? end : begin + 0.5 * (end - begin);
-    this->Work.BeginStage(middle);
+    Stages stages(progress, { { "hand-over", 1 }, { "tiles", isBackward ? 0.0 : 1.0 } });
+    stopWith(job, stages["hand-over"]);
     const auto particle = [&extra](std::int64_t number) {
       return extra.Particle[static_cast<std::size_t>(number)];
     };
-    this->Count.Evaluations += NodeAdvance<Dimension>(job, level, this->Work)
+    this->Count.Evaluations += NodeAdvance<Dimension>(job, level, stages["hand-over"])
                                  .Run(0, count, parents, extra.Troubled.data(),
                                    [&](const std::int64_t* numbers, int length, double* places) {
                                      for (int i = 0; i < length; ++i)
@@ -393,8 +384,8 @@ private:
     };
     this->Rounds.Run(byTile,
       TileTask(this->Wide, this->Rounds.Tables(), stage, byTile, giveNumber,
-        TileResults<Dimension>{ positions, left, this->Count }, this->Work),
-      middle, end);
+        TileResults<Dimension>{ positions, left, this->Count }),
+      stages["tiles"]);
   }
 
   // The seeds that the records have, clamped to the domain.

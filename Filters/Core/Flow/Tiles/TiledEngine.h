@@ -97,21 +97,19 @@ public:
       PlanFor(this->Size, options, direction, particles, this->Limits);
     Counters counters;
     Progress progress(context);
+    Stages stages(
+      progress, { { "map", plan.Shape.Cost }, { "particles", particles * plan.HandOver } });
     std::shared_ptr<const FlowMap<Dimension>> map;
     if (!plan.Shape.Levels.empty())
     {
       bool isNew = false;
       map = this->Maps.At(direction).FindOrMake(
-        plan.Shape, 0, shared.Job, *context.Group,
-        [&]() {
-          progress.BeginStage(plan.Shape.Cost / (plan.Shape.Cost + particles * plan.HandOver));
-          return progress.Stage();
-        },
+        plan.Shape, 0, shared.Job, *context.Group, [&]() -> Context { return stages["map"]; },
         isNew);
       counters.Evaluations += isNew ? map->Evaluations() : 0;
     }
     TiledAdvection<Dimension>(
-      this->Density, this->Graded, plan, shared, map.get(), counters, progress)
+      this->Density, this->Graded, plan, shared, map.get(), counters, stages["particles"])
       .Run(source, positions);
     return counters.Report();
   }

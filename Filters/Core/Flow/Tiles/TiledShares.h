@@ -61,17 +61,15 @@ public:
     , Tiles(tiles)
     , Aspect(aspect)
     , Work(progress)
-    , Rounds(density, graded, tiles, progress)
+    , Rounds(density, graded, tiles, progress.Group())
   {
   }
 
   void Run(ConstPointSpan<Dimension> centres, const double* shares, double* measures)
   {
-    constexpr double partOfSort = 0.05;
-    this->Work.BeginStage(partOfSort);
-    const ByTile<std::int64_t> items = this->FindTiles(centres, shares, measures);
-    this->Rounds.Run(items, Solution{ *this, items, centres, shares, measures }, partOfSort, 1.0);
-    this->Work.BeginStage(1.0);
+    Stages stages(this->Work, { { "sort", 5 }, { "boxes", 95 } });
+    const ByTile<std::int64_t> items = this->FindTiles(centres, shares, measures, stages["sort"]);
+    this->Rounds.Run(items, Solution{ *this, items, centres, shares, measures }, stages["boxes"]);
     this->Work.EndSlice(1);
   }
 
@@ -92,9 +90,9 @@ private:
     static constexpr double Cell = 0.0025;               // measured, in the time of a box
     static constexpr std::size_t Values = Dimension + 1; // centre and share
 
-    void Run(std::int64_t first, std::int64_t last)
+    void Run(std::int64_t first, std::int64_t last, Progress& progress)
     {
-      this->Parent.Work.For(
+      progress.For(
         last - first, grain,
         [&](std::int64_t b, std::int64_t e) {
           for (std::int64_t item = first + b; item < first + e; ++item)
@@ -115,11 +113,11 @@ private:
       values[Dimension] = this->Shares[item];
       give(values, item, item);
     }
-    Bytes Serve(Bytes visitors)
+    Bytes Serve(Bytes visitors, Progress& progress)
     {
       const std::vector<double> values = fromBytes<double>(visitors);
       std::vector<double> found(values.size() / Values);
-      this->Parent.Work.For(
+      progress.For(
         static_cast<std::int64_t>(found.size()), grain,
         [&](std::int64_t first, std::int64_t last) {
           for (std::int64_t i = first; i < last; ++i)
@@ -159,13 +157,13 @@ private:
   // The boxes by the tile of their centre. Those without a share need no tables. Each range fills a
   // list of its own: the order does not depend on threads.
   ByTile<std::int64_t> FindTiles(
-    ConstPointSpan<Dimension> centres, const double* shares, double* measures)
+    ConstPointSpan<Dimension> centres, const double* shares, double* measures, Progress& progress)
   {
     const std::int64_t count = centres.size();
     constexpr std::int64_t range = std::int64_t{ 1 } << 14;
     std::vector<std::vector<std::int64_t>> found(
       static_cast<std::size_t>((count + range - 1) / range));
-    this->Work.For(count, range, [&](std::int64_t first, std::int64_t last) {
+    progress.For(count, range, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         std::vector<std::int64_t>& those = found[static_cast<std::size_t>(i / range)];

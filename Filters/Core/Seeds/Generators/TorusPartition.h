@@ -33,7 +33,6 @@ public:
     , Work(Context(Threads))
     , Cells({ side + 2.0 * margin, side + 2.0 * margin })
   {
-    this->Work.BeginStage(1.0);
   }
 
   // Finds the weights by Newton's method, beginning with the last ones, as in EqualMassPartition
