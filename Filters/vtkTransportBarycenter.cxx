@@ -5,6 +5,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Core/Device/DeviceUse.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -153,8 +154,9 @@ int vtkTransportBarycenter::RequestData(
   const BlendSettings settings = this->GetBlendSettings();
   DeviceUse device = this->BeginDevice();
   AlgorithmProgress progress(this, this->Threading, this->GetRanks(), &device);
+  Stages stages(progress, { { "reading", 5 }, { "blend", 95 } });
 
-  std::vector<BlendInput> inputs = this->ReadInputs(inputVector, nullptr, progress);
+  std::vector<BlendInput> inputs = this->ReadInputs(inputVector, nullptr, stages["reading"]);
   if (inputs.empty())
   {
     return 1;
@@ -164,8 +166,8 @@ int vtkTransportBarycenter::RequestData(
   {
     inputs[i].Weight = weights[i];
   }
-  const BlendReport report =
-    this->Blend->Run(inputs, settings, this->GetFlowCache(), progress, BlendOutput(outputVector));
+  const BlendReport report = this->Blend->Run(
+    inputs, settings, this->GetFlowCache(), stages["blend"], BlendOutput(outputVector));
   this->EndDevice(device);
   this->WarnOfMaps(report);
   return 1;

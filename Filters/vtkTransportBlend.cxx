@@ -11,7 +11,7 @@
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Settings/TableSettings.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
@@ -149,6 +149,7 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
     this->WarnOnFirstRank(others);
   }
   std::vector<BlendInput> inputs;
+  Parts parts(progress, static_cast<std::int64_t>(given.All.size()));
   for (const GivenInput& one : given.All)
   {
     inputs.emplace_back();
@@ -160,7 +161,8 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
     input.PositionName = names ? input.Name + "Position" : "";
     try
     {
-      input.Density = this->ReadDensity(one.Data, progress, one.Port, static_cast<int>(number) - 1);
+      input.Density = this->ReadDensity(one.Data, parts[static_cast<std::int64_t>(number) - 1],
+        one.Port, static_cast<int>(number) - 1);
     }
     catch (const Failure& failure)
     {

@@ -8,6 +8,7 @@
 #include "Bridge/Ranks/FieldsOfFirst.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -217,17 +218,16 @@ int vtkTransportDistance::RequestData(
   requireThat(
     this->NumberOfCoordinates >= 1 && this->NumberOfCoordinates <= MaximumNumberOfCoordinates,
     "NumberOfCoordinates", this->NumberOfCoordinates, rule.c_str());
-  constexpr double endOfInputs = 0.5;
-  constexpr double endOfPairs = 0.98;
   AlgorithmProgress progress(this, this->Threading, this->GetRanks());
+  Stages stages(progress, { { "inputs", 50 }, { "pairs", 48 }, { "tables", 2 } });
   DensityDistances& distances = this->Internals->Distances;
   if (this->Internals->Step == 0)
   {
     distances.Begin(static_cast<DistanceMethod>(this->Method));
     this->Internals->HasAll = true;
   }
-  if (this->OverTime ? !this->AddStep(inputVector, progress, endOfInputs)
-                     : !this->AddInputs(inputVector, progress, endOfInputs))
+  if (this->OverTime ? !this->AddStep(inputVector, stages["inputs"])
+                     : !this->AddInputs(inputVector, stages["inputs"]))
   {
     this->RequestNextPass();
     return 1;
@@ -243,14 +243,13 @@ int vtkTransportDistance::RequestData(
                   "for the time steps of one)");
   }
   this->CheckMasses();
-  const std::vector<DistancePair> pairs = distances.Find(progress, endOfPairs);
-  progress.BeginStage(1.0);
+  const std::vector<DistancePair> pairs = distances.Find(stages["pairs"]);
   if (this->GetRanks().IsFirst())
   {
     writeDistances(inputs, pairs, vtkTable::GetData(outputVector, 0));
     writeBounds(inputs.size(), pairs, vtkTable::GetData(outputVector, 1));
-    writeCoordinates(
-      inputs, pairs, this->NumberOfCoordinates, progress, vtkTable::GetData(outputVector, 2));
+    writeCoordinates(inputs, pairs, this->NumberOfCoordinates, stages["tables"],
+      vtkTable::GetData(outputVector, 2));
   }
   takeFieldsOfFirst(vtkTable::GetData(outputVector, 2)->GetFieldData(), this->GetRanks());
   return 1;
@@ -264,7 +263,7 @@ void vtkTransportDistance::EndPasses()
 
 //------------------------------------------------------------------------------
 bool vtkTransportDistance::AddInputs(
-  vtkInformationVector** inputVector, RectifiedTransport::Progress& progress, double end)
+  vtkInformationVector** inputVector, RectifiedTransport::Progress& progress)
 {
   const GivenInputs given = gatherInputs(inputVector, 1, true);
   requireSameNumber(given.All.size(), this->GetRanks());
@@ -274,6 +273,7 @@ bool vtkTransportDistance::AddInputs(
     this->WarnOnFirstRank(others);
   }
   const std::string all = std::to_string(given.All.size());
+  Parts parts(progress, static_cast<std::int64_t>(given.All.size()));
   for (std::size_t i = 0; i < given.All.size() && this->Internals->HasAll; ++i)
   {
     const GivenInput& input = given.All[i];
@@ -282,16 +282,15 @@ bool vtkTransportDistance::AddInputs(
     const std::string name = !input.Block.empty() ? input.Block : named;
     const std::string title =
       "Input " + number + " of " + all + (name.empty() ? "" : " (" + name + ")");
-    this->Internals->HasAll =
-      this->Add(input.Data, title, name.empty() ? "Input " + number : name, static_cast<int>(i),
-        NoTime, progress, end * static_cast<double>(i + 1) / static_cast<double>(given.All.size()));
+    this->Internals->HasAll = this->Add(input.Data, title, name.empty() ? "Input " + number : name,
+      static_cast<int>(i), NoTime, parts[static_cast<std::int64_t>(i)]);
   }
   return true;
 }
 
 //------------------------------------------------------------------------------
 bool vtkTransportDistance::AddStep(
-  vtkInformationVector** inputVector, RectifiedTransport::Progress& progress, double end)
+  vtkInformationVector** inputVector, RectifiedTransport::Progress& progress)
 {
   const int connections = inputVector[0]->GetNumberOfInformationObjects();
   if (connections > 1)
@@ -312,29 +311,27 @@ bool vtkTransportDistance::AddStep(
     std::to_string(steps.size()) + " (" + name + ")";
   vtkDataObject* data = vtkDataObject::GetData(inputVector[0], 0);
   this->Internals->HasAll =
-    this->Add(data, title, name, 0, steps[step], progress, end) && this->Internals->HasAll;
+    this->Add(data, title, name, 0, steps[step], progress) && this->Internals->HasAll;
   this->Internals->Step = step + 1 < steps.size() ? step + 1 : 0;
   return this->Internals->Step == 0;
 }
 
 //------------------------------------------------------------------------------
 bool vtkTransportDistance::Add(vtkDataObject* data, const std::string& title,
-  const std::string& name, int number, double time, RectifiedTransport::Progress& progress,
-  double end)
+  const std::string& name, int number, double time, RectifiedTransport::Progress& progress)
 {
-  constexpr double partOfReading = 0.2;
-  const double begin = progress.StageEnd();
+  Stages stages(progress, { { "input", 1 }, { "values", 1 }, { "maps", 8 } });
   DistanceInput input;
   try
   {
-    const std::unique_ptr<InputDensity> density = this->ReadDensity(data, progress, 0, number);
+    const std::unique_ptr<InputDensity> density =
+      this->ReadDensity(data, stages["input"], 0, number);
     if (!density)
     {
       return false;
     }
     density->SetInputName(title);
-    progress.BeginStage(begin + partOfReading * (end - begin));
-    input = readDistanceInput(*density, progress);
+    input = readDistanceInput(*density, stages["values"]);
   }
   catch (const Failure& failure)
   {
@@ -343,8 +340,7 @@ bool vtkTransportDistance::Add(vtkDataObject* data, const std::string& title,
   input.Title = title;
   input.Name = name;
   input.Time = time;
-  this->Internals->Distances.Add(std::move(input), progress, end);
-  progress.BeginStage(end);
+  this->Internals->Distances.Add(std::move(input), stages["maps"]);
   return true;
 }
 

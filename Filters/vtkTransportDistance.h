@@ -187,12 +187,10 @@ protected:
 private:
   struct vtkInternals;
 
-  bool AddInputs(
-    vtkInformationVector** inputVector, RectifiedTransport::Progress& progress, double end);
-  bool AddStep(
-    vtkInformationVector** inputVector, RectifiedTransport::Progress& progress, double end);
+  bool AddInputs(vtkInformationVector** inputVector, RectifiedTransport::Progress& progress);
+  bool AddStep(vtkInformationVector** inputVector, RectifiedTransport::Progress& progress);
   bool Add(vtkDataObject* data, const std::string& title, const std::string& name, int number,
-    double time, RectifiedTransport::Progress& progress, double end);
+    double time, RectifiedTransport::Progress& progress);
   void CheckMasses();
 
   std::unique_ptr<vtkInternals> Internals;

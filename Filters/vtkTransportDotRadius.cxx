@@ -7,6 +7,7 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
@@ -31,7 +32,7 @@ namespace
 {
 
 // The coordinates of those that are finite.
-std::vector<double> placesOf(const DistributedPoints& points, AlgorithmProgress& progress)
+std::vector<double> placesOf(const DistributedPoints& points, Progress& progress)
 {
   std::vector<double> places;
   const std::int64_t count = points.Counted().Count();
@@ -92,13 +93,13 @@ int vtkTransportDotRadius::RequestData(
   {
     return 1;
   }
-  progress.BeginStage(0.1, points.Counted().Count());
-  const std::vector<double> places = placesOf(points, progress);
-  progress.BeginStage(1.0);
+  Stages stages(progress, { { "points", 1 }, { "radius", 9 } });
+  const std::vector<double> places =
+    placesOf(points, stages["points"].Expect(points.Counted().Count()));
   vtkNew<vtkDoubleArray> column;
   column->SetName("DotRadius");
   column->InsertNextValue(radiusOfDots(
-    { places.data(), static_cast<std::int64_t>(places.size() / 3) }, progress.Stage()));
+    { places.data(), static_cast<std::int64_t>(places.size() / 3) }, stages["radius"]));
   vtkTable::GetData(outputVector)->AddColumn(column);
   return 1;
 }

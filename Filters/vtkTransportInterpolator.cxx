@@ -7,6 +7,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/TargetArray.h"
 #include "Core/Device/DeviceUse.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -167,14 +168,15 @@ int vtkTransportInterpolator::RequestData(
   settings.ComparesEnds = true;
   DeviceUse device = this->BeginDevice();
   AlgorithmProgress progress(this, this->Threading, this->GetRanks(), &device);
+  Stages stages(progress, { { "reading", 5 }, { "blend", 95 } });
   static const char* const names[] = { "Source", "Target" };
-  std::vector<BlendInput> inputs = this->ReadInputs(inputVector, names, progress);
+  std::vector<BlendInput> inputs = this->ReadInputs(inputVector, names, stages["reading"]);
   if (!inputs.empty())
   {
     inputs[0].Weight = 1.0 - parameter;
     inputs[1].Weight = parameter;
-    const BlendReport report =
-      this->Blend->Run(inputs, settings, this->GetFlowCache(), progress, BlendOutput(outputVector));
+    const BlendReport report = this->Blend->Run(
+      inputs, settings, this->GetFlowCache(), stages["blend"], BlendOutput(outputVector));
     this->EndDevice(device);
     this->WarnOfMaps(report);
   }

@@ -17,6 +17,7 @@
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/Settings/TargetArray.h"
 #include "Core/Device/DeviceUse.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -184,15 +185,16 @@ int vtkTransportMap::RequestData(
   const Ranks& ranks = this->GetRanks();
   DeviceUse device = this->BeginDevice();
   AlgorithmProgress progress(this, this->Threading, ranks, &device);
+  Stages stages(progress, { { "reading", 5 }, { "map", 95 } });
 
   std::array<std::unique_ptr<InputDensity>, 2> densities;
   const bool isToTarget = hasTarget(inputVector);
   if (!isToTarget)
   {
     this->ToTarget = nullptr;
-    densities[0] = this->ReadDensity(inputVector, progress);
+    densities[0] = this->ReadDensity(inputVector, stages["reading"]);
   }
-  else if (!this->ReadPair(inputVector, progress, densities.data()))
+  else if (!this->ReadPair(inputVector, stages["reading"], densities.data()))
   {
     return 1;
   }
@@ -208,7 +210,7 @@ int vtkTransportMap::RequestData(
     const Extent wanted = extentToGive(map.SampleGrid(*density).Extent(), outputInformation, ranks);
     if (!isToTarget)
     {
-      return map.Run(*density, wanted, this->GetFlowCache(), progress, output);
+      return map.Run(*density, wanted, this->GetFlowCache(), stages["map"], output);
     }
     const int last = 1 - first;
     const DensityPair pair(*density, InputNames[first], *densities[last], InputNames[last]);
@@ -216,7 +218,8 @@ int vtkTransportMap::RequestData(
     {
       this->ToTarget.reset(new TargetTransport);
     }
-    return runToTarget(map, pair, wanted, this->GetFlowCache(), *this->ToTarget, progress, output);
+    return runToTarget(
+      map, pair, wanted, this->GetFlowCache(), *this->ToTarget, stages["map"], output);
   };
   const TransportMap::Report result = run();
   std::vector<DensityReading> readings;

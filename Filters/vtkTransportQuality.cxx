@@ -10,6 +10,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/TableSettings.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
@@ -96,8 +97,9 @@ int vtkTransportQuality::RequestData(
   measure.Tables = tableSetting(this->Tables);
   const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
+  Stages stages(progress, { { "reading", 5 }, { "quality", 95 } });
   vtkPointSet* input = pointSetOf(inputVector[0]);
-  const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
+  const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, stages["reading"]);
   if (!density)
   {
     return 1;
@@ -107,7 +109,8 @@ int vtkTransportQuality::RequestData(
   {
     return 1;
   }
-  const ParticleQuality quality = measure.Run(particles, *density, this->GetFlowCache(), progress);
+  const ParticleQuality quality =
+    measure.Run(particles, *density, this->GetFlowCache(), stages["quality"]);
   vtkTable* output = vtkTable::GetData(outputVector);
   addReadings(output, { density->HowRead() });
   if (!ranks.IsFirst())

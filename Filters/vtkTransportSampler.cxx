@@ -12,6 +12,7 @@
 #include "Bridge/Settings/SeedSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Device/DeviceUse.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -104,8 +105,9 @@ int vtkTransportSampler::RequestData(
   const Ranks& ranks = this->GetRanks();
   DeviceUse device = this->BeginDevice();
   AlgorithmProgress progress(this, this->Threading, ranks, &device);
+  Stages stages(progress, { { "reading", 5 }, { "particles", 95 } });
 
-  const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
+  const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, stages["reading"]);
   if (!density)
   {
     return 1;
@@ -118,7 +120,7 @@ int vtkTransportSampler::RequestData(
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const TransportSampler::Report report =
-    sampler.Run(*density, seeds, this->GetFlowCache(), progress, output);
+    sampler.Run(*density, seeds, this->GetFlowCache(), stages["particles"], output);
   addReadings(output, { density->HowRead() });
   this->EndDevice(device);
   this->WarnOfMap(report.Transport);

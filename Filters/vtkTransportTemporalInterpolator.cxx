@@ -12,6 +12,7 @@
 #include "Bridge/Temporal/StepTimes.h"
 #include "Bridge/Temporal/TemporalInterpolation.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
@@ -326,6 +327,8 @@ void vtkTransportTemporalInterpolator::RunPass(
   const int rest = std::max(1, own.AllPasses - own.Passes + 1);
   this->SetProgressShiftScale(begin, (1.0 - begin) / rest);
   AlgorithmProgress progress(this, this->Threading, ranks);
+  Stages stages(progress, { { "tracks", settings.TracksParticles ? 7.0 : 0.0 }, { "moment", 3 } });
+  Rounds rounds(stages["tracks"], 1);
   own.Agreed = -1;
   do
   {
@@ -339,8 +342,8 @@ void vtkTransportTemporalInterpolator::RunPass(
       this->RequestNextPass();
       return;
     }
-  } while (settings.TracksParticles && this->ExtendTracks(place.Second, progress));
-  this->Interpolate(time, progress, outputVector);
+  } while (settings.TracksParticles && this->ExtendTracks(place.Second, rounds.Next()));
+  this->Interpolate(time, stages["moment"], outputVector);
 }
 
 //------------------------------------------------------------------------------
@@ -383,10 +386,11 @@ bool vtkTransportTemporalInterpolator::ExtendTracks(
   {
     return false;
   }
+  Stages stages(progress, { { "reading", 1 }, { "track", 9 } });
   TemporalStep before;
   TemporalStep step;
-  if ((next > 0 && !this->ReadStep(next - 1, progress, before)) ||
-    !this->ReadStep(next, progress, step))
+  if ((next > 0 && !this->ReadStep(next - 1, stages["reading"], before)) ||
+    !this->ReadStep(next, stages["reading"], step))
   {
     return false;
   }
@@ -400,9 +404,7 @@ bool vtkTransportTemporalInterpolator::ExtendTracks(
   {
     requireOneSpace(before, step);
   }
-  constexpr double partOfTracks = 0.7;
-  if (tracks.Extend(next > 0 ? before.Density.get() : nullptr, *step.Density, progress,
-        progress.StageEnd() + 0.5 * (partOfTracks - progress.StageEnd())))
+  if (tracks.Extend(next > 0 ? before.Density.get() : nullptr, *step.Density, stages["track"]))
   {
     own.Interpolation.CountMap();
   }
@@ -422,8 +424,10 @@ void vtkTransportTemporalInterpolator::Interpolate(
   TemporalMoment moment;
   moment.Part = place.Part;
   moment.Length = own.Times[place.Second] - own.Times[place.First];
-  if (!this->ReadStep(place.First, progress, moment.First) ||
-    (place.Second != place.First && !this->ReadStep(place.Second, progress, moment.Second)))
+  Stages stages(progress, { { "reading", 1 }, { "interpolation", 9 } });
+  if (!this->ReadStep(place.First, stages["reading"], moment.First) ||
+    (place.Second != place.First &&
+      !this->ReadStep(place.Second, stages["reading"], moment.Second)))
   {
     return;
   }
@@ -444,7 +448,8 @@ void vtkTransportTemporalInterpolator::Interpolate(
   const TemporalOutput output{ outputVector->GetInformationObject(0),
     vtkImageData::GetData(outputVector, 0), vtkPolyData::GetData(outputVector, 1) };
   const std::array<int, 6> announced = announcedGrid(output.Announced, true).Extent();
-  this->WarnOnFirstRank(own.Interpolation.Run(moment, this->GetSettings(), progress, output));
+  this->WarnOnFirstRank(
+    own.Interpolation.Run(moment, this->GetSettings(), stages["interpolation"], output));
   if (!this->GetRanks().AreSeveral())
   {
     announceToViews(output.Announced, announced);

@@ -18,8 +18,8 @@
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/ExactSum.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -43,11 +43,6 @@ namespace RectifiedTransport::Bridge
 
 namespace
 {
-
-// Of the progress after the maps, where each ends.
-constexpr double partOfMean = 0.2;
-constexpr double partOfCost = 0.25;
-constexpr double partOfParticles = 0.4;
 
 ImageGrid gridBetween(const std::vector<BlendInput>& inputs, const int dimensions[3])
 {
@@ -96,9 +91,8 @@ void reuseOrMake(
 
 } // namespace
 
-// The map of a density among others; the end if there is none. By times alone, or else by contents,
-// as the work of the current stage. On ranks, whose times and kept maps differ, all of them have it
-// or none.
+// The map of a density among others; the end if there is none. By times alone, or else by contents.
+// On ranks, whose times and kept maps differ, all of them have it or none.
 template <class Maps>
 auto findMap(const Maps& begin, const Maps& end, InputDensity& density,
   const LinearizedMapSettings& settings, bool byContents, Progress& progress)
@@ -136,7 +130,8 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
   applyGrid(geometry, output.Density);
   announceGrid(geometry, output.Announced); // the association may not be known before the data
 
-  const std::size_t newMaps = this->MatchMaps(inputs, pivot, progress);
+  Stages whole(progress, { { "kept maps", 1 }, { "blend", 99 } });
+  const std::size_t newMaps = this->MatchMaps(inputs, pivot, whole["kept maps"]);
   if (newMaps > 0)
   {
     // Releases memory for the tables.
@@ -153,19 +148,20 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
   const double solutions = settings.Optimal.NeedsMap()
     ? static_cast<double>(inputs.size()) * Cost::OptimalCell / settings.ParticlesPerCell
     : 0.0;
-  const auto ends = stageEnds({ mapCost, solutions, Cost::MeanAndSplat });
-  BlendReport report = this->MakeMaps(inputs, pivot, tables, progress, ends[0]);
+  Stages stages(whole["blend"],
+    { { "maps", mapCost }, { "optimal maps", solutions }, { "mean", 0.2 * Cost::MeanAndSplat },
+      { "cost", settings.ComparesEnds ? 0.05 * Cost::MeanAndSplat : 0.0 },
+      { "particles", 0.15 * Cost::MeanAndSplat }, { "density", 0.6 * Cost::MeanAndSplat } });
+  BlendReport report = this->MakeMaps(inputs, pivot, tables, stages["maps"]);
   if (settings.Optimal.IsOptimal)
   {
     // The flow only leads to where the optimal maps begin, and its properties are not shown.
     report = {};
   }
-  const double maps = ends[1];
-  this->FindPositions(inputs, settings, geometry, progress, maps);
+  this->FindPositions(inputs, settings, geometry, stages["optimal maps"]);
   report.Steps.insert(report.Steps.end(), this->Found.Warnings.begin(), this->Found.Warnings.end());
 
-  progress.BeginStage(maps + partOfMean * (1.0 - maps));
-  this->TakeMeans(inputs, progress);
+  this->TakeMeans(inputs, stages["mean"]);
   const double mass = this->TotalMass(inputs, settings.Mode);
   const SplatTarget target{ geometry, settings.Splat, true };
   requireFiniteDensity(mass, target, "The particles' masses", "or the cells larger");
@@ -173,13 +169,11 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
   double cost = 0.0;
   if (settings.ComparesEnds)
   {
-    progress.BeginStage(maps + partOfCost * (1.0 - maps));
-    cost = this->CompareEnds(geometry, count, progress);
+    cost = this->CompareEnds(geometry, count, stages["cost"]);
     output.Particles->GetPointData()->SetVectors(this->Displacements);
   }
-  const double particles = maps + partOfParticles * (1.0 - maps);
-  this->WriteParticles(inputs, geometry, massEach, progress, particles, output.Particles);
-  this->WriteDensity(inputs, target, { mass, massEach }, wanted, progress, output.Density);
+  this->WriteParticles(inputs, geometry, massEach, stages["particles"], output.Particles);
+  this->WriteDensity(inputs, target, { mass, massEach }, wanted, stages["density"], output.Density);
   const std::int64_t movedInAll =
     std::accumulate(this->Maps.begin(), this->Maps.end(), std::int64_t{ 0 },
       [](std::int64_t sum, const LinearizedMap& map) { return sum + map.Moved(); });
@@ -209,13 +203,12 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
 }
 
 // At a weight of 1 the density of that input; near it, more and more of that density as its cells
-// move, so that there is no jump; else that of the particles. Takes the progress to its end.
+// move, so that there is no jump; else that of the particles.
 void DensityBlend::WriteDensity(const std::vector<BlendInput>& inputs, const SplatTarget& target,
   const BlendMass& mass, Extent wanted, Progress& progress, vtkImageData* output)
 {
   constexpr double nearby = 0.1; // how far below 1 a weight is near it
   constexpr double rounding = 1e-9;
-  constexpr double partOfSplat = 0.3;
   const ImageGrid& geometry = target.Geometry;
   const int owner = geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
   const TupleBox box = tuplesOf(wanted, owner, geometry.Extent());
@@ -231,17 +224,15 @@ void DensityBlend::WriteDensity(const std::vector<BlendInput>& inputs, const Spl
     this->Found.Positions[number], this->Means };
   if (heaviest->Weight == 1.0)
   {
-    progress.BeginStage(1.0);
     writeInput(input, geometry, box, progress, this->Density->GetPointer(0));
     return;
   }
-  const double begin = progress.StageEnd();
-  progress.BeginStage(share > 0.0 ? begin + partOfSplat * (1.0 - begin) : 1.0);
-  splatDistributed(
-    this->Means, nullptr, (1.0 - share) * mass.Each, nullptr, target, box, progress, this->Density);
+  Stages stages(progress, { { "splat", 3 }, { "input", share > 0.0 ? 7.0 : 0.0 } });
+  splatDistributed(this->Means, nullptr, (1.0 - share) * mass.Each, nullptr, target, box,
+    stages["splat"], this->Density);
   if (share > 0.0)
   {
-    addMovedInput(input, geometry, box, progress, 1.0, this->Density->GetPointer(0));
+    addMovedInput(input, geometry, box, stages["input"], this->Density->GetPointer(0));
   }
 }
 
@@ -250,8 +241,6 @@ void DensityBlend::WriteDensity(const std::vector<BlendInput>& inputs, const Spl
 std::size_t DensityBlend::MatchMaps(
   const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings, Progress& progress)
 {
-  constexpr double partOfHashes = 0.01;
-  progress.BeginStage(partOfHashes);
   const std::vector<LinearizedMap> before = std::exchange(this->Maps, {});
   std::size_t missing = 0;
   for (const BlendInput& input : inputs)
@@ -273,7 +262,7 @@ std::size_t DensityBlend::MatchMaps(
 }
 
 BlendReport DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
-  const LinearizedMapSettings& settings, FlowCache& tables, Progress& progress, double end)
+  const LinearizedMapSettings& settings, FlowCache& tables, Progress& progress)
 {
   // The tables take as much memory as the particles, and little time to build.
   struct Releaser
@@ -282,6 +271,7 @@ BlendReport DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
     ~Releaser() { this->Tables.Release(); }
   } const releaser{ tables };
   BlendReport report;
+  Parts parts(progress, static_cast<std::int64_t>(inputs.size()));
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
     LinearizedMap& map = this->Maps[i];
@@ -290,19 +280,19 @@ BlendReport DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
     {
       continue;
     }
+    Progress& making = parts[static_cast<std::int64_t>(i)];
     // Several inputs may have the same density.
     const auto before = this->Maps.cbegin() + static_cast<std::ptrdiff_t>(i);
     const auto made = findMap(
-      this->Maps.cbegin(), before, density, settings, progress.Group().AreSeveral(), progress);
+      this->Maps.cbegin(), before, density, settings, progress.Group().AreSeveral(), making);
     if (made != before)
     {
       map = *made;
       continue;
     }
-    const double until = end * static_cast<double>(i + 1) / static_cast<double>(inputs.size());
     try
     {
-      map.Make(density, settings, tables, progress, until);
+      map.Make(density, settings, tables, making);
       report.Moved += map.Moved();
       const std::string warning =
         stepWarning(map.Flow(), settings.Options, FlowDirection::Forward, true);
@@ -332,7 +322,7 @@ std::vector<OptimalBlendInput> DensityBlend::Given(const std::vector<BlendInput>
 }
 
 void DensityBlend::FindPositions(const std::vector<BlendInput>& inputs,
-  const BlendSettings& settings, const ImageGrid& geometry, Progress& progress, double end)
+  const BlendSettings& settings, const ImageGrid& geometry, Progress& progress)
 {
   decltype(this->FoundFor) now;
   now.Optimal = settings.Optimal;
@@ -361,7 +351,7 @@ void DensityBlend::FindPositions(const std::vector<BlendInput>& inputs,
       this->Found = {};
       this->FoundFor = {};
       this->Found =
-        blendOptimally(given, { settings.Optimal, geometry, settings.ComparesEnds }, progress, end);
+        blendOptimally(given, { settings.Optimal, geometry, settings.ComparesEnds }, progress);
     }
     else
     {
@@ -391,8 +381,8 @@ void DensityBlend::TakeMeans(const std::vector<BlendInput>& inputs, Progress& pr
 }
 
 // Takes the displacements y - x of the particles between their positions x and y in the two inputs.
-// Returns the mean of |y - x|^2 over all of them. As the work of the current stage, but where the
-// maps are those of the last call.
+// Returns the mean of |y - x|^2 over all of them. No work where the maps are those of the last
+// call.
 double DensityBlend::CompareEnds(
   const ImageGrid& geometry, std::int64_t particles, Progress& progress)
 {
@@ -443,7 +433,7 @@ double DensityBlend::TotalMass(const std::vector<BlendInput>& inputs, MassMode m
 }
 
 void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, const ImageGrid& geometry,
-  double massEach, Progress& progress, double end, vtkPolyData* output)
+  double massEach, Progress& progress, vtkPolyData* output)
 {
   vtkNew<vtkPoints> points;
   points->SetData(this->Means);
@@ -466,22 +456,21 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, const I
     slack->SetName("Slack");
     output->GetPointData()->AddArray(slack);
   }
-  progress.BeginStage(0.5 * (progress.StageEnd() + end));
+  Stages stages(progress, { { "places", 1 }, { "masses", 1 } });
   const Ranks& ranks = progress.Group();
   if (ranks.AreSeveral())
   {
-    moveToOwners(output, 1, PlaceOwners(geometry, nullptr, ranks), ranks, progress);
+    moveToOwners(output, 1, PlaceOwners(geometry, nullptr, ranks), ranks, stages["places"]);
   }
   else
   {
-    this->WriteVertices(progress, output);
+    this->WriteVertices(stages["places"], output);
   }
   const std::int64_t count = output->GetNumberOfPoints();
-  progress.BeginStage(end);
   reuseOrMake(this->Masses, "Mass", 1, count);
   double* mass = this->Masses->GetPointer(0);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
-  progress.For(count, grain,
+  stages["masses"].For(count, grain,
     [=](std::int64_t first, std::int64_t last) { std::fill(mass + first, mass + last, massEach); });
   output->GetPointData()->AddArray(this->Masses);
 }

@@ -102,18 +102,18 @@ private:
     const LinearizedMapSettings& settings, Progress& progress);
   // Returns how many particles of this rank the new maps moved, and their warnings.
   BlendReport MakeMaps(const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings,
-    FlowCache& tables, Progress& progress, double end);
+    FlowCache& tables, Progress& progress);
   std::vector<OptimalBlendInput> Given(const std::vector<BlendInput>& inputs) const;
   double CompareEnds(const ImageGrid& geometry, std::int64_t particles, Progress& progress);
   // With an optimal map or its bound: finds the particles' positions anew where anything that they
   // depend on has changed. Else takes those of the maps.
   void FindPositions(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
-    const ImageGrid& geometry, Progress& progress, double end);
+    const ImageGrid& geometry, Progress& progress);
   void AddBound(const ImageGrid& geometry, double cost, vtkDataObject* output) const;
   void TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress);
   double TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const;
   void WriteParticles(const std::vector<BlendInput>& inputs, const ImageGrid& geometry,
-    double massEach, Progress& progress, double end, vtkPolyData* output);
+    double massEach, Progress& progress, vtkPolyData* output);
   void WriteVertices(Progress& progress, vtkPolyData* output);
   void WriteDensity(const std::vector<BlendInput>& inputs, const SplatTarget& target,
     const BlendMass& mass, Extent wanted, Progress& progress, vtkImageData* output);

@@ -10,7 +10,7 @@
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDoubleArray.h"
 
@@ -33,21 +33,20 @@ bool LinearizedMap::IsOf(
 }
 
 void LinearizedMap::Make(InputDensity& density, const LinearizedMapSettings& settings,
-  FlowCache& tables, Progress& progress, double end)
+  FlowCache& tables, Progress& progress)
 {
   this->Settings = settings;
   this->Geometry = density.Grid();
   const auto move = dispatchDimension(this->Geometry.Dimension(), &LinearizedMap::Move<1>,
     &LinearizedMap::Move<2>, &LinearizedMap::Move<3>);
-  (this->*move)(density, tables, progress, end);
+  (this->*move)(density, tables, progress);
   this->Content = ContentHash(density, progress);
 }
 
 template <int D>
-void LinearizedMap::Move(InputDensity& density, FlowCache& tables, Progress& progress, double end)
+void LinearizedMap::Move(InputDensity& density, FlowCache& tables, Progress& progress)
 {
-  constexpr double partOfTables = 0.04;
-  constexpr double partOfConversion = 0.02;
+  Stages stages(progress, { { "tables", 4 }, { "flow", 94 }, { "positions", 2 } });
   GridSize<D> grid;
   std::copy_n(this->Settings.Grid.begin(), D, grid.begin());
   const PivotLattice<D> pivot = pivotLattice<D>(grid, this->Settings.PerCell);
@@ -55,8 +54,7 @@ void LinearizedMap::Move(InputDensity& density, FlowCache& tables, Progress& pro
   const FlowOptions& options = this->Settings.Options;
   const FlowTables kind = chooseTables<D>(this->Settings.Tables, density.Grid().Size<D>(),
     { options, FlowDirection::Forward, static_cast<double>(particles), true, "" });
-  const SharedFlow& flow = tables.Update(
-    density, progress, progress.StageEnd() + partOfTables * (end - progress.StageEnd()), kind);
+  const SharedFlow& flow = tables.Update(density, stages["tables"], kind);
   this->Mass = flow.TotalMass();
   auto physical = newArray<vtkDoubleArray>("Positions", 3, particles);
   LargeBuffer<double> buffer;
@@ -69,13 +67,10 @@ void LinearizedMap::Move(InputDensity& density, FlowCache& tables, Progress& pro
     positions = buffer.data();
   }
 
-  const double begin = progress.StageEnd();
-  progress.BeginStage(begin + (1.0 - partOfConversion) * (end - begin));
   this->Report = transportPivot<D>(flow.Flow<D>(), pivot, this->Settings.Share.First,
-    { positions, particles }, options, progress.Stage());
-  progress.BeginStage(end);
-  writePhysical<D>(
-    this->Geometry, { positions, particles }, progress, { physical->GetPointer(0), particles });
+    { positions, particles }, options, stages["flow"]);
+  writePhysical<D>(this->Geometry, { positions, particles }, stages["positions"],
+    { physical->GetPointer(0), particles });
   this->Kept = physical;
 }
 

@@ -46,10 +46,10 @@ public:
   bool IsOf(
     const ContentHash& content, const ImageGrid& grid, const LinearizedMapSettings& settings) const;
 
-  // Advects the particles to a density; progress then reaches `end`. Builds the tables in `tables`.
-  // Collective on the ranks of the progress. Throws Failure and Cancelled.
+  // Advects the particles to a density. Builds the tables in `tables`. Collective on the ranks of
+  // the progress. Throws Failure and Cancelled.
   void Make(InputDensity& density, const LinearizedMapSettings& settings, FlowCache& tables,
-    Progress& progress, double end);
+    Progress& progress);
   // Takes the times of another image that holds the same density.
   void SetTimes(const InputDensity& density) { this->Content.SetTimes(density); }
 
@@ -64,7 +64,7 @@ public:
 
 private:
   template <int D>
-  void Move(InputDensity& density, FlowCache& tables, Progress& progress, double end);
+  void Move(InputDensity& density, FlowCache& tables, Progress& progress);
 
   ContentHash Content;
   ImageGrid Geometry; // not part of the content, but of the physical positions

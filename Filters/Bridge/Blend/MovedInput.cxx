@@ -6,8 +6,8 @@
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankShare.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
@@ -52,24 +52,21 @@ public:
   {
   }
 
-  void Add(const TupleBox& wanted, double end, double* density)
+  void Add(const TupleBox& wanted, double* density)
   {
-    const double begin = this->Work.StageEnd();
-    const auto stage = [&](double part) { this->Work.BeginStage(begin + part * (end - begin)); };
-    stage(0.1);
+    Stages stages(this->Work, { { "input", 1 }, { "moves", 7 }, { "splat", 2 } });
     auto given = newArray<vtkDoubleArray>("Density", 1, this->Own.Count());
-    writeInput(this->Input, this->Grid, this->Own, this->Work, given->GetPointer(0));
+    writeInput(this->Input, this->Grid, this->Own, stages["input"], given->GetPointer(0));
     std::vector<vtkSmartPointer<vtkDoubleArray>> moves;
+    Parts axes(stages["moves"], D + 1);
     for (int axis = 0; axis <= D; ++axis)
     {
-      stage(0.1 + 0.7 * (axis + 1) / (D + 1));
-      moves.push_back(this->SumOf(axis));
+      moves.push_back(this->SumOf(axis, axes[axis]));
     }
     const MovedCells cells = this->Move(given, moves);
-    stage(1.0);
     const auto moved = newArray<vtkDoubleArray>("Moved", 1, wanted.Count());
     splatDistributed(cells.Centres, cells.Masses.data(), 0.0, cells.Numbers.data(),
-      { this->Grid, cloudInCell(), true }, wanted, this->Work, moved);
+      { this->Grid, cloudInCell(), true }, wanted, stages["splat"], moved);
     const double* values = moved->GetPointer(0);
     std::transform(values, values + wanted.Count(), density, density, std::plus<>());
   }
@@ -95,7 +92,7 @@ private:
 
   // For each own tuple the sum over the particles in it of their moves along an axis of index
   // space; for the axis D their number.
-  vtkSmartPointer<vtkDoubleArray> SumOf(int axis)
+  vtkSmartPointer<vtkDoubleArray> SumOf(int axis, Progress& progress)
   {
     const std::int64_t count = this->Input.From->GetNumberOfTuples();
     const double* from = this->Input.From->GetPointer(0);
@@ -116,7 +113,7 @@ private:
     }
     auto sums = newArray<vtkDoubleArray>("Moves", 1, this->Own.Count());
     splatDistributed(this->Input.From, axis < D ? terms.data() : nullptr, 1.0, nullptr,
-      { this->Grid, cloudInCell(), false }, this->Own, this->Work, sums);
+      { this->Grid, cloudInCell(), false }, this->Own, progress, sums);
     return sums;
   }
 
@@ -172,9 +169,9 @@ private:
 
 template <int D>
 void addMoved(const MovedInput& input, const ImageGrid& grid, const TupleBox& wanted,
-  Progress& progress, double end, double* density)
+  Progress& progress, double* density)
 {
-  CellMover<D>(input, grid, progress).Add(wanted, end, density);
+  CellMover<D>(input, grid, progress).Add(wanted, density);
 }
 
 } // namespace
@@ -193,14 +190,14 @@ void writeInput(const MovedInput& input, const ImageGrid& grid, const TupleBox& 
 }
 
 void addMovedInput(const MovedInput& input, const ImageGrid& grid, const TupleBox& wanted,
-  Progress& progress, double end, double* density)
+  Progress& progress, double* density)
 {
   const double cells = static_cast<double>(wanted.Count());
   const double bytes = 8.0 * (6.0 + grid.Dimension()) * cells +
     8.0 * static_cast<double>(input.From->GetNumberOfTuples());
   withMemory("the cells near an input", bytes, [&]() {
     dispatchDimension(grid.Dimension(), addMoved<1>, addMoved<2>, addMoved<3>)(
-      input, grid, wanted, progress, end, density);
+      input, grid, wanted, progress, density);
   });
 }
 

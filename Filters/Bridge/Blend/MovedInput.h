@@ -32,16 +32,16 @@ struct MovedInput
 };
 
 // Writes the density, with its mass, on the wanted tuples of a grid that covers its domain. Nothing
-// has moved. To the bit, if the masses and the cells are the same. Collective. Runs as the current
-// stage. Throws Failure and Cancelled.
+// has moved. To the bit, if the masses and the cells are the same. Collective. Throws Failure and
+// Cancelled.
 void writeInput(const MovedInput& input, const ImageGrid& grid, const TupleBox& wanted,
   Progress& progress, double* values);
 
 // Adds the density of its cells, each moved by the mean move of the particles in it; cells without
-// particles stay. Takes the progress to `end`. The same bits for every number of threads and ranks.
-// Collective. Throws Failure and Cancelled.
+// particles stay. The same bits for every number of threads and ranks. Collective. Throws Failure
+// and Cancelled.
 void addMovedInput(const MovedInput& input, const ImageGrid& grid, const TupleBox& wanted,
-  Progress& progress, double end, double* density);
+  Progress& progress, double* density);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -13,8 +13,8 @@
 #include "Core/OptimalMap/OptimalMap.h"
 #include "Core/Parallel/ExactSum.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDataObject.h"
 
@@ -53,13 +53,11 @@ class OptimalBlender
 {
 public:
   OptimalBlender(const std::vector<OptimalBlendInput>& inputs, const OptimalBlendSettings& settings,
-    Progress& progress, double end)
+    Progress& progress)
     : Inputs(inputs)
     , Settings(settings)
     , Scale(settings.Geometry)
     , Work(progress)
-    , Begin(progress.StageEnd())
-    , End(end)
     , Count(inputs.front().Positions->GetNumberOfTuples())
     , All(static_cast<double>(sumOverRanks(progress.Group(), this->Count)))
   {
@@ -81,30 +79,20 @@ public:
     {
       this->BlendAll();
     }
-    this->Work.BeginStage(this->End);
     return std::move(this->Result);
   }
 
 private:
-  // The part of the progress that a number of maps among others takes.
-  void TakePart(double done, double all)
-  {
-    this->Next = this->Begin + (this->End - this->Begin) * std::min(1.0, done / all);
-  }
-
   PlacedDensity<D> Place(const ImageGrid& grid, const DensitySource<D>& source) const
   {
     return placeDensity<D>(this->Settings.Geometry, grid, source);
   }
 
   std::unique_ptr<OptimalMap<D>> Solve(const PlacedDensity<D>& source,
-    const OptimalBlendInput& target, int leastIterations, bool refines)
+    const OptimalBlendInput& target, int leastIterations, bool refines, Progress& progress)
   {
-    constexpr double partOfSolution = 0.7;
-    const double begin = this->Work.StageEnd();
     return solvePair<D>(this->Settings.Geometry, source, *target.Density,
-      { this->Settings.Optimal, leastIterations, refines, refines ? this->All : 0.0 }, this->Work,
-      begin + partOfSolution * (this->Next - begin));
+      { this->Settings.Optimal, leastIterations, refines, refines ? this->All : 0.0 }, progress);
   }
 
   LargeBuffer<double> IndexOf(const ImageGrid& grid, vtkDoubleArray* positions)
@@ -123,20 +111,21 @@ private:
     return index;
   }
 
-  vtkSmartPointer<vtkDoubleArray> PhysicalOf(const ImageGrid& grid, ConstPointSpan<D> points)
+  vtkSmartPointer<vtkDoubleArray> PhysicalOf(
+    const ImageGrid& grid, ConstPointSpan<D> points, Progress& progress)
   {
     auto physical = newArray<vtkDoubleArray>("Positions", 3, this->Count);
-    writePhysical<D>(grid, points, this->Work, { physical->GetPointer(0), this->Count });
+    writePhysical<D>(grid, points, progress, { physical->GetPointer(0), this->Count });
     return physical;
   }
 
   // The mean over all ranks of the squared distances.
-  double MeanSquare(vtkDoubleArray* from, vtkDoubleArray* to)
+  double MeanSquare(vtkDoubleArray* from, vtkDoubleArray* to, Progress& progress)
   {
     const double* a = from->GetPointer(0);
     const double* b = to->GetPointer(0);
     const auto own = sumExactly<ExactSum>(
-      this->Work, this->Count, grain, [&](std::int64_t first, std::int64_t last, ExactSum& sum) {
+      progress, this->Count, grain, [&](std::int64_t first, std::int64_t last, ExactSum& sum) {
         for (std::int64_t i = first; i < last; ++i)
         {
           sum.Add(this->Scale.SquaredDistanceInUnits(a + 3 * i, b + 3 * i));
@@ -148,10 +137,10 @@ private:
   }
 
   void AddSlack(const OptimalMap<D>& map, double weight, const LargeBuffer<double>& points,
-    ConstPointSpan<D> images)
+    ConstPointSpan<D> images, Progress& progress)
   {
     LargeBuffer<double> slack(this->Count);
-    map.Slack({ points.data(), this->Count }, images, slack.data(), this->Work.Stage());
+    map.Slack({ points.data(), this->Count }, images, slack.data(), progress);
     double* sum = this->Result.Slack->GetPointer(0);
     this->Work.Threads().For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
@@ -162,9 +151,9 @@ private:
   }
 
   // Whether the map reaches its target; else warns, and the flow's positions remain.
-  bool Resolves(const OptimalMap<D>& map, const OptimalBlendInput& target)
+  bool Resolves(const OptimalMap<D>& map, const OptimalBlendInput& target, Progress& progress)
   {
-    const std::string text = unresolvedText(map.MassError(this->Work.Stage()));
+    const std::string text = unresolvedText(map.MassError(progress));
     if (!text.empty())
     {
       this->Result.Warnings.push_back(target.Name + ": " + text);
@@ -175,20 +164,20 @@ private:
   // From particles in the index space `from` of a source, under the map or by the given positions
   // of the flow.
   void Follow(const OptimalMap<D>& map, std::size_t input, vtkDoubleArray* starts,
-    const ImageGrid& startGrid, bool areSamples, double weight)
+    const ImageGrid& startGrid, bool areSamples, double weight, Progress& progress)
   {
     const OptimalBlendInput& target = this->Inputs[input];
     const ImageGrid& grid = target.Density->Grid();
     const LargeBuffer<double> points = this->IndexOf(startGrid, starts);
     LargeBuffer<double> images;
-    this->Work.BeginStage(this->Next);
-    if (this->Settings.Optimal.IsOptimal && this->Resolves(map, target))
+    if (this->Settings.Optimal.IsOptimal && this->Resolves(map, target, progress))
     {
       images = LargeBuffer<double>(this->Count * D);
       FlowSeeds<D> seeds(points.data(), this->Count);
-      map.Forward(areSamples ? seeds.AsSamples() : seeds, { images.data(), this->Count }, {},
-        this->Work.Stage());
-      this->Result.Positions[input] = this->PhysicalOf(grid, { images.data(), this->Count });
+      map.Forward(
+        areSamples ? seeds.AsSamples() : seeds, { images.data(), this->Count }, {}, progress);
+      this->Result.Positions[input] =
+        this->PhysicalOf(grid, { images.data(), this->Count }, progress);
     }
     else
     {
@@ -196,11 +185,12 @@ private:
     }
     if (areSamples)
     {
-      this->AddSlack(map, weight, points, { images.data(), this->Count });
+      this->AddSlack(map, weight, points, { images.data(), this->Count }, progress);
       this->Result.Bound += weight * this->Scale.CostFromUnits(map.LowerBound());
       if (!this->Settings.IsPair)
       {
-        this->Result.Cost += weight * this->MeanSquare(starts, this->Result.Positions[input]);
+        this->Result.Cost +=
+          weight * this->MeanSquare(starts, this->Result.Positions[input], progress);
       }
     }
   }
@@ -209,21 +199,21 @@ private:
   {
     const OptimalBlendInput& source = this->Inputs[0];
     const ImageGrid& grid = source.Density->Grid();
-    this->TakePart(1.0, 1.0);
-    source.Density->Prepare(FlowTables::Whole, this->Work);
+    Stages stages(this->Work, { { "reading", 1 }, { "map", 69 }, { "images", 30 } });
+    source.Density->Prepare(FlowTables::Whole, stages["reading"]);
     const auto map = this->Solve(this->Place(grid, source.Density->template Source<D>()),
-      this->Inputs[1], this->LeastIterations(), true);
+      this->Inputs[1], this->LeastIterations(), true, stages["map"]);
     source.Density->ReleaseGathered();
-    this->Follow(*map, 1, source.Positions, grid, true, 1.0);
+    this->Follow(*map, 1, source.Positions, grid, true, 1.0, stages["images"]);
   }
 
   int LeastIterations() const { return leastIterations(this->Settings.Optimal); }
 
-  vtkSmartPointer<vtkDoubleArray> MeanOf()
+  vtkSmartPointer<vtkDoubleArray> MeanOf(Progress& progress)
   {
     auto mean = newArray<vtkDoubleArray>("Positions", 3, this->Count);
     writeMeans(
-      this->Result.Positions, this->Inputs, this->Work, { mean->GetPointer(0), this->Count });
+      this->Result.Positions, this->Inputs, progress, { mean->GetPointer(0), this->Count });
     return mean;
   }
 
@@ -257,16 +247,16 @@ private:
       }
       return;
     }
-    const auto each = static_cast<double>(used.size());
-    if (this->Settings.Optimal.IsOptimal)
+    const bool isOptimal = this->Settings.Optimal.IsOptimal;
+    Stages stages(this->Work, { { "rounds", isOptimal ? 5.0 : 0.0 }, { "last round", 1 } });
+    if (isOptimal)
     {
-      // The usual number of rounds is five.
-      constexpr double usual = 6.0;
-      double done = 0.0;
+      constexpr int usual = 3; // about half of the rounds
+      Rounds rounds(stages["rounds"], usual);
       for (int round = 0; round < mostRounds; ++round)
       {
         const auto before = this->Result.Positions;
-        const double functional = this->TakeRound(used, false, done, usual * each);
+        const double functional = this->TakeRound(used, false, rounds.Next());
         const std::vector<double>& all = this->Result.Functional;
         const double fall = all.empty() ? functional : all.back() - functional;
         if (fall <= 0.0)
@@ -281,9 +271,7 @@ private:
         }
       }
     }
-    double done = 0.0;
-    this->Begin = this->Work.StageEnd();
-    const double last = this->TakeRound(used, true, done, each);
+    const double last = this->TakeRound(used, true, stages["last round"]);
     std::vector<double>& all = this->Result.Functional;
     if (!all.empty() && last < all.back())
     {
@@ -292,29 +280,32 @@ private:
   }
 
   // One map to each input from the density of the mean. Returns the weighted mean of their bounds.
-  double TakeRound(const std::vector<std::size_t>& used, bool isLast, double& done, double all)
+  double TakeRound(const std::vector<std::size_t>& used, bool isLast, Progress& progress)
   {
     const ImageGrid& geometry = this->Settings.Geometry;
-    const vtkSmartPointer<vtkDoubleArray> mean = this->MeanOf();
-    const vtkSmartPointer<vtkDoubleArray> density = this->Splat(mean);
+    Stages stages(progress, { { "mean", 1 }, { "density", 1 }, { "maps", 98 } });
+    const vtkSmartPointer<vtkDoubleArray> mean = this->MeanOf(stages["mean"]);
+    const vtkSmartPointer<vtkDoubleArray> density = this->Splat(mean, stages["density"]);
     const GridSize<D> size = geometry.Size<D>();
     const DensityArray<D, double> values(density->GetPointer(0), size);
     const PlacedDensity<D> source = this->Place(geometry, DensitySource<D>(size, values));
     double functional = 0.0;
+    Parts maps(stages["maps"], static_cast<std::int64_t>(used.size()));
+    std::int64_t done = 0;
     for (const std::size_t i : used)
     {
-      this->TakePart(++done, all);
+      Stages parts(maps[done++], { { "map", 7 }, { "images", 3 } });
       const double weight = this->Inputs[i].Weight;
-      const auto map =
-        this->Solve(source, this->Inputs[i], isLast ? this->LeastIterations() : 2, isLast);
-      this->Follow(*map, i, mean, geometry, isLast, weight);
+      const auto map = this->Solve(
+        source, this->Inputs[i], isLast ? this->LeastIterations() : 2, isLast, parts["map"]);
+      this->Follow(*map, i, mean, geometry, isLast, weight, parts["images"]);
       functional += weight * this->Scale.CostFromUnits(map->LowerBound());
     }
     return functional;
   }
 
   // The density of all ranks' particles, on each of them.
-  vtkSmartPointer<vtkDoubleArray> Splat(vtkDoubleArray* points)
+  vtkSmartPointer<vtkDoubleArray> Splat(vtkDoubleArray* points, Progress& progress)
   {
     const ImageGrid& geometry = this->Settings.Geometry;
     const int owner = geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
@@ -323,8 +314,7 @@ private:
     options.Kernel = SplatKernel::CloudInCell;
     const SplatTarget target{ geometry, options, false };
     auto density = newArray<vtkDoubleArray>("Density", 1, box.Count());
-    this->Work.BeginStage(this->Work.StageEnd());
-    splatDistributed(points, nullptr, 1.0, nullptr, target, box, this->Work, density);
+    splatDistributed(points, nullptr, 1.0, nullptr, target, box, progress, density);
     return density;
   }
 
@@ -332,9 +322,6 @@ private:
   const OptimalBlendSettings& Settings;
   const LengthScale Scale;
   Progress& Work;
-  double Begin;
-  const double End;
-  double Next = 0.0;
   const std::int64_t Count;
   const double All; // of the particles, on all ranks
   OptimalBlendResult Result;
@@ -342,9 +329,9 @@ private:
 
 template <int D>
 OptimalBlendResult blend(const std::vector<OptimalBlendInput>& inputs,
-  const OptimalBlendSettings& settings, Progress& progress, double end)
+  const OptimalBlendSettings& settings, Progress& progress)
 {
-  return OptimalBlender<D>(inputs, settings, progress, end).Run();
+  return OptimalBlender<D>(inputs, settings, progress).Run();
 }
 
 template <int D>
@@ -381,10 +368,10 @@ void requireMemoryForMaps(const std::vector<OptimalBlendInput>& inputs,
 }
 
 OptimalBlendResult blendOptimally(const std::vector<OptimalBlendInput>& inputs,
-  const OptimalBlendSettings& settings, Progress& progress, double end)
+  const OptimalBlendSettings& settings, Progress& progress)
 {
   return dispatchDimension(settings.Geometry.Dimension(), blend<1>, blend<2>, blend<3>)(
-    inputs, settings, progress, end);
+    inputs, settings, progress);
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -58,9 +58,9 @@ struct OptimalBlendSettings
 void requireMemoryForMaps(const std::vector<OptimalBlendInput>& inputs,
   const OptimalBlendSettings& settings, double particles, const Ranks& ranks);
 
-// Collective on the ranks of the progress, which reaches `end`. Throws Failure and Cancelled.
+// Collective on the ranks of the progress. Throws Failure and Cancelled.
 OptimalBlendResult blendOptimally(const std::vector<OptimalBlendInput>& inputs,
-  const OptimalBlendSettings& settings, Progress& progress, double end);
+  const OptimalBlendSettings& settings, Progress& progress);
 
 } // namespace RectifiedTransport::Bridge
 

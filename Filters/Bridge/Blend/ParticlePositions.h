@@ -20,8 +20,7 @@ namespace RectifiedTransport::Bridge
 
 constexpr std::int64_t grainOfPositions = std::int64_t{ 1 } << 13;
 
-// From index to physical coordinates, which in 3D may share memory. As the work of the current
-// stage.
+// From index to physical coordinates, which in 3D may share memory.
 template <int D>
 void writePhysical(
   const ImageGrid& grid, ConstPointSpan<D> positions, Progress& progress, PointSpan<3> physical)
@@ -36,7 +35,7 @@ void writePhysical(
   });
 }
 
-// The means of the positions in inputs, by their Weight. As the work of the current stage.
+// The means of the positions in inputs, by their Weight.
 template <class Inputs>
 void writeMeans(const std::vector<vtkSmartPointer<vtkDoubleArray>>& positions, const Inputs& inputs,
   Progress& progress, PointSpan<3> means)

@@ -12,7 +12,7 @@ class ContentHash
 {
 public:
   ContentHash() = default; // of no density
-  // Takes the content of a density. Runs as the current stage. Throws Cancelled.
+  // Takes the content of a density. Throws Cancelled.
   ContentHash(InputDensity& density, Progress& progress)
     : Known(true)
     , Times(density.GetTimes())

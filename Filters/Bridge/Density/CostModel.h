@@ -6,9 +6,6 @@
 #include "Bridge/Density/FlowCache.h"
 #include "Core/Flow/FlowOptions.h"
 
-#include <array>
-#include <cstddef>
-
 namespace RectifiedTransport::Bridge
 {
 
@@ -60,25 +57,6 @@ inline double equalization(const FlowOptions& options, int dimension)
 }
 
 } // namespace Cost
-
-// The progress at the ends of stages, in proportion to their estimated times.
-template <std::size_t Count>
-std::array<double, Count> stageEnds(const double (&costs)[Count])
-{
-  double all = 0.0;
-  for (const double cost : costs)
-  {
-    all += cost;
-  }
-  std::array<double, Count> ends;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < Count; ++i)
-  {
-    sum += costs[i];
-    ends[i] = sum / all;
-  }
-  return ends;
-}
 
 } // namespace RectifiedTransport::Bridge
 

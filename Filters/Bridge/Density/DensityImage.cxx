@@ -34,7 +34,7 @@ void samplePart(vtkImageData* part, const ImageGrid& grid, const Extent& extent,
   ConstPointSpan<3> particles, Progress& progress, vtkPointData* output)
 {
   sampleArrays({ { part }, "input image", false }, PlacesInImage<D>(grid, extent, particles),
-    progress, 1.0, output);
+    progress, output);
 }
 
 } // namespace

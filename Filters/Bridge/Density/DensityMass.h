@@ -14,9 +14,9 @@ namespace RectifiedTransport::Bridge
 
 class InputDensity;
 
-// Density times cell measure, summed, for a prepared density. Runs as the current stage. Reports
-// values that are probably not meant. Throws Failure if the mass is beyond the largest double, and
-// Cancelled. If there are wrong values, which the core counts, the result is meaningless.
+// Density times cell measure, summed, for a prepared density. Reports values that are probably not
+// meant. Throws Failure if the mass is beyond the largest double, and Cancelled. If there are wrong
+// values, which the core counts, the result is meaningless.
 double massOf(InputDensity& density, Progress& progress);
 // The same for a density whose values may be distributed over ranks and have been gathered. Wrong
 // values throw Failure. Collective.

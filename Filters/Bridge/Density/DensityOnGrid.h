@@ -18,8 +18,8 @@ class InputDensity;
 
 // Writes the tuples `wanted` of a grid that covers the density's, along the same axes: the values
 // themselves, to the bit, where both have the same cells up to rounding; else the means over the
-// cells of the grid, by exact overlap. Each rank may want another box. Collective. Runs as the
-// current stage. Throws Failure and Cancelled.
+// cells of the grid, by exact overlap. Each rank may want another box. Collective. Throws Failure
+// and Cancelled.
 void writeDensityOn(const ImageGrid& grid, InputDensity& density, const TupleBox& wanted,
   Progress& progress, double* values);
 

@@ -25,8 +25,8 @@ DensityTransport<D>::DensityTransport(const RectifiedFlow<D>& flow, const ImageG
   {
     const std::string purpose = std::string("the optimal map (") + setting.Advice() + ")";
     const double bytes = OptimalMap<D>::MemoryFor(flow.Size(), flow.Size());
-    this->Found.Warning = unresolvedText(
-      withMemory(purpose, bytes, [&]() { return this->Map->MassError(progress.Stage()); }));
+    this->Found.Warning =
+      unresolvedText(withMemory(purpose, bytes, [&]() { return this->Map->MassError(progress); }));
     this->Found.IsOptimal = this->Found.Warning.empty();
     this->Key = this->Found.IsOptimal ? OptimalMapKey(setting, grid) : OptimalMapKey();
   }
@@ -60,7 +60,7 @@ vtkSmartPointer<vtkDoubleArray> DensityTransport<D>::Slack(
   const std::int64_t count = seeds.size();
   auto array = newArray<vtkDoubleArray>("Slack", 1, count);
   double* slack = array->GetPointer(0);
-  this->Map->Slack(seeds, images, slack, progress.Stage());
+  this->Map->Slack(seeds, images, slack, progress);
   progress.For(count, grain, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {

@@ -66,7 +66,7 @@ class DensityTransport
 {
 public:
   // `map` is the optimal map in LengthScale's units, solved; nullptr if the setting needs none. The
-  // flow must outlive this. Runs as the current stage. Throws Failure and Cancelled.
+  // flow must outlive this. Throws Failure and Cancelled.
   DensityTransport(const RectifiedFlow<D>& flow, const ImageGrid& grid,
     const OptimalSetting& setting, std::shared_ptr<const OptimalMap<D>> map, Progress& progress);
 
@@ -81,7 +81,7 @@ public:
   // certificate. Throws std::overflow_error as LengthScale.
   void AddBound(double cost, vtkDataObject* output) const;
   // The array Slack of pairs of seeds and images, in squared physical units; there is a
-  // certificate. Runs as the current stage. Throws Failure and Cancelled.
+  // certificate. Throws Failure and Cancelled.
   vtkSmartPointer<vtkDoubleArray> Slack(
     ConstPointSpan<D> seeds, ConstPointSpan<D> images, Progress& progress) const;
 

@@ -10,8 +10,8 @@
 namespace RectifiedTransport::Bridge
 {
 
-const SharedFlow& FlowCache::Update(InputDensity& density, Progress& progress, double end,
-  FlowTables tables, const OptimalNeeds& needs)
+const SharedFlow& FlowCache::Update(
+  InputDensity& density, Progress& progress, FlowTables tables, const OptimalNeeds& needs)
 {
   if (this->Kept && this->Kept->Tables() != tables)
   {
@@ -23,9 +23,8 @@ const SharedFlow& FlowCache::Update(InputDensity& density, Progress& progress, d
     this->Kept->Attach(density, progress);
     return *this->Kept;
   }
-  constexpr double partOfHash = 0.05;
-  progress.BeginStage(progress.StageEnd() + partOfHash * (end - progress.StageEnd()));
-  const ContentHash hash(density, progress);
+  Stages stages(progress, { { "hash", 5 }, { "tables", 95 } });
+  const ContentHash hash(density, stages["hash"]);
   if (!onAllRanks(progress.Group(), this->Kept && this->Hash == hash))
   {
     this->Hash = ContentHash(); // invalid until the tables are built
@@ -33,15 +32,15 @@ const SharedFlow& FlowCache::Update(InputDensity& density, Progress& progress, d
     this->KeptMap.reset();
     const auto findOrBuild = dispatchDimension(density.Grid().Dimension(),
       &SharedFlow::FindOrBuild<1>, &SharedFlow::FindOrBuild<2>, &SharedFlow::FindOrBuild<3>);
-    this->Kept = findOrBuild(density, hash, tables, needs, std::move(this->Kept), progress, end);
+    this->Kept = findOrBuild(density, hash, tables, needs, std::move(this->Kept), stages["tables"]);
     this->Time = std::max(this->Time, this->Kept->BuildTime());
   }
   else
   {
-    this->Kept->Attach(density, progress);
+    this->Kept->Attach(density, stages["tables"]);
   }
   this->Hash = hash;
-  density.TellUnusual(this->Kept->Unusual(), progress);
+  density.TellUnusual(this->Kept->Unusual(), stages["tables"]);
   return *this->Kept;
 }
 

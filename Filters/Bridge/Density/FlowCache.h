@@ -6,7 +6,7 @@
 #include "Bridge/Density/ContentHash.h"
 #include "Bridge/Density/DensityTransport.h"
 #include "Bridge/Density/SharedFlow.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <memory>
 #include <utility>
@@ -23,34 +23,32 @@ public:
     return !this->Kept || !this->Hash.IsOf(density);
   }
 
-  // The flow of a density; progress then reaches `end`. Tables are built if the content of the
-  // density differs from that of the last update and no other filter has them. A flow with tiles is
-  // valid only as long as the density lives. If Transport follows, its needs are known before
-  // tables are built: these are not, if memory for a map is missing. Throws Failure and Cancelled;
-  // the next update then builds.
-  const SharedFlow& Update(InputDensity& density, Progress& progress, double end,
+  // The flow of a density. Tables are built if the content of the density differs from that of the
+  // last update and no other filter has them. A flow with tiles is valid only as long as the
+  // density lives. If Transport follows, its needs are known before tables are built: these are
+  // not, if memory for a map is missing. Throws Failure and Cancelled; the next update then builds.
+  const SharedFlow& Update(InputDensity& density, Progress& progress,
     FlowTables tables = FlowTables::Whole, const OptimalNeeds& needs = {});
 
   // After Update of the same density, with whole tables where the setting needs a map: what moves
   // its points. An optimal map is kept until a setting that needs none, another one or another
-  // density, and shared with other filters. Valid as the flow. Progress reaches `end`. Collective.
-  // Throws Failure and Cancelled.
+  // density, and shared with other filters. Valid as the flow. Collective. Throws Failure and
+  // Cancelled.
   template <int D>
   DensityTransport<D> Transport(
-    const OptimalNeeds& needs, InputDensity& density, Progress& progress, double end)
+    const OptimalNeeds& needs, InputDensity& density, Progress& progress)
   {
     const OptimalSetting& setting = needs.Setting;
+    Stages stages(progress, { { "map", 8 }, { "check", 2 } });
     std::shared_ptr<const OptimalMap<D>> map;
     if (setting.NeedsMap())
     {
-      constexpr double partOfPotential = 0.8;
-      map = this->Kept->template Optimal<D>(needs, density, std::move(this->KeptMap), progress,
-        progress.StageEnd() + partOfPotential * (end - progress.StageEnd()));
+      map =
+        this->Kept->template Optimal<D>(needs, density, std::move(this->KeptMap), stages["map"]);
     }
     this->KeptMap = map;
     needs.RequireForSamples<D>(density.Grid().Size<D>(), progress.Group());
-    progress.BeginStage(end);
-    return { this->Kept->template Flow<D>(), density.Grid(), setting, map, progress };
+    return { this->Kept->template Flow<D>(), density.Grid(), setting, map, stages["check"] };
   }
   // Whether Transport probably solves.
   bool MustSolve(const OptimalSetting& setting) const
@@ -60,7 +58,7 @@ public:
 
   // After Update, with whole tables: by what points that go back have to be corrected for equal
   // areas. Kept until other options, another density or ForgetCorrection, and shared with other
-  // filters. Runs as the current stage; not collective. Throws Failure and Cancelled.
+  // filters. Not collective. Throws Failure and Cancelled.
   template <int D>
   std::shared_ptr<const AreaCorrection<D>> Correction(
     const DensityTransport<D>& transport, const FlowOptions& options, Progress& progress)

@@ -74,7 +74,7 @@ public:
   const Times& GetTimes() const { return this->Changed; }
   // The content without the hash.
   const Content& GetReading() const { return this->Reading; }
-  // Computed once. Runs as the current stage. Throws Cancelled.
+  // Computed once. Throws Cancelled.
   const Content& GetContent(Progress& progress);
 
   // Computes what reading for such tables needs from all values, such as the largest value. Call it
@@ -96,8 +96,8 @@ public:
   virtual const ImagePieces* Pieces() const { return nullptr; }
   // The image on the grid in an extent, with all arrays of the input. Collective.
   virtual vtkSmartPointer<vtkImageData> ImageIn(const Extent& extent) const = 0;
-  // Gives particles in the image in an extent the values of the input's arrays; progress then
-  // reaches 1. Collective. Throws Failure and Cancelled.
+  // Gives particles in the image in an extent the values of the input's arrays. Collective. Throws
+  // Failure and Cancelled.
   virtual void SampleArrays(const Extent& extent, ConstPointSpan<3> particles, Progress& progress,
     vtkPointData* output) const = 0;
 

@@ -5,7 +5,7 @@
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/LengthScale.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <cmath>
 
@@ -50,7 +50,7 @@ OptimalMemory memoryOfPair(const GridSize<D>& source, const GridSize<D>& target,
 
 template <int D>
 std::unique_ptr<OptimalMap<D>> solvePair(const ImageGrid& box, const PlacedDensity<D>& source,
-  InputDensity& target, const PairMapOptions& given, Progress& progress, double end)
+  InputDensity& target, const PairMapOptions& given, Progress& progress)
 {
   OptimalMapOptions options;
   options.Tolerance = given.Optimal.Tolerance;
@@ -59,15 +59,13 @@ std::unique_ptr<OptimalMap<D>> solvePair(const ImageGrid& box, const PlacedDensi
   const OptimalMemory memory = memoryOfPair<D>(source.Source.Size, target.Grid().Size<D>(),
     { given.Optimal, given.Samples }, progress.Group());
   memory.Require();
-  constexpr double partOfReading = 0.15;
-  progress.BeginStage(progress.StageEnd() + partOfReading * (end - progress.StageEnd()));
-  target.Prepare(FlowTables::Whole, progress);
+  Stages stages(progress, { { "reading", 15 }, { "solution", 85 } });
+  target.Prepare(FlowTables::Whole, stages["reading"]);
   return withMemory(memory.Purpose, memory.Bytes, [&]() {
     auto map = std::make_unique<OptimalMap<D>>(
-      source, placeDensity<D>(box, target.Grid(), target.Source<D>()), options, progress.Stage());
+      source, placeDensity<D>(box, target.Grid(), target.Source<D>()), options, stages["reading"]);
     target.ReleaseGathered();
-    progress.BeginStage(end);
-    map->Solve(progress.Stage());
+    map->Solve(stages["solution"]);
     return map;
   });
 }
@@ -84,11 +82,11 @@ template OptimalMemory memoryOfPair<2>(
   const GridSize<2>&, const GridSize<2>&, const OptimalNeeds&, const Ranks&);
 template OptimalMemory memoryOfPair<3>(
   const GridSize<3>&, const GridSize<3>&, const OptimalNeeds&, const Ranks&);
-template std::unique_ptr<OptimalMap<1>> solvePair<1>(const ImageGrid&, const PlacedDensity<1>&,
-  InputDensity&, const PairMapOptions&, Progress&, double);
-template std::unique_ptr<OptimalMap<2>> solvePair<2>(const ImageGrid&, const PlacedDensity<2>&,
-  InputDensity&, const PairMapOptions&, Progress&, double);
-template std::unique_ptr<OptimalMap<3>> solvePair<3>(const ImageGrid&, const PlacedDensity<3>&,
-  InputDensity&, const PairMapOptions&, Progress&, double);
+template std::unique_ptr<OptimalMap<1>> solvePair<1>(
+  const ImageGrid&, const PlacedDensity<1>&, InputDensity&, const PairMapOptions&, Progress&);
+template std::unique_ptr<OptimalMap<2>> solvePair<2>(
+  const ImageGrid&, const PlacedDensity<2>&, InputDensity&, const PairMapOptions&, Progress&);
+template std::unique_ptr<OptimalMap<3>> solvePair<3>(
+  const ImageGrid&, const PlacedDensity<3>&, InputDensity&, const PairMapOptions&, Progress&);
 
 } // namespace RectifiedTransport::Bridge

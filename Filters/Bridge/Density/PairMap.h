@@ -44,11 +44,11 @@ template <int D>
 OptimalMemory memoryOfPair(const GridSize<D>& source, const GridSize<D>& target,
   const OptimalNeeds& needs, const Ranks& ranks);
 
-// The map from a density in the box to a density of an input, solved. Progress reaches `end`.
-// Collective. Throws Failure and Cancelled.
+// The map from a density in the box to a density of an input, solved. Collective. Throws Failure
+// and Cancelled.
 template <int D>
 std::unique_ptr<OptimalMap<D>> solvePair(const ImageGrid& box, const PlacedDensity<D>& source,
-  InputDensity& target, const PairMapOptions& options, Progress& progress, double end);
+  InputDensity& target, const PairMapOptions& options, Progress& progress);
 
 } // namespace RectifiedTransport::Bridge
 

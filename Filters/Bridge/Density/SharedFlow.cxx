@@ -5,8 +5,8 @@
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include <cmath>
 #include <map>
@@ -105,7 +105,7 @@ SharedFlow::SharedFlow(RectifiedFlow<D> flow, FlowTables tables, const InputDens
 template <int D>
 std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(InputDensity& density,
   const ContentHash& content, FlowTables tables, const OptimalNeeds& needs,
-  std::shared_ptr<SharedFlow> previous, Progress& progress, double end)
+  std::shared_ptr<SharedFlow> previous, Progress& progress)
 {
   FlowRegistry& registry = FlowRegistry::Get();
   const bool isShared = content.IsComplete() && tables == FlowTables::Whole;
@@ -131,16 +131,14 @@ std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(InputDensity& density,
       .Require(old ? 0.0 : RectifiedFlow<D>::MemoryFor(size));
   }
 
-  constexpr double partOfPreparation = 0.1;
-  progress.BeginStage(progress.StageEnd() + partOfPreparation * (end - progress.StageEnd()));
-  density.Prepare(tables, progress);
-  progress.BeginStage(end);
+  Stages stages(progress, { { "reading", 1 }, { "tables", 9 } });
+  density.Prepare(tables, stages["reading"]);
   std::shared_ptr<SharedFlow> made;
   try
   {
     made = std::make_shared<SharedFlow>(old
-        ? RectifiedFlow<D>(density.Source<D>(), std::move(*old), progress.Stage())
-        : RectifiedFlow<D>(density.Source<D>(), tables, progress.Stage()),
+        ? RectifiedFlow<D>(density.Source<D>(), std::move(*old), stages["tables"])
+        : RectifiedFlow<D>(density.Source<D>(), tables, stages["tables"]),
       tables, density);
   }
   catch (const InvalidDensity& invalid)
@@ -163,7 +161,7 @@ std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(InputDensity& density,
 
 template <int D>
 std::shared_ptr<const OptimalMap<D>> SharedFlow::Optimal(const OptimalNeeds& needs,
-  InputDensity& density, std::shared_ptr<const void> previous, Progress& progress, double end) const
+  InputDensity& density, std::shared_ptr<const void> previous, Progress& progress) const
 {
   const ImageGrid& grid = density.Grid();
   const GridSize<D> size = grid.Size<D>();
@@ -171,7 +169,6 @@ std::shared_ptr<const OptimalMap<D>> SharedFlow::Optimal(const OptimalNeeds& nee
   std::shared_ptr<const OptimalMap<D>> found = this->Maps.Find<OptimalMap<D>>(key);
   if (onAllRanks(progress.Group(), found != nullptr))
   {
-    progress.BeginStage(end);
     return found;
   }
   found.reset();
@@ -181,11 +178,8 @@ std::shared_ptr<const OptimalMap<D>> SharedFlow::Optimal(const OptimalNeeds& nee
   const OptimalMemory memory = memoryOfMap<D>(size, needs, progress.Group());
   memory.Require();
 
-  const double begin = progress.StageEnd();
-  constexpr double partOfPreparation = 0.02;
-  constexpr double partOfReading = 0.05;
-  progress.BeginStage(begin + partOfPreparation * (end - begin));
-  density.Prepare(FlowTables::Whole, progress);
+  Stages stages(progress, { { "reading", 2 }, { "set-up", 3 }, { "solution", 95 } });
+  density.Prepare(FlowTables::Whole, stages["reading"]);
   const LengthScale scale(grid);
   Point<D> sides = grid.Lengths<D>();
   for (double& side : sides)
@@ -193,12 +187,10 @@ std::shared_ptr<const OptimalMap<D>> SharedFlow::Optimal(const OptimalNeeds& nee
     side = scale.ToUnits(side);
   }
   auto made = withMemory(memory.Purpose, memory.Bytes, [&]() {
-    progress.BeginStage(begin + partOfReading * (end - begin));
     auto map =
-      std::make_shared<OptimalMap<D>>(density.Source<D>(), sides, options, progress.Stage());
+      std::make_shared<OptimalMap<D>>(density.Source<D>(), sides, options, stages["set-up"]);
     density.ReleaseGathered();
-    progress.BeginStage(end);
-    map->Solve(progress.Stage());
+    map->Solve(stages["solution"]);
     return map;
   });
   this->Maps.Insert(key, made);
@@ -214,7 +206,7 @@ std::shared_ptr<const AreaCorrection<D>> SharedFlow::Correction(
   // Nothing of them is used by an optimal map.
   const FlowOptions resolved = transport.Report().IsOptimal
     ? FlowOptions()
-    : AreaCorrection<D>::Resolve(flow, options, progress.Stage());
+    : AreaCorrection<D>::Resolve(flow, options, progress);
   const auto key = std::make_pair(resolved, transport.MapKey());
   if (auto found = this->Corrections.Find<AreaCorrection<D>>(key))
   {
@@ -227,7 +219,7 @@ std::shared_ptr<const AreaCorrection<D>> SharedFlow::Correction(
   requireMemory(purpose, bytes);
   auto made = withMemory(purpose, bytes, [&]() {
     return std::make_shared<const AreaCorrection<D>>(
-      flow, transport.Points(), resolved, EqualizeOptions(), progress.Stage());
+      flow, transport.Points(), resolved, EqualizeOptions(), progress);
   });
   this->Corrections.Insert(key, made);
   return made;
@@ -251,11 +243,11 @@ void SharedFlow::Attach(InputDensity& density, Progress& progress)
 }
 
 template std::shared_ptr<const OptimalMap<1>> SharedFlow::Optimal<1>(
-  const OptimalNeeds&, InputDensity&, std::shared_ptr<const void>, Progress&, double) const;
+  const OptimalNeeds&, InputDensity&, std::shared_ptr<const void>, Progress&) const;
 template std::shared_ptr<const OptimalMap<2>> SharedFlow::Optimal<2>(
-  const OptimalNeeds&, InputDensity&, std::shared_ptr<const void>, Progress&, double) const;
+  const OptimalNeeds&, InputDensity&, std::shared_ptr<const void>, Progress&) const;
 template std::shared_ptr<const OptimalMap<3>> SharedFlow::Optimal<3>(
-  const OptimalNeeds&, InputDensity&, std::shared_ptr<const void>, Progress&, double) const;
+  const OptimalNeeds&, InputDensity&, std::shared_ptr<const void>, Progress&) const;
 template std::shared_ptr<const AreaCorrection<1>> SharedFlow::Correction<1>(
   const DensityTransport<1>&, const FlowOptions&, std::shared_ptr<const void>, Progress&) const;
 template std::shared_ptr<const AreaCorrection<2>> SharedFlow::Correction<2>(
@@ -263,10 +255,10 @@ template std::shared_ptr<const AreaCorrection<2>> SharedFlow::Correction<2>(
 template std::shared_ptr<const AreaCorrection<3>> SharedFlow::Correction<3>(
   const DensityTransport<3>&, const FlowOptions&, std::shared_ptr<const void>, Progress&) const;
 template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<1>(InputDensity&, const ContentHash&,
-  FlowTables, const OptimalNeeds&, std::shared_ptr<SharedFlow>, Progress&, double);
+  FlowTables, const OptimalNeeds&, std::shared_ptr<SharedFlow>, Progress&);
 template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<2>(InputDensity&, const ContentHash&,
-  FlowTables, const OptimalNeeds&, std::shared_ptr<SharedFlow>, Progress&, double);
+  FlowTables, const OptimalNeeds&, std::shared_ptr<SharedFlow>, Progress&);
 template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<3>(InputDensity&, const ContentHash&,
-  FlowTables, const OptimalNeeds&, std::shared_ptr<SharedFlow>, Progress&, double);
+  FlowTables, const OptimalNeeds&, std::shared_ptr<SharedFlow>, Progress&);
 
 } // namespace RectifiedTransport::Bridge

@@ -39,13 +39,13 @@ public:
   }
   // The optimal map of the density, solved, in LengthScale's units: one that somebody owns, or a
   // new one, for which `previous` is reset first. The density has the content of this one. Of whole
-  // tables; collective. Progress reaches `end`. Throws Failure and Cancelled.
+  // tables; collective. Throws Failure and Cancelled.
   template <int D>
   std::shared_ptr<const OptimalMap<D>> Optimal(const OptimalNeeds& needs, InputDensity& density,
-    std::shared_ptr<const void> previous, Progress& progress, double end) const;
+    std::shared_ptr<const void> previous, Progress& progress) const;
   // By what points that a map takes back have to be corrected for equal areas: one that somebody
   // owns, for options that mean the same, or a new one, for which `previous` is reset first. Of
-  // whole tables; not collective. Runs as the current stage. Throws Failure and Cancelled.
+  // whole tables; not collective. Throws Failure and Cancelled.
   template <int D>
   std::shared_ptr<const AreaCorrection<D>> Correction(const DensityTransport<D>& transport,
     const FlowOptions& options, std::shared_ptr<const void> previous, Progress& progress) const;
@@ -56,14 +56,13 @@ public:
   vtkMTimeType BuildTime() const { return this->Built.GetMTime(); }
 
   // Returns the flow that another filter owns for a density of this content, else builds one and
-  // shares it; progress then reaches `end`. Flows with tiles are not shared because they read the
-  // density of one filter's run. Resets `previous` first and reuses its memory if it has no other
-  // owner. Builds nothing if there is too little memory for the optimal map besides. Throws Failure
-  // and Cancelled.
+  // shares it. Flows with tiles are not shared because they read the density of one filter's run.
+  // Resets `previous` first and reuses its memory if it has no other owner. Builds nothing if there
+  // is too little memory for the optimal map besides. Throws Failure and Cancelled.
   template <int D>
   static std::shared_ptr<SharedFlow> FindOrBuild(InputDensity& density, const ContentHash& content,
     FlowTables tables, const OptimalNeeds& needs, std::shared_ptr<SharedFlow> previous,
-    Progress& progress, double end);
+    Progress& progress);
 
   // For a flow with tiles: sets the density of the run, which has the same content.
   void Attach(InputDensity& density, Progress& progress);

@@ -48,8 +48,8 @@ struct UnusualValues
 void merge(const LargestValue& part, LargestValue& all);
 void merge(const LowestValue& part, LowestValue& all);
 
-// The values that `rules` clamp, in `count` tuples that `reader` reads by these rules. Runs as the
-// current stage. Throws Cancelled.
+// The values that `rules` clamp, in `count` tuples that `reader` reads by these rules. Throws
+// Cancelled.
 LowestValue findLowest(
   vtkDataArray* array, const DensityReader& reader, std::int64_t count, Progress& progress);
 

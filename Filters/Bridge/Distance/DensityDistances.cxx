@@ -7,8 +7,8 @@
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Geometry/LengthScale.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,14 +91,13 @@ std::pair<DensityKey, DensityKey> ordered(const DensityKey& a, const DensityKey&
   return b < a ? std::make_pair(b, a) : std::make_pair(a, b);
 }
 
-// work(item, context) for all items, on this rank. Takes the progress to `end`.
+// work(item, context) for all items, on this rank.
 template <class Work>
-void forItems(std::int64_t count, double cells, Progress& progress, double end, const Work& work)
+void forItems(std::int64_t count, double cells, Progress& progress, const Work& work)
 {
   if (cells <= mostCellsOfThread)
   {
     static const SerialExecutor serial;
-    progress.BeginStage(end, count);
     progress.For(
       count, 1,
       [&](std::int64_t first, std::int64_t last) {
@@ -110,16 +109,13 @@ void forItems(std::int64_t count, double cells, Progress& progress, double end, 
       1);
     return;
   }
-  const double begin = progress.StageEnd();
+  Parts parts(progress, count);
   for (std::int64_t i = 0; i < count; ++i)
   {
-    progress.BeginStage(
-      begin + (end - begin) * static_cast<double>(i + 1) / static_cast<double>(count));
-    Context context = progress.Stage();
+    Context context = parts[i];
     context.Group = &SoloRanks::Get();
     work(i, context);
   }
-  progress.BeginStage(end);
 }
 
 // The items of [0, count) that this rank does: every so many, as neighbours may be alike.
@@ -150,7 +146,7 @@ std::array<double, D> DensityDistances::Sides() const
   return sides;
 }
 
-void DensityDistances::Add(DistanceInput input, Progress& progress, double end)
+void DensityDistances::Add(DistanceInput input, Progress& progress)
 {
   if (this->Given.empty())
   {
@@ -199,14 +195,13 @@ void DensityDistances::Add(DistanceInput input, Progress& progress, double end)
     const int dimension = this->Given.front().Grid.Dimension();
     const auto make = dispatchDimension(dimension, &DensityDistances::MakeMaps<1>,
       &DensityDistances::MakeMaps<2>, &DensityDistances::MakeMaps<3>);
-    (this->*make)(progress, end);
+    (this->*make)(progress);
   }
 }
 
 template <int D>
-void DensityDistances::MakeMaps(Progress& progress, double end)
+void DensityDistances::MakeMaps(Progress& progress)
 {
-  constexpr double partOfMaps = 0.98;
   const Ranks& ranks = progress.Group();
   const auto count = static_cast<std::int64_t>(this->Waiting.size());
   const std::vector<std::int64_t> own = itemsOfRank(count, ranks);
@@ -223,10 +218,9 @@ void DensityDistances::MakeMaps(Progress& progress, double end)
     std::to_string(static_cast<std::int64_t>(cells)) + " cells (a coarser image takes less)";
   requireMemory(purpose, bytes);
   std::vector<std::shared_ptr<ReferenceImages>> made(this->Waiting.size());
-  const double begin = progress.StageEnd();
   withMemory(purpose, bytes, [&]() {
     forItems(static_cast<std::int64_t>(own.size()), cells, progress,
-      begin + partOfMaps * (end - begin), [&](std::int64_t item, const Context& context) {
+      [&](std::int64_t item, const Context& context) {
         const auto place = static_cast<std::size_t>(own[static_cast<std::size_t>(item)]);
         DistanceInput& input = this->Given[this->Waiting[place]];
         made[place] =
@@ -234,7 +228,6 @@ void DensityDistances::MakeMaps(Progress& progress, double end)
         input.Values = nullptr;
       });
   });
-  progress.BeginStage(end);
   for (std::size_t first = 0; first < made.size() && ranks.AreSeveral();
        first += static_cast<std::size_t>(ranks.Count()))
   {
@@ -248,24 +241,23 @@ void DensityDistances::MakeMaps(Progress& progress, double end)
   this->Waiting.clear();
 }
 
-std::vector<DistancePair> DensityDistances::Find(Progress& progress, double end)
+std::vector<DistancePair> DensityDistances::Find(Progress& progress)
 {
   const int dimension = this->Given.front().Grid.Dimension();
   const auto find = dispatchDimension(dimension, &DensityDistances::FindAll<1>,
     &DensityDistances::FindAll<2>, &DensityDistances::FindAll<3>);
-  return (this->*find)(progress, end);
+  return (this->*find)(progress);
 }
 
 template <int D>
-std::vector<DistancePair> DensityDistances::FindAll(Progress& progress, double end)
+std::vector<DistancePair> DensityDistances::FindAll(Progress& progress)
 {
-  constexpr double partOfMaps = 0.9;
+  Stages stages(progress, { { "maps", this->Waiting.empty() ? 0.0 : 9.0 }, { "pairs", 1 } });
   if (!this->Waiting.empty())
   {
-    const double begin = progress.StageEnd();
-    this->MakeMaps<D>(progress, begin + partOfMaps * (end - begin));
+    this->MakeMaps<D>(stages["maps"]);
   }
-  this->FindMissing<D>(progress, end);
+  this->FindMissing<D>(stages["pairs"]);
   this->KeepOnlyGiven();
   const LengthScale scale(this->Given.front().Grid);
   const bool isCertified = this->Method == DistanceMethod::Certified;
@@ -331,7 +323,7 @@ SquaredBracket DensityDistances::FindPair(const KeyPair& pair, const Context& co
 }
 
 template <int D>
-void DensityDistances::FindMissing(Progress& progress, double end)
+void DensityDistances::FindMissing(Progress& progress)
 {
   const Ranks& ranks = progress.Group();
   const std::vector<KeyPair> missing = this->MissingPairs();
@@ -346,7 +338,7 @@ void DensityDistances::FindMissing(Progress& progress, double end)
   auto& known = this->Pairs[static_cast<std::size_t>(this->Method)];
   withMemory(purpose, bytes, [&]() {
     forItems(static_cast<std::int64_t>(own.size()), isCertified ? numberOfCells<D>(size) : 0.0,
-      progress, end, [&](std::int64_t item, const Context& context) {
+      progress, [&](std::int64_t item, const Context& context) {
         const auto place = static_cast<std::size_t>(item);
         found[place] = this->FindPair<D>(missing[static_cast<std::size_t>(own[place])], context);
       });

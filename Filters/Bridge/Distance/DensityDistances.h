@@ -46,29 +46,29 @@ class DensityDistances
 public:
   // Forgets the densities, but not what was computed.
   void Begin(DistanceMethod method);
-  // With Linearized, may compute maps, for which the progress goes to `end`. Collective. Throws
-  // Failure, where densities have not the same box, and Cancelled.
-  void Add(DistanceInput input, Progress& progress, double end);
+  // With Linearized, may compute maps. Collective. Throws Failure, where densities have not the
+  // same box, and Cancelled.
+  void Add(DistanceInput input, Progress& progress);
   const std::vector<DistanceInput>& Inputs() const { return this->Given; }
 
   // How many maps and pairs of Certified have been found, on all ranks.
   std::int64_t NumberOfSolutions() const { return this->Solutions; }
 
-  // The pairs (0, 1), (0, 2) ... (1, 2) ... of the densities. Progress reaches `end`. Collective.
-  // Throws Failure and Cancelled.
-  std::vector<DistancePair> Find(Progress& progress, double end);
+  // The pairs (0, 1), (0, 2) ... (1, 2) ... of the densities. Collective. Throws Failure and
+  // Cancelled.
+  std::vector<DistancePair> Find(Progress& progress);
 
 private:
   using KeyPair = std::pair<DensityKey, DensityKey>;
 
   template <int D>
-  void MakeMaps(Progress& progress, double end);
+  void MakeMaps(Progress& progress);
   template <int D>
-  std::vector<DistancePair> FindAll(Progress& progress, double end);
+  std::vector<DistancePair> FindAll(Progress& progress);
   template <int D>
   SquaredBracket FindPair(const KeyPair& pair, const Context& context) const;
   template <int D>
-  void FindMissing(Progress& progress, double end);
+  void FindMissing(Progress& progress);
   void KeepOnlyGiven();
   std::vector<KeyPair> MissingPairs() const;
   template <int D>

@@ -55,8 +55,8 @@ struct DistanceInput
   vtkSmartPointer<vtkDoubleArray> Values;
 };
 
-// Reads a density, on ranks the whole one on each. Runs as the current stage. Collective. Throws
-// Failure, without the title, and Cancelled.
+// Reads a density, on ranks the whole one on each. Collective. Throws Failure, without the title,
+// and Cancelled.
 DistanceInput readDistanceInput(InputDensity& density, Progress& progress);
 
 } // namespace RectifiedTransport::Bridge

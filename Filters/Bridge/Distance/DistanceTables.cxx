@@ -100,7 +100,7 @@ void writeCoordinates(const std::vector<DistanceInput>& inputs,
 {
   const std::size_t count = inputs.size();
   const ScaledPoints points = scaleClassically(
-    matrixOf(count, pairs), static_cast<std::int64_t>(count), dimensions, progress.Stage());
+    matrixOf(count, pairs), static_cast<std::int64_t>(count), dimensions, progress);
   vtkNew<vtkStringArray> names;
   names->SetName("Name");
   for (const std::string& name : columnNames(inputs))

@@ -26,7 +26,7 @@ void writeDistances(const std::vector<DistanceInput>& inputs,
 void writeBounds(std::size_t inputs, const std::vector<DistancePair>& pairs, vtkTable* table);
 
 // A row for each input: Name, Time (if inputs have times), TotalMass, Coordinate0 ..., and the
-// field data Stress. Runs as the current stage. Throws Cancelled.
+// field data Stress. Throws Cancelled.
 void writeCoordinates(const std::vector<DistanceInput>& inputs,
   const std::vector<DistancePair>& pairs, int dimensions, Progress& progress, vtkTable* table);
 

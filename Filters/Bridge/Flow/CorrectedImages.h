@@ -13,7 +13,7 @@ namespace RectifiedTransport::Bridge
 {
 
 // Corrects the images of the centres of a part of a lattice, whose cells have the sides `step` in
-// index space; `parts` says where the images are. Runs as the current stage. Throws Cancelled.
+// index space; `parts` says where the images are. Throws Cancelled.
 template <int D>
 void correctImages(const AreaCorrection<D>& correction, const Point<D>& step,
   const LatticePart<D>& part, const LatticeParts<D>& parts, PointSpan<D> images, Progress& progress)

@@ -12,6 +12,7 @@
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankShare.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
@@ -38,10 +39,9 @@ template <int D>
 class WarpedPoints
 {
 public:
-  WarpedPoints(const ImageGrid& grid, vtkPointSet* input, Progress& progress)
+  WarpedPoints(const ImageGrid& grid, vtkPointSet* input)
     : Grid(grid)
     , Input(input)
-    , Work(progress)
     , Count(input->GetNumberOfPoints())
     , Purpose("the " + std::to_string(this->Count) + " points")
   {
@@ -56,12 +56,12 @@ public:
   }
 
   // Returns how many points are outside of the domain.
-  std::int64_t Read()
+  std::int64_t Read(Progress& progress)
   {
     double* points = this->Points->GetPointer(0);
     const double tolerance = this->Grid.BorderTolerance();
     std::atomic<std::int64_t> outside{ 0 };
-    visitPoints(this->Input, "input point set", this->Work, [&](std::int64_t i, const double* x) {
+    visitPoints(this->Input, "input point set", progress, [&](std::int64_t i, const double* x) {
       std::copy_n(x, 3, points + i * 3);
       double offset[D];
       this->Grid.template ToIndex<D>(x, offset);
@@ -85,12 +85,12 @@ public:
     return outside;
   }
 
-  FlowReport Flow(const PointTransport<D>& flow, const FlowOptions& options)
+  FlowReport Flow(const PointTransport<D>& flow, const FlowOptions& options, Progress& progress)
   {
     const PointSpan<D> points(this->Index, this->Count);
     try
     {
-      return flow.Backward(points, points, options, this->Work.Stage());
+      return flow.Backward(points, points, options, progress);
     }
     catch (const std::bad_alloc& caught)
     {
@@ -100,10 +100,10 @@ public:
   }
 
   // After Flow.
-  void Correct(const AreaCorrection<D>& correction)
+  void Correct(const AreaCorrection<D>& correction, Progress& progress)
   {
     const double* points = this->Points->GetPointer(0);
-    this->Work.For(this->Count, grain, [=, &correction](std::int64_t first, std::int64_t last) {
+    progress.For(this->Count, grain, [=, &correction](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         double point[D];
@@ -115,11 +115,11 @@ public:
   }
 
   // Overwrites the index coordinates in 3D.
-  void Write(double blend, vtkPointSet* output)
+  void Write(double blend, Progress& progress, vtkPointSet* output)
   {
     double* points = this->Points->GetPointer(0);
     double* displacements = this->Displacements->GetPointer(0);
-    this->Work.For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
+    progress.For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         double* x = points + i * 3;
@@ -150,7 +150,6 @@ private:
 
   const ImageGrid& Grid;
   vtkPointSet* Input;
-  Progress& Work;
   const std::int64_t Count;
   const std::string Purpose;
   vtkSmartPointer<vtkDoubleArray> Points;
@@ -160,11 +159,11 @@ private:
 };
 
 // The mean squared displacement of the mass of the density, by the centres of its cells, of which
-// each rank moves its share. Progress reaches `end`. Collective.
+// each rank moves its share. Collective.
 template <int D>
 double costOfMap(const ImageGrid& grid, const RectifiedFlow<D>& flow, const PointTransport<D>& map,
   const FlowOptions& options, const AreaCorrection<D>* correction, const std::string& purpose,
-  Progress& progress, double end)
+  Progress& progress)
 {
   const GridSize<D>& size = flow.Size();
   auto part = LatticePart<D>::WholeOf(size);
@@ -173,22 +172,20 @@ double costOfMap(const ImageGrid& grid, const RectifiedFlow<D>& flow, const Poin
   part.Cells[D - 1] = layers.Count;
   const double bytes = static_cast<double>(part.Count()) * D * sizeof(double);
   requireMemory(purpose, bytes);
-  constexpr double partOfMap = 0.9;
-  const double begin = progress.StageEnd();
+  Stages stages(progress, { { "map", 9 }, { "cost", 1 } });
   return withMemory(purpose, bytes, [&]() {
     LargeBuffer<double> buffer(part.Count() * D);
     const PointSpan<D> images(buffer.data(), part.Count());
     const LatticeParts<D> parts(part, part);
-    progress.BeginStage(begin + partOfMap * (end - begin));
-    map.Backward(FlowSeeds<D>::Lattice(size, parts), images, options, progress.Stage());
-    progress.BeginStage(end, (correction ? 2 : 1) * part.Count());
+    map.Backward(FlowSeeds<D>::Lattice(size, parts), images, options, stages["map"]);
+    Progress& counting = stages["cost"].Expect((correction ? 2 : 1) * part.Count());
     if (correction)
     {
-      correctImages<D>(*correction, latticeStep<D>(size, size), part, parts, images, progress);
+      correctImages<D>(*correction, latticeStep<D>(size, size), part, parts, images, counting);
     }
     const MapDisplacement<D> moves(grid, size, part, part, images, &flow);
     DisplacementSums sums;
-    moves.Count(sums, progress);
+    moves.Count(sums, counting);
     return moves.MeanSquare(sumOverRanks(progress.Group(), sums));
   });
 }
@@ -205,39 +202,37 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
   const auto gridCells = static_cast<double>(density.Grid().NumberOfCells());
   const FlowOptions options =
     equalizes ? AreaCorrection<D>::OptionsFor(settings.Flow) : settings.Flow;
-  const auto ends = stageEnds({ Cost::tables(cache, density), Cost::Seed * count,
-    Cost::optimal(cache, density, optimal), moves ? Cost::flow(options, D) * count : 0.0,
-    equalizes ? Cost::equalization(options, D) * gridCells : 0.0,
-    equalizes ? Cost::Seed * count : 0.0,
-    optimal.NeedsMap() ? Cost::flow(options, D) * gridCells : 0.0, Cost::Seed * count,
-    Cost::TurnedCell * inputCells });
-  WarpedPoints<D> points(density.Grid(), input, progress);
+  Stages stages(progress,
+    { { "tables", Cost::tables(cache, density) }, { "reading", Cost::Seed * count },
+      { "optimal map", Cost::optimal(cache, density, optimal) },
+      { "points", moves ? Cost::flow(options, D) * count : 0.0 },
+      { "areas", equalizes ? Cost::equalization(options, D) * gridCells : 0.0 },
+      { "correction", equalizes ? Cost::Seed * count : 0.0 },
+      { "cost", optimal.NeedsMap() ? Cost::flow(options, D) * gridCells : 0.0 },
+      { "write", Cost::Seed * count }, { "turned cells", Cost::TurnedCell * inputCells } });
+  WarpedPoints<D> points(density.Grid(), input);
   const FlowTables tables = chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
     { options, FlowDirection::Backward, count, false,
       equalizes ? EqualAreas : optimal.WholeFor() });
-  const SharedFlow& shared = cache.Update(density, progress, ends[0], tables, { optimal });
+  const SharedFlow& shared = cache.Update(density, stages["tables"], tables, { optimal });
   if (!equalizes)
   {
     cache.ForgetCorrection();
   }
-  progress.BeginStage(ends[1]);
   DensityEqualizingWarp::Report report;
-  report.Outside = points.Read();
+  report.Outside = points.Read(stages["reading"]);
   int passes = 0;
   if (moves)
   {
     const DensityTransport<D> transport =
-      cache.Transport<D>({ optimal }, density, progress, ends[2]);
+      cache.Transport<D>({ optimal }, density, stages["optimal map"]);
     report.Transport = transport.Report();
-    progress.BeginStage(ends[3]);
-    report.Flow = points.Flow(transport.Points(), options);
+    report.Flow = points.Flow(transport.Points(), options, stages["points"]);
     std::shared_ptr<const AreaCorrection<D>> correction;
     if (equalizes && (input->GetNumberOfPoints() > 0 || transport.Certificate()))
     {
-      progress.BeginStage(ends[4]);
-      correction = cache.Correction<D>(transport, options, progress);
-      progress.BeginStage(ends[5], input->GetNumberOfPoints());
-      points.Correct(*correction);
+      correction = cache.Correction<D>(transport, options, stages["areas"]);
+      points.Correct(*correction, stages["correction"]);
       passes = correction->Report().Passes;
     }
     if (transport.Certificate())
@@ -245,20 +240,18 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
       const std::string purpose = "the images of " +
         std::to_string(density.Grid().NumberOfCells()) + " cells (" + optimal.Advice() + ")";
       const double cost = costOfMap<D>(density.Grid(), shared.Flow<D>(), transport.Points(),
-        options, correction.get(), purpose, progress, ends[6]);
+        options, correction.get(), purpose, stages["cost"]);
       addFieldValue(output, "TransportCost", cost);
       transport.AddBound(cost, output);
     }
   }
-  progress.BeginStage(ends[7]);
-  points.Write(settings.Blend, output);
+  points.Write(settings.Blend, stages["write"], output);
   report.IsUncorrected =
     equalizes && addEqualAreas(output, progress.Group(), passes, report.Flow) == 0;
   addSteps(output, { report.Flow });
-  progress.BeginStage(1.0);
   if (moves)
   {
-    report.Cells = countTurnedCells(density.Grid(), input, output, progress);
+    report.Cells = countTurnedCells(density.Grid(), input, output, stages["turned cells"]);
   }
   return report;
 }

@@ -5,6 +5,7 @@
 #include "Bridge/Run/WarningLimit.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Quality/MapFolds.h"
 
 #include "vtkDataSetAttributes.h"
@@ -159,7 +160,7 @@ void MapField<D>::TakeFrom(const MapTarget<D>& target, Progress& progress)
 
 template <int D>
 MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direction,
-  const DensitySource<D>& density, Progress& progress, double end, vtkDataSetAttributes* output,
+  const DensitySource<D>& density, Progress& progress, vtkDataSetAttributes* output,
   const MapTarget<D>* target)
 {
   if (this->Processes.AreSeveral())
@@ -172,20 +173,17 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
   const Point<D> step = latticeStep<D>(this->Lattice, this->Geometry.template Size<D>());
   const RectifiedFlow<D>* begins = direction == FlowDirection::Backward ? &flow : nullptr;
   MapFigures figures;
-  constexpr double partOfBlocks = 0.2;
+  const bool hasOwn = this->Wanted.Contains(this->OwnPart);
+  Stages stages(progress,
+    { { "blocks", 20 }, { "target", target ? 8.0 : 0.0 }, { "own part", hasOwn ? 0.0 : 35.0 },
+      { "samples", hasOwn ? 70.0 : 35.0 }, { "figures", target ? 8.0 : 0.0 } });
   const MapSamples<D> samples{ this->Lattice, this->OwnPart, this->Kept, this->Positions() };
-  const double endOfBlocks = progress.StageEnd() + partOfBlocks * (end - progress.StageEnd());
   figures.Blocks = target
-    ? measureBlocksBetween<D>(
-        samples, { density, flow.Total() }, target->Density, progress, endOfBlocks)
-    : measureBlocks<D>(samples, density, flow.Total(), direction, progress, endOfBlocks);
-  constexpr double partOfCosts = 0.1;
-  const double begin = progress.StageEnd();
-  const double endOfSamples = target ? end - partOfCosts * (end - begin) : end;
+    ? measureBlocksBetween<D>(samples, { density, flow.Total() }, target->Density, stages["blocks"])
+    : measureBlocks<D>(samples, density, flow.Total(), direction, stages["blocks"]);
   if (target)
   {
-    progress.BeginStage(begin + partOfCosts * (end - begin));
-    this->TakeFrom(*target, progress);
+    this->TakeFrom(*target, stages["target"]);
   }
   const MapDerivatives<D> derivatives(
     this->Lattice, this->Wanted, this->Kept, step, this->Positions());
@@ -194,28 +192,28 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
   const MapFolds<D> folds(this->Lattice, begins);
   FoldCount folded;
   DisplacementSums sums;
-  const bool hasOwn = this->Wanted.Contains(this->OwnPart);
   if (!hasOwn)
   {
-    progress.BeginStage(0.5 * (progress.StageEnd() + endOfSamples));
+    Progress& counting = stages["own part"];
     MapDisplacement<D>(
       this->Geometry, this->Lattice, this->OwnPart, this->Kept, this->Positions(), begins)
-      .Count(sums, progress);
-    folded = folds.Count(this->OwnPart, this->Kept, step, this->Positions(), progress);
+      .Count(sums, counting);
+    folded = folds.Count(this->OwnPart, this->Kept, step, this->Positions(), counting);
   }
-  this->WriteSamples(derivatives, moves, sums, progress, endOfSamples, divergences->GetPointer(0),
+  this->WriteSamples(derivatives, moves, sums, stages["samples"], divergences->GetPointer(0),
     determinants->GetPointer(0));
   if (hasOwn)
   {
-    folded = folds.Count(this->OwnPart, this->Wanted, determinants->GetPointer(0), progress);
+    folded =
+      folds.Count(this->OwnPart, this->Wanted, determinants->GetPointer(0), stages["samples"]);
   }
   const DisplacementSums all = sumOverRanks(this->Processes, sums);
   figures.Cost = moves.MeanSquare(all);
   if (target)
   {
-    progress.BeginStage(end);
     auto costs = newArray<vtkDoubleArray>("CostDensity", 1, count);
-    moves.WriteCosts(this->Displacement->GetPointer(0), all, costs->GetPointer(0), progress);
+    moves.WriteCosts(
+      this->Displacement->GetPointer(0), all, costs->GetPointer(0), stages["figures"]);
     output->AddArray(costs);
   }
   output->SetVectors(std::exchange(this->Displacement, nullptr));
@@ -226,7 +224,7 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
   if (folded.Samples > 0)
   {
     const std::int64_t withMass =
-      sumOverRanks(this->Processes, folds.CountWithMass(this->OwnPart, progress));
+      sumOverRanks(this->Processes, folds.CountWithMass(this->OwnPart, stages["figures"]));
     figures.ShowsFolds = isWorthWarning(folded.Samples, withMass) ||
       isWorthWarning(folded.Area.Value(), numberOfCells<D>(this->Lattice));
   }
@@ -236,8 +234,8 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
 // Derivatives depend on the positions of the layers before and after.
 template <int D>
 void MapField<D>::WriteSamples(const MapDerivatives<D>& derivatives,
-  const MapDisplacement<D>& moves, DisplacementSums& sums, Progress& progress, double end,
-  double* divergence, double* determinant)
+  const MapDisplacement<D>& moves, DisplacementSums& sums, Progress& progress, double* divergence,
+  double* determinant)
 {
   const std::int64_t count = this->Wanted.Count();
   const bool isInPlace = D == 3 && this->Processes.AreSeveral();
@@ -246,22 +244,17 @@ void MapField<D>::WriteSamples(const MapDerivatives<D>& derivatives,
   const LatticePart<D> counted =
     this->Wanted.Contains(this->OwnPart) ? this->OwnPart : LatticePart<D>{ {}, {} };
   const PointSpan<3> displacements(this->Displacement->GetPointer(0), count);
-  const double begin = progress.StageEnd();
   constexpr std::int64_t grain = 4096;
-  constexpr double partOfDerivatives = 0.4;
+  RectifiedTransport::Parts parts(progress, layers);
   for (std::int64_t layer = 0; layer < layers; ++layer)
   {
-    const double all = static_cast<double>(layers);
-    const double from = begin + (end - begin) * static_cast<double>(layer) / all;
-    const double to = begin + (end - begin) * static_cast<double>(layer + 1) / all;
-    progress.BeginStage(from + partOfDerivatives * (to - from));
-    progress.For(each, grain, [&](std::int64_t first, std::int64_t last) {
+    Stages stages(parts[layer], { { "derivatives", 4 }, { "displacements", 6 } });
+    stages["derivatives"].For(each, grain, [&](std::int64_t first, std::int64_t last) {
       derivatives.Write(layer * each + first, layer * each + last, divergence, determinant);
     });
-    progress.BeginStage(to);
-    moves.Write(layer * each, (layer + 1) * each, counted, displacements, sums, progress);
+    moves.Write(
+      layer * each, (layer + 1) * each, counted, displacements, sums, stages["displacements"]);
   }
-  progress.BeginStage(end);
   this->Displacement->SetNumberOfTuples(static_cast<vtkIdType>(count));
 }
 

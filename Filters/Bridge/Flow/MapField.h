@@ -77,9 +77,9 @@ public:
   // undefined afterwards. The map begins at the uniform measure (forward) or at the density
   // (backward), and so do the weights of samples in the cost. `density` has the values that `flow`
   // moves points by. A map from the density to a target, which is backward to the uniform measure,
-  // also gives CostDensity. Progress reaches `end`. Collective. Throws Failure and Cancelled.
+  // also gives CostDensity. Collective. Throws Failure and Cancelled.
   MapFigures Write(const RectifiedFlow<D>& flow, FlowDirection direction,
-    const DensitySource<D>& density, Progress& progress, double end, vtkDataSetAttributes* output,
+    const DensitySource<D>& density, Progress& progress, vtkDataSetAttributes* output,
     const MapTarget<D>* target = nullptr);
 
 private:
@@ -88,8 +88,7 @@ private:
   void Complete();
   void TakeFrom(const MapTarget<D>& target, Progress& progress);
   void WriteSamples(const MapDerivatives<D>& derivatives, const MapDisplacement<D>& moves,
-    DisplacementSums& sums, Progress& progress, double end, double* divergence,
-    double* determinant);
+    DisplacementSums& sums, Progress& progress, double* divergence, double* determinant);
 
   const ImageGrid& Geometry;
   const Ranks& Processes;

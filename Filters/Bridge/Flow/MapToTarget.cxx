@@ -18,6 +18,7 @@
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
@@ -39,15 +40,13 @@ namespace
 template <int D>
 std::array<FlowReport, 2> moveByFlows(const RectifiedFlow<D>& source,
   const RectifiedFlow<D>& target, const FlowOptions& options, MapField<D>& field,
-  Progress& progress, const std::array<double, 2>& ends)
+  Progress& progress)
 {
   const LatticeParts<D> parts = field.Parts();
   const PointSpan<D> positions = field.Positions();
-  constexpr double partOfCopies = 0.02;
-  const double copies = partOfCopies * (ends[1] - ends[0]);
-  progress.BeginStage(ends[0]);
+  Stages stages(progress, { { "back", 50 }, { "starts", 1 }, { "forth", 48 }, { "images", 1 } });
   const FlowReport back = source.Backward(
-    FlowSeeds<D>::Lattice(field.Whole(), parts), positions, options, progress.Stage());
+    FlowSeeds<D>::Lattice(field.Whole(), parts), positions, options, stages["back"]);
 
   const std::int64_t count = field.Part().Count();
   const double bytes = 2.0 * D * sizeof(double) * static_cast<double>(count);
@@ -58,8 +57,7 @@ std::array<FlowReport, 2> moveByFlows(const RectifiedFlow<D>& source,
     images = LargeBuffer<double>(count * D);
   });
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  progress.BeginStage(ends[0] + copies);
-  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+  stages["starts"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       const double* from = positions[parts.IndexOf(field.Part().CellOf(i))];
@@ -71,11 +69,9 @@ std::array<FlowReport, 2> moveByFlows(const RectifiedFlow<D>& source,
       }
     }
   });
-  progress.BeginStage(ends[1] - copies);
   const FlowReport forth = target.Forward(
-    FlowSeeds<D>(starts.data(), count), { images.data(), count }, options, progress.Stage());
-  progress.BeginStage(ends[1]);
-  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+    FlowSeeds<D>(starts.data(), count), { images.data(), count }, options, stages["forth"]);
+  stages["images"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       const double* image = images.data() + D * i;
@@ -111,10 +107,14 @@ TransportMap::Report makeMapToTarget(const TransportMap& map, const DensityPair&
   const double cells =
     static_cast<double>(pair.Source.Grid().NumberOfCells() + pair.Target.Grid().NumberOfCells());
   const double moving = map.Optimal.IsOptimal ? Cost::Seed : Cost::flow(map.Flow, D);
-  const auto ends =
-    stageEnds({ Cost::tables(cache, pair.Source), Cost::tables(kept.Tables, pair.Target),
-      kept.MustSolve(pair, map.Optimal) ? Cost::OptimalCell * cells : 0.0, moving * count,
-      moving * count, (D == 3 ? Cost::MassShare : Cost::Write) * count });
+  Stages stages(progress,
+    { { "source tables", Cost::tables(cache, pair.Source) },
+      { "target tables", Cost::tables(kept.Tables, pair.Target) },
+      { "optimal map", kept.MustSolve(pair, map.Optimal) ? Cost::OptimalCell * cells : 0.0 },
+      { "check", map.Optimal.IsOptimal ? moving * count : 0.0 },
+      { "samples", (map.Optimal.IsOptimal ? 1.0 : 2.0) * moving * count },
+      { "reading", Cost::Reading * cells / ranks.Count() },
+      { "write", (D == 3 ? Cost::MassShare : Cost::Write) * count } });
   const int owner = samples.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
   MapField<D> field(pair.Source.Grid(), samples, tuplesOf(wanted, owner, samples.Extent()),
     "a map of " + describeSize<D>(lattice) + " samples (see SampleDimensions)", ranks, true);
@@ -128,54 +128,52 @@ TransportMap::Report makeMapToTarget(const TransportMap& map, const DensityPair&
       { map.Flow, direction, count, isLattice, map.Optimal.WholeFor() });
   };
   const auto update = [&](FlowCache& flows, InputDensity& density, const std::string& name,
-                        double end, FlowTables tables) -> const SharedFlow& {
+                        FlowTables tables, Progress& making) -> const SharedFlow& {
     try
     {
-      return flows.Update(density, progress, end, tables);
+      return flows.Update(density, making, tables);
     }
     catch (const Failure& failure)
     {
       throw Failure(name, failure);
     }
   };
-  const SharedFlow& shared = update(cache, pair.Source, pair.SourceName, ends[0],
-    tablesOf(pair.Source, FlowDirection::Backward, true));
+  const SharedFlow& shared = update(cache, pair.Source, pair.SourceName,
+    tablesOf(pair.Source, FlowDirection::Backward, true), stages["source tables"]);
   cache.ForgetMaps(); // to the uniform measure
-  const SharedFlow& sharedTarget = update(kept.Tables, pair.Target, pair.TargetName, ends[1],
-    tablesOf(pair.Target, FlowDirection::Forward, false));
+  const SharedFlow& sharedTarget = update(kept.Tables, pair.Target, pair.TargetName,
+    tablesOf(pair.Target, FlowDirection::Forward, false), stages["target tables"]);
   const RectifiedFlow<D>& flow = shared.Flow<D>();
   const RectifiedFlow<D>& targetFlow = sharedTarget.Flow<D>();
-  const auto optimal = kept.Map<D>(pair, map.Optimal, progress, ends[2]);
+  const auto optimal = kept.Map<D>(pair, map.Optimal, stages["optimal map"]);
   TransportReport transport;
   if (map.Optimal.IsOptimal)
   {
-    progress.BeginStage(ends[3]);
     const OptimalMemory memory =
       memoryOfPair<D>(flow.Size(), targetFlow.Size(), { map.Optimal }, ranks);
     transport.Warning = unresolvedText(withMemory(
-      memory.Purpose, memory.Bytes, [&]() { return optimal->MassError(progress.Stage()); }));
+      memory.Purpose, memory.Bytes, [&]() { return optimal->MassError(stages["check"]); }));
     transport.IsOptimal = transport.Warning.empty();
   }
   std::array<FlowReport, 2> flows;
   if (transport.IsOptimal)
   {
-    progress.BeginStage(ends[4]);
-    flows[0] = optimal->Forward(
-      FlowSeeds<D>::Lattice(lattice, field.Parts()), field.Positions(), map.Flow, progress.Stage());
+    flows[0] = optimal->Forward(FlowSeeds<D>::Lattice(lattice, field.Parts()), field.Positions(),
+      map.Flow, stages["samples"]);
   }
   else
   {
-    flows = moveByFlows<D>(flow, targetFlow, map.Flow, field, progress, { ends[3], ends[4] });
+    flows = moveByFlows<D>(flow, targetFlow, map.Flow, field, stages["samples"]);
   }
   prepareShares<D>(flow, lattice, field.WeighedPart());
   for (InputDensity* density : { &pair.Source, &pair.Target })
   {
-    density->Prepare(FlowTables::Tiled, progress);
+    density->Prepare(FlowTables::Tiled, stages["reading"]);
   }
   const DensitySource<D> target = pair.Target.Source<D>();
   const MapTarget<D> mapTarget{ pair.Target.Grid(), { target, targetFlow.Total() } };
   const MapFigures figures = field.Write(flow, FlowDirection::Backward, pair.Source.Source<D>(),
-    progress, 1.0, output->GetAttributes(owner), &mapTarget);
+    stages["write"], output->GetAttributes(owner), &mapTarget);
   addFieldValue(output, "TotalMass", shared.TotalMass());
   addFieldValue(output, "TransportCost", figures.Cost);
   if (optimal)

@@ -4,8 +4,8 @@
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Density/PairMap.h"
 #include "Bridge/Image/CommonGrid.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 
@@ -46,24 +46,21 @@ bool TargetTransport::IsFor(const DensityPair& pair, const OptimalSetting& setti
 
 template <int D>
 std::shared_ptr<const OptimalMap<D>> TargetTransport::Map(
-  const DensityPair& pair, const OptimalSetting& setting, Progress& progress, double end)
+  const DensityPair& pair, const OptimalSetting& setting, Progress& progress)
 {
   if (!setting.NeedsMap())
   {
     this->Kept.reset();
-    progress.BeginStage(end);
     return nullptr;
   }
-  constexpr double partOfHashes = 0.02;
+  Stages stages(
+    progress, { { "source hash", 1 }, { "target hash", 1 }, { "reading", 3 }, { "solution", 95 } });
   const Ranks& ranks = progress.Group();
-  const double begin = progress.StageEnd();
   const bool hasTimes = onAllRanks(ranks, this->HasTimesOf(pair));
   if (!hasTimes)
   {
-    progress.BeginStage(begin + 0.5 * partOfHashes * (end - begin));
-    const ContentHash source(pair.Source, progress);
-    progress.BeginStage(begin + partOfHashes * (end - begin));
-    const ContentHash target(pair.Target, progress);
+    const ContentHash source(pair.Source, stages["source hash"]);
+    const ContentHash target(pair.Target, stages["target hash"]);
     if (!onAllRanks(ranks, this->Source == source && this->Target == target))
     {
       this->Kept.reset();
@@ -74,26 +71,23 @@ std::shared_ptr<const OptimalMap<D>> TargetTransport::Map(
   if (!onAllRanks(ranks, this->IsFor(pair, setting)))
   {
     this->Kept.reset();
-    constexpr double partOfReading = 0.05;
-    progress.BeginStage(begin + partOfReading * (end - begin));
-    pair.Source.Prepare(FlowTables::Whole, progress);
+    pair.Source.Prepare(FlowTables::Whole, stages["reading"]);
     this->Kept = std::shared_ptr<const OptimalMap<D>>(
       solvePair<D>(pair.Box, placeDensity<D>(pair.Box, pair.Source.Grid(), pair.Source.Source<D>()),
-        pair.Target, { setting, leastIterations(setting), true }, progress, end));
+        pair.Target, { setting, leastIterations(setting), true }, stages["solution"]));
     pair.Source.ReleaseGathered();
     this->Setting = setting;
     this->SourceGrid = pair.Source.Grid();
     this->TargetGrid = pair.Target.Grid();
   }
-  progress.BeginStage(end);
   return std::static_pointer_cast<const OptimalMap<D>>(this->Kept);
 }
 
 template std::shared_ptr<const OptimalMap<1>> TargetTransport::Map<1>(
-  const DensityPair&, const OptimalSetting&, Progress&, double);
+  const DensityPair&, const OptimalSetting&, Progress&);
 template std::shared_ptr<const OptimalMap<2>> TargetTransport::Map<2>(
-  const DensityPair&, const OptimalSetting&, Progress&, double);
+  const DensityPair&, const OptimalSetting&, Progress&);
 template std::shared_ptr<const OptimalMap<3>> TargetTransport::Map<3>(
-  const DensityPair&, const OptimalSetting&, Progress&, double);
+  const DensityPair&, const OptimalSetting&, Progress&);
 
 } // namespace RectifiedTransport::Bridge

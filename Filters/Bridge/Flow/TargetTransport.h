@@ -42,10 +42,10 @@ public:
   FlowCache Tables;
 
   // The optimal map between two densities, solved, in LengthScale's units of their box; nullptr if
-  // the setting needs none. Progress reaches `end`. Collective. Throws Failure and Cancelled.
+  // the setting needs none. Collective. Throws Failure and Cancelled.
   template <int D>
   std::shared_ptr<const OptimalMap<D>> Map(
-    const DensityPair& pair, const OptimalSetting& setting, Progress& progress, double end);
+    const DensityPair& pair, const OptimalSetting& setting, Progress& progress);
   // Whether Map probably solves.
   bool MustSolve(const DensityPair& pair, const OptimalSetting& setting) const
   {

@@ -12,6 +12,7 @@
 #include "Bridge/Run/StepReport.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkCellData.h"
 #include "vtkDataObject.h"
@@ -40,10 +41,14 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   const bool equalizes = map.Backward && map.EqualizeAreas;
   const FlowOptions options = equalizes ? AreaCorrection<D>::OptionsFor(map.Flow) : map.Flow;
   const double cells = static_cast<double>(density.Grid().NumberOfCells());
-  const auto ends = stageEnds({ Cost::tables(cache, density),
-    Cost::optimal(cache, density, map.Optimal), Cost::flow(options, D) * count,
-    equalizes ? Cost::equalization(options, D) * cells : 0.0, equalizes ? Cost::Seed * count : 0.0,
-    (map.Backward && D == 3 ? Cost::MassShare : Cost::Write) * count });
+  Stages stages(progress,
+    { { "tables", Cost::tables(cache, density) },
+      { "optimal map", Cost::optimal(cache, density, map.Optimal) },
+      { "samples", Cost::flow(options, D) * count },
+      { "areas", equalizes ? Cost::equalization(options, D) * cells : 0.0 },
+      { "correction", equalizes ? Cost::Seed * count : 0.0 },
+      { "reading", Cost::Reading * cells / ranks.Count() },
+      { "write", (map.Backward && D == 3 ? Cost::MassShare : Cost::Write) * count } });
   const int owner = samples.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
   MapField<D> field(density.Grid(), samples, tuplesOf(wanted, owner, samples.Extent()),
     "a map of " + describeSize<D>(lattice) + " samples (see SampleDimensions)", ranks);
@@ -54,23 +59,20 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   const FlowTables tables = chooseTables<D>(map.Tables, density.Grid().Size<D>(),
     { options, map.Backward ? FlowDirection::Backward : FlowDirection::Forward, count, true,
       equalizes ? EqualAreas : map.Optimal.WholeFor() });
-  const SharedFlow& shared = cache.Update(density, progress, ends[0], tables, { map.Optimal });
+  const SharedFlow& shared = cache.Update(density, stages["tables"], tables, { map.Optimal });
   const RectifiedFlow<D>& flow = shared.Flow<D>();
   const DensityTransport<D> transport =
-    cache.Transport<D>({ map.Optimal }, density, progress, ends[1]);
-  progress.BeginStage(ends[2]);
+    cache.Transport<D>({ map.Optimal }, density, stages["optimal map"]);
   const auto seeds = FlowSeeds<D>::Lattice(lattice, field.Parts());
   FlowReport report = map.Backward
-    ? transport.Points().Backward(seeds, field.Positions(), options, progress.Stage())
-    : transport.Points().Forward(seeds, field.Positions(), options, progress.Stage());
+    ? transport.Points().Backward(seeds, field.Positions(), options, stages["samples"])
+    : transport.Points().Forward(seeds, field.Positions(), options, stages["samples"]);
   int passes = 0;
   if (equalizes)
   {
-    progress.BeginStage(ends[3]);
-    const auto correction = cache.Correction<D>(transport, options, progress);
-    progress.BeginStage(ends[4], field.Part().Count());
+    const auto correction = cache.Correction<D>(transport, options, stages["areas"]);
     correctImages<D>(*correction, latticeStep<D>(lattice, flow.Size()), field.Part(), field.Parts(),
-      field.Positions(), progress);
+      field.Positions(), stages["correction"]);
     passes = correction->Report().Passes;
   }
   else
@@ -82,10 +84,10 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
     prepareShares<D>(flow, field.Whole(), field.Part());
   }
   // Whole tables may have been made by another filter: these values are read piece by piece.
-  density.Prepare(FlowTables::Tiled, progress);
+  density.Prepare(FlowTables::Tiled, stages["reading"]);
   const MapFigures figures =
     field.Write(flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward,
-      density.Source<D>(), progress, 1.0, output->GetAttributes(owner));
+      density.Source<D>(), stages["write"], output->GetAttributes(owner));
   addFieldValue(output, "TotalMass", shared.TotalMass());
   addFieldValue(output, "TransportCost", figures.Cost);
   transport.AddBound(figures.Cost, output);

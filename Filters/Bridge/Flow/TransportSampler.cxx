@@ -14,6 +14,7 @@
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankShare.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Seeds/UnitSeeds.h"
 
 #include "vtkCellData.h"
@@ -81,14 +82,12 @@ std::string describeParticles(double count, bool paths)
 // Those from number `firstSeed` on.
 template <int D>
 void makeSeeds(const UnitSeeds<D>& pattern, const GridSize<D>& size, const std::string& purpose,
-  std::int64_t firstSeed, Progress& progress, double end, PointSpan<D> seeds)
+  std::int64_t firstSeed, Progress& progress, PointSpan<D> seeds)
 {
-  constexpr double partOfPattern = 0.8;
-  progress.BeginStage(progress.StageEnd() + partOfPattern * (end - progress.StageEnd()));
+  Stages stages(progress, { { "pattern", 8 }, { "scale", 2 } });
   withMemory(purpose, pattern.Count() * D * sizeof(double),
-    [&]() { pattern.GenerateFrom(firstSeed, seeds, progress.Stage()); });
-  progress.BeginStage(end);
-  progress.For(seeds.size(), grain, [=](std::int64_t first, std::int64_t last) {
+    [&]() { pattern.GenerateFrom(firstSeed, seeds, stages["pattern"]); });
+  stages["scale"].For(seeds.size(), grain, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       for (int a = 0; a < D; ++a)
@@ -160,11 +159,13 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   const std::vector<double> times = timesOf(sampler);
   const bool addsArrays = sampler.SampleArrays && !sampler.OutputPaths;
   const OptimalSetting& optimal = sampler.Optimal;
-  const auto ends = stageEnds(
-    { Cost::tables(cache, density), Cost::Seed * count, Cost::optimal(cache, density, optimal),
-      Cost::flow(sampler.Flow, D) * count, optimal.NeedsMap() ? Cost::Write * count : 0.0,
-      Cost::Write * count * static_cast<double>(times.size()),
-      addsArrays ? Cost::Write * count : 0.0 });
+  Stages stages(progress,
+    { { "tables", Cost::tables(cache, density) }, { "seeds", Cost::Seed * count },
+      { "optimal map", Cost::optimal(cache, density, optimal) },
+      { "flow", Cost::flow(sampler.Flow, D) * count },
+      { "slack", optimal.NeedsMap() ? Cost::Write * count : 0.0 },
+      { "particles", Cost::Write * count * static_cast<double>(times.size()) },
+      { "arrays", addsArrays ? Cost::Write * count : 0.0 } });
   const std::string purpose = describeParticles(count, sampler.OutputPaths);
   ParticleSet<D> particles(
     grid, purpose, count, static_cast<std::int64_t>(times.size()), given != nullptr);
@@ -178,22 +179,19 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   const OptimalNeeds needs{ optimal, given ? 0.0 : static_cast<double>(share.All) };
   const FlowTables tables = chooseTables<D>(
     sampler.Tables, grid.Size<D>(), { options, FlowDirection::Forward, count, false, wholeFor });
-  const SharedFlow& flow = cache.Update(density, progress, ends[0], tables, needs);
+  const SharedFlow& flow = cache.Update(density, stages["tables"], tables, needs);
   TransportSampler::Report report;
   if (given)
   {
-    progress.BeginStage(ends[1]);
     report.SeedsMoved = readSeeds<D>(given, CountedPoints(given->GetNumberOfPoints(), nullptr, 0),
-      "input Seeds", grid, progress, particles.Seeds(), particles.PhysicalSeeds());
+      "input Seeds", grid, stages["seeds"], particles.Seeds(), particles.PhysicalSeeds());
   }
   else
   {
-    makeSeeds<D>(
-      pattern, grid.Size<D>(), purpose, share.First, progress, ends[1], particles.Seeds());
+    makeSeeds<D>(pattern, grid.Size<D>(), purpose, share.First, stages["seeds"], particles.Seeds());
   }
-  const DensityTransport<D> transport = cache.Transport<D>(needs, density, progress, ends[2]);
+  const DensityTransport<D> transport = cache.Transport<D>(needs, density, stages["optimal map"]);
   report.Transport = transport.Report();
-  progress.BeginStage(ends[3]);
   const ConstPointSpan<D> seeds = particles.Seeds();
   const PointSpan<D> positions = particles.Positions();
   const FlowSeeds<D> starts = given ? FlowSeeds<D>(seeds) : FlowSeeds<D>(seeds).AsSamples();
@@ -202,23 +200,21 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   {
     if (times.back() == 0.0 && times.size() == 1)
     {
-      progress.For(seeds.size(), grain, [=](std::int64_t first, std::int64_t last) {
+      stages["flow"].For(seeds.size(), grain, [=](std::int64_t first, std::int64_t last) {
         std::copy(seeds[first], seeds[last], positions[first]);
       });
     }
     else if (times.back() == 1.0 && times.size() == 1)
     {
-      report.Flow = transport.Points().Forward(starts, positions, options, progress.Stage());
+      report.Flow = transport.Points().Forward(starts, positions, options, stages["flow"]);
       if (transport.Certificate())
       {
-        progress.BeginStage(ends[4]);
-        slack = transport.Slack(seeds, positions, progress);
+        slack = transport.Slack(seeds, positions, stages["slack"]);
       }
     }
     else
     {
-      report.Flow =
-        transport.Points().ForwardAt(starts, times, positions, options, progress.Stage());
+      report.Flow = transport.Points().ForwardAt(starts, times, positions, options, stages["flow"]);
     }
   }
   catch (const std::bad_alloc& caught)
@@ -238,14 +234,14 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   }
   const double mass = flow.TotalMass();
   const double cost = sampler.OutputPaths
-    ? particles.WritePaths(mass, times, progress, ends[5], output)
-    : particles.WriteParticles(mass, progress, ends[5], output);
+    ? particles.WritePaths(mass, times, stages["particles"], output)
+    : particles.WriteParticles(mass, stages["particles"], output);
   if (slack)
   {
     output->GetPointData()->AddArray(slack);
   }
   const PlaceOwners owners(grid, density.Pieces(), ranks);
-  moveToOwners(output, static_cast<std::int64_t>(times.size()), owners, ranks, progress);
+  moveToOwners(output, static_cast<std::int64_t>(times.size()), owners, ranks, stages["particles"]);
   report.SeedsMoved = sumOverRanks(ranks, report.SeedsMoved);
   report.ParticlesMoved = sumOverRanks(ranks, report.Flow.MovedToMass);
   report.Particles = share.All;
@@ -253,7 +249,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   {
     auto* places = vtkDoubleArray::SafeDownCast(output->GetPoints()->GetData());
     density.SampleArrays(extentAround(owners, grid),
-      { places->GetPointer(0), places->GetNumberOfTuples() }, progress, output->GetPointData());
+      { places->GetPointer(0), places->GetNumberOfTuples() }, stages["arrays"],
+      output->GetPointData());
   }
   addFieldValue(output, "TotalMass", mass);
   addFieldValue(output, "TransportCost", cost);

@@ -38,7 +38,7 @@ struct TurnedCells
 // volumes, by the lines between their corners. A cell counts if its signed length, area or volume
 // is not 0 before, and has the other sign or is 0 after; a strip or a line of several pieces if one
 // of its pieces does. Ghost cells do not count. `before` has the cells, `after` the moved points.
-// Runs as the current stage. Throws Failure and Cancelled.
+// Throws Failure and Cancelled.
 TurnedCells countTurnedCells(
   const ImageGrid& grid, vtkPointSet* before, vtkPointSet* after, Progress& progress);
 

@@ -9,6 +9,7 @@
 #include "Core/Parallel/KeySort.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Splat/SplatSetup.h"
 
 #include "vtkAOSDataArrayTemplate.h"
@@ -118,35 +119,33 @@ class DistributedSplat
 {
 public:
   DistributedSplat(const SplatParticles<D, Real>& particles, const std::int64_t* order,
-    const SplatTarget& target, const Agreement& all, const Ranks& ranks, Progress& progress)
+    const SplatTarget& target, const Agreement& all, const Ranks& ranks)
     : Own(particles)
     , Order(all.HasOrder ? order : nullptr)
     , Target(target)
     , All(all)
     , Records(all.HasMasses, all.HasOrder)
     , Processes(ranks)
-    , Work(progress)
   {
   }
 
-  std::int64_t Run(double* cells)
+  std::int64_t Run(Progress& progress, double* cells)
   {
-    this->Work.BeginStage(0.2);
-    const std::int64_t outside = this->Distribute();
-    this->Receive(this->Processes.Exchange(std::move(this->Parts)));
-    this->Work.BeginStage(1.0);
+    Stages stages(progress, { { "exchange", 2 }, { "splat", 8 } });
+    const std::int64_t outside = this->Distribute(stages["exchange"]);
+    this->Receive(this->Processes.Exchange(std::move(this->Parts)), stages["exchange"]);
     const SplatParticles<D, Real> received{ { this->Points.data(), this->Points.size() / 3 },
       this->Masses.data(), this->All.MassEach, this->Own.ToIndex };
     const auto own = static_cast<std::size_t>(this->Processes.Own());
     splatMass<D, Real>(received, this->Target.Geometry.template Size<D>(),
       latticePartOf<D>(this->All.Wanted[own], this->Target.Geometry), this->Target.Options,
-      this->Target.Scale(), cells, this->Work.Stage());
+      this->Target.Scale(), cells, stages["splat"]);
     return sumOverRanks(this->Processes, outside);
   }
 
 private:
   // Appends each point to the parts of the ranks that it reaches. Returns how many are outside.
-  std::int64_t Distribute()
+  std::int64_t Distribute(Progress& progress)
   {
     constexpr int block = 1024;
     const SplatSetup<D, Real> setup(
@@ -159,19 +158,17 @@ private:
     this->Parts.resize(boxes.size());
     std::vector<std::int32_t> cells(3 * block);
     std::int64_t outside = 0;
-    this->Work.ForInOrder(
-      this->Own.Points.size(), block, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t first = begin; first < end; first += block)
+    progress.ForInOrder(this->Own.Points.size(), block, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t first = begin; first < end; first += block)
+      {
+        const int count = static_cast<int>(std::min<std::int64_t>(block, end - first));
+        outside += setup.Kernels.Find(setup.Job, first, count, cells.data());
+        for (std::size_t rank = 0; rank < boxes.size(); ++rank)
         {
-          const int count = static_cast<int>(std::min<std::int64_t>(block, end - first));
-          outside += setup.Kernels.Find(setup.Job, first, count, cells.data());
-          for (std::size_t rank = 0; rank < boxes.size(); ++rank)
-          {
-            this->AppendThose(
-              setup.Job, boxes[rank], first, count, cells.data(), this->Parts[rank]);
-          }
+          this->AppendThose(setup.Job, boxes[rank], first, count, cells.data(), this->Parts[rank]);
         }
-      });
+      }
+    });
     return outside;
   }
 
@@ -198,7 +195,7 @@ private:
   }
 
   // Puts the points of all ranks in order.
-  void Receive(std::vector<Bytes> received)
+  void Receive(std::vector<Bytes> received, Progress& progress)
   {
     const std::size_t length = this->Records.Length();
     std::size_t bytes = 0;
@@ -236,9 +233,9 @@ private:
       {
         part = Bytes();
       }
-      this->Work.Check();
+      progress.Check();
     }
-    sortByKey(records, this->Work);
+    sortByKey(records, progress);
     for (const Sorted& record : records)
     {
       this->Take(record.Record, place++);
@@ -266,7 +263,6 @@ private:
   const Agreement& All;
   const PointRecords<Real> Records;
   const Ranks& Processes;
-  Progress& Work;
   std::vector<Bytes> Parts; // for each rank
   LargeBuffer<Real> Points; // that reach the box of this rank, in order
   LargeBuffer<double> Masses;
@@ -288,7 +284,7 @@ std::int64_t splatOnRanks(const OwnPoints<Real>& own, const SplatTarget& target,
 {
   const SplatParticles<D, Real> particles{ own.Points, own.Masses, own.MassEach,
     target.Geometry.ToIndexMap<D>() };
-  return DistributedSplat<D, Real>(particles, own.Order, target, all, ranks, progress).Run(cells);
+  return DistributedSplat<D, Real>(particles, own.Order, target, all, ranks).Run(progress, cells);
 }
 
 template <class Real>
@@ -315,19 +311,18 @@ std::int64_t splatDistributed(vtkDataArray* points, const double* masses, double
   auto* single = vtkAOSDataArrayTemplate<float>::FastDownCast(points);
   const Agreement all = agreementOf(
     { wanted, count, single != nullptr, masses != nullptr, order != nullptr, massEach }, ranks);
-  Progress work(progress.Stage());
+  Stages stages(progress, { { "points", all.IsSingle ? 0.0 : 5.0 }, { "splat", 95 } });
   const double bytes = 100.0 * static_cast<double>(count);
   return withMemory("the exchange of " + std::to_string(count) + " points", bytes, [&]() {
     if (all.IsSingle)
     {
       return splatOwn<float>(
         { { single ? single->GetPointer(0) : nullptr, count }, masses, massEach, order }, target,
-        all, ranks, work, cells->GetPointer(0));
+        all, ranks, stages["splat"], cells->GetPointer(0));
     }
-    work.BeginStage(0.05);
-    const DoubleTuples doubles(points, work);
+    const DoubleTuples doubles(points, stages["points"]);
     return splatOwn<double>({ { doubles.data(), count }, masses, massEach, order }, target, all,
-      ranks, work, cells->GetPointer(0));
+      ranks, stages["splat"], cells->GetPointer(0));
   });
 }
 

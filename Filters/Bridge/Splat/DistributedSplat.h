@@ -17,10 +17,10 @@ namespace RectifiedTransport::Bridge
 // geometry as tuplesOf(extent, owner, whole) gives them. Boxes may be empty and may overlap.
 // `cells` has wanted.Count() tuples. `order` may be nullptr; else it has a key for each point. If
 // all ranks that have points give keys, the terms of a cell are added in the order of the keys
-// (equal keys: by rank, then by index). Collective on the ranks of the progress. Runs as the
-// current stage. Returns how many points of all ranks are outside the domain. Memory: about 100
-// bytes for each point that a rank sends, and as much for each that reaches its box. Throws Failure
-// if memory is short, and Cancelled.
+// (equal keys: by rank, then by index). Collective on the ranks of the progress. Returns how many
+// points of all ranks are outside the domain. Memory: about 100 bytes for each point that a rank
+// sends, and as much for each that reaches its box. Throws Failure if memory is short, and
+// Cancelled.
 std::int64_t splatDistributed(vtkDataArray* points, const double* masses, double massEach,
   const std::int64_t* order, const SplatTarget& target, const TupleBox& wanted, Progress& progress,
   vtkDoubleArray* cells);

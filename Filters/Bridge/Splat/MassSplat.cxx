@@ -39,7 +39,7 @@ SplatReport splatInto(
   const double bytes = 8.0 * static_cast<double>(input.Points.size());
   return withMemory("putting the points in order", bytes, [&]() {
     return splatMass<D, Real>(
-      particles, geometry.Size<D>(), target.Options, target.Scale(), cells, progress.Stage());
+      particles, geometry.Size<D>(), target.Options, target.Scale(), cells, progress);
   });
 }
 

@@ -37,13 +37,13 @@ void requireFiniteDensity(
 // Writes the values of the cells (or dual cells) of the target's geometry into `cells`, one
 // component and a tuple for each, of an array of points and one mass for each; `massEach` if
 // `masses` is nullptr. Coordinates are finite; those of a type other than double and float are
-// copied. Runs as the current stage. Returns how many points are outside the domain (see
-// SplatReport). Throws Failure if memory is short, and Cancelled.
+// copied. Returns how many points are outside the domain (see SplatReport). Throws Failure if
+// memory is short, and Cancelled.
 std::int64_t splatPoints(vtkDataArray* points, const double* masses, double massEach,
   const SplatTarget& target, Progress& progress, vtkDoubleArray* cells);
 
 // The total mass of the cells that splatPoints wrote: the sum of the sums of `splatSumChunk`
-// consecutive cells. Runs as the current stage. Throws Cancelled.
+// consecutive cells. Throws Cancelled.
 constexpr std::int64_t splatSumChunk = std::int64_t{ 1 } << 13;
 double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& progress);
 

@@ -15,6 +15,7 @@
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankOrder.h"
 #include "Core/Parallel/RankShare.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -34,21 +35,15 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-// The work before the splat, of all.
-constexpr double endOfPoints = 0.1;
-constexpr double endOfMasses = 0.2;
-constexpr double endOfBounds = 0.25;
-
 PointMasses readPoints(vtkPointSet* points, vtkDataArray* masses, Progress& progress)
 {
   if (points->GetNumberOfPoints() == 0)
   {
     return {};
   }
-  progress.BeginStage(endOfPoints);
-  visitPoints(points, "input point set", progress, [](std::int64_t, const double*) {});
-  progress.BeginStage(endOfMasses);
-  return { points, masses, progress };
+  Stages stages(progress, { { "points", 1 }, { "masses", 1 } });
+  visitPoints(points, "input point set", stages["points"], [](std::int64_t, const double*) {});
+  return { points, masses, stages["masses"] };
 }
 
 void requireAxis(const ImageGrid& cells, bool hasReference)
@@ -142,20 +137,16 @@ double inOrder(
 
 SplatResult splatHere(const SplatInput& input, Progress& progress, vtkDoubleArray* cells)
 {
-  constexpr double endOfSplat = 0.95;
-  Progress work(progress.Stage());
-  work.BeginStage(endOfSplat);
+  Stages stages(progress, { { "splat", 95 }, { "sum", 5 } });
   const std::int64_t outside = splatPoints(input.Points.Set()->GetPoints()->GetData(),
-    input.Masses.Values(), 1.0, input.Target, work, cells);
-  work.BeginStage(1.0);
+    input.Masses.Values(), 1.0, input.Target, stages["splat"], cells);
   return { outside,
     input.Target.Options.Boundary == SplatBoundary::Renormalize
       ? input.Masses.Total()
-      : splatMassIn(cells, input.Target, work) };
+      : splatMassIn(cells, input.Target, stages["sum"]) };
 }
 
-// Writes the wanted cells: the splat of distributed points and its total mass, bitwise as on one
-// rank. As the work of the current stage.
+// Writes the wanted cells: the splat of distributed points and its mass, bitwise as on one rank.
 SplatResult splatOnRanks(const SplatInput& input, const TupleBox& whole, const TupleBox& wanted,
   Progress& progress, vtkDoubleArray* cells)
 {
@@ -233,7 +224,9 @@ MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses
   const Ranks& ranks = progress.Group();
   // Hidden points have no mass, but their places among the others.
   const DistributedPoints counted(points, vtkDataSetAttributes::DUPLICATEPOINT, ranks);
-  const PointMasses given = readPoints(counted.Set(), masses, progress);
+  Stages stages(progress,
+    { { "reading", 20 }, { "bounds", target.HasReference ? 0.0 : 5.0 }, { "splat", 75 } });
+  const PointMasses given = readPoints(counted.Set(), masses, stages["reading"]);
   ImageGrid cells;
   if (target.HasReference)
   {
@@ -242,8 +235,7 @@ MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses
   else if (counted.All() > 0)
   {
     double bounds[6];
-    progress.BeginStage(endOfBounds);
-    findBounds(counted.Set(), progress, bounds);
+    findBounds(counted.Set(), stages["bounds"], bounds);
     cells = this->CellsIn(bounds);
   }
   if (cells.IsEmpty())
@@ -267,9 +259,8 @@ MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses
   const int owner = this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
   const TupleBox box = tuplesOf(wanted, owner, grid.Extent());
   const auto density = newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(box.Count()));
-  progress.BeginStage(1.0);
   const SplatResult splat = splatOnRanks({ counted, given, splatTarget },
-    tuplesOf(grid.Extent(), owner, grid.Extent()), box, progress, density);
+    tuplesOf(grid.Extent(), owner, grid.Extent()), box, stages["splat"], density);
   output->GetAttributes(owner)->SetScalars(density);
   addFieldValue(output, "TotalMass", splat.TotalMass);
   addFieldValue(output, "OutsidePoints", static_cast<double>(splat.Outside));

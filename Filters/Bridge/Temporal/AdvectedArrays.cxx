@@ -40,9 +40,8 @@ vtkSmartPointer<vtkPointData> sample(
   vtkImageData* image, const ImageGrid& grid, vtkDoubleArray* points, Progress& progress)
 {
   auto values = vtkSmartPointer<vtkPointData>::New();
-  Progress part(progress.Stage());
   sampleImage(image, grid, grid.Extent(),
-    ConstPointSpan<3>(points->GetPointer(0), points->GetNumberOfTuples()), part, values);
+    ConstPointSpan<3>(points->GetPointer(0), points->GetNumberOfTuples()), progress, values);
   return values;
 }
 

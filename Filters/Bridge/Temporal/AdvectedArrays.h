@@ -58,13 +58,13 @@ bool isAdvected(const AdvectedImage& image, int owner, vtkAbstractArray* array);
 class AdvectedArrays
 {
 public:
-  // Takes the arrays that both images have with one type and number of components. Runs as the
-  // current stage. Throws Failure and Cancelled.
+  // Takes the arrays that both images have with one type and number of components. Throws Failure
+  // and Cancelled.
   void Make(const AdvectedImage& first, const AdvectedImage& second,
     const MovingParticles& particles, const ImageGrid& geometry, Progress& progress);
   // The names of arrays that one of the two lacks.
   const std::vector<std::string>& Missing() const { return this->Lacking; }
-  // Adds the arrays on an extent of the image. Runs as the current stage. Collective.
+  // Adds the arrays on an extent of the image. Collective.
   void Write(const AdvectedMoment& moment, const ImageGrid& geometry, const SplatOptions& splat,
     const Extent& wanted, Progress& progress, vtkImageData* output) const;
 

@@ -46,8 +46,8 @@ public:
   // Takes arrays of the points or cells (`owner`) of both images. Throws Failure.
   void Make(int owner, const std::vector<std::string>& names, const AdvectedImage& first,
     const AdvectedImage& second, const MovingParticles& particles);
-  // Adds the arrays on an extent of the image. Runs as the current stage. Collective. The same for
-  // every number of threads and ranks. Throws Failure and Cancelled.
+  // Adds the arrays on an extent of the image. Collective. The same for every number of threads and
+  // ranks. Throws Failure and Cancelled.
   void Write(const AdvectedMoment& moment, const ImageGrid& geometry, const Extent& wanted,
     Progress& progress, vtkImageData* output) const;
   bool IsEmpty() const { return this->Arrays.empty(); }

@@ -7,7 +7,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Temporal/StepDensity.h"
 #include "Core/Geometry/LengthScale.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -39,23 +39,22 @@ OptimalMapOptions optionsOfIntervals(std::int64_t cells)
 
 template <int D>
 IntervalMap<D>::IntervalMap(const StepDensity& from, const StepDensity& to, bool isOptimal,
-  double samples, Progress& progress, double end)
+  double samples, Progress& progress)
   : From(from)
   , To(to)
 {
   if (isOptimal)
   {
-    this->Solve(samples, progress, end);
+    this->Solve(samples, progress);
   }
   if (!this->Map)
   {
-    this->MakeFlows(progress, end);
+    this->MakeFlows(progress);
   }
-  progress.BeginStage(end);
 }
 
 template <int D>
-void IntervalMap<D>::Solve(double samples, Progress& progress, double end)
+void IntervalMap<D>::Solve(double samples, Progress& progress)
 {
   const ImageGrid box =
     commonGrid({ { this->From.Grid, "" }, { this->To.Grid, "" } }, anyDimensions, MostCells::Any);
@@ -65,19 +64,15 @@ void IntervalMap<D>::Solve(double samples, Progress& progress, double end)
     this->To.Grid.template Size<D>(), { setting, samples }, progress.Group());
   memory.Require();
   const OptimalMapOptions options = optionsOfIntervals(box.NumberOfCells());
-  constexpr double partOfReading = 0.05;
-  const double begin = progress.StageEnd();
-  progress.BeginStage(begin + partOfReading * (end - begin));
+  Stages stages(progress, { { "reading", 5 }, { "solution", 85 }, { "check", 10 } });
   const auto from = this->From.template Density<D>();
   const auto to = this->To.template Density<D>();
   const LengthScale scale(box);
   withMemory(memory.Purpose, memory.Bytes, [&]() {
     this->Map = std::make_unique<OptimalMap<D>>(placeDensity<D>(box, this->From.Grid, from),
-      placeDensity<D>(box, this->To.Grid, to), options, progress.Stage());
-    progress.BeginStage(begin + 0.9 * (end - begin));
-    this->Map->Solve(progress.Stage());
-    progress.BeginStage(end);
-    this->Text = unresolvedText(this->Map->MassError(progress.Stage()));
+      placeDensity<D>(box, this->To.Grid, to), options, stages["reading"]);
+    this->Map->Solve(stages["solution"]);
+    this->Text = unresolvedText(this->Map->MassError(stages["check"]));
   });
   this->Bound = scale.CostFromUnits(this->Map->LowerBound());
   if (!this->Text.empty())
@@ -87,25 +82,24 @@ void IntervalMap<D>::Solve(double samples, Progress& progress, double end)
 }
 
 template <int D>
-void IntervalMap<D>::MakeFlows(Progress& progress, double end)
+void IntervalMap<D>::MakeFlows(Progress& progress)
 {
-  const double begin = progress.StageEnd();
-  const auto make = [&](const StepDensity& step, double until) {
-    progress.BeginStage(until);
+  Stages stages(progress, { { "first", 1 }, { "second", 1 } });
+  const auto make = [](const StepDensity& step, Progress& making) {
     const double bytes = bytesOfTables * static_cast<double>(step.Grid.NumberOfCells());
     const auto density = step.template Density<D>();
     return withMemory("the tables of a density", bytes,
-      [&]() { return std::make_unique<RectifiedFlow<D>>(density, progress.Stage()); });
+      [&]() { return std::make_unique<RectifiedFlow<D>>(density, making); });
   };
-  this->FromFlow = make(this->From, 0.5 * (begin + end));
-  this->ToFlow = make(this->To, end);
+  this->FromFlow = make(this->From, stages["first"]);
+  this->ToFlow = make(this->To, stages["second"]);
 }
 
 template <int D>
 void IntervalMap<D>::Follow(const RectifiedFlow<D>& back, const RectifiedFlow<D>& on,
   PointSpan<D> points, Progress& progress) const
 {
-  back.Backward(ConstPointSpan<D>(points), points, {}, progress.Stage());
+  back.Backward(ConstPointSpan<D>(points), points, {}, progress);
   for (std::int64_t i = 0; i < points.size(); ++i)
   {
     for (int axis = 0; axis < D; ++axis)
@@ -114,7 +108,7 @@ void IntervalMap<D>::Follow(const RectifiedFlow<D>& back, const RectifiedFlow<D>
         static_cast<double>(on.Size()[axis]) / static_cast<double>(back.Size()[axis]);
     }
   }
-  on.Forward(ConstPointSpan<D>(points), points, {}, progress.Stage());
+  on.Forward(ConstPointSpan<D>(points), points, {}, progress);
 }
 
 template <int D>
@@ -126,7 +120,7 @@ void IntervalMap<D>::Forward(PointSpan<D> points, bool areSamples, Progress& pro
     return;
   }
   const FlowSeeds<D> seeds{ ConstPointSpan<D>(points) };
-  this->Map->Forward(areSamples ? seeds.AsSamples() : seeds, points, {}, progress.Stage());
+  this->Map->Forward(areSamples ? seeds.AsSamples() : seeds, points, {}, progress);
 }
 
 template <int D>
@@ -137,7 +131,7 @@ void IntervalMap<D>::Backward(PointSpan<D> points, Progress& progress) const
     this->Follow(*this->ToFlow, *this->FromFlow, points, progress);
     return;
   }
-  this->Map->Backward(ConstPointSpan<D>(points), points, {}, progress.Stage());
+  this->Map->Backward(ConstPointSpan<D>(points), points, {}, progress);
 }
 
 template class IntervalMap<1>;

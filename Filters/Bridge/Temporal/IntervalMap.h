@@ -27,13 +27,13 @@ class IntervalMap
 {
 public:
   // Both densities have mass, and outlive the map. `samples`: those that Forward moves together, of
-  // all ranks. Progress reaches `end`. Collective. Throws Failure and Cancelled.
+  // all ranks. Collective. Throws Failure and Cancelled.
   IntervalMap(const StepDensity& from, const StepDensity& to, bool isOptimal, double samples,
-    Progress& progress, double end);
+    Progress& progress);
 
-  // Moves points from the index space of one density to that of the other one, as the work of the
-  // current stage. Collective. `areSamples`: they are of equal mass and together those of the
-  // density, and boxes of cells keep their masses.
+  // Moves points from the index space of one density to that of the other one. Collective.
+  // `areSamples`: they are of equal mass and together those of the density, and boxes of cells keep
+  // their masses.
   void Forward(PointSpan<D> points, bool areSamples, Progress& progress) const;
   void Backward(PointSpan<D> points, Progress& progress) const;
 
@@ -44,8 +44,8 @@ public:
   const std::string& Warning() const { return this->Text; }
 
 private:
-  void Solve(double samples, Progress& progress, double end);
-  void MakeFlows(Progress& progress, double end);
+  void Solve(double samples, Progress& progress);
+  void MakeFlows(Progress& progress);
   void Follow(const RectifiedFlow<D>& back, const RectifiedFlow<D>& on, PointSpan<D> points,
     Progress& progress) const;
 

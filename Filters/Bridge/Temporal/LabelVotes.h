@@ -27,8 +27,7 @@ class LabelVotes
 public:
   virtual ~LabelVotes() = default;
   // For each wanted cell what has most of the mass there, of equal masses the least number; -1 if
-  // there is no mass. `equal`: for each tuple, what its mass counts for. Runs as the current stage.
-  // Throws Cancelled.
+  // there is no mass. `equal`: for each tuple, what its mass counts for. Throws Cancelled.
   virtual std::vector<vtkIdType> Count(
     const std::vector<vtkIdType>& equal, Progress& progress) const = 0;
 };

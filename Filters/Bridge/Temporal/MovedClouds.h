@@ -35,8 +35,8 @@ struct CloudSizes
 // The lengths of the clouds of particles, in a lattice of cells, at their images: `images` are in
 // the index space of `there`, and each particle is at its number in the lattice. Along an axis it
 // is the mean of the distances to the images of both neighbours, or the smaller one if they differ
-// by a factor of two or more, as where mass comes apart. As the work of the current stage; the
-// images of all ranks count. Collective. Throws Cancelled.
+// by a factor of two or more, as where mass comes apart. The images of all ranks count.
+// Collective. Throws Cancelled.
 template <int D>
 std::vector<float> cloudsAtImages(const PivotLattice<D>& lattice, const ImageGrid& here,
   const ImageGrid& there, const std::vector<std::int64_t>& numbers, ConstPointSpan<D> images,
@@ -60,8 +60,7 @@ struct MovedClouds
 
 // Writes the density of clouds on the wanted tuples of a grid. Clouds beyond the border are cut
 // there and keep their masses. `most`: no cell gets more mass. Sums are of integers, so that
-// neither threads nor ranks change a bit. Runs as the current stage. Collective. Throws Failure and
-// Cancelled.
+// neither threads nor ranks change a bit. Collective. Throws Failure and Cancelled.
 void splatClouds(const MovedClouds& clouds, const ImageGrid& geometry, double most,
   const TupleBox& wanted, Progress& progress, vtkDoubleArray* density);
 

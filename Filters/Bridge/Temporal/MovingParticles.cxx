@@ -10,9 +10,9 @@
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/ExactSum.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankShare.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <sstream>
@@ -98,48 +98,48 @@ template <int D>
 class ParticleMaker
 {
 public:
-  ParticleMaker(const StepDensity& from, const StepDensity& to, const MovingSettings& settings,
-    Progress& progress)
+  ParticleMaker(const StepDensity& from, const StepDensity& to, const MovingSettings& settings)
     : First(from)
     , Second(to)
     , Settings(settings)
     , FirstLattice(pivotLattice<D>(from.Grid.Size<D>(), settings.ParticlesPerCell))
     , SecondLattice(pivotLattice<D>(to.Grid.Size<D>(), settings.ParticlesPerCell))
-    , Work(progress)
   {
   }
 
-  MovingParticles Make(double end)
+  MovingParticles Make(Progress& progress)
   {
-    const Ranks& ranks = this->Work.Group();
+    const Ranks& ranks = progress.Group();
+    Stages stages(progress, { { "starts", 1 }, { "move", 98 }, { "images", 1 } });
     auto first = placeParticles<D>(this->First, this->FirstLattice, ranks);
     auto second = placeParticles<D>(this->Second, this->SecondLattice, ranks);
     this->Allocate(first, second, ranks);
-    this->Write(this->First.Grid, first.Span(), this->Made.From, 0);
-    this->Write(this->Second.Grid, second.Span(), this->Made.To, first.Count());
+    this->Write(this->First.Grid, first.Span(), this->Made.From, 0, stages["starts"]);
+    this->Write(this->Second.Grid, second.Span(), this->Made.To, first.Count(), stages["starts"]);
     this->Made.Sizes.From = cloudsInCells<D>(this->FirstLattice, first.Count());
     this->Made.Sizes.To = this->Made.Sizes.From;
     const auto ofSecond = cloudsInCells<D>(this->SecondLattice, second.Count());
     if (this->First.Mass > 0.0 && this->Second.Mass > 0.0)
     {
-      this->Move(first, second, end);
-      this->Write(this->Second.Grid, first.Span(), this->Made.To, 0);
-      this->Write(this->First.Grid, second.Span(), this->Made.From, first.Count());
-      this->FindCost();
+      this->Move(first, second, stages["move"]);
+      this->Write(this->Second.Grid, first.Span(), this->Made.To, 0, stages["images"]);
+      this->Write(
+        this->First.Grid, second.Span(), this->Made.From, first.Count(), stages["images"]);
+      this->FindCost(stages["images"]);
       append(cloudsAtImages<D>(this->SecondLattice, this->Second.Grid, this->First.Grid,
-               second.Numbers, second.Span(), this->Work),
+               second.Numbers, second.Span(), stages["images"]),
         this->Made.Sizes.From);
       this->Made.Sizes.To = cloudsAtImages<D>(this->FirstLattice, this->First.Grid,
-        this->Second.Grid, first.Numbers, first.Span(), this->Work);
+        this->Second.Grid, first.Numbers, first.Span(), stages["images"]);
     }
     else
     {
       append(ofSecond, this->Made.Sizes.From);
-      this->Write(this->First.Grid, first.Span(), this->Made.To, 0);
-      this->Write(this->Second.Grid, second.Span(), this->Made.From, first.Count());
+      this->Write(this->First.Grid, first.Span(), this->Made.To, 0, stages["images"]);
+      this->Write(
+        this->Second.Grid, second.Span(), this->Made.From, first.Count(), stages["images"]);
     }
     append(ofSecond, this->Made.Sizes.To);
-    this->Work.BeginStage(end);
     return std::move(this->Made);
   }
 
@@ -170,27 +170,25 @@ private:
     }
   }
 
-  void Write(const ImageGrid& grid, PointSpan<D> points, vtkDoubleArray* to, std::int64_t at)
+  void Write(const ImageGrid& grid, PointSpan<D> points, vtkDoubleArray* to, std::int64_t at,
+    Progress& progress)
   {
-    writePhysical<D>(grid, points, this->Work, { to->GetPointer(3 * at), points.size() });
+    writePhysical<D>(grid, points, progress, { to->GetPointer(3 * at), points.size() });
   }
 
-  void Move(StepParticles<D>& first, StepParticles<D>& second, double end)
+  void Move(StepParticles<D>& first, StepParticles<D>& second, Progress& progress)
   {
-    constexpr double partOfMap = 0.8;
-    const double begin = this->Work.StageEnd();
-    const IntervalMap<D> map(this->First, this->Second, this->Settings.IsOptimal, 0.0, this->Work,
-      begin + partOfMap * (end - begin));
-    this->Work.BeginStage(0.5 * (this->Work.StageEnd() + end));
-    map.Forward(first.Span(), false, this->Work);
-    this->Work.BeginStage(end);
-    map.Backward(second.Span(), this->Work);
+    Stages stages(progress, { { "map", 8 }, { "forward", 1 }, { "backward", 1 } });
+    const IntervalMap<D> map(
+      this->First, this->Second, this->Settings.IsOptimal, 0.0, stages["map"]);
+    map.Forward(first.Span(), false, stages["forward"]);
+    map.Backward(second.Span(), stages["backward"]);
     this->Made.Bound = map.LowerBound();
     this->Made.HasBound = this->Settings.IsOptimal;
     this->Made.Warning = map.Warning();
   }
 
-  void FindCost()
+  void FindCost(Progress& progress)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
     const LengthScale scale(this->First.Grid);
@@ -198,14 +196,14 @@ private:
     const double* to = this->Made.To->GetPointer(0);
     const double* masses = this->Made.Masses->GetPointer(0);
     const double all = this->First.Mass;
-    const auto own = sumExactly<ExactSum>(this->Work, this->Made.OfFirst, grain,
+    const auto own = sumExactly<ExactSum>(progress, this->Made.OfFirst, grain,
       [&](std::int64_t first, std::int64_t last, ExactSum& sum) {
         for (std::int64_t i = first; i < last; ++i)
         {
           sum.Add(masses[i] / all * scale.SquaredDistanceInUnits(from + 3 * i, to + 3 * i));
         }
       });
-    this->Made.Cost = scale.CostFromUnits(sumOverRanks(this->Work.Group(), own).Value());
+    this->Made.Cost = scale.CostFromUnits(sumOverRanks(progress.Group(), own).Value());
   }
 
   const StepDensity& First;
@@ -213,25 +211,24 @@ private:
   const MovingSettings Settings;
   const PivotLattice<D> FirstLattice;
   const PivotLattice<D> SecondLattice;
-  Progress& Work;
   MovingParticles Made;
 };
 
 template <int D>
 MovingParticles make(const StepDensity& from, const StepDensity& to, const MovingSettings& settings,
-  Progress& progress, double end)
+  Progress& progress)
 {
-  return ParticleMaker<D>(from, to, settings, progress).Make(end);
+  return ParticleMaker<D>(from, to, settings).Make(progress);
 }
 
 } // namespace
 
 MovingParticles makeParticles(const StepDensity& from, const StepDensity& to,
-  const MovingSettings& settings, Progress& progress, double end)
+  const MovingSettings& settings, Progress& progress)
 {
   requireMemoryFor(from, to, settings.ParticlesPerCell, progress.Group());
   return dispatchDimension(from.Grid.Dimension(), make<1>, make<2>, make<3>)(
-    from, to, settings, progress, end);
+    from, to, settings, progress);
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -52,10 +52,10 @@ struct MovingSettings
   }
 };
 
-// If a step has no mass, the particles of the other one stay where they are. Progress reaches
-// `end`. Collective. Throws Failure and Cancelled.
+// If a step has no mass, the particles of the other one stay where they are. Collective. Throws
+// Failure and Cancelled.
 MovingParticles makeParticles(const StepDensity& from, const StepDensity& to,
-  const MovingSettings& settings, Progress& progress, double end);
+  const MovingSettings& settings, Progress& progress);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -44,8 +44,8 @@ struct StepDensity
   }
 };
 
-// Returns `before`, which may be nullptr, if it is of the same density; else reads it. Runs as the
-// current stage. Collective. Throws Failure for values that are no density, and Cancelled.
+// Returns `before`, which may be nullptr, if it is of the same density; else reads it. Collective.
+// Throws Failure for values that are no density, and Cancelled.
 std::shared_ptr<const StepDensity> readStepDensity(
   InputDensity& density, std::shared_ptr<const StepDensity> before, Progress& progress);
 

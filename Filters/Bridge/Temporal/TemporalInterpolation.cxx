@@ -15,8 +15,8 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Splat/DistributedSplat.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkCellArray.h"
 #include "vtkImageData.h"
@@ -167,25 +167,22 @@ void requireOneSpace(const TemporalStep& first, const TemporalStep& second)
 std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment,
   const TemporalSettings& settings, Progress& progress, const TemporalOutput& output)
 {
-  constexpr double partOfMap = 0.8;
-  constexpr double partOfParticles = 0.9;
+  Stages stages(progress, { { "map", 8 }, { "particles", 1 }, { "image", 1 } });
   const ImageGrid between = gridBetween(moment.First, moment.Second);
   std::vector<std::string> warnings;
-  Interval& interval = this->Find(moment, settings, progress, partOfMap, warnings);
+  Interval& interval = this->Find(moment, settings, stages["map"], warnings);
   const bool isStep = !settings.TracksParticles && (moment.Part <= 0.0 || moment.Part >= 1.0);
   const TemporalStep& nearest = moment.Part < 1.0 ? moment.First : moment.Second;
   const ImageGrid& geometry = isStep ? nearest.Density->Grid : between;
   applyGrid(geometry, output.Image);
-  progress.BeginStage(partOfParticles);
-  this->WriteParticles(interval, geometry, moment.Part, progress, output);
-  progress.BeginStage(1.0);
+  this->WriteParticles(interval, geometry, moment.Part, stages["particles"], output);
   if (isStep)
   {
-    WriteStep(nearest, settings.AdvectsArrays, progress, output);
+    WriteStep(nearest, settings.AdvectsArrays, stages["image"], output);
   }
   else
   {
-    this->WriteImage(interval, settings, geometry, moment.Part, progress, output);
+    this->WriteImage(interval, settings, geometry, moment.Part, stages["image"], output);
   }
   announceGrid(geometry, output.Announced); // which extents to give depends on that before
   const MovingParticles& particles = interval.Particles;
@@ -204,9 +201,9 @@ std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment
 }
 
 TemporalInterpolation::Interval& TemporalInterpolation::Find(const TemporalMoment& moment,
-  const TemporalSettings& settings, Progress& progress, double end,
-  std::vector<std::string>& warnings)
+  const TemporalSettings& settings, Progress& progress, std::vector<std::string>& warnings)
 {
+  Stages stages(progress, { { "interval", 9 }, { "arrays", settings.AdvectsArrays ? 1.0 : 0.0 } });
   const auto found =
     std::find_if(this->Intervals.begin(), this->Intervals.end(), [&](const Interval& interval) {
       return interval.First->IsSameAs(*moment.First.Density) &&
@@ -231,16 +228,15 @@ TemporalInterpolation::Interval& TemporalInterpolation::Find(const TemporalMomen
       this->Intervals.pop_back(); // before the memory of the next one
     }
     Interval interval;
-    this->Make(moment, settings, progress, end, interval);
+    this->Make(moment, settings, stages["interval"], interval);
     warnings = { interval.Particles.Warning, describeEmpty(moment) };
     this->Intervals.push_front(std::move(interval));
   }
   Interval& interval = this->Intervals.front();
   if (settings.AdvectsArrays && !interval.AdvectsArrays)
   {
-    progress.BeginStage(end);
     interval.Arrays.Make(advectedImage(moment.First), advectedImage(moment.Second),
-      interval.Particles, gridBetween(moment.First, moment.Second), progress);
+      interval.Particles, gridBetween(moment.First, moment.Second), stages["arrays"]);
     warnings.push_back(describeMissing(moment, interval.Arrays));
   }
   interval.AdvectsArrays = settings.AdvectsArrays;
@@ -249,10 +245,9 @@ TemporalInterpolation::Interval& TemporalInterpolation::Find(const TemporalMomen
 }
 
 void TemporalInterpolation::Make(const TemporalMoment& moment, const TemporalSettings& settings,
-  Progress& progress, double end, Interval& interval)
+  Progress& progress, Interval& interval)
 {
-  constexpr double partOfMap = 0.98;
-  const double begin = progress.StageEnd();
+  Stages stages(progress, { { "particles", 98 }, { "velocities", 2 } });
   interval.First = moment.First.Density;
   interval.Second = moment.Second.Density;
   interval.Settings = settings.Moving;
@@ -266,16 +261,15 @@ void TemporalInterpolation::Make(const TemporalMoment& moment, const TemporalSet
   }
   else
   {
-    interval.Particles = makeParticles(*moment.First.Density, *moment.Second.Density,
-      settings.Moving, progress, begin + partOfMap * (end - begin));
+    interval.Particles = makeParticles(
+      *moment.First.Density, *moment.Second.Density, settings.Moving, stages["particles"]);
     this->CountMap();
     if (!interval.Particles.Warning.empty())
     {
       interval.Particles.Warning = moment.Second.Title + ": " + interval.Particles.Warning;
     }
   }
-  progress.BeginStage(end);
-  interval.Velocities = velocitiesOf(interval.Particles, moment, progress);
+  interval.Velocities = velocitiesOf(interval.Particles, moment, stages["velocities"]);
 }
 
 void TemporalInterpolation::WriteParticles(const Interval& interval, const ImageGrid& geometry,

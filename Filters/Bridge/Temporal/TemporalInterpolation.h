@@ -100,9 +100,9 @@ private:
   };
 
   Interval& Find(const TemporalMoment& moment, const TemporalSettings& settings, Progress& progress,
-    double end, std::vector<std::string>& warnings);
+    std::vector<std::string>& warnings);
   void Make(const TemporalMoment& moment, const TemporalSettings& settings, Progress& progress,
-    double end, Interval& interval);
+    Interval& interval);
   void WriteParticles(const Interval& interval, const ImageGrid& geometry, double part,
     Progress& progress, const TemporalOutput& output);
   void WriteImage(const Interval& interval, const TemporalSettings& settings,

@@ -10,9 +10,9 @@
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/ExactSum.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankShare.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <numeric>
@@ -66,7 +66,7 @@ void TrackedParticles::SetSettings(const MovingSettings& settings, int ranks)
 }
 
 bool TrackedParticles::Extend(
-  const StepDensity* before, const StepDensity& density, Progress& progress, double end)
+  const StepDensity* before, const StepDensity& density, Progress& progress)
 {
   using Self = TrackedParticles;
   this->Text.clear();
@@ -87,63 +87,59 @@ bool TrackedParticles::Extend(
   if (before)
   {
     (this->*dispatchDimension(dimension, &Self::Follow<1>, &Self::Follow<2>, &Self::Follow<3>))(
-      *before, density, progress, end);
+      *before, density, progress);
   }
   else
   {
     (this->*dispatchDimension(dimension, &Self::Begin<1>, &Self::Begin<2>, &Self::Begin<3>))(
-      density, progress, end);
+      density, progress);
   }
   auto known = std::make_shared<StepDensity>(density);
   known->Values = nullptr;
   this->Steps.back().Density = known;
   ++this->Checked;
-  progress.BeginStage(end);
   return true;
 }
 
 template <int D>
-void TrackedParticles::Begin(const StepDensity& density, Progress& progress, double end)
+void TrackedParticles::Begin(const StepDensity& density, Progress& progress)
 {
   const PivotLattice<D> pivot =
     pivotLattice<D>(density.Grid.Size<D>(), this->Settings.ParticlesPerCell);
   this->Particles = pivot.NumberOfParticles();
   const RankShare share(this->Particles, progress.Group());
   const auto values = density.Density<D>();
-  const double begin = progress.StageEnd();
-  progress.BeginStage(begin + 0.2 * (end - begin));
-  const RectifiedFlow<D> flow(values, progress.Stage());
+  Stages stages(progress, { { "tables", 2 }, { "positions", 8 } });
+  const RectifiedFlow<D> flow(values, stages["tables"]);
   LargeBuffer<double> points(share.Count * D);
-  progress.BeginStage(end);
-  transportPivot<D>(flow, pivot, share.First, { points.data(), share.Count }, {}, progress.Stage());
+  transportPivot<D>(
+    flow, pivot, share.First, { points.data(), share.Count }, {}, stages["positions"]);
   Step step;
-  step.Positions = physicalOf<D>(density.Grid, { points.data(), share.Count }, progress);
+  step.Positions = physicalOf<D>(density.Grid, { points.data(), share.Count }, stages["positions"]);
   this->Steps.push_back(step);
 }
 
 template <int D>
 void TrackedParticles::Follow(
-  const StepDensity& before, const StepDensity& density, Progress& progress, double end)
+  const StepDensity& before, const StepDensity& density, Progress& progress)
 {
-  constexpr double partOfMap = 0.6;
-  const double begin = progress.StageEnd();
+  Stages stages(progress, { { "map", 6 }, { "images", 4 } });
   vtkDoubleArray* from = this->Steps.back().Positions;
   const std::int64_t count = from->GetNumberOfTuples();
-  const IntervalMap<D> map(before, density, this->Settings.IsOptimal,
-    static_cast<double>(this->Particles), progress, begin + partOfMap * (end - begin));
+  const IntervalMap<D> map(
+    before, density, this->Settings.IsOptimal, static_cast<double>(this->Particles), stages["map"]);
   LargeBuffer<double> points(count * D);
-  progress.BeginStage(end);
-  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+  stages["images"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       before.Grid.ToIndex<D>(from->GetPointer(3 * i), points.data() + D * i);
       before.Grid.ClampToDomain<D>(points.data() + D * i);
     }
   });
-  map.Forward({ points.data(), count }, true, progress);
+  map.Forward({ points.data(), count }, true, stages["images"]);
   Step step;
-  step.Positions = physicalOf<D>(density.Grid, { points.data(), count }, progress);
-  step.Cost = meanSquare(before, from, step.Positions, this->Particles, progress);
+  step.Positions = physicalOf<D>(density.Grid, { points.data(), count }, stages["images"]);
+  step.Cost = meanSquare(before, from, step.Positions, this->Particles, stages["images"]);
   step.Bound = map.LowerBound();
   this->Text = map.Warning();
   this->Steps.push_back(step);

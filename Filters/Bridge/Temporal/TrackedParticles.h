@@ -41,10 +41,9 @@ public:
   void Recheck() { this->Checked = 0; }
 
   // Finds the positions at the next step; `before` is the density of the step before, nullptr at
-  // the first one. Both have mass. Progress reaches `end`. Returns whether they were not known.
-  // Collective. Throws Failure and Cancelled.
-  bool Extend(
-    const StepDensity* before, const StepDensity& density, Progress& progress, double end);
+  // the first one. Both have mass. Returns whether they were not known. Collective. Throws Failure
+  // and Cancelled.
+  bool Extend(const StepDensity* before, const StepDensity& density, Progress& progress);
 
   // The particles of the interval from a step to the next one; `to` may be `from`.
   MovingParticles Between(int from, int to, const Ranks& ranks) const;
@@ -55,10 +54,9 @@ public:
 
 private:
   template <int D>
-  void Begin(const StepDensity& density, Progress& progress, double end);
+  void Begin(const StepDensity& density, Progress& progress);
   template <int D>
-  void Follow(
-    const StepDensity& before, const StepDensity& density, Progress& progress, double end);
+  void Follow(const StepDensity& before, const StepDensity& density, Progress& progress);
 
   struct Step
   {
