@@ -10,6 +10,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/MissingData.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -170,7 +171,9 @@ ImageGrid vtkDensityAlgorithm::FindDensityGrid(vtkDataObject* data, int arrayInd
   requireExtents(data, "input"); // of data that come, those of all inputs are looked at
   DensityChoice choice = this->GetDensityChoice(arrayIndex);
   choice.Warn = [](const std::string&) {}; // the run that follows gives the warnings
-  const auto density = this->Internals->Inputs[number].Read(choice, data, progress);
+  // No share of it, as the run that follows begins at 0.
+  Stages stages(progress, { { "grid", 0.0 }, { "run", 1.0 } });
+  const auto density = this->Internals->Inputs[number].Read(choice, data, stages["grid"]);
   return density ? density->Grid() : ImageGrid();
 }
 
