@@ -44,8 +44,7 @@ SURFACES = [
     E(CORE + "Mesh/DiskMesh.cxx", "this->TotalArea += «area»", "1.0"),
     E(BRIDGE + "Surface/TriangulatedSurface.cxx", "before += «cells->GetNumberOfCells()»", "0"),
     E(BRIDGE + "Surface/TriangulatedSurface.cxx", "cell < this->FirstPolygon ? «cell» :", "0"),
-    S(BRIDGE + "Surface/TriangulatedSurface.cxx", "stages.Next(part);\n  this->CopyCellData(input, progress);",
-      ";"),
+    S(BRIDGE + "Surface/TriangulatedSurface.cxx", "this->CopyCellData(input, stages[\"arrays\"]);", ";"),
     E(BRIDGE + "Parameterization/AreaPreservingParameterization.cxx",
       "[&](std::int64_t triangle) { return «surface.CellOf(triangle)»; }, progress);",
       "static_cast<vtkIdType>(triangle)"),
@@ -131,7 +130,7 @@ SURFACES = [
     E(CORE + "Seams/CutSurfaceMap.cxx", "if («this->FlipsOf(found) > 0 || found.Distortion.Area95 > wrong»)", "false"),
     E(CORE + "Parameterization/EvenEmbedding.cxx", "const double part = «before / length»;",
       "0.5 * before / length"),
-    S(CORE + "Parameterization/EvenEmbedding.cxx", "embedding.ChangeWeights();", ";"),
+    S(CORE + "Parameterization/EvenEmbedding.cxx", "embedding.ChangeWeights(iteration);", ";"),
     E(CORE + "Seams/CutSurfaceMap.cxx", "const double scale = «1.0 / std::sqrt(map.Coverage)»;", "1.0"),
     E(BRIDGE + "Surface/OpenedSurface.cxx", "if («longest < least»)", "least > 1e100"),
 ]
