@@ -43,7 +43,7 @@ cp -a --reflink=auto "$bare" "$folder"
 join_network
 mount_all
 mkdir "$folder/try"
-cp -r "$package" "$root/Testing/Package/"*.py "$root/Testing/Python/rt_filters.py" \
+cp -r "$package" "$root/Testing/Package/"*.py "$root/Testing/Python/Support/rt_filters.py" \
   "$root/Testing/Data/raccoon.png" "$root/Examples/Downstream" "$folder/try"
 deb="/try/$(basename "$package")"
 apt=(apt-get -qy --no-install-recommends)

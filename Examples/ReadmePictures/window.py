@@ -8,7 +8,7 @@ import tempfile
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import rectified_example as example
 
-sys.path.insert(0, os.path.join(example.ROOT, "Testing", "Python"))
+sys.path.insert(0, os.path.join(example.ROOT, "Testing", "Python", "Support"))
 import rt_window
 
 SIZE = 1100, 800

@@ -175,7 +175,7 @@ class Tests:
         word = re.compile(rf"\b{pathlib.Path(file).stem}\b")
         names = {f"Test{room}\\w*" for room in rooms}
         for path in [*self.source.glob("Testing/C*/**/Test*.cxx"),
-                     *self.source.glob("Testing/Python/Test*.py")]:
+                     *self.source.glob("Testing/Python/*/Test*.py")]:
             text = path.read_text()
             if word.search(text) or set(rooms) & set(path.parent.parts):
                 names |= {path.stem, *re.findall(r"^(?:TYPED_)?TEST(?:_F|_P)?\((\w+)", text, re.M)}

@@ -33,7 +33,7 @@ made.Script = asked %% 'RequestData'
 Show(made, GetActiveViewOrCreate('RenderView'))
 ResetCamera()
 SetActiveSource(made)
-""" % ((os.path.join(SOURCE, "Testing", "Python"),) * 2)
+""" % ((os.path.join(SOURCE, "Testing", "Python", "Window"),) * 2)
 
 
 def blob(x, y, n=N):

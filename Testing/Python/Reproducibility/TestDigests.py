@@ -3,11 +3,11 @@
 """The bits that the filters compute: digests of the outputs of runs which take every filter,
 dimension and family of options.
 
-usage: python3 TestDigests.py [--record | --against FILE] [--device]
+usage: python3 Testing/Python/run.py TestDigests [--record | --against FILE] [--device]
 
-Imports rectifiedtransport, whose folder PYTHONPATH has to name. Without an option the digests are
-compared with Testing/Data/digests.json, which --record writes; --against compares with another such file. A
-change that is meant to change bits records them anew and says why; any other change may not.
+Without an option the digests are compared with Testing/Data/digests.json, which --record writes;
+--against compares with another such file. A change that is meant to change bits records them anew
+and says why; any other change may not.
 """
 import argparse
 import hashlib
@@ -24,9 +24,8 @@ from rt_digest_inputs import (TURN, box_of_triangles, colours, image, points_in,
                               with_ghosts)
 from rt_filters import FILTERS
 from rt_series import Series
-from rt_testing import region_map
+from rt_testing import SOURCE, region_map
 
-HERE = os.path.dirname(os.path.abspath(__file__))
 PATTERNS = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
 INTEGRATORS = ["Multistep", "RungeKutta4", "Euler", "Adaptive"]
 MAPS = ["Auto", "On", "Off"]
@@ -441,7 +440,7 @@ def digests():
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--record", action="store_true")
-    parser.add_argument("--against", default=os.path.join(HERE, "..", "Data", "digests.json"))
+    parser.add_argument("--against", default=os.path.join(SOURCE, "Testing", "Data", "digests.json"))
     parser.add_argument("--device", action="store_true", help="of work that OpenCL devices do")
     options = parser.parse_args()
     Devices.asked = options.device

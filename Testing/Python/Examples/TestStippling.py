@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Stippling for print and of films: pages, dots and their ink and colours; series that are played.
 
-Call with --update to draw the reference pictures anew.
+`python3 Testing/Python/run.py TestStippling --update` draws the reference pictures anew.
 """
 import os
 import re

@@ -31,8 +31,6 @@ print('%d dots' % dots.GetDataInformation().GetNumberOfPoints())
 # A server that starts anew forgets the atoms that clients have made.
 ATOM = """
 import ctypes
-import sys
-sys.path.insert(0, %r)
 from rt_testing import need_display
 need_display()
 library = ctypes.CDLL('libX11.so.6')
@@ -44,7 +42,7 @@ def atom(must_exist):
     return found
 made = atom(0)
 print('kept' if made and atom(1) == made else 'lost')
-""" % os.path.dirname(os.path.abspath(__file__))
+"""
 
 
 def line_of_page():

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The examples of relaxed stipplings: their figures, and what their reference pictures show.
 
-Call with --update to draw the reference pictures anew.
+`python3 Testing/Python/run.py TestRelaxation --update` draws the reference pictures anew.
 """
 import os
 import sys

@@ -16,7 +16,7 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
-SOURCE = os.environ.get("RT_SOURCE") or os.path.join(os.path.dirname(__file__), "..", "..")
+SOURCE = os.environ.get("RT_SOURCE") or os.path.join(os.path.dirname(__file__), "..", "..", "..")
 OUTPUT = os.environ.get("RT_OUTPUT") or "."
 SKIPPED = 77
 
