@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Filters of the register (../Campaign/FilterKind.h) for the tests that concern every one of them.
+// Filters of the register (../../Campaign/FilterKind.h) for the tests that concern every one of
+// them.
 #ifndef KindTest_h
 #define KindTest_h
 
-#include "../Campaign/FilterKind.h"
+#include "../../Campaign/FilterKind.h"
 #include "TestData.h"
 
 #include "vtkInformation.h"
