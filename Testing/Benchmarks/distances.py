@@ -55,7 +55,7 @@ def measure(method, dimension, side, count):
     getattr(algorithm, "SetMethodTo" + method)()
     text = f"{method}, {count} inputs of {side}^{dimension}: {seconds(algorithm):.2f} s"
     if method == "Linearized":
-        algorithm.SetDimensions(3)
+        algorithm.SetNumberOfCoordinates(3)
         print(f"{text}, a change without maps {seconds(algorithm):.2f} s")
         return
     bounds = algorithm.GetBounds()

@@ -43,9 +43,12 @@ void drawTime(Settings& settings)
 void drawTemporal(Settings& settings)
 {
   settings.Draw<Temporal, int>("Method", &Temporal::SetMethod, { 0, 1 }, { -1, 2 }, 0.3);
-  settings.Draw<Temporal, int>("Resample", &Temporal::SetResample, { 0, 1, 5 }, { -1 }, 0.1);
-  settings.Draw<Temporal, vtkTypeBool>("Chain", &Temporal::SetChain, { 0, 1 }, {}, 0.3);
-  settings.Draw<Temporal, vtkTypeBool>("CarryArrays", &Temporal::SetCarryArrays, { 0, 1 }, {}, 0.3);
+  settings.Draw<Temporal, int>(
+    "ResampleFactor", &Temporal::SetResampleFactor, { 0, 1, 5 }, { -1 }, 0.1);
+  settings.Draw<Temporal, vtkTypeBool>(
+    "TrackParticles", &Temporal::SetTrackParticles, { 0, 1 }, {}, 0.3);
+  settings.Draw<Temporal, vtkTypeBool>(
+    "AdvectArrays", &Temporal::SetAdvectArrays, { 0, 1 }, {}, 0.3);
   settings.Draw<Temporal, int>(
     "ParticlesPerCell", &Temporal::SetParticlesPerCell, { 1, 2, 4, 8 }, { 0, -1 }, 0.3);
   settings.Draw<Temporal, int>("Kernel", &Temporal::SetKernel, { 0, 1, 2, 3 }, { -1, 4 }, 0.3);
@@ -223,7 +226,7 @@ Moment momentOf(vtkAlgorithm* filter, const Input& input)
   Moment moment;
   moment.Length = times[second] - times[second - 1];
   moment.Part = std::clamp((asked - times[second - 1]) / moment.Length, 0.0, 1.0);
-  const bool chains = Temporal::SafeDownCast(filter)->GetChain() != 0;
+  const bool chains = Temporal::SafeDownCast(filter)->GetTrackParticles() != 0;
   for (std::size_t i = chains ? 0 : second - 1; i <= second; ++i)
   {
     moment.Steps.push_back(stepAt(times[i]));
@@ -263,7 +266,7 @@ State expectTemporal(vtkAlgorithm* filter, const Inputs& inputs)
   }
   const Moment moment = momentOf(filter, inputs[0][0]);
   const bool mayBeEmpty =
-    moment.Steps.size() > 1 && Temporal::SafeDownCast(filter)->GetChain() == 0;
+    moment.Steps.size() > 1 && Temporal::SafeDownCast(filter)->GetTrackParticles() == 0;
   const bool isUsual = moment.Length == 0.0 || (moment.Length > 1e-200 && moment.Length < 1e200);
   State state = isUsual ? State::Sound : State::Odd;
   for (const Input* step : moment.Steps)
@@ -304,7 +307,7 @@ void checkTemporal(vtkAlgorithm* filter, const Inputs& inputs, Findings& finding
   findings.Near(total,
     (1.0 - moment.Part) * massOf(filter, before) + moment.Part * massOf(filter, last), 1e-9,
     "TotalMass");
-  if (temporal->GetChain() || (moment.Part > 0.0 && moment.Part < 1.0))
+  if (temporal->GetTrackParticles() || (moment.Part > 0.0 && moment.Part < 1.0))
   {
     return;
   }
@@ -333,7 +336,7 @@ void quickTemporal(RandomSource& random, vtkAlgorithm* filter)
     first = drawImage(random).Data;
   }
   filter->SetInputConnection(newSeries({ { 0.0, first }, { 1.0, data } })->GetOutputPort());
-  temporal->SetChain(random.Chance(0.3));
+  temporal->SetTrackParticles(random.Chance(0.3));
   filter->UpdateInformation();
   filter->GetOutputInformation(0)->Set(
     Pipeline::UPDATE_TIME_STEP(), random.Of({ 0.0, 0.5, 0.5, 0.75, 1.0 }));
