@@ -26,12 +26,13 @@ void checkProperties(Checks& checks)
   }
   for (const int wrong : { std::numeric_limits<int>::min(), 0, 101 })
   {
-    distance->SetDimensions(wrong);
-    test.Expect("Dimensions is " + std::to_string(wrong) + "; it must be from 1 to 100", __LINE__);
+    distance->SetNumberOfCoordinates(wrong);
+    test.Expect(
+      "NumberOfCoordinates is " + std::to_string(wrong) + "; it must be from 1 to 100", __LINE__);
   }
   for (const int right : { 1, 100 })
   {
-    distance->SetDimensions(right);
+    distance->SetNumberOfCoordinates(right);
     test.ExpectNone(__LINE__);
   }
   distance->SetThreading(9);
@@ -181,7 +182,7 @@ void checkWarning(Checks& checks)
   Messages ofMuch(much);
   for (const int dimensions : { 1, 2, 3 })
   {
-    much->SetDimensions(dimensions);
+    much->SetNumberOfCoordinates(dimensions);
     much->Update();
   }
   CHECK(checks, ofMuch.Errors.empty() && ofMuch.Warnings.size() == 1);

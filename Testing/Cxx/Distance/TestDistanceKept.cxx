@@ -42,7 +42,7 @@ void checkKept(Checks& checks, int method, vtkIdType first, vtkIdType oneMore)
   CHECK(checks, distancesOf(distance) == reversed(before));
   connect(distance, makeBells(places));
   CHECK(checks, distancesOf(distance) == before);
-  distance->SetDimensions(3);
+  distance->SetNumberOfCoordinates(3);
   distance->SetInputName(0, "first");
   CHECK(checks, distancesOf(distance) == before);
   CHECK(checks, distance->GetNumberOfSolutions() == first);

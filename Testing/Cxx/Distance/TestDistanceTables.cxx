@@ -115,7 +115,7 @@ void checkDimensions(Checks& checks)
   Values stress;
   for (const int dimensions : { 1, 2, 5 })
   {
-    distance->SetDimensions(dimensions);
+    distance->SetNumberOfCoordinates(dimensions);
     distance->Update();
     vtkTable* points = distance->GetCoordinates();
     CHECK(checks, points->GetNumberOfColumns() == dimensions + 2);

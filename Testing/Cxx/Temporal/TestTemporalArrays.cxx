@@ -98,18 +98,18 @@ void checkSteps(Checks& checks)
   }
 }
 
-// Without CarryArrays there is the density alone; that needs no new map.
+// Without AdvectArrays there is the density alone; that needs no new map.
 void checkOff(Checks& checks)
 {
   ImageSeries series(labelledSteps(), { 0.0, 1.0 });
   auto filter = makeInterpolator(series);
-  filter->CarryArraysOff();
+  filter->AdvectArraysOff();
   for (const double time : { 0.0, 0.5 })
   {
     filter->UpdateTimeStep(time);
     CHECK(checks, filter->GetDensity()->GetCellData()->GetNumberOfArrays() == 1);
   }
-  filter->CarryArraysOn();
+  filter->AdvectArraysOn();
   filter->Update();
   CHECK(checks, filter->GetDensity()->GetCellData()->GetNumberOfArrays() == 5);
   CHECK(checks, filter->GetNumberOfMaps() == 1);

@@ -22,14 +22,14 @@ void checkProperties(Checks& checks)
   filter->SetMethodToOptimal();
   for (const int wrong : { -1, 1000001, std::numeric_limits<int>::max() })
   {
-    filter->SetResample(wrong);
+    filter->SetResampleFactor(wrong);
     test.Expect(
-      "Resample is " + std::to_string(wrong) + "; it must be from 0 (any time) to 1000000",
+      "ResampleFactor is " + std::to_string(wrong) + "; it must be from 0 (any time) to 1000000",
       __LINE__);
   }
-  filter->SetResample(1000000);
+  filter->SetResampleFactor(1000000);
   test.ExpectNone(__LINE__);
-  filter->SetResample(0);
+  filter->SetResampleFactor(0);
   for (const int wrong : { -1, 0 })
   {
     filter->SetParticlesPerCell(wrong);
@@ -66,14 +66,15 @@ void checkManySteps(Checks& checks)
   }
   ImageSeries series(steps, times);
   auto filter = makeInterpolator(series);
-  filter->SetResample(1000000);
+  filter->SetResampleFactor(1000000);
   requestTime(filter, 0.5);
   CHECK(checks, !filter->GetOutputInformation(0)->Has(Pipeline::TIME_STEPS()));
   ErrorTest test(checks, filter);
-  test.Expect("Resample is 1000000, which would make about 1.1e+07 time steps; it must make at "
-              "most 10000000",
+  test.Expect(
+    "ResampleFactor is 1000000, which would make about 1.1e+07 time steps; it must make at "
+    "most 10000000",
     __LINE__);
-  filter->SetResample(10);
+  filter->SetResampleFactor(10);
   test.ExpectNone(__LINE__);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// With Chain, vtkTransportTemporalInterpolator follows the same particles through all steps.
+// With TrackParticles, vtkTransportTemporalInterpolator follows the same particles through all
+// steps.
 #include "TemporalTest.h"
 
 namespace
@@ -19,11 +20,11 @@ Values blockMasses(const Values& density)
   return masses;
 }
 
-vtkSmartPointer<vtkTransportTemporalInterpolator> makeChain(
+vtkSmartPointer<vtkTransportTemporalInterpolator> makeTracking(
   ImageSeries& series, int method = vtkTransportTemporalInterpolator::OPTIMAL)
 {
   auto filter = makeInterpolator(series, method);
-  filter->ChainOn();
+  filter->TrackParticlesOn();
   return filter;
 }
 
@@ -45,7 +46,7 @@ void checkParticles(Checks& checks)
   for (const int method : temporalMethods)
   {
     ImageSeries series(steps, blobTimes);
-    auto filter = makeChain(series, method);
+    auto filter = makeTracking(series, method);
     std::vector<Values> positions;
     Values numbers;
     for (const double time : { 0.0, 0.5, 1.0, 1.5, 2.0 })
@@ -80,7 +81,7 @@ void checkTranslations(Checks& checks)
 {
   ImageSeries series(
     { makeBlob(12, 14, 2.5), makeBlob(22, 14, 2.5), makeBlob(28, 32, 2.5) }, blobTimes);
-  auto filter = makeChain(series);
+  auto filter = makeTracking(series);
   filter->UpdateTimeStep(0.0);
   const Values before = coordinates(filter->GetParticles());
   filter->UpdateTimeStep(2.0);
@@ -98,10 +99,10 @@ void checkTranslations(Checks& checks)
 void checkOrder(Checks& checks)
 {
   ImageSeries series(movingBlobs(), blobTimes);
-  auto late = makeChain(series);
+  auto late = makeTracking(series);
   const Values found = outputsAt(late, 1.75);
   CHECK(checks, series.Requested == blobTimes);
-  auto played = makeChain(series);
+  auto played = makeTracking(series);
   for (const double time : { 0.0, 1.5, 0.25 })
   {
     played->UpdateTimeStep(time);
@@ -115,7 +116,7 @@ void checkOrder(Checks& checks)
 void checkChanges(Checks& checks)
 {
   ImageSeries series(movingBlobs(), blobTimes);
-  auto filter = makeChain(series);
+  auto filter = makeTracking(series);
   Values before = outputsAt(filter, 1.5);
   series.Modified();
   CHECK(checks, outputsAt(filter, 1.5) == before && filter->GetNumberOfMaps() == 3);
@@ -128,7 +129,7 @@ void checkChanges(Checks& checks)
     filter->SetInvertDensity(inverts);
     const Values now = outputsAt(filter, 1.5);
     ImageSeries other(series.Steps, blobTimes);
-    auto fresh = makeChain(other, method);
+    auto fresh = makeTracking(other, method);
     fresh->SetParticlesPerCell(particles);
     fresh->SetInvertDensity(inverts);
     const bool isSame = now != before && now == outputsAt(fresh, 1.5);
@@ -147,17 +148,18 @@ void checkChanges(Checks& checks)
     __LINE__);
 }
 
-// Particles cannot disappear on the way; without Chain mass can.
+// Particles cannot disappear on the way; without TrackParticles mass can.
 void checkNoMass(Checks& checks)
 {
   ImageSeries series({ makeBlob(12, 14), makeBlob(12, 14, 5.0, 0.0), makeBlob(34, 34) }, blobTimes);
-  auto filter = makeChain(series);
+  auto filter = makeTracking(series);
   requestTime(filter, 1.5);
   ErrorTest test(checks, filter);
-  test.Expect("Time step 2 of 3 (t = 1) has no mass, and Chain follows particles through all "
-              "steps; Chain Off lets mass appear and disappear",
+  test.Expect(
+    "Time step 2 of 3 (t = 1) has no mass, and TrackParticles follows particles through all "
+    "steps; TrackParticles Off lets mass appear and disappear",
     __LINE__);
-  filter->ChainOff();
+  filter->TrackParticlesOff();
   test.ExpectNone(__LINE__);
   CHECK(checks, filter->GetParticles()->GetNumberOfPoints() > 0);
   CHECK(checks, pointArray(filter->GetParticles(), "SeedId") == nullptr);

@@ -11,12 +11,12 @@ namespace
 void checkThreads(Checks& checks)
 {
   ImageSeries series(movingBlobs(), blobTimes);
-  for (const bool chains : { false, true })
+  for (const bool tracks : { false, true })
   {
     const auto run = [&](int threading) {
       auto filter = makeInterpolator(series);
       filter->SetThreading(threading);
-      filter->SetChain(chains);
+      filter->SetTrackParticles(tracks);
       return outputsAt(filter, 0.3);
     };
     CHECK(checks, expectSameBits(checks, run, __LINE__).size() > 3 * blobSide);
@@ -26,11 +26,11 @@ void checkThreads(Checks& checks)
 // A run of several requests for data has one progress.
 void checkProgress(Checks& checks)
 {
-  for (const bool chains : { false, true })
+  for (const bool tracks : { false, true })
   {
     ImageSeries series(movingBlobs(), blobTimes);
     auto filter = makeInterpolator(series);
-    filter->SetChain(chains);
+    filter->SetTrackParticles(tracks);
     ProgressTest progress(filter);
     filter->UpdateTimeStep(1.5);
     progress.ExpectRising(checks, 4, __LINE__);
@@ -41,15 +41,15 @@ void checkProgress(Checks& checks)
 // the same comes out as without.
 void checkAborts(Checks& checks)
 {
-  for (const bool chains : { false, true })
+  for (const bool tracks : { false, true })
   {
     ImageSeries whole(movingBlobs(), blobTimes);
     auto other = makeInterpolator(whole);
-    other->SetChain(chains);
+    other->SetTrackParticles(tracks);
     const Values wanted = outputsAt(other, 1.5);
     ImageSeries series(movingBlobs(), blobTimes);
     auto filter = makeInterpolator(series);
-    filter->SetChain(chains);
+    filter->SetTrackParticles(tracks);
     Messages messages(filter);
     for (const double from : { 0.02, 0.3, 0.6, 0.8, 0.92 })
     {

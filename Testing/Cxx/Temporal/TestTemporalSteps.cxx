@@ -105,13 +105,13 @@ void checkAnnouncedTimes(Checks& checks)
   ImageSeries series(movingBlobs(), { 0.0, 1.0, 3.0 });
   auto filter = makeInterpolator(series);
   expectTimes(checks, filter, {}, __LINE__);
-  filter->SetResample(1);
+  filter->SetResampleFactor(1);
   expectTimes(checks, filter, { 0.0, 1.0, 3.0 }, __LINE__);
-  filter->SetResample(4);
+  filter->SetResampleFactor(4);
   expectTimes(checks, filter, { 0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0 }, __LINE__);
   // What is announced does not bind: other times may be requested.
   const Values between = densityAt(filter, 0.3);
-  filter->SetResample(0);
+  filter->SetResampleFactor(0);
   expectTimes(checks, filter, {}, __LINE__);
   CHECK(checks, densityAt(filter, 0.3) == between);
 }
@@ -124,7 +124,7 @@ void checkUnorderedTimes(Checks& checks)
   ImageSeries series({ steps[2], steps[0], steps[0], steps[1], steps[1] },
     { 3.0, 0.0, 0.0, 1.0, std::numeric_limits<double>::infinity() });
   auto filter = makeInterpolator(series);
-  filter->SetResample(2);
+  filter->SetResampleFactor(2);
   expectTimes(checks, filter, { 0.0, 0.5, 1.0, 2.0, 3.0 }, __LINE__);
   auto same = makeInterpolator(plain);
   for (const double time : { 0.0, 0.5, 2.0, 3.0 })

@@ -329,7 +329,7 @@ SetActiveSource(sampler)
             self.assertEqual(numbers(saved, "TimeKeeper", "TimestepValues"), times)
 
     def test_series_between_its_steps(self):
-        """With Resample the play button runs over times between the steps, to the last one; then back."""
+        """With ResampleFactor the play button runs over times between the steps, to the last one; then back."""
         resample = PANEL + "ResampleFactor/IntRangeWidget/LineEdit"
         first = ("VCRToolbar/1QToolButton0", "activate", "")
         make = (choose("Filters", "TransportTemporalInterpolator"), (resample, "set_string", "4"), APPLY)
