@@ -19,7 +19,7 @@ class Run
 {
 public:
   explicit Run(vtkPolyData* input)
-    : Surface(input, this->Work, 1.0)
+    : Surface(input, this->Work)
   {
   }
 
