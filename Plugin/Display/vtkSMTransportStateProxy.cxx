@@ -5,12 +5,12 @@
 
 #include "vtkObjectFactory.h"
 #include "vtkPVXMLElement.h"
-#include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkSMTransportStateProxy);
@@ -59,16 +59,37 @@ void loadWithoutProperty(vtkSMProxy* proxy, vtkPVXMLElement* state, vtkPVXMLElem
   }
 }
 
-void loadRenamed(
-  vtkSMProxy* proxy, vtkPVXMLElement* state, vtkPVXMLElement* hint, vtkSMProxyLocator* locator)
+// While it exists, properties of a state have the names of now.
+class RenamedProperties
 {
-  vtkPVXMLElement* before = findProperty(state, hint->GetAttributeOrEmpty("from"));
-  vtkSMProperty* property = proxy->GetProperty(hint->GetAttributeOrEmpty("name"));
-  if (before && property)
+public:
+  RenamedProperties(vtkPVXMLElement* state, vtkPVXMLElement* hints)
   {
-    property->LoadState(before, locator);
+    for (unsigned int i = 0; hints && i < hints->GetNumberOfNestedElements(); ++i)
+    {
+      vtkPVXMLElement* hint = hints->GetNestedElement(i);
+      const std::string before = hint->GetAttributeOrEmpty("from");
+      vtkPVXMLElement* property = findProperty(state, before);
+      if (std::string(hint->GetName()) == "RenamedProperty" && property)
+      {
+        property->SetAttribute("name", hint->GetAttributeOrEmpty("name"));
+        this->Renamed.emplace_back(property, before);
+      }
+    }
   }
-}
+  ~RenamedProperties()
+  {
+    for (const auto& [property, before] : this->Renamed)
+    {
+      property->SetAttribute("name", before.c_str());
+    }
+  }
+  RenamedProperties(const RenamedProperties&) = delete;
+  void operator=(const RenamedProperties&) = delete;
+
+private:
+  std::vector<std::pair<vtkPVXMLElement*, std::string>> Renamed;
+};
 
 void loadRenumbered(vtkSMProxy* proxy, vtkPVXMLElement* state, vtkPVXMLElement* hint)
 {
@@ -91,8 +112,12 @@ void loadRenumbered(vtkSMProxy* proxy, vtkPVXMLElement* state, vtkPVXMLElement* 
 
 int vtkSMTransportStateProxy::LoadXMLState(vtkPVXMLElement* element, vtkSMProxyLocator* locator)
 {
-  const int isLoaded = this->Superclass::LoadXMLState(element, locator);
   vtkPVXMLElement* hints = this->GetHints();
+  int isLoaded = 0;
+  {
+    const RenamedProperties renamed(element, hints);
+    isLoaded = this->Superclass::LoadXMLState(element, locator);
+  }
   for (unsigned int i = 0; isLoaded && hints && i < hints->GetNumberOfNestedElements(); ++i)
   {
     vtkPVXMLElement* hint = hints->GetNestedElement(i);
@@ -100,10 +125,6 @@ int vtkSMTransportStateProxy::LoadXMLState(vtkPVXMLElement* element, vtkSMProxyL
     if (name == "WithoutProperty")
     {
       loadWithoutProperty(this, element, hint);
-    }
-    else if (name == "RenamedProperty")
-    {
-      loadRenamed(this, element, hint, locator);
     }
     else if (name == "RenumberedProperty")
     {

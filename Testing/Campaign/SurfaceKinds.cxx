@@ -79,8 +79,8 @@ void drawParameterization(Settings& settings)
 {
   settings.Draw<Parameterization, int>("Resolution", &Parameterization::SetResolution,
     { 1, 2, 3, 8, 33, 64 }, { 0, -1, 16385, std::numeric_limits<int>::max() }, 1.0);
-  settings.Draw<Parameterization, bool>(
-    "Polish", &Parameterization::SetPolish, { true, false, false }, {}, 0.4);
+  settings.Draw<Parameterization, vtkTypeBool>(
+    "Polish", &Parameterization::SetPolish, { 1, 0, 0 }, {}, 0.4);
   settings.Draw<Parameterization, int>(
     "Seams", &Parameterization::SetSeams, { Parameterization::SEAMS_NONE }, { -1, 2 }, 1.0);
   drawThreading<Parameterization>(settings);
