@@ -234,7 +234,7 @@ def distance_runs():
             yield f"distances {method} {len(shape)}D", distance, [
                 [image(shape, seed=s) for s in range(4)]], dict(Method=method)
     yield "distances of points", distance, [[image(cells=False, seed=s) for s in range(3)]], dict(
-        Dimensions=3)
+        NumberOfCoordinates=3)
     yield "distances turned", distance, [
         [image((23, 17, 19), direction=TURN, seed=s) for s in range(3)]], dict(Method=1)
     yield "distances of other sizes", distance, [
