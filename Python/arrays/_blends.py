@@ -147,7 +147,8 @@ def distance(a: ArrayLike, b: ArrayLike, *, spacing: Numbers = 1.0, origin: Numb
         raise ValueError("a has the shape %(a)s and b %(b)s; they must have as many axes" % shapes)
     largest = tuple(map(max, shapes["a"], shapes["b"]))
     algorithm = filters.vtkTransportDistance()
-    set_properties(algorithm, {"Method": "Certified", "OverTime": 0, "Dimensions": 1}, properties)
+    set_properties(
+        algorithm, {"Method": "Certified", "OverTime": 0, "NumberOfCoordinates": 1}, properties)
     for name, values in (("a", a), ("b", b)):
         image, _ = image_of(values, name, spacing, origin, grown_to=largest)
         algorithm.AddInputDataObject(image)
