@@ -200,8 +200,8 @@ class Odd(unittest.TestCase):
     def test_properties_out_of_range(self):
         for name, value, rule in (("ResampleFactor", -1, "ResampleFactor is -1; it must be from 0 (any time) to 1000000"),
                                   ("ParticlesPerCell", 0, "ParticlesPerCell is 0; it must be at least 1"),
-                                  ("Radius", 0, "Radius is 0"), ("Method", 2, "Method is 2; it must be 0 (Optimal)"),
-                                  ("Kernel", 9, "Kernel is 9")):
+                                  ("Radius", 0, "Radius is 0"), ("Kernel", 9, "Kernel is 9"),
+                                  ("Method", 2, "Method is 2; it must be 0 (RectifiedFlow)")):
             text, _ = self.error(Series(MOVING), 0.5, **{name: value})
             self.assertIn(rule, text)
 

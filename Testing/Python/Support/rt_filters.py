@@ -144,7 +144,7 @@ FILTERS = [
            refused=("ParticlesPerCell", 0, 1),
            saved=dict(Method="RectifiedFlow", ResampleFactor=3, TrackParticles=1, AdvectArrays=0, ParticlesPerCell=2,
                       Kernel="Gaussian", Radius=2, InvertDensity=1),
-           choices={"Method": ["Optimal", "RectifiedFlow"]},
+           defaults={"Method": "Optimal"},
            shown=[("View", {"type": "None", "port": "1"}),
                   *((tag, {**hint, "port": "1"}) for tag, hint in PARTICLES),
                   ("FirstDisplay", {"port": "0", "dimension": "3", "type": "Volume"})]),
