@@ -2,11 +2,12 @@
 """No figure of the sources passes its budget, and figures.py counts what it says."""
 import json
 import os
+import re
 import sys
 import tempfile
 import unittest
 
-from figures import (FIGURES, Tree, code_lines, doubled_names, value_of, without_ctags,
+from figures import (BRIDGE, FIGURES, Tree, code_lines, doubled_names, value_of, without_ctags,
                      without_names)
 
 SKIPPED = 77
@@ -53,6 +54,20 @@ class Budgets(unittest.TestCase):
         """Each folder is one program, or few, that contain the sources, too."""
         for folder in ("Core", "Cxx", "Campaign", "Benchmarks", "Device"):
             self.assertEqual(doubled_names(Tree(), ["Testing/" + folder]), [])
+
+
+class Namespaces(unittest.TestCase):
+    def test_bridge_has_its_own(self):
+        """Else one of its names could be a name of Core, too."""
+        tree = Tree()
+        for path in tree.under(BRIDGE):
+            if path != BRIDGE + "VTKCompatibility.h":
+                with self.subTest(path):
+                    self.assertIn("\nnamespace RectifiedTransport::Bridge\n", tree.text(path))
+                    # In the namespace of Core, the bridge only declares Core's classes.
+                    for body in re.findall(r"^namespace RectifiedTransport\n{\n(.*?)^}", tree.text(path),
+                                           re.MULTILINE | re.DOTALL):
+                        self.assertRegex(body, r"^(?:(?:class|struct) \w+;\n)+$")
 
 
 class SmallTree(unittest.TestCase):
