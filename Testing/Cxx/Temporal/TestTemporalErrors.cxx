@@ -18,7 +18,7 @@ void checkProperties(Checks& checks)
   ErrorTest test(checks, filter);
   test.ExpectNone(__LINE__);
   filter->SetMethod(2);
-  test.Expect("Method is 2; it must be 0 (Optimal) or 1 (RectifiedFlow)", __LINE__);
+  test.Expect("Method is 2; it must be 0 (RectifiedFlow) or 1 (Optimal)", __LINE__);
   filter->SetMethodToOptimal();
   for (const int wrong : { -1, 1000001, std::numeric_limits<int>::max() })
   {
