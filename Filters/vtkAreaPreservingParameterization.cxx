@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkAreaPreservingParameterization.h"
 
-#include "Bridge/Parameterization/AreaPreservingParameterization.h"
+#include "Bridge/Surfaces/AreaPreservingParameterization.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/CornerSettings.h"
-#include "Bridge/Surface/SurfaceInput.h"
+#include "Bridge/Triangles/SurfaceInput.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkInformationVector.h"

@@ -3,7 +3,7 @@
 
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Settings/CornerSettings.h"
-#include "Bridge/Surface/SurfaceInput.h"
+#include "Bridge/Triangles/SurfaceInput.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"

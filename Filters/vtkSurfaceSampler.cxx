@@ -8,9 +8,9 @@
 #include "Bridge/Settings/CornerSettings.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/SeedSettings.h"
-#include "Bridge/Surface/SurfaceInput.h"
-#include "Bridge/SurfaceSampling/SurfaceMasses.h"
-#include "Bridge/SurfaceSampling/SurfaceSampler.h"
+#include "Bridge/Surfaces/SurfaceMasses.h"
+#include "Bridge/Surfaces/SurfaceSampler.h"
+#include "Bridge/Triangles/SurfaceInput.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkDataObject.h"
@@ -96,12 +96,12 @@ int vtkSurfaceSampler::RequestData(
   requireChoice("Method", this->Method, SurfaceMethodTexts);
   sampler.Method = this->Method == FLOW ? SurfaceMethod::Flow : SurfaceMethod::Relaxation;
   sampler.RelaxationIterations = this->RelaxationIterations;
-  sampler.RandomSeed = this->RandomSeed;
-  sampler.NumberOfParticles = this->NumberOfParticles;
-  sampler.Flow = flowOptionsOf(*this);
   sampler.Corners = this->GetCorners();
-  sampler.Resolution = this->Resolution;
-  sampler.Pattern = seedPattern("SeedPattern", this->SeedPattern);
+  sampler.Options.NumberOfSamples = this->NumberOfParticles;
+  sampler.Options.RandomSeed = static_cast<std::uint64_t>(this->RandomSeed);
+  sampler.Options.Resolution = this->Resolution;
+  sampler.Options.Pattern = seedPattern("SeedPattern", this->SeedPattern);
+  sampler.Options.Flow = flowOptionsOf(*this);
   sampler.Check();
   AlgorithmProgress progress(this, this->Threading);
   Stages stages(progress, { { "surface", 1 }, { "particles", 99 } });

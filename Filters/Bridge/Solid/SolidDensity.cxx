@@ -8,7 +8,7 @@
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Solid/ClosedSurface.h"
+#include "Bridge/Triangles/ClosedSurface.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Solid/SolidCoverage.h"

@@ -26,19 +26,6 @@ struct SurfaceRepairOptions
   bool MergesEqualPoints = false;
 };
 
-struct SurfaceRepairs
-{
-  std::int64_t UnusedPoints = 0;  // of no triangle
-  std::int64_t FlatTriangles = 0; // without area
-  std::int64_t MergedPoints = 0;  // with others at their places
-  std::int64_t Repeated = 0;      // triangles with the points of one before
-
-  bool Any() const
-  {
-    return this->UnusedPoints + this->FlatTriangles + this->MergedPoints + this->Repeated > 0;
-  }
-};
-
 // "Given" are the points and triangles that a surface was repaired from. Each triangle is part of a
 // given one.
 class RepairedSurface

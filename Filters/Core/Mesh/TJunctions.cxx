@@ -281,40 +281,62 @@ private:
   std::vector<Found> All; // by sides and places
 };
 
+// Of coordinates, for their rounding.
+struct CoordinateRange
+{
+  void Add(const double* x)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double far = std::abs(x[axis]);
+      this->Farthest = std::max(this->Farthest, far);
+      this->AreFloats = this->AreFloats && far <= std::numeric_limits<float>::max() &&
+        static_cast<double>(static_cast<float>(x[axis])) == x[axis];
+    }
+  }
+  static CoordinateRange Union(const CoordinateRange& one, const CoordinateRange& more)
+  {
+    return { std::max(one.Farthest, more.Farthest), one.AreFloats && more.AreFloats };
+  }
+  double Rounding() const
+  {
+    constexpr double units = 4.0;
+    return units * this->Farthest *
+      (this->AreFloats ? static_cast<double>(std::numeric_limits<float>::epsilon())
+                       : std::numeric_limits<double>::epsilon());
+  }
+
+  double Farthest = 0.0;
+  bool AreFloats = true;
+};
+
 } // namespace
 
 double roundingOfCorners(const TriangleSurface& surface, Progress& progress)
 {
-  struct Coordinates
-  {
-    double Farthest = 0.0;
-    bool AreFloats = true;
-  };
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  const Coordinates all = reduceChunks(
-    progress, surface.NumberOfTriangles, grain, Coordinates(),
+  const CoordinateRange all = reduceChunks(
+    progress, surface.NumberOfTriangles, grain, CoordinateRange(),
     [&](std::int64_t first, std::int64_t last) {
-      Coordinates found;
+      CoordinateRange found;
       for (std::int64_t corner = 3 * first; corner < 3 * last; ++corner)
       {
-        const double* x = surface.Points[surface.Triangles[corner]];
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          const double far = std::abs(x[axis]);
-          found.Farthest = std::max(found.Farthest, far);
-          found.AreFloats = found.AreFloats && far <= std::numeric_limits<float>::max() &&
-            static_cast<double>(static_cast<float>(x[axis])) == x[axis];
-        }
+        found.Add(surface.Points[surface.Triangles[corner]]);
       }
       return found;
     },
-    [](const Coordinates& one, const Coordinates& more) {
-      return Coordinates{ std::max(one.Farthest, more.Farthest), one.AreFloats && more.AreFloats };
-    });
-  constexpr double units = 4.0;
-  return units * all.Farthest *
-    (all.AreFloats ? static_cast<double>(std::numeric_limits<float>::epsilon())
-                   : std::numeric_limits<double>::epsilon());
+    CoordinateRange::Union);
+  return all.Rounding();
+}
+
+double roundingOfPoints(ConstPointSpan<3> points)
+{
+  CoordinateRange all;
+  for (std::int64_t i = 0; i < points.size(); ++i)
+  {
+    all.Add(points[i]);
+  }
+  return all.Rounding();
 }
 
 std::vector<OpenSide> openSidesOf(

@@ -40,6 +40,8 @@ struct TJunction
 // What rounding leaves of the differences of coordinates at one place; that of float if the
 // coordinates of all triangles are floats, else that of double. Throws Cancelled.
 double roundingOfCorners(const TriangleSurface& surface, Progress& progress);
+// The same for all points, also those of no triangle.
+double roundingOfPoints(ConstPointSpan<3> points);
 
 // How sides of a surface are compared.
 struct SideOptions

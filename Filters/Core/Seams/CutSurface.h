@@ -47,12 +47,8 @@ struct CutDisk
 };
 
 // What was changed besides the seams.
-struct SurfaceCuts
+struct SurfaceCuts : SurfaceRepairs
 {
-  std::int64_t UnusedPoints = 0;     // of no triangle
-  std::int64_t FlatTriangles = 0;    // without area, left out
-  std::int64_t MergedPoints = 0;     // with others at their places
-  std::int64_t Repeated = 0;         // triangles with the points of one before
   std::int64_t NonManifoldEdges = 0; // of more than two triangles, which were parted
 };
 

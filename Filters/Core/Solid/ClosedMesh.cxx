@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Solid/ClosedMesh.h"
 
+#include "Core/Geometry/ImageGrid.h"
 #include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/SplitSurface.h"
 #include "Core/Mesh/SurfaceEdges.h"
@@ -11,8 +12,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -65,6 +68,21 @@ void addTriangles(const TriangleSurface& surface, Progress& progress, ClosedMesh
     slow);
 }
 
+// The largest coordinate, without its sign.
+double farthestIn(const std::array<double, 6>& bounds)
+{
+  return std::accumulate(bounds.begin(), bounds.end(), 0.0,
+    [](double farthest, double x) { return std::max(farthest, std::abs(x)); });
+}
+
+// Four units in the last place of the largest coordinate, a power of two; 0 if there is none.
+double lastPlacesIn(const std::array<double, 6>& bounds)
+{
+  const double farthest = farthestIn(bounds);
+  const double places = farthest > 0.0 ? std::ldexp(1.0, std::ilogb(farthest) - 50) : 0.0;
+  return places >= std::numeric_limits<double>::min() ? places : 0.0;
+}
+
 // How far points are off the sides of triangles that they cut, at most.
 double widestGap(
   ConstPointSpan<3> points, const std::int64_t* triangles, const std::vector<TJunction>& junctions)
@@ -85,26 +103,34 @@ double widestGap(
 
 } // namespace
 
+ClosingDistances::ClosingDistances(const std::array<double, 6>& bounds, bool areFloats)
+{
+  constexpr double units = 4.0;
+  const double longest =
+    std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
+  const double near = ClosedMesh::NearDistance * longest;
+  this->Near = { std::isfinite(near) ? near : 0.0,
+    areFloats ? units * farthestIn(bounds) * std::numeric_limits<float>::epsilon() : 0.0 };
+  this->Gaps = { 1e-5 * longest, 1e-4 * longest, 1e-3 * longest, 1e-2 * longest };
+}
+
 ClosedMesh::ClosedMesh(const TriangleSurface& surface, const Context& context)
   : Coordinates(3 * surface.Points.size())
 {
   Progress progress(context);
   Stages stages(progress,
-    { { "points", 10 }, { "equal points", 30 }, { "triangles", 10 }, { "edges", 20 },
-      { "near points", 10 }, { "their triangles", 5 }, { "their edges", 5 },
-      { "T-junctions", 10 } });
+    { { "points", 10 }, { "equal points", 30 }, { "triangles", 30 }, { "near points", 30 } });
   copyPoints(surface.Points, this->Coordinates.data(), stages["points"]);
   this->Merge(stages["equal points"]);
-  this->Reserve(surface.NumberOfTriangles);
-  addTriangles(surface, stages["triangles"], *this);
-  this->CountEdges(stages["edges"]);
-  const double distance = NearDistance * this->LongestSide();
-  if (!this->Closed && distance > 0.0 && this->MergeNear(distance, stages["near points"]))
+  const AddFaces add = [&surface](ClosedMesh& mesh, Progress& part) {
+    mesh.Reserve(surface.NumberOfTriangles);
+    addTriangles(surface, part, mesh);
+  };
+  this->Fill(add, stages["triangles"]);
+  if (!this->Closed)
   {
-    addTriangles(surface, stages["their triangles"], *this);
-    this->CountEdges(stages["their edges"]);
+    this->CloseNear(add, NearDistance * this->LongestSide(), stages["near points"]);
   }
-  this->CloseTJunctions(distance, stages["T-junctions"]);
 }
 
 ClosedMesh::ClosedMesh(LargeBuffer<double> coordinates, const Context& context)
@@ -122,6 +148,110 @@ void ClosedMesh::Merge(const Context& context)
   const ConstPointSpan<3> points = this->Points();
   this->Firsts = LargeBuffer<std::int64_t>(points.size());
   mergePoints(points, this->Firsts.data(), context);
+}
+
+std::string ClosedMesh::Close(
+  const AddFaces& add, const ClosingDistances& distances, const Context& context)
+{
+  Progress progress(context);
+  Stages stages(
+    progress, { { "faces", 60 }, { "rounding", 20 }, { "float rounding", 8 }, { "gaps", 12 } });
+  std::string problem = this->Fill(add, stages["faces"]);
+  // Without triangles, corners that differ by rounding may be the reason.
+  if (problem.empty() || this->CloseNear(add, distances.Near[0], stages["rounding"]))
+  {
+    return {};
+  }
+  problem = this->NumberOpen + this->NumberNonManifold > 0 ? this->Openness() : problem;
+  if (this->CloseNear(add, distances.Near[1], stages["float rounding"]))
+  {
+    return {};
+  }
+  Parts gaps(stages["gaps"], static_cast<std::int64_t>(distances.Gaps.size()));
+  for (std::size_t i = 0; i < distances.Gaps.size() && !this->ClosedGaps; ++i)
+  {
+    this->ClosedGaps = this->CloseWithin(distances.Gaps[i], gaps[static_cast<std::int64_t>(i)]);
+  }
+  return this->ClosedGaps ? std::string() : problem;
+}
+
+// Returns what is wrong.
+std::string ClosedMesh::Fill(const AddFaces& add, Progress& progress)
+{
+  Stages stages(progress, { { "triangles", 1 }, { "edges", 1 } });
+  add(*this, stages["triangles"]);
+  if (this->NumberOfTriangles == 0)
+  {
+    return "has " + std::to_string(this->Points().size()) +
+      " points and no polygon of three different ones; a solid needs a closed surface";
+  }
+  this->CountEdges(stages["edges"]);
+  if (this->NumberOfTriangles == 0)
+  {
+    return "has each polygon twice, in opposite directions, so that nothing is inside; keep one of "
+           "each";
+  }
+  return this->Closed ? std::string() : this->Openness();
+}
+
+// Merges points nearer than a distance, and cuts triangles at T-junctions within it; returns
+// whether that closes the surface.
+bool ClosedMesh::CloseNear(const AddFaces& add, double distance, Progress& progress)
+{
+  Stages stages(progress, { { "points", 3 }, { "faces", 4 }, { "T-junctions", 3 } });
+  if (distance > 0.0 && this->MergeNear(distance, stages["points"]))
+  {
+    this->Fill(add, stages["faces"]);
+    if (this->NumberOfTriangles == 0 || this->Closed)
+    {
+      return this->NumberOfTriangles > 0;
+    }
+  }
+  return this->CloseWithin(distance, stages["T-junctions"]);
+}
+
+bool ClosedMesh::CloseWithin(double distance, Progress& progress)
+{
+  return this->NumberOfTriangles > 0 && distance > 0.0 && std::isfinite(distance) &&
+    this->CloseTJunctions(distance, progress);
+}
+
+std::string ClosedMesh::Openness() const
+{
+  const std::int64_t open = this->NumberOpen;
+  const std::int64_t nonManifold = this->NumberNonManifold;
+  std::ostringstream message;
+  message << "is not closed: it has " << open << (open == 1 ? " open edge" : " open edges")
+          << " and " << nonManifold
+          << (nonManifold == 1 ? " non-manifold edge" : " non-manifold edges")
+          << "; every edge must be one of two triangles, or of another even number";
+  if (open > 0)
+  {
+    message
+      << ". To close it: Clip Closed Surface in place of Clip, or with a plane that cuts off "
+         "the rim of the hole; Capping of sources and extrusions; Clean with a Tolerance where "
+         "seams gape, after Subdivide if one of their sides has fewer points; vtkFillHolesFilter "
+         "in a Programmable Filter; or Delaunay 3D and Extract Surface for the convex hull";
+  }
+  return message.str();
+}
+
+void ClosedMesh::MoveToCells(
+  const ImageGrid& grid, const std::array<double, 6>& bounds, const Context& context)
+{
+  Progress progress(context);
+  double* points = this->Coordinates.data();
+  const double spacing = grid.Spacing()[0];
+  const Eigen::Vector3d corner = grid.Origin();
+  const double rounding = lastPlacesIn(bounds);
+  progress.For(this->Points().size(), grain, [=](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = 3 * first; i < 3 * last; ++i)
+    {
+      const double x = points[i];
+      const double rounded = rounding > 0.0 ? std::nearbyint(x / rounding) * rounding : x;
+      points[i] = (rounded - corner[static_cast<Eigen::Index>(i % 3)]) / spacing;
+    }
+  });
 }
 
 bool ClosedMesh::MergeNear(double distance, const Context& context)

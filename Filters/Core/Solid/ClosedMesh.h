@@ -15,12 +15,31 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <string>
 
 namespace RectifiedTransport
 {
 
+class ClosedMesh;
+class ImageGrid;
+class Progress;
 class SurfaceEdges;
+
+// How far points may be apart where a surface is closed.
+struct ClosingDistances
+{
+  // Of triangles within these bounds: low and high along each axis. `areFloats`: coordinates are
+  // rounded to single precision.
+  ClosingDistances(const std::array<double, 6>& bounds, bool areFloats);
+
+  // What rounding leaves of any coordinates, and of float ones: points nearer than that are merged,
+  // and T-junctions within it are closed.
+  std::array<double, 2> Near;
+  // Then T-junctions that gape by the least of these that closes the surface.
+  std::array<double, 4> Gaps;
+};
 
 // Points with equal coordinates are one point, for example if each face has its own points. A mesh
 // is closed if each of its edges has two triangles or another even number. Duplicate triangles of
@@ -38,12 +57,22 @@ public:
 
   // The same in steps, for faces that are not triangles yet. First the points, three finite
   // coordinates each: finds equal points by a hash table of the coordinates' bits, in linear time
-  // for any distribution. Memory: 8 bytes a point, temporarily up to 32. Then call Reserve(), Add()
-  // and CountEdges().
+  // for any distribution. Memory: 8 bytes a point, temporarily up to 32. Then call Close(), or
+  // Reserve(), Add() and CountEdges().
   explicit ClosedMesh(LargeBuffer<double> coordinates, const Context& context = Context());
   ~ClosedMesh();
   ClosedMesh(ClosedMesh&&) noexcept;
   ClosedMesh& operator=(ClosedMesh&&) noexcept;
+
+  // Calls Reserve() and Add() for all faces, as triangles on the points that FirstOf() gives.
+  using AddFaces = std::function<void(ClosedMesh& mesh, Progress& progress)>;
+  // Adds faces and counts edges. If the mesh is then open, closes it within the distances, as
+  // little as that takes. Returns what is wrong with the surface if that is not possible, as the
+  // predicate of a sentence, else an empty text.
+  std::string Close(
+    const AddFaces& add, const ClosingDistances& distances, const Context& context = Context());
+  // Whether it was closed at T-junctions that gape by more than rounding.
+  bool HadGaps() const { return this->ClosedGaps; }
 
   // For a mesh that is open after CountEdges(): begins again without triangles, and merges points
   // that differ by less than a distance along every axis (mergeNearPoints()), to close seams that
@@ -87,6 +116,11 @@ public:
 
   // The points may be moved, for example to other coordinates; they stay merged as before.
   PointSpan<3> Points() { return { this->Coordinates.data(), this->Coordinates.size() / 3 }; }
+  // Moves them to the index coordinates of a grid of equal cells. Coordinates are first rounded to
+  // four units in the last place of the largest one within the bounds: smaller differences, as
+  // between ranks, give the same bits.
+  void MoveToCells(
+    const ImageGrid& grid, const std::array<double, 6>& bounds, const Context& context = Context());
   TriangleSurface Surface() const;
   // The surface with the bodies that Orient() finds, for coverSolid(). Must not outlive this
   // object.
@@ -94,6 +128,10 @@ public:
 
 private:
   void Merge(const Context& context);
+  std::string Fill(const AddFaces& add, Progress& progress);
+  bool CloseNear(const AddFaces& add, double distance, Progress& progress);
+  bool CloseWithin(double distance, Progress& progress);
+  std::string Openness() const;
   double LongestSide() const;
   void DropRepeated(const Context& context);
   void CountEdgesAlone(const Context& context);
@@ -109,6 +147,7 @@ private:
   std::int64_t NumberOfTJunctions = 0;
   double Gap = 0.0;
   bool Closed = false;
+  bool ClosedGaps = false;
   bool Oriented = false;
 };
 

@@ -2,7 +2,7 @@
 #include "Core/SurfaceRelaxation/SurfaceDensity.h"
 
 #include "Core/Parallel/Reduction.h"
-#include "Core/Tables/Density.h"
+#include "Core/Tables/DensityInspection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,16 +47,6 @@ DensitySummary summarize(const TriangleSurface& surface, const SurfaceDensityVal
   return summary;
 }
 
-DensitySummary combine(DensitySummary all, const DensitySummary& more)
-{
-  all.FirstNotFinite = all.NotFinite > 0 ? all.FirstNotFinite : more.FirstNotFinite;
-  all.NotFinite += more.NotFinite;
-  all.FirstNegative = all.Negative > 0 ? all.FirstNegative : more.FirstNegative;
-  all.Negative += more.Negative;
-  all.Maximum = std::max(all.Maximum, more.Maximum);
-  return all;
-}
-
 } // namespace
 
 SurfaceDensity::SurfaceDensity(
@@ -74,7 +64,10 @@ SurfaceDensity::SurfaceDensity(
     [&](std::int64_t first, std::int64_t last) {
       return summarize(surface.Given(), this->Values, first, last);
     },
-    combine);
+    [](DensitySummary all, const DensitySummary& more) {
+      merge(more, all);
+      return all;
+    });
   if (summary.NotFinite > 0 || summary.Negative > 0 || summary.Maximum == 0.0)
   {
     throw InvalidDensity(summary);

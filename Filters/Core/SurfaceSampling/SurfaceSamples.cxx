@@ -98,6 +98,11 @@ GridSize<2> flatGrid(double aspectRatio, std::int64_t resolution)
   return size;
 }
 
+double memoryForSurfaceFlow(const GridSize<2>& grid)
+{
+  return numberOfCells<2>(grid) * sizeof(double) + RectifiedFlow<2>::MemoryFor(grid);
+}
+
 UnitSeeds<2> flatSeeds(double aspectRatio, const SurfaceSamplingOptions& options)
 {
   return UnitSeeds<2>(

@@ -46,6 +46,9 @@ struct SurfaceSamples
 // to squares as whole numbers allow.
 GridSize<2> flatGrid(double aspectRatio, std::int64_t resolution);
 
+// Bytes that the flow on such a grid takes for its density and tables.
+double memoryForSurfaceFlow(const GridSize<2>& grid);
+
 // The seeds in the rectangle of a map.
 UnitSeeds<2> flatSeeds(double aspectRatio, const SurfaceSamplingOptions& options);
 

@@ -49,7 +49,7 @@ BRIDGE = {
     "Points": RUN,
     "Ranks": RUN | {"Image", "Points"},
     "Settings": RUN,
-    "Surface": RUN | {"Points"},
+    "Triangles": RUN | {"Points"},
     "Drawing": RUN | {"Points"},
     "Density": RUN | {"Image", "Points", "Settings", "Ranks"},
     "Blocks": BLOCKS,
@@ -62,8 +62,7 @@ BRIDGE = {
     "Temporal": WORKERS | {"Splat", "Blend"},
     **{folder: WORKERS | {"Blocks"} for folder in ("Cartogram", "SiteCells")},
     **{folder: WORKERS for folder in ("Flow", "Quality", "Relaxation", "Seeds", "Splat")},
-    **{folder: WORKERS | {"Surface"}
-       for folder in ("Solid", "Parameterization", "SurfaceSampling")},
+    **{folder: WORKERS | {"Triangles"} for folder in ("Solid", "Surfaces")},
 }
 
 

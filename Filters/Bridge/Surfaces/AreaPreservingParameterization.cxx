@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Surfaces/AreaPreservingParameterization.h"
+
+#include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Surfaces/DiskMap.h"
+#include "Bridge/Triangles/TriangleInput.h"
+#include "Core/Parallel/Stages.h"
+#include "Core/Parameterization/AreaPreservingMap.h"
+#include "Core/Seams/CutSurfaceMap.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+
+namespace RectifiedTransport::Bridge
+{
+
+namespace
+{
+
+// A deviation of 95 % of the area that is worth a warning; the goal is 3 %.
+constexpr double AcceptableDeviation = 0.05;
+
+constexpr const char* exactName = "AreaPreservingExact";
+
+enum SeamsChoice
+{
+  AutomaticSeams,
+  NoSeams
+};
+
+// By the points of the output; 0 0 for those that no triangle with area has. SurfaceT::PointOf
+// gives the place in `positions` of a point of the output.
+template <class ArrayT, class SurfaceT>
+vtkSmartPointer<ArrayT> coordinatesArray(
+  const std::string& name, const SurfaceT& surface, vtkIdType points, ConstPointSpan<2> positions)
+{
+  auto array = newArray<ArrayT>(name, 2, points);
+  auto* next = array->GetPointer(0);
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    const std::int64_t point = surface.PointOf(i);
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      *next++ = static_cast<typename ArrayT::ValueType>(point < 0 ? 0.0 : positions[point][axis]);
+    }
+  }
+  return array;
+}
+
+template <class SurfaceT>
+void attachCoordinates(const SurfaceT& surface, ConstPointSpan<2> conformal,
+  ConstPointSpan<2> positions, vtkPolyData* output)
+{
+  const vtkIdType points = output->GetNumberOfPoints();
+  vtkPointData* data = output->GetPointData();
+  data->AddArray(coordinatesArray<vtkDoubleArray>("Conformal", surface, points, conformal));
+  data->AddArray(coordinatesArray<vtkDoubleArray>(exactName, surface, points, positions));
+  data->AddArray(coordinatesArray<vtkFloatArray>("AreaPreserving", surface, points, positions));
+  data->SetActiveTCoords("AreaPreserving"); // SetTCoords would remove the input's
+}
+
+void attachFigures(const MapDistortion& figures, vtkPolyData* output)
+{
+  addFieldValue(output, "AreaDistortionRMS", figures.AreaRootMeanSquare);
+  addFieldValue(output, "AngleDistortionMean", figures.AngleMean);
+  addFieldValue(output, "FlippedCount", static_cast<double>(figures.Flipped));
+}
+
+// The arrays of the cells; those that are no triangles with area are not distorted.
+class CellDistortions
+{
+public:
+  CellDistortions(vtkIdType cells, ConstPointSpan<2> positions)
+    : Cells(cells)
+    , Positions(positions)
+    , Area(make<vtkDoubleArray>("AreaDistortion", 1.0))
+    , Angle(make<vtkDoubleArray>("AngleDistortion", 1.0))
+    , Flipped(make<vtkUnsignedCharArray>("Flipped", 0))
+  {
+  }
+
+  // cellOf(triangle) is the cell that a triangle is.
+  template <class CellOf>
+  void Measure(const MeasuredTriangles& triangles, const CellOf& cellOf, Progress& progress)
+  {
+    constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+    double* areas = this->Area->GetPointer(0);
+    double* angles = this->Angle->GetPointer(0);
+    unsigned char* flipped = this->Flipped->GetPointer(0);
+    progress.For(
+      triangles.Surface.NumberOfTriangles, grain, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t triangle = first; triangle < last; ++triangle)
+        {
+          const TriangleDistortion found = distortionOf(triangles, this->Positions, triangle);
+          const vtkIdType cell = cellOf(triangle);
+          areas[cell] = found.Area;
+          angles[cell] = found.Angle;
+          flipped[cell] = found.IsFlipped ? 1 : 0;
+        }
+      });
+  }
+
+  // Repeated triangles have the values of the first ones.
+  void Repeat(const std::vector<RepeatedTriangle>& repeated, vtkIdType firstCell)
+  {
+    for (const RepeatedTriangle& one : repeated)
+    {
+      const vtkIdType cell = firstCell + static_cast<vtkIdType>(one.Triangle);
+      const vtkIdType from = firstCell + static_cast<vtkIdType>(one.First);
+      this->Area->SetValue(cell, this->Area->GetValue(from));
+      this->Angle->SetValue(cell, this->Angle->GetValue(from));
+      this->Flipped->SetValue(cell, this->Flipped->GetValue(from));
+    }
+  }
+
+  void Attach(vtkCellData* cells) const
+  {
+    cells->AddArray(this->Area);
+    cells->AddArray(this->Angle);
+    cells->AddArray(this->Flipped);
+  }
+
+private:
+  template <class ArrayT>
+  vtkSmartPointer<ArrayT> make(const char* name, typename ArrayT::ValueType value) const
+  {
+    auto array = newArray<ArrayT>(name, 1, this->Cells);
+    std::fill_n(array->GetPointer(0), this->Cells, value);
+    return array;
+  }
+
+  const vtkIdType Cells;
+  const ConstPointSpan<2> Positions;
+  const vtkSmartPointer<vtkDoubleArray> Area;
+  const vtkSmartPointer<vtkDoubleArray> Angle;
+  const vtkSmartPointer<vtkUnsignedCharArray> Flipped;
+};
+
+// Of a repaired surface the figures are those of its own cells: in the disk a triangle may have
+// been cut where a point lies on its side.
+MapDistortion measureCells(const TriangleInput& read, const DiskTriangles& surface,
+  const AreaPreservingMap& map, CellDistortions& distortions, Progress& progress)
+{
+  const auto cellOf = [&read](std::int64_t triangle) {
+    return read.FirstCell() + static_cast<vtkIdType>(triangle);
+  };
+  if (!surface.IsRepaired())
+  {
+    distortions.Measure(measuredTriangles(surface.Disk()), cellOf, progress);
+    return map.Distortion;
+  }
+  const LargeBuffer<std::int64_t> corners = read.Corners(progress);
+  const GivenTriangles given(surface.Repaired(), corners.data());
+  const MeasuredTriangles triangles{ given.Surface(), given.AreaShares() };
+  distortions.Measure(
+    triangles, [&](std::int64_t triangle) { return cellOf(given.Given(triangle)); }, progress);
+  distortions.Repeat(surface.Repaired().Repeated(), read.FirstCell());
+  return measureDistortion(triangles, map.Positions, progress);
+}
+
+template <class Map>
+auto withFlowMemory(std::int64_t points, int resolution, const Map& map)
+{
+  const std::string cells = std::to_string(resolution);
+  const double bytes = 40.0 * resolution * resolution + 200.0 * static_cast<double>(points);
+  const std::string flow = "the flow of " + std::to_string(points) + " points on " + cells + " x " +
+    cells + " cells (see Resolution)";
+  requireMemory(flow, bytes);
+  return withMemory(flow, bytes, map);
+}
+
+// Which point of the input each point is, and which component each cell; -1 for cells that are no
+// triangles with area.
+void attachOrigins(const OpenedSurface& surface, vtkIdType firstCell, vtkPolyData* output)
+{
+  const vtkIdType points = output->GetNumberOfPoints();
+  auto origins = newArray<vtkIdTypeArray>("PointIds", 1, points);
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    origins->SetValue(i, static_cast<vtkIdType>(surface.OriginOf(i)));
+  }
+  output->GetPointData()->AddArray(origins);
+  const vtkIdType cells = output->GetNumberOfCells();
+  auto components = newArray<vtkIntArray>("Component", 1, cells);
+  std::fill_n(components->GetPointer(0), cells, -1);
+  for (std::int64_t triangle = 0; triangle < surface.Given().NumberOfTriangles; ++triangle)
+  {
+    components->SetValue(firstCell + static_cast<vtkIdType>(triangle),
+      static_cast<int>(surface.Cut().DiskOf(triangle)));
+  }
+  output->GetCellData()->AddArray(components);
+}
+
+} // namespace
+
+std::vector<std::string> ParameterizationReport::Warnings() const
+{
+  std::vector<std::string> warnings;
+  if (!this->Repair.empty())
+  {
+    warnings.push_back(this->Repair);
+  }
+  const std::int64_t flipped = this->Distortion.Flipped;
+  if (flipped > this->Collapsed || (this->Polish && this->Distortion.Area95 > AcceptableDeviation))
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << flipped << " of " << this->Triangles
+         << " triangles are flipped and 95 % of the area is within "
+         << 100.0 * this->Distortion.Area95 << " % of its share of the square; "
+         << (!this->Polish ? "Polish is off"
+                : this->IsCut
+                ? "smaller triangles help"
+                : "a longer boundary helps where the surface is nearly closed, smaller "
+                  "triangles help elsewhere");
+    const std::int64_t needles = this->Distortion.FlippedNeedles;
+    if (needles > 0)
+    {
+      text << "; " << needles
+           << (needles == 1 ? " of the flipped is a needle" : " of the flipped are needles")
+           << ", lower than " << MapDistortion::NeedleHeight
+           << " of the length: Clean with a Tolerance merges points so near to each other";
+    }
+    warnings.push_back(text.str());
+  }
+  if (this->Collapsed > 0)
+  {
+    warnings.push_back(collapsedWarning(this->Collapsed, this->Triangles, this->IsCut));
+  }
+  return warnings;
+}
+
+void AreaPreservingParameterization::Check() const
+{
+  requireThat(this->Resolution >= 1 && this->Resolution <= AreaPreservingOptions::MaximumResolution,
+    "Resolution", this->Resolution, "from 1 to 16384");
+  requireChoice("Seams", this->Seams, SeamsTexts);
+  this->Corners.Check();
+}
+
+ParameterizationReport AreaPreservingParameterization::Run(
+  vtkPolyData* input, Progress& progress, vtkPolyData* output) const
+{
+  Stages stages(progress, { { "triangles", 5 }, { "disk", 5 }, { "map", 90 } });
+  TriangleInput triangles(input,
+    this->Seams == AutomaticSeams ? "it must be a surface" : "it must be a disk",
+    stages["triangles"]);
+  std::optional<DiskTriangles> disk;
+  try
+  {
+    disk.emplace(triangles.Disk(stages["disk"]));
+  }
+  catch (const NoDiskSurface& defect)
+  {
+    if (this->Seams == NoSeams)
+    {
+      throw;
+    }
+    if (this->Corners.Number() > 0)
+    {
+      throw Failure(std::string(defect.what()) +
+        "; or give no Corners, which only a disk can have: " + "then it is cut along seams");
+    }
+  }
+  return disk ? this->MapDisk(triangles, *disk, stages["map"], output)
+              : this->MapOpened(triangles, stages["map"], output);
+}
+
+ParameterizationReport AreaPreservingParameterization::MapDisk(const TriangleInput& read,
+  const DiskTriangles& surface, Progress& progress, vtkPolyData* output) const
+{
+  const DiskMesh& disk = surface.Disk();
+  Stages stages(progress,
+    { { "conformal map", 30 }, { "area-preserving map", 55 }, { "triangles", 2 },
+      { "distortion", 5 } });
+  const ConformalMap conformal =
+    mapDisk(disk, this->Corners.Of(surface.Repaired()), stages["conformal map"]);
+  const AreaPreservingMap map = withFlowMemory(disk.NumberOfPoints(), this->Resolution, [&]() {
+    return mapAreaPreserving(
+      disk, conformal.Square, { this->Resolution, this->Polish }, stages["area-preserving map"]);
+  });
+
+  const vtkSmartPointer<vtkPolyData> triangles = read.Triangulated(stages["triangles"]);
+  CellDistortions distortions(triangles->GetNumberOfCells(), map.Positions);
+  const MapDistortion figures = measureCells(read, surface, map, distortions, stages["distortion"]);
+  output->CopyStructure(triangles);
+  output->GetFieldData()->PassData(triangles->GetFieldData());
+  output->GetCellData()->PassData(triangles->GetCellData());
+  distortions.Attach(output->GetCellData());
+  output->GetPointData()->PassData(triangles->GetPointData());
+  attachCoordinates(surface, conformal.Square.Positions, map.Positions, output);
+  attachFigures(figures, output);
+  return { disk.NumberOfTriangles(), countCollapsed(disk, conformal.Square.Corners), figures,
+    this->Polish, false, read.RepairWarning(surface.Repaired().Repairs()) };
+}
+
+ParameterizationReport AreaPreservingParameterization::MapOpened(
+  TriangleInput& read, Progress& progress, vtkPolyData* output) const
+{
+  Stages stages(progress, { { "seams", 40 }, { "map", 45 }, { "distortion", 3 }, { "output", 2 } });
+  OpenedSurface surface = read.Opened(stages["seams"]);
+  const CutSurface& cut = surface.Cut();
+  const CutSurfaceMap map = withFlowMemory(cut.NumberOfPoints(), this->Resolution, [&]() {
+    return mapCutSurface(cut, { this->Resolution, this->Polish }, stages["map"]);
+  });
+
+  const CutTriangles given(cut, surface.Given());
+  const MeasuredTriangles triangles = given.Measured();
+  const std::vector<Point<2>> scaled = scaledToUnitArea(map);
+  CellDistortions distortions(
+    read.FirstCell() + static_cast<vtkIdType>(surface.Given().NumberOfTriangles), scaled);
+  distortions.Measure(
+    triangles,
+    [&](std::int64_t triangle) {
+      return read.FirstCell() + static_cast<vtkIdType>(given.Given(triangle));
+    },
+    stages["distortion"]);
+  distortions.Repeat(cut.Repeated(), read.FirstCell());
+  const MapDistortion figures = measureDistortion(triangles, scaled, stages["distortion"]);
+  surface.PlaceFlatTriangles(map.Positions);
+  read.CopyOpened(surface, stages["output"], output);
+  distortions.Attach(output->GetCellData());
+  attachOrigins(surface, read.FirstCell(), output);
+  attachCoordinates(surface, map.Conformal, map.Positions, output);
+  attachFigures(figures, output);
+  return { triangles.Surface.NumberOfTriangles, map.Collapsed, figures, this->Polish, true,
+    read.RepairWarning(cut.Cuts(), cut.Cuts().NonManifoldEdges) };
+}
+
+void layFlat(vtkPolyData* surface, vtkPolyData* flat)
+{
+  const double* next =
+    vtkDoubleArray::SafeDownCast(surface->GetPointData()->GetArray(exactName))->GetPointer(0);
+  const vtkIdType count = surface->GetNumberOfPoints();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(count);
+  for (vtkIdType i = 0; i < count; ++i, next += 2)
+  {
+    points->SetPoint(i, next[0], next[1], 0.0);
+  }
+  flat->ShallowCopy(surface);
+  flat->SetPoints(points);
+  for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(flat->GetPointData()),
+         static_cast<vtkDataSetAttributes*>(flat->GetCellData()) })
+  {
+    data->SetActiveAttribute(-1, vtkDataSetAttributes::NORMALS);
+    data->SetActiveAttribute(-1, vtkDataSetAttributes::TANGENTS);
+  }
+}
+
+} // namespace RectifiedTransport::Bridge

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The map of a surface to the unit square: the worker of vtkAreaPreservingParameterization.
+#ifndef RectifiedTransport_AreaPreservingParameterization_h
+#define RectifiedTransport_AreaPreservingParameterization_h
+
+#include "Bridge/Settings/CornerSettings.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parameterization/MapDistortion.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+class DiskTriangles;
+class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
+
+class TriangleInput;
+
+// How far the map is from its goal.
+struct ParameterizationReport
+{
+  std::int64_t Triangles;
+  std::int64_t Collapsed; // all points on one side of the square
+  MapDistortion Distortion;
+  bool Polish;
+  bool IsCut;         // along seams, or in several components
+  std::string Repair; // of the surface; empty if it needed none
+
+  // What a user should know; usually nothing.
+  std::vector<std::string> Warnings() const;
+};
+
+// The texts of Seams, in the order of its values.
+constexpr const char* SeamsTexts[] = { "Auto", "None" };
+
+// The members are the properties of that class.
+struct AreaPreservingParameterization
+{
+  CornerSettings Corners;
+  int Resolution;
+  bool Polish;
+  int Seams = 0;
+
+  // Throws Failure for values that are out of range for any surface.
+  void Check() const;
+
+  // Makes the output the surface's triangles with the map's arrays. Throws Failure and Cancelled.
+  ParameterizationReport Run(vtkPolyData* surface, Progress& progress, vtkPolyData* output) const;
+
+private:
+  ParameterizationReport MapDisk(const TriangleInput& triangles, const DiskTriangles& surface,
+    Progress& progress, vtkPolyData* output) const;
+  ParameterizationReport MapOpened(
+    TriangleInput& triangles, Progress& progress, vtkPolyData* output) const;
+};
+
+// Makes a surface that Run has made lie in the unit square. It shares all arrays but the points.
+void layFlat(vtkPolyData* surface, vtkPolyData* flat);
+
+} // namespace RectifiedTransport::Bridge
+
+#endif

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Surfaces/SurfaceSampler.h"
+
+#include "Bridge/Density/CostModel.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/StepReport.h"
+#include "Bridge/Run/WarningLimit.h"
+#include "Bridge/Surfaces/DiskMap.h"
+#include "Bridge/Surfaces/SurfaceMasses.h"
+#include "Bridge/Surfaces/SurfaceParticles.h"
+#include "Bridge/Triangles/SurfaceInput.h"
+#include "Bridge/Triangles/TriangleInput.h"
+#include "Core/Parallel/Stages.h"
+#include "Core/Parameterization/AreaPreservingMap.h"
+#include "Core/SurfaceRelaxation/SurfaceRelaxation.h"
+
+#include "vtkPolyData.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace RectifiedTransport::Bridge
+{
+
+namespace
+{
+
+// Nanoseconds, as measured on one thread.
+double costOfMap(double points)
+{
+  return 40.0 * std::pow(points, 1.5);
+}
+
+} // namespace
+
+void SurfaceSampler::Check() const
+{
+  const std::int64_t number = this->Options.NumberOfSamples;
+  const std::int64_t resolution = this->Options.Resolution;
+  requireThat(number >= 1, "NumberOfParticles", number, "at least 1");
+  requireThat(this->RelaxationIterations >= 0 && this->RelaxationIterations <= MostIterations,
+    "RelaxationIterations", this->RelaxationIterations, "from 0 to 1000");
+  requireThat(resolution >= 1 && resolution <= AreaPreservingOptions::MaximumResolution,
+    "Resolution", resolution, "from 1 to 16384");
+  this->Corners.Check();
+}
+
+std::vector<std::string> SurfaceSamplingReport::Warnings() const
+{
+  std::vector<std::string> warnings;
+  if (!this->Repair.empty())
+  {
+    warnings.push_back(this->Repair);
+  }
+  if (isWorthWarning(this->Moved, this->Particles))
+  {
+    warnings.push_back(std::to_string(this->Moved) + " of " + std::to_string(this->Particles) +
+      " particles in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare "
+      "them that)");
+  }
+  if (!this->Steps.empty())
+  {
+    warnings.push_back(this->Steps);
+  }
+  if (this->IsAreaPreserving)
+  {
+    std::ostringstream text;
+    text.precision(2);
+    text
+      << "The conformal map squeezes much of the surface into few cells: the particles come from "
+         "the area-preserving map instead, which shears their pattern (a longer boundary helps)";
+    if (this->PatchError > SurfaceSamples::AcceptableError)
+    {
+      text << "; their numbers in patches of the surface are still wrong by "
+           << 100.0 * this->PatchError << " %";
+    }
+    warnings.push_back(text.str());
+  }
+  if (this->Collapsed > 0)
+  {
+    warnings.push_back(collapsedWarning(this->Collapsed, this->Triangles));
+  }
+  return warnings;
+}
+
+SurfaceSamplingReport SurfaceSampler::Run(const SurfaceInput& input,
+  const SurfaceDensityArray& density, Progress& progress, vtkPolyData* output) const
+{
+  return this->Method == SurfaceMethod::Flow ? this->Transport(input, density, progress, output)
+                                             : this->Relax(input, density, progress, output);
+}
+
+SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
+  const SurfaceDensityArray& density, Progress& progress, vtkPolyData* output) const
+{
+  vtkPolyData* input = given.Get();
+  SurfaceRelaxationOptions options;
+  options.NumberOfSamples = this->Options.NumberOfSamples;
+  options.Iterations = this->RelaxationIterations;
+  options.RandomSeed = this->Options.RandomSeed;
+  const auto size = static_cast<double>(input->GetNumberOfPoints());
+  const auto asked = static_cast<double>(this->Options.NumberOfSamples);
+  Stages stages(progress,
+    { { "input", 250.0 * size }, { "triangles", 250.0 * size }, { "masses", 50.0 * size },
+      { "relaxation", 2000.0 * size + (3000.0 + 500.0 * this->RelaxationIterations) * asked },
+      { "particles", costOfSurfaceParticles(asked, input) } });
+  const std::string particles =
+    std::to_string(this->Options.NumberOfSamples) + " particles (see NumberOfParticles)";
+  const double bytes = asked * BytesOfSurfaceParticle;
+  requireMemory(particles, bytes);
+
+  TriangleInput read(input, "it must be a surface", stages["input"]);
+  const WholeTriangles surface = read.Whole(stages["triangles"]);
+  options.Rounding = surface.Rounding();
+  const SurfaceMasses masses(read, surface, density, stages["masses"]);
+  const RelativeDensity relative(read, surface, density, masses.Largest(), stages["masses"]);
+  const TriangleSurface triangles = surface.Surface();
+  const SurfaceRelaxation samples = withMemory("the relaxation of " + particles,
+    bytes +
+      memoryForSurfaceRelaxation(triangles.Points.size(), triangles.NumberOfTriangles,
+        relative.Values().AtPoints || relative.Values().OfTriangles, this->Options.NumberOfSamples),
+    [&]() {
+      try
+      {
+        return relaxOnSurface(triangles, relative.Values(), options, stages["relaxation"]);
+      }
+      catch (const std::invalid_argument&) // all else was checked before
+      {
+        throw Failure("The input surface has no area: each of its " +
+          std::to_string(triangles.NumberOfTriangles) +
+          " triangles is lower than 1e-12 of its length, or nothing beside the bounds");
+      }
+    });
+  writeSurfaceParticles(
+    { given, read, surface, samples.Places }, masses.Total(), stages["particles"], output);
+  SurfaceSamplingReport report;
+  report.Particles = samples.Places.size();
+  RepairCounts repairs; // of what else is wrong, nothing changes the result
+  repairs.Repeated = surface.Repeated();
+  repairs.TJunctions = samples.TJunctions;
+  report.Repair = repairWarning(repairs);
+  return report;
+}
+
+SurfaceSamplingReport SurfaceSampler::Transport(const SurfaceInput& given,
+  const SurfaceDensityArray& density, Progress& progress, vtkPolyData* output) const
+{
+  vtkPolyData* input = given.Get();
+  const auto size = static_cast<double>(input->GetNumberOfPoints());
+  const auto asked = static_cast<double>(this->Options.NumberOfSamples);
+  const FlowOptions& flowOptions = this->Options.Flow;
+  const auto resolution = static_cast<double>(this->Options.Resolution);
+  Stages stages(progress,
+    { { "input", 700.0 * size }, { "triangles", 800.0 * size }, { "map", costOfMap(size) },
+      { "masses", 50.0 * size },
+      { "flow",
+        30.0 * resolution * resolution + 1500.0 * size +
+          (1000.0 + Cost::flow(flowOptions, 2)) * asked },
+      { "particles", costOfSurfaceParticles(asked, input) } });
+  const std::string particles =
+    std::to_string(this->Options.NumberOfSamples) + " particles (see NumberOfParticles)";
+  constexpr double bytesOfParticle = BytesOfSurfaceParticle + sizeof(PlaceOnTriangle);
+  requireMemory(particles, asked * bytesOfParticle);
+
+  TriangleInput read(input, "it must be a disk", stages["input"]);
+  const DiskTriangles surface = read.Disk(stages["triangles"]);
+  const DiskMesh& disk = surface.Disk();
+  const ConformalMap map = mapDisk(disk, this->Corners.Of(surface.Repaired()), stages["map"]);
+  const SurfaceMasses masses(read, surface, density, stages["masses"]);
+
+  const GridSize<2> grid = flatGrid(map.AspectRatio, this->Options.Resolution);
+  const double tables = memoryForSurfaceFlow(grid);
+  const std::string flow = "the flow on " + std::to_string(grid[0]) + " x " +
+    std::to_string(grid[1]) + " cells (see Resolution)";
+  requireMemory(flow, tables);
+  const SurfaceSamples samples = withMemory(flow + " and " + particles,
+    tables + asked * bytesOfParticle + 80.0 * static_cast<double>(disk.NumberOfTriangles()),
+    [&]() { return sampleSurface(disk, map, masses.Values(), this->Options, stages["flow"]); });
+
+  writeSurfaceParticles(
+    { given, read, surface, samples.Places }, masses.Total(), stages["particles"], output);
+  addFieldValue(output, "MovedParticles", static_cast<double>(samples.Flow.MovedToMass));
+  addSteps(output, { samples.Flow });
+  return { samples.Places.size(), samples.Flow.MovedToMass,
+    stepWarning(samples.Flow, flowOptions, FlowDirection::Forward, true), disk.NumberOfTriangles(),
+    countCollapsed(disk, map.Square.Corners), samples.PatchError, samples.IsAreaPreserving,
+    read.RepairWarning(surface.Repaired().Repairs()) };
+}
+
+} // namespace RectifiedTransport::Bridge

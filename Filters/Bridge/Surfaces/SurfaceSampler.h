@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Samples a surface with particles: the worker of vtkSurfaceSampler.
+#ifndef RectifiedTransport_SurfaceSampler_h
+#define RectifiedTransport_SurfaceSampler_h
+
+#include "Bridge/Settings/CornerSettings.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/SurfaceSampling/SurfaceSamples.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+class Progress;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
+
+class SurfaceDensityArray;
+class SurfaceInput;
+
+// The numbers of one run, for warnings.
+struct SurfaceSamplingReport
+{
+  std::int64_t Particles = 0;
+  std::int64_t Moved = 0; // from empty cells of the grid to the nearest mass
+  std::string Steps;      // a warning; empty if there is none
+  std::int64_t Triangles = 0;
+  std::int64_t Collapsed = 0; // triangles without area in the map
+  double PatchError = 0.0;
+  bool IsAreaPreserving = false; // the map that the particles come from
+  std::string Repair;            // of the surface; empty if it needed none
+
+  std::vector<std::string> Warnings() const;
+};
+
+// Indexed by vtkSurfaceSampler::MethodType.
+constexpr const char* SurfaceMethodTexts[] = { "Relaxation", "Flow" };
+enum class SurfaceMethod
+{
+  Relaxation, // of any surface
+  Flow        // of a disk, by its map
+};
+
+// The members are the properties of that class.
+struct SurfaceSampler
+{
+  static constexpr int MostIterations = 1000;
+
+  SurfaceMethod Method;
+  int RelaxationIterations;
+  CornerSettings Corners;         // of the flow's disk
+  SurfaceSamplingOptions Options; // the number of samples and the seed also of the relaxation
+
+  // Throws Failure for values that are out of range for any surface.
+  void Check() const;
+
+  // Writes particles. Throws Failure and Cancelled.
+  SurfaceSamplingReport Run(const SurfaceInput& surface, const SurfaceDensityArray& density,
+    Progress& progress, vtkPolyData* output) const;
+
+private:
+  SurfaceSamplingReport Relax(const SurfaceInput& surface, const SurfaceDensityArray& density,
+    Progress& progress, vtkPolyData* output) const;
+  SurfaceSamplingReport Transport(const SurfaceInput& surface, const SurfaceDensityArray& density,
+    Progress& progress, vtkPolyData* output) const;
+};
+
+} // namespace RectifiedTransport::Bridge
+
+#endif

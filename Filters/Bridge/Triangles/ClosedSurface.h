@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The polygons of a vtkPolyData as a closed surface of triangles.
+#ifndef RectifiedTransport_ClosedSurface_h
+#define RectifiedTransport_ClosedSurface_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Mesh/PolygonCutter.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Solid/ClosedMesh.h"
+
+#include <array>
+#include <optional>
+#include <string>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+class ImageGrid;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
+
+// The bounds of the points that polygons and strips use; the first is above the second if there are
+// none.
+std::array<double, 6> polygonBounds(vtkPolyData* surface);
+
+class ClosedSurface
+{
+public:
+  // Merges points with equal coordinates and cuts polygons and strips into triangles. Lines and
+  // vertices are ignored. If edges are then open, closes them as ClosedMesh::Close does: within
+  // rounding, 1e-9 of the longest side of the polygons' bounds and if the coordinates are float 4
+  // of their rounding errors, and at T-junctions that gape by up to 1e-5, 1e-4, 1e-3 or 1e-2 of
+  // that side. Throws Failure if the input has no polygons, coordinates that are not finite, or
+  // edges of an odd number of triangles, and Cancelled.
+  ClosedSurface(vtkPolyData* input, Progress& progress);
+
+  // A warning that counts T-junctions that were closed; empty if there were none.
+  std::string RepairWarning() const;
+
+  // Those of polygonBounds.
+  const std::array<double, 6>& Bounds() const { return this->Box; }
+
+  // Returns the surface in the index coordinates of a grid (see ClosedMesh::MoveToCells), the
+  // triangles of each component with one orientation. Throws Failure if a component is not
+  // orientable, and Cancelled.
+  SolidSurface InCells(const ImageGrid& grid, Progress& progress);
+
+private:
+  void AddPolygons(vtkPolyData* input, Progress& progress);
+  PolygonCutter::Corners Merged(const PolygonCutter::Corners& corners) const;
+
+  std::array<double, 6> Box{};
+  std::optional<ClosedMesh> Mesh;
+};
+
+} // namespace RectifiedTransport::Bridge
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Warnings that count what was repaired.
+#ifndef RectifiedTransport_RepairText_h
+#define RectifiedTransport_RepairText_h
+
+#include "Core/Mesh/TriangleSurface.h"
+
+#include <cstdint>
+#include <string>
+
+namespace RectifiedTransport::Bridge
+{
+
+// What was repaired in a surface.
+struct RepairCounts : SurfaceRepairs
+{
+  std::int64_t TJunctions = 0;
+  double Gap = 0.0;             // at T-junctions, at most; 0 if only rounding makes them
+  std::int64_t PartedEdges = 0; // of more than two triangles
+};
+
+// "The input surface was repaired: 2 points in no polygon left out, ..."; empty if nothing was.
+std::string repairWarning(const RepairCounts& counts);
+
+} // namespace RectifiedTransport::Bridge
+
+#endif

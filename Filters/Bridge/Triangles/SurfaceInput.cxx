@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Triangles/SurfaceInput.h"
+
+#include "Bridge/Points/CellCheck.h"
+#include "Bridge/Points/CopiedTuples.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Inputs/InputBlock.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Triangles/PolygonInput.h"
+#include "Core/Parallel/Stages.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDataObject.h"
+#include "vtkGeometryFilter.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringVectorKey.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport::Bridge
+{
+
+namespace
+{
+
+constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
+
+enum Part
+{
+  Vertices,
+  Lines,
+  Polygons,
+  Strips,
+  NoPart // of three dimensions, or with curved sides
+};
+
+Part partOf(int cellType)
+{
+  switch (cellType)
+  {
+    case VTK_VERTEX:
+    case VTK_POLY_VERTEX:
+      return Vertices;
+    case VTK_LINE:
+    case VTK_POLY_LINE:
+      return Lines;
+    case VTK_TRIANGLE:
+    case VTK_QUAD:
+    case VTK_PIXEL:
+    case VTK_POLYGON:
+      return Polygons;
+    case VTK_TRIANGLE_STRIP:
+      return Strips;
+    default:
+      return NoPart;
+  }
+}
+
+bool isFlat(vtkPointSet* grid, Progress& progress)
+{
+  bool isFlat = true;
+  progress.ForInOrder(
+    grid->GetNumberOfCells(), Grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (auto cell = static_cast<vtkIdType>(first); cell < last && isFlat; ++cell)
+      {
+        const int type = grid->GetCellType(cell);
+        isFlat = type == VTK_EMPTY_CELL || partOf(type) != NoPart; // that or one that is blanked
+      }
+    },
+    RandomAccessUnits);
+  return isFlat;
+}
+
+// The cells of one part, appended to `ids`.
+vtkSmartPointer<vtkCellArray> cellsOf(
+  vtkPointSet* grid, Part part, std::vector<vtkIdType>& ids, Progress& progress)
+{
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  vtkNew<vtkIdList> points;
+  progress.ForInOrder(
+    grid->GetNumberOfCells(), Grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (auto cell = static_cast<vtkIdType>(first); cell < last; ++cell)
+      {
+        const int type = grid->GetCellType(cell);
+        if (partOf(type) != part)
+        {
+          continue;
+        }
+        grid->GetCellPoints(cell, points);
+        if (type == VTK_PIXEL && points->GetNumberOfIds() == 4)
+        {
+          std::swap(points->GetPointer(0)[2], points->GetPointer(0)[3]);
+        }
+        cells->InsertNextCell(points);
+        ids.push_back(cell);
+      }
+    },
+    RandomAccessUnits);
+  return cells;
+}
+
+// Flat cells on all points of the grid; `ids` are theirs.
+vtkSmartPointer<vtkPolyData> surfaceOf(
+  vtkPointSet* grid, std::vector<vtkIdType>& ids, Progress& progress)
+{
+  Parts parts(progress, NoPart + 1);
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->SetPoints(grid->GetPoints());
+  surface->SetVerts(cellsOf(grid, Vertices, ids, parts[Vertices]));
+  surface->SetLines(cellsOf(grid, Lines, ids, parts[Lines]));
+  surface->SetPolys(cellsOf(grid, Polygons, ids, parts[Polygons]));
+  surface->SetStrips(cellsOf(grid, Strips, ids, parts[Strips]));
+  surface->GetPointData()->PassData(grid->GetPointData());
+  surface->GetFieldData()->PassData(grid->GetFieldData());
+  vtkCellData* data = surface->GetCellData();
+  data->CopyAllOn();
+  copyTuples(
+    { grid->GetCellData(), grid->GetNumberOfCells(), "cell", "input" },
+    static_cast<std::int64_t>(ids.size()),
+    [&ids](vtkIdType cell) { return ids[static_cast<std::size_t>(cell)]; }, data, parts[NoPart]);
+  return surface;
+}
+
+// The outer surface of cells of three dimensions, and flat pieces of curved ones. `ids` are the
+// cells that they are of.
+vtkSmartPointer<vtkPolyData> outerSurfaceOf(vtkPointSet* grid, std::vector<vtkIdType>& ids)
+{
+  constexpr const char* name = "RectifiedTransportCellIds";
+  requireTuples(grid, "input");
+  vtkNew<vtkGeometryFilter> filter;
+  filter->SetInputData(grid);
+  filter->PassThroughCellIdsOn();
+  filter->SetOriginalCellIdsName(name);
+  filter->Update();
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->ShallowCopy(filter->GetOutput());
+  vtkCellData* data = surface->GetCellData();
+  auto* found = vtkIdTypeArray::SafeDownCast(data->GetAbstractArray(name));
+  if (!found)
+  {
+    throw Failure(
+      "The outer surface of the input could not be taken; take it with Extract Surface");
+  }
+  ids.assign(found->GetPointer(0), found->GetPointer(0) + found->GetNumberOfValues());
+  data->RemoveArray(name);
+  return surface;
+}
+
+} // namespace
+
+void SurfaceInput::Require(vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkStructuredGrid");
+}
+
+SurfaceInput::SurfaceInput(vtkDataObject* input, Progress& progress)
+{
+  auto* set = requireBlock<vtkPointSet>(
+    input, "The input", "a vtkPolyData or a grid, or what Extract Surface makes of it");
+  if (!set || set->GetNumberOfPoints() == 0)
+  {
+    return;
+  }
+  this->Surface = vtkPolyData::SafeDownCast(set);
+  if (this->Surface)
+  {
+    return;
+  }
+  const auto cells = static_cast<double>(set->GetNumberOfCells());
+  const std::string purpose =
+    "the surface of " + std::to_string(set->GetNumberOfCells()) + " cells of the input";
+  constexpr double bytesOfCell = 16.0 * sizeof(vtkIdType);
+  requireMemory(purpose, cells * bytesOfCell);
+  requireReadableCells(set, "input surface");
+  Stages stages(progress, { { "types", 1 }, { "cells", 9 } });
+  if (isFlat(set, stages["types"]))
+  {
+    this->Surface = surfaceOf(set, this->Cells, stages["cells"]);
+    return;
+  }
+  this->Surface = outerSurfaceOf(set, this->Cells);
+  progress.Check();
+}
+
+} // namespace RectifiedTransport::Bridge

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Triangles/TriangleInput.h"
+
+#include "Bridge/Points/CopiedTuples.h"
+#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Triangles/PolygonInput.h"
+#include "Core/Mesh/TJunctions.h"
+#include "Core/Parallel/Stages.h"
+
+#include "vtkCellData.h"
+#include "vtkFieldData.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace RectifiedTransport::Bridge
+{
+
+namespace
+{
+
+std::string countOf(const TriangleSurface& surface)
+{
+  return std::to_string(surface.NumberOfTriangles) + " triangles";
+}
+
+vtkSmartPointer<vtkCellArray> cellsOf(const std::int64_t* corners, std::int64_t count)
+{
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->AllocateExact(static_cast<vtkIdType>(count), static_cast<vtkIdType>(3 * count));
+  for (const std::int64_t* ids = corners; ids < corners + 3 * count; ids += 3)
+  {
+    cells->InsertNextCell({ static_cast<vtkIdType>(ids[0]), static_cast<vtkIdType>(ids[1]),
+      static_cast<vtkIdType>(ids[2]) });
+  }
+  return cells;
+}
+
+// Triangles in place of polygons and strips. The other data are the caller's to copy.
+void setTriangles(vtkPolyData* from, vtkPoints* points, vtkCellArray* triangles, vtkPolyData* to)
+{
+  to->SetPoints(points);
+  to->SetVerts(from->GetVerts());
+  to->SetLines(from->GetLines());
+  to->SetPolys(triangles);
+  to->GetFieldData()->PassData(from->GetFieldData());
+}
+
+} // namespace
+
+TriangleInput::TriangleInput(vtkPolyData* input, const std::string& need, Progress& progress)
+  : Surface(input)
+  , FirstPolygon(input->GetNumberOfVerts() + input->GetNumberOfLines())
+{
+  Stages stages(progress, { { "points", 2 }, { "triangles", 8 } });
+  LargeBuffer<double> coordinates = readSurfacePoints(input, need, stages["points"]);
+  const ConstPointSpan<3> points{ coordinates.data(), coordinates.size() / 3 };
+  const double rounding = roundingOfPoints(points);
+  LargeBuffer<std::int64_t> corners = this->ReadCorners(points, rounding, stages["triangles"]);
+  this->Triangles = { std::move(coordinates), std::move(corners), rounding };
+}
+
+LargeBuffer<std::int64_t> TriangleInput::ReadCorners(
+  ConstPointSpan<3> points, double rounding, Progress& work)
+{
+  if (isAllTriangles(this->Surface))
+  {
+    const vtkIdType count = this->Surface->GetNumberOfPolys();
+    return withMemory("the surface's " + std::to_string(count) + " triangles",
+      static_cast<double>(count) * 3.0 * sizeof(std::int64_t),
+      [&]() { return this->Corners(work); });
+  }
+  const std::int64_t count = countTriangles(this->Surface);
+  return withMemory(std::to_string(count) + " triangles of the input surface",
+    static_cast<double>(count) * 4.0 * sizeof(vtkIdType), [&]() {
+      this->Cells = LargeBuffer<vtkIdType>(count);
+      LargeBuffer<std::int64_t> corners(3 * count);
+      PolygonCutter cutter(points, rounding, makeRingCutter());
+      this->CutPolygons(cutter, corners.data(), work);
+      vtkCellData* data = this->Surface->GetCellData();
+      for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+      {
+        requireTuples(
+          data->GetAbstractArray(i), this->Surface->GetNumberOfCells(), "cell", "input surface");
+      }
+      return corners;
+    });
+}
+
+void TriangleInput::CutPolygons(PolygonCutter& cutter, std::int64_t* corners, Progress& progress)
+{
+  std::int64_t missing = 0;
+  std::int64_t firstMissing = 0;
+  vtkIdType* cells = this->Cells.data();
+  const auto append = [&](std::int64_t cell) {
+    const std::vector<std::int64_t>& made = cutter.Triangles();
+    corners = std::copy(made.begin(), made.end(), corners);
+    cells = std::fill_n(cells, made.size() / 3, this->FirstPolygon + static_cast<vtkIdType>(cell));
+  };
+  vtkCellArray* polygons = this->Surface->GetPolys();
+  const vtkIdType count = polygons->GetNumberOfCells();
+  Stages stages(progress,
+    { { "polygons", static_cast<double>(count) },
+      { "strips", static_cast<double>(this->Surface->GetNumberOfStrips()) } });
+  visitCells(
+    polygons, stages["polygons"], [&](std::int64_t cell, const PolygonCutter::Corners& points) {
+      if (cutter.Cut(points))
+      {
+        append(cell);
+        return;
+      }
+      firstMissing = missing == 0 ? cell : firstMissing;
+      missing += static_cast<std::int64_t>(points.size()) - 2;
+    });
+  visitCells(this->Surface->GetStrips(), stages["strips"],
+    [&](std::int64_t strip, const PolygonCutter::Corners& points) {
+      cutter.CutStrip(points);
+      append(count + strip);
+    });
+  if (missing != 0)
+  {
+    throw Failure("The input surface has polygons that cannot be cut into triangles: " +
+      std::to_string(missing) + " triangles are missing (the first of polygon " +
+      std::to_string(firstMissing) +
+      ", counted from 0); polygons must be simple: edges must not cross, and no corner be "
+      "there twice");
+  }
+}
+
+DiskTriangles TriangleInput::Disk(Progress& progress)
+{
+  const TriangleSurface surface = this->Triangles.Surface();
+  try
+  {
+    DiskTriangles disk = withMemory(
+      "the surface's " + std::to_string(surface.Points.size()) + " points and " + countOf(surface),
+      static_cast<double>(surface.Points.size()) * 40.0 +
+        static_cast<double>(surface.NumberOfTriangles) * 80.0,
+      [&]() { return DiskTriangles(this->Triangles, progress); });
+    this->Triangles.FreePoints();
+    if (this->IsInput())
+    {
+      this->Triangles.FreeCorners();
+    }
+    return disk;
+  }
+  catch (const DiskTriangles::NoDisk& defect)
+  {
+    std::string message = std::string("The input surface ") + defect.what();
+    const std::int64_t cell =
+      defect.GivenTriangle < 0 ? defect.First() : this->CellOf(defect.GivenTriangle);
+    if (cell != defect.First())
+    {
+      message +=
+        "; triangle " + std::to_string(defect.First()) + " is of cell " + std::to_string(cell);
+    }
+    throw NoDiskSurface(message);
+  }
+}
+
+OpenedSurface TriangleInput::Opened(Progress& progress)
+{
+  Stages stages(progress, { { "T-junctions", 5 }, { "seams", 95 } });
+  withMemory("the edges of the surface's " + countOf(this->Triangles.Surface()),
+    static_cast<double>(this->Triangles.Surface().NumberOfTriangles) * 150.0,
+    [&]() { this->Triangles.CloseTJunctions(TJunctionScope::All, stages["T-junctions"]); });
+  const TriangleSurface surface = this->Triangles.Surface();
+  constexpr double bytesOfTriangle = 250.0;
+  constexpr double bytesOfPoint = 1350.0; // of the conformal map
+  SeamOptions options;
+  options.Rounding = this->Triangles.Rounding();
+  try
+  {
+    return withMemory("the seams of " + countOf(surface),
+      static_cast<double>(surface.NumberOfTriangles) * bytesOfTriangle +
+        static_cast<double>(surface.Points.size()) * bytesOfPoint,
+      [&]() { return OpenedSurface(surface, options, stages["seams"]); });
+  }
+  catch (const NotADisk& error)
+  {
+    throw Failure(std::string("The input surface ") + error.what());
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw Failure(std::string("The input surface ") + error.what());
+  }
+}
+
+WholeTriangles TriangleInput::Whole(Progress& progress)
+{
+  const unsigned char* ghosts = ghostFlags(this->Surface, vtkDataObject::CELL, "input surface");
+  const WholeTriangles::IsLeftOut isGhost = [this, ghosts](std::int64_t triangle) {
+    return (ghosts[this->CellOf(triangle)] & ghostCell) != 0;
+  };
+  const TriangleSurface surface = this->Triangles.Surface();
+  try
+  {
+    return withMemory("the surface's " + countOf(surface),
+      static_cast<double>(surface.NumberOfTriangles) * 80.0 +
+        static_cast<double>(surface.Points.size()) * 48.0,
+      [&]() {
+        return WholeTriangles(this->Triangles.TakePoints(), this->Triangles.TakeCorners(),
+          ghosts ? isGhost : nullptr, progress);
+      });
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw Failure(std::string("The input surface ") + error.what());
+  }
+}
+
+LargeBuffer<std::int64_t> TriangleInput::Corners(Progress& progress) const
+{
+  if (!this->IsInput())
+  {
+    const TriangleSurface surface = this->Triangles.Surface();
+    LargeBuffer<std::int64_t> kept(3 * surface.NumberOfTriangles);
+    std::copy_n(surface.Triangles, kept.size(), kept.data());
+    return kept;
+  }
+  LargeBuffer<std::int64_t> read(3 * this->Surface->GetNumberOfPolys());
+  visitTriangles(this->Surface->GetPolys(), progress,
+    [copy = read.data()](std::int64_t triangle, const std::array<std::int64_t, 3>& ids) {
+      std::copy_n(ids.data(), 3, copy + 3 * triangle);
+    });
+  return read;
+}
+
+vtkSmartPointer<vtkPolyData> TriangleInput::Triangulated(Progress& progress) const
+{
+  if (this->IsInput())
+  {
+    return this->Surface;
+  }
+  const TriangleSurface triangles = this->Triangles.Surface();
+  auto made = vtkSmartPointer<vtkPolyData>::New();
+  requireMemory("the cells of the surface's " + countOf(triangles),
+    static_cast<double>(triangles.NumberOfTriangles) * 5.0 * sizeof(vtkIdType));
+  setTriangles(this->Surface, this->Surface->GetPoints(),
+    cellsOf(triangles.Triangles, triangles.NumberOfTriangles), made);
+  made->GetPointData()->PassData(this->Surface->GetPointData());
+  copyTuples(
+    { this->Surface->GetCellData(), this->Surface->GetNumberOfCells(), "cell", "input surface" },
+    made->GetNumberOfCells(),
+    [this](vtkIdType cell) {
+      return cell < this->FirstPolygon
+        ? cell
+        : this->CellOf(this->Triangles.GivenTriangle(cell - this->FirstPolygon));
+    },
+    made->GetCellData(), progress);
+  return made;
+}
+
+void TriangleInput::CopyOpened(
+  const OpenedSurface& opened, Progress& progress, vtkPolyData* output) const
+{
+  Stages stages(progress, { { "triangles", 1 }, { "points", 1 } });
+  const vtkSmartPointer<vtkPolyData> from = this->Triangulated(stages["triangles"]);
+  vtkNew<vtkPoints> points;
+  points->SetDataType(from->GetPoints()->GetDataType());
+  const std::int64_t count = opened.NumberOfPoints();
+  requireMemory("the points of the surface with its seams",
+    static_cast<double>(count) * 3.0 * points->GetData()->GetDataTypeSize());
+  points->SetNumberOfPoints(static_cast<vtkIdType>(count));
+  for (std::int64_t point = 0; point < count; ++point)
+  {
+    points->SetPoint(static_cast<vtkIdType>(point),
+      from->GetPoints()->GetPoint(static_cast<vtkIdType>(opened.OriginOf(point))));
+  }
+  setTriangles(from, points, cellsOf(opened.Triangles(), opened.Given().NumberOfTriangles), output);
+  output->GetCellData()->PassData(from->GetCellData());
+  copyTuples(
+    { from->GetPointData(), from->GetNumberOfPoints(), "point", "input surface" }, count,
+    [&](vtkIdType point) { return static_cast<vtkIdType>(opened.OriginOf(point)); },
+    output->GetPointData(), stages["points"]);
+}
+
+std::string TriangleInput::RepairWarning(
+  const SurfaceRepairs& repairs, std::int64_t partedEdges) const
+{
+  RepairCounts counts;
+  static_cast<SurfaceRepairs&>(counts) = repairs;
+  counts.FlatTriangles += this->Triangles.FlatTriangles();
+  counts.TJunctions = this->Triangles.TJunctions();
+  counts.PartedEdges = partedEdges;
+  return repairWarning(counts);
+}
+
+} // namespace RectifiedTransport::Bridge

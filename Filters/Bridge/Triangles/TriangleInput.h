@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The polygons and strips of a vtkPolyData as triangles, for what takes a disk, a surface that is
+// cut along seams into disks, or the whole of any surface; solids: see ClosedSurface.h.
+#ifndef RectifiedTransport_TriangleInput_h
+#define RectifiedTransport_TriangleInput_h
+
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Triangles/RepairText.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Mesh/DiskTriangles.h"
+#include "Core/Mesh/SurfaceTriangles.h"
+#include "Core/Mesh/WholeTriangles.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Seams/OpenedSurface.h"
+
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <cstdint>
+#include <string>
+
+namespace RectifiedTransport
+{
+class PolygonCutter;
+} // namespace RectifiedTransport
+
+namespace RectifiedTransport::Bridge
+{
+
+// The input surface is no disk.
+class NoDiskSurface : public Failure
+{
+public:
+  using Failure::Failure;
+};
+
+class TriangleInput
+{
+public:
+  // `input` has points, and must outlive this object. Reads them and cuts polygons and strips into
+  // triangles, one for each corner beyond the second: coincident or collinear corners give
+  // triangles without area. `need` is that of readSurfacePoints. Throws Failure if the input has no
+  // polygons, coordinates that are not finite or polygons that cannot be cut, and Cancelled.
+  TriangleInput(vtkPolyData* input, const std::string& need, Progress& progress);
+  TriangleInput(const TriangleInput&) = delete;
+  TriangleInput& operator=(const TriangleInput&) = delete;
+
+  vtkPolyData* Input() const { return this->Surface; }
+  // The number of the first polygon: vtkPolyData numbers vertices, lines, polygons, strips.
+  vtkIdType FirstCell() const { return this->FirstPolygon; }
+  // The cell of the input that a given triangle was cut from.
+  vtkIdType CellOf(std::int64_t given) const
+  {
+    return this->Cells.size() > 0 ? this->Cells.data()[given]
+                                  : this->FirstPolygon + static_cast<vtkIdType>(given);
+  }
+
+  // One of the following, or Disk() and, after NoDiskSurface, Opened(). They are valid as long as
+  // this object. Each throws Failure and Cancelled.
+
+  // See DiskTriangles. Throws NoDiskSurface if the triangles are no disk.
+  DiskTriangles Disk(Progress& progress);
+  // Closes T-junctions and cuts the surface into disks.
+  OpenedSurface Opened(Progress& progress);
+  // Ghost cells (duplicate, blanked or refined) are left out, and triangles with the places of one
+  // before.
+  WholeTriangles Whole(Progress& progress);
+
+  // The input itself if all polygons are triangles, and none was cut. Else its points, vertices,
+  // lines and triangles, with all point and field data, and the cell data of the cells that they
+  // come from, except global ids, which would no longer be unique. Not after Whole().
+  vtkSmartPointer<vtkPolyData> Triangulated(Progress& progress) const;
+  // Three points a triangle of Triangulated().
+  LargeBuffer<std::int64_t> Corners(Progress& progress) const;
+  // Makes the output the triangles of an opened surface, without the ids of points, which would no
+  // longer be unique.
+  void CopyOpened(const OpenedSurface& opened, Progress& progress, vtkPolyData* output) const;
+
+  // A warning that counts what was changed in a disk or an opened surface, and T-junctions; empty
+  // if nothing was.
+  std::string RepairWarning(const SurfaceRepairs& repairs, std::int64_t partedEdges = 0) const;
+
+private:
+  LargeBuffer<std::int64_t> ReadCorners(ConstPointSpan<3> points, double rounding, Progress& work);
+  void CutPolygons(PolygonCutter& cutter, std::int64_t* corners, Progress& progress);
+  bool IsInput() const { return this->Cells.size() == 0 && !this->Triangles.Parts(); }
+
+  vtkPolyData* const Surface;
+  const vtkIdType FirstPolygon;
+  LargeBuffer<vtkIdType> Cells; // by given triangles; empty if these are the input's polygons
+  SurfaceTriangles Triangles;
+};
+
+} // namespace RectifiedTransport::Bridge
+
+#endif

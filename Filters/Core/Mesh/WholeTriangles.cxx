@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/WholeTriangles.h"
+
+#include "Core/Mesh/MergePoints.h"
+#include "Core/Mesh/TJunctions.h"
+#include "Core/Mesh/UnitScale.h"
+#include "Core/Parallel/Reduction.h"
+#include "Core/Parallel/Stages.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+
+} // namespace
+
+WholeTriangles::WholeTriangles(LargeBuffer<double> coordinates, LargeBuffer<std::int64_t> corners,
+  const IsLeftOut& isLeftOut, Progress& progress)
+  : Coordinates(std::move(coordinates))
+  , Corners(std::move(corners))
+{
+  Stages stages(progress,
+    { { "left out", 5 }, { "repeated triangles", 75 }, { "scale", 10 }, { "areas", 15 } });
+  const std::int64_t all = this->NumberOfTriangles();
+  if (isLeftOut)
+  {
+    this->LeaveOut(isLeftOut, stages["left out"]);
+    if (this->NumberOfTriangles() == 0)
+    {
+      throw std::invalid_argument("has only ghost cells: all " + std::to_string(all) +
+        " triangles are duplicates, blanked or refined");
+    }
+  }
+  this->LeaveOutRepeated(stages["repeated triangles"]);
+  const double rounding = roundingOfCorners(this->Surface(), stages["scale"]);
+  this->ScalePoints(stages["scale"]);
+  this->RoundingOfPoints = rounding / this->Unit;
+  this->FindAreas(stages["areas"]);
+}
+
+void WholeTriangles::ScalePoints(Progress& progress)
+{
+  const std::int64_t count = this->Coordinates.size() / 3;
+  double* coordinates = this->Coordinates.data();
+  Eigen::AlignedBox3d bounds;
+  progress.ForInOrder(count, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      bounds.extend(Eigen::Map<const Eigen::Vector3d>(coordinates + 3 * i));
+    }
+  });
+  const UnitScale scale(bounds);
+  this->Unit = scale.Unit();
+  progress.For(count, grain, [=](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      Eigen::Map<Eigen::Vector3d> point(coordinates + 3 * i);
+      point = scale(point);
+    }
+  });
+}
+
+void WholeTriangles::LeaveOut(const IsLeftOut& isLeftOut, Progress& progress)
+{
+  const std::int64_t all = this->NumberOfTriangles();
+  const auto kept = reduceChunks(
+    progress, all, grain, std::int64_t{ 0 },
+    [&](std::int64_t first, std::int64_t last) {
+      std::int64_t count = 0;
+      for (std::int64_t triangle = first; triangle < last; ++triangle)
+      {
+        count += isLeftOut(triangle) ? 0 : 1;
+      }
+      return count;
+    },
+    std::plus<>());
+  if (kept == all)
+  {
+    return;
+  }
+  LargeBuffer<std::int64_t> given(kept);
+  LargeBuffer<std::int64_t> corners(3 * kept);
+  std::int64_t next = 0;
+  progress.ForInOrder(all, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t triangle = first; triangle < last; ++triangle)
+    {
+      if (!isLeftOut(triangle))
+      {
+        given.data()[next] = this->GivenTriangle(triangle);
+        std::copy_n(this->Corners.data() + 3 * triangle, 3, corners.data() + 3 * next);
+        ++next;
+      }
+    }
+  });
+  this->Kept = std::move(given);
+  this->Corners = std::move(corners);
+}
+
+// Points at one place are one.
+void WholeTriangles::LeaveOutRepeated(Progress& progress)
+{
+  Stages stages(progress, { { "points", 1 }, { "search", 1 }, { "removal", 1 } });
+  const TriangleSurface surface = this->Surface();
+  LargeBuffer<std::int64_t> firsts(surface.Points.size());
+  mergePoints(surface.Points, firsts.data(), stages["points"]);
+  LargeBuffer<std::int64_t> merged(3 * surface.NumberOfTriangles);
+  std::transform(surface.Triangles, surface.Triangles + merged.size(), merged.data(),
+    [&firsts](std::int64_t point) { return firsts.data()[point]; });
+  const std::vector<RepeatedTriangle> repeated = findRepeatedTriangles(
+    { surface.Points, merged.data(), surface.NumberOfTriangles }, stages["search"]);
+  this->NumberOfRepeated = static_cast<std::int64_t>(repeated.size());
+  this->LeaveOut(
+    [&repeated](std::int64_t triangle) {
+      return std::binary_search(repeated.begin(), repeated.end(), RepeatedTriangle{ triangle, -1 },
+        [](const auto& a, const auto& b) { return a.Triangle < b.Triangle; });
+    },
+    stages["removal"]);
+}
+
+void WholeTriangles::FindAreas(Progress& progress)
+{
+  const std::int64_t triangles = this->NumberOfTriangles();
+  this->Shares = LargeBuffer<double>(triangles);
+  double* areas = this->Shares.data();
+  this->Area = reduceChunks(
+    progress, triangles, grain, 0.0,
+    [&](std::int64_t first, std::int64_t last) {
+      double sum = 0.0;
+      for (std::int64_t triangle = first; triangle < last; ++triangle)
+      {
+        const auto corner = [&](int i) {
+          return Eigen::Map<const Eigen::Vector3d>(
+            this->Coordinates.data() + 3 * this->Corners.data()[3 * triangle + i]);
+        };
+        areas[triangle] = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+        sum += areas[triangle];
+      }
+      return sum;
+    },
+    std::plus<>());
+  if (!(this->Area > 0.0))
+  {
+    throw std::invalid_argument("has no area: each of its " + std::to_string(triangles) +
+      " triangles has corners at one place or on one line");
+  }
+  const double area = this->Area;
+  progress.For(triangles, grain, [=](std::int64_t first, std::int64_t last) {
+    for (std::int64_t triangle = first; triangle < last; ++triangle)
+    {
+      areas[triangle] /= area;
+    }
+  });
+}
+
+} // namespace RectifiedTransport
