@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/DiskMesh.h"
 
+#include "Core/Mesh/CornerPoint.h"
 #include "Core/Mesh/SurfaceOrientation.h"
 #include "Core/Mesh/UnitScale.h"
 #include "Core/Parallel/Stages.h"
@@ -162,14 +163,7 @@ void DiskMesh::CopyTriangles(const TriangleSurface& surface, Progress& progress)
     3 * surface.NumberOfTriangles, grain, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t corner = begin; corner < end; ++corner)
       {
-        const std::int64_t point = surface.Triangles[corner];
-        if (point < 0 || point >= surface.Points.size())
-        {
-          throw std::invalid_argument("triangle " + std::to_string(corner / 3) + " has the point " +
-            std::to_string(point) + ", but there are " + std::to_string(surface.Points.size()) +
-            " points");
-        }
-        this->Triangles.data()[corner] = point;
+        this->Triangles.data()[corner] = cornerPoint(surface, corner);
       }
     });
 }

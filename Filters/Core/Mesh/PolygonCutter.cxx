@@ -2,6 +2,7 @@
 #include "Core/Mesh/PolygonCutter.h"
 
 #include "Core/Geometry/PointBounds.h"
+#include "Core/Geometry/Vectors.h"
 
 #include <algorithm>
 #include <array>
@@ -15,27 +16,15 @@ namespace RectifiedTransport
 namespace
 {
 
-Point<3> minus(const Point<3>& a, const Point<3>& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-double dot(const Point<3>& a, const Point<3>& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 double squaredDistance(const Point<3>& a, const Point<3>& b)
 {
-  const Point<3> way = minus(a, b);
+  const Point<3> way = a - b;
   return dot(way, way);
 }
 
 Point<3> normalOf(const Point<3>& a, const Point<3>& b, const Point<3>& c)
 {
-  const Point<3> u = minus(b, a);
-  const Point<3> v = minus(c, a);
-  return { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
+  return cross(b - a, c - a);
 }
 
 } // namespace
@@ -205,7 +194,7 @@ PolygonCutter::Ring PolygonCutter::WithoutStraight(const Ring& ring) const
 
 bool PolygonCutter::IsSamePlace(std::size_t a, std::size_t b) const
 {
-  const Point<3> way = minus(this->Places[a], this->Places[b]);
+  const Point<3> way = this->Places[a] - this->Places[b];
   return std::all_of(
     way.begin(), way.end(), [this](double along) { return std::abs(along) <= this->Rounding; });
 }
@@ -214,11 +203,11 @@ bool PolygonCutter::IsSamePlace(std::size_t a, std::size_t b) const
 bool PolygonCutter::IsStraight(std::size_t a, std::size_t b, std::size_t c) const
 {
   constexpr double part = 1e-7; // of the size: vtkPolygon has tolerances of its own
-  const Point<3> u = minus(this->Places[c], this->Places[a]);
-  const Point<3> v = minus(this->Places[b], this->Places[a]);
+  const Point<3> u = this->Places[c] - this->Places[a];
+  const Point<3> v = this->Places[b] - this->Places[a];
   const double square = dot(u, u);
   const double along = square > 0.0 ? dot(u, v) / square : 0.0;
-  const Point<3> across{ v[0] - along * u[0], v[1] - along * u[1], v[2] - along * u[2] };
+  const Point<3> across = v - along * u;
   const double tolerance = std::max(this->Rounding, part * this->Size);
   return std::sqrt(dot(across, across)) <= tolerance || this->IsSamePlace(a, c);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Seams/CutSurface.h"
 
+#include "Core/Mesh/CornerPoint.h"
 #include "Core/Mesh/FlatShape.h"
 #include "Core/Mesh/SurfaceRepair.h"
 #include "Core/Parallel/Stages.h"
@@ -48,13 +49,7 @@ void requireTriangles(const TriangleSurface& surface)
   }
   for (std::int64_t corner = 0; corner < 3 * surface.NumberOfTriangles; ++corner)
   {
-    const std::int64_t point = surface.Triangles[corner];
-    if (point < 0 || point >= surface.Points.size())
-    {
-      throw std::invalid_argument("triangle " + std::to_string(corner / 3) + " has the point " +
-        std::to_string(point) + ", but there are " + std::to_string(surface.Points.size()) +
-        " points");
-    }
+    cornerPoint(surface, corner);
   }
 }
 

@@ -2,6 +2,7 @@
 #include "Core/Solid/ClosedMesh.h"
 
 #include "Core/Geometry/ImageGrid.h"
+#include "Core/Mesh/CornerPoint.h"
 #include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/SplitSurface.h"
 #include "Core/Mesh/SurfaceEdges.h"
@@ -46,23 +47,14 @@ void copyPoints(ConstPointSpan<3> points, double* copy, Progress& progress)
 
 void addTriangles(const TriangleSurface& surface, Progress& progress, ClosedMesh& mesh)
 {
-  const std::int64_t points = surface.Points.size();
+  mesh.Reserve(surface.NumberOfTriangles);
   progress.ForInOrder(
     surface.NumberOfTriangles, grain,
     [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+      for (std::int64_t corner = 3 * first; corner < 3 * last; corner += 3)
       {
-        std::array<std::int64_t, 3> corners;
-        std::copy_n(surface.Triangles + 3 * i, 3, corners.begin());
-        for (const std::int64_t corner : corners)
-        {
-          if (corner < 0 || corner >= points)
-          {
-            throw std::invalid_argument("triangle " + std::to_string(i) + " has the point " +
-              std::to_string(corner) + ", but there are " + std::to_string(points) + " points");
-          }
-        }
-        mesh.Add(corners);
+        mesh.Add({ cornerPoint(surface, corner), cornerPoint(surface, corner + 1),
+          cornerPoint(surface, corner + 2) });
       }
     },
     slow);
@@ -122,10 +114,8 @@ ClosedMesh::ClosedMesh(const TriangleSurface& surface, const Context& context)
     { { "points", 10 }, { "equal points", 30 }, { "triangles", 30 }, { "near points", 30 } });
   copyPoints(surface.Points, this->Coordinates.data(), stages["points"]);
   this->Merge(stages["equal points"]);
-  const AddFaces add = [&surface](ClosedMesh& mesh, Progress& part) {
-    mesh.Reserve(surface.NumberOfTriangles);
-    addTriangles(surface, part, mesh);
-  };
+  const AddFaces add = [&surface](
+                         ClosedMesh& mesh, Progress& part) { addTriangles(surface, part, mesh); };
   this->Fill(add, stages["triangles"]);
   if (!this->Closed)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Solid/OrientedBodies.h"
 
+#include "Core/Geometry/Vectors.h"
 #include "Core/Mesh/SurfaceOrientation.h"
 #include "Core/Mesh/Trees.h"
 #include "Core/Parallel/LargeBuffer.h"
@@ -20,21 +21,11 @@ namespace
 {
 
 using Index = std::int64_t;
-using Vector = std::array<double, 3>;
+using Vector = Point<3>;
 
 Vector between(const double* from, const double* to)
 {
   return { to[0] - from[0], to[1] - from[1], to[2] - from[2] };
-}
-
-double dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector cross(const Vector& a, const Vector& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
 // A side of a triangle at an edge of more than two.

@@ -2,6 +2,7 @@
 #include "Core/SurfaceRelaxation/WalkedSurface.h"
 
 #include "Core/Geometry/PointBounds.h"
+#include "Core/Mesh/CornerPoint.h"
 #include "Core/Mesh/EdgeSides.h"
 #include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/TJunctions.h"
@@ -45,13 +46,7 @@ PointBounds boundsOfTriangles(const TriangleSurface& surface, std::int64_t first
   PointBounds bounds;
   for (std::int64_t corner = 3 * first; corner < 3 * last; ++corner)
   {
-    const std::int64_t point = surface.Triangles[corner];
-    if (point < 0 || point >= surface.Points.size())
-    {
-      throw std::invalid_argument("triangle " + std::to_string(corner / 3) + " has the point " +
-        std::to_string(point) + ", but there are " + std::to_string(surface.Points.size()) +
-        " points");
-    }
+    const std::int64_t point = cornerPoint(surface, corner);
     const double* x = surface.Points[point];
     if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
     {

@@ -3,11 +3,11 @@
 #ifndef RectifiedTransport_WalkedSurface_h
 #define RectifiedTransport_WalkedSurface_h
 
+#include "Core/Geometry/Vectors.h"
 #include "Core/Mesh/PlaceOnTriangle.h"
 #include "Core/Mesh/SplitSurface.h"
 #include "Core/Mesh/TriangleSurface.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/SurfaceRelaxation/Vectors.h"
 
 #include <array>
 #include <cstdint>

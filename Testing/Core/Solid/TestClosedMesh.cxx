@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <string>
 
 namespace RectifiedTransport
 {
@@ -271,6 +273,70 @@ TEST(ClosedMesh, ProgressAndCancel)
   heard.clear();
   limit = 0.5;
   EXPECT_THROW(mesh.Orient(context), Cancelled);
+}
+
+LargeBuffer<double> coordinatesOf(const Mesh& mesh)
+{
+  LargeBuffer<double> coordinates(static_cast<std::int64_t>(3 * mesh.Points.size()));
+  std::copy_n(mesh.Points[0].data(), coordinates.size(), coordinates.data());
+  return coordinates;
+}
+
+// A mesh within the unit cube. Returns what is wrong.
+std::string close(const Mesh& given, bool areFloats, bool& hadGaps)
+{
+  ClosedMesh mesh(coordinatesOf(given));
+  const auto add = [&given](ClosedMesh& made, Progress&) {
+    made.Reserve(static_cast<std::int64_t>(given.Triangles.size()));
+    for (const auto& triangle : given.Triangles)
+    {
+      made.Add(triangle);
+    }
+  };
+  const std::string problem = mesh.Close(add, { { 0, 1, 0, 1, 0, 1 }, areFloats });
+  EXPECT_EQ(problem.empty(), mesh.IsClosed());
+  hadGaps = mesh.HadGaps();
+  return problem;
+}
+
+// Corners that are off by more than rounding in double are merged if they are floats; T-junctions
+// may gape by a hundredth of the longest side.
+TEST(ClosedMesh, IsClosedAsLittleAsItTakes)
+{
+  bool hadGaps = true;
+  const Mesh box = separate(makeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  EXPECT_EQ(close(box, false, hadGaps), "");
+  EXPECT_FALSE(hadGaps);
+  Mesh off = box;
+  off.Points[7][0] += 1e-7;
+  EXPECT_EQ(close(off, true, hadGaps), "");
+  EXPECT_FALSE(hadGaps);
+  EXPECT_EQ(close(off, false, hadGaps).substr(0, 62),
+    "is not closed: it has 4 open edges and 0 non-manifold edges; e");
+  const auto top = [](double gap) {
+    return makeRefinedBox(2, 2).Mapped([gap](const Point<3>& x) {
+      const bool isOwn = x[2] == 1.0 &&
+        (2.0 * x[0] != std::floor(2.0 * x[0]) || 2.0 * x[1] != std::floor(2.0 * x[1]));
+      return isOwn ? Point<3>{ x[0], x[1], x[2] + gap } : x;
+    });
+  };
+  EXPECT_EQ(close(top(0.0), false, hadGaps), "");
+  EXPECT_FALSE(hadGaps);
+  EXPECT_EQ(close(top(9e-3), false, hadGaps), "");
+  EXPECT_TRUE(hadGaps);
+  EXPECT_NE(close(top(0.02), false, hadGaps), "");
+}
+
+TEST(ClosedMesh, SaysWhatHasNoInside)
+{
+  bool hadGaps = false;
+  Mesh twice = makeBox({ 0, 0, 0 }, { 1, 1, 1 });
+  twice.Add(twice.Turned());
+  EXPECT_EQ(close(twice, false, hadGaps),
+    "has each polygon twice, in opposite directions, so that nothing is inside; keep one of each");
+  const Mesh line{ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 0 } }, { { 0, 1, 2 } } };
+  EXPECT_EQ(close(line, false, hadGaps),
+    "has 3 points and no polygon of three different ones; a solid needs a closed surface");
 }
 
 } // namespace
