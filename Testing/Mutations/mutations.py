@@ -102,7 +102,7 @@ OTHERS = [
     E(CORE + "Parameterization/MapDistortion.cxx", "return «shape.Height < MapDistortion::NeedleHeight * shape.Length»",
       "false"),
     E(CORE + "Mesh/DiskTriangles.cxx", "if («!this->IsPart(place.Triangle)»)", "true"),
-    E(BRIDGE + "Surfaces/SurfaceMasses.cxx", "if («this->Surface.IsPart(triangle)»)", "false"),
+    E(CORE + "SurfaceRelaxation/TriangleMasses.cxx", "if («surface.IsPart(triangle)»)", "false"),
     E(CORE + "Tables/BoxShare.cxx", "«std::clamp(this->Centre[axis] + h * this->Aspect[axis], 0.0, size)»",
       "this->Centre[axis] + h * this->Aspect[axis]"),
     E(CORE + "Flow/MapDerivatives.cxx", "«below && above» ? 2.0 * this->Step[axis]", "below || above"),

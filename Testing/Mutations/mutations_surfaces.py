@@ -33,7 +33,7 @@ SURFACES = [
     E(CORE + "SurfaceSampling/SurfaceSamples.cxx", "samples.PatchError > «SurfaceSamples::AcceptableError»", "1e9"),
     E(CORE + "SurfaceSampling/SurfaceSamples.cxx", "options.Pattern, «lengthsOf(aspectRatio)»",
       "Point<2>({ 1.0, 1.0 })"),
-    E(BRIDGE + "Surfaces/SurfaceMasses.cxx", "if («this->Ghosts && (this->Ghosts[cell] & ghostCell)»)", "false"),
+    E(BRIDGE + "Surfaces/SurfaceMasses.cxx", "return «(ghosts[cellOf(triangle)] & ghostCell) != 0»;", "false"),
     E(BRIDGE + "Surfaces/SurfaceParticles.cxx", "cell[i] = on.Input.InputCellOf(«on.CellOf(place)»)",
       "static_cast<vtkIdType>(place.Triangle)"),
     E(BRIDGE + "Surfaces/SurfaceParticles.cxx", "found.Cell = «this->On.CellOf(on)»",

@@ -4,7 +4,6 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Surfaces/DiskMap.h"
 #include "Bridge/Triangles/TriangleInput.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/AreaPreservingMap.h"

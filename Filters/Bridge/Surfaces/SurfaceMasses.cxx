@@ -16,12 +16,9 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <optional>
 
 namespace RectifiedTransport::Bridge
 {
@@ -80,59 +77,6 @@ void requireValid(const DensitySummary& found, vtkDataArray* array)
     isFinite ? "a density must not be negative" : "every value must be finite");
 }
 
-// The density of triangles relative to its largest value, so that no mass is past the largest
-// double.
-class TriangleDensity
-{
-public:
-  TriangleDensity(const TriangleInput& input, const PlacedTriangles& surface,
-    const unsigned char* ghosts, const double* values, bool onPoints, double largest)
-    : Input(input)
-    , Surface(surface)
-    , Ghosts(ghosts)
-    , Values(values)
-    , OnPoints(onPoints)
-    , Largest(largest)
-  {
-  }
-
-  double operator()(std::int64_t triangle) const
-  {
-    const vtkIdType cell = this->Input.CellOf(this->Surface.GivenTriangle(triangle));
-    if (this->Ghosts && (this->Ghosts[cell] & ghostCell))
-    {
-      return 0.0;
-    }
-    if (!this->Values || !this->OnPoints)
-    {
-      return this->Values ? this->At(cell) : 1.0;
-    }
-    if (this->Surface.IsPart(triangle))
-    {
-      constexpr double third = 1.0 / 3.0;
-      const PointWeights centre = this->Surface.InGiven({ triangle, { third, third, third } });
-      double mean = 0.0;
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        mean += centre.Weights[i] * this->At(centre.Points[i]);
-      }
-      return mean;
-    }
-    const std::array<std::int64_t, 3> corners = this->Surface.CornersOf(triangle);
-    return (this->At(corners[0]) + this->At(corners[1]) + this->At(corners[2])) / 3.0;
-  }
-
-private:
-  double At(std::int64_t i) const { return this->Values[i] / this->Largest; }
-
-  const TriangleInput& Input;
-  const PlacedTriangles& Surface;
-  const unsigned char* const Ghosts;
-  const double* const Values; // null: 1 everywhere
-  const bool OnPoints;
-  const double Largest;
-};
-
 } // namespace
 
 SurfaceDensityArray::SurfaceDensityArray(
@@ -155,50 +99,45 @@ SurfaceDensityArray::SurfaceDensityArray(
 
 SurfaceMasses::SurfaceMasses(const TriangleInput& triangles, const PlacedTriangles& surface,
   const SurfaceDensityArray& density, Progress& progress)
+  : OnPoints(density.IsOnPoints())
 {
-  vtkPolyData* input = triangles.Input();
-  const SurfaceAreas areas = surface.Areas();
+  const unsigned char* ghosts = ghostFlags(triangles.Input(), vtkDataObject::CELL, "input surface");
+  const auto cellOf = [&](std::int64_t triangle) {
+    return triangles.CellOf(surface.GivenTriangle(triangle));
+  };
+  const auto isGhost = [&](std::int64_t triangle) {
+    return (ghosts[cellOf(triangle)] & ghostCell) != 0;
+  };
   const std::int64_t count = surface.NumberOfTriangles();
-  const unsigned char* ghosts = ghostFlags(input, vtkDataObject::CELL, "input surface");
-  withMemory("the masses of " + std::to_string(count) + " triangles",
-    static_cast<double>(count) * sizeof(double),
-    [&]() { this->Masses = LargeBuffer<double>(count); });
   vtkDataArray* array = density.Array();
-  std::optional<DoubleTuples> tuples;
-  if (array)
-  {
-    tuples.emplace(array, progress);
-    const DensitySummary found = density.IsOnPoints()
-      ? summaryOf(tuples->data(), nullptr, 0, input->GetNumberOfPoints(), progress)
-      : summaryOf(
-          tuples->data(), ghosts, triangles.FirstCell(), input->GetNumberOfCells(), progress);
-    requireValid(found, array);
-    this->LargestValue = found.Maximum > 0.0 ? found.Maximum : 1.0;
-  }
-  const TriangleDensity densityOf(triangles, surface, ghosts, tuples ? tuples->data() : nullptr,
-    density.IsOnPoints(), this->LargestValue);
-  double* masses = this->Masses.data();
-  const double shares = reduceChunks(
-    progress, count, Grain, 0.0,
-    [&](std::int64_t first, std::int64_t last) {
-      double sum = 0.0;
-      for (std::int64_t triangle = first; triangle < last; ++triangle)
+  withMemory("the masses of " + std::to_string(count) + " triangles",
+    static_cast<double>(count) * sizeof(double), [&]() {
+      if (array)
       {
-        masses[triangle] = areas.Shares[triangle] * densityOf(triangle);
-        sum += masses[triangle];
+        const DoubleTuples values(array, progress);
+        this->ReadLargest(triangles, values.data(), ghosts, array, progress);
+        this->Relative = LargeBuffer<double>(this->OnPoints ? array->GetNumberOfTuples() : count);
+        progress.For(this->Relative.size(), Grain, [&](std::int64_t first, std::int64_t last) {
+          for (std::int64_t i = first; i < last; ++i)
+          {
+            this->Relative.data()[i] =
+              values.data()[this->OnPoints ? i : cellOf(i)] / this->Largest;
+          }
+        });
       }
-      return sum;
-    },
-    std::plus<>());
+      this->Masses = massesOf(
+        surface, this->Density(), ghosts ? isGhost : WholeTriangles::IsLeftOut(), progress);
+    });
   const std::string title =
     array ? titleOf(array) + " has a total mass" : std::string("The input surface has an area");
-  if (!(shares > 0.0))
+  if (!(this->Masses.Sum > 0.0))
   {
     throw Failure(title + " of zero" +
       (ghosts ? " (duplicate and blanked ghosts carry none)" : "") +
       (array ? "; at least one value must be positive" : ""));
   }
-  this->Sum = shares * areas.Total * areas.Unit * this->LargestValue * areas.Unit;
+  const SurfaceAreas areas = surface.Areas();
+  this->Sum = this->Masses.Sum * areas.Total * areas.Unit * this->Largest * areas.Unit;
   if (!(this->Sum > 0.0))
   {
     throw Failure(title + " below the least double; " +
@@ -212,29 +151,18 @@ SurfaceMasses::SurfaceMasses(const TriangleInput& triangles, const PlacedTriangl
   }
 }
 
-RelativeDensity::RelativeDensity(const TriangleInput& input, const PlacedTriangles& surface,
-  const SurfaceDensityArray& density, double largest, Progress& progress)
-  : OnPoints(density.IsOnPoints())
+void SurfaceMasses::ReadLargest(const TriangleInput& triangles, const double* values,
+  const unsigned char* ghosts, vtkDataArray* array, Progress& progress)
 {
-  vtkDataArray* array = density.Array();
-  if (!array)
-  {
-    return;
-  }
-  const DoubleTuples tuples(array, progress);
-  const double* values = tuples.data();
-  this->Relative =
-    LargeBuffer<double>(this->OnPoints ? array->GetNumberOfTuples() : surface.NumberOfTriangles());
-  double* relative = this->Relative.data();
-  progress.For(this->Relative.size(), Grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      relative[i] = values[this->OnPoints ? i : input.CellOf(surface.GivenTriangle(i))] / largest;
-    }
-  });
+  vtkPolyData* input = triangles.Input();
+  const DensitySummary found = this->OnPoints
+    ? summaryOf(values, nullptr, 0, input->GetNumberOfPoints(), progress)
+    : summaryOf(values, ghosts, triangles.FirstCell(), input->GetNumberOfCells(), progress);
+  requireValid(found, array);
+  this->Largest = found.Maximum > 0.0 ? found.Maximum : 1.0;
 }
 
-SurfaceDensityValues RelativeDensity::Values() const
+SurfaceDensityValues SurfaceMasses::Density() const
 {
   const double* values = this->Relative.size() > 0 ? this->Relative.data() : nullptr;
   SurfaceDensityValues found;

@@ -4,9 +4,7 @@
 #define RectifiedTransport_SurfaceMasses_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
-#include "Core/SurfaceRelaxation/SurfaceRelaxation.h"
+#include "Core/SurfaceRelaxation/TriangleMasses.h"
 
 #include "vtkDataArray.h"
 #include "vtkSmartPointer.h"
@@ -17,11 +15,6 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractArray;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
-
-namespace RectifiedTransport
-{
-class PlacedTriangles;
-} // namespace RectifiedTransport
 
 namespace RectifiedTransport::Bridge
 {
@@ -59,31 +52,21 @@ public:
     const SurfaceDensityArray& density, Progress& progress);
 
   // The masses of the triangles, up to a factor.
-  const double* Values() const { return this->Masses.data(); }
+  const double* Values() const { return this->Masses.Masses.data(); }
   // The total mass, in units of the density and of the input.
   double Total() const { return this->Sum; }
-  // The largest density; 1 without an array or if all values are 0.
-  double Largest() const { return this->LargestValue; }
+  // The density relative to its largest value, so that no mass is past the largest double.
+  SurfaceDensityValues Density() const;
 
 private:
-  LargeBuffer<double> Masses;
-  double LargestValue = 1.0;
-  double Sum = 0.0;
-};
+  void ReadLargest(const TriangleInput& triangles, const double* values,
+    const unsigned char* ghosts, vtkDataArray* array, Progress& progress);
 
-// A density relative to its largest value, as relaxOnSurface takes it.
-class RelativeDensity
-{
-public:
-  // Throws Cancelled and std::bad_alloc.
-  RelativeDensity(const TriangleInput& input, const PlacedTriangles& surface,
-    const SurfaceDensityArray& density, double largest, Progress& progress);
-
-  SurfaceDensityValues Values() const;
-
-private:
   bool OnPoints;
-  LargeBuffer<double> Relative; // empty for 1 everywhere
+  LargeBuffer<double> Relative; // by points or triangles; empty for 1 everywhere
+  double Largest = 1.0;         // also if all values are 0
+  TriangleMasses Masses;
+  double Sum = 0.0;
 };
 
 } // namespace RectifiedTransport::Bridge

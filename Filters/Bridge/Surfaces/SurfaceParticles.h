@@ -27,7 +27,7 @@ struct SurfacePlaces
   }
 
   const SurfaceInput& Input;
-  const TriangleInput& Triangles; // of the input's surface
+  const TriangleInput& Triangles; // made from the input's surface
   const PlacedTriangles& Surface;
   const LargeBuffer<PlaceOnTriangle>& Places;
 };

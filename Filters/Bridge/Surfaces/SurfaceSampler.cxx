@@ -7,7 +7,6 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/Run/WarningLimit.h"
-#include "Bridge/Surfaces/DiskMap.h"
 #include "Bridge/Surfaces/SurfaceMasses.h"
 #include "Bridge/Surfaces/SurfaceParticles.h"
 #include "Bridge/Triangles/SurfaceInput.h"
@@ -116,16 +115,16 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
   const WholeTriangles surface = read.Whole(stages["triangles"]);
   options.Rounding = surface.Rounding();
   const SurfaceMasses masses(read, surface, density, stages["masses"]);
-  const RelativeDensity relative(read, surface, density, masses.Largest(), stages["masses"]);
+  const SurfaceDensityValues relative = masses.Density();
   const TriangleSurface triangles = surface.Surface();
   const SurfaceRelaxation samples = withMemory("the relaxation of " + particles,
     bytes +
       memoryForSurfaceRelaxation(triangles.Points.size(), triangles.NumberOfTriangles,
-        relative.Values().AtPoints || relative.Values().OfTriangles, this->Options.NumberOfSamples),
+        relative.AtPoints || relative.OfTriangles, this->Options.NumberOfSamples),
     [&]() {
       try
       {
-        return relaxOnSurface(triangles, relative.Values(), options, stages["relaxation"]);
+        return relaxOnSurface(triangles, relative, options, stages["relaxation"]);
       }
       catch (const std::invalid_argument&) // all else was checked before
       {

@@ -4,7 +4,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/PolygonInput.h"
-#include "Bridge/Triangles/RepairText.h"
+#include "Core/Mesh/RepairText.h"
 #include "Core/Mesh/TJunctions.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"

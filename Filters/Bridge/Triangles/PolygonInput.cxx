@@ -10,6 +10,7 @@
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolygon.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 
@@ -59,9 +60,10 @@ RingCutter makeRingCutter()
 {
   auto polygon = vtkSmartPointer<vtkPolygon>::New();
   polygon->Points->SetDataTypeToDouble();
-  return [polygon](const std::vector<Point<3>>& ring, std::vector<std::size_t>& triangles) {
-    vtkNew<vtkIdList> places; // of three corners each
-    vtkNew<vtkPoints> ignored;
+  auto places = vtkSmartPointer<vtkIdList>::New(); // three corners a triangle
+  auto ignored = vtkSmartPointer<vtkPoints>::New();
+  return [=](const std::vector<Point<3>>& ring, std::vector<std::size_t>& triangles) {
+    places->Reset();
     const auto count = static_cast<vtkIdType>(ring.size());
     polygon->PointIds->SetNumberOfIds(count);
     polygon->Points->SetNumberOfPoints(count);
@@ -81,7 +83,7 @@ void visitCells(vtkCellArray* cells, Progress& progress,
   const std::function<void(std::int64_t, const PolygonCutter::Corners&)>& visit)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 8;
-  constexpr std::int64_t units = std::int64_t{ 1 } << 12; // of polygons, some milliseconds
+  constexpr std::int64_t units = std::int64_t{ 1 } << 12; // polygons that take some milliseconds
   vtkNew<vtkIdList> ids;
   PolygonCutter::Corners corners;
   progress.ForInOrder(

@@ -28,15 +28,19 @@ std::string countOf(const TriangleSurface& surface)
   return std::to_string(surface.NumberOfTriangles) + " triangles";
 }
 
-vtkSmartPointer<vtkCellArray> cellsOf(const std::int64_t* corners, std::int64_t count)
+vtkSmartPointer<vtkCellArray> cellsOf(
+  const std::int64_t* corners, std::int64_t count, Progress& progress)
 {
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   cells->AllocateExact(static_cast<vtkIdType>(count), static_cast<vtkIdType>(3 * count));
-  for (const std::int64_t* ids = corners; ids < corners + 3 * count; ids += 3)
-  {
-    cells->InsertNextCell({ static_cast<vtkIdType>(ids[0]), static_cast<vtkIdType>(ids[1]),
-      static_cast<vtkIdType>(ids[2]) });
-  }
+  progress.ForInOrder(count, grain, [&](std::int64_t first, std::int64_t last) {
+    for (const std::int64_t* ids = corners + 3 * first; ids < corners + 3 * last; ids += 3)
+    {
+      cells->InsertNextCell({ static_cast<vtkIdType>(ids[0]), static_cast<vtkIdType>(ids[1]),
+        static_cast<vtkIdType>(ids[2]) });
+    }
+  });
   return cells;
 }
 
@@ -237,11 +241,12 @@ vtkSmartPointer<vtkPolyData> TriangleInput::Triangulated(Progress& progress) con
     return this->Surface;
   }
   const TriangleSurface triangles = this->Triangles.Surface();
+  Stages stages(progress, { { "triangles", 1 }, { "arrays", 2 } });
   auto made = vtkSmartPointer<vtkPolyData>::New();
   requireMemory("the cells of the surface's " + countOf(triangles),
     static_cast<double>(triangles.NumberOfTriangles) * 5.0 * sizeof(vtkIdType));
   setTriangles(this->Surface, this->Surface->GetPoints(),
-    cellsOf(triangles.Triangles, triangles.NumberOfTriangles), made);
+    cellsOf(triangles.Triangles, triangles.NumberOfTriangles, stages["triangles"]), made);
   made->GetPointData()->PassData(this->Surface->GetPointData());
   copyTuples(
     { this->Surface->GetCellData(), this->Surface->GetNumberOfCells(), "cell", "input surface" },
@@ -251,14 +256,14 @@ vtkSmartPointer<vtkPolyData> TriangleInput::Triangulated(Progress& progress) con
         ? cell
         : this->CellOf(this->Triangles.GivenTriangle(cell - this->FirstPolygon));
     },
-    made->GetCellData(), progress);
+    made->GetCellData(), stages["arrays"]);
   return made;
 }
 
 void TriangleInput::CopyOpened(
   const OpenedSurface& opened, Progress& progress, vtkPolyData* output) const
 {
-  Stages stages(progress, { { "triangles", 1 }, { "points", 1 } });
+  Stages stages(progress, { { "triangles", 2 }, { "opened triangles", 1 }, { "points", 2 } });
   const vtkSmartPointer<vtkPolyData> from = this->Triangulated(stages["triangles"]);
   vtkNew<vtkPoints> points;
   points->SetDataType(from->GetPoints()->GetDataType());
@@ -271,7 +276,9 @@ void TriangleInput::CopyOpened(
     points->SetPoint(static_cast<vtkIdType>(point),
       from->GetPoints()->GetPoint(static_cast<vtkIdType>(opened.OriginOf(point))));
   }
-  setTriangles(from, points, cellsOf(opened.Triangles(), opened.Given().NumberOfTriangles), output);
+  setTriangles(from, points,
+    cellsOf(opened.Triangles(), opened.Given().NumberOfTriangles, stages["opened triangles"]),
+    output);
   output->GetCellData()->PassData(from->GetCellData());
   copyTuples(
     { from->GetPointData(), from->GetNumberOfPoints(), "point", "input surface" }, count,
@@ -288,6 +295,30 @@ std::string TriangleInput::RepairWarning(
   counts.TJunctions = this->Triangles.TJunctions();
   counts.PartedEdges = partedEdges;
   return repairWarning(counts);
+}
+
+ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progress& progress)
+{
+  constexpr double bytesOfPoint = 1350.0;
+  const std::int64_t points = disk.NumberOfPoints();
+  try
+  {
+    return withMemory("the conformal map of " + std::to_string(points) + " points",
+      bytesOfPoint * static_cast<double>(points),
+      [&]() { return mapConformally(disk, corners, progress); });
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw Failure(std::string("The input surface ") + error.what());
+  }
+}
+
+std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles, bool isCut)
+{
+  return std::to_string(collapsed) + " of " + std::to_string(triangles) +
+    " triangles have all points on one side of the square and so no area there; subdivide the "
+    "surface" +
+    (isCut ? "" : ", or give Corners between these points");
 }
 
 } // namespace RectifiedTransport::Bridge

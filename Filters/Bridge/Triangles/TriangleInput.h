@@ -5,13 +5,14 @@
 #define RectifiedTransport_TriangleInput_h
 
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Triangles/RepairText.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Mesh/DiskTriangles.h"
+#include "Core/Mesh/RepairText.h"
 #include "Core/Mesh/SurfaceTriangles.h"
 #include "Core/Mesh/WholeTriangles.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parameterization/ConformalMap.h"
 #include "Core/Seams/OpenedSurface.h"
 
 #include "vtkPolyData.h"
@@ -92,6 +93,12 @@ private:
   LargeBuffer<vtkIdType> Cells; // by given triangles; empty if these are the input's polygons
   SurfaceTriangles Triangles;
 };
+
+// The conformal map of a disk to a square, with the errors of a run. Throws Failure and Cancelled.
+ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progress& progress);
+
+// A warning about triangles that have no area in the map; Corners help if the surface is not cut.
+std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles, bool isCut = false);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -29,7 +29,7 @@ public:
     {
     }
 
-    std::int64_t GivenTriangle; // of the first triangle without area
+    std::int64_t GivenTriangle; // the first one without area; -1 for other defects
   };
 
   // Checks that triangles are a disk. If they are no disk, unused points and triangles without area

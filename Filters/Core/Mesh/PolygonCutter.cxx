@@ -202,7 +202,7 @@ bool PolygonCutter::IsSamePlace(std::size_t a, std::size_t b) const
 // By the distance from b to the line from a to c, or to the point that a and c are.
 bool PolygonCutter::IsStraight(std::size_t a, std::size_t b, std::size_t c) const
 {
-  constexpr double part = 1e-7; // of the size: vtkPolygon has tolerances of its own
+  constexpr double part = 1e-7; // vtkPolygon has tolerances of its own, in parts of the size
   const Point<3> u = this->Places[c] - this->Places[a];
   const Point<3> v = this->Places[b] - this->Places[a];
   const double square = dot(u, u);

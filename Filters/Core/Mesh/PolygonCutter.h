@@ -40,7 +40,7 @@ public:
   // The triangles of a strip, all with its orientation.
   void CutStrip(const Corners& corners);
 
-  // Of the last polygon or strip: three points each.
+  // The triangles of the last polygon or strip have three points each.
   const std::vector<std::int64_t>& Triangles() const { return this->Made; }
 
 private:

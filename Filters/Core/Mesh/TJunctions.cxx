@@ -281,7 +281,7 @@ private:
   std::vector<Found> All; // by sides and places
 };
 
-// Of coordinates, for their rounding.
+// How large coordinates are, and whether all are floats, give their rounding.
 struct CoordinateRange
 {
   void Add(const double* x)

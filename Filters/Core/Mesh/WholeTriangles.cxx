@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -29,14 +30,15 @@ WholeTriangles::WholeTriangles(LargeBuffer<double> coordinates, LargeBuffer<std:
   const IsLeftOut& isLeftOut, Progress& progress)
   : Coordinates(std::move(coordinates))
   , Corners(std::move(corners))
+  , Count(this->Corners.size() / 3)
 {
   Stages stages(progress,
     { { "left out", 5 }, { "repeated triangles", 75 }, { "scale", 10 }, { "areas", 15 } });
-  const std::int64_t all = this->NumberOfTriangles();
+  const std::int64_t all = this->Count;
   if (isLeftOut)
   {
     this->LeaveOut(isLeftOut, stages["left out"]);
-    if (this->NumberOfTriangles() == 0)
+    if (this->Count == 0)
     {
       throw std::invalid_argument("has only ghost cells: all " + std::to_string(all) +
         " triangles are duplicates, blanked or refined");
@@ -73,38 +75,23 @@ void WholeTriangles::ScalePoints(Progress& progress)
 
 void WholeTriangles::LeaveOut(const IsLeftOut& isLeftOut, Progress& progress)
 {
-  const std::int64_t all = this->NumberOfTriangles();
-  const auto kept = reduceChunks(
-    progress, all, grain, std::int64_t{ 0 },
-    [&](std::int64_t first, std::int64_t last) {
-      std::int64_t count = 0;
-      for (std::int64_t triangle = first; triangle < last; ++triangle)
-      {
-        count += isLeftOut(triangle) ? 0 : 1;
-      }
-      return count;
-    },
-    std::plus<>());
-  if (kept == all)
+  if (this->Kept.size() == 0)
   {
-    return;
+    this->Kept = LargeBuffer<std::int64_t>(this->Count);
+    std::iota(this->Kept.data(), this->Kept.data() + this->Count, std::int64_t{ 0 });
   }
-  LargeBuffer<std::int64_t> given(kept);
-  LargeBuffer<std::int64_t> corners(3 * kept);
   std::int64_t next = 0;
-  progress.ForInOrder(all, grain, [&](std::int64_t first, std::int64_t last) {
+  progress.ForInOrder(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t triangle = first; triangle < last; ++triangle)
     {
       if (!isLeftOut(triangle))
       {
-        given.data()[next] = this->GivenTriangle(triangle);
-        std::copy_n(this->Corners.data() + 3 * triangle, 3, corners.data() + 3 * next);
-        ++next;
+        this->Kept.data()[next] = this->Kept.data()[triangle];
+        std::copy_n(this->Corners.data() + 3 * triangle, 3, this->Corners.data() + 3 * next++);
       }
     }
   });
-  this->Kept = std::move(given);
-  this->Corners = std::move(corners);
+  this->Count = next;
 }
 
 // Points at one place are one.
@@ -120,12 +107,17 @@ void WholeTriangles::LeaveOutRepeated(Progress& progress)
   const std::vector<RepeatedTriangle> repeated = findRepeatedTriangles(
     { surface.Points, merged.data(), surface.NumberOfTriangles }, stages["search"]);
   this->NumberOfRepeated = static_cast<std::int64_t>(repeated.size());
-  this->LeaveOut(
-    [&repeated](std::int64_t triangle) {
-      return std::binary_search(repeated.begin(), repeated.end(), RepeatedTriangle{ triangle, -1 },
-        [](const auto& a, const auto& b) { return a.Triangle < b.Triangle; });
-    },
-    stages["removal"]);
+  if (!repeated.empty())
+  {
+    auto next = repeated.begin(); // they ascend
+    this->LeaveOut(
+      [&](std::int64_t triangle) {
+        const bool isRepeated = next != repeated.end() && next->Triangle == triangle;
+        next += isRepeated ? 1 : 0;
+        return isRepeated;
+      },
+      stages["removal"]);
+  }
 }
 
 void WholeTriangles::FindAreas(Progress& progress)

@@ -24,7 +24,7 @@ public:
   WholeTriangles(LargeBuffer<double> coordinates, LargeBuffer<std::int64_t> corners,
     const IsLeftOut& isLeftOut, Progress& progress);
 
-  std::int64_t NumberOfTriangles() const override { return this->Corners.size() / 3; }
+  std::int64_t NumberOfTriangles() const override { return this->Count; }
   std::int64_t GivenTriangle(std::int64_t triangle) const override
   {
     return this->Kept.size() > 0 ? this->Kept.data()[triangle] : triangle;
@@ -37,7 +37,7 @@ public:
   TriangleSurface Surface() const override
   {
     return { { this->Coordinates.data(), this->Coordinates.size() / 3 }, this->Corners.data(),
-      this->NumberOfTriangles() };
+      this->Count };
   }
   SurfaceAreas Areas() const override { return { this->Shares.data(), this->Area, this->Unit }; }
   // By how much the coordinates of Surface() may be off (see roundingOfCorners).
@@ -53,6 +53,7 @@ private:
 
   LargeBuffer<double> Coordinates;
   LargeBuffer<std::int64_t> Corners;
+  std::int64_t Count;             // of triangles that are left
   LargeBuffer<std::int64_t> Kept; // given triangles; empty if these are all
   LargeBuffer<double> Shares;
   std::int64_t NumberOfRepeated = 0;

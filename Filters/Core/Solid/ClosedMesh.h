@@ -30,8 +30,8 @@ class SurfaceEdges;
 // How far points may be apart where a surface is closed.
 struct ClosingDistances
 {
-  // Of triangles within these bounds: low and high along each axis. `areFloats`: coordinates are
-  // rounded to single precision.
+  // The triangles lie within these bounds, low and high along each axis. `areFloats`: coordinates
+  // are rounded to single precision.
   ClosingDistances(const std::array<double, 6>& bounds, bool areFloats);
 
   // What rounding leaves of any coordinates, and of float ones: points nearer than that are merged,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Warnings that count what was repaired.
+// What was repaired in a surface, in words.
 #ifndef RectifiedTransport_RepairText_h
 #define RectifiedTransport_RepairText_h
 
@@ -8,10 +8,9 @@
 #include <cstdint>
 #include <string>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
-// What was repaired in a surface.
 struct RepairCounts : SurfaceRepairs
 {
   std::int64_t TJunctions = 0;
@@ -22,6 +21,6 @@ struct RepairCounts : SurfaceRepairs
 // "The input surface was repaired: 2 points in no polygon left out, ..."; empty if nothing was.
 std::string repairWarning(const RepairCounts& counts);
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Triangles/RepairText.h"
+#include "Core/Mesh/RepairText.h"
 
 #include <sstream>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 std::string repairWarning(const RepairCounts& counts)
@@ -31,4 +31,4 @@ std::string repairWarning(const RepairCounts& counts)
   return text.empty() ? text : "The input surface was repaired: " + text;
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
