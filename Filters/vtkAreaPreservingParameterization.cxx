@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkAreaPreservingParameterization.h"
 
-#include "Bridge/Surfaces/AreaPreservingParameterization.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/CornerSettings.h"
+#include "Bridge/Surfaces/AreaPreservingParameterization.h"
 #include "Bridge/Triangles/SurfaceInput.h"
 #include "Core/Parallel/Stages.h"
 
