@@ -121,6 +121,7 @@ ClosedMesh::ClosedMesh(const TriangleSurface& surface, const Context& context)
   {
     this->CloseNear(add, NearDistance * this->LongestSide(), stages["near points"]);
   }
+  progress.EndSlice(1);
 }
 
 ClosedMesh::ClosedMesh(LargeBuffer<double> coordinates, const Context& context)
@@ -170,12 +171,13 @@ std::string ClosedMesh::Fill(const AddFaces& add, Progress& progress)
 {
   Stages stages(progress, { { "triangles", 1 }, { "edges", 1 } });
   add(*this, stages["triangles"]);
-  if (this->NumberOfTriangles == 0)
+  const bool hasTriangles = this->NumberOfTriangles > 0;
+  this->CountEdges(stages["edges"]);
+  if (!hasTriangles)
   {
     return "has " + std::to_string(this->Points().size()) +
       " points and no polygon of three different ones; a solid needs a closed surface";
   }
-  this->CountEdges(stages["edges"]);
   if (this->NumberOfTriangles == 0)
   {
     return "has each polygon twice, in opposite directions, so that nothing is inside; keep one of "

@@ -294,7 +294,7 @@ std::string close(const Mesh& given, bool areFloats, bool& hadGaps)
     }
   };
   const std::string problem = mesh.Close(add, { { 0, 1, 0, 1, 0, 1 }, areFloats });
-  EXPECT_EQ(problem.empty(), mesh.IsClosed());
+  EXPECT_TRUE(!problem.empty() || mesh.IsClosed());
   hadGaps = mesh.HadGaps();
   return problem;
 }
