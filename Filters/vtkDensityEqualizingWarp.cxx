@@ -131,12 +131,12 @@ int vtkDensityEqualizingWarp::RequestData(
     this->WarnOnFirstRank(std::to_string(outside) + " of " + std::to_string(points) +
       " points outside the domain of the density moved as its border does");
   }
-  const TurnedCells cells = sumOverRanks(ranks, report.Cells);
-  addFieldValue(output, "FoldedCells", static_cast<double>(cells.Turned));
-  if (isWorthWarning(cells.Turned, cells.All) ||
-    isWorthWarning(cells.TurnedArea.Value(), cells.Area.Value()))
+  const InvertedCells cells = sumOverRanks(ranks, report.Cells);
+  addFieldValue(output, "FoldedCells", static_cast<double>(cells.Inverted));
+  if (isWorthWarning(cells.Inverted, cells.All) ||
+    isWorthWarning(cells.InvertedArea.Value(), cells.Area.Value()))
   {
-    this->WarnOnFirstRank(describePart(cells.Turned, cells.All, "cells") + " turned over" +
+    this->WarnOnFirstRank(describePart(cells.Inverted, cells.All, "cells") + " turned over" +
       report.Transport.WithSteps(
         "; more NumberOfSteps turn most of them back, an input of smaller cells does not") +
       " (where there is no mass, add a small part of the mean to the density)");

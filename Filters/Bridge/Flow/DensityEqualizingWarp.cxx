@@ -209,7 +209,7 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
       { "areas", equalizes ? Cost::equalization(options, D) * gridCells : 0.0 },
       { "correction", equalizes ? Cost::Seed * count : 0.0 },
       { "cost", optimal.NeedsMap() ? Cost::flow(options, D) * gridCells : 0.0 },
-      { "write", Cost::Seed * count }, { "turned cells", Cost::TurnedCell * inputCells } });
+      { "write", Cost::Seed * count }, { "inverted cells", Cost::InvertedCell * inputCells } });
   WarpedPoints<D> points(density.Grid(), input);
   const FlowTables tables = chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
     { options, FlowDirection::Backward, count, false,
@@ -251,7 +251,7 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
   addSteps(output, { report.Flow });
   if (moves)
   {
-    report.Cells = countTurnedCells(density.Grid(), input, output, stages["turned cells"]);
+    report.Cells = countInvertedCells(density.Grid(), input, output, stages["inverted cells"]);
   }
   return report;
 }

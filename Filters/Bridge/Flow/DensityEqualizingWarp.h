@@ -4,7 +4,7 @@
 #define RectifiedTransport_DensityEqualizingWarp_h
 
 #include "Bridge/Density/DensityTransport.h"
-#include "Bridge/Flow/TurnedCells.h"
+#include "Bridge/Flow/MeshInversion.h"
 #include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
@@ -39,7 +39,7 @@ struct DensityEqualizingWarp
   struct Report
   {
     std::int64_t Outside = 0; // points of this rank outside the domain
-    TurnedCells Cells;        // of this rank's input
+    InvertedCells Cells;      // of this rank's input
     FlowReport Flow;
     TransportReport Transport;
     bool IsUncorrected = false; // EqualizeAreas has changed nothing

@@ -3,7 +3,7 @@
 // steps, in all kinds of data sets; ghosts; the warning.
 #include "WarpTest.h"
 
-#include "Bridge/Flow/TurnedCells.h"
+#include "Bridge/Flow/MeshInversion.h"
 #include "Bridge/Image/ImageGrids.h"
 
 #include "vtkCellType.h"
@@ -58,8 +58,8 @@ std::array<std::int64_t, 2> turnedBy(vtkPointSet* before, int dimension, const M
   const ImageGrid grid = gridOf(image, false);
   const SerialExecutor serial;
   Progress progress{ Context(serial) };
-  const TurnedCells found = countTurnedCells(grid, before, after, progress);
-  return { found.Turned, found.All };
+  const InvertedCells found = countInvertedCells(grid, before, after, progress);
+  return { found.Inverted, found.All };
 }
 
 void checkCell(Checks& checks, int type, const Corners& corners, int dimension, int line)

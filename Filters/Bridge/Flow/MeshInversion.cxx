@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Flow/MeshInversion.h"
+
+#include "Bridge/Points/GhostFlags.h"
+#include "Core/Geometry/Dispatch.h"
+
+#include "vtkCellType.h"
+#include "vtkDataArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <vector>
+
+namespace RectifiedTransport::Bridge
+{
+
+namespace
+{
+
+constexpr int triquadraticPyramid = 37; // VTK's name of it is newer than the oldest VTK
+constexpr int allCorners = 0;
+
+// The corners of a cell are the first of its points.
+struct ShapeOfType
+{
+  int Type;
+  CellShape Shape;
+  int Corners = allCorners;
+};
+
+constexpr ShapeOfType shapes[] = {
+  { VTK_LINE, CellShape::Line },
+  { VTK_QUADRATIC_EDGE, CellShape::Line },
+  { VTK_CUBIC_LINE, CellShape::Line },
+  { VTK_LAGRANGE_CURVE, CellShape::Line },
+  { VTK_BEZIER_CURVE, CellShape::Line },
+  { VTK_POLY_LINE, CellShape::PolyLine },
+  { VTK_TRIANGLE, CellShape::Polygon, 3 },
+  { VTK_QUADRATIC_TRIANGLE, CellShape::Polygon, 3 },
+  { VTK_BIQUADRATIC_TRIANGLE, CellShape::Polygon, 3 },
+  { VTK_LAGRANGE_TRIANGLE, CellShape::Polygon, 3 },
+  { VTK_BEZIER_TRIANGLE, CellShape::Polygon, 3 },
+  { VTK_QUAD, CellShape::Polygon, 4 },
+  { VTK_QUADRATIC_QUAD, CellShape::Polygon, 4 },
+  { VTK_QUADRATIC_LINEAR_QUAD, CellShape::Polygon, 4 },
+  { VTK_BIQUADRATIC_QUAD, CellShape::Polygon, 4 },
+  { VTK_LAGRANGE_QUADRILATERAL, CellShape::Polygon, 4 },
+  { VTK_BEZIER_QUADRILATERAL, CellShape::Polygon, 4 },
+  { VTK_PIXEL, CellShape::Pixel },
+  { VTK_POLYGON, CellShape::Polygon },
+  { VTK_QUADRATIC_POLYGON, CellShape::Polygon },
+  { VTK_TRIANGLE_STRIP, CellShape::TriangleStrip },
+  { VTK_TETRA, CellShape::Tetrahedron },
+  { VTK_QUADRATIC_TETRA, CellShape::Tetrahedron },
+  { VTK_LAGRANGE_TETRAHEDRON, CellShape::Tetrahedron },
+  { VTK_BEZIER_TETRAHEDRON, CellShape::Tetrahedron },
+  { VTK_VOXEL, CellShape::Voxel },
+  { VTK_HEXAHEDRON, CellShape::Hexahedron },
+  { VTK_QUADRATIC_HEXAHEDRON, CellShape::Hexahedron },
+  { VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, CellShape::Hexahedron },
+  { VTK_TRIQUADRATIC_HEXAHEDRON, CellShape::Hexahedron },
+  { VTK_LAGRANGE_HEXAHEDRON, CellShape::Hexahedron },
+  { VTK_BEZIER_HEXAHEDRON, CellShape::Hexahedron },
+  { VTK_WEDGE, CellShape::Wedge },
+  { VTK_QUADRATIC_WEDGE, CellShape::Wedge },
+  { VTK_QUADRATIC_LINEAR_WEDGE, CellShape::Wedge },
+  { VTK_BIQUADRATIC_QUADRATIC_WEDGE, CellShape::Wedge },
+  { VTK_LAGRANGE_WEDGE, CellShape::Wedge },
+  { VTK_BEZIER_WEDGE, CellShape::Wedge },
+  { VTK_PYRAMID, CellShape::Pyramid },
+  { VTK_QUADRATIC_PYRAMID, CellShape::Pyramid },
+  { triquadraticPyramid, CellShape::Pyramid },
+  { VTK_LAGRANGE_PYRAMID, CellShape::Pyramid },
+  { VTK_BEZIER_PYRAMID, CellShape::Pyramid },
+  { VTK_PENTAGONAL_PRISM, CellShape::PentagonalPrism },
+  { VTK_HEXAGONAL_PRISM, CellShape::HexagonalPrism },
+};
+
+template <int D>
+std::vector<CellPiece> piecesOfType(int type, vtkIdType points)
+{
+  const auto* found = std::find_if(std::begin(shapes), std::end(shapes),
+    [type](const ShapeOfType& shape) { return shape.Type == type; });
+  if (found == std::end(shapes))
+  {
+    return {};
+  }
+  const vtkIdType corners = type == VTK_QUADRATIC_POLYGON ? points / 2
+    : found->Corners != allCorners                        ? found->Corners
+                                                          : points;
+  return piecesOf<D>(found->Shape, corners);
+}
+
+// The cells of one range: most are of the same type as the one before.
+template <int D>
+class CellReader
+{
+public:
+  explicit CellReader(vtkPointSet* cells)
+    : Cells(cells)
+  {
+  }
+
+  void Read(vtkIdType cell)
+  {
+    const int type = this->Cells->GetCellType(cell);
+    if (D == 3 && type == VTK_POLYHEDRON)
+    {
+      this->Type = type;
+      this->ReadFaces(cell);
+      return;
+    }
+    this->Cells->GetCellPoints(cell, this->Ids);
+    const vtkIdType points = this->Ids->GetNumberOfIds();
+    if (type != this->Type || points != this->Points)
+    {
+      this->Type = type;
+      this->Points = points;
+      this->Pieces = piecesOfType<D>(type, points);
+    }
+  }
+  const std::vector<CellPiece>& PiecesOfCell() const { return this->Pieces; }
+  // Its points in index space.
+  void ReadPlaces(vtkDataArray* points, const ImageGrid& grid, std::vector<Point<D>>& places) const
+  {
+    places.resize(static_cast<std::size_t>(this->Ids->GetNumberOfIds()));
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      double x[3];
+      points->GetTuple(this->Ids->GetId(static_cast<vtkIdType>(i)), x);
+      grid.ToIndex<D>(x, places[i].data());
+    }
+  }
+
+private:
+  // The points of all faces, one face after the other.
+  void ReadFaces(vtkIdType cell)
+  {
+    vtkNew<vtkIdList> stream;
+    vtkUnstructuredGrid::SafeDownCast(this->Cells)->GetFaceStream(cell, stream);
+    this->Pieces.assign(1, CellPiece(static_cast<std::size_t>(stream->GetId(0))));
+    this->Ids->Reset();
+    vtkIdType place = 1;
+    for (CellOutline& outline : this->Pieces[0])
+    {
+      const vtkIdType end = place + 1 + stream->GetId(place);
+      for (++place; place < end; ++place)
+      {
+        outline.push_back(this->Ids->InsertNextId(stream->GetId(place)));
+      }
+    }
+  }
+
+  vtkPointSet* const Cells;
+  vtkNew<vtkIdList> Ids;
+  std::vector<CellPiece> Pieces;
+  int Type = -1;
+  vtkIdType Points = -1;
+};
+
+template <int D>
+InvertedCells count(
+  const ImageGrid& grid, vtkPointSet* before, vtkPointSet* after, Progress& progress)
+{
+  auto* surface = vtkPolyData::SafeDownCast(before);
+  if (surface && surface->NeedToBuildCells())
+  {
+    surface->BuildCells(); // afterwards threads may read cells
+  }
+  const BlankedCells blanked(before, "input");
+  const double origin[3] = { 0.0, 0.0, 0.0 };
+  Point<D> index;
+  grid.ToIndex<D>(origin, index.data());
+  double offset = 0.0; // how far the origin of index space is from that of the coordinates
+  for (const double x : index)
+  {
+    offset = std::max(offset, std::abs(x));
+  }
+  constexpr std::int64_t grain = 1024;
+  return sumExactly<InvertedCells>(progress, before->GetNumberOfCells(), grain,
+    [&](std::int64_t first, std::int64_t last, InvertedCells& found) {
+      CellReader<D> reader(before);
+      std::vector<Point<D>> places;
+      std::vector<Point<D>> moved;
+      for (vtkIdType cell = first; cell < last; ++cell)
+      {
+        if (blanked.Has(cell))
+        {
+          continue;
+        }
+        reader.Read(cell);
+        if (!reader.PiecesOfCell().empty())
+        {
+          reader.ReadPlaces(before->GetPoints()->GetData(), grid, places);
+          reader.ReadPlaces(after->GetPoints()->GetData(), grid, moved);
+          found.AddCell<D>(reader.PiecesOfCell(), places, moved, offset);
+        }
+      }
+    });
+}
+
+} // namespace
+
+InvertedCells countInvertedCells(
+  const ImageGrid& grid, vtkPointSet* before, vtkPointSet* after, Progress& progress)
+{
+  if (before->GetNumberOfCells() == 0 || before->GetNumberOfPoints() == 0)
+  {
+    return {};
+  }
+  return dispatchDimension(grid.Dimension(), count<1>, count<2>, count<3>)(
+    grid, before, after, progress);
+}
+
+} // namespace RectifiedTransport::Bridge

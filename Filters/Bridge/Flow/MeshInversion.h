@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The vtkCells that a move of the points inverts.
+#ifndef RectifiedTransport_MeshInversion_h
+#define RectifiedTransport_MeshInversion_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/ImageGrid.h"
+#include "Core/Mesh/InvertedCells.h"
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPointSet;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport::Bridge
+{
+
+// Counts cells of as many dimensions as the grid: lines, polygons seen along the grid's normal, or
+// volumes, by the lines between their corners in index space. Ghost cells do not count. `before`
+// has the cells, `after` the moved points. Throws Failure and Cancelled.
+InvertedCells countInvertedCells(
+  const ImageGrid& grid, vtkPointSet* before, vtkPointSet* after, Progress& progress);
+
+} // namespace RectifiedTransport::Bridge
+
+#endif
