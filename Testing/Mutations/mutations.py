@@ -144,7 +144,7 @@ OTHERS = [
       "output->GetCellData()->PassData(image->GetCellData());", ";"),
     E(BRIDGE + "Flow/DensityEqualizingWarp.cxx", "«blend * (this->Index[i * D + a] - move[a])»",
       "this->Index[i * D + a] - move[a]"),
-    E(BRIDGE + "Splat/MassSplatter.cxx", "splatMassIn(cells, input.Target, stages[\"sum\"])",
+    E(BRIDGE + "Splat/MassSplatter.cxx", "massIn(cells, input.Target, stages[\"sum\"])",
       "input.Masses.Total()"),
     E(BRIDGE + "Flow/TransportSampler.cxx", "count *= «sampler.SamplesPerCell»",
       "(sampler.SamplesPerCell > 2 ? 2 : sampler.SamplesPerCell)"),

@@ -1,26 +1,47 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Splats the masses of distributed points.
+// Splats the masses of points in physical space onto the cells, or dual cells, of an image.
 #ifndef RectifiedTransport_DistributedSplat_h
 #define RectifiedTransport_DistributedSplat_h
 
 #include "Bridge/Ranks/TupleBoxes.h"
-#include "Bridge/Splat/MassSplat.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Splat/Splat.h"
 
 #include <cstdint>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataArray;
+class vtkDoubleArray;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport::Bridge
 {
 
-// As splatPoints, for the points of all ranks, in the order of the ranks and then of their points.
-// Each rank gets the cells (or dual cells) of its box `wanted`, tuples of the target's whole
-// geometry as tuplesOf(extent, owner, whole) gives them. Boxes may be empty and may overlap.
-// `cells` has wanted.Count() tuples. `order` may be nullptr; else it has a key for each point. If
-// all ranks that have points give keys, the terms of a cell are added in the order of the keys
-// (equal keys: by rank, then by index). Collective on the ranks of the progress. Returns how many
-// points of all ranks are outside the domain. Memory: about 100 bytes for each point that a rank
-// sends, and as much for each that reaches its box. Throws Failure if memory is short, and
-// Cancelled.
+// The grid and the options of a splat.
+struct SplatTarget
+{
+  const ImageGrid& Geometry;
+  SplatOptions Options;
+  bool DivideByVolume; // densities, else masses
+
+  // The factor of the masses.
+  double Scale() const { return this->DivideByVolume ? 1.0 / this->Geometry.CellMeasure() : 1.0; }
+};
+
+// Throws Failure if the density of a cell that holds all of `mass` would not be finite; `what` is
+// the subject of the message, `rule` completes "make the masses smaller, ...".
+void requireFiniteDensity(
+  double mass, const SplatTarget& target, const char* what, const char* rule);
+
+// Splats an array of points and one mass for each, `massEach` if `masses` is nullptr. Coordinates
+// are finite; those of a type other than double and float are copied. Each rank gets the cells (or
+// dual cells) of its box `wanted`, tuples of the target's whole geometry as tuplesOf(extent, owner,
+// whole) gives them; one rank alone gets all. `cells` has a component and wanted.Count() tuples.
+// `order` may be nullptr; else it has a key for each point. Boxes, keys and memory: see
+// splatOnRanks. Collective. Returns how many points of all ranks are outside the domain. Throws
+// Failure if memory is short, and Cancelled.
 std::int64_t splatDistributed(vtkDataArray* points, const double* masses, double massEach,
   const std::int64_t* order, const SplatTarget& target, const TupleBox& wanted, Progress& progress,
   vtkDoubleArray* cells);

@@ -15,6 +15,7 @@
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankOrder.h"
 #include "Core/Parallel/RankShare.h"
+#include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkDataSetAttributes.h"
@@ -25,6 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <sstream>
 #include <vector>
@@ -71,6 +73,21 @@ void requireFinite(double sizes, const SplatTarget& target)
   requireFiniteDensity(sizes, target, "The points' masses",
     target.DivideByVolume ? "the cells larger, or switch DivideByVolume off"
                           : "so that the sum of their sizes is a double");
+}
+
+// The mass is the sum of the sums of so many consecutive cells.
+constexpr std::int64_t splatSumChunk = std::int64_t{ 1 } << 13;
+
+double massIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& progress)
+{
+  const double* values = cells->GetPointer(0);
+  const double sum = reduceChunks(
+    progress, cells->GetNumberOfTuples(), splatSumChunk, 0.0,
+    [values](std::int64_t first, std::int64_t last) {
+      return std::accumulate(values + first, values + last, 0.0);
+    },
+    std::plus<>());
+  return target.DivideByVolume ? sum * target.Geometry.CellMeasure() : sum;
 }
 
 // The points that count, and the masses of all points of the set.
@@ -138,12 +155,12 @@ double inOrder(
 SplatResult splatHere(const SplatInput& input, Progress& progress, vtkDoubleArray* cells)
 {
   Stages stages(progress, { { "splat", 95 }, { "sum", 5 } });
-  const std::int64_t outside = splatPoints(input.Points.Set()->GetPoints()->GetData(),
-    input.Masses.Values(), 1.0, input.Target, stages["splat"], cells);
+  const std::int64_t outside = splatDistributed(input.Points.Set()->GetPoints()->GetData(),
+    input.Masses.Values(), 1.0, nullptr, input.Target, {}, stages["splat"], cells);
   return { outside,
     input.Target.Options.Boundary == SplatBoundary::Renormalize
       ? input.Masses.Total()
-      : splatMassIn(cells, input.Target, stages["sum"]) };
+      : massIn(cells, input.Target, stages["sum"]) };
 }
 
 // Writes the wanted cells: the splat of distributed points and its mass, bitwise as on one rank.

@@ -4,7 +4,7 @@
 #define RectifiedTransport_AdvectedArrays_h
 
 #include "Bridge/Ranks/TupleBoxes.h"
-#include "Bridge/Splat/MassSplat.h"
+#include "Bridge/Splat/DistributedSplat.h"
 #include "Bridge/Temporal/AdvectedLabels.h"
 #include "Bridge/Temporal/MovedClouds.h"
 #include "Bridge/VTKCompatibility.h"
