@@ -9,10 +9,10 @@
 #include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Temporal/KeptSteps.h"
-#include "Bridge/Temporal/StepTimes.h"
 #include "Bridge/Temporal/TemporalInterpolation.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
+#include "Core/Series/StepTimes.h"
 
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +42,21 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 // Bound the list of time steps, which hosts display.
 constexpr int MaximumResampleFactor = 1000000;
 constexpr double MaximumTimeSteps = 1e7;
+
+// That an input announces.
+StepTimes announcedTimes(vtkInformation* input)
+{
+  const int count = input ? input->Length(Pipeline::TIME_STEPS()) : 0;
+  const double* times = count > 0 ? input->Get(Pipeline::TIME_STEPS()) : nullptr;
+  return { times, static_cast<std::size_t>(count) };
+}
+
+// "Time step 3 of 10 (t = 0.2)".
+std::string titleOf(int step, const StepTimes& times)
+{
+  return "Time step " + std::to_string(step + 1) + " of " + std::to_string(times.Count()) +
+    " (t = " + textOf(times[step]) + ")";
+}
 
 // The time that is requested of an output; the first step's, or 0, without a request. A time
 // outside the steps is that of the next one.
@@ -145,7 +161,7 @@ int vtkTransportTemporalInterpolator::RequestInformation(
 {
   vtkInformation* input = inputVector[0]->GetInformationObject(0);
   StepTimes& times = this->Internals->Times;
-  const StepTimes before = std::exchange(times, StepTimes(input));
+  const StepTimes before = std::exchange(times, announcedTimes(input));
   this->Internals->IsWarned = this->Internals->IsWarned && times == before;
   this->Internals->IsSeries = times.Count() > 0;
   this->Internals->Passes = 0;
@@ -297,7 +313,7 @@ void vtkTransportTemporalInterpolator::RunPass(
   const Ranks& ranks = this->GetRanks();
   const double time = own.TimeOf(request, outputVector);
   requireThat(!std::isnan(time), "The pipeline's time", time, "a number");
-  TrackedParticles& tracks = own.Interpolation.Tracks();
+  SeriesTracks& tracks = own.Interpolation.Tracks();
   tracks.SetSettings(settings.Moving, ranks.Count());
   if (!own.IsSeries)
   {
@@ -353,7 +369,7 @@ bool vtkTransportTemporalInterpolator::ReadStep(
 {
   vtkInternals& own = *this->Internals;
   read.Number = step;
-  read.Title = own.Times.Title(step);
+  read.Title = titleOf(step, own.Times);
   const int place = own.Steps.Use(own.Times[step]);
   KeptStep& kept = own.Steps[place];
   try
@@ -380,7 +396,7 @@ bool vtkTransportTemporalInterpolator::ExtendTracks(
   int last, RectifiedTransport::Progress& progress)
 {
   vtkInternals& own = *this->Internals;
-  TrackedParticles& tracks = own.Interpolation.Tracks();
+  SeriesTracks& tracks = own.Interpolation.Tracks();
   const int next = tracks.Count();
   if (next > last)
   {

@@ -1,39 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Positions of the particles that densities share: physical ones, and their weighted means.
+// The weighted means of the positions of the particles that densities share.
 #ifndef RectifiedTransport_ParticlePositions_h
 #define RectifiedTransport_ParticlePositions_h
 
 #include "Core/Flow/WeightedMean.h"
-#include "Core/Geometry/ImageGrid.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Geometry/PhysicalPoints.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace RectifiedTransport::Bridge
 {
-
-constexpr std::int64_t grainOfPositions = std::int64_t{ 1 } << 13;
-
-// From index to physical coordinates, which in 3D may share memory.
-template <int D>
-void writePhysical(
-  const ImageGrid& grid, ConstPointSpan<D> positions, Progress& progress, PointSpan<3> physical)
-{
-  progress.For(positions.size(), grainOfPositions, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      double index[D];
-      std::copy_n(positions[i], D, index);
-      grid.ToPhysical<D>(index, physical[i]);
-    }
-  });
-}
 
 // The means of the positions in inputs, by their Weight.
 template <class Inputs>

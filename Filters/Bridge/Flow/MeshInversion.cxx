@@ -85,7 +85,7 @@ constexpr ShapeOfType shapes[] = {
 };
 
 template <int D>
-std::vector<CellPiece> piecesOfType(int type, vtkIdType points)
+std::vector<OrientedPiece> piecesOfType(int type, vtkIdType points)
 {
   const auto* found = std::find_if(std::begin(shapes), std::end(shapes),
     [type](const ShapeOfType& shape) { return shape.Type == type; });
@@ -96,7 +96,7 @@ std::vector<CellPiece> piecesOfType(int type, vtkIdType points)
   const vtkIdType corners = type == VTK_QUADRATIC_POLYGON ? points / 2
     : found->Corners != allCorners                        ? found->Corners
                                                           : points;
-  return piecesOf<D>(found->Shape, corners);
+  return orientedPieces<D>(found->Shape, corners);
 }
 
 // The cells of one range: most are of the same type as the one before.
@@ -127,7 +127,7 @@ public:
       this->Pieces = piecesOfType<D>(type, points);
     }
   }
-  const std::vector<CellPiece>& PiecesOfCell() const { return this->Pieces; }
+  const std::vector<OrientedPiece>& PiecesOfCell() const { return this->Pieces; }
   // Its points in index space.
   void ReadPlaces(vtkDataArray* points, const ImageGrid& grid, std::vector<Point<D>>& places) const
   {
@@ -146,10 +146,10 @@ private:
   {
     vtkNew<vtkIdList> stream;
     vtkUnstructuredGrid::SafeDownCast(this->Cells)->GetFaceStream(cell, stream);
-    this->Pieces.assign(1, CellPiece(static_cast<std::size_t>(stream->GetId(0))));
+    this->Pieces.assign(1, OrientedPiece(static_cast<std::size_t>(stream->GetId(0))));
     this->Ids->Reset();
     vtkIdType place = 1;
-    for (CellOutline& outline : this->Pieces[0])
+    for (PieceOutline& outline : this->Pieces[0])
     {
       const vtkIdType end = place + 1 + stream->GetId(place);
       for (++place; place < end; ++place)
@@ -161,7 +161,7 @@ private:
 
   vtkPointSet* const Cells;
   vtkNew<vtkIdList> Ids;
-  std::vector<CellPiece> Pieces;
+  std::vector<OrientedPiece> Pieces;
   int Type = -1;
   vtkIdType Points = -1;
 };

@@ -99,4 +99,12 @@ std::int64_t splatDistributed(vtkDataArray* points, const double* masses, double
     stages["splat"], cells->GetPointer(0));
 }
 
+std::int64_t splatDistributed(ConstPointSpan<3> points, const double* masses,
+  const std::int64_t* order, const SplatTarget& target, const TupleBox& wanted, Progress& progress,
+  vtkDoubleArray* cells)
+{
+  return splat<double>(
+    { points, masses, 0.0, order }, target, wanted, progress, cells->GetPointer(0));
+}
+
 } // namespace RectifiedTransport::Bridge

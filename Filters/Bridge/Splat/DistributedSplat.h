@@ -45,6 +45,10 @@ void requireFiniteDensity(
 std::int64_t splatDistributed(vtkDataArray* points, const double* masses, double massEach,
   const std::int64_t* order, const SplatTarget& target, const TupleBox& wanted, Progress& progress,
   vtkDoubleArray* cells);
+// The same for a mass for each of points in double precision on all ranks.
+std::int64_t splatDistributed(ConstPointSpan<3> points, const double* masses,
+  const std::int64_t* order, const SplatTarget& target, const TupleBox& wanted, Progress& progress,
+  vtkDoubleArray* cells);
 
 } // namespace RectifiedTransport::Bridge
 

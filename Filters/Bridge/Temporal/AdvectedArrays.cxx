@@ -2,10 +2,10 @@
 #include "Bridge/Temporal/AdvectedArrays.h"
 
 #include "Bridge/Density/DensityImage.h"
+#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/DistributedSplat.h"
-#include "Bridge/Temporal/MovingParticles.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Series/AdvectedMeans.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
@@ -20,49 +20,36 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
-
-// The image with some of its arrays alone.
-vtkSmartPointer<vtkImageData> imageWith(
-  vtkImageData* image, int owner, const std::vector<std::string>& names)
+// The values of some arrays of an image at points.
+vtkSmartPointer<vtkPointData> sample(const AdvectedImage& image, int owner,
+  const std::vector<std::string>& names, ConstPointSpan<3> points, Progress& progress)
 {
-  auto some = vtkSmartPointer<vtkImageData>::New();
-  some->CopyStructure(image);
+  vtkNew<vtkImageData> some;
+  some->CopyStructure(image.Image);
   for (const std::string& name : names)
   {
     some->GetAttributes(owner)->AddArray(
-      image->GetAttributes(owner)->GetAbstractArray(name.c_str()));
+      image.Image->GetAttributes(owner)->GetAbstractArray(name.c_str()));
   }
-  return some;
-}
-
-vtkSmartPointer<vtkPointData> sample(
-  vtkImageData* image, const ImageGrid& grid, vtkDoubleArray* points, Progress& progress)
-{
   auto values = vtkSmartPointer<vtkPointData>::New();
-  sampleImage(image, grid, grid.Extent(),
-    ConstPointSpan<3>(points->GetPointer(0), points->GetNumberOfTuples()), progress, values);
+  sampleImage(some, image.Grid, image.Grid.Extent(), points, progress, values);
   return values;
 }
 
 // The centres of all cells, or the points, of a grid.
-vtkSmartPointer<vtkDoubleArray> placesOf(const ImageGrid& grid)
+SeriesPositions placesOf(const ImageGrid& grid)
 {
-  const ImageGrid at = grid.IsOnPoints() ? grid : grid.AtCellCentres();
   vtkNew<vtkImageData> image;
-  std::array<int, 6> extent = at.Extent();
-  image->SetExtent(extent.data());
-  image->SetOrigin(at.Origin()[0], at.Origin()[1], at.Origin()[2]);
-  image->SetSpacing(at.Spacing()[0], at.Spacing()[1], at.Spacing()[2]);
-  double direction[9];
-  std::copy_n(at.Direction().data(), 9, direction);
-  image->SetDirectionMatrix(direction);
-  auto places = newArray<vtkDoubleArray>("Places", 3, image->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    image->GetPoint(i, places->GetPointer(3 * i));
-  }
-  return places;
+  applyGrid(grid.IsOnPoints() ? grid : grid.AtCellCentres(), image);
+  const vtkIdType count = image->GetNumberOfPoints();
+  return withMemory("the array Places", 24.0 * static_cast<double>(count), [&]() {
+    SeriesPositions places(count);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      image->GetPoint(i, places.Span()[i]);
+    }
+    return places;
+  });
 }
 
 vtkSmartPointer<vtkDoubleArray> doublesOf(vtkPointData* values, const std::string& name)
@@ -72,12 +59,6 @@ vtkSmartPointer<vtkDoubleArray> doublesOf(vtkPointData* values, const std::strin
     newArray<vtkDoubleArray>(name, array->GetNumberOfComponents(), array->GetNumberOfTuples());
   doubles->DeepCopy(array);
   return doubles;
-}
-
-// Between two values, of which one alone counts at its end.
-double between(double first, double second, double part)
-{
-  return part <= 0.0 ? first : part >= 1.0 ? second : (1.0 - part) * first + part * second;
 }
 
 } // namespace
@@ -92,7 +73,7 @@ bool isAdvected(const AdvectedImage& image, int owner, vtkAbstractArray* array)
 }
 
 void AdvectedArrays::Make(const AdvectedImage& first, const AdvectedImage& second,
-  const MovingParticles& particles, const ImageGrid& geometry, Progress& progress)
+  const SeriesParticles& particles, const ImageGrid& geometry, Progress& progress)
 {
   this->Arrays.clear();
   this->Lacking.clear();
@@ -103,7 +84,7 @@ void AdvectedArrays::Make(const AdvectedImage& first, const AdvectedImage& secon
 }
 
 void AdvectedArrays::MakeOf(int owner, const AdvectedImage& first, const AdvectedImage& second,
-  const MovingParticles& particles, const ImageGrid& geometry, Progress& progress)
+  const SeriesParticles& particles, const ImageGrid& geometry, Progress& progress)
 {
   const auto find = [owner](const AdvectedImage& image, const char* name) {
     vtkAbstractArray* array = image.Image->GetAttributes(owner)->GetAbstractArray(name);
@@ -140,14 +121,11 @@ void AdvectedArrays::MakeOf(int owner, const AdvectedImage& first, const Advecte
   {
     return;
   }
-  const auto firstImage = imageWith(first.Image, owner, names);
-  const auto secondImage = imageWith(second.Image, owner, names);
-  const ImageGrid own = geometry.WithValuesOn(owner == vtkDataObject::POINT);
-  const auto places = placesOf(own);
-  const auto atFrom = sample(firstImage, first.Grid, particles.From, progress);
-  const auto atTo = sample(secondImage, second.Grid, particles.To, progress);
-  const auto firstInPlace = sample(firstImage, first.Grid, places, progress);
-  const auto secondInPlace = sample(secondImage, second.Grid, places, progress);
+  const SeriesPositions places = placesOf(geometry.WithValuesOn(owner == vtkDataObject::POINT));
+  const auto atFrom = sample(first, owner, names, particles.From->Span(), progress);
+  const auto atTo = sample(second, owner, names, particles.To->Span(), progress);
+  const auto firstInPlace = sample(first, owner, names, places.Span(), progress);
+  const auto secondInPlace = sample(second, owner, names, places.Span(), progress);
   for (const std::string& name : names)
   {
     vtkDataArray* from = atFrom->GetArray(name.c_str());
@@ -159,7 +137,7 @@ void AdvectedArrays::MakeOf(int owner, const AdvectedImage& first, const Advecte
   }
 }
 
-void AdvectedArrays::Write(const AdvectedMoment& moment, const ImageGrid& geometry,
+void AdvectedArrays::Write(const SeriesMoment& moment, const ImageGrid& geometry,
   const SplatOptions& splat, const Extent& wanted, Progress& progress, vtkImageData* output) const
 {
   for (const int owner : { vtkDataObject::CELL, vtkDataObject::POINT })
@@ -177,8 +155,8 @@ void AdvectedArrays::Write(const AdvectedMoment& moment, const ImageGrid& geomet
       if (!mass)
       {
         mass = newArray<vtkDoubleArray>("Mass", 1, box.Count());
-        splatDistributed(moment.Clouds.Points, moment.Clouds.Masses, 0.0, moment.Numbers, target,
-          box, progress, mass);
+        splatDistributed(
+          moment.Points(), moment.Masses(), moment.Numbers(), target, box, progress, mass);
       }
       this->WriteOne(advected, moment, target, box, mass, progress, output);
     }
@@ -187,50 +165,35 @@ void AdvectedArrays::Write(const AdvectedMoment& moment, const ImageGrid& geomet
   }
 }
 
-void AdvectedArrays::WriteOne(const Advected& advected, const AdvectedMoment& moment,
+void AdvectedArrays::WriteOne(const Advected& advected, const SeriesMoment& moment,
   const SplatTarget& target, const TupleBox& wanted, vtkDoubleArray* mass, Progress& progress,
   vtkImageData* output) const
 {
-  const MovedClouds& clouds = moment.Clouds;
-  const auto& [first, second] = advected.OfParticles;
-  const auto& [firstHere, secondHere] = advected.InPlace;
-  const int components = first->GetNumberOfComponents();
-  const std::int64_t particles = clouds.Points->GetNumberOfTuples();
-  const TupleBox all = tuplesOf(target.Geometry.Extent(), advected.Owner, target.Geometry.Extent());
+  const int components = advected.Like->GetNumberOfComponents();
+  const Extent& whole = target.Geometry.Extent();
   const auto made = vtkSmartPointer<vtkDataArray>::Take(advected.Like->NewInstance());
   made->SetName(advected.Name.c_str());
   made->SetNumberOfComponents(components);
   made->CopyComponentNames(advected.Like);
   withMemory("the array " + advected.Name, 8.0 * static_cast<double>(wanted.Count()) * components,
     [&]() { made->SetNumberOfTuples(wanted.Count()); });
-  const auto moments = newArray<vtkDoubleArray>("Moments", 1, particles);
+  const auto moments = newArray<vtkDoubleArray>("Moments", 1, moment.Count());
   const auto sums = newArray<vtkDoubleArray>("Sums", 1, wanted.Count());
   for (int c = 0; c < components; ++c)
   {
-    double* moved = moments->GetPointer(0);
-    const double* a = first->GetPointer(c) + components * clouds.First;
-    const double* b = second->GetPointer(c) + components * clouds.First;
-    progress.For(particles, grain, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        moved[i] = clouds.Masses[i] * between(a[components * i], b[components * i], clouds.Part);
-      }
-    });
-    splatDistributed(clouds.Points, moved, 0.0, moment.Numbers, target, wanted, progress, sums);
-    const double* here = firstHere->GetPointer(c);
-    const double* later = secondHere->GetPointer(c);
-    double* sum = sums->GetPointer(0);
-    progress.For(wanted.Count(), grain, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        const std::int64_t place = components * all.NumberOf(wanted.CellOf(i));
-        const double weight = mass->GetValue(i);
-        sum[i] = weight > 0.0 ? sum[i] / weight : between(here[place], later[place], clouds.Part);
-      }
-    });
+    const auto componentOf = [c](const Ends& ends) {
+      return std::array<const double*, 2>{ ends[0]->GetPointer(c), ends[1]->GetPointer(c) };
+    };
+    const AdvectedValues values{ componentOf(advected.OfParticles), componentOf(advected.InPlace),
+      components };
+    writeMoments(values, moment, progress, moments->GetPointer(0));
+    splatDistributed(
+      moment.Points(), moments->GetPointer(0), moment.Numbers(), target, wanted, progress, sums);
+    writeMeans(values, moment.Part(), tuplesOf(whole, advected.Owner, whole), wanted,
+      mass->GetPointer(0), progress, sums->GetPointer(0));
     for (std::int64_t i = 0; i < wanted.Count(); ++i)
     {
-      made->SetComponent(i, c, sum[i]);
+      made->SetComponent(i, c, sums->GetValue(i));
     }
   }
   output->GetAttributes(advected.Owner)->AddArray(made);

@@ -6,9 +6,8 @@
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Bridge/Temporal/AdvectedLabels.h"
-#include "Bridge/Temporal/MovedClouds.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Geometry/ImageGrid.h"
+#include "Core/Series/SeriesParticles.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -23,15 +22,8 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
-{
-class Progress;
-} // namespace RectifiedTransport
-
 namespace RectifiedTransport::Bridge
 {
-
-struct MovingParticles;
 
 // The image of a step, and the name of its density's array, which is not advected.
 struct AdvectedImage
@@ -39,14 +31,6 @@ struct AdvectedImage
   vtkSmartPointer<vtkImageData> Image;
   ImageGrid Grid; // with the density's association
   std::string Density;
-};
-
-// The particles of an interval at a moment.
-struct AdvectedMoment
-{
-  MovedClouds Clouds;          // their numbers are those of Make
-  const std::int64_t* Numbers; // as splatDistributed takes them
-  bool TracksParticles;        // each particle is of both steps
 };
 
 // Whether an array of an image may be advected: with a name, and neither the density nor ghosts.
@@ -61,11 +45,11 @@ public:
   // Takes the arrays that both images have with one type and number of components. Throws Failure
   // and Cancelled.
   void Make(const AdvectedImage& first, const AdvectedImage& second,
-    const MovingParticles& particles, const ImageGrid& geometry, Progress& progress);
+    const SeriesParticles& particles, const ImageGrid& geometry, Progress& progress);
   // The names of arrays that one of the two lacks.
   const std::vector<std::string>& Missing() const { return this->Lacking; }
   // Adds the arrays on an extent of the image. Collective.
-  void Write(const AdvectedMoment& moment, const ImageGrid& geometry, const SplatOptions& splat,
+  void Write(const SeriesMoment& moment, const ImageGrid& geometry, const SplatOptions& splat,
     const Extent& wanted, Progress& progress, vtkImageData* output) const;
 
 private:
@@ -79,8 +63,8 @@ private:
     Ends InPlace; // of the tuples of the whole geometry
   };
   void MakeOf(int owner, const AdvectedImage& first, const AdvectedImage& second,
-    const MovingParticles& particles, const ImageGrid& geometry, Progress& progress);
-  void WriteOne(const Advected& advected, const AdvectedMoment& moment, const SplatTarget& target,
+    const SeriesParticles& particles, const ImageGrid& geometry, Progress& progress);
+  void WriteOne(const Advected& advected, const SeriesMoment& moment, const SplatTarget& target,
     const TupleBox& wanted, vtkDoubleArray* mass, Progress& progress, vtkImageData* output) const;
 
   std::vector<Advected> Arrays;

@@ -1,45 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The particles of an interval between two steps, and their straight ways.
+// The particles of the intervals of a series, moved by the maps between its densities.
 #ifndef RectifiedTransport_MovingParticles_h
 #define RectifiedTransport_MovingParticles_h
 
-#include "Bridge/Temporal/MovedClouds.h"
+#include "Core/Series/TrackedParticles.h"
 
-#include "vtkDoubleArray.h"
-#include "vtkSmartPointer.h"
-
-#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
-
-namespace RectifiedTransport
-{
-class Progress;
-} // namespace RectifiedTransport
 
 namespace RectifiedTransport::Bridge
 {
 
 struct StepDensity;
-
-// Of this rank, in the order of their numbers. Those of the first step begin in its cells, with the
-// cells' masses, and fade linearly; those of the second step end in its cells and grow. Both sets
-// are of one density that moves, so that at both ends it is exactly that of the step.
-struct MovingParticles
-{
-  vtkSmartPointer<vtkDoubleArray> From; // physical, 3 components
-  vtkSmartPointer<vtkDoubleArray> To;
-  vtkSmartPointer<vtkDoubleArray> Masses; // where they are not faded
-  std::vector<std::int64_t> Numbers;      // among those of all ranks; empty on a single rank
-  CloudSizes Sizes;                       // empty for points
-  std::int64_t OfFirst = 0;               // how many are of the first step
-  double Cost = 0.0;                      // the mean over the first step's mass of |To - From|^2
-  double Bound = 0.0;                     // of the least cost; 0 without an optimal map
-  bool HasBound = false;
-  std::string Warning; // why the flow took the place of the optimal map; else empty
-
-  std::int64_t Count() const { return this->From->GetNumberOfTuples(); }
-};
 
 struct MovingSettings
 {
@@ -52,10 +25,42 @@ struct MovingSettings
   }
 };
 
-// If a step has no mass, the particles of the other one stay where they are. Collective. Throws
-// Failure and Cancelled.
-MovingParticles makeParticles(const StepDensity& from, const StepDensity& to,
+// Particles of both steps that fade into each other. Collective. Throws Failure and Cancelled.
+SeriesParticles makeParticles(const StepDensity& from, const StepDensity& to,
   const MovingSettings& settings, Progress& progress);
+
+// Tracked particles of steps that may change.
+class SeriesTracks
+{
+public:
+  // Forgets positions that other settings made.
+  void SetSettings(const MovingSettings& settings, int ranks);
+  // At how many steps, from the first one on, positions are known.
+  int Count() const { return this->Checked; }
+  // The steps may have changed: each has to be given again to Extend, which keeps the positions up
+  // to the first one that has.
+  void Recheck() { this->Checked = 0; }
+
+  // Finds the positions at the next step; `before` is the density of the step before, nullptr at
+  // the first one. Both have mass. Returns whether they were not known. Collective. Throws Failure
+  // and Cancelled.
+  bool Extend(const StepDensity* before, const StepDensity& density, Progress& progress);
+
+  const TrackedParticles& Particles() const { return this->Tracked; }
+  // Why the flow took the place of the optimal map at the last Extend; else empty.
+  const std::string& Warning() const { return this->Text; }
+
+private:
+  template <int D>
+  void ExtendBy(const StepDensity* before, const StepDensity& density, Progress& progress);
+
+  MovingSettings Settings{ 0, true };
+  int NumberOfRanks = 0;
+  TrackedParticles Tracked;
+  std::vector<std::shared_ptr<const StepDensity>> Steps; // without their values
+  int Checked = 0;                                       // of these
+  std::string Text;
+};
 
 } // namespace RectifiedTransport::Bridge
 

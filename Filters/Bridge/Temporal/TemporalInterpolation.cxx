@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Temporal/TemporalInterpolation.h"
 
-#include "Bridge/Blend/ParticlePositions.h"
 #include "Bridge/Density/CostBound.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/CommonGrid.h"
@@ -15,6 +14,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Splat/DistributedSplat.h"
+#include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 
@@ -80,14 +80,14 @@ Extent extentOfRank(const Extent& whole, vtkInformation* announced, const Ranks&
 }
 
 vtkSmartPointer<vtkDoubleArray> velocitiesOf(
-  const MovingParticles& particles, const TemporalMoment& moment, Progress& progress)
+  const SeriesParticles& particles, const TemporalMoment& moment, Progress& progress)
 {
   const double length = moment.Length;
   const std::int64_t values = 3 * particles.Count();
   auto velocities = newArray<vtkDoubleArray>("Velocity", 3, particles.Count());
   double* v = velocities->GetPointer(0);
-  const double* from = particles.From->GetPointer(0);
-  const double* to = particles.To->GetPointer(0);
+  const double* from = particles.From->Span().data();
+  const double* to = particles.To->Span().data();
   std::atomic<bool> areFinite{ true };
   progress.For(values, grain, [&](std::int64_t first, std::int64_t last) {
     bool isFinite = true;
@@ -124,6 +124,17 @@ vtkSmartPointer<vtkDoubleArray> partOf(
   part = newArray<vtkDoubleArray>(array->GetName(), components, count);
   std::copy_n(array->GetPointer(begin * components), count * components, part->GetPointer(0));
   return part;
+}
+
+template <int D>
+void writeClouds(const SeriesMoment& moment, const ImageGrid& geometry, double most,
+  const TupleBox& wanted, double* density, Progress& progress)
+{
+  const double bytes = 16.0 * static_cast<double>(geometry.NumberOfCells());
+  withMemory("the sums of the cells", bytes, [&]() {
+    splatClouds<D>(moment.CloudsIn<D>(geometry), geometry, most, latticePartOf<D>(wanted, geometry),
+      density, progress);
+  });
 }
 
 AdvectedImage advectedImage(const TemporalStep& step)
@@ -175,17 +186,18 @@ std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment
   const TemporalStep& nearest = moment.Part < 1.0 ? moment.First : moment.Second;
   const ImageGrid& geometry = isStep ? nearest.Density->Grid : between;
   applyGrid(geometry, output.Image);
-  this->WriteParticles(interval, geometry, moment.Part, stages["particles"], output);
+  SeriesMoment particlesNow(interval.Particles, moment.Part);
+  this->WriteParticles(interval, geometry, particlesNow, stages["particles"], output);
   if (isStep)
   {
     WriteStep(nearest, settings.AdvectsArrays, stages["image"], output);
   }
   else
   {
-    this->WriteImage(interval, settings, geometry, moment.Part, stages["image"], output);
+    WriteImage(interval, settings, geometry, particlesNow, stages["image"], output);
   }
   announceGrid(geometry, output.Announced); // which extents to give depends on that before
-  const MovingParticles& particles = interval.Particles;
+  const SeriesParticles& particles = interval.Particles;
   for (vtkDataObject* part :
     { static_cast<vtkDataObject*>(output.Image), static_cast<vtkDataObject*>(output.Particles) })
   {
@@ -208,14 +220,16 @@ TemporalInterpolation::Interval& TemporalInterpolation::Find(const TemporalMomen
     std::find_if(this->Intervals.begin(), this->Intervals.end(), [&](const Interval& interval) {
       return interval.First->IsSameAs(*moment.First.Density) &&
         interval.Second->IsSameAs(*moment.Second.Density) && interval.Settings == settings.Moving &&
-        interval.TracksParticles == settings.TracksParticles && interval.Length == moment.Length &&
-        interval.Ranks == progress.Group().Count();
+        interval.Particles.AreTracked == settings.TracksParticles &&
+        interval.Length == moment.Length && interval.Ranks == progress.Group().Count();
     });
   // What tracked particles do in an interval depends on the intervals before it.
   const bool isKept = onAllRanks(progress.Group(), found != this->Intervals.end()) &&
     !(settings.TracksParticles &&
       found->Particles.From !=
-        this->Tracked.Between(moment.First.Number, moment.Second.Number, progress.Group()).From);
+        this->Tracked.Particles()
+          .Between(moment.First.Number, moment.Second.Number, progress.Group())
+          .From);
   if (isKept)
   {
     this->Intervals.splice(this->Intervals.begin(), this->Intervals, found);
@@ -251,13 +265,12 @@ void TemporalInterpolation::Make(const TemporalMoment& moment, const TemporalSet
   interval.First = moment.First.Density;
   interval.Second = moment.Second.Density;
   interval.Settings = settings.Moving;
-  interval.TracksParticles = settings.TracksParticles;
   interval.Length = moment.Length;
   interval.Ranks = progress.Group().Count();
   if (settings.TracksParticles)
   {
-    interval.Particles =
-      this->Tracked.Between(moment.First.Number, moment.Second.Number, progress.Group());
+    interval.Particles = this->Tracked.Particles().Between(
+      moment.First.Number, moment.Second.Number, progress.Group());
   }
   else
   {
@@ -273,45 +286,24 @@ void TemporalInterpolation::Make(const TemporalMoment& moment, const TemporalSet
 }
 
 void TemporalInterpolation::WriteParticles(const Interval& interval, const ImageGrid& geometry,
-  double part, Progress& progress, const TemporalOutput& output)
+  SeriesMoment& moment, Progress& progress, const TemporalOutput& output)
 {
-  struct End
-  {
-    double Weight;
-  };
-  const MovingParticles& particles = interval.Particles;
-  const std::int64_t all = particles.Count();
-  // At its ends an interval has the particles of one step alone.
-  this->Begin = !interval.TracksParticles && part >= 1.0 ? particles.OfFirst : 0;
-  const std::int64_t count = (part <= 0.0 ? particles.OfFirst : all) - this->Begin;
-  const double trackedMass = (1.0 - part) * interval.First->Mass + part * interval.Second->Mass;
-  const double ofFirst = interval.TracksParticles ? trackedMass : 1.0 - part;
+  const std::int64_t count = moment.Count();
+  const double part = moment.Part();
   this->Points = newArray<vtkDoubleArray>("Points", 3, count);
   this->Masses = newArray<vtkDoubleArray>("Mass", 1, count);
-  const std::vector<vtkSmartPointer<vtkDoubleArray>> ends = {
-    partOf(particles.From, this->Begin, count), partOf(particles.To, this->Begin, count)
-  };
-  writeMeans(ends, std::array<End, 2>{ { { 1.0 - part }, { part } } }, progress,
-    { this->Points->GetPointer(0), count });
-  const double* masses = particles.Masses->GetPointer(this->Begin);
-  double* now = this->Masses->GetPointer(0);
-  const std::int64_t second = particles.OfFirst - this->Begin;
-  progress.For(count, grain, [=](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      now[i] = masses[i] * (i < second ? ofFirst : part);
-    }
-  });
+  moment.Write((1.0 - part) * interval.First->Mass + part * interval.Second->Mass,
+    { this->Points->GetPointer(0), count }, this->Masses->GetPointer(0), progress);
   vtkNew<vtkPoints> points;
   points->SetData(this->Points);
   output.Particles->SetPoints(points);
   vtkPointData* data = output.Particles->GetPointData();
   data->AddArray(this->Masses);
-  data->SetVectors(partOf(interval.Velocities, this->Begin, count));
-  if (interval.TracksParticles)
+  data->SetVectors(partOf(interval.Velocities, moment.First(), count));
+  if (interval.Particles.AreTracked)
   {
     auto ids = newArray<vtkIdTypeArray>("SeedId", 1, count);
-    std::copy_n(particles.Numbers.begin(), count, ids->GetPointer(0));
+    std::copy_n(interval.Particles.Numbers.begin(), count, ids->GetPointer(0));
     data->AddArray(ids);
   }
   const Ranks& ranks = progress.Group();
@@ -328,36 +320,30 @@ void TemporalInterpolation::WriteParticles(const Interval& interval, const Image
 }
 
 void TemporalInterpolation::WriteImage(const Interval& interval, const TemporalSettings& settings,
-  const ImageGrid& geometry, double part, Progress& progress, const TemporalOutput& output)
+  const ImageGrid& geometry, const SeriesMoment& moment, Progress& progress,
+  const TemporalOutput& output)
 {
-  const Ranks& ranks = progress.Group();
-  Extent wanted = extentOfRank(geometry.Extent(), output.Announced, ranks);
+  Extent wanted = extentOfRank(geometry.Extent(), output.Announced, progress.Group());
   const TupleBox box = tuplesOf(wanted, ownerOf(geometry), geometry.Extent());
   const SplatTarget target{ geometry, settings.Splat, true };
-  requireFiniteDensity(std::max(interval.First->Mass, interval.Second->Mass), target,
-    "The particles' masses", "or the cells larger");
+  const double most = std::max(interval.First->Mass, interval.Second->Mass);
+  requireFiniteDensity(most, target, "The particles' masses", "or the cells larger");
   output.Image->SetExtent(wanted.data());
   auto density = newArray<vtkDoubleArray>(densityName(*interval.First), 1, box.Count());
-  const std::vector<std::int64_t>& numbers = interval.Particles.Numbers;
-  const std::int64_t* order = ranks.AreSeveral() ? numbers.data() + this->Begin : nullptr;
-  const double* masses = this->Masses->GetPointer(0);
-  const CloudSizes& sizes = interval.Particles.Sizes;
-  const MovedClouds clouds{ this->Points, masses, sizes, this->Begin, part, interval.First->Grid,
-    interval.Second->Grid, interval.Particles.OfFirst };
-  if (settings.Splat.Kernel == SplatKernel::CloudInCell && !sizes.IsEmpty())
+  if (settings.Splat.Kernel == SplatKernel::CloudInCell && !interval.Particles.Clouds[0].empty())
   {
-    splatClouds(clouds, geometry, std::max(interval.First->Mass, interval.Second->Mass), box,
-      progress, density);
+    dispatchDimension(geometry.Dimension(), writeClouds<1>, writeClouds<2>, writeClouds<3>)(
+      moment, geometry, most, box, density->GetPointer(0), progress);
   }
   else
   {
-    splatDistributed(this->Points, masses, 0.0, order, target, box, progress, density);
+    splatDistributed(
+      moment.Points(), moment.Masses(), moment.Numbers(), target, box, progress, density);
   }
   output.Image->GetAttributes(ownerOf(geometry))->SetScalars(density);
   if (settings.AdvectsArrays)
   {
-    interval.Arrays.Write({ clouds, order, interval.TracksParticles }, geometry, settings.Splat,
-      wanted, progress, output.Image);
+    interval.Arrays.Write(moment, geometry, settings.Splat, wanted, progress, output.Image);
   }
 }
 

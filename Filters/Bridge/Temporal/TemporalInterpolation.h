@@ -7,7 +7,6 @@
 #include "Bridge/Temporal/AdvectedArrays.h"
 #include "Bridge/Temporal/MovingParticles.h"
 #include "Bridge/Temporal/StepDensity.h"
-#include "Bridge/Temporal/TrackedParticles.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Splat/Splat.h"
 
@@ -79,7 +78,7 @@ public:
   std::vector<std::string> Run(const TemporalMoment& moment, const TemporalSettings& settings,
     Progress& progress, const TemporalOutput& output);
 
-  TrackedParticles& Tracks() { return this->Tracked; }
+  SeriesTracks& Tracks() { return this->Tracked; }
   // How many intervals have been solved, of Run and of tracked particles.
   std::int64_t NumberOfMaps() const { return this->Made; }
   void CountMap() { ++this->Made; }
@@ -90,10 +89,9 @@ private:
     std::shared_ptr<const StepDensity> First;
     std::shared_ptr<const StepDensity> Second;
     MovingSettings Settings;
-    bool TracksParticles;
     double Length;
     int Ranks;
-    MovingParticles Particles;
+    SeriesParticles Particles;
     vtkSmartPointer<vtkDoubleArray> Velocities;
     bool AdvectsArrays = false; // whether the arrays were made
     AdvectedArrays Arrays;
@@ -103,20 +101,20 @@ private:
     std::vector<std::string>& warnings);
   void Make(const TemporalMoment& moment, const TemporalSettings& settings, Progress& progress,
     Interval& interval);
-  void WriteParticles(const Interval& interval, const ImageGrid& geometry, double part,
+  void WriteParticles(const Interval& interval, const ImageGrid& geometry, SeriesMoment& moment,
     Progress& progress, const TemporalOutput& output);
-  void WriteImage(const Interval& interval, const TemporalSettings& settings,
-    const ImageGrid& geometry, double part, Progress& progress, const TemporalOutput& output);
+  static void WriteImage(const Interval& interval, const TemporalSettings& settings,
+    const ImageGrid& geometry, const SeriesMoment& moment, Progress& progress,
+    const TemporalOutput& output);
   static void WriteStep(
     const TemporalStep& step, bool advects, Progress& progress, const TemporalOutput& output);
 
   std::list<Interval> Intervals; // the last one first
-  TrackedParticles Tracked;
+  SeriesTracks Tracked;
   std::int64_t Made = 0;
   // Of the particles at the moment, before they go to their owners.
   vtkSmartPointer<vtkDoubleArray> Points;
   vtkSmartPointer<vtkDoubleArray> Masses;
-  std::int64_t Begin = 0; // of those with mass
   vtkSmartPointer<vtkCellArray> Vertices;
 };
 

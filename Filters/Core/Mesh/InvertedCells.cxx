@@ -14,20 +14,20 @@ namespace RectifiedTransport
 namespace
 {
 
-CellOutline firstCorners(std::int64_t count)
+PieceOutline firstCorners(std::int64_t count)
 {
-  CellOutline outline(static_cast<std::size_t>(count));
+  PieceOutline outline(static_cast<std::size_t>(count));
   std::iota(outline.begin(), outline.end(), 0);
   return outline;
 }
 
-CellPiece facesOfPrism(std::int64_t sides)
+OrientedPiece facesOfPrism(std::int64_t sides)
 {
-  CellOutline bottom = firstCorners(sides);
+  PieceOutline bottom = firstCorners(sides);
   std::reverse(bottom.begin() + 1, bottom.end());
-  CellOutline top = firstCorners(sides);
+  PieceOutline top = firstCorners(sides);
   std::for_each(top.begin(), top.end(), [sides](std::int64_t& corner) { corner += sides; });
-  CellPiece faces{ bottom, top };
+  OrientedPiece faces{ bottom, top };
   for (std::int64_t i = 0; i < sides; ++i)
   {
     const std::int64_t next = (i + 1) % sides;
@@ -51,7 +51,7 @@ struct OutlineSums
 };
 
 template <int D>
-OutlineSums sumsOf(const CellOutline& outline, ConstPointSpan<D> points)
+OutlineSums sumsOf(const PieceOutline& outline, ConstPointSpan<D> points)
 {
   const double* origin = points[0];
   const auto at = [&](std::size_t i, double* x) {
@@ -78,10 +78,10 @@ OutlineSums sumsOf(const CellOutline& outline, ConstPointSpan<D> points)
 }
 
 template <int D>
-double signedMeasure(const CellPiece& piece, ConstPointSpan<D> points)
+double signedMeasure(const OrientedPiece& piece, ConstPointSpan<D> points)
 {
   double value = 0.0;
-  for (const CellOutline& outline : piece)
+  for (const PieceOutline& outline : piece)
   {
     if (outline.size() < 2)
     {
@@ -102,11 +102,11 @@ double signedMeasure(const CellPiece& piece, ConstPointSpan<D> points)
 }
 
 template <int D>
-Measure measure(const CellPiece& piece, ConstPointSpan<D> points, double offset)
+Measure measure(const OrientedPiece& piece, ConstPointSpan<D> points, double offset)
 {
   double largest = offset;
   double extent = 0.0;
-  for (const CellOutline& outline : piece)
+  for (const PieceOutline& outline : piece)
   {
     for (const std::int64_t corner : outline)
     {
@@ -127,21 +127,21 @@ Measure measure(const CellPiece& piece, ConstPointSpan<D> points, double offset)
   return { signedMeasure<D>(piece, points), rounding };
 }
 
-bool isEmpty(const CellPiece& piece)
+bool isEmpty(const OrientedPiece& piece)
 {
   return std::all_of(
-    piece.begin(), piece.end(), [](const CellOutline& outline) { return outline.empty(); });
+    piece.begin(), piece.end(), [](const PieceOutline& outline) { return outline.empty(); });
 }
 
 } // namespace
 
 template <>
-std::vector<CellPiece> piecesOf<1>(CellShape shape, std::int64_t corners)
+std::vector<OrientedPiece> orientedPieces<1>(CellShape shape, std::int64_t corners)
 {
   const std::int64_t count = shape == CellShape::Line ? 2
     : shape == CellShape::PolyLine                    ? corners
                                                       : 0;
-  std::vector<CellPiece> lines;
+  std::vector<OrientedPiece> lines;
   for (std::int64_t i = 0; i + 1 < count; ++i)
   {
     lines.push_back({ { i, i + 1 } });
@@ -150,9 +150,9 @@ std::vector<CellPiece> piecesOf<1>(CellShape shape, std::int64_t corners)
 }
 
 template <>
-std::vector<CellPiece> piecesOf<2>(CellShape shape, std::int64_t corners)
+std::vector<OrientedPiece> orientedPieces<2>(CellShape shape, std::int64_t corners)
 {
-  std::vector<CellPiece> pieces;
+  std::vector<OrientedPiece> pieces;
   if (shape == CellShape::Polygon)
   {
     pieces.push_back({ firstCorners(corners) });
@@ -170,7 +170,7 @@ std::vector<CellPiece> piecesOf<2>(CellShape shape, std::int64_t corners)
 }
 
 template <>
-std::vector<CellPiece> piecesOf<3>(CellShape shape, std::int64_t /*corners*/)
+std::vector<OrientedPiece> orientedPieces<3>(CellShape shape, std::int64_t /*corners*/)
 {
   switch (shape)
   {
@@ -196,7 +196,7 @@ std::vector<CellPiece> piecesOf<3>(CellShape shape, std::int64_t /*corners*/)
 }
 
 template <int D>
-void InvertedCells::AddCell(const std::vector<CellPiece>& pieces, ConstPointSpan<D> before,
+void InvertedCells::AddCell(const std::vector<OrientedPiece>& pieces, ConstPointSpan<D> before,
   ConstPointSpan<D> after, double offset)
 {
   if (std::all_of(pieces.begin(), pieces.end(), isEmpty))
@@ -205,7 +205,7 @@ void InvertedCells::AddCell(const std::vector<CellPiece>& pieces, ConstPointSpan
   }
   bool isOriented = false;
   bool isInverted = false;
-  for (const CellPiece& piece : pieces)
+  for (const OrientedPiece& piece : pieces)
   {
     const Measure old = measure<D>(piece, before, offset);
     const Measure moved = measure<D>(piece, after, offset);
@@ -223,10 +223,10 @@ void InvertedCells::AddCell(const std::vector<CellPiece>& pieces, ConstPointSpan
 }
 
 template void InvertedCells::AddCell<1>(
-  const std::vector<CellPiece>&, ConstPointSpan<1>, ConstPointSpan<1>, double);
+  const std::vector<OrientedPiece>&, ConstPointSpan<1>, ConstPointSpan<1>, double);
 template void InvertedCells::AddCell<2>(
-  const std::vector<CellPiece>&, ConstPointSpan<2>, ConstPointSpan<2>, double);
+  const std::vector<OrientedPiece>&, ConstPointSpan<2>, ConstPointSpan<2>, double);
 template void InvertedCells::AddCell<3>(
-  const std::vector<CellPiece>&, ConstPointSpan<3>, ConstPointSpan<3>, double);
+  const std::vector<OrientedPiece>&, ConstPointSpan<3>, ConstPointSpan<3>, double);
 
 } // namespace RectifiedTransport

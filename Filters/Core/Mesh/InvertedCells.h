@@ -31,13 +31,13 @@ enum class CellShape
 };
 
 // Corners of a cell by their numbers: a line, the outline of a polygon or of a face.
-using CellOutline = std::vector<std::int64_t>;
+using PieceOutline = std::vector<std::int64_t>;
 // What has an orientation of its own: one line, one polygon, or the faces of one volume.
-using CellPiece = std::vector<CellOutline>;
+using OrientedPiece = std::vector<PieceOutline>;
 
 // The pieces of a cell with so many corners; none if the shape is not of D dimensions.
 template <int D>
-std::vector<CellPiece> piecesOf(CellShape shape, std::int64_t corners);
+std::vector<OrientedPiece> orientedPieces(CellShape shape, std::int64_t corners);
 
 struct InvertedCells
 {
@@ -59,7 +59,7 @@ struct InvertedCells
   // signed length, area or volume of a piece is not 0 before, and is inverted if that has the other
   // sign or is 0 after. `offset`: the largest coordinate of the places before their rounding.
   template <int D>
-  void AddCell(const std::vector<CellPiece>& pieces, ConstPointSpan<D> before,
+  void AddCell(const std::vector<OrientedPiece>& pieces, ConstPointSpan<D> before,
     ConstPointSpan<D> after, double offset);
 };
 

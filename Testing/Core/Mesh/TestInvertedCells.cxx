@@ -21,7 +21,7 @@ InvertedCells moved(CellShape shape, const std::vector<Point<D>>& corners,
 {
   InvertedCells found;
   found.AddCell<D>(
-    piecesOf<D>(shape, static_cast<std::int64_t>(corners.size())), corners, images, offset);
+    orientedPieces<D>(shape, static_cast<std::int64_t>(corners.size())), corners, images, offset);
   return found;
 }
 
@@ -105,10 +105,10 @@ TEST(InvertedCells, RoundingIsNoOrientation)
 
 TEST(InvertedCells, OtherDimensionsHaveNoPieces)
 {
-  EXPECT_TRUE(piecesOf<1>(CellShape::Polygon, 3).empty());
-  EXPECT_TRUE(piecesOf<2>(CellShape::Voxel, 8).empty());
-  EXPECT_TRUE(piecesOf<2>(CellShape::PolyLine, 3).empty());
-  EXPECT_TRUE(piecesOf<3>(CellShape::TriangleStrip, 5).empty());
+  EXPECT_TRUE(orientedPieces<1>(CellShape::Polygon, 3).empty());
+  EXPECT_TRUE(orientedPieces<2>(CellShape::Voxel, 8).empty());
+  EXPECT_TRUE(orientedPieces<2>(CellShape::PolyLine, 3).empty());
+  EXPECT_TRUE(orientedPieces<3>(CellShape::TriangleStrip, 5).empty());
 }
 
 } // namespace

@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Temporal/StepTimes.h"
-
-#include "Bridge/Run/PropertyCheck.h"
-
-#include "vtkInformation.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
+#include "Core/Series/StepTimes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <iterator>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
-StepTimes::StepTimes(vtkInformation* input)
+StepTimes::StepTimes(const double* times, std::size_t count)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  const int count = input ? input->Length(Pipeline::TIME_STEPS()) : 0;
-  const double* times = count > 0 ? input->Get(Pipeline::TIME_STEPS()) : nullptr;
   std::copy_if(times, times + count, std::back_inserter(this->Times),
     [](double time) { return std::isfinite(time); });
   std::sort(this->Times.begin(), this->Times.end());
@@ -72,10 +63,4 @@ std::vector<double> StepTimes::Resampled(int each) const
   return all;
 }
 
-std::string StepTimes::Title(int step) const
-{
-  return "Time step " + std::to_string(step + 1) + " of " + std::to_string(this->Count()) +
-    " (t = " + textOf((*this)[step]) + ")";
-}
-
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

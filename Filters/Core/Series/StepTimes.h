@@ -3,16 +3,10 @@
 #ifndef RectifiedTransport_StepTimes_h
 #define RectifiedTransport_StepTimes_h
 
-#include "Bridge/VTKCompatibility.h"
-
-#include <string>
+#include <cstddef>
 #include <vector>
 
-VTK_ABI_NAMESPACE_BEGIN
-class vtkInformation;
-VTK_ABI_NAMESPACE_END
-
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // A time within an interval between two consecutive steps; of one step, both are that one.
@@ -28,9 +22,8 @@ class StepTimes
 public:
   // Of no steps.
   StepTimes() = default;
-  // The finite TIME_STEPS that an input announces, in ascending order, without repeated ones;
-  // `input` may be nullptr.
-  explicit StepTimes(vtkInformation* input);
+  // The finite ones of given times, in ascending order, without repeated ones.
+  StepTimes(const double* times, std::size_t count);
   // Of one step.
   explicit StepTimes(double time)
     : Times{ time }
@@ -46,13 +39,11 @@ public:
   double Clamp(double time) const;
   // `each` equal parts of every interval.
   std::vector<double> Resampled(int each) const;
-  // "Time step 3 of 10 (t = 0.2)".
-  std::string Title(int step) const;
 
 private:
   std::vector<double> Times;
 };
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

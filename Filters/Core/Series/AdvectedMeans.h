@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values that move along with particles: means by mass.
+#ifndef RectifiedTransport_AdvectedMeans_h
+#define RectifiedTransport_AdvectedMeans_h
+
+#include "Core/Series/SeriesParticles.h"
+
+#include <array>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// One component of an array, at both ends of the particles' ways.
+struct AdvectedValues
+{
+  std::array<const double*, 2> OfParticles;
+  std::array<const double*, 2> InPlace; // of all cells of the image, axis 0 fastest
+  std::int64_t Stride;                  // from one particle or cell to the next
+
+  // Each value moves linearly in time; at an end that end's alone counts.
+  static double Between(const std::array<const double*, 2>& ends, std::int64_t at, double part)
+  {
+    return part <= 0.0 ? ends[0][at]
+      : part >= 1.0    ? ends[1][at]
+                       : (1.0 - part) * ends[0][at] + part * ends[1][at];
+  }
+};
+
+// The values of the particles at a moment times their masses. Throws Cancelled.
+void writeMoments(
+  const AdvectedValues& values, const SeriesMoment& moment, Progress& progress, double* moments);
+
+// From the sums of these in a part of an image: their means; where there is no mass, the values in
+// place. Throws Cancelled.
+void writeMeans(const AdvectedValues& values, double part, const LatticePart<3>& image,
+  const LatticePart<3>& wanted, const double* masses, Progress& progress, double* sums);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Series/CloudLengths.h"
+
+#include "Core/Parallel/RankExchange.h"
+
+#include <cmath>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Of a cell's length, if its places are the centres of a finer grid.
+template <int D>
+double partOfCell(const PivotLattice<D>& lattice)
+{
+  return std::pow(static_cast<double>(lattice.Places.size()), -1.0 / D);
+}
+
+// Those of all ranks, in their order.
+template <class T>
+std::vector<T> ofAllRanks(const Ranks& ranks, const T* own, std::int64_t count)
+{
+  if (!ranks.AreSeveral())
+  {
+    return std::vector<T>(own, own + count);
+  }
+  std::vector<std::int64_t> starts = { 0 };
+  for (const std::int64_t part : gatherValues(ranks, count))
+  {
+    starts.push_back(starts.back() + part);
+  }
+  std::vector<T> all(static_cast<std::size_t>(starts.back()));
+  std::copy_n(own, count, all.data() + starts[static_cast<std::size_t>(ranks.Own())]);
+  gatherParts(ranks, starts, all.data());
+  return all;
+}
+
+// By the distances to both neighbours; negative ones are of none.
+double stretch(double before, double after)
+{
+  if (before < 0.0 || after < 0.0)
+  {
+    return before >= 0.0 ? before : after >= 0.0 ? after : 1.0;
+  }
+  const double less = std::min(before, after);
+  const double more = std::max(before, after);
+  return more < 2.0 * less ? 0.5 * (less + more) : less;
+}
+
+} // namespace
+
+template <int D>
+void addCloudsInCells(
+  const PivotLattice<D>& lattice, std::int64_t count, std::vector<float>& lengths)
+{
+  lengths.resize(lengths.size() + static_cast<std::size_t>(D * count),
+    static_cast<float>(partOfCell<D>(lattice)));
+}
+
+template <int D>
+void addCloudsAtImages(const PivotLattice<D>& lattice, const ImageGrid& here,
+  const ImageGrid& there, const std::vector<std::int64_t>& numbers, ConstPointSpan<D> images,
+  Progress& progress, std::vector<float>& lengths)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+  const Ranks& ranks = progress.Group();
+  const std::vector<std::int64_t> allNumbers =
+    ofAllRanks(ranks, numbers.data(), static_cast<std::int64_t>(numbers.size()));
+  const std::vector<double> all = ofAllRanks(ranks, images.data(), D * images.size());
+  constexpr std::int64_t none = -1;
+  std::vector<std::int64_t> where(static_cast<std::size_t>(lattice.NumberOfParticles()), none);
+  for (std::size_t i = 0; i < allNumbers.size(); ++i)
+  {
+    where[static_cast<std::size_t>(allNumbers[i])] = static_cast<std::int64_t>(i);
+  }
+  const GridSize<D>& size = lattice.Lattice;
+  const Point<D> unit = cellsInCells<D>(there, here);
+  const double part = partOfCell<D>(lattice);
+  const std::size_t before = lengths.size();
+  lengths.resize(before + static_cast<std::size_t>(D * images.size()));
+  float* added = lengths.data() + before;
+  progress.For(images.size(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      const std::int64_t number = numbers[static_cast<std::size_t>(i)];
+      std::int64_t rest = number % static_cast<std::int64_t>(numberOfCells<D>(size));
+      std::int64_t step = 1;
+      for (int axis = 0; axis < D; ++axis)
+      {
+        const auto distanceTo = [&](bool isInside, std::int64_t neighbour) {
+          const std::int64_t found = isInside ? where[static_cast<std::size_t>(neighbour)] : none;
+          return found == none
+            ? -1.0
+            : std::abs(all[static_cast<std::size_t>(D * found + axis)] - images[i][axis]) *
+              unit[axis];
+        };
+        const std::int64_t at = rest % size[axis];
+        const double factor = stretch(
+          distanceTo(at > 0, number - step), distanceTo(at + 1 < size[axis], number + step));
+        added[D * i + axis] = static_cast<float>(factor * part);
+        rest /= size[axis];
+        step *= size[axis];
+      }
+    }
+  });
+}
+
+template void addCloudsInCells<1>(const PivotLattice<1>&, std::int64_t, std::vector<float>&);
+template void addCloudsInCells<2>(const PivotLattice<2>&, std::int64_t, std::vector<float>&);
+template void addCloudsInCells<3>(const PivotLattice<3>&, std::int64_t, std::vector<float>&);
+template void addCloudsAtImages<1>(const PivotLattice<1>&, const ImageGrid&, const ImageGrid&,
+  const std::vector<std::int64_t>&, ConstPointSpan<1>, Progress&, std::vector<float>&);
+template void addCloudsAtImages<2>(const PivotLattice<2>&, const ImageGrid&, const ImageGrid&,
+  const std::vector<std::int64_t>&, ConstPointSpan<2>, Progress&, std::vector<float>&);
+template void addCloudsAtImages<3>(const PivotLattice<3>&, const ImageGrid&, const ImageGrid&,
+  const std::vector<std::int64_t>&, ConstPointSpan<3>, Progress&, std::vector<float>&);
+
+} // namespace RectifiedTransport

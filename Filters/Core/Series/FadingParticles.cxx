@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Series/FadingParticles.h"
+
+#include "Core/Flow/PivotLattice.h"
+#include "Core/Geometry/LengthScale.h"
+#include "Core/Geometry/PhysicalPoints.h"
+#include "Core/Parallel/ExactSum.h"
+#include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/RankShare.h"
+#include "Core/Parallel/Stages.h"
+#include "Core/Series/CloudLengths.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// The particles of one step, in the cells of its density that have mass.
+template <int D>
+struct StepParticles
+{
+  PivotLattice<D> Lattice;
+  LargeBuffer<double> Points; // in the density's index space
+  std::vector<double> Masses;
+  std::vector<std::int64_t> Numbers;
+
+  std::int64_t Count() const { return static_cast<std::int64_t>(this->Masses.size()); }
+  PointSpan<D> Span() { return { this->Points.data(), this->Count() }; }
+};
+
+template <int D>
+StepParticles<D> placeParticles(const SeriesStep& step, int perCell, const Ranks& ranks)
+{
+  StepParticles<D> particles;
+  particles.Lattice = pivotLattice<D>(step.Grid.Size<D>(), perCell);
+  const auto cellsOf = LatticePart<D>::WholeOf(particles.Lattice.Lattice);
+  const std::int64_t cells = step.Grid.NumberOfCells();
+  const RankShare share(particles.Lattice.NumberOfParticles(), ranks);
+  const double measure = step.Grid.CellMeasure() / static_cast<double>(perCell);
+  for (std::int64_t n = share.First; n < share.First + share.Count; ++n)
+  {
+    if (step.Values[n % cells] > 0.0)
+    {
+      particles.Numbers.push_back(n);
+    }
+  }
+  particles.Masses.resize(particles.Numbers.size());
+  particles.Points = LargeBuffer<double>(particles.Count() * D);
+  for (std::int64_t i = 0; i < particles.Count(); ++i)
+  {
+    const std::int64_t n = particles.Numbers[static_cast<std::size_t>(i)];
+    const GridSize<D> corner = cellsOf.CellOf(n % cells);
+    const Point<D>& place = particles.Lattice.Places[static_cast<std::size_t>(n / cells)];
+    particles.Masses[static_cast<std::size_t>(i)] = step.Values[n % cells] * measure;
+    for (int axis = 0; axis < D; ++axis)
+    {
+      particles.Points.data()[i * D + axis] = static_cast<double>(corner[axis]) + place[axis];
+    }
+  }
+  return particles;
+}
+
+template <int D>
+class ParticleMaker
+{
+public:
+  ParticleMaker(const SeriesStep& from, const SeriesStep& to, int perCell, const Ranks& ranks)
+    : FirstStep(from)
+    , SecondStep(to)
+    , First(placeParticles<D>(from, perCell, ranks))
+    , Second(placeParticles<D>(to, perCell, ranks))
+    , From(std::make_shared<SeriesPositions>(this->First.Count() + this->Second.Count()))
+    , To(std::make_shared<SeriesPositions>(this->First.Count() + this->Second.Count()))
+  {
+    this->Made.From = this->From;
+    this->Made.To = this->To;
+    this->Made.OfFirst = this->First.Count();
+    this->Made.Grids = { from.Grid, to.Grid };
+    this->Made.Masses = LargeBuffer<double>(this->Made.Count());
+    std::copy(this->Second.Masses.begin(), this->Second.Masses.end(),
+      std::copy(this->First.Masses.begin(), this->First.Masses.end(), this->Made.Masses.data()));
+    if (ranks.AreSeveral())
+    {
+      const std::int64_t before = this->First.Lattice.NumberOfParticles();
+      this->Made.Numbers = this->First.Numbers;
+      for (const std::int64_t number : this->Second.Numbers)
+      {
+        this->Made.Numbers.push_back(before + number);
+      }
+    }
+  }
+
+  SeriesParticles Make(const MoveBetween<D>& move, Progress& progress)
+  {
+    Stages stages(progress, { { "starts", 1 }, { "move", 98 }, { "images", 1 } });
+    const ImageGrid& firstGrid = this->FirstStep.Grid;
+    const ImageGrid& secondGrid = this->SecondStep.Grid;
+    auto& [from, to] = this->Made.Clouds;
+    this->WriteFirst(firstGrid, *this->From, stages["starts"]);
+    this->WriteSecond(secondGrid, *this->To, stages["starts"]);
+    addCloudsInCells<D>(this->First.Lattice, this->First.Count(), from);
+    if (this->FirstStep.Mass > 0.0 && this->SecondStep.Mass > 0.0)
+    {
+      move(this->First.Span(), this->Second.Span(), stages["move"]);
+      this->WriteFirst(secondGrid, *this->To, stages["images"]);
+      this->WriteSecond(firstGrid, *this->From, stages["images"]);
+      const std::int64_t first = this->First.Count();
+      this->Made.Cost = meanSquareOfWays(firstGrid, this->From->Span().Part(0, first),
+        this->To->Span().Part(0, first), this->Made.Masses.data(), this->FirstStep.Mass,
+        stages["images"]);
+      addCloudsAtImages<D>(this->Second.Lattice, secondGrid, firstGrid, this->Second.Numbers,
+        this->Second.Span(), stages["images"], from);
+      addCloudsAtImages<D>(this->First.Lattice, firstGrid, secondGrid, this->First.Numbers,
+        this->First.Span(), stages["images"], to);
+    }
+    else
+    {
+      this->WriteFirst(firstGrid, *this->To, stages["images"]);
+      this->WriteSecond(secondGrid, *this->From, stages["images"]);
+      addCloudsInCells<D>(this->Second.Lattice, this->Second.Count(), from);
+      to = std::vector<float>(from.begin(), from.begin() + D * this->First.Count());
+    }
+    addCloudsInCells<D>(this->Second.Lattice, this->Second.Count(), to);
+    return std::move(this->Made);
+  }
+
+private:
+  void WriteFirst(const ImageGrid& grid, SeriesPositions& to, Progress& progress)
+  {
+    const std::int64_t count = this->First.Count();
+    writePhysical<D>(grid, this->First.Span(), progress, to.Span().Part(0, count));
+  }
+  void WriteSecond(const ImageGrid& grid, SeriesPositions& to, Progress& progress)
+  {
+    const std::int64_t count = this->Second.Count();
+    writePhysical<D>(
+      grid, this->Second.Span(), progress, to.Span().Part(this->First.Count(), count));
+  }
+
+  const SeriesStep& FirstStep;
+  const SeriesStep& SecondStep;
+  StepParticles<D> First;
+  StepParticles<D> Second;
+  const std::shared_ptr<SeriesPositions> From;
+  const std::shared_ptr<SeriesPositions> To;
+  SeriesParticles Made;
+};
+
+} // namespace
+
+template <int D>
+SeriesParticles makeFadingParticles(const SeriesStep& from, const SeriesStep& to, int perCell,
+  const MoveBetween<D>& move, Progress& progress)
+{
+  return ParticleMaker<D>(from, to, perCell, progress.Group()).Make(move, progress);
+}
+
+double meanSquareOfWays(const ImageGrid& grid, ConstPointSpan<3> from, ConstPointSpan<3> to,
+  const double* masses, double all, Progress& progress)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+  const LengthScale scale(grid);
+  const auto own = sumExactly<ExactSum>(
+    progress, from.size(), grain, [&](std::int64_t first, std::int64_t last, ExactSum& sum) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        const double weight = masses ? masses[i] / all : 1.0;
+        sum.Add(weight * scale.SquaredDistanceInUnits(from[i], to[i]));
+      }
+    });
+  const double sum = sumOverRanks(progress.Group(), own).Value();
+  return scale.CostFromUnits(masses ? sum : sum / all);
+}
+
+template SeriesParticles makeFadingParticles<1>(
+  const SeriesStep&, const SeriesStep&, int, const MoveBetween<1>&, Progress&);
+template SeriesParticles makeFadingParticles<2>(
+  const SeriesStep&, const SeriesStep&, int, const MoveBetween<2>&, Progress&);
+template SeriesParticles makeFadingParticles<3>(
+  const SeriesStep&, const SeriesStep&, int, const MoveBetween<3>&, Progress&);
+
+} // namespace RectifiedTransport

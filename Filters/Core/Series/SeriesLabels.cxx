@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Series/SeriesLabels.h"
+
+#include "Core/Geometry/Dispatch.h"
+#include "Core/Series/LabelVotes.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// The cell of a grid at an index, or the nearest one.
+template <int D>
+std::int64_t cellAt(const ImageGrid& grid, const double* index)
+{
+  const GridSize<D> size = grid.Size<D>();
+  GridSize<D> cell;
+  for (int axis = 0; axis < D; ++axis)
+  {
+    const double last = static_cast<double>(size[axis]) - 0.5;
+    cell[axis] = static_cast<std::int64_t>(std::clamp(index[axis], 0.0, last));
+  }
+  return LatticePart<D>::WholeOf(size).NumberOf(cell);
+}
+
+} // namespace
+
+SeriesLabels::SeriesLabels(
+  const std::array<ImageGrid, 2>& grids, bool isAcross, const SeriesParticles& particles)
+  : Grids(grids)
+  , Parts(isAcross ? 1 << grids[0].Dimension() : 1)
+{
+  using Self = SeriesLabels;
+  const auto add = dispatchDimension(
+    grids[0].Dimension(), &Self::AddTuples<1>, &Self::AddTuples<2>, &Self::AddTuples<3>);
+  (this->*add)(0, particles.From->Span(), particles.Clouds[0]);
+  (this->*add)(1, particles.To->Span(), particles.Clouds[1]);
+}
+
+double SeriesLabels::BytesOfVotes(std::int64_t particles) const
+{
+  return sizeof(LabelVote<3>) * 2.0 * this->Parts * static_cast<double>(particles);
+}
+
+// From the centre of a cloud to that of a part, of the cloud's length.
+double SeriesLabels::OffsetOf(int part, int axis) const
+{
+  return this->Parts == 1 ? 0.0 : (part >> axis & 1) == 0 ? -0.25 : 0.25;
+}
+
+// Lengths are in cells of the grid; 1 if there are none.
+template <int D>
+void SeriesLabels::AddTuples(
+  std::size_t end, ConstPointSpan<3> points, const std::vector<float>& lengths)
+{
+  const ImageGrid& grid = this->Grids[end];
+  const std::int64_t before = end == 0 ? 0 : this->TuplesOfFirst();
+  this->Tuples[end].reserve(static_cast<std::size_t>(points.size() * this->Parts));
+  for (std::int64_t i = 0; i < points.size(); ++i)
+  {
+    double centre[D];
+    grid.ToIndex<D>(points[i], centre);
+    for (int part = 0; part < this->Parts; ++part)
+    {
+      double index[D];
+      for (int axis = 0; axis < D; ++axis)
+      {
+        const double length =
+          lengths.empty() ? 1.0 : lengths[static_cast<std::size_t>(D * i + axis)];
+        index[axis] = centre[axis] + this->OffsetOf(part, axis) * length;
+      }
+      this->Tuples[end].push_back(before + cellAt<D>(grid, index));
+    }
+  }
+}
+
+void SeriesLabels::Find(const SeriesMoment& moment, const ImageGrid& grid,
+  const LatticePart<3>& wanted, const std::vector<const std::vector<std::int64_t>*>& equal,
+  Progress& progress, const Take& take) const
+{
+  using Self = SeriesLabels;
+  (this
+      ->*dispatchDimension(grid.Dimension(), &Self::FindIn<1>, &Self::FindIn<2>, &Self::FindIn<3>))(
+    moment, grid, wanted, equal, progress, take);
+}
+
+template <int D>
+void SeriesLabels::FindIn(const SeriesMoment& moment, const ImageGrid& grid,
+  const LatticePart<3>& wanted, const std::vector<const std::vector<std::int64_t>*>& equal,
+  Progress& progress, const Take& take) const
+{
+  const SeriesParticles& particles = moment.All();
+  const ScaledClouds<D> clouds = moment.CloudsIn<D>(grid);
+  const std::int64_t* numbers = moment.Numbers();
+  std::vector<LabelVote<D>> cast;
+  cast.reserve(
+    static_cast<std::size_t>(moment.Count() * this->Parts * (particles.AreTracked ? 2 : 1)));
+  for (std::int64_t i = 0; i < moment.Count(); ++i)
+  {
+    const std::int64_t particle = moment.First() + i;
+    const Point<D> centre = clouds.CentreIn(grid, i);
+    for (int part = 0; part < this->Parts; ++part)
+    {
+      LabelVote<D> vote;
+      vote.Number = numbers ? numbers[i] : particle;
+      for (int axis = 0; axis < D; ++axis)
+      {
+        const double length = clouds.Lengths[0] ? clouds.Length(i, axis) : 1.0;
+        vote.Centre[axis] = centre[axis] + this->OffsetOf(part, axis) * length;
+        vote.Lengths[axis] = static_cast<float>(this->Parts > 1 ? 0.5 * length : length);
+      }
+      for (std::size_t end = 0; end < 2; ++end)
+      {
+        const double ofEnd = end == 0 ? 1.0 - moment.Part() : moment.Part();
+        const bool isOwn = (particle < particles.OfFirst) == (end == 0);
+        const double share = particles.AreTracked ? ofEnd : isOwn ? 1.0 : 0.0;
+        vote.Mass = share * moment.Masses()[i] / this->Parts;
+        vote.Tuple = this->Tuples[end][static_cast<std::size_t>(particle * this->Parts + part)];
+        if (vote.Mass > 0.0)
+        {
+          cast.push_back(vote);
+        }
+      }
+    }
+  }
+  const auto cells = latticePartOf<D>(wanted, grid);
+  const LabelVotes<D> votes(std::move(cast), grid.Size<D>(), cells, progress.Group());
+  for (std::size_t array = 0; array < equal.size(); ++array)
+  {
+    std::vector<std::int64_t> tuples = votes.Count(*equal[array], progress);
+    for (std::size_t i = 0; i < tuples.size(); ++i)
+    {
+      tuples[i] = tuples[i] >= 0
+        ? tuples[i]
+        : this->InPlace<D>(grid, cells.CellOf(static_cast<std::int64_t>(i)), moment.Part());
+    }
+    take(array, tuples);
+  }
+}
+
+// Takes the step that is nearer in time, if both have the place or neither has.
+template <int D>
+std::int64_t SeriesLabels::InPlace(
+  const ImageGrid& grid, const GridSize<D>& cell, double part) const
+{
+  double centre[D];
+  std::transform(cell.begin(), cell.end(), centre,
+    [](std::int64_t at) { return static_cast<double>(at) + 0.5; });
+  double x[3];
+  grid.ToPhysical<D>(centre, x);
+  double nearest[D];
+  const bool isInFirst = this->Grids[0].NearestIndex<D>(x, nearest);
+  const bool isInSecond = this->Grids[1].NearestIndex<D>(x, nearest);
+  const bool isFirst = isInFirst == isInSecond ? part <= 0.5 : isInFirst;
+  const ImageGrid& step = this->Grids[isFirst ? 0 : 1];
+  double index[D];
+  step.ToIndex<D>(x, index);
+  return cellAt<D>(step, index) + (isFirst ? 0 : this->TuplesOfFirst());
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values that have nothing between them, such as integers and texts, and move along with particles.
+#ifndef RectifiedTransport_SeriesLabels_h
+#define RectifiedTransport_SeriesLabels_h
+
+#include "Core/Geometry/ImageGrid.h"
+#include "Core/Series/SeriesParticles.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// The tuples of arrays of two steps, those of the second step numbered after all of the first one.
+// A particle brings the tuple of the cell, or nearest point, of its own step; a tracked one brings
+// both tuples, with its mass divided by the time. A cell or point gets the tuple that has most of
+// the mass there; of two that have as much, that of the first step. Without mass, it gets the tuple
+// at the place itself, of the nearer step.
+class SeriesLabels
+{
+public:
+  SeriesLabels() = default;
+  // `grids`: their cells have the tuples of both steps. `isAcross`: the densities are not in the
+  // cells of these grids, but around their corners, or the reverse. Then several tuples share a
+  // particle's cloud, which has a part for each of its 2^d quarters. Throws std::bad_alloc.
+  SeriesLabels(
+    const std::array<ImageGrid, 2>& grids, bool isAcross, const SeriesParticles& particles);
+
+  std::int64_t TuplesOfFirst() const { return this->Grids[0].NumberOfCells(); }
+  // The votes of so many particles.
+  double BytesOfVotes(std::int64_t particles) const;
+
+  // Numbers of tuples for the wanted cells of a grid.
+  using Take = std::function<void(std::size_t array, const std::vector<std::int64_t>& tuples)>;
+  // Takes the tuples at a moment, for each of several arrays; equal[array] has for each tuple the
+  // number of the first equal one. Collective. Throws std::bad_alloc and Cancelled.
+  void Find(const SeriesMoment& moment, const ImageGrid& grid, const LatticePart<3>& wanted,
+    const std::vector<const std::vector<std::int64_t>*>& equal, Progress& progress,
+    const Take& take) const;
+
+private:
+  template <int D>
+  void AddTuples(std::size_t end, ConstPointSpan<3> points, const std::vector<float>& lengths);
+  template <int D>
+  void FindIn(const SeriesMoment& moment, const ImageGrid& grid, const LatticePart<3>& wanted,
+    const std::vector<const std::vector<std::int64_t>*>& equal, Progress& progress,
+    const Take& take) const;
+  template <int D>
+  std::int64_t InPlace(const ImageGrid& grid, const GridSize<D>& cell, double part) const;
+  double OffsetOf(int part, int axis) const;
+
+  std::array<ImageGrid, 2> Grids;
+  int Parts = 1;
+  // Of the parts of each particle, at both ends of its way.
+  std::array<std::vector<std::int64_t>, 2> Tuples;
+};
+
+} // namespace RectifiedTransport
+
+#endif

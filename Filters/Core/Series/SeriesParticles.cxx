@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Series/SeriesParticles.h"
+
+#include "Core/Flow/WeightedMean.h"
+#include "Core/Geometry/PhysicalPoints.h"
+#include "Core/Series/CloudLengths.h"
+
+namespace RectifiedTransport
+{
+
+SeriesMoment::SeriesMoment(const SeriesParticles& particles, double part)
+  : Particles(particles)
+  , PartOfWay(part)
+  , Begin(!particles.AreTracked && part >= 1.0 ? particles.OfFirst : 0)
+  , Places(nullptr, (part <= 0.0 ? particles.OfFirst : particles.Count()) - this->Begin)
+{
+}
+
+void SeriesMoment::Write(double mass, PointSpan<3> points, double* masses, Progress& progress)
+{
+  const double part = this->PartOfWay;
+  const std::int64_t count = this->Count();
+  const std::vector<WeightedPositions> ends = {
+    { this->Particles.From->Span().Part(this->Begin, count), 1.0 - part },
+    { this->Particles.To->Span().Part(this->Begin, count), part }
+  };
+  const double ofFirst = this->Particles.AreTracked ? mass : 1.0 - part;
+  const double* whole = this->Particles.Masses.data() + this->Begin;
+  const std::int64_t second = this->Particles.OfFirst - this->Begin;
+  progress.For(count, grainOfPositions, [&](std::int64_t first, std::int64_t last) {
+    writeWeightedMean(ends, first, last, points);
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      masses[i] = whole[i] * (i < second ? ofFirst : part);
+    }
+  });
+  this->Places = points;
+  this->MassesOfPoints = masses;
+}
+
+const std::int64_t* SeriesMoment::Numbers() const
+{
+  const std::vector<std::int64_t>& numbers = this->Particles.Numbers;
+  return numbers.empty() ? nullptr : numbers.data() + this->Begin;
+}
+
+template <int D>
+ScaledClouds<D> SeriesMoment::CloudsIn(const ImageGrid& grid) const
+{
+  ScaledClouds<D> clouds{ this->Places, this->MassesOfPoints, {}, this->PartOfWay, {},
+    this->Particles.OfFirst - this->Begin };
+  for (std::size_t end = 0; end < 2 && !this->Particles.Clouds[0].empty(); ++end)
+  {
+    clouds.Lengths[end] = this->Particles.Clouds[end].data() + D * this->Begin;
+    clouds.Units[end] = cellsInCells<D>(this->Particles.Grids[end], grid);
+  }
+  return clouds;
+}
+
+template ScaledClouds<1> SeriesMoment::CloudsIn<1>(const ImageGrid&) const;
+template ScaledClouds<2> SeriesMoment::CloudsIn<2>(const ImageGrid&) const;
+template ScaledClouds<3> SeriesMoment::CloudsIn<3>(const ImageGrid&) const;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Series/TrackedParticles.h"
+
+#include "Core/Flow/PivotLattice.h"
+#include "Core/Flow/RectifiedFlow.h"
+#include "Core/Geometry/PhysicalPoints.h"
+#include "Core/Parallel/RankShare.h"
+#include "Core/Parallel/Stages.h"
+#include "Core/Series/FadingParticles.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+template <int D>
+std::shared_ptr<const SeriesPositions> physicalOf(
+  const ImageGrid& grid, ConstPointSpan<D> points, Progress& progress)
+{
+  auto positions = std::make_shared<SeriesPositions>(points.size());
+  writePhysical<D>(grid, points, progress, positions->Span());
+  return positions;
+}
+
+} // namespace
+
+template <int D>
+void TrackedParticles::Begin(const SeriesStep& step, int perCell, Progress& progress)
+{
+  const PivotLattice<D> pivot = pivotLattice<D>(step.Grid.Size<D>(), perCell);
+  this->Particles = pivot.NumberOfParticles();
+  const RankShare share(this->Particles, progress.Group());
+  const DensityArray<D, double> density(step.Values, step.Grid.Size<D>());
+  Stages stages(progress, { { "tables", 2 }, { "positions", 8 } });
+  const RectifiedFlow<D> flow(density, stages["tables"]);
+  LargeBuffer<double> points(share.Count * D);
+  transportPivot<D>(
+    flow, pivot, share.First, { points.data(), share.Count }, {}, stages["positions"]);
+  this->Steps.assign(
+    1, { physicalOf<D>(step.Grid, { points.data(), share.Count }, stages["positions"]), {}, 0.0 });
+}
+
+template <int D>
+void TrackedParticles::Follow(
+  const ImageGrid& before, const ImageGrid& grid, const MoveSamples<D>& move, Progress& progress)
+{
+  Stages stages(progress, { { "start", 1 }, { "move", 96 }, { "images", 3 } });
+  const ConstPointSpan<3> from = this->Steps.back().Positions->Span();
+  LargeBuffer<double> points(from.size() * D);
+  stages["start"].For(from.size(), grainOfPositions, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      before.ToIndex<D>(from[i], points.data() + D * i);
+      before.ClampToDomain<D>(points.data() + D * i);
+    }
+  });
+  Step step;
+  step.Move = move({ points.data(), from.size() }, stages["move"]);
+  step.Positions = physicalOf<D>(grid, { points.data(), from.size() }, stages["images"]);
+  step.Cost = meanSquareOfWays(before, from, step.Positions->Span(), nullptr,
+    static_cast<double>(this->Particles), stages["images"]);
+  this->Steps.push_back(std::move(step));
+}
+
+SeriesParticles TrackedParticles::Between(int from, int to, const Ranks& ranks) const
+{
+  const Step& first = this->Steps[static_cast<std::size_t>(from)];
+  const Step& second = this->Steps[static_cast<std::size_t>(to)];
+  SeriesParticles particles;
+  particles.AreTracked = true;
+  particles.From = first.Positions;
+  particles.To = second.Positions;
+  particles.OfFirst = first.Positions->Count();
+  particles.Masses = LargeBuffer<double>(particles.OfFirst);
+  std::fill_n(
+    particles.Masses.data(), particles.OfFirst, 1.0 / static_cast<double>(this->Particles));
+  particles.Numbers.resize(static_cast<std::size_t>(particles.OfFirst));
+  std::iota(
+    particles.Numbers.begin(), particles.Numbers.end(), RankShare(this->Particles, ranks).First);
+  if (from != to)
+  {
+    particles.Cost = second.Cost;
+    particles.Bound = second.Move.Bound;
+    particles.HasBound = second.Move.HasBound;
+  }
+  return particles;
+}
+
+template void TrackedParticles::Begin<1>(const SeriesStep&, int, Progress&);
+template void TrackedParticles::Begin<2>(const SeriesStep&, int, Progress&);
+template void TrackedParticles::Begin<3>(const SeriesStep&, int, Progress&);
+template void TrackedParticles::Follow<1>(
+  const ImageGrid&, const ImageGrid&, const MoveSamples<1>&, Progress&);
+template void TrackedParticles::Follow<2>(
+  const ImageGrid&, const ImageGrid&, const MoveSamples<2>&, Progress&);
+template void TrackedParticles::Follow<3>(
+  const ImageGrid&, const ImageGrid&, const MoveSamples<3>&, Progress&);
+
+} // namespace RectifiedTransport
