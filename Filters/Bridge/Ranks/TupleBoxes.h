@@ -45,6 +45,23 @@ using TupleBox = LatticePart<3>;
 TupleBox tuplesOf(const Extent& extent, int owner, const Extent& whole);
 // The extent whose tuples these are.
 Extent extentOf(const TupleBox& box, int owner, const Extent& whole);
+// The cells, or dual cells, of a grid that have the tuples of a box.
+template <int D>
+LatticePart<D> latticePartOf(const TupleBox& box, const ImageGrid& grid)
+{
+  LatticePart<D> part{ {}, {} };
+  int axis = 0;
+  for (std::size_t a = 0; a < 3 && !box.IsEmpty(); ++a)
+  {
+    if (grid.IsAxis(a))
+    {
+      part.Low[axis] = box.Low[a] - grid.Extent()[2 * a];
+      part.Cells[axis] = box.Cells[a];
+      ++axis;
+    }
+  }
+  return part;
+}
 // Removes a box from what boxes cover.
 void subtract(const TupleBox& box, std::vector<TupleBox>& from);
 // "[0, 4] x [2, 2] x [0, 9]".

@@ -3,6 +3,7 @@
 
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Temporal/AdvectedArrays.h"
+#include "Core/Geometry/Dispatch.h"
 
 #include "vtkBitArray.h"
 #include "vtkDataArray.h"
@@ -80,6 +81,14 @@ std::vector<std::int64_t> findEqual(const std::array<vtkSmartPointer<vtkAbstract
   return equal;
 }
 
+template <int D>
+void find(const SeriesLabels& labels, const SeriesMoment& moment, const ImageGrid& grid,
+  const TupleBox& wanted, const std::vector<const std::vector<std::int64_t>*>& equal,
+  Progress& progress, const SeriesLabels::Take& take)
+{
+  labels.Find<D>(moment, grid, latticePartOf<D>(wanted, grid), equal, progress, take);
+}
+
 } // namespace
 
 bool isOfLabels(vtkAbstractArray* array)
@@ -153,8 +162,9 @@ void AdvectedLabels::Write(const SeriesMoment& moment, const ImageGrid& geometry
     equal.push_back(&labels.Equal);
   }
   withMemory("the labels that move along", this->OfParticles.BytesOfVotes(moment.Count()), [&]() {
-    this->OfParticles.Find(moment, geometry.WithValuesOn(this->Owner == vtkDataObject::POINT), box,
-      equal, progress, write);
+    const ImageGrid own = geometry.WithValuesOn(this->Owner == vtkDataObject::POINT);
+    dispatchDimension(own.Dimension(), find<1>, find<2>, find<3>)(
+      this->OfParticles, moment, own, box, equal, progress, write);
   });
 }
 

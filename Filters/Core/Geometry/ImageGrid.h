@@ -6,7 +6,6 @@
 
 #include "GridSize.h"
 #include "IndexMap.h"
-#include "LatticePart.h"
 
 #include <Eigen/Core>
 
@@ -213,24 +212,6 @@ private:
   double Measure = 0.0;
   double DomainDiagonal = 0.0;
 };
-
-// The cells of a grid that have the values of a box of an image's points or cells.
-template <int D>
-LatticePart<D> latticePartOf(const LatticePart<3>& box, const ImageGrid& grid)
-{
-  LatticePart<D> part{ {}, {} };
-  int axis = 0;
-  for (std::size_t a = 0; a < 3 && !box.IsEmpty(); ++a)
-  {
-    if (grid.IsAxis(a))
-    {
-      part.Low[axis] = box.Low[a] - grid.Extent()[2 * a];
-      part.Cells[axis] = box.Cells[a];
-      ++axis;
-    }
-  }
-  return part;
-}
 
 } // namespace RectifiedTransport
 

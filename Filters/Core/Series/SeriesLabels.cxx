@@ -77,19 +77,9 @@ void SeriesLabels::AddTuples(
   }
 }
 
-void SeriesLabels::Find(const SeriesMoment& moment, const ImageGrid& grid,
-  const LatticePart<3>& wanted, const std::vector<const std::vector<std::int64_t>*>& equal,
-  Progress& progress, const Take& take) const
-{
-  using Self = SeriesLabels;
-  (this
-      ->*dispatchDimension(grid.Dimension(), &Self::FindIn<1>, &Self::FindIn<2>, &Self::FindIn<3>))(
-    moment, grid, wanted, equal, progress, take);
-}
-
 template <int D>
-void SeriesLabels::FindIn(const SeriesMoment& moment, const ImageGrid& grid,
-  const LatticePart<3>& wanted, const std::vector<const std::vector<std::int64_t>*>& equal,
+void SeriesLabels::Find(const SeriesMoment& moment, const ImageGrid& grid,
+  const LatticePart<D>& wanted, const std::vector<const std::vector<std::int64_t>*>& equal,
   Progress& progress, const Take& take) const
 {
   const SeriesParticles& particles = moment.All();
@@ -126,8 +116,7 @@ void SeriesLabels::FindIn(const SeriesMoment& moment, const ImageGrid& grid,
       }
     }
   }
-  const auto cells = latticePartOf<D>(wanted, grid);
-  const LabelVotes<D> votes(std::move(cast), grid.Size<D>(), cells, progress.Group());
+  const LabelVotes<D> votes(std::move(cast), grid.Size<D>(), wanted, progress.Group());
   for (std::size_t array = 0; array < equal.size(); ++array)
   {
     std::vector<std::int64_t> tuples = votes.Count(*equal[array], progress);
@@ -135,7 +124,7 @@ void SeriesLabels::FindIn(const SeriesMoment& moment, const ImageGrid& grid,
     {
       tuples[i] = tuples[i] >= 0
         ? tuples[i]
-        : this->InPlace<D>(grid, cells.CellOf(static_cast<std::int64_t>(i)), moment.Part());
+        : this->InPlace<D>(grid, wanted.CellOf(static_cast<std::int64_t>(i)), moment.Part());
     }
     take(array, tuples);
   }
@@ -160,5 +149,12 @@ std::int64_t SeriesLabels::InPlace(
   step.ToIndex<D>(x, index);
   return cellAt<D>(step, index) + (isFirst ? 0 : this->TuplesOfFirst());
 }
+
+template void SeriesLabels::Find<1>(const SeriesMoment&, const ImageGrid&, const LatticePart<1>&,
+  const std::vector<const std::vector<std::int64_t>*>&, Progress&, const Take&) const;
+template void SeriesLabels::Find<2>(const SeriesMoment&, const ImageGrid&, const LatticePart<2>&,
+  const std::vector<const std::vector<std::int64_t>*>&, Progress&, const Take&) const;
+template void SeriesLabels::Find<3>(const SeriesMoment&, const ImageGrid&, const LatticePart<3>&,
+  const std::vector<const std::vector<std::int64_t>*>&, Progress&, const Take&) const;
 
 } // namespace RectifiedTransport

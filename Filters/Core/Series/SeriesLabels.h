@@ -37,17 +37,14 @@ public:
   using Take = std::function<void(std::size_t array, const std::vector<std::int64_t>& tuples)>;
   // Takes the tuples at a moment, for each of several arrays; equal[array] has for each tuple the
   // number of the first equal one. Collective. Throws std::bad_alloc and Cancelled.
-  void Find(const SeriesMoment& moment, const ImageGrid& grid, const LatticePart<3>& wanted,
+  template <int D>
+  void Find(const SeriesMoment& moment, const ImageGrid& grid, const LatticePart<D>& wanted,
     const std::vector<const std::vector<std::int64_t>*>& equal, Progress& progress,
     const Take& take) const;
 
 private:
   template <int D>
   void AddTuples(std::size_t end, ConstPointSpan<3> points, const std::vector<float>& lengths);
-  template <int D>
-  void FindIn(const SeriesMoment& moment, const ImageGrid& grid, const LatticePart<3>& wanted,
-    const std::vector<const std::vector<std::int64_t>*>& equal, Progress& progress,
-    const Take& take) const;
   template <int D>
   std::int64_t InPlace(const ImageGrid& grid, const GridSize<D>& cell, double part) const;
   double OffsetOf(int part, int axis) const;
