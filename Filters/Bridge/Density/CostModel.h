@@ -19,7 +19,7 @@ constexpr double MassShare = 150.0;    // of a sample in 3D, with the sample's o
 constexpr double MeanAndSplat = 60.0;  // of a particle of a blend
 constexpr double Comparison = 4000.0;  // of a particle with a density
 constexpr double Relaxation = 20000.0; // of a point, in each iteration
-constexpr double InvertedCell = 200.0; // of a vtkCell, to find whether it is inverted
+constexpr double TurnedCell = 200.0;   // of a vtkCell, to find whether it turned over
 constexpr double Reading = 2.0;        // of a cell's value
 constexpr double OptimalCell = 1500.0; // of a cell of an optimal map
 

@@ -209,7 +209,7 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
       { "areas", equalizes ? Cost::equalization(options, D) * gridCells : 0.0 },
       { "correction", equalizes ? Cost::Seed * count : 0.0 },
       { "cost", optimal.NeedsMap() ? Cost::flow(options, D) * gridCells : 0.0 },
-      { "write", Cost::Seed * count }, { "inverted cells", Cost::InvertedCell * inputCells } });
+      { "write", Cost::Seed * count }, { "inverted cells", Cost::TurnedCell * inputCells } });
   WarpedPoints<D> points(density.Grid(), input);
   const FlowTables tables = chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
     { options, FlowDirection::Backward, count, false,

@@ -4,6 +4,7 @@
 #include "Core/Parallel/RankExchange.h"
 
 #include <cmath>
+#include <iterator>
 
 namespace RectifiedTransport
 {
@@ -11,9 +12,9 @@ namespace RectifiedTransport
 namespace
 {
 
-// Of a cell's length, if its places are the centres of a finer grid.
+// Of the length of a lattice's cell, of which one of several particles has a share.
 template <int D>
-double partOfCell(const PivotLattice<D>& lattice)
+double shareOfCell(const PivotLattice<D>& lattice)
 {
   return std::pow(static_cast<double>(lattice.Places.size()), -1.0 / D);
 }
@@ -38,11 +39,11 @@ std::vector<T> ofAllRanks(const Ranks& ranks, const T* own, std::int64_t count)
 }
 
 // By the distances to both neighbours; negative ones are of none.
-double stretch(double before, double after)
+double spacingOf(double before, double after, double alone)
 {
   if (before < 0.0 || after < 0.0)
   {
-    return before >= 0.0 ? before : after >= 0.0 ? after : 1.0;
+    return before >= 0.0 ? before : after >= 0.0 ? after : alone;
   }
   const double less = std::min(before, after);
   const double more = std::max(before, after);
@@ -52,11 +53,17 @@ double stretch(double before, double after)
 } // namespace
 
 template <int D>
-void addCloudsInCells(
-  const PivotLattice<D>& lattice, std::int64_t count, std::vector<float>& lengths)
+void addCloudsInCells(const PivotLattice<D>& lattice, const ImageGrid& grid, std::int64_t count,
+  std::vector<float>& lengths)
 {
-  lengths.resize(lengths.size() + static_cast<std::size_t>(D * count),
-    static_cast<float>(partOfCell<D>(lattice)));
+  const Point<D> side = latticeStep<D>(lattice.Lattice, grid.Size<D>());
+  const double share = shareOfCell<D>(lattice);
+  lengths.reserve(lengths.size() + static_cast<std::size_t>(D * count));
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    std::transform(side.begin(), side.end(), std::back_inserter(lengths),
+      [share](double length) { return static_cast<float>(length * share); });
+  }
 }
 
 template <int D>
@@ -77,7 +84,8 @@ void addCloudsAtImages(const PivotLattice<D>& lattice, const ImageGrid& here,
   }
   const GridSize<D>& size = lattice.Lattice;
   const Point<D> unit = cellsInCells<D>(there, here);
-  const double part = partOfCell<D>(lattice);
+  const Point<D> side = latticeStep<D>(size, here.Size<D>());
+  const double share = shareOfCell<D>(lattice);
   const std::size_t before = lengths.size();
   lengths.resize(before + static_cast<std::size_t>(D * images.size()));
   float* added = lengths.data() + before;
@@ -97,9 +105,9 @@ void addCloudsAtImages(const PivotLattice<D>& lattice, const ImageGrid& here,
               unit[axis];
         };
         const std::int64_t at = rest % size[axis];
-        const double factor = stretch(
-          distanceTo(at > 0, number - step), distanceTo(at + 1 < size[axis], number + step));
-        added[D * i + axis] = static_cast<float>(factor * part);
+        const double spacing = spacingOf(distanceTo(at > 0, number - step),
+          distanceTo(at + 1 < size[axis], number + step), side[axis]);
+        added[D * i + axis] = static_cast<float>(spacing * share);
         rest /= size[axis];
         step *= size[axis];
       }
@@ -107,9 +115,12 @@ void addCloudsAtImages(const PivotLattice<D>& lattice, const ImageGrid& here,
   });
 }
 
-template void addCloudsInCells<1>(const PivotLattice<1>&, std::int64_t, std::vector<float>&);
-template void addCloudsInCells<2>(const PivotLattice<2>&, std::int64_t, std::vector<float>&);
-template void addCloudsInCells<3>(const PivotLattice<3>&, std::int64_t, std::vector<float>&);
+template void addCloudsInCells<1>(
+  const PivotLattice<1>&, const ImageGrid&, std::int64_t, std::vector<float>&);
+template void addCloudsInCells<2>(
+  const PivotLattice<2>&, const ImageGrid&, std::int64_t, std::vector<float>&);
+template void addCloudsInCells<3>(
+  const PivotLattice<3>&, const ImageGrid&, std::int64_t, std::vector<float>&);
 template void addCloudsAtImages<1>(const PivotLattice<1>&, const ImageGrid&, const ImageGrid&,
   const std::vector<std::int64_t>&, ConstPointSpan<1>, Progress&, std::vector<float>&);
 template void addCloudsAtImages<2>(const PivotLattice<2>&, const ImageGrid&, const ImageGrid&,

@@ -33,15 +33,16 @@ Point<D> cellsInCells(const ImageGrid& cells, const ImageGrid& unit)
   return lengths;
 }
 
-// Appends the lengths of clouds in the cells of a lattice.
+// Appends the lengths of clouds in the cells of a lattice of a grid: of one particle of several in
+// a cell, its share of the cell.
 template <int D>
-void addCloudsInCells(
-  const PivotLattice<D>& lattice, std::int64_t count, std::vector<float>& lengths);
+void addCloudsInCells(const PivotLattice<D>& lattice, const ImageGrid& grid, std::int64_t count,
+  std::vector<float>& lengths);
 
-// Appends those of particles in the cells of a lattice at their images, which are in the index
-// space of `there`; each particle is at its number in the lattice. Along an axis a length is the
-// mean of the distances to the images of both neighbours, or the smaller one if they differ by a
-// factor of two or more, as where mass comes apart. The images of all ranks count. Collective.
+// Appends those of particles in the cells of a lattice of `here` at their images, which are in the
+// index space of `there`; each particle is at its number in the lattice. Along an axis a length is
+// the mean of the distances to the images of both neighbours, or the smaller one if they differ by
+// a factor of two or more, as where mass comes apart. The images of all ranks count. Collective.
 // Throws std::bad_alloc and Cancelled.
 template <int D>
 void addCloudsAtImages(const PivotLattice<D>& lattice, const ImageGrid& here,

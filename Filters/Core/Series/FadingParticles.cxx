@@ -36,13 +36,23 @@ StepParticles<D> placeParticles(const SeriesStep& step, int perCell, const Ranks
 {
   StepParticles<D> particles;
   particles.Lattice = pivotLattice<D>(step.Grid.Size<D>(), perCell);
-  const auto cellsOf = LatticePart<D>::WholeOf(particles.Lattice.Lattice);
-  const std::int64_t cells = step.Grid.NumberOfCells();
+  const GridSize<D>& lattice = particles.Lattice.Lattice;
+  const Point<D> side = latticeStep<D>(lattice, step.Grid.Size<D>());
+  const auto all = LatticePart<D>::WholeOf(lattice);
+  const auto cells = LatticePart<D>::WholeOf(step.Grid.Size<D>());
+  const auto valueOf = [&](std::int64_t number) {
+    GridSize<D> cell = all.CellOf(number % all.Count());
+    for (int axis = 0; axis < D; ++axis)
+    {
+      cell[axis] /= lattice[axis] / step.Grid.Size<D>()[axis];
+    }
+    return step.Values[cells.NumberOf(cell)];
+  };
   const RankShare share(particles.Lattice.NumberOfParticles(), ranks);
   const double measure = step.Grid.CellMeasure() / static_cast<double>(perCell);
   for (std::int64_t n = share.First; n < share.First + share.Count; ++n)
   {
-    if (step.Values[n % cells] > 0.0)
+    if (valueOf(n) > 0.0)
     {
       particles.Numbers.push_back(n);
     }
@@ -52,12 +62,13 @@ StepParticles<D> placeParticles(const SeriesStep& step, int perCell, const Ranks
   for (std::int64_t i = 0; i < particles.Count(); ++i)
   {
     const std::int64_t n = particles.Numbers[static_cast<std::size_t>(i)];
-    const GridSize<D> corner = cellsOf.CellOf(n % cells);
-    const Point<D>& place = particles.Lattice.Places[static_cast<std::size_t>(n / cells)];
-    particles.Masses[static_cast<std::size_t>(i)] = step.Values[n % cells] * measure;
+    const GridSize<D> corner = all.CellOf(n % all.Count());
+    const Point<D>& place = particles.Lattice.Places[static_cast<std::size_t>(n / all.Count())];
+    particles.Masses[static_cast<std::size_t>(i)] = valueOf(n) * measure;
     for (int axis = 0; axis < D; ++axis)
     {
-      particles.Points.data()[i * D + axis] = static_cast<double>(corner[axis]) + place[axis];
+      particles.Points.data()[i * D + axis] =
+        (static_cast<double>(corner[axis]) + place[axis]) * side[axis];
     }
   }
   return particles;
@@ -101,7 +112,7 @@ public:
     auto& [from, to] = this->Made.Clouds;
     this->WriteFirst(firstGrid, *this->From, stages["starts"]);
     this->WriteSecond(secondGrid, *this->To, stages["starts"]);
-    addCloudsInCells<D>(this->First.Lattice, this->First.Count(), from);
+    addCloudsInCells<D>(this->First.Lattice, firstGrid, this->First.Count(), from);
     if (this->FirstStep.Mass > 0.0 && this->SecondStep.Mass > 0.0)
     {
       move(this->First.Span(), this->Second.Span(), stages["move"]);
@@ -120,10 +131,10 @@ public:
     {
       this->WriteFirst(firstGrid, *this->To, stages["images"]);
       this->WriteSecond(secondGrid, *this->From, stages["images"]);
-      addCloudsInCells<D>(this->Second.Lattice, this->Second.Count(), from);
+      addCloudsInCells<D>(this->Second.Lattice, secondGrid, this->Second.Count(), from);
       to = std::vector<float>(from.begin(), from.begin() + D * this->First.Count());
     }
-    addCloudsInCells<D>(this->Second.Lattice, this->Second.Count(), to);
+    addCloudsInCells<D>(this->Second.Lattice, secondGrid, this->Second.Count(), to);
     return std::move(this->Made);
   }
 
