@@ -47,11 +47,12 @@ std::int64_t splatIn(const OwnPoints<Real>& own, const SplatTarget& target, cons
     return withMemory(
       "the exchange of " + std::to_string(own.Points.size()) + " points", 100.0 * count, [&]() {
         return splatOnRanks<D, Real>(particles, own.Order, size, latticePartOf<D>(wanted, geometry),
-          target.Options, target.Scale(), cells, progress);
+          target.Options, 1.0 / target.CellMeasure(), cells, progress);
       });
   }
   return withMemory("putting the points in order", 8.0 * count, [&]() {
-    return splatMass<D, Real>(particles, size, target.Options, target.Scale(), cells, progress)
+    return splatMass<D, Real>(
+      particles, size, target.Options, 1.0 / target.CellMeasure(), cells, progress)
       .Outside;
   });
 }
@@ -69,7 +70,7 @@ std::int64_t splat(const OwnPoints<Real>& own, const SplatTarget& target, const 
 void requireFiniteDensity(
   double mass, const SplatTarget& target, const char* what, const char* rule)
 {
-  const double measure = target.DivideByVolume ? target.Geometry.CellMeasure() : 1.0;
+  const double measure = target.CellMeasure();
   if (!std::isfinite(1.0 / measure) || !std::isfinite(mass / measure))
   {
     std::ostringstream message;

@@ -26,8 +26,8 @@ struct SplatTarget
   SplatOptions Options;
   bool DivideByVolume; // densities, else masses
 
-  // The factor of the masses.
-  double Scale() const { return this->DivideByVolume ? 1.0 / this->Geometry.CellMeasure() : 1.0; }
+  // What values are to be multiplied by to be masses.
+  double CellMeasure() const { return this->DivideByVolume ? this->Geometry.CellMeasure() : 1.0; }
 };
 
 // Throws Failure if the density of a cell that holds all of `mass` would not be finite; `what` is

@@ -14,9 +14,8 @@
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankOrder.h"
-#include "Core/Parallel/RankShare.h"
-#include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/Stages.h"
+#include "Core/Splat/SplatMass.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -24,9 +23,7 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <sstream>
 #include <vector>
@@ -75,21 +72,6 @@ void requireFinite(double sizes, const SplatTarget& target)
                           : "so that the sum of their sizes is a double");
 }
 
-// The mass is the sum of the sums of so many consecutive cells.
-constexpr std::int64_t splatSumChunk = std::int64_t{ 1 } << 13;
-
-double massIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& progress)
-{
-  const double* values = cells->GetPointer(0);
-  const double sum = reduceChunks(
-    progress, cells->GetNumberOfTuples(), splatSumChunk, 0.0,
-    [values](std::int64_t first, std::int64_t last) {
-      return std::accumulate(values + first, values + last, 0.0);
-    },
-    std::plus<>());
-  return target.DivideByVolume ? sum * target.Geometry.CellMeasure() : sum;
-}
-
 // The points that count, and the masses of all points of the set.
 struct SplatInput
 {
@@ -103,33 +85,6 @@ struct SplatResult
   std::int64_t Outside; // of the points of all ranks
   double TotalMass;     // that the whole image holds
 };
-
-// The tuples of an image, x fastest, that a rank sums up, and the layers of it that hold them.
-struct TupleRange
-{
-  TupleBox Layers;
-  std::int64_t First; // from the layers' first one on
-  std::int64_t Count;
-};
-
-// Whole chunks, as even shares as may be.
-TupleRange rangeOf(const TupleBox& whole, int ranks, int rank)
-{
-  std::size_t slowest = 2;
-  while (slowest > 0 && whole.Cells[slowest] == 1)
-  {
-    --slowest;
-  }
-  const std::int64_t count = whole.Count();
-  const std::int64_t layer = count / whole.Cells[slowest];
-  const RankShare chunks((count + splatSumChunk - 1) / splatSumChunk, ranks, rank);
-  const std::int64_t first = std::min(count, chunks.First * splatSumChunk);
-  const std::int64_t last = std::min(count, (chunks.First + chunks.Count) * splatSumChunk);
-  TupleRange range{ whole, first % layer, last - first };
-  range.Layers.Low[slowest] += first / layer;
-  range.Layers.Cells[slowest] = last > first ? (last - 1) / layer + 1 - first / layer : 0;
-  return range;
-}
 
 double inOrder(
   const DistributedPoints& points, const double* masses, const Ranks& ranks, Progress& progress)
@@ -157,10 +112,12 @@ SplatResult splatHere(const SplatInput& input, Progress& progress, vtkDoubleArra
   Stages stages(progress, { { "splat", 95 }, { "sum", 5 } });
   const std::int64_t outside = splatDistributed(input.Points.Set()->GetPoints()->GetData(),
     input.Masses.Values(), 1.0, nullptr, input.Target, {}, stages["splat"], cells);
-  return { outside,
-    input.Target.Options.Boundary == SplatBoundary::Renormalize
-      ? input.Masses.Total()
-      : massIn(cells, input.Target, stages["sum"]) };
+  if (input.Target.Options.Boundary == SplatBoundary::Renormalize)
+  {
+    return { outside, input.Masses.Total() };
+  }
+  const double sum = sumOfCells(cells->GetPointer(0), cells->GetNumberOfTuples(), stages["sum"]);
+  return { outside, sum * input.Target.CellMeasure() };
 }
 
 // Writes the wanted cells: the splat of distributed points and its mass, bitwise as on one rank.
@@ -189,15 +146,15 @@ SplatResult splatOnRanks(const SplatInput& input, const TupleBox& whole, const T
   std::vector<TupleBox> held;
   for (int rank = 0; rank < ranks.Count(); ++rank)
   {
-    held.push_back(rangeOf(whole, ranks.Count(), rank).Layers);
+    held.push_back(CellShare(whole, ranks.Count(), rank).Layers);
   }
-  const TupleRange own = rangeOf(whole, ranks.Count(), ranks.Own());
+  const CellShare own(whole, ranks.Count(), ranks.Own());
   const auto values =
     newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(own.Layers.Count()));
   const std::int64_t outside = splat(own.Layers, values);
   const double sum = sumChunks(values->GetPointer(0) + own.First, own.Count, splatSumChunk, ranks);
   exchangeBoxes(held, wanted, ranks, values, cells);
-  return { outside, input.Target.DivideByVolume ? sum * input.Target.Geometry.CellMeasure() : sum };
+  return { outside, sum * input.Target.CellMeasure() };
 }
 
 } // namespace

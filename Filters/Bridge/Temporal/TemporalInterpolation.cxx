@@ -27,8 +27,6 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cmath>
 #include <utility>
 
 namespace RectifiedTransport::Bridge
@@ -82,28 +80,12 @@ Extent extentOfRank(const Extent& whole, vtkInformation* announced, const Ranks&
 vtkSmartPointer<vtkDoubleArray> velocitiesOf(
   const SeriesParticles& particles, const TemporalMoment& moment, Progress& progress)
 {
-  const double length = moment.Length;
-  const std::int64_t values = 3 * particles.Count();
   auto velocities = newArray<vtkDoubleArray>("Velocity", 3, particles.Count());
-  double* v = velocities->GetPointer(0);
-  const double* from = particles.From->Span().data();
-  const double* to = particles.To->Span().data();
-  std::atomic<bool> areFinite{ true };
-  progress.For(values, grain, [&](std::int64_t first, std::int64_t last) {
-    bool isFinite = true;
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      v[i] = length > 0.0 ? (to[i] - from[i]) / length : 0.0;
-      isFinite = isFinite && std::isfinite(v[i]);
-    }
-    if (!isFinite)
-    {
-      areFinite = false;
-    }
-  });
+  const bool areFinite = writeVelocities(
+    particles, moment.Length, { velocities->GetPointer(0), particles.Count() }, progress);
   if (!onAllRanks(progress.Group(), areFinite))
   {
-    throw Failure(moment.First.Title + " and the next one are " + textOf(length) +
+    throw Failure(moment.First.Title + " and the next one are " + textOf(moment.Length) +
       " apart in time, so that velocities pass the largest double; the steps must be further "
       "apart");
   }

@@ -5,8 +5,33 @@
 #include "Core/Geometry/PhysicalPoints.h"
 #include "Core/Series/CloudLengths.h"
 
+#include <atomic>
+#include <cmath>
+
 namespace RectifiedTransport
 {
+
+bool writeVelocities(
+  const SeriesParticles& particles, double time, PointSpan<3> velocities, Progress& progress)
+{
+  const double* from = particles.From->Span().data();
+  const double* to = particles.To->Span().data();
+  double* v = velocities.data();
+  std::atomic<bool> areFinite{ true };
+  progress.For(3 * velocities.size(), grainOfPositions, [&](std::int64_t first, std::int64_t last) {
+    bool isFinite = true;
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      v[i] = time > 0.0 ? (to[i] - from[i]) / time : 0.0;
+      isFinite = isFinite && std::isfinite(v[i]);
+    }
+    if (!isFinite)
+    {
+      areFinite = false;
+    }
+  });
+  return areFinite;
+}
 
 SeriesMoment::SeriesMoment(const SeriesParticles& particles, double part)
   : Particles(particles)

@@ -65,6 +65,11 @@ struct SeriesParticles
   std::int64_t Count() const { return this->From->Count(); }
 };
 
+// The velocities on straight ways that take a time; 0 for a time of 0. Returns whether all are
+// finite. Throws Cancelled.
+bool writeVelocities(
+  const SeriesParticles& particles, double time, PointSpan<3> velocities, Progress& progress);
+
 // The particles of an interval that have mass at a moment: at its ends those of one step alone.
 class SeriesMoment
 {

@@ -4,7 +4,9 @@
 #include "ThreadRanks.h"
 
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/RankOrder.h"
 #include "Core/Splat/RankSplat.h"
+#include "Core/Splat/SplatMass.h"
 
 #include <gtest/gtest.h>
 
@@ -88,6 +90,32 @@ TEST(RankSplat, HasTheBitsOfOneRank)
   {
     check(kernel, true);
     check(kernel, false);
+  }
+}
+
+// The sums of the shares of ranks have the bits of one rank's sum.
+TEST(SplatMass, IsThatOfOneRank)
+{
+  for (const GridSize<3>& size : { GridSize<3>{ 50, 40, 31 }, GridSize<3>{ 20000, 3, 1 },
+         GridSize<3>{ 90001, 1, 1 }, GridSize<3>{ 7, 1, 2 } })
+  {
+    const auto whole = LatticePart<3>::WholeOf(size);
+    std::vector<double> cells(static_cast<std::size_t>(whole.Count()));
+    for (std::size_t i = 0; i < cells.size(); ++i)
+    {
+      cells[i] = unitReal(randomWord(3, i));
+    }
+    const SerialExecutor serial;
+    Progress alone{ Context(serial) };
+    const double sum = sumOfCells(cells.data(), whole.Count(), alone);
+    runOnRanks(3, [&](const Ranks& ranks) {
+      const CellShare share(whole, ranks.Count(), ranks.Own());
+      const std::int64_t layers = share.Layers.IsEmpty() ? 0 : share.Layers.Count();
+      EXPECT_LE(share.First + share.Count, std::max(layers, share.First));
+      const double* first =
+        cells.data() + (layers > 0 ? whole.NumberOf(share.Layers.Low) : 0) + share.First;
+      EXPECT_EQ(sumChunks(first, share.Count, splatSumChunk, ranks), sum);
+    });
   }
 }
 
