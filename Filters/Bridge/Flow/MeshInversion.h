@@ -5,7 +5,7 @@
 
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/ImageGrid.h"
-#include "Core/Mesh/InvertedCells.h"
+#include "Core/Geometry/InvertedCells.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Mesh/InvertedCells.h"
+#include "Core/Geometry/InvertedCells.h"
 
 #include <algorithm>
 #include <cmath>

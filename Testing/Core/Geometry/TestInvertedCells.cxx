@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The cells that a move inverts: the measures of all shapes, mirrored and flattened cells, parts of
 // strips and lines, and what has no orientation.
-#include "Core/Mesh/InvertedCells.h"
+#include "Core/Geometry/InvertedCells.h"
 
 #include <gtest/gtest.h>
 
