@@ -4,7 +4,7 @@
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Inputs/DensityInput.h"
+#include "Bridge/Cells/DensityInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/PropertyCheck.h"

@@ -5,7 +5,7 @@
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Inputs/GivenInputs.h"
+#include "Bridge/Blocks/GivenInputs.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/WarningLimit.h"

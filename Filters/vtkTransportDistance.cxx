@@ -4,7 +4,7 @@
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Distance/DensityDistances.h"
 #include "Bridge/Distance/DistanceTables.h"
-#include "Bridge/Inputs/GivenInputs.h"
+#include "Bridge/Blocks/GivenInputs.h"
 #include "Bridge/Ranks/FieldsOfFirst.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"

@@ -5,7 +5,7 @@
 #include "Bridge/Drawing/Drawing.h"
 #include "Bridge/Drawing/OutputFile.h"
 #include "Bridge/Drawing/TransportVectorWriter.h"
-#include "Bridge/Inputs/OptionalArray.h"
+#include "Bridge/Blocks/OptionalArray.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Failure.h"

@@ -7,7 +7,6 @@
 #include "Bridge/Points/CellTypes.h"
 #include "Bridge/Run/Failure.h"
 
-#include "vtkCell.h"
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkCompositeDataIterator.h"
@@ -17,7 +16,6 @@
 #include "vtkDataObjectTreeIterator.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkGenericCell.h"
 #include "vtkHyperTreeGrid.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -32,7 +30,6 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <array>
 
 namespace RectifiedTransport::Bridge
 {
@@ -85,17 +82,6 @@ void addExtent(const int* extent, DataContent& content)
   {
     content.AddNumber(static_cast<std::uint64_t>(extent[i]));
   }
-}
-
-std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensionsOfTypes()
-{
-  std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensions;
-  for (int type = 0; type < VTK_NUMBER_OF_CELL_TYPES; ++type)
-  {
-    const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
-    dimensions[static_cast<std::size_t>(type)] = cell ? cell->GetCellDimension() : 0;
-  }
-  return dimensions;
 }
 
 } // namespace
@@ -217,23 +203,6 @@ void addArrays(const DensityBlock& block, DataContent& content)
       content.AddNumber(static_cast<std::uint64_t>(attributes->IsArrayAnAttribute(i)));
     }
   }
-}
-
-int dimensionOfCellType(int type)
-{
-  static const std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensions = dimensionsOfTypes();
-  return type >= 0 && type < VTK_NUMBER_OF_CELL_TYPES ? dimensions[static_cast<std::size_t>(type)]
-                                                      : 0;
-}
-
-int largestCellDimension(vtkDataSet* data)
-{
-  int largest = 0;
-  for (vtkIdType cell = 0; cell < data->GetNumberOfCells() && largest < 3; ++cell)
-  {
-    largest = std::max(largest, dimensionOfCellType(data->GetCellType(cell)));
-  }
-  return largest;
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -66,10 +66,6 @@ std::vector<DensityBlock> densityBlocks(vtkDataObject* data, OtherLeaves* others
 void addGeometry(const DensityBlock& block, DataContent& content);
 void addArrays(const DensityBlock& block, DataContent& content);
 
-// The largest dimension of the cells of a data set; the dimension of a cell type.
-int largestCellDimension(vtkDataSet* data);
-int dimensionOfCellType(int type);
-
 } // namespace RectifiedTransport::Bridge
 
 #endif

@@ -27,6 +27,7 @@ CORE = {
     "Series": {"Parallel", "Geometry", "Tables", "Flow", "Splat"},
     "Splat": {"Parallel", "Geometry"},
     "Overlap": {"Parallel", "Geometry"},
+    "Resampling": {"Parallel", "Geometry", "Tables", "Overlap"},
     "Solid": {"Parallel", "Geometry", "Mesh"},
     "Parameterization": {"Parallel", "Algebra", "Geometry", "Mesh", "Tables", "Flow"},
     "SurfaceRelaxation": {"Parallel", "Geometry", "Mesh", "Tables"},
@@ -41,7 +42,6 @@ OPTIMAL_MAP = {
 }
 RUN = {"Run"}
 WORKERS = RUN | {"Image", "Points", "Settings", "Density", "Ranks"}
-BLOCKS = RUN | {"Image", "Points", "Ranks", "Density"}
 BRIDGE = {
     "Pipeline": set(),
     "Device": set(),
@@ -53,11 +53,8 @@ BRIDGE = {
     "Triangles": RUN | {"Points"},
     "Drawing": RUN | {"Points"},
     "Density": RUN | {"Image", "Points", "Settings", "Ranks"},
-    "Blocks": BLOCKS,
-    "Meshes": BLOCKS | {"Blocks"},
-    "Lattices": BLOCKS | {"Blocks", "Meshes"},
-    "Resampling": BLOCKS | {"Blocks", "Meshes", "Lattices"},
-    "Inputs": BLOCKS | {"Blocks", "Resampling"},
+    "Blocks": RUN | {"Image", "Points", "Ranks"},
+    "Cells": RUN | {"Image", "Points", "Ranks", "Density", "Blocks"},
     "Blend": WORKERS | {"Splat"},
     "Distance": WORKERS,
     "Temporal": WORKERS | {"Splat"},

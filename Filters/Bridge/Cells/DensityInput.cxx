@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Cells/DensityInput.h"
+
+#include "Bridge/Blocks/DensityBlocks.h"
+#include "Bridge/Cells/MeshCells.h"
+#include "Bridge/Density/DensityFailure.h"
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/PiecesDensity.h"
+#include "Bridge/Image/DefaultArray.h"
+#include "Bridge/Points/CellCheck.h"
+#include "Bridge/Ranks/ImagePieces.h"
+#include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Run/ArrayList.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/NumbersOfText.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/RankExchange.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkDataSet.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace RectifiedTransport::Bridge
+{
+
+namespace
+{
+
+bool hasElements(vtkDataObject* data)
+{
+  return data &&
+    (data->GetNumberOfElements(vtkDataObject::POINT) > 0 ||
+      data->GetNumberOfElements(vtkDataObject::CELL) > 0);
+}
+
+// What a data set has, for messages.
+std::string describeArrays(vtkDataSet* data)
+{
+  return "; it has " + listArrays(data->GetPointData(), "point") + " and " +
+    listArrays(data->GetCellData(), "cell");
+}
+
+// The array as numbers; nullptr for nullptr. `what` names the data set.
+vtkSmartPointer<vtkDataArray> numbersIn(
+  vtkAbstractArray* array, const DensityChoice& choice, vtkDataSet* data, const std::string& what)
+{
+  const NumbersOfText numbers = numbersOf(array, choice.Rules.Missing.AreNaN);
+  if (array && !numbers.Array)
+  {
+    const char* name = array->GetName();
+    throw Failure("The density array '" + std::string(name ? name : "") + "' is not numeric (" +
+      what + ": " + numbers.Wrong + ")" + describeArrays(data));
+  }
+  return numbers.Array;
+}
+
+vtkSmartPointer<vtkDataArray> requireArray(
+  const DensityChoice& choice, vtkDataSet* data, const std::string& what, int& association)
+{
+  const auto array = numbersIn(choice.FindArray(data, association), choice, data, what);
+  if (!array)
+  {
+    const bool isNamed = !choice.ArrayName.empty();
+    throw Failure("The " + what +
+      (isNamed ? " has no density array '" + choice.ArrayName + "'"
+               : " has no active scalars for a density") +
+      describeArrays(data) +
+      (isNamed || !hasIds(data) ? "" : " (ids and flags are a density only where they are named)"));
+  }
+  return array;
+}
+
+// A data set whose array of text is replaced by the numbers that it holds; others as they are.
+template <class Data>
+vtkSmartPointer<Data> withNumbers(Data* data, vtkDataArray* array, bool onPoints)
+{
+  const char* name = array ? array->GetName() : nullptr;
+  if (!name || attributesOf(data, onPoints)->GetArray(name))
+  {
+    return data;
+  }
+  const auto made = vtkSmartPointer<Data>::Take(data->NewInstance());
+  made->ShallowCopy(data);
+  attributesOf(made, onPoints)->AddArray(array);
+  return made;
+}
+
+// Of a density on several ranks.
+void requireName(vtkDataArray* array)
+{
+  if (!array->GetName())
+  {
+    throw Failure("The density array has no name; on several ranks it must have one");
+  }
+}
+
+constexpr const char* inputImage = "input image";
+
+std::unique_ptr<InputDensity> readImage(const DensityChoice& choice, vtkImageData* image)
+{
+  int association = 0;
+  const auto array = requireArray(choice, image, inputImage, association);
+  const bool onPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  return std::make_unique<DensityImage>(
+    withNumbers(image, array, onPoints), array, onPoints, choice.Rules);
+}
+
+std::unique_ptr<InputDensity> readPieces(
+  const DensityChoice& choice, vtkImageData* image, const Ranks& ranks)
+{
+  // The array, by its association and its name; empty on ranks without points.
+  std::string chosen;
+  vtkSmartPointer<vtkImageData> own = image;
+  if (image && image->GetNumberOfPoints() > 0)
+  {
+    int association = 0;
+    const auto array = requireArray(choice, image, inputImage, association);
+    const bool onPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+    requireTuples(array, image, onPoints, inputImage);
+    requireName(array);
+    chosen = (onPoints ? "the point array " : "the cell array ") + std::string(array->GetName());
+    own = withNumbers(image, array, onPoints);
+  }
+  auto pieces = std::make_unique<const ImagePieces>(own, ranks);
+  if (isEmpty(pieces->Whole()))
+  {
+    return nullptr;
+  }
+  const std::string common =
+    requireSameOnRanks(ranks, chosen, "The density is ", "it must be the same array on all");
+  const bool onPoints = common.rfind("the point", 0) == 0;
+  const std::string name = common.substr(common.find("array ") + 6);
+  return std::make_unique<PiecesDensity>(std::move(pieces), name, onPoints, choice.Rules);
+}
+
+void reportOthers(const DensityChoice& choice, const OtherLeaves& others, const Ranks& ranks)
+{
+  const auto count = sumOverRanks(ranks, others.Count);
+  const auto sets = sumOverRanks(ranks, others.DataSets);
+  const std::string first = others.First.empty() ? "" : " (the first a " + others.First + ")";
+  if (count > 0 && sets == 0)
+  {
+    throw Failure("The density has no image, mesh or grid, but " + std::to_string(count) +
+      (count == 1 ? " block" : " blocks") + " of another type" + first);
+  }
+  if (count > 0)
+  {
+    choice.Warn(std::to_string(count) + (count == 1 ? " block" : " blocks") +
+      " of the input without cells of a data set" + first + " passed over");
+  }
+}
+
+struct FoundArray
+{
+  vtkSmartPointer<vtkDataArray> Array;
+  std::size_t Block = 0;
+  int Association = 0;
+};
+
+// In the first block of the most dimensions that has one. Without one, throws the Failure of the
+// first block of the most dimensions.
+FoundArray findArray(const DensityChoice& choice, const std::vector<DensityBlock>& blocks,
+  const std::vector<int>& dimensions)
+{
+  const auto findIn = [&](std::size_t b) {
+    FoundArray found;
+    found.Array = requireArray(choice, blocks[b].Data, blocks[b].Name, found.Association);
+    found.Block = b;
+    return found;
+  };
+  const auto most = std::max_element(dimensions.begin(), dimensions.end());
+  for (int dimension = *most; dimension > 0; --dimension)
+  {
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+    {
+      if (dimensions[b] != dimension)
+      {
+        continue;
+      }
+      try
+      {
+        return findIn(b);
+      }
+      catch (const Failure&)
+      {
+        // Blocks may lack an array that is named; others may have no array to choose from.
+        int association = 0;
+        if (choice.ArrayName.empty() ? hasArrays(blocks[b].Data)
+                                     : choice.FindArray(blocks[b].Data, association) != nullptr)
+        {
+          throw;
+        }
+      }
+    }
+  }
+  return findIn(static_cast<std::size_t>(most - dimensions.begin()));
+}
+
+// That of another block, by its name or, if it has none, by how the first one was chosen.
+vtkSmartPointer<vtkDataArray> arrayLike(
+  const FoundArray& found, const DensityChoice& choice, const DensityBlock& block)
+{
+  const bool onPoints = found.Association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  if (const char* name = found.Array->GetName())
+  {
+    return numbersIn(
+      attributesOf(block.Data, onPoints)->GetAbstractArray(name), choice, block.Data, block.Name);
+  }
+  int association = 0;
+  auto* array = vtkDataArray::SafeDownCast(choice.FindArray(block.Data, association));
+  return array && !array->GetName() && association == found.Association ? array : nullptr;
+}
+
+// Sets the arrays of the blocks and leaves out those that cannot carry mass: of fewer dimensions
+// than the blocks with the array, and those of more dimensions without it.
+DensityBlocks chooseArrays(
+  const DensityChoice& choice, const std::vector<DensityBlock>& blocks, const Ranks& ranks)
+{
+  std::vector<int> dimensions;
+  for (const DensityBlock& block : blocks)
+  {
+    requireReadableCells(block.Data, block.Name);
+    dimensions.push_back(largestCellDimension(block.Data));
+  }
+  if (*std::max_element(dimensions.begin(), dimensions.end()) == 0)
+  {
+    throw Failure("The input has no cells of a length, area or volume, so that it has no density; "
+                  "Splat Mass makes one of points");
+  }
+  const FoundArray found = findArray(choice, blocks, dimensions);
+  if (ranks.AreSeveral())
+  {
+    requireName(found.Array);
+  }
+  DensityBlocks chosen{ {}, found.Association == vtkDataObject::FIELD_ASSOCIATION_POINTS,
+    dimensions[found.Block] };
+  std::int64_t all = 0; // blocks of as many dimensions or more
+  std::int64_t without = 0;
+  std::string first; // of those
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    if (dimensions[b] < chosen.Dimension)
+    {
+      continue;
+    }
+    DensityBlock block = blocks[b];
+    block.Array = b == found.Block ? found.Array : arrayLike(found, choice, block);
+    block.Data = withNumbers(block.Data.Get(), block.Array, chosen.OnPoints);
+    ++all;
+    first = !block.Array && without == 0 ? block.Name : first;
+    without += block.Array ? 0 : 1;
+    if (dimensions[b] == chosen.Dimension)
+    {
+      chosen.All.push_back(block);
+    }
+  }
+  for (const DensityBlock& block : chosen.All)
+  {
+    if (block.Array)
+    {
+      requireTuples(block.Array, block.Data, chosen.OnPoints, block.Name);
+    }
+  }
+  if (without > 0)
+  {
+    const char* name = found.Array->GetName();
+    choice.Warn(std::to_string(without) + " of " + std::to_string(all) +
+      " blocks of the input have no " + (chosen.OnPoints ? "point" : "cell") + " array " +
+      (name ? std::string("'") + name + "'" : "without a name") +
+      " and carry no mass (the first is " + first + ")");
+  }
+  return chosen;
+}
+
+// The kind of the data, the same on all ranks; empty if none has data. Collective.
+std::string kindOf(vtkDataObject* input, const Ranks& ranks)
+{
+  const bool isImage = vtkImageData::SafeDownCast(input) != nullptr;
+  const bool hasData = isImage || ranks.AreSeveral() ? hasElements(input) : input != nullptr;
+  // Ranks without data take part.
+  const char* kind = !hasData ? "" : isImage ? "an image" : "no image";
+  return requireSameOnRanks(ranks, kind, "The density is ");
+}
+
+// Several values a point need not be a vector, but times or bands.
+void warnOfAuto(const DensityChoice& choice, const DensityReading& reading)
+{
+  const int count = reading.Components;
+  const bool isVector = count <= 3 || count == 6 || count == 9; // a tensor
+  if (choice.Rules.Component == AutoComponent && reading.Component == Magnitude && !isVector)
+  {
+    choice.Warn("Component -1 (Auto) takes the magnitude of the " + std::to_string(count) +
+      " components of the density array '" + reading.ArrayName +
+      "'; if they are no vector, set Component");
+  }
+}
+
+} // namespace
+
+std::unique_ptr<InputDensity> DensityInput::Read(
+  const DensityChoice& choice, vtkDataObject* input, Progress& progress)
+{
+  const Ranks& ranks = progress.Group();
+  const std::string kind = kindOf(input, ranks);
+  if (kind.empty())
+  {
+    return nullptr;
+  }
+  if (!isDensityAssociation(choice.Association))
+  {
+    throw Failure("The field association of the density array is " +
+      std::to_string(choice.Association) +
+      "; it must be 0 (points), 1 (cells) or 3 (points, then cells)");
+  }
+  std::unique_ptr<InputDensity> density;
+  if (kind == "an image")
+  {
+    this->Resampled = ResampledDensity();
+    this->Gathered = GatheredBlocks();
+    auto* image = vtkImageData::SafeDownCast(input);
+    density = ranks.AreSeveral() ? readPieces(choice, image, ranks) : readImage(choice, image);
+  }
+  else
+  {
+    density = this->ReadBlocks(choice, input, progress);
+  }
+  if (density)
+  {
+    warnOfAuto(choice, density->HowRead());
+    // Once for each change of a density: what does not change it may run the filter, too.
+    density->SetListener([this, warn = choice.Warn](const std::vector<std::string>& lines,
+                           const InputDensity::Content& content) {
+      const InputDensity::Content before = std::exchange(this->Told, content);
+      if (content != before || content[0] == 0)
+      {
+        std::for_each(lines.begin(), lines.end(), warn);
+      }
+    });
+  }
+  return density;
+}
+
+std::unique_ptr<InputDensity> DensityInput::ReadBlocks(
+  const DensityChoice& choice, vtkDataObject* input, Progress& progress)
+{
+  OtherLeaves others;
+  const Ranks& ranks = progress.Group();
+  std::vector<DensityBlock> blocks = densityBlocks(input, &others, &progress, ranks);
+  if (ranks.AreSeveral())
+  {
+    blocks = this->Gathered.Gather(blocks, ranks, progress);
+  }
+  reportOthers(choice, others, ranks);
+  if (blocks.empty())
+  {
+    return nullptr;
+  }
+  auto density = this->Resampled.Read(
+    chooseArrays(choice, blocks, ranks), choice.Resolution, choice.Rules, progress);
+  for (const std::string& warning : this->Resampled.Warnings())
+  {
+    choice.Warn(warning);
+  }
+  return density;
+}
+
+bool isDensityAssociation(int association)
+{
+  return association == vtkDataObject::FIELD_ASSOCIATION_POINTS ||
+    association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
+    association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
+}
+
+} // namespace RectifiedTransport::Bridge

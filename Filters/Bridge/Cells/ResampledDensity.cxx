@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Cells/ResampledDensity.h"
+
+#include "Bridge/Blocks/JoinedImages.h"
+#include "Bridge/Cells/CellGrid.h"
+#include "Bridge/Cells/MeshCells.h"
+#include "Bridge/Cells/ParticlesInCells.h"
+#include "Bridge/Density/DensityFailure.h"
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/FilledCells.h"
+#include "Bridge/Image/DefaultArray.h"
+#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Run/Memory.h"
+#include "Core/Parallel/ExactSum.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Resampling/CellSums.h"
+#include "Core/Resampling/RegionShapes.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace RectifiedTransport::Bridge
+{
+
+namespace
+{
+
+std::vector<DensityBlock> withMass(const std::vector<DensityBlock>& blocks)
+{
+  std::vector<DensityBlock> with;
+  std::copy_if(blocks.begin(), blocks.end(), std::back_inserter(with),
+    [](const DensityBlock& block) { return block.Array != nullptr; });
+  return with;
+}
+
+DataContent contentOf(const DensityBlocks& blocks, int resolution, const DensityRules& rules)
+{
+  // Images may be joined, with all their arrays.
+  const bool mayJoin = blocks.All.size() > 1 &&
+    std::all_of(blocks.All.begin(), blocks.All.end(),
+      [](const DensityBlock& block) { return vtkImageData::SafeDownCast(block.Data) != nullptr; });
+  DataContent content;
+  for (const DensityBlock& block : blocks.All)
+  {
+    addGeometry(block, content);
+    content.AddArray(block.Array);
+    if (mayJoin)
+    {
+      addArrays(block, content);
+    }
+  }
+  for (const int number : { blocks.OnPoints ? 1 : 0, blocks.Dimension, resolution, rules.Component,
+         rules.Invert ? 1 : 0, rules.ClampNegative ? 1 : 0, rules.Missing.AreNaN ? 1 : 0,
+         static_cast<int>(rules.Empty.Cells) })
+  {
+    content.AddNumber(static_cast<std::uint64_t>(number));
+  }
+  const double numbers[] = { rules.Missing.Low, rules.Missing.High, rules.Empty.Value };
+  content.AddNumbers(numbers, 3);
+  return content;
+}
+
+// Adds what is known about a block's values. `isBeyond`: its value replaces that of the blocks
+// before. Blocks number their values each from 0: the index stays that of the block of this name.
+template <class Found>
+void addBlock(const std::string& array, const Found& part, std::int64_t Found::*index,
+  bool isBeyond, Found& all, std::string& name)
+{
+  const std::int64_t first = all.*index;
+  merge(part, all);
+  if (name.empty() || isBeyond)
+  {
+    name = array;
+    return;
+  }
+  all.*index = first;
+}
+
+std::vector<std::string> describeBlocks(
+  const BlockValues& blocks, const ImageGrid& grid, const DensityRules& rules, Progress& progress)
+{
+  UnusualValues all;
+  ValuePlaces places{ {}, {}, {}, blocks.Cells.front().IsOnPoints() ? "points" : "cells", 0,
+    rules.Invert, isOfSeveral(rules), fillValuesOf(blocks.Sources.front().Data->GetFieldData()) };
+  for (const BlockValues::Source& block : blocks.Sources)
+  {
+    const UnusualValues& known = block.Known;
+    addBlock(block.Array, known.Found, &DensitySummary::FirstMaximum,
+      known.Found.Maximum > all.Found.Maximum, all.Found, places.Largest);
+    addBlock(block.Array, known.White, &LargestValue::First, known.White.Value > all.White.Value,
+      all.White, places.White);
+    addBlock(block.Array, known.Clamped, &LowestValue::First,
+      known.Clamped.Value < all.Clamped.Value, all.Clamped, places.Lowest);
+  }
+  for (const CellValues& cells : blocks.Cells)
+  {
+    places.All += cells.NumberOfValues();
+  }
+  return describeUnusual(all, places, [&]() {
+    const std::vector<CellValues> only = onlyOf(blocks, all.Found.Maximum);
+    return integralOf(only, grid, progress) / integralOf(blocks.Cells, grid, progress);
+  });
+}
+
+} // namespace
+
+// The image that data sets were resampled to. Its values are densities, with the rules applied.
+// Particles get their arrays from the data sets.
+class ResampledDensity::Density final : public DensityImage
+{
+public:
+  explicit Density(const ResampledDensity& made)
+    : DensityImage(made.Image, made.Image->GetCellData()->GetScalars(), false, DensityRules())
+    , Made(made)
+  {
+    this->Empty = made.Empty;
+    this->Read = made.How;
+  }
+
+  void SampleArrays(const Extent& /*extent*/, ConstPointSpan<3> particles, Progress& progress,
+    vtkPointData* output) const override
+  {
+    sampleCells(this->Made.Blocks, this->Made.Lattice, this->Grid(), particles, progress, output);
+  }
+
+private:
+  std::vector<std::string> Describe(const UnusualValues& /*values*/) const override
+  {
+    return this->Made.Unusual;
+  }
+
+  const ResampledDensity& Made;
+};
+
+std::unique_ptr<InputDensity> ResampledDensity::Read(
+  const DensityBlocks& blocks, int resolution, const DensityRules& rules, Progress& progress)
+{
+  DataContent content = contentOf(blocks, resolution, rules);
+  if (!content.IsSameAs(this->Content, progress))
+  {
+    *this = ResampledDensity();
+    this->Image = joinImages(blocks.All, blocks.OnPoints);
+    if (!this->Image)
+    {
+      this->Resample(blocks, resolution, rules, progress);
+    }
+    content.Keep(progress);
+    this->Content = std::move(content);
+  }
+  // The data sets may be new ones with the same content.
+  const std::vector<DensityBlock> read = withMass(blocks.All);
+  if (!this->Blocks.Cells.empty())
+  {
+    const CellSets sets = cellSetsOf(read);
+    for (std::size_t b = 0; b < read.size(); ++b)
+    {
+      this->Blocks.Cells[b].SetCells(sets[b]);
+      this->Blocks.Sources[b].Data = read[b].Data;
+    }
+    return std::make_unique<Density>(*this);
+  }
+  vtkDataArray* array = read.front().Array;
+  if (blocks.All.size() == 1)
+  {
+    this->Image = vtkImageData::SafeDownCast(read.front().Data);
+  }
+  else
+  {
+    array = attributesOf(this->Image, blocks.OnPoints)->GetScalars();
+  }
+  return std::make_unique<DensityImage>(this->Image, array, blocks.OnPoints, rules);
+}
+
+void ResampledDensity::Resample(
+  const DensityBlocks& blocks, int resolution, const DensityRules& rules, Progress& progress)
+{
+  // A mesh is checked by gridOfCells before its values are read.
+  const CellSets sets = cellSetsOf(blocks.All);
+  const MassCells mass = massCells(sets, blocks.Dimension, progress);
+  if (!mass.AreClosedLines)
+  {
+    this->Lattice = latticeOf(blocks.All, sets, blocks.Dimension, progress);
+  }
+  ImageGrid grid = !this->Lattice ? gridOfCells(blocks.All, sets, mass, resolution, progress)
+    : blocks.OnPoints             ? this->Lattice->DividedGrid(resolution)
+                                  : this->Lattice->Grid();
+  const std::vector<DensityBlock> read = withMass(blocks.All);
+  DensityRules taken = rules;
+  taken.Component = takenComponent(read, rules.Component);
+  this->Blocks = readBlocks(read, cellSetsOf(read), blocks.OnPoints, mass, rules, progress);
+  if (this->Lattice && !this->Lattice->HasEachOnce(this->Blocks.Cells, progress))
+  {
+    this->Lattice.reset();
+    grid = gridOfCells(blocks.All, sets, mass, resolution, progress);
+  }
+  if (!this->Lattice && mass.Dimension == 2)
+  {
+    markRegions(this->Blocks.Cells, grid, progress);
+  }
+  const bool isLatticeImage = this->Lattice && !blocks.OnPoints;
+  requireMemory("an image of " + describeValues(grid) +
+      (isLatticeImage ? " cells" : " cells (see DensityResolution)"),
+    numberOfValues(grid) * sizeof(double));
+  this->Image = vtkSmartPointer<vtkImageData>::New();
+  applyGrid(grid, this->Image);
+  vtkDataArray* first = read.front().Array;
+  const char* name = first->GetName();
+  this->How = readingBy(taken, name ? name : "", first->GetNumberOfComponents());
+  const auto density = newArray<vtkDoubleArray>(
+    name ? name : "Density", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
+  const CellSize size = this->AddCells(grid, this->Blocks.Cells, progress, density->GetPointer(0));
+  this->Lost = describeLost(this->Blocks, size, grid.Dimension());
+  if (rules.Empty.Cells != EmptyCells::Zero)
+  {
+    this->FillEmpty(grid, rules.Empty, progress, density->GetPointer(0));
+  }
+  this->Image->GetCellData()->SetScalars(density);
+  this->Unusual = describeBlocks(this->Blocks, grid, taken, progress);
+}
+
+// Writes the mean of the cells' densities over each cell of the grid.
+CellSize ResampledDensity::AddCells(const ImageGrid& grid, const std::vector<CellValues>& cells,
+  Progress& progress, double* values) const
+{
+  if (this->Lattice && !cells.front().IsOnPoints())
+  {
+    this->Lattice->CopyValues(cells, values, progress);
+    return {};
+  }
+  const CellSize size = withMemory("the order of the input's cells", 0.0,
+    [&]() { return resampleCells(cells, grid, progress, values); });
+  if (this->Lattice)
+  {
+    this->Lattice->ClearAround(cells, grid, values, progress);
+  }
+  return size;
+}
+
+// Adds the density of the part of each cell that no counted cell covers.
+void ResampledDensity::FillEmpty(
+  const ImageGrid& grid, const EmptyRule& rule, Progress& progress, double* values)
+{
+  FilledCells filled;
+  for (const BlockValues::Source& block : this->Blocks.Sources)
+  {
+    filled.Least = std::min(filled.Least, block.Least);
+  }
+  LargeBuffer<double> covered;
+  withMemory("what the input's cells cover", numberOfValues(grid) * sizeof(double),
+    [&]() { covered = LargeBuffer<double>(grid.NumberOfCells()); });
+  this->AddCells(grid, groundOf(this->Blocks), progress, covered.data());
+  constexpr double rounding = 1e-9;
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+  const auto shareOf = [&covered](std::int64_t cell) {
+    const double share = covered.data()[cell]; // more than 1 where cells overlap
+    return share > 1.0 - rounding ? 1.0 : share;
+  };
+  filled.Add(sumExactly<FilledCells>(progress, grid.NumberOfCells(), grain,
+    [&](std::int64_t first, std::int64_t last, FilledCells& part) {
+      for (std::int64_t cell = first; cell < last; ++cell)
+      {
+        part.Mass.Add(values[cell]);
+        part.Cells.Add(shareOf(cell));
+      }
+    }));
+  this->Empty = densityOfEmptyCells(rule, filled);
+  progress.For(grid.NumberOfCells(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t cell = first; cell < last; ++cell)
+    {
+      values[cell] += (1.0 - shareOf(cell)) * this->Empty;
+    }
+  });
+}
+
+} // namespace RectifiedTransport::Bridge

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Resampling/CellFrame.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Eigen::Vector3d;
+
+// Of the longest side: what a plane or a line may be off by. Single precision is ten times better.
+constexpr double flatness = 1e-5;
+
+// The first point that is not finite.
+struct NotFinite
+{
+  std::size_t Set = 0;
+  std::int64_t Point = -1; // none
+};
+
+// Calls visit(x) for the corners of all cells of a set with mass, each point once. Returns the
+// first of them that is not finite, or -1.
+template <class Visit>
+std::int64_t visitCorners(
+  const CellSet& set, const MassCells& cells, Progress& progress, const Visit& visit)
+{
+  constexpr std::int64_t cellsBetweenPolls = std::int64_t{ 1 } << 16;
+  std::vector<bool> visited(static_cast<std::size_t>(set.NumberOfPoints), false);
+  std::int64_t notFinite = -1;
+  const auto reader = set.Read();
+  for (std::int64_t cell = 0; cell < set.NumberOfCells; ++cell)
+  {
+    if (cell % cellsBetweenPolls == 0)
+    {
+      progress.Check();
+    }
+    const CellReader::Ids* points = cells.Find(*reader, cell);
+    for (std::size_t i = 0; points && i < points->size(); ++i)
+    {
+      const std::int64_t point = (*points)[i];
+      if (visited[static_cast<std::size_t>(point)])
+      {
+        continue;
+      }
+      Vector3d x;
+      reader->GetPosition(point, x.data());
+      if (x.allFinite())
+      {
+        visited[static_cast<std::size_t>(point)] = true;
+        visit(x);
+      }
+      else if (!set.HiddenCells.Has(cell) && !set.HiddenPoints.HasAny(*points))
+      {
+        notFinite = notFinite < 0 ? point : std::min(notFinite, point);
+      }
+    }
+  }
+  return notFinite;
+}
+
+// The same for all sets, up to the first one with such a point.
+template <class Visit>
+NotFinite visitCorners(
+  const CellSets& sets, const MassCells& cells, Progress& progress, const Visit& visit)
+{
+  NotFinite found;
+  for (; found.Set < sets.size() && found.Point < 0; ++found.Set)
+  {
+    found.Point = visitCorners(*sets[found.Set], cells, progress, visit);
+  }
+  --found.Set;
+  return found;
+}
+
+using Bounds = Eigen::AlignedBox3d;
+
+// The eigenvectors of the points' covariance, by growing eigenvalue.
+Eigen::Matrix3d principalAxes(
+  const CellSets& sets, const MassCells& cells, const Bounds& bounds, Progress& progress)
+{
+  const Vector3d middle = 0.5 * (bounds.min() + bounds.max());
+  const double unit = bounds.sizes().maxCoeff();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  Vector3d first = Vector3d::Zero();
+  double count = 0.0;
+  visitCorners(sets, cells, progress, [&](const Vector3d& x) {
+    const Vector3d d = (x - middle) / unit;
+    first += d;
+    second += d * d.transpose();
+    count += 1.0;
+  });
+  first /= count;
+  const Eigen::Matrix3d covariance = second / count - first * first.transpose();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
+}
+
+// Rounded, so that slices of one plane have the same axes, and with its largest component positive.
+Vector3d roundedDirection(Vector3d v, Eigen::Index& largest)
+{
+  constexpr double step = 1e-6;
+  v.cwiseAbs().maxCoeff(&largest);
+  v *= v[largest] < 0.0 ? -1.0 : 1.0;
+  v = (v / step).array().round() * step;
+  return v.normalized();
+}
+
+// Axes of the shortest sides get no length.
+void flatten(int dimension, Bounds& box)
+{
+  Vector3d sides = box.sizes();
+  for (int flat = dimension; flat < 3; ++flat)
+  {
+    Eigen::Index shortest = 0;
+    sides.minCoeff(&shortest);
+    sides[shortest] = std::numeric_limits<double>::infinity();
+    const double middle = 0.5 * (box.min()[shortest] + box.max()[shortest]);
+    box.min()[shortest] = middle;
+    box.max()[shortest] = middle;
+  }
+}
+
+} // namespace
+
+ImageGrid::Matrix axesAround(const Vector3d& direction, Eigen::Index main)
+{
+  ImageGrid::Matrix axes;
+  const Eigen::Index next = (main + 1) % 3;
+  const Vector3d along = (Vector3d::Unit(next) - direction * direction[next]).normalized();
+  axes.col(main) = direction;
+  axes.col(next) = along;
+  axes.col((main + 2) % 3) = direction.cross(along);
+  return axes;
+}
+
+CellFrame CellFrame::Of(const CellSets& sets, const MassCells& cells, Progress& progress)
+{
+  const int dimension = cells.Dimension;
+  CellFrame frame;
+  const NotFinite notFinite =
+    visitCorners(sets, cells, progress, [&](const Vector3d& x) { frame.Box.extend(x); });
+  if (notFinite.Point >= 0)
+  {
+    frame.Wrong = Flaw::NotFinite;
+    frame.Set = notFinite.Set;
+    frame.Point = notFinite.Point;
+    return frame;
+  }
+  const Vector3d lengths = frame.Box.sizes();
+  const double longest = lengths.maxCoeff();
+  if (!std::isfinite(longest) || !(longest > 0.0))
+  {
+    frame.Wrong = longest == 0.0 ? Flaw::OnePlace : Flaw::TooLong;
+    return frame;
+  }
+  const auto isFlat = [&](const Vector3d& sides) {
+    return (sides.array() <= flatness * longest).count() >= 3 - dimension;
+  };
+  if (dimension < 3 && !isFlat(lengths))
+  {
+    Eigen::Index main = 0;
+    const Vector3d direction = roundedDirection(
+      principalAxes(sets, cells, frame.Box, progress).col(dimension == 2 ? 0 : 2), main);
+    frame.Axes = axesAround(direction, main);
+    frame.Box = Bounds();
+    const Eigen::Matrix3d toFrame = frame.Axes.transpose();
+    visitCorners(sets, cells, progress, [&](const Vector3d& x) { frame.Box.extend(toFrame * x); });
+    frame.Sides = frame.Box.sizes();
+    if (!isFlat(frame.Sides))
+    {
+      std::sort(frame.Sides.data(), frame.Sides.data() + 3);
+      frame.Wrong = Flaw::NotFlat;
+      return frame;
+    }
+  }
+  flatten(dimension, frame.Box);
+  return frame;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Resampling/CellPieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace RectifiedTransport
+{
+
+// Returns whether the cell can be divided.
+template <int D>
+template <class Visit>
+bool CellPieces<D>::VisitSimplices(std::int64_t cell, const Visit& visit)
+{
+  if (!this->Divide(cell))
+  {
+    return false;
+  }
+  LinearSimplex<D> simplex;
+  for (std::int64_t s = 0; s < this->NumberOfSimplices(); ++s)
+  {
+    for (std::int64_t i = 0; i <= D; ++i)
+    {
+      const auto vertex = static_cast<std::size_t>(i);
+      simplex.Vertices[vertex] = this->Vertex(s, i);
+      simplex.Values[vertex] = this->ValueAt(cell, this->VertexId(s, i));
+    }
+    visit(simplex);
+  }
+  return true;
+}
+
+template <int D>
+void CellPieces<D>::AddTo(const GridSlab<D>& slab, std::int64_t cell)
+{
+  MultilinearBox<D> box;
+  if (this->FindBox(cell, box))
+  {
+    addOverlaps<D>(box, slab);
+    return;
+  }
+  this->VisitSimplices(
+    cell, [&](const LinearSimplex<D>& simplex) { addOverlaps<D>(simplex, slab); });
+}
+
+template <int D>
+CellSize CellPieces<D>::SizeOf(std::int64_t cell)
+{
+  const auto meanOf = [](const auto& values) {
+    double sum = 0.0;
+    for (const double value : values)
+    {
+      sum += value;
+    }
+    return sum / static_cast<double>(values.size());
+  };
+  CellSize size;
+  MultilinearBox<D> box;
+  if (this->FindBox(cell, box))
+  {
+    size.Measure = 1.0;
+    for (int a = 0; a < D; ++a)
+    {
+      size.Measure *= box.High[a] - box.Low[a];
+    }
+    size.Integral = size.Measure * meanOf(box.Values);
+    return size;
+  }
+  const bool divided = this->VisitSimplices(cell, [&](const LinearSimplex<D>& simplex) {
+    const double measure = measureOf<D>(simplex);
+    size.Measure += measure;
+    size.Integral += measure * meanOf(simplex.Values);
+  });
+  if (!divided)
+  {
+    size = {};
+    size.LeftOut = 1;
+    size.FirstLeftOut = cell;
+    this->AddBoxAround(cell, size);
+  }
+  return size;
+}
+
+// As left out.
+template <int D>
+void CellPieces<D>::AddBoxAround(std::int64_t cell, CellSize& size)
+{
+  const CellReader::Ids& points = this->Reader->PointsOf(cell);
+  const auto count = static_cast<double>(points.size());
+  Point<D> low;
+  Point<D> high;
+  low.fill(std::numeric_limits<double>::infinity());
+  high.fill(-std::numeric_limits<double>::infinity());
+  const bool onPoints = this->Density.IsOnPoints();
+  double value = onPoints ? 0.0 : this->Density.Values()[cell];
+  for (const std::int64_t point : points)
+  {
+    const Point<D> index = this->At(point);
+    for (int a = 0; a < D; ++a)
+    {
+      low[a] = std::min(low[a], index[a]);
+      high[a] = std::max(high[a], index[a]);
+    }
+    value += onPoints ? this->Density.Values()[point] / count : 0.0;
+  }
+  double measure = count > 0 ? 1.0 : 0.0;
+  for (int a = 0; a < D && count > 0; ++a)
+  {
+    measure *= high[a] - low[a];
+  }
+  size.LeftOutMeasure += measure;
+  size.LeftOutIntegral += measure * value;
+}
+
+// Returns whether the cell is a box of the grid's axes.
+template <int D>
+bool CellPieces<D>::FindBox(std::int64_t cell, MultilinearBox<D>& box)
+{
+  constexpr CellShape boxShape = D == 3 ? CellShape::Voxel : CellShape::Pixel;
+  if (!this->HasBoxes || this->Reader->ShapeOf(cell) != boxShape)
+  {
+    return false;
+  }
+  constexpr std::size_t corners = std::size_t{ 1 } << D;
+  const CellReader::Ids& points = this->Reader->PointsOf(cell);
+  Point<D> index[corners];
+  for (std::size_t i = 0; i < corners; ++i)
+  {
+    index[i] = this->At(points[i]);
+    box.Values[i] = this->ValueAt(cell, points[i]);
+  }
+  // A pixel's axes are in order, which need not be that of the grid's.
+  constexpr double rounding = 1e-9;
+  double longest = 0.0;
+  for (int a = 0; a < D; ++a)
+  {
+    longest = std::max(longest, std::abs(index[corners - 1][a] - index[0][a]));
+  }
+  for (std::size_t i = 0; i < corners; ++i)
+  {
+    for (int a = 0; a < D; ++a)
+    {
+      const double straight = index[(i >> a & 1) != 0 ? corners - 1 : 0][a];
+      if (std::abs(index[i][a] - straight) > rounding * longest)
+      {
+        this->HasBoxes = false;
+        return false;
+      }
+    }
+  }
+  for (int a = 0; a < D; ++a)
+  {
+    box.Low[a] = index[0][a];
+    box.High[a] = index[corners - 1][a];
+    if (!(box.Low[a] < box.High[a])) // flipped or without a measure
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+template class CellPieces<1>;
+template class CellPieces<2>;
+template class CellPieces<3>;
+
+} // namespace RectifiedTransport

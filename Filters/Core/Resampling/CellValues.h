@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The density of a data set's cells, and which of them carry mass.
+#ifndef RectifiedTransport_CellValues_h
+#define RectifiedTransport_CellValues_h
+
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Resampling/MassCells.h"
+#include "Core/Tables/DensityInspection.h"
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+class CellValues
+{
+public:
+  CellValues() = default;
+  // Without values. Cells count if they carry mass and neither they nor their points are hidden or
+  // without a valid value. `missing`: which values are not valid; none if it is empty. Sets a byte
+  // of `unused` for each value that no counted cell needs, to 0 for the others. Throws Cancelled.
+  CellValues(std::shared_ptr<const CellSet> cells, const MassCells& mass, bool onPoints,
+    const std::vector<unsigned char>& missing, std::vector<unsigned char>& unused,
+    Progress& progress);
+
+  const CellSet& Cells() const { return *this->Set; }
+  // Takes another set of the same points and cells.
+  void SetCells(std::shared_ptr<const CellSet> cells) { this->Set = std::move(cells); }
+  bool IsOnPoints() const { return this->OnPoints; }
+  // Of points or cells.
+  std::int64_t NumberOfValues() const
+  {
+    return this->OnPoints ? this->Set->NumberOfPoints : this->Set->NumberOfCells;
+  }
+  // Of points or cells; 0 where no counted cell needs them.
+  void SetValues(LargeBuffer<double> values) { this->Density = std::move(values); }
+  const double* Values() const { return this->Density.data(); }
+
+  // The same cells with the density only where it is `value`.
+  CellValues Only(double value) const;
+  // The same cells with the density 1, which measures what they cover.
+  CellValues Ground() const;
+  // The density of a region: the one that was found by its values, or 1 of ground.
+  double OfRegion(double density) const { return this->IsGround ? 1.0 : density; }
+
+  bool IsCounted(std::int64_t cell) const { return this->RoleOf(cell) != NotCounted; }
+  // Counted cells are regions within their outlines, or are divided into simplices and boxes.
+  bool IsRegion(std::int64_t cell) const { return this->RoleOf(cell) >= Region; }
+  bool IsDivided(std::int64_t cell) const { return this->RoleOf(cell) == Divided; }
+  void MarkAsRegion(std::int64_t cell) { this->RoleOf(cell) = Region; }
+  // Regions whose outline is known not to cross itself. The first visit finds out, each region on
+  // one thread.
+  bool IsSimple(std::int64_t cell) const { return this->RoleOf(cell) == SimpleRegion; }
+  void MarkAsSimple(std::int64_t cell) const { this->RoleOf(cell) = SimpleRegion; }
+  // Whether the cells are closed lines, which are around regions together.
+  bool AreClosedLines() const { return this->Mass.AreClosedLines; }
+  // The number of lines that are not closed, if the others are around regions.
+  std::int64_t OpenLines() const { return this->Open; }
+  std::int64_t FirstOpenLine() const { return this->FirstOpen; } // its cell, or -1
+
+private:
+  enum Role : unsigned char
+  {
+    NotCounted,
+    Divided,
+    Region,
+    SimpleRegion
+  };
+  Role& RoleOf(std::int64_t cell) const { return this->Roles[static_cast<std::size_t>(cell)]; }
+  template <class Change>
+  CellValues Changed(const Change& change) const;
+
+  std::shared_ptr<const CellSet> Set;
+  MassCells Mass;
+  bool OnPoints = false;
+  bool IsGround = false;
+  LargeBuffer<double> Density;
+  mutable std::vector<Role> Roles; // of the cells
+  std::int64_t Open = 0;
+  std::int64_t FirstOpen = -1;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Resampling/PlacesInCells.h"
+
+#include "Core/Geometry/Dispatch.h"
+#include "Core/Geometry/ImageGrid.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Resampling/CellPieces.h"
+#include "Core/Resampling/GridSlabs.h"
+#include "Core/Resampling/RegionShapes.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr double reach = 1.0; // grid cells around a mesh's cell
+
+// Numbers of places, by the bin of a lattice that each is in.
+template <int D>
+class PlaceBins
+{
+public:
+  PlaceBins(const std::vector<Point<D>>& places, const Bins<std::int64_t>::Range& numbers)
+    : Places(places)
+  {
+    this->Low.fill(std::numeric_limits<double>::infinity());
+    Point<D> high;
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (const std::int64_t number : numbers)
+    {
+      const Point<D>& x = places[static_cast<std::size_t>(number)];
+      for (int a = 0; a < D; ++a)
+      {
+        this->Low[a] = std::min(this->Low[a], x[a]);
+        high[a] = std::max(high[a], x[a]);
+      }
+    }
+    double volume = 1.0;
+    for (int a = 0; a < D; ++a)
+    {
+      volume *= std::max(high[a] - this->Low[a], 1.0);
+    }
+    this->Width = std::max(1.0, std::pow(volume / static_cast<double>(numbers.Size()), 1.0 / D));
+    std::size_t bins = 1;
+    for (int a = 0; a < D; ++a)
+    {
+      this->Size[a] = static_cast<std::int64_t>((high[a] - this->Low[a]) / this->Width) + 1;
+      bins *= static_cast<std::size_t>(this->Size[a]);
+    }
+    this->Sorted.Fill(bins, [&](const auto& add) {
+      for (const std::int64_t number : numbers)
+      {
+        std::int64_t bin = 0;
+        for (int a = D - 1; a >= 0; --a)
+        {
+          bin = bin * this->Size[a] + this->At(a, places[static_cast<std::size_t>(number)][a]);
+        }
+        add(static_cast<std::size_t>(bin), number);
+      }
+    });
+  }
+
+  // Calls visit(number, place) for all places of the box, and for others near it.
+  template <class Visit>
+  void VisitBox(const Point<D>& low, const Point<D>& high, const Visit& visit) const
+  {
+    std::int64_t first[3] = { 0, 0, 0 };
+    std::int64_t last[3] = { 0, 0, 0 };
+    for (int a = 0; a < D; ++a)
+    {
+      if (high[a] < this->Low[a])
+      {
+        return;
+      }
+      first[a] = this->At(a, low[a]);
+      last[a] = this->At(a, high[a]);
+    }
+    for (std::int64_t k = first[2]; k <= last[2]; ++k)
+    {
+      for (std::int64_t j = first[1]; j <= last[1]; ++j)
+      {
+        const std::int64_t row = this->Size[0] * (D > 1 ? j + this->Size[D > 1] * k : 0);
+        for (const std::int64_t number : this->Sorted.Of(
+               static_cast<std::size_t>(row + first[0]), static_cast<std::size_t>(row + last[0])))
+        {
+          visit(number, this->Places[static_cast<std::size_t>(number)]);
+        }
+      }
+    }
+  }
+
+private:
+  std::int64_t At(int axis, double x) const
+  {
+    const double bin = (x - this->Low[axis]) / this->Width;
+    return static_cast<std::int64_t>(
+      std::clamp(bin, 0.0, static_cast<double>(this->Size[axis] - 1)));
+  }
+
+  const std::vector<Point<D>>& Places;
+  Point<D> Low;
+  double Width;
+  GridSize<D> Size;
+  Bins<std::int64_t> Sorted;
+};
+
+// Where places are in the simplices of the last cell that was divided.
+template <int D>
+void search(const CellPieces<D>& pieces, std::int64_t cell, int set, const PlaceBins<D>& bins,
+  MeshPlace* found)
+{
+  using Vector = Eigen::Matrix<double, D, 1>;
+  for (std::int64_t s = 0; s < pieces.NumberOfSimplices(); ++s)
+  {
+    Point<D> vertices[D + 1];
+    Eigen::Matrix<double, D, D> edges;
+    Point<D> low;
+    Point<D> high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (int i = 0; i <= D; ++i)
+    {
+      vertices[i] = pieces.Vertex(s, i);
+      for (int a = 0; a < D; ++a)
+      {
+        low[a] = std::min(low[a], vertices[i][a] - reach);
+        high[a] = std::max(high[a], vertices[i][a] + reach);
+        if (i > 0)
+        {
+          edges(a, i - 1) = vertices[i][a] - vertices[0][a];
+        }
+      }
+    }
+    const Eigen::Matrix<double, D, D> inverse = edges.inverse();
+    if (!inverse.allFinite())
+    {
+      continue; // without a measure
+    }
+    bins.VisitBox(low, high, [&](std::int64_t number, const Point<D>& place) {
+      MeshPlace& best = found[number];
+      if (best.Distance == 0.0)
+      {
+        return;
+      }
+      const Vector x(place.data());
+      const Vector part = inverse * (x - Vector(vertices[0].data()));
+      double weights[D + 1];
+      weights[0] = 1.0 - part.sum();
+      double smallest = weights[0];
+      for (int i = 0; i < D; ++i)
+      {
+        weights[i + 1] = part[i];
+        smallest = std::min(smallest, part[i]);
+      }
+      double distance = 0.0;
+      if (smallest < 0.0)
+      {
+        double sum = 0.0;
+        for (double& weight : weights)
+        {
+          weight = std::max(weight, 0.0);
+          sum += weight;
+        }
+        Vector nearest = Vector::Zero();
+        for (int i = 0; i <= D; ++i)
+        {
+          weights[i] /= sum;
+          nearest += weights[i] * Vector(vertices[i].data());
+        }
+        // Rounding must not make it 0, which ends the search.
+        distance = std::max((x - nearest).squaredNorm(), std::numeric_limits<double>::min());
+      }
+      if (distance < best.Distance)
+      {
+        best.Distance = distance;
+        best.Cell = cell;
+        best.Set = set;
+        for (int i = 0; i <= D; ++i)
+        {
+          best.Points[i] = pieces.VertexId(s, i);
+          best.Weights[i] = weights[i];
+        }
+        std::fill(best.Points + D + 1, best.Points + 4, best.Points[0]);
+        std::fill(best.Weights + D + 1, best.Weights + 4, 0.0);
+      }
+    });
+  }
+}
+
+void searchRegion(const RegionRows& region, int set, const PlaceBins<2>& bins, MeshPlace* found)
+{
+  const Point<2> low{ region.Low()[0] - reach, region.Low()[1] - reach };
+  const Point<2> high{ region.High()[0] + reach, region.High()[1] + reach };
+  bins.VisitBox(low, high, [&](std::int64_t number, const Point<2>& x) {
+    MeshPlace& best = found[number];
+    const bool isFound = best.Distance == 0.0;
+    if (isFound && best.Set <= set)
+    {
+      return;
+    }
+    const MeshPlace place = region.Find(x);
+    if (place.Distance < best.Distance || (isFound && place.Distance == 0.0))
+    {
+      best = place;
+    }
+  });
+}
+
+void searchRegions(const RegionBatch& batch, std::int64_t slab, const GridSlabs<2>& slabs,
+  const PlaceBins<2>& bins, Progress& progress, MeshPlace* found)
+{
+  const RegionRows::Edges edges = batch.Slabs[static_cast<std::size_t>(slab)];
+  for (const RegionBatch::Edge* first = edges.First; first != edges.Last;)
+  {
+    const RegionBatch::Edge* last = std::find_if(first, edges.Last,
+      [&](const RegionBatch::Edge& edge) { return !batch.IsSame(*first, edge); });
+    if (progress.ShouldStop())
+    {
+      return;
+    }
+    const RegionRows region(batch, { first, last }, slab * slabs.Planes, (slab + 1) * slabs.Planes);
+    searchRegion(region, batch.ShapeOf(*first).Set, bins, found);
+    first = last;
+  }
+}
+
+template <int D>
+void searchCells(const std::vector<CellValues>& sets, const ImageGrid& grid,
+  const std::vector<Bins<std::int64_t>>& cells, std::int64_t slab, const PlaceBins<D>& bins,
+  Progress& progress, MeshPlace* found)
+{
+  constexpr std::int64_t cellsBetweenPolls = 64;
+  std::int64_t searched = 0;
+  for (std::size_t s = 0; s < sets.size(); ++s)
+  {
+    CellPieces<D> pieces(sets[s], grid);
+    for (const std::int64_t cell : cells[s][static_cast<std::size_t>(slab)])
+    {
+      if (searched++ % cellsBetweenPolls == 0 && progress.ShouldStop())
+      {
+        return;
+      }
+      if (pieces.Divide(cell))
+      {
+        search(pieces, cell, static_cast<int>(s), bins, found);
+      }
+    }
+  }
+}
+
+template <int D>
+void find(const std::vector<CellValues>& sets, const ImageGrid& grid, ConstPointSpan<3> places,
+  Progress& progress, MeshPlace* found)
+{
+  const GridSlabs<D> slabs(grid.Size<D>());
+  std::vector<Point<D>> index(static_cast<std::size_t>(places.size()));
+  for (std::int64_t i = 0; i < places.size(); ++i)
+  {
+    grid.ToIndex<D>(places[i], index[static_cast<std::size_t>(i)].data());
+    found[i] = {};
+    found[i].Distance = std::numeric_limits<double>::infinity();
+    found[i].Cell = -1; // until there is one within reach
+  }
+  Bins<std::int64_t> numbers; // of the places of each slab
+  numbers.Fill(static_cast<std::size_t>(slabs.Count), [&](const auto& add) {
+    for (std::int64_t i = 0; i < places.size(); ++i)
+    {
+      add(static_cast<std::size_t>(slabs.At(index[static_cast<std::size_t>(i)][D - 1])), i);
+    }
+  });
+  const auto withBins = [&](std::int64_t slab, const auto& use) {
+    const auto own = numbers[static_cast<std::size_t>(slab)];
+    if (own.Size() > 0)
+    {
+      use(PlaceBins<D>(index, own));
+    }
+  };
+  const auto cells = cellsOfSlabs<D>(sets, grid, slabs, reach, progress);
+  slabs.ForEach(progress, [&](std::int64_t slab) {
+    withBins(slab, [&](const PlaceBins<D>& bins) {
+      searchCells<D>(sets, grid, cells, slab, bins, progress, found);
+    });
+  });
+  if constexpr (D == 2)
+  {
+    visitRegions(sets, grid, slabs, reach, progress, [&](const RegionBatch& batch) {
+      slabs.ForEach(progress, [&](std::int64_t slab) {
+        if (batch.Slabs[static_cast<std::size_t>(slab)].Size() > 0)
+        {
+          withBins(slab, [&](const PlaceBins<2>& bins) {
+            searchRegions(batch, slab, slabs, bins, progress, found);
+          });
+        }
+      });
+    });
+  }
+}
+
+} // namespace
+
+LargeBuffer<MeshPlace> findPlaces(const std::vector<CellValues>& sets, const ImageGrid& grid,
+  ConstPointSpan<3> places, Progress& progress)
+{
+  LargeBuffer<MeshPlace> found(places.size());
+  dispatchDimension(grid.Dimension(), find<1>, find<2>, find<3>)(
+    sets, grid, places, progress, found.data());
+  return found;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which region contains a place, and between which points of its outline the place lies.
+#ifndef RectifiedTransport_RegionRows_h
+#define RectifiedTransport_RegionRows_h
+
+#include "Core/Resampling/RegionShapes.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// Points of cells around a place.
+struct MeshPlace
+{
+  double Distance; // squared, in grid cells; infinite while there is none
+  std::int64_t Cell;
+  std::int64_t Points[4];
+  double Weights[4];
+  int Set;
+};
+
+// The edges of one region in a slab, by rows of grid cells.
+class RegionRows
+{
+public:
+  using Edges = Bins<RegionBatch::Edge>::Range;
+
+  // Places are in rows [low, high).
+  RegionRows(const RegionBatch& batch, const Edges& edges, std::int64_t low, std::int64_t high);
+
+  Point<2> Low() const { return this->Lower; }
+  Point<2> High() const { return this->Upper; }
+
+  // A place in the region is between the outline to its left and to its right. Any other place is
+  // at the nearest point of the outline; infinitely far if that is farther than the diagonal of a
+  // grid cell.
+  MeshPlace Find(const Point<2>& x) const;
+
+private:
+  std::size_t RowOf(double y) const;
+  void SetEnds(
+    const RegionBatch::Edge& edge, double part, double weight, int at, MeshPlace& found) const;
+  bool FindInside(const Point<2>& x, MeshPlace& found) const;
+  void FindNearest(const Point<2>& x, MeshPlace& found) const;
+
+  const RegionBatch& Batch;
+  Point<2> Lower;
+  Point<2> Upper;
+  std::int64_t FirstRow;
+  std::int64_t LastRow;
+  Bins<RegionBatch::Edge> Rows;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Resampling/RegionShapes.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Resampling/CellPieces.h"
+#include "Core/Resampling/RingValues.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t cellGrain = std::int64_t{ 1 } << 10;
+constexpr std::int64_t allLines = -1;
+
+// Adds rings of cells to shapes. For one thread.
+class ShapeReader
+{
+public:
+  ShapeReader(const std::vector<CellValues>& sets, const ImageGrid& grid)
+    : Sets(sets)
+    , Grid(grid)
+  {
+  }
+
+  // Of a set's cell, or of all its lines.
+  void Read(int set, std::int64_t cell, RegionShape& shape)
+  {
+    const CellValues& values = this->Sets[static_cast<std::size_t>(set)];
+    shape.Set = set;
+    if (set != this->ReaderSet)
+    {
+      this->Reader = values.Cells().Read();
+      this->ReaderSet = set;
+    }
+    if (cell != allLines)
+    {
+      this->AddRing(values, cell, shape);
+      return;
+    }
+    for (std::int64_t line = 0; line < values.Cells().NumberOfCells; ++line)
+    {
+      if (values.IsRegion(line))
+      {
+        this->AddRing(values, line, shape);
+      }
+    }
+  }
+
+  // Edges and the values of regions.
+  void FindRegions(std::int64_t cell, RegionShape& shape, Progress& progress) const
+  {
+    const CellValues& values = this->Sets[static_cast<std::size_t>(shape.Set)];
+    const bool mayBeSimple = cell != allLines && values.IsRegion(cell);
+    bool isSimple = mayBeSimple && values.IsSimple(cell);
+    shape.Edges = regionOutlines(shape.Outline, shape.Values, progress, &isSimple);
+    if (mayBeSimple && isSimple)
+    {
+      values.MarkAsSimple(cell);
+    }
+    if (!values.IsOnPoints())
+    {
+      return;
+    }
+    shape.VisitRegions([&](std::int32_t ring, const OutlineEdge* first, const OutlineEdge* last) {
+      shape.Values[static_cast<std::size_t>(ring)] =
+        RingValues(shape.Outline, ring, shape.Points.data(), values.Values())
+          .At(sizeOfRegion(first, last).Centroid);
+    });
+  }
+
+private:
+  void AddRing(const CellValues& values, std::int64_t cell, RegionShape& shape)
+  {
+    const CellReader::Ids& points = this->Reader->PointsOf(cell);
+    const std::size_t count = points.size();
+    shape.Outline.Reserve(shape.Outline.Edges() + static_cast<std::int64_t>(count));
+    shape.Points.reserve(shape.Points.size() + count);
+    const auto first = shape.Points.size();
+    Point<2> before{};
+    Point<2> begin{};
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      double x[3];
+      this->Reader->GetPosition(points[i], x);
+      Point<2> index;
+      this->Grid.ToIndex<2>(x, index.data());
+      const bool isFirst = shape.Points.size() == first;
+      begin = isFirst ? index : begin;
+      // Twice at one place, and the end of a closed line.
+      if (!isFirst && (index == before || (i + 1 == count && index == begin)))
+      {
+        continue;
+      }
+      before = index;
+      shape.Outline.Add(index);
+      shape.Points.push_back(points[i]);
+    }
+    shape.Outline.EndRing();
+    shape.Cells.push_back(cell);
+    const std::int64_t ring = shape.Outline.Count() - 1;
+    shape.Values.push_back(values.IsOnPoints()
+        ? RingValues(shape.Outline, ring, shape.Points.data(), values.Values()).Mean()
+        : values.Values()[cell]);
+  }
+
+  const std::vector<CellValues>& Sets;
+  const ImageGrid& Grid;
+  std::unique_ptr<CellReader> Reader;
+  int ReaderSet = -1;
+};
+
+// Whether a polygon of four corners turns the same way at each of them, clearly.
+bool isConvex(const Rings& ring)
+{
+  constexpr double clearly = 1e-6;
+  int lefts = 0;
+  int rights = 0;
+  const double longest = [&]() {
+    double length = 0.0;
+    for (std::int64_t i = 0; i < ring.Edges(); ++i)
+    {
+      const Point<2>& a = ring.At(i);
+      const Point<2>& b = ring.At(ring.Next(i));
+      length = std::max(length, std::hypot(b[0] - a[0], b[1] - a[1]));
+    }
+    return length;
+  }();
+  for (std::int64_t i = 0; i < ring.Edges(); ++i)
+  {
+    const std::int64_t next = ring.Next(i);
+    double error = 0.0;
+    const double area = doubleArea(ring.At(i), ring.At(next), ring.At(ring.Next(next)), error);
+    lefts += area > clearly * longest * longest ? 1 : 0;
+    rights += area < -clearly * longest * longest ? 1 : 0;
+  }
+  return ring.Edges() == 4 && (lefts == 4 || rights == 4);
+}
+
+// Whether a cell is a region; for one thread.
+class RegionTest
+{
+public:
+  RegionTest(const std::vector<CellValues>& sets, int set, const ImageGrid& grid)
+    : Values(sets[static_cast<std::size_t>(set)])
+    , Set(set)
+    , Cells(Values.Cells().Read())
+    , Reader(sets, grid)
+    , Pieces(Values, grid)
+  {
+  }
+
+  bool Is(std::int64_t cell, Progress& progress)
+  {
+    constexpr std::size_t mostDivided = 256; // VTK takes quadratic time
+    const CellShape shapeOfCell = this->Cells->ShapeOf(cell);
+    if (shapeOfCell != CellShape::Polygon && shapeOfCell != CellShape::Quad)
+    {
+      return false;
+    }
+    const std::size_t corners = this->Cells->PointsOf(cell).size();
+    if (corners > 4 && (!this->Values.IsOnPoints() || corners > mostDivided))
+    {
+      return true;
+    }
+    RegionShape shape;
+    this->Reader.Read(this->Set, cell, shape);
+    if (corners == 3 && shape.Outline.Edges() == 3)
+    {
+      return false;
+    }
+    if (corners == 4 && isConvex(shape.Outline))
+    {
+      return false;
+    }
+    return !this->Values.IsOnPoints() || !this->IsDividedWell(cell, shape, progress);
+  }
+
+private:
+  bool IsDividedWell(std::int64_t cell, RegionShape& shape, Progress& progress)
+  {
+    constexpr double tolerance = 1e-9;
+    this->Reader.FindRegions(cell, shape, progress);
+    const double area =
+      sizeOfRegion(shape.Edges.data(), shape.Edges.data() + shape.Edges.size()).Area;
+    const auto size = this->Pieces.SizeOf(cell);
+    return size.LeftOut == 0 && std::abs(size.Measure - area) <= tolerance * area;
+  }
+
+  const CellValues& Values;
+  const int Set;
+  const std::unique_ptr<CellReader> Cells;
+  ShapeReader Reader;
+  CellPieces<2> Pieces;
+};
+
+// Of a batch: a polygon, or the lines of a set.
+struct Unit
+{
+  int Set;
+  std::int64_t Cell;
+};
+
+std::vector<Unit> unitsOf(const std::vector<CellValues>& sets)
+{
+  std::vector<Unit> units;
+  for (std::size_t s = 0; s < sets.size(); ++s)
+  {
+    const std::int64_t count = sets[s].Cells().NumberOfCells;
+    for (std::int64_t cell = 0; cell < count; ++cell)
+    {
+      if (sets[s].IsRegion(cell))
+      {
+        const bool areLines = sets[s].AreClosedLines();
+        units.push_back({ static_cast<int>(s), areLines ? allLines : cell });
+        cell = areLines ? count : cell;
+      }
+    }
+  }
+  return units;
+}
+
+// Of the batch that begins with a unit.
+std::size_t endOfBatch(
+  const std::vector<CellValues>& sets, const std::vector<Unit>& units, std::size_t first)
+{
+  constexpr std::size_t edgesOfBatch = std::size_t{ 1 } << 18;
+  std::unique_ptr<CellReader> reader;
+  std::size_t last = first;
+  for (std::size_t edges = 0; last < units.size() && edges < edgesOfBatch; ++last)
+  {
+    const CellSet& cells = sets[static_cast<std::size_t>(units[last].Set)].Cells();
+    if (units[last].Cell == allLines)
+    {
+      edges += static_cast<std::size_t>(cells.NumberOfPoints);
+      continue;
+    }
+    if (!reader || units[last].Set != units[last - 1].Set)
+    {
+      reader = cells.Read();
+    }
+    edges += reader->PointsOf(units[last].Cell).size();
+  }
+  return last;
+}
+
+// Sorts the edges of a batch by the slabs that they reach.
+void findSlabs(const GridSlabs<2>& slabs, double margin, RegionBatch& batch)
+{
+  batch.Slabs.Fill(static_cast<std::size_t>(slabs.Count), [&](const auto& add) {
+    for (std::size_t s = 0; s < batch.Shapes.size(); ++s)
+    {
+      const std::vector<OutlineEdge>& edges = batch.Shapes[s].Edges;
+      for (std::size_t e = 0; e < edges.size(); ++e)
+      {
+        const double low = std::min(edges[e].From[1], edges[e].To[1]);
+        const double high = std::max(edges[e].From[1], edges[e].To[1]);
+        const std::int64_t last = slabs.At(high + margin);
+        for (std::int64_t slab = slabs.At(low - margin); slab <= last; ++slab)
+        {
+          add(static_cast<std::size_t>(slab),
+            RegionBatch::Edge{ static_cast<std::int32_t>(s), static_cast<std::int32_t>(e) });
+        }
+      }
+    }
+  });
+}
+
+} // namespace
+
+void markRegions(std::vector<CellValues>& sets, const ImageGrid& grid, Progress& progress)
+{
+  for (std::size_t s = 0; s < sets.size(); ++s)
+  {
+    CellValues& values = sets[s];
+    if (values.AreClosedLines())
+    {
+      continue;
+    }
+    progress.For(
+      values.Cells().NumberOfCells, cellGrain, [&](std::int64_t first, std::int64_t last) {
+        RegionTest test(sets, static_cast<int>(s), grid);
+        for (std::int64_t cell = first; cell < last; ++cell)
+        {
+          if (values.IsCounted(cell) && test.Is(cell, progress))
+          {
+            values.MarkAsRegion(cell);
+          }
+        }
+      });
+  }
+}
+
+void visitRegions(const std::vector<CellValues>& sets, const ImageGrid& grid,
+  const GridSlabs<2>& slabs, double margin, Progress& progress,
+  const std::function<void(const RegionBatch&)>& use)
+{
+  const std::vector<Unit> units = unitsOf(sets);
+  RegionBatch batch;
+  for (std::size_t first = 0; first < units.size();)
+  {
+    const std::size_t last = endOfBatch(sets, units, first);
+    batch.Shapes.clear();
+    batch.Shapes.resize(last - first);
+    progress.For(
+      static_cast<std::int64_t>(last - first), 1,
+      [&](std::int64_t begin, std::int64_t end) {
+        ShapeReader reader(sets, grid);
+        for (std::int64_t i = begin; i < end && !progress.IsCancelled(); ++i)
+        {
+          RegionShape& shape = batch.Shapes[static_cast<std::size_t>(i)];
+          const Unit& unit = units[first + static_cast<std::size_t>(i)];
+          reader.Read(unit.Set, unit.Cell, shape);
+          reader.FindRegions(unit.Cell, shape, progress);
+        }
+      },
+      1);
+    findSlabs(slabs, margin, batch);
+    use(batch);
+    first = last;
+  }
+}
+
+} // namespace RectifiedTransport
