@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDensityAlgorithm.h"
 
+#include "Bridge/Cells/DensityInput.h"
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Cells/DensityInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/PropertyCheck.h"

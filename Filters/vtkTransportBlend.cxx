@@ -2,10 +2,10 @@
 #include "vtkTransportBlend.h"
 
 #include "Bridge/Blend/DensityBlend.h"
+#include "Bridge/Blocks/GivenInputs.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Blocks/GivenInputs.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/WarningLimit.h"

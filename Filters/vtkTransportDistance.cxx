@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportDistance.h"
 
+#include "Bridge/Blocks/GivenInputs.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Distance/DensityDistances.h"
 #include "Bridge/Distance/DistanceTables.h"
-#include "Bridge/Blocks/GivenInputs.h"
 #include "Bridge/Ranks/FieldsOfFirst.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"

@@ -2,10 +2,10 @@
 #include "vtkTransportVectorWriter.h"
 
 #include "Bridge/Blocks/DensityBlocks.h"
+#include "Bridge/Blocks/OptionalArray.h"
 #include "Bridge/Drawing/Drawing.h"
 #include "Bridge/Drawing/OutputFile.h"
 #include "Bridge/Drawing/TransportVectorWriter.h"
-#include "Bridge/Blocks/OptionalArray.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Failure.h"
