@@ -125,22 +125,6 @@ private:
   BlockValues::Source Found;
 };
 
-template <class Change>
-std::vector<CellValues> changed(const BlockValues& blocks, const Change& change)
-{
-  std::vector<CellValues> all;
-  all.reserve(blocks.Cells.size());
-  for (std::size_t b = 0; b < blocks.Cells.size(); ++b)
-  {
-    const CellValues& cells = blocks.Cells[b];
-    withMemory("the values of the " + blocks.Sources[b].Array,
-      static_cast<double>(cells.NumberOfValues()) * sizeof(double) +
-        static_cast<double>(cells.Cells().NumberOfCells),
-      [&]() { all.push_back(change(cells)); });
-  }
-  return all;
-}
-
 } // namespace
 
 int takenComponent(const std::vector<DensityBlock>& blocks, int component)
@@ -196,16 +180,6 @@ BlockValues readBlocks(const std::vector<DensityBlock>& blocks, const CellSets& 
     reading.Finish(progress, values);
   }
   return values;
-}
-
-std::vector<CellValues> groundOf(const BlockValues& blocks)
-{
-  return changed(blocks, [](const CellValues& cells) { return cells.Ground(); });
-}
-
-std::vector<CellValues> onlyOf(const BlockValues& blocks, double value)
-{
-  return changed(blocks, [value](const CellValues& cells) { return cells.Only(value); });
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -43,11 +43,6 @@ int takenComponent(const std::vector<DensityBlock>& blocks, int component);
 BlockValues readBlocks(const std::vector<DensityBlock>& blocks, const CellSets& sets, bool onPoints,
   const MassCells& mass, const DensityRules& rules, Progress& progress);
 
-// The same cells with the density 1, which measures what they cover; with the density only where it
-// is `value`. Throws Failure if memory is short.
-std::vector<CellValues> groundOf(const BlockValues& blocks);
-std::vector<CellValues> onlyOf(const BlockValues& blocks, double value);
-
 } // namespace RectifiedTransport::Bridge
 
 #endif

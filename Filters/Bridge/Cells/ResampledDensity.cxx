@@ -106,7 +106,11 @@ std::vector<std::string> describeBlocks(
     places.All += cells.NumberOfValues();
   }
   return describeUnusual(all, places, [&]() {
-    const std::vector<CellValues> only = onlyOf(blocks, all.Found.Maximum);
+    std::vector<CellValues> only;
+    for (const CellValues& cells : blocks.Cells)
+    {
+      only.push_back(cells.Only(all.Found.Maximum));
+    }
     return integralOf(only, grid, progress) / integralOf(blocks.Cells, grid, progress);
   });
 }
@@ -249,6 +253,11 @@ CellSize ResampledDensity::AddCells(const ImageGrid& grid, const std::vector<Cel
 void ResampledDensity::FillEmpty(
   const ImageGrid& grid, const EmptyRule& rule, Progress& progress, double* values)
 {
+  std::vector<CellValues> ground;
+  for (const CellValues& cells : this->Blocks.Cells)
+  {
+    ground.push_back(cells.Ground());
+  }
   FilledCells filled;
   for (const BlockValues::Source& block : this->Blocks.Sources)
   {
@@ -257,7 +266,7 @@ void ResampledDensity::FillEmpty(
   LargeBuffer<double> covered;
   withMemory("what the input's cells cover", numberOfValues(grid) * sizeof(double),
     [&]() { covered = LargeBuffer<double>(grid.NumberOfCells()); });
-  this->AddCells(grid, groundOf(this->Blocks), progress, covered.data());
+  this->AddCells(grid, ground, progress, covered.data());
   constexpr double rounding = 1e-9;
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
   const auto shareOf = [&covered](std::int64_t cell) {

@@ -138,7 +138,7 @@ void CellLattice::CopyValues(
 {
   std::fill_n(cells, this->Box.NumberOfCells(), 0.0);
   this->VisitCounted(sets, progress, [&](std::int64_t place, std::size_t set, std::size_t cell) {
-    cells[place] = sets[set].Values()[cell];
+    cells[place] = sets[set].At(static_cast<std::int64_t>(cell));
   });
 }
 

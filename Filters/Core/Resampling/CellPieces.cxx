@@ -24,7 +24,7 @@ bool CellPieces<D>::VisitSimplices(std::int64_t cell, const Visit& visit)
     {
       const auto vertex = static_cast<std::size_t>(i);
       simplex.Vertices[vertex] = this->Vertex(s, i);
-      simplex.Values[vertex] = this->ValueAt(cell, this->VertexId(s, i));
+      simplex.Values[vertex] = this->Density.At(this->VertexId(s, i), cell);
     }
     visit(simplex);
   }
@@ -93,7 +93,7 @@ void CellPieces<D>::AddBoxAround(std::int64_t cell, CellSize& size)
   low.fill(std::numeric_limits<double>::infinity());
   high.fill(-std::numeric_limits<double>::infinity());
   const bool onPoints = this->Density.IsOnPoints();
-  double value = onPoints ? 0.0 : this->Density.Values()[cell];
+  double value = onPoints ? 0.0 : this->Density.At(cell);
   for (const std::int64_t point : points)
   {
     const Point<D> index = this->At(point);
@@ -102,7 +102,7 @@ void CellPieces<D>::AddBoxAround(std::int64_t cell, CellSize& size)
       low[a] = std::min(low[a], index[a]);
       high[a] = std::max(high[a], index[a]);
     }
-    value += onPoints ? this->Density.Values()[point] / count : 0.0;
+    value += onPoints ? this->Density.At(point) / count : 0.0;
   }
   double measure = count > 0 ? 1.0 : 0.0;
   for (int a = 0; a < D && count > 0; ++a)
@@ -128,7 +128,7 @@ bool CellPieces<D>::FindBox(std::int64_t cell, MultilinearBox<D>& box)
   for (std::size_t i = 0; i < corners; ++i)
   {
     index[i] = this->At(points[i]);
-    box.Values[i] = this->ValueAt(cell, points[i]);
+    box.Values[i] = this->Density.At(points[i], cell);
   }
   // A pixel's axes are in order, which need not be that of the grid's.
   constexpr double rounding = 1e-9;

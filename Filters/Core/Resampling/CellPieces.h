@@ -77,10 +77,6 @@ private:
     this->Grid.template ToIndex<D>(x, index.data());
     return index;
   }
-  double ValueAt(std::int64_t cell, std::int64_t point) const
-  {
-    return this->Density.Values()[this->Density.IsOnPoints() ? point : cell];
-  }
   bool FindBox(std::int64_t cell, MultilinearBox<D>& box);
   void AddBoxAround(std::int64_t cell, CellSize& size);
   template <class Visit>

@@ -13,7 +13,8 @@ CellValues::CellValues(std::shared_ptr<const CellSet> cells, const MassCells& ma
   : Set(std::move(cells))
   , Mass(mass)
   , OnPoints(onPoints)
-  , Roles(static_cast<std::size_t>(this->Set->NumberOfCells), NotCounted)
+  , Roles(std::make_shared<std::vector<Role>>(
+      static_cast<std::size_t>(this->Set->NumberOfCells), NotCounted))
 {
   constexpr std::int64_t cellsBetweenPolls = std::int64_t{ 1 } << 16;
   unused.assign(static_cast<std::size_t>(this->NumberOfValues()), 1);
@@ -58,32 +59,17 @@ CellValues::CellValues(std::shared_ptr<const CellSet> cells, const MassCells& ma
   }
 }
 
-template <class Change>
-CellValues CellValues::Changed(const Change& change) const
-{
-  CellValues changed;
-  changed.Set = this->Set;
-  changed.Mass = this->Mass;
-  changed.OnPoints = this->OnPoints;
-  changed.Open = this->Open;
-  changed.FirstOpen = this->FirstOpen;
-  changed.Density = LargeBuffer<double>(this->Density.size());
-  changed.Roles = this->Roles;
-  std::transform(this->Density.data(), this->Density.data() + this->Density.size(),
-    changed.Density.data(), change);
-  return changed;
-}
-
 CellValues CellValues::Only(double value) const
 {
-  return this->Changed([value](double density) { return density == value ? density : 0.0; });
+  CellValues only = *this;
+  only.HasOnly = true;
+  only.OnlyValue = value;
+  return only;
 }
 
 CellValues CellValues::Ground() const
 {
-  // Closed lines are told apart by their values.
-  const bool areLines = this->AreClosedLines();
-  CellValues ground = this->Changed([=](double density) { return areLines ? density : 1.0; });
+  CellValues ground = *this;
   ground.IsGround = true;
   return ground;
 }

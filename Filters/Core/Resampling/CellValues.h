@@ -39,12 +39,26 @@ public:
     return this->OnPoints ? this->Set->NumberOfPoints : this->Set->NumberOfCells;
   }
   // Of points or cells; 0 where no counted cell needs them.
-  void SetValues(LargeBuffer<double> values) { this->Density = std::move(values); }
-  const double* Values() const { return this->Density.data(); }
+  void SetValues(LargeBuffer<double> values)
+  {
+    this->Density = std::make_shared<const LargeBuffer<double>>(std::move(values));
+  }
+  double At(std::int64_t pointOrCell) const
+  {
+    const double value = this->Density->data()[pointOrCell];
+    return this->IsGround ? (this->AreClosedLines() ? value : 1.0)
+      : this->HasOnly     ? (value == this->OnlyValue ? value : 0.0)
+                          : value;
+  }
+  double At(std::int64_t point, std::int64_t cell) const
+  {
+    return this->At(this->OnPoints ? point : cell);
+  }
 
-  // The same cells with the density only where it is `value`.
+  // The same cells with the density only where it is `value`. They share their memory.
   CellValues Only(double value) const;
-  // The same cells with the density 1, which measures what they cover.
+  // The same cells with the density 1, which measures what they cover. Closed lines are told apart
+  // by their values all the same.
   CellValues Ground() const;
   // The density of a region: the one that was found by its values, or 1 of ground.
   double OfRegion(double density) const { return this->IsGround ? 1.0 : density; }
@@ -72,16 +86,16 @@ private:
     Region,
     SimpleRegion
   };
-  Role& RoleOf(std::int64_t cell) const { return this->Roles[static_cast<std::size_t>(cell)]; }
-  template <class Change>
-  CellValues Changed(const Change& change) const;
+  Role& RoleOf(std::int64_t cell) const { return (*this->Roles)[static_cast<std::size_t>(cell)]; }
 
   std::shared_ptr<const CellSet> Set;
   MassCells Mass;
   bool OnPoints = false;
   bool IsGround = false;
-  LargeBuffer<double> Density;
-  mutable std::vector<Role> Roles; // of the cells
+  bool HasOnly = false;
+  double OnlyValue = 0.0;
+  std::shared_ptr<const LargeBuffer<double>> Density;
+  std::shared_ptr<std::vector<Role>> Roles; // of the cells
   std::int64_t Open = 0;
   std::int64_t FirstOpen = -1;
 };

@@ -69,7 +69,7 @@ public:
     }
     shape.VisitRegions([&](std::int32_t ring, const OutlineEdge* first, const OutlineEdge* last) {
       shape.Values[static_cast<std::size_t>(ring)] =
-        RingValues(shape.Outline, ring, shape.Points.data(), values.Values())
+        RingValues(shape.Outline, ring, shape.PointValues.data())
           .At(sizeOfRegion(first, last).Centroid);
     });
   }
@@ -100,13 +100,17 @@ private:
       before = index;
       shape.Outline.Add(index);
       shape.Points.push_back(points[i]);
+      if (values.IsOnPoints())
+      {
+        shape.PointValues.push_back(values.At(points[i]));
+      }
     }
     shape.Outline.EndRing();
     shape.Cells.push_back(cell);
     const std::int64_t ring = shape.Outline.Count() - 1;
     shape.Values.push_back(values.IsOnPoints()
-        ? RingValues(shape.Outline, ring, shape.Points.data(), values.Values()).Mean()
-        : values.Values()[cell]);
+        ? RingValues(shape.Outline, ring, shape.PointValues.data()).Mean()
+        : values.At(cell));
   }
 
   const std::vector<CellValues>& Sets;

@@ -8,8 +8,7 @@
 namespace RectifiedTransport
 {
 
-RingValues::RingValues(
-  const Rings& rings, std::int64_t ring, const std::int64_t* points, const double* values)
+RingValues::RingValues(const Rings& rings, std::int64_t ring, const double* values)
 {
   const std::int64_t begin = rings.Begin(ring);
   const std::int64_t end = rings.Begin(ring + 1);
@@ -32,11 +31,11 @@ RingValues::RingValues(
     return all > 0.0 ? weights[static_cast<std::size_t>(i - begin)] / all
                      : 1.0 / static_cast<double>(end - begin);
   };
-  this->Smallest = values[points[begin]];
+  this->Smallest = values[begin];
   this->Largest = this->Smallest;
   for (std::int64_t i = begin; i < end; ++i)
   {
-    const double value = values[points[i]];
+    const double value = values[i];
     this->Value += weightOf(i) * value;
     this->Middle[0] += weightOf(i) * rings.At(i)[0];
     this->Middle[1] += weightOf(i) * rings.At(i)[1];
@@ -51,7 +50,7 @@ RingValues::RingValues(
   {
     const double x = rings.At(i)[0] - this->Middle[0];
     const double y = rings.At(i)[1] - this->Middle[1];
-    const double off = values[points[i]] - this->Value;
+    const double off = values[i] - this->Value;
     xx += weightOf(i) * x * x;
     xy += weightOf(i) * x * y;
     yy += weightOf(i) * y * y;

@@ -15,9 +15,8 @@ namespace RectifiedTransport
 class RingValues
 {
 public:
-  // `points` are the points of all rings. Their values are `values[point]`.
-  RingValues(
-    const Rings& rings, std::int64_t ring, const std::int64_t* points, const double* values);
+  // `values` are those of the points of all rings.
+  RingValues(const Rings& rings, std::int64_t ring, const double* values);
 
   double Mean() const { return this->Value; }
   // Clamped to the smallest and the largest value.
