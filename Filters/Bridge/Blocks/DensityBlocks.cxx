@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blocks/DensityBlocks.h"
 
-#include "Bridge/Blocks/BlockName.h"
 #include "Bridge/Blocks/HyperTreeCells.h"
 #include "Bridge/Blocks/RefinedGrids.h"
 #include "Bridge/Points/CellTypes.h"
@@ -19,8 +18,8 @@
 #include "vtkHyperTreeGrid.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
 #include "vtkMatrix3x3.h"
-#include "vtkNew.h"
 #include "vtkOverlappingAMR.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -86,6 +85,44 @@ void addExtent(const int* extent, DataContent& content)
 
 } // namespace
 
+std::string Leaf::Text() const
+{
+  return "block " + std::to_string(this->Number) +
+    (!this->Name.empty() ? " ('" + this->Name + "')" : "") + " of the input";
+}
+
+std::vector<Leaf> leavesOf(vtkCompositeDataSet* data)
+{
+  std::vector<Leaf> leaves;
+  const auto at = vtkSmartPointer<vtkCompositeDataIterator>::Take(data->NewIterator());
+  for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
+  {
+    vtkInformation* about = at->HasCurrentMetaData() ? at->GetCurrentMetaData() : nullptr;
+    const char* name = about ? about->Get(vtkCompositeDataSet::NAME()) : nullptr;
+    leaves.push_back({ at->GetCurrentDataObject(), at->GetCurrentFlatIndex(), name ? name : "" });
+  }
+  return leaves;
+}
+
+void OtherLeaves::Add(vtkDataObject* leaf, const std::string& name)
+{
+  if (this->Count++ == 0)
+  {
+    this->First = leaf->GetClassName() + (", " + name);
+  }
+}
+
+std::string blocksText(std::int64_t count)
+{
+  return std::to_string(count) + (count == 1 ? " block" : " blocks");
+}
+
+void failOthers(const std::string& what, std::int64_t count, const OtherLeaves& others)
+{
+  throw Failure(what + " no image, mesh or grid, but " + blocksText(count) + " of another type" +
+    others.FirstText());
+}
+
 std::vector<DensityBlock> densityBlocks(
   vtkDataObject* data, OtherLeaves* others, Progress* progress, const Ranks& ranks)
 {
@@ -100,7 +137,7 @@ std::vector<DensityBlock> densityBlocks(
     }
     if (object && !set)
     {
-      left.First = left.Count++ == 0 ? object->GetClassName() + (", " + name) : left.First;
+      left.Add(object, name);
     }
     left.DataSets += set ? 1 : 0;
     if (set && set->GetNumberOfPoints() > 0)
@@ -108,23 +145,16 @@ std::vector<DensityBlock> densityBlocks(
       blocks.push_back({ set, name, number, time });
     }
   };
-  vtkSmartPointer<vtkCompositeDataSet> composite =
+  const vtkSmartPointer<vtkCompositeDataSet> grids =
     withRefinedMarked(vtkOverlappingAMR::SafeDownCast(data), ranks);
-  if (!composite)
-  {
-    composite = vtkCompositeDataSet::SafeDownCast(data);
-  }
+  auto* composite = grids ? grids.Get() : vtkCompositeDataSet::SafeDownCast(data);
   if (!composite)
   {
     add(data, "input", 0);
   }
-  else
+  for (const Leaf& leaf : composite ? leavesOf(composite) : std::vector<Leaf>())
   {
-    const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-    for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
-    {
-      add(leaves->GetCurrentDataObject(), nameOfBlock(leaves), leaves->GetCurrentFlatIndex());
-    }
+    add(leaf.Data, leaf.Text(), leaf.Number);
   }
   if (others)
   {

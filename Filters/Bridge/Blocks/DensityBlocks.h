@@ -16,6 +16,7 @@
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkCompositeDataSet;
 class vtkDataObject;
 class vtkDataSet;
 VTK_ABI_NAMESPACE_END
@@ -48,13 +49,39 @@ struct DensityBlocks
   int Dimension; // the largest of a block's cells
 };
 
-// The leaves of a composite data set that are not data sets with cells, such as tables.
+// A leaf of a composite data set.
+struct Leaf
+{
+  vtkDataObject* Data;
+  std::int64_t Number; // its flat index
+  std::string Name;
+
+  // "block 3 ('name') of the input".
+  std::string Text() const;
+};
+std::vector<Leaf> leavesOf(vtkCompositeDataSet* data);
+
+// Leaves that are passed over since they are not data sets with cells, such as tables.
 struct OtherLeaves
 {
+  void Add(vtkDataObject* leaf, const std::string& name);
+  // " (the first a vtkTable, block 2 of the input)"; empty without any.
+  std::string FirstText() const
+  {
+    return this->First.empty() ? "" : " (the first a " + First + ")";
+  }
+
   std::int64_t Count = 0;
-  std::int64_t DataSets = 0; // the number of the other leaves
-  std::string First;         // the class and the name of the first one
+  std::int64_t DataSets = 0; // the number of the leaves that are data sets
+  std::string First;         // the class and the name of the first other one
 };
+
+// "1 block", "2 blocks".
+std::string blocksText(std::int64_t count);
+
+// Throws the Failure for what has `count` leaves, all of them others; `what` begins it.
+[[noreturn]] void failOthers(
+  const std::string& what, std::int64_t count, const OtherLeaves& others);
 
 // The data sets with points: the object itself, or the leaves of a composite; the cells of hyper
 // tree grids. AMR cells covered by finer ones are marked as refined. Other leaves are left out and

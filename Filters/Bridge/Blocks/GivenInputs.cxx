@@ -1,49 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blocks/GivenInputs.h"
 
-#include "Bridge/Blocks/BlockName.h"
 #include "Bridge/Run/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 
-#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
 #include "vtkHyperTreeGrid.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkSmartPointer.h"
 
 namespace RectifiedTransport::Bridge
 {
 
-GivenInputs gatherBlocks(vtkDataObject* data, bool blocksAreInputs)
+namespace
 {
-  GivenInputs given;
+
+void addBlocks(
+  vtkDataObject* data, bool blocksAreInputs, int port, int connection, GivenInputs& all)
+{
   auto* composite = blocksAreInputs ? vtkCompositeDataSet::SafeDownCast(data) : nullptr;
   if (!composite)
   {
-    given.All.push_back({ data, 0, 0, false, "" });
-    return given;
+    all.All.push_back({ data, port, connection, false, "" });
+    return;
   }
-  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+  for (const Leaf& leaf : leavesOf(composite))
   {
-    vtkDataObject* leaf = leaves->GetCurrentDataObject();
-    if (vtkDataSet::SafeDownCast(leaf) || vtkHyperTreeGrid::SafeDownCast(leaf))
+    if (vtkDataSet::SafeDownCast(leaf.Data) || vtkHyperTreeGrid::SafeDownCast(leaf.Data))
     {
-      vtkInformation* about = leaves->HasCurrentMetaData() ? leaves->GetCurrentMetaData() : nullptr;
-      const char* name = about ? about->Get(vtkCompositeDataSet::NAME()) : nullptr;
-      given.All.push_back({ leaf, 0, 0, true, name ? name : "" });
+      all.All.push_back({ leaf.Data, port, connection, true, leaf.Name });
+      continue;
     }
-    else
-    {
-      given.FirstOther = given.Others++ == 0
-        ? std::string(leaf->GetClassName()) + ", " + nameOfBlock(leaves)
-        : given.FirstOther;
-    }
+    all.Others.Add(leaf.Data, leaf.Text());
   }
-  return given;
+}
+
+} // namespace
+
+GivenInputs gatherBlocks(vtkDataObject* data, bool blocksAreInputs)
+{
+  GivenInputs all;
+  addBlocks(data, blocksAreInputs, 0, 0, all);
+  return all;
 }
 
 GivenInputs gatherInputs(
@@ -54,16 +53,7 @@ GivenInputs gatherInputs(
   {
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
     {
-      GivenInputs given =
-        gatherBlocks(vtkDataObject::GetData(inputVector[port], i), blocksAreInputs);
-      all.FirstOther = all.Others == 0 ? given.FirstOther : all.FirstOther;
-      all.Others += given.Others;
-      for (GivenInput& input : given.All)
-      {
-        input.Port = port;
-        input.Connection = i;
-        all.All.push_back(input);
-      }
+      addBlocks(vtkDataObject::GetData(inputVector[port], i), blocksAreInputs, port, i, all);
     }
   }
   return all;
@@ -85,16 +75,14 @@ void requireSameNumber(std::size_t inputs, const Ranks& ranks)
 
 std::string describeOthers(const GivenInputs& given)
 {
-  const std::string first = " (the first a " + given.FirstOther + ")";
-  if (given.Others > 0 && given.All.empty())
+  const OtherLeaves& others = given.Others;
+  if (others.Count > 0 && given.All.empty())
   {
-    throw Failure("The inputs have no image, mesh or grid, but " + std::to_string(given.Others) +
-      (given.Others == 1 ? " block" : " blocks") + " of another type" + first);
+    failOthers("The inputs have", others.Count, others);
   }
-  return given.Others == 0 ? ""
-                           : std::to_string(given.Others) +
-      (given.Others == 1 ? " block of the inputs" : " blocks of the inputs") + first +
-      (given.Others == 1 ? " is" : " are") + " no data set of cells and passed over";
+  return others.Count == 0 ? ""
+                           : blocksText(others.Count) + " of the inputs" + others.FirstText() +
+      (others.Count == 1 ? " is" : " are") + " no data set of cells and passed over";
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -3,10 +3,10 @@
 #ifndef RectifiedTransport_GivenInputs_h
 #define RectifiedTransport_GivenInputs_h
 
+#include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/VTKCompatibility.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -35,8 +35,7 @@ struct GivenInput
 struct GivenInputs
 {
   std::vector<GivenInput> All;
-  std::int64_t Others = 0; // the leaves that are no data sets with cells and are passed over
-  std::string FirstOther;  // the class and the name of the first one
+  OtherLeaves Others;
 };
 
 // The leaves of composite data that may be densities, where these are inputs; other data are one.

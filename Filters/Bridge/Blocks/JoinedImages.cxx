@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,40 +53,6 @@ std::vector<unsigned char> flagsOfCells(vtkImageData* image, const std::string& 
   return flags;
 }
 
-// Where an image lies in the lattice of another one.
-std::optional<Extent> placeIn(const ImageGrid& lattice, const ImageGrid& grid)
-{
-  constexpr double rounding = 1e-6; // of a spacing: of origins in single precision
-  constexpr double largest = std::numeric_limits<int>::max() / 2;
-  const Eigen::Vector3d offset = grid.Origin() - lattice.Origin();
-  const bool sameAxes = (grid.Direction() - lattice.Direction()).cwiseAbs().maxCoeff() <= rounding;
-  Extent place{};
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    const auto axis = static_cast<Eigen::Index>(a);
-    const double spacing = lattice.Spacing()[axis];
-    const double along = lattice.Direction().col(axis).dot(offset) / spacing;
-    const double steps = std::round(along);
-    const double points = std::max(1, grid.NumberOfPoints()[a]);
-    if (!sameAxes || grid.IsAxis(a) != lattice.IsAxis(a) || !(std::abs(steps) < largest) ||
-      std::abs(along - steps) > rounding ||
-      std::abs(grid.Spacing()[axis] - spacing) * points > rounding * std::abs(spacing))
-    {
-      return std::nullopt;
-    }
-    for (std::size_t end = 2 * a; end < 2 * a + 2; ++end)
-    {
-      const double at = grid.Extent()[end] + steps;
-      if (!(std::abs(at) < largest))
-      {
-        return std::nullopt;
-      }
-      place[end] = static_cast<int>(at);
-    }
-  }
-  return place;
-}
-
 bool areOfOneKind(vtkDataArray* a, vtkDataArray* b)
 {
   return a->GetDataType() == b->GetDataType() &&
@@ -112,7 +77,7 @@ std::optional<std::vector<Part>> partsOf(
     {
       lattice = grid;
     }
-    const std::optional<Extent> place = placeIn(lattice, grid);
+    const std::optional<Extent> place = grid.ExtentIn(lattice);
     if (!place)
     {
       return std::nullopt;

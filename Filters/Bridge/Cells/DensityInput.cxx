@@ -143,16 +143,14 @@ void reportOthers(const DensityChoice& choice, const OtherLeaves& others, const 
 {
   const auto count = sumOverRanks(ranks, others.Count);
   const auto sets = sumOverRanks(ranks, others.DataSets);
-  const std::string first = others.First.empty() ? "" : " (the first a " + others.First + ")";
   if (count > 0 && sets == 0)
   {
-    throw Failure("The density has no image, mesh or grid, but " + std::to_string(count) +
-      (count == 1 ? " block" : " blocks") + " of another type" + first);
+    failOthers("The density has", count, others);
   }
   if (count > 0)
   {
-    choice.Warn(std::to_string(count) + (count == 1 ? " block" : " blocks") +
-      " of the input without cells of a data set" + first + " passed over");
+    choice.Warn(blocksText(count) + " of the input without cells of a data set" +
+      others.FirstText() + " passed over");
   }
 }
 
@@ -174,32 +172,35 @@ FoundArray findArray(const DensityChoice& choice, const std::vector<DensityBlock
     found.Block = b;
     return found;
   };
-  const auto most = std::max_element(dimensions.begin(), dimensions.end());
-  for (int dimension = *most; dimension > 0; --dimension)
+  std::vector<std::size_t> order; // of the blocks with cells, those of the most dimensions first
+  for (int dimension = 3; dimension > 0; --dimension)
   {
     for (std::size_t b = 0; b < blocks.size(); ++b)
     {
-      if (dimensions[b] != dimension)
+      if (dimensions[b] == dimension)
       {
-        continue;
-      }
-      try
-      {
-        return findIn(b);
-      }
-      catch (const Failure&)
-      {
-        // Blocks may lack an array that is named; others may have no array to choose from.
-        int association = 0;
-        if (choice.ArrayName.empty() ? hasArrays(blocks[b].Data)
-                                     : choice.FindArray(blocks[b].Data, association) != nullptr)
-        {
-          throw;
-        }
+        order.push_back(b);
       }
     }
   }
-  return findIn(static_cast<std::size_t>(most - dimensions.begin()));
+  for (const std::size_t b : order)
+  {
+    try
+    {
+      return findIn(b);
+    }
+    catch (const Failure&)
+    {
+      // Blocks may lack an array that is named; others may have no array to choose from.
+      int association = 0;
+      if (choice.ArrayName.empty() ? hasArrays(blocks[b].Data)
+                                   : choice.FindArray(blocks[b].Data, association) != nullptr)
+      {
+        throw;
+      }
+    }
+  }
+  return findIn(order.front());
 }
 
 // That of another block, by its name or, if it has none, by how the first one was chosen.

@@ -103,42 +103,32 @@ std::optional<Edges> firstEdges(const CellSets& sets, int dimension)
 bool setAxes(const Sums& sums, int dimension, LatticeFrame& frame, Vector3d& spacing)
 {
   std::array<Vector3d, 3> units;
-  for (std::size_t e = 0; e < static_cast<std::size_t>(dimension); ++e)
+  ImageGrid::Matrix along = ImageGrid::Matrix::Constant(-1.0); // how far edges go along the axes
+  for (int e = 0; e < dimension; ++e)
   {
-    units[e] = sums.Along[e].normalized();
+    const auto edge = static_cast<std::size_t>(e);
+    units[edge] = sums.Along[edge].normalized();
+    along.row(e) = units[edge].cwiseAbs().transpose();
   }
-  std::array<bool, 3> isPlaced{ false, false, false };
+  if (!along.allFinite())
+  {
+    return false;
+  }
   for (int n = 0; n < dimension; ++n)
   {
-    std::size_t edge = 0;
-    std::size_t axis = 0;
-    double nearest = -1.0;
-    for (std::size_t e = 0; e < static_cast<std::size_t>(dimension); ++e)
-    {
-      for (std::size_t a = 0; a < 3; ++a)
-      {
-        const double along = std::abs(units[e][static_cast<Eigen::Index>(a)]);
-        if (!isPlaced[e] && !frame.IsAxis[a] && along > nearest)
-        {
-          nearest = along;
-          edge = e;
-          axis = a;
-        }
-      }
-    }
-    if (nearest < 0.0)
-    {
-      return false; // not finite
-    }
-    const auto column = static_cast<Eigen::Index>(axis);
+    Eigen::Index e = 0;
+    Eigen::Index axis = 0;
+    along.maxCoeff(&e, &axis);
+    along.row(e).setConstant(-1.0);
+    along.col(axis).setConstant(-1.0);
+    const auto edge = static_cast<std::size_t>(e);
     Vector3d unit = units[edge];
-    unit *= unit[column] < 0.0 ? -1.0 : 1.0;
+    unit *= unit[axis] < 0.0 ? -1.0 : 1.0;
     constexpr double straight = 1e-9;
-    const bool isStraight = (unit - Vector3d::Unit(column)).norm() <= straight;
-    frame.Axes.col(column) = isStraight ? Vector3d(Vector3d::Unit(column)) : unit;
-    spacing[column] = sums.Along[edge].norm() / static_cast<double>(sums.Cells);
-    isPlaced[edge] = true;
-    frame.IsAxis[axis] = true;
+    const bool isStraight = (unit - Vector3d::Unit(axis)).norm() <= straight;
+    frame.Axes.col(axis) = isStraight ? Vector3d(Vector3d::Unit(axis)) : unit;
+    spacing[axis] = sums.Along[edge].norm() / static_cast<double>(sums.Cells);
+    frame.IsAxis[static_cast<std::size_t>(axis)] = true;
   }
   return true;
 }

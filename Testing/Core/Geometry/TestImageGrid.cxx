@@ -207,6 +207,22 @@ TEST(ImageGrid, MirroredVolumes)
   EXPECT_FALSE(ImageGrid({ 0, 1, 0, 1, 0, 0 }, origin, spacing, mirror, false).IsMirrored());
 }
 
+TEST(ImageGrid, PlaceInAnotherLattice)
+{
+  const ImageGrid lattice({ 0, 4, 0, 3, 0, 0 }, origin, spacing, oblique(), false);
+  const Eigen::Vector3d steps(3.0, -2.0, 0.0);
+  const auto moved = [&](const Eigen::Vector3d& by, const Eigen::Vector3d& sides) {
+    const Eigen::Vector3d offset = Eigen::Vector3d(spacing).cwiseProduct(by);
+    return ImageGrid({ 1, 2, 5, 6, 0, 0 }, origin + oblique() * offset, sides, oblique(), false);
+  };
+  EXPECT_EQ(moved(steps, spacing).ExtentIn(lattice), (std::array<int, 6>{ 4, 5, 3, 4, 0, 0 }));
+  EXPECT_FALSE(moved({ 0.5, 0.0, 0.0 }, spacing).ExtentIn(lattice));
+  EXPECT_FALSE(moved(steps, 1.01 * spacing).ExtentIn(lattice));
+  EXPECT_FALSE(moved({ 3e9, 0.0, 0.0 }, spacing).ExtentIn(lattice));
+  EXPECT_FALSE(
+    lattice.ExtentIn(ImageGrid({ 0, 4, 0, 3, 0, 2 }, origin, spacing, oblique(), false)));
+}
+
 TEST(ImageGrid, WhatHasNoCells)
 {
   const std::array<int, 6> extent{ 0, 4, 0, 3, 0, 2 };
