@@ -200,7 +200,7 @@ OTHERS = [
     E(BRIDGE + "Cells/MeshCells.cxx", "vtkDataObject::CELL, name.c_str()), «ghostCell» }", "0"),
     E(BRIDGE + "Cells/MeshCells.cxx", "«vtkDataSetAttributes::HIDDENPOINT» };", "0"),
     E(BRIDGE + "Blocks/JoinedImages.cxx", "if («!(a == b)» &&", "false"),
-    E(CORE + "Geometry/ImageGrid.cxx", "«std::abs(along - steps) > rounding» ||", "false"),
+    E(CORE + "Geometry/LatticeExtent.cxx", "«std::abs(along - steps) > rounding» ||", "false"),
     E(BRIDGE + "Blocks/JoinedImages.cxx", "owner < 0 ? «hidden» :",
       "static_cast<unsigned char>(0)"),
     E(BRIDGE + "Blocks/DataContent.cxx", "«this->HashOf(progress) != before.Hash»", "false"),

@@ -37,7 +37,7 @@ public:
     const std::vector<DensityBlock>& own, const Ranks& ranks, Progress& progress);
 
 private:
-  DataContent Content; // of this rank's blocks
+  DataContent Content; // what this rank's blocks have
   std::vector<DensityBlock> Blocks;
 };
 

@@ -5,6 +5,7 @@
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Geometry/LatticeExtent.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -31,10 +32,10 @@ struct Part
   std::string Name;
   vtkDataArray* Array;              // none: an image without mass
   Extent Place;                     // in the lattice of the first image
-  std::vector<unsigned char> Flags; // of the cells, where points of theirs may be hidden
+  std::vector<unsigned char> Flags; // for each cell, where points may be hidden
 };
 
-// Of a density on cells.
+// For a density on cells.
 std::vector<unsigned char> flagsOfCells(vtkImageData* image, const std::string& name)
 {
   const unsigned char* points = ghostFlags(image, vtkDataObject::POINT, name.c_str());
@@ -77,7 +78,7 @@ std::optional<std::vector<Part>> partsOf(
     {
       lattice = grid;
     }
-    const std::optional<Extent> place = grid.ExtentIn(lattice);
+    const std::optional<Extent> place = extentIn(lattice, grid);
     if (!place)
     {
       return std::nullopt;
@@ -183,7 +184,7 @@ bool allHave(const std::vector<Part>& parts, int owner, vtkDataArray* array)
   });
 }
 
-// Of the arrays arrayOf(part), of the kind of `like`. Zero where no part has a value.
+// Joins the arrays arrayOf(part), which are of the kind of `like`. Zero where no part has a value.
 template <class ArrayOf>
 vtkSmartPointer<vtkDataArray> joinArrays(const std::vector<Part>& parts, int owner,
   vtkDataArray* like, const TupleBox& all, const ArrayOf& arrayOf)

@@ -21,7 +21,7 @@ namespace
 {
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-constexpr unsigned char unused = 1; // of values that are not read
+constexpr unsigned char unused = 1; // flags values that are not read
 
 std::string nameOf(const DensityBlock& block)
 {
@@ -120,7 +120,7 @@ private:
   vtkDataArray* Array;
   const DensityRules Rules;
   std::unique_ptr<DensityReader> Reader;
-  std::vector<unsigned char> Flags; // of the values
+  std::vector<unsigned char> Flags; // one for each value
   CellValues Cells;
   BlockValues::Source Found;
 };

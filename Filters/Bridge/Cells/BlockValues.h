@@ -21,7 +21,7 @@ namespace RectifiedTransport::Bridge
 
 struct BlockValues
 {
-  std::vector<CellValues> Cells; // of each block
+  std::vector<CellValues> Cells; // one for each block
   struct Source
   {
     vtkSmartPointer<vtkDataSet> Data;

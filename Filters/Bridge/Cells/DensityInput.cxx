@@ -91,7 +91,7 @@ vtkSmartPointer<Data> withNumbers(Data* data, vtkDataArray* array, bool onPoints
   return made;
 }
 
-// Of a density on several ranks.
+// A density on several ranks needs one.
 void requireName(vtkDataArray* array)
 {
   if (!array->GetName())
@@ -172,7 +172,7 @@ FoundArray findArray(const DensityChoice& choice, const std::vector<DensityBlock
     found.Block = b;
     return found;
   };
-  std::vector<std::size_t> order; // of the blocks with cells, those of the most dimensions first
+  std::vector<std::size_t> order; // the blocks with cells, those of the most dimensions first
   for (int dimension = 3; dimension > 0; --dimension)
   {
     for (std::size_t b = 0; b < blocks.size(); ++b)

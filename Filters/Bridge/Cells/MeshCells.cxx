@@ -56,7 +56,7 @@ CellShape shapeOfType(int type)
                                              : CellShape::Other;
 }
 
-// Of single precision, or of texts with few digits, where the coordinates are no doubles.
+// Coordinates that are no doubles have single precision, or come from texts with few digits.
 double roundingOf(vtkDataSet* data)
 {
   constexpr double ofFloats = 4.0 * std::numeric_limits<float>::epsilon();
@@ -156,7 +156,7 @@ private:
   vtkNew<vtkGenericCell> Cell;
   vtkNew<vtkIdList> Found;
   vtkNew<vtkPoints> Corners;
-  std::map<int, CellReader::Ids> Nodes; // of types of cells
+  std::map<int, CellReader::Ids> Nodes; // for each type of cells
 };
 
 class MeshReader final : public CellReader

@@ -50,7 +50,7 @@ private:
     double* values) const;
   void FillEmpty(const ImageGrid& grid, const EmptyRule& rule, Progress& progress, double* values);
 
-  DataContent Content; // of the last Read
+  DataContent Content; // what the last Read got
   DensityReading How;  // of resampled data
   vtkSmartPointer<vtkImageData> Image;
   // If the image was resampled: the data sets with mass, the lattice of their cells if they form

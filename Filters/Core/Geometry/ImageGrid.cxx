@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 
 #include <cmath>
-#include <limits>
 
 namespace RectifiedTransport
 {
@@ -149,39 +148,6 @@ ImageGrid ImageGrid::AtCellCentres() const
   }
   grid.FindCells();
   return grid;
-}
-
-std::optional<std::array<int, 6>> ImageGrid::ExtentIn(const ImageGrid& lattice) const
-{
-  constexpr double rounding = 1e-6; // of a spacing
-  constexpr double largest = std::numeric_limits<int>::max() / 2;
-  const Eigen::Vector3d offset = this->Origin() - lattice.Origin();
-  const bool sameAxes = (this->Direction() - lattice.Direction()).cwiseAbs().maxCoeff() <= rounding;
-  std::array<int, 6> place{};
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    const auto axis = static_cast<Eigen::Index>(a);
-    const double spacing = lattice.Spacing()[axis];
-    const double along = lattice.Direction().col(axis).dot(offset) / spacing;
-    const double steps = std::round(along);
-    const double points = std::max(1, this->NumberOfPoints()[a]);
-    if (!sameAxes || this->IsAxis(a) != lattice.IsAxis(a) || !(std::abs(steps) < largest) ||
-      std::abs(along - steps) > rounding ||
-      std::abs(this->Spacing()[axis] - spacing) * points > rounding * std::abs(spacing))
-    {
-      return std::nullopt;
-    }
-    for (std::size_t end = 2 * a; end < 2 * a + 2; ++end)
-    {
-      const double at = this->Extent()[end] + steps;
-      if (!(std::abs(at) < largest))
-      {
-        return std::nullopt;
-      }
-      place[end] = static_cast<int>(at);
-    }
-  }
-  return place;
 }
 
 ImageGrid ImageGrid::WithDualCells() const

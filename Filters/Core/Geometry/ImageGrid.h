@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 
 namespace RectifiedTransport
 {
@@ -60,10 +59,6 @@ public:
   ImageGrid AtCellCentres() const;
   // The image whose cells are the dual cells of this one's points.
   ImageGrid WithDualCells() const;
-
-  // The extent of this image in one of the same axes and spacings, if its points are points of that
-  // one's lattice. Origins may be rounded to single precision.
-  std::optional<std::array<int, 6>> ExtentIn(const ImageGrid& lattice) const;
 
   // The number of axes.
   int Dimension() const { return this->AxisCount; }

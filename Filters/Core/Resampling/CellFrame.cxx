@@ -18,7 +18,8 @@ namespace
 
 using Eigen::Vector3d;
 
-// Of the longest side: what a plane or a line may be off by. Single precision is ten times better.
+// A plane or a line may be off by this part of the longest side. Single precision is ten times
+// better.
 constexpr double flatness = 1e-5;
 
 // The first point that is not finite.

@@ -36,13 +36,14 @@ struct CellFrame
   static CellFrame Of(const CellSets& sets, const MassCells& cells, Progress& progress);
 
   ImageGrid::Matrix Axes = ImageGrid::Matrix::Identity(); // columns
-  // Of the coordinates along the axes. Flat axes, those of the shortest sides, have no length.
+  // The range of the coordinates along the axes. Flat axes, those of the shortest sides, have no
+  // length.
   Eigen::AlignedBox3d Box;
 
   Flaw Wrong = Flaw::None;
-  std::size_t Set = 0; // of the first point that is not finite, and the point
+  std::size_t Set = 0; // the set of the first point that is not finite, and the point
   std::int64_t Point = -1;
-  Eigen::Vector3d Sides = Eigen::Vector3d::Zero(); // of cells that are not flat, in growing order
+  Eigen::Vector3d Sides = Eigen::Vector3d::Zero(); // if cells are not flat, in growing order
 };
 
 } // namespace RectifiedTransport

@@ -60,7 +60,8 @@ private:
   LatticeFrame Axes;
   ImageGrid Box;
   int Dimension = 0;
-  std::vector<std::vector<std::int64_t>> Places; // of the cells of each set with mass; -1: none
+  std::vector<std::vector<std::int64_t>>
+    Places; // one for each cell of each set with mass; -1: none
 };
 
 template <class Visit>
@@ -96,7 +97,7 @@ public:
   {
     std::array<std::int64_t, 8> Points;
     std::array<double, 8> Weights;
-    int Count = 0; // of points
+    int Count = 0; // the number of points
     std::int64_t Cell = -1;
     std::size_t Set = 0;
   };

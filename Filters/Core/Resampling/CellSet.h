@@ -67,7 +67,7 @@ public:
 
   std::int64_t NumberOfPoints = 0;
   std::int64_t NumberOfCells = 0;
-  double Rounding = 0.0; // of coordinates, relative to them
+  double Rounding = 0.0; // what coordinates may be off by, relative to them
   HiddenFlags HiddenCells;
   HiddenFlags HiddenPoints; // and with them their cells
 

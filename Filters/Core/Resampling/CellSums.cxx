@@ -32,7 +32,7 @@ void addSizes(const RegionBatch& batch, CellSize& all)
   }
 }
 
-// Of the cells that are divided.
+// What the cells that are divided contain.
 template <int D>
 CellSize sizeOf(const std::vector<CellValues>& sets, const ImageGrid& grid, Progress& progress)
 {
@@ -82,7 +82,7 @@ void addEdges(const std::vector<CellValues>& sets, const RegionBatch& batch, std
   }
 }
 
-// Of the cells that are divided.
+// Adds the cells that are divided.
 template <int D>
 void addCells(const std::vector<CellValues>& sets, const ImageGrid& grid, const GridSlabs<D>& slabs,
   Progress& progress, double* sums)

@@ -33,12 +33,12 @@ public:
   // Takes another set of the same points and cells.
   void SetCells(std::shared_ptr<const CellSet> cells) { this->Set = std::move(cells); }
   bool IsOnPoints() const { return this->OnPoints; }
-  // Of points or cells.
+  // There is one for each point or cell.
   std::int64_t NumberOfValues() const
   {
     return this->OnPoints ? this->Set->NumberOfPoints : this->Set->NumberOfCells;
   }
-  // Of points or cells; 0 where no counted cell needs them.
+  // One for each point or cell; 0 where no counted cell needs it.
   void SetValues(LargeBuffer<double> values)
   {
     this->Density = std::make_shared<const LargeBuffer<double>>(std::move(values));
@@ -95,7 +95,7 @@ private:
   bool HasOnly = false;
   double OnlyValue = 0.0;
   std::shared_ptr<const LargeBuffer<double>> Density;
-  std::shared_ptr<std::vector<Role>> Roles; // of the cells
+  std::shared_ptr<std::vector<Role>> Roles; // one for each cell
   std::int64_t Open = 0;
   std::int64_t FirstOpen = -1;
 };

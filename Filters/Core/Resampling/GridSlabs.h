@@ -64,8 +64,8 @@ struct GridSlabs
   std::int64_t Count;
 };
 
-// Of each set the cells that are divided and nearer than `margin` grid cells to each slab, in their
-// order. Throws Cancelled.
+// For each set, the cells that are divided and nearer than `margin` grid cells to each slab, in
+// their order. Throws Cancelled.
 template <int D>
 std::vector<Bins<std::int64_t>> cellsOfSlabs(const std::vector<CellValues>& sets,
   const ImageGrid& grid, const GridSlabs<D>& slabs, double margin, Progress& progress);

@@ -267,7 +267,7 @@ std::optional<LatticeFrame> LatticeFrame::Of(
     constexpr double most = 0.1;
     frame.CellsAlong[a] = std::max(1.0, std::round(length / edge[axis]));
     frame.Low[axis] = box.Low[axis];
-    // Of axes that are not those of space, the ends are rounded as any other corner.
+    // Along oblique axes, the ends are rounded as any other corner.
     const bool isStraight = frame.Axes(axis, axis) == 1.0;
     frame.Spacing[axis] = isStraight ? length / frame.CellsAlong[a] : edge[axis];
     frame.Tolerance[axis] =

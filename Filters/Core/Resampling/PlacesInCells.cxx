@@ -268,7 +268,7 @@ void find(const std::vector<CellValues>& sets, const ImageGrid& grid, ConstPoint
     found[i].Distance = std::numeric_limits<double>::infinity();
     found[i].Cell = -1; // until there is one within reach
   }
-  Bins<std::int64_t> numbers; // of the places of each slab
+  Bins<std::int64_t> numbers; // the places of each slab
   numbers.Fill(static_cast<std::size_t>(slabs.Count), [&](const auto& add) {
     for (std::int64_t i = 0; i < places.size(); ++i)
     {

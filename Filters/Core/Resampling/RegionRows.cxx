@@ -71,7 +71,7 @@ std::size_t RegionRows::RowOf(double y) const
     this->FirstRow);
 }
 
-// Of the edge of the input that a piece is of.
+// Sets the ends of the input's edge that a piece belongs to.
 void RegionRows::SetEnds(
   const RegionBatch::Edge& edge, double part, double weight, int at, MeshPlace& found) const
 {

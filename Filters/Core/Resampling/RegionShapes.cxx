@@ -28,7 +28,7 @@ public:
   {
   }
 
-  // Of a set's cell, or of all its lines.
+  // Reads a set's cell, or all its lines.
   void Read(int set, std::int64_t cell, RegionShape& shape)
   {
     const CellValues& values = this->Sets[static_cast<std::size_t>(set)];
@@ -203,7 +203,7 @@ private:
   CellPieces<2> Pieces;
 };
 
-// Of a batch: a polygon, or the lines of a set.
+// A polygon, or the lines of a set: a part of a batch.
 struct Unit
 {
   int Set;
@@ -229,7 +229,7 @@ std::vector<Unit> unitsOf(const std::vector<CellValues>& sets)
   return units;
 }
 
-// Of the batch that begins with a unit.
+// Returns the end of the batch that begins with a unit.
 std::size_t endOfBatch(
   const std::vector<CellValues>& sets, const std::vector<Unit>& units, std::size_t first)
 {

@@ -29,7 +29,7 @@ struct RegionShape
 {
   int Set;
   Rings Outline;
-  std::vector<std::int64_t> Points; // of the rings
+  std::vector<std::int64_t> Points; // one for each point of the rings
   std::vector<double> PointValues;  // if the density is on points
   std::vector<std::int64_t> Cells;  // of each ring
   std::vector<double> Values;       // of each ring's region

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The grid of an image: index space and physical space, where values are, what is no grid.
 #include "Core/Geometry/ImageGrid.h"
+#include "Core/Geometry/LatticeExtent.h"
 
 #include <gtest/gtest.h>
 
@@ -209,18 +210,18 @@ TEST(ImageGrid, MirroredVolumes)
 
 TEST(ImageGrid, PlaceInAnotherLattice)
 {
-  const ImageGrid lattice({ 0, 4, 0, 3, 0, 0 }, origin, spacing, oblique(), false);
+  const Matrix turned(Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitY()).toRotationMatrix());
+  const ImageGrid lattice({ 0, 4, 0, 3, 0, 0 }, origin, spacing, turned, false);
   const Eigen::Vector3d steps(3.0, -2.0, 0.0);
   const auto moved = [&](const Eigen::Vector3d& by, const Eigen::Vector3d& sides) {
     const Eigen::Vector3d offset = Eigen::Vector3d(spacing).cwiseProduct(by);
-    return ImageGrid({ 1, 2, 5, 6, 0, 0 }, origin + oblique() * offset, sides, oblique(), false);
+    return ImageGrid({ 1, 2, 5, 6, 0, 0 }, origin + turned * offset, sides, turned, false);
   };
-  EXPECT_EQ(moved(steps, spacing).ExtentIn(lattice), (std::array<int, 6>{ 4, 5, 3, 4, 0, 0 }));
-  EXPECT_FALSE(moved({ 0.5, 0.0, 0.0 }, spacing).ExtentIn(lattice));
-  EXPECT_FALSE(moved(steps, 1.01 * spacing).ExtentIn(lattice));
-  EXPECT_FALSE(moved({ 3e9, 0.0, 0.0 }, spacing).ExtentIn(lattice));
-  EXPECT_FALSE(
-    lattice.ExtentIn(ImageGrid({ 0, 4, 0, 3, 0, 2 }, origin, spacing, oblique(), false)));
+  EXPECT_EQ(extentIn(lattice, moved(steps, spacing)), (std::array<int, 6>{ 4, 5, 3, 4, 0, 0 }));
+  EXPECT_FALSE(extentIn(lattice, moved({ 0.5, 0.0, 0.0 }, spacing)));
+  EXPECT_FALSE(extentIn(lattice, moved(steps, 1.01 * spacing)));
+  EXPECT_FALSE(extentIn(lattice, moved({ 3e9, 0.0, 0.0 }, spacing)));
+  EXPECT_FALSE(extentIn(ImageGrid({ 0, 4, 0, 3, 0, 2 }, origin, spacing, turned, false), lattice));
 }
 
 TEST(ImageGrid, WhatHasNoCells)
