@@ -21,7 +21,8 @@ namespace RectifiedTransport::Bridge
 {
 
 // Voxels, pixels or lines, with the values of the cell arrays; leaves that the mask hides are left
-// out. Throws Failure if memory is short and, with a progress, Cancelled.
+// out. (vtkHyperTreeGridToUnstructuredGrid rounds coordinates to single precision.) Throws Failure
+// if memory is short and, with a progress, Cancelled.
 vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid, Progress* progress);
 
 } // namespace RectifiedTransport::Bridge

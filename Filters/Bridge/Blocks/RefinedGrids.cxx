@@ -2,7 +2,7 @@
 #include "Bridge/Blocks/RefinedGrids.h"
 
 #include "Bridge/Run/Failure.h"
-#include "Core/Geometry/LatticePart.h"
+#include "Core/Geometry/CoveredParts.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkAMRBox.h"
@@ -202,15 +202,10 @@ void requireCellsOfBox(BlockGrid* grid, const LatticePart<3>& box, int descripti
   }
 }
 
-std::int64_t coarsened(std::int64_t cell, int ratio)
+struct Level
 {
-  return (cell >= 0 ? cell : cell - ratio + 1) / ratio;
-}
-
-struct Block
-{
-  LatticePart<3> Own;
-  BlockGrid* Grid; // none where it lies on another rank
+  std::vector<LatticePart<3>> Parts; // the cells of each block
+  std::vector<BlockGrid*> Grids;     // nullptr where it lies on another rank
 };
 
 // Which blocks have a grid on any rank, all levels one after the other.
@@ -234,22 +229,19 @@ std::vector<unsigned char> presentBlocks(vtkOverlappingAMR* grids, const Ranks& 
   return present;
 }
 
-// The blocks of a level, of which `present` says whether they have a grid, by their first cells
-// along axis 0.
-std::vector<Block> blocksOf(
-  vtkOverlappingAMR* grids, unsigned int level, const unsigned char* present)
+// The blocks of a level, of which `present` says whether they have a grid.
+Level levelOf(vtkOverlappingAMR* grids, unsigned int number, const unsigned char* present)
 {
-  std::vector<Block> blocks;
-  for (unsigned int i = 0; i < blocksIn(grids, level); ++i)
+  Level level;
+  for (unsigned int i = 0; i < blocksIn(grids, number); ++i)
   {
     if (present[i])
     {
-      blocks.push_back({ cellsOf(grids, level, i), gridAt(grids, level, i) });
+      level.Parts.push_back(cellsOf(grids, number, i));
+      level.Grids.push_back(gridAt(grids, number, i));
     }
   }
-  std::sort(blocks.begin(), blocks.end(),
-    [](const Block& a, const Block& b) { return a.Own.Low[0] < b.Own.Low[0]; });
-  return blocks;
+  return level;
 }
 
 using Flags = std::map<BlockGrid*, vtkSmartPointer<vtkUnsignedCharArray>>;
@@ -269,57 +261,24 @@ vtkSmartPointer<vtkUnsignedCharArray> ownFlags(BlockGrid* grid)
   return flags;
 }
 
-// Marks the cells of a block that are among some of its level.
-void mark(const Block& block, const LatticePart<3>& covered, Flags& flags)
+// Marks the cells `covered` among the `own` ones of a grid.
+void mark(BlockGrid* grid, const LatticePart<3>& own, const LatticePart<3>& covered, Flags& flags)
 {
-  const LatticePart<3> common = covered.And(block.Own);
-  if (!block.Grid || common.IsEmpty())
-  {
-    return;
-  }
-  vtkSmartPointer<vtkUnsignedCharArray>& own = flags[block.Grid];
-  own = own ? own : ownFlags(block.Grid);
-  if (own->GetNumberOfValues() != block.Grid->GetNumberOfCells())
+  vtkSmartPointer<vtkUnsignedCharArray>& marks = flags[grid];
+  marks = marks ? marks : ownFlags(grid);
+  if (marks->GetNumberOfValues() != grid->GetNumberOfCells())
   {
     return; // an error of whoever reads them
   }
-  for (std::int64_t z = common.Low[2]; z < common.End(2); ++z)
+  for (std::int64_t z = covered.Low[2]; z < covered.End(2); ++z)
   {
-    for (std::int64_t y = common.Low[1]; y < common.End(1); ++y)
+    for (std::int64_t y = covered.Low[1]; y < covered.End(1); ++y)
     {
-      unsigned char* row = own->GetPointer(block.Own.NumberOf({ common.Low[0], y, z }));
-      for (std::int64_t x = 0; x < common.Cells[0]; ++x)
+      unsigned char* row = marks->GetPointer(own.NumberOf({ covered.Low[0], y, z }));
+      for (std::int64_t x = 0; x < covered.Cells[0]; ++x)
       {
         row[x] |= vtkDataSetAttributes::REFINEDCELL;
       }
-    }
-  }
-}
-
-// vtkAMRUtilities::BlankCells would do, but reads past its arrays for boxes outside of the coarser
-// level's, for empty levels and for flat boxes with a cell across the plane.
-void findRefined(
-  const std::vector<Block>& coarse, const std::vector<Block>& fine, int ratio, Flags& flags)
-{
-  std::int64_t widest = 0;
-  for (const Block& block : coarse)
-  {
-    widest = std::max(widest, block.Own.Cells[0] - 1);
-  }
-  for (const Block& child : fine)
-  {
-    LatticePart<3> covered{ {}, {} };
-    for (int a = 0; a < 3; ++a)
-    {
-      covered.Low[a] = coarsened(child.Own.Low[a], ratio);
-      covered.Cells[a] = coarsened(child.Own.End(a) - 1, ratio) - covered.Low[a] + 1;
-    }
-    const std::int64_t first = covered.Low[0] - widest;
-    auto block = std::lower_bound(coarse.begin(), coarse.end(), first,
-      [](const Block& one, std::int64_t cell) { return one.Own.Low[0] < cell; });
-    for (; block != coarse.end() && block->Own.Low[0] < covered.End(0); ++block)
-    {
-      mark(*block, covered, flags);
     }
   }
 }
@@ -334,22 +293,30 @@ Flags findRefined(vtkOverlappingAMR* grids, const std::vector<unsigned char>& pr
   });
   Flags flags;
   const unsigned char* ofLevel = present.data();
-  unsigned int level = 0;
-  std::vector<Block> coarse;
+  unsigned int number = 0;
+  Level coarse;
   for (unsigned int finer = 0; finer < grids->GetNumberOfLevels(); ++finer)
   {
-    std::vector<Block> fine = blocksOf(grids, finer, ofLevel);
+    Level fine = levelOf(grids, finer, ofLevel);
     ofLevel += blocksIn(grids, finer);
-    if (fine.empty())
+    if (fine.Parts.empty())
     {
       continue;
     }
-    if (!coarse.empty())
+    if (!coarse.Parts.empty())
     {
-      findRefined(coarse, fine, refinementOf(grids, level, finer), flags);
+      // vtkAMRUtilities::BlankCells would do, but reads past its arrays for boxes outside of the
+      // coarser level's, for empty levels and for flat boxes with a cell across the plane.
+      visitCovered(coarse.Parts, fine.Parts, refinementOf(grids, number, finer),
+        [&](std::size_t block, const LatticePart<3>& covered) {
+          if (coarse.Grids[block])
+          {
+            mark(coarse.Grids[block], coarse.Parts[block], covered, flags);
+          }
+        });
     }
     coarse = std::move(fine);
-    level = finer;
+    number = finer;
   }
   return flags;
 }
