@@ -3,7 +3,7 @@
 #include "BenchmarkInputs.h"
 
 #include "Core/OptimalMap/Nodes/CostTransform.h"
-#include "Core/OptimalMap/Nodes/NodePoisson.h"
+#include "Core/Grid/NodePoisson.h"
 #include "Core/Parallel/Progress.h"
 
 #include <cmath>

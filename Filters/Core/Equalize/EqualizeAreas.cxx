@@ -3,7 +3,7 @@
 
 #include "Core/Equalize/AreaProjection.h"
 #include "Core/Equalize/CornerLattice.h"
-#include "Core/Equalize/FaceSystem.h"
+#include "Core/Grid/FaceSystem.h"
 #include "Core/Equalize/MoveLimits.h"
 #include "Core/Parallel/Stages.h"
 

@@ -3,9 +3,9 @@
 
 #include "Core/OptimalMap/ImageShares.h"
 #include "Core/OptimalMap/Masses/NodeMasses.h"
-#include "Core/OptimalMap/Nodes/NodeLevels.h"
-#include "Core/OptimalMap/Nodes/NodePoisson.h"
-#include "Core/OptimalMap/Nodes/PoissonMoves.h"
+#include "Core/Grid/NodeLevels.h"
+#include "Core/Grid/NodePoisson.h"
+#include "Core/Grid/NodeMoves.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>

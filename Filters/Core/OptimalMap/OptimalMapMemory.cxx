@@ -3,7 +3,7 @@
 #include "Core/OptimalMap/CouplingCost.h"
 #include "Core/OptimalMap/Masses/FinishSamples.h"
 #include "Core/OptimalMap/Masses/MassCorrection.h"
-#include "Core/OptimalMap/Nodes/NodeLevels.h"
+#include "Core/Grid/NodeLevels.h"
 #include "Core/OptimalMap/OptimalMap.h"
 #include "Core/OptimalMap/PotentialSolver.h"
 #include "Core/OptimalMap/StillCells.h"

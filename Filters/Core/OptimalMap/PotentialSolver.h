@@ -6,9 +6,9 @@
 
 #include "Core/OptimalMap/Masses/CellDensity.h"
 #include "Core/OptimalMap/Masses/NodeMasses.h"
-#include "Core/OptimalMap/Nodes/NodeGrid.h"
+#include "Core/Grid/NodeGrid.h"
 #include "Core/OptimalMap/Nodes/NodeMap.h"
-#include "Core/OptimalMap/Nodes/NodePoisson.h"
+#include "Core/Grid/NodePoisson.h"
 #include "Core/OptimalMap/Nodes/NodeSums.h"
 
 #include <array>

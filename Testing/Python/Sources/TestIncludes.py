@@ -15,8 +15,9 @@ CORE = {
     "Mesh": {"Parallel", "Geometry"},
     "Tables": {"Parallel", "Geometry"},
     "Flow": {"Parallel", "Device", "Geometry", "Tables"},
-    "Equalize": {"Parallel", "Geometry", "Tables", "Flow"},
-    "OptimalMap": {"Parallel", "Geometry", "Tables", "Flow"},
+    "Grid": {"Parallel", "Geometry"},
+    "Equalize": {"Parallel", "Geometry", "Grid", "Tables", "Flow"},
+    "OptimalMap": {"Parallel", "Geometry", "Grid", "Tables", "Flow"},
     "Cartogram": {"Parallel", "Geometry", "Mesh", "Overlap", "Tables", "Flow"},
     "SiteCells": {"Parallel", "Algebra", "Geometry", "Tables", "Flow", "PowerCells"},
     "Quality": {"Parallel", "Geometry", "Tables", "Flow"},
@@ -37,8 +38,8 @@ CORE = {
 }
 # Of the folders within OptimalMap: those there, and of Core.
 OPTIMAL_MAP = {
-    "Nodes": (set(), {"Parallel", "Geometry"}),
-    "Masses": ({"Nodes"}, {"Parallel", "Geometry", "Tables"}),
+    "Nodes": (set(), {"Parallel", "Geometry", "Grid"}),
+    "Masses": ({"Nodes"}, {"Parallel", "Geometry", "Grid", "Tables"}),
 }
 RUN = {"Run"}
 WORKERS = RUN | {"Image", "Points", "Settings", "Density", "Ranks"}

@@ -44,22 +44,19 @@ RT_INLINE Vector3 sumOfFour(const Vector3& a, const Vector3& b, const Vector3& c
 
 #include "Core/Equalize/Kernels/CellAreas.txx"
 #include "Core/Equalize/Kernels/CornerMoves.txx"
-#include "Core/Equalize/Kernels/FaceRelaxation.txx"
 
 } // namespace
 
 template <>
-EqualizeKernels<2> RECTIFIEDTRANSPORT_KERNELS<2>()
+EqualizeKernels<2> equalizeKernelsOf<2, RECTIFIEDTRANSPORT_SET>()
 {
-  return { &rowAreas2D, &rowWeights2D, &rowMoves2D, &rowMultipliers2D, &rowProject2D, &residual<2>,
-    &relax<2>, &apply<2>, &rest<2>, &dot, &advance, &turn };
+  return { &rowAreas2D, &rowWeights2D, &rowMoves2D, &rowMultipliers2D, &rowProject2D };
 }
 
 template <>
-EqualizeKernels<3> RECTIFIEDTRANSPORT_KERNELS<3>()
+EqualizeKernels<3> equalizeKernelsOf<3, RECTIFIEDTRANSPORT_SET>()
 {
-  return { &rowAreas3D, &rowWeights3D, &rowMoves3D, &rowMultipliers3D, &rowProject3D, &residual<3>,
-    &relax<3>, &apply<3>, &rest<3>, &dot, &advance, &turn };
+  return { &rowAreas3D, &rowWeights3D, &rowMoves3D, &rowMultipliers3D, &rowProject3D };
 }
 
 } // namespace RectifiedTransport

@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernels of equalizeAreas for AVX512; the flags are in CMakeLists.txt.
-#define RECTIFIEDTRANSPORT_KERNELS equalizeKernelsAVX512
+#define RECTIFIEDTRANSPORT_SET InstructionSet::AVX512
 #include "Core/Equalize/Kernels/EqualizeKernels.txx"

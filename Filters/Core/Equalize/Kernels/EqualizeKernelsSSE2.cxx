@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernels of equalizeAreas for SSE2; the flags are in CMakeLists.txt.
-#define RECTIFIEDTRANSPORT_KERNELS equalizeKernelsSSE2
+#define RECTIFIEDTRANSPORT_SET InstructionSet::SSE2
 #include "Core/Equalize/Kernels/EqualizeKernels.txx"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/OptimalMap/Masses/MassCorrection.h"
 
-#include "Core/OptimalMap/Nodes/NodeLevels.h"
-#include "Core/OptimalMap/Nodes/NodePoisson.h"
+#include "Core/Grid/NodeLevels.h"
+#include "Core/Grid/NodePoisson.h"
 #include "Core/OptimalMap/Nodes/NodeSums.h"
 #include "Core/Parallel/Progress.h"
 

@@ -6,8 +6,8 @@
 
 #include "Core/OptimalMap/Masses/CellDensity.h"
 #include "Core/OptimalMap/Masses/NodeMasses.h"
-#include "Core/OptimalMap/Nodes/NodeGrid.h"
-#include "Core/OptimalMap/Nodes/PoissonMoves.h"
+#include "Core/Grid/NodeGrid.h"
+#include "Core/Grid/NodeMoves.h"
 
 #include <cstdint>
 #include <vector>

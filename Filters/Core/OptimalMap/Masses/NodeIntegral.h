@@ -5,7 +5,7 @@
 
 #include "Core/OptimalMap/Masses/CellDensity.h"
 #include "Core/OptimalMap/Masses/NodeMasses.h"
-#include "Core/OptimalMap/Nodes/NodeGrid.h"
+#include "Core/Grid/NodeGrid.h"
 
 namespace RectifiedTransport
 {

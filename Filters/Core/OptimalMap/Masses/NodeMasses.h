@@ -4,7 +4,7 @@
 #define RectifiedTransport_NodeMasses_h
 
 #include "Core/OptimalMap/Masses/CellDensity.h"
-#include "Core/OptimalMap/Nodes/NodeGrid.h"
+#include "Core/Grid/NodeGrid.h"
 
 namespace RectifiedTransport
 {

@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_CostTransform_h
 #define RectifiedTransport_CostTransform_h
 
-#include "Core/OptimalMap/Nodes/NodeGrid.h"
+#include "Core/Grid/NodeGrid.h"
 
 namespace RectifiedTransport
 {

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_NodeMap_h
 #define RectifiedTransport_NodeMap_h
 
-#include "Core/OptimalMap/Nodes/NodeGrid.h"
+#include "Core/Grid/NodeGrid.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #define RectifiedTransport_NodeSums_h
 
 #include "Core/OptimalMap/Nodes/IntegerSums.h"
-#include "Core/OptimalMap/Nodes/NodeGrid.h"
+#include "Core/Grid/NodeGrid.h"
 
 #include <array>
 #include <cmath>

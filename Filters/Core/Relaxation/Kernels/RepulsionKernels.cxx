@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Relaxation/Kernels/RepulsionKernels.h"
 
+#include "Core/Parallel/KernelChoice.h"
+
 namespace RectifiedTransport
 {
 
 template <int Dimension>
-RepulsionKernels<Dimension> repulsionKernels([[maybe_unused]] InstructionSet set)
+RepulsionKernels<Dimension> repulsionKernels(InstructionSet set)
 {
-#ifdef RECTIFIEDTRANSPORT_X86
-  if (set == InstructionSet::AVX512)
-  {
-    return repulsionKernelsAVX512<Dimension>();
-  }
-  if (set == InstructionSet::AVX2)
-  {
-    return repulsionKernelsAVX2<Dimension>();
-  }
-#endif
-  return repulsionKernelsSSE2<Dimension>();
+  return chooseKernels(set, [](auto chosen) { return repulsionKernelsOf<Dimension, chosen>(); });
 }
 
 template RepulsionKernels<2> repulsionKernels<2>(InstructionSet);

@@ -83,12 +83,9 @@ struct RepulsionKernels
   double (*Exponential)(double); // exp(-q) for q in [0, 16]
 };
 
-template <int Dimension>
-RepulsionKernels<Dimension> repulsionKernelsSSE2();
-template <int Dimension>
-RepulsionKernels<Dimension> repulsionKernelsAVX2();
-template <int Dimension>
-RepulsionKernels<Dimension> repulsionKernelsAVX512();
+// Compiled for each instruction set.
+template <int Dimension, InstructionSet Set>
+RepulsionKernels<Dimension> repulsionKernelsOf();
 
 // All compute the same bits.
 template <int Dimension>

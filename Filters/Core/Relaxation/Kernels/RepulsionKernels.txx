@@ -196,13 +196,16 @@ double exponentialOf(double q)
 
 } // namespace
 
-template <int Dimension>
-RepulsionKernels<Dimension> RECTIFIEDTRANSPORT_KERNELS()
+template <>
+RepulsionKernels<2> repulsionKernelsOf<2, RECTIFIEDTRANSPORT_SET>()
 {
-  return { &selectPoints<Dimension>, &sumBlock<Dimension>, &exponentialOf };
+  return { &selectPoints<2>, &sumBlock<2>, &exponentialOf };
 }
 
-template RepulsionKernels<2> RECTIFIEDTRANSPORT_KERNELS<2>();
-template RepulsionKernels<3> RECTIFIEDTRANSPORT_KERNELS<3>();
+template <>
+RepulsionKernels<3> repulsionKernelsOf<3, RECTIFIEDTRANSPORT_SET>()
+{
+  return { &selectPoints<3>, &sumBlock<3>, &exponentialOf };
+}
 
 } // namespace RectifiedTransport

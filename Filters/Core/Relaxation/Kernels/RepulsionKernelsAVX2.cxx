@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The repulsion's kernels for AVX2; the flags are in CMakeLists.txt.
-#define RECTIFIEDTRANSPORT_KERNELS repulsionKernelsAVX2
+#define RECTIFIEDTRANSPORT_SET InstructionSet::AVX2
 #include "Core/Relaxation/Kernels/RepulsionKernels.txx"

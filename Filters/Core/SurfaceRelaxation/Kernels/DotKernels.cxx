@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SurfaceRelaxation/Kernels/DotKernels.h"
 
+#include "Core/Parallel/KernelChoice.h"
+
 namespace RectifiedTransport
 {
 
-SumDots dotKernel([[maybe_unused]] InstructionSet set)
+SumDots dotKernel(InstructionSet set)
 {
-#ifdef RECTIFIEDTRANSPORT_X86
-  if (set == InstructionSet::AVX512)
-  {
-    return &sumDotsAVX512;
-  }
-  if (set == InstructionSet::AVX2)
-  {
-    return &sumDotsAVX2;
-  }
-#endif
-  return &sumDotsSSE2;
+  return chooseKernels(set, [](auto chosen) -> SumDots { return &sumDots<chosen>; });
 }
 
 } // namespace RectifiedTransport

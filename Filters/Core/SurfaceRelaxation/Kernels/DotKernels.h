@@ -56,9 +56,9 @@ struct DotBlock
 // Each place sums over the dots in their order.
 using SumDots = void (*)(const DotsInReach& inReach, DotBlock& block);
 
-void sumDotsSSE2(const DotsInReach& inReach, DotBlock& block);
-void sumDotsAVX2(const DotsInReach& inReach, DotBlock& block);
-void sumDotsAVX512(const DotsInReach& inReach, DotBlock& block);
+// Compiled for each instruction set.
+template <InstructionSet Set>
+void sumDots(const DotsInReach& inReach, DotBlock& block);
 
 // All compute the same bits.
 SumDots dotKernel(InstructionSet set = instructionSet());

@@ -102,7 +102,8 @@ RT_INLINE void sumLanes(const DotsInReach& inReach, DotBlock& block, int lane)
 
 } // namespace
 
-void RECTIFIEDTRANSPORT_KERNELS(const DotsInReach& inReach, DotBlock& block)
+template <>
+void sumDots<RECTIFIEDTRANSPORT_SET>(const DotsInReach& inReach, DotBlock& block)
 {
   for (int lane = 0; lane < dotBlock; lane += registers * lanes)
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Poisson's equation on cells: the solution's residual is the one that is reported.
-#include "Core/Equalize/FaceSystem.h"
+#include "Core/Grid/FaceSystem.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/Nodes/Prolongation.h"
+#include "Core/Grid/Prolongation.h"
 
 #include "Core/Parallel/Progress.h"
 

@@ -5,8 +5,8 @@
 #ifndef RectifiedTransport_FaceSystem_h
 #define RectifiedTransport_FaceSystem_h
 
-#include "Core/Equalize/Kernels/EqualizeKernels.h"
 #include "Core/Geometry/GridSize.h"
+#include "Core/Grid/Kernels/FaceKernels.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 
@@ -84,7 +84,7 @@ private:
   void Relax(Level& level, bool fromZero, Progress& progress);
   void RelaxBack(Level& level, Progress& progress);
 
-  EqualizeKernels<Dimension> Kernels;
+  FaceKernels<Dimension> Kernels;
   std::vector<Level> Levels;
   CellArray<Dimension> Given;         // the right-hand side
   CellArray<Dimension, double> Found; // differences of neighbours are far smaller than values

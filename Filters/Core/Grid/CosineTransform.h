@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_CosineTransform_h
 #define RectifiedTransport_CosineTransform_h
 
-#include "Core/OptimalMap/Nodes/Lanes.h"
+#include "Core/Grid/Lanes.h"
 #include "Core/Parallel/LargeBuffer.h"
 
 #include <complex>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Two real lines take one complex Fourier transform of length M (Press et al., "Numerical Recipes",
 // cosft1).
-#include "Core/OptimalMap/Nodes/CosineTransform.h"
+#include "Core/Grid/CosineTransform.h"
 
 #include "Core/Geometry/ReproducibleMath.h"
 

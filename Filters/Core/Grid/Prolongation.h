@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_Prolongation_h
 #define RectifiedTransport_Prolongation_h
 
-#include "Core/OptimalMap/Nodes/NodeGrid.h"
+#include "Core/Grid/NodeGrid.h"
 
 namespace RectifiedTransport
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Equalize/FaceSystem.h"
+#include "Core/Grid/FaceSystem.h"
 
+#include "Core/Grid/ConjugateGradients.h"
 #include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/Stages.h"
 
@@ -139,7 +140,7 @@ FaceWeights<Dimension> FaceSystem<Dimension>::Level::View() const
 
 template <int Dimension>
 FaceSystem<Dimension>::FaceSystem(const GridSize<Dimension>& size)
-  : Kernels(equalizeKernels<Dimension>())
+  : Kernels(faceKernels<Dimension>())
   , Given(size)
   , Found(size)
   , Search(size)
@@ -409,38 +410,44 @@ FaceSolution FaceSystem<Dimension>::Solve(double tolerance, int maximum, Progres
     return this->Kernels.Dot(r, r, first, last);
   });
   FaceSolution found;
+  ConjugateGradients method;
   const double enough = tolerance * tolerance * begin;
   double now = begin;
-  double before = 0.0; // 0: the next search direction does not depend on the last one
   std::array<double, lastIterations> gains{};
   double allGains = 0.0;
   while (now > enough && found.Iterations < maximum)
   {
     Progress& round = nextRound();
-    this->Cycle(0, round);
-    const float* z = finest.X.data();
-    const double rz = sum(round,
-      [&](std::int64_t first, std::int64_t last) { return this->Kernels.Dot(r, z, first, last); });
-    const auto beta = static_cast<float>(before > 0.0 ? rz / before : 0.0);
-    before = rz;
-    this->For(
-      finest.Cells,
-      [&](std::int64_t first, std::int64_t last) { this->Kernels.Turn(beta, z, first, last, p); },
-      round);
-    float* q = finest.Other.data();
-    const double pq = sum(round, [&](std::int64_t first, std::int64_t last) {
-      return this->Kernels.Apply(system, p, first, last, q);
-    });
-    if (!(rz > 0.0 && pq > 0.0))
+    const auto precondition = [&]() {
+      this->Cycle(0, round);
+      return sum(round, [&, z = finest.X.data()](std::int64_t first, std::int64_t last) {
+        return this->Kernels.Dot(r, z, first, last);
+      });
+    };
+    const auto turn = [&](double beta) {
+      this->For(
+        finest.Cells,
+        [&, z = finest.X.data()](std::int64_t first, std::int64_t last) {
+          this->Kernels.Turn(static_cast<float>(beta), z, first, last, p);
+        },
+        round);
+    };
+    const auto apply = [&]() {
+      return sum(round, [&, q = finest.Other.data()](std::int64_t first, std::int64_t last) {
+        return this->Kernels.Apply(system, p, first, last, q);
+      });
+    };
+    const auto advance = [&](double alpha) {
+      now = sum(round, [&, q = finest.Other.data()](std::int64_t first, std::int64_t last) {
+        return this->Kernels.Advance(static_cast<float>(alpha), p, q, first, last, x, r);
+      });
+    };
+    if (!method.Iterate(precondition, turn, apply, advance))
     {
       break;
     }
-    const auto alpha = static_cast<float>(rz / pq);
-    now = sum(round, [&](std::int64_t first, std::int64_t last) {
-      return this->Kernels.Advance(alpha, p, q, first, last, x, r);
-    });
-    gains[static_cast<std::size_t>(found.Iterations % lastIterations)] = rz * rz / pq;
-    allGains += rz * rz / pq;
+    gains[static_cast<std::size_t>(found.Iterations % lastIterations)] = method.Gain();
+    allGains += method.Gain();
     ++found.Iterations;
     const bool isIdle = found.Iterations >= lastIterations &&
       std::accumulate(gains.begin(), gains.end(), 0.0) <= leastGain * allGains;
@@ -450,7 +457,7 @@ FaceSolution FaceSystem<Dimension>::Solve(double tolerance, int maximum, Progres
       now = sum(round, [&](std::int64_t first, std::int64_t last) {
         return this->Kernels.Rest(system, x, b, first, last, r);
       });
-      before = 0.0;
+      method.Restart();
     }
     if (isIdle)
     {

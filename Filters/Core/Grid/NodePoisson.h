@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_NodePoisson_h
 #define RectifiedTransport_NodePoisson_h
 
-#include "Core/OptimalMap/Nodes/NodeGrid.h"
+#include "Core/Grid/NodeGrid.h"
 
 #include <cstdint>
 #include <memory>

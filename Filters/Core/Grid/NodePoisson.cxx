@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/Nodes/NodePoisson.h"
+#include "Core/Grid/NodePoisson.h"
 
 #include "Core/Geometry/ReproducibleMath.h"
-#include "Core/OptimalMap/Nodes/CosineTransform.h"
-#include "Core/OptimalMap/Nodes/NodeRows.h"
-#include "Core/OptimalMap/Nodes/WeightedPoisson.h"
+#include "Core/Grid/CosineTransform.h"
+#include "Core/Grid/NodeRows.h"
+#include "Core/Grid/WeightedPoisson.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Reduction.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <functional>
 #include <limits>
 #include <thread>
 #include <vector>
@@ -193,20 +191,8 @@ struct NodePoisson<Dimension>::Implementation
     const double number = static_cast<double>(cells);
     const double spacing = this->Grid.Spacing[0];
     const double conductance = 1.0 / (number * spacing * spacing);
-    const auto sumOf = [&](const auto& term) {
-      return reduceChunks(
-        progress, this->Nodes, this->Chunk, 0.0,
-        [&](std::int64_t first, std::int64_t last) {
-          double sum = 0.0;
-          for (std::int64_t i = first; i < last; ++i)
-          {
-            sum += term(i);
-          }
-          return sum;
-        },
-        std::plus<>());
-    };
-    const double all = sumOf([=](std::int64_t i) { return masses[i]; });
+    const double all =
+      sumOverNodes(this->Grid, progress, [=](std::int64_t i) { return masses[i]; });
     double flux = 0.0;
     double value = 0.0;
     progress.ForInOrder(this->Nodes, this->Chunk, [&](std::int64_t first, std::int64_t last) {
@@ -217,7 +203,8 @@ struct NodePoisson<Dimension>::Implementation
         value -= flux / conductance;
       }
     });
-    const double mean = sumOf([=](std::int64_t i) { return p[i] * (shareOf(i, cells) / number); });
+    const double mean = sumOverNodes(
+      this->Grid, progress, [=](std::int64_t i) { return p[i] * (shareOf(i, cells) / number); });
     progress.For(this->Nodes, this->Chunk, [=](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {

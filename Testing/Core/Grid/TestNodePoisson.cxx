@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Poisson's equation on nodes against its discrete operator, its eigenfunctions and a direct
 // solution.
-#include "Core/OptimalMap/Nodes/NodePoisson.h"
+#include "Core/Grid/NodePoisson.h"
 
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/Progress.h"

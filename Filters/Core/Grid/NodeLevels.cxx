@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/Nodes/NodeLevels.h"
+#include "Core/Grid/NodeLevels.h"
 
 #include <algorithm>
 #include <cmath>

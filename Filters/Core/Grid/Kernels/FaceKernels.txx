@@ -1,5 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loops of conjugate gradients and Jacobi's iteration. Included by EqualizeKernels.txx.
+// The one kernel source of FaceSystem, loops of conjugate gradients and Jacobi's iteration,
+// compiled once per instruction set (FaceKernels*.cxx), by the same rules as FlowKernels.txx:
+// internal linkage, and nothing of the standard library.
+#include "Core/Grid/Kernels/FaceKernels.h"
+
+#define RT_INLINE inline __attribute__((always_inline))
+
+namespace RectifiedTransport
+{
+
+namespace
+{
 
 // Sums are taken in lanes, in the same order for every instruction set.
 constexpr int sumLanes = 16;
@@ -132,3 +143,19 @@ void turn(float factor, const float* z, std::int64_t first, std::int64_t last, f
     p[i] = z[i] + factor * p[i];
   }
 }
+
+} // namespace
+
+template <>
+FaceKernels<2> faceKernelsOf<2, RECTIFIEDTRANSPORT_SET>()
+{
+  return { &residual<2>, &relax<2>, &apply<2>, &rest<2>, &dot, &advance, &turn };
+}
+
+template <>
+FaceKernels<3> faceKernelsOf<3, RECTIFIEDTRANSPORT_SET>()
+{
+  return { &residual<3>, &relax<3>, &apply<3>, &rest<3>, &dot, &advance, &turn };
+}
+
+} // namespace RectifiedTransport

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of nodes along axis 0, and of how much of a cell nodes stand.
+// Rows of nodes along axis 0, the part of a cell that a node stands for, sums over nodes.
 #ifndef RectifiedTransport_NodeRows_h
 #define RectifiedTransport_NodeRows_h
 
-#include "Core/OptimalMap/Nodes/NodeGrid.h"
+#include "Core/Grid/NodeGrid.h"
+#include "Core/Parallel/Reduction.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 
 namespace RectifiedTransport
 {
@@ -37,6 +39,23 @@ double shareOfRow(const NodeGrid<Dimension>& grid, std::int64_t row)
     row /= nodes;
   }
   return share;
+}
+
+// The sum of term(node), with the same bits on any number of threads. Adds a unit of work a node.
+template <int Dimension, class Term>
+double sumOverNodes(const NodeGrid<Dimension>& grid, Progress& progress, const Term& term)
+{
+  return reduceChunks(
+    progress, grid.NumberOfNodes(), chunkOfRows(grid), 0.0,
+    [&](std::int64_t first, std::int64_t last) {
+      double sum = 0.0;
+      for (std::int64_t node = first; node < last; ++node)
+      {
+        sum += term(node);
+      }
+      return sum;
+    },
+    std::plus<>());
 }
 
 } // namespace RectifiedTransport

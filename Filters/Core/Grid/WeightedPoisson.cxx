@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/Nodes/WeightedPoisson.h"
+#include "Core/Grid/WeightedPoisson.h"
 
-#include "Core/OptimalMap/Nodes/NodeRows.h"
+#include "Core/Grid/ConjugateGradients.h"
+#include "Core/Grid/NodeRows.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 
@@ -31,23 +32,17 @@ void WeightedPoisson<Dimension>::Solve(const double* masses, const double* densi
     }
   }
   this->Begin(masses, density, floor, p, progress);
-  double before = 1.0;
-  for (int iteration = 0; iteration < iterations; ++iteration)
-  {
+  ConjugateGradients method;
+  const auto solve = [&]() {
     precondition(this->Rest.data(), this->Preconditioned.data());
-    const double now = this->Product(progress);
-    if (!(now > 0.0))
-    {
-      return;
-    }
-    this->Turn(iteration > 0 ? now / before : 0.0, progress);
-    const double curvature = this->Apply(progress);
-    if (!(curvature > 0.0)) // what is left is rounding
-    {
-      return;
-    }
-    this->Move(now / curvature, p, progress);
-    before = now;
+    return this->Product(progress);
+  };
+  const auto turn = [&](double beta) { this->Turn(beta, progress); };
+  const auto apply = [&]() { return this->Apply(progress); };
+  const auto advance = [&](double alpha) { this->Advance(alpha, p, progress); };
+  for (int iteration = 0; iteration < iterations && method.Iterate(solve, turn, apply, advance);
+       ++iteration)
+  {
   }
 }
 
@@ -94,28 +89,18 @@ double WeightedPoisson<Dimension>::Product(Progress& progress) const
 {
   const double* z = this->Preconditioned.data();
   const double* r = this->Rest.data();
-  return reduceChunks(
-    progress, this->Nodes, this->Chunk, 0.0,
-    [=](std::int64_t first, std::int64_t last) {
-      double sum = 0.0;
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        sum += z[i] * r[i];
-      }
-      return sum;
-    },
-    std::plus<>());
+  return sumOverNodes(this->Grid, progress, [=](std::int64_t node) { return z[node] * r[node]; });
 }
 
 template <int Dimension>
-void WeightedPoisson<Dimension>::Turn(double factor, Progress& progress)
+void WeightedPoisson<Dimension>::Turn(double beta, Progress& progress)
 {
   const double* z = this->Preconditioned.data();
   double* direction = this->Direction.data();
   progress.For(this->Nodes, this->Chunk, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
-      direction[i] = z[i] + factor * direction[i];
+      direction[i] = z[i] + beta * direction[i];
     }
   });
 }
@@ -182,7 +167,7 @@ double WeightedPoisson<Dimension>::ApplyToRow(std::int64_t row, std::int64_t nod
 }
 
 template <int Dimension>
-void WeightedPoisson<Dimension>::Move(double step, double* p, Progress& progress)
+void WeightedPoisson<Dimension>::Advance(double alpha, double* p, Progress& progress)
 {
   const double* direction = this->Direction.data();
   const double* image = this->Image.data();
@@ -190,8 +175,8 @@ void WeightedPoisson<Dimension>::Move(double step, double* p, Progress& progress
   progress.For(this->Nodes, this->Chunk, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
-      p[i] += step * direction[i];
-      rest[i] -= step * image[i];
+      p[i] += alpha * direction[i];
+      rest[i] -= alpha * image[i];
     }
   });
 }

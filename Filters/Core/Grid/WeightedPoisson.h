@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_WeightedPoisson_h
 #define RectifiedTransport_WeightedPoisson_h
 
-#include "Core/OptimalMap/Nodes/NodeGrid.h"
+#include "Core/Grid/NodeGrid.h"
 
 #include <cstdint>
 #include <functional>
@@ -40,10 +40,10 @@ private:
   void Begin(
     const double* masses, const double* density, double floor, double* p, Progress& progress);
   double Product(Progress& progress) const;
-  void Turn(double factor, Progress& progress);
+  void Turn(double beta, Progress& progress);
   double Apply(Progress& progress);
   double ApplyToRow(std::int64_t row, std::int64_t node);
-  void Move(double step, double* p, Progress& progress);
+  void Advance(double alpha, double* p, Progress& progress);
 
   const NodeGrid<Dimension> Grid;
   const std::int64_t Nodes;

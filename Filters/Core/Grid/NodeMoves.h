@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Moves of points down the gradient of a function at nodes. Points are in cells of the nodes.
-#ifndef RectifiedTransport_PoissonMoves_h
-#define RectifiedTransport_PoissonMoves_h
+#ifndef RectifiedTransport_NodeMoves_h
+#define RectifiedTransport_NodeMoves_h
 
-#include "Core/OptimalMap/Nodes/NodeGrid.h"
+#include "Core/Grid/NodeGrid.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>

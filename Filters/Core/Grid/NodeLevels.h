@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_NodeLevels_h
 #define RectifiedTransport_NodeLevels_h
 
-#include "Core/OptimalMap/Nodes/NodeGrid.h"
+#include "Core/Grid/NodeGrid.h"
 
 #include <vector>
 

@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The kernels of FaceSystem for AVX2; the flags are in CMakeLists.txt.
+#define RECTIFIEDTRANSPORT_SET InstructionSet::AVX2
+#include "Core/Grid/Kernels/FaceKernels.txx"
