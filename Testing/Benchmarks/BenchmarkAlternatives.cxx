@@ -5,7 +5,7 @@
 #include "BenchmarkInputs.h"
 #include "KnotInput.h"
 
-#include "Core/Mesh/MergePoints.h"
+#include "Core/Geometry/EqualPoints.h"
 #include "Core/Mesh/SurfaceOrientation.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Quality/NearestNeighbours.h"
@@ -159,7 +159,7 @@ void mergeOurs(benchmark::State& state)
   LargeBuffer<std::int64_t> firsts(surface.Points.size() / 3);
   for (auto _ : state)
   {
-    mergePoints(surface.Get().Points, firsts.data(), SerialExecutor());
+    mergePoints<3>(surface.Get().Points, firsts.data(), SerialExecutor());
   }
 }
 

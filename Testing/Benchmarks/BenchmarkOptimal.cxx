@@ -2,8 +2,8 @@
 // The parts of the optimal map on grids of nodes.
 #include "BenchmarkInputs.h"
 
-#include "Core/OptimalMap/Nodes/CostTransform.h"
 #include "Core/Grid/NodePoisson.h"
+#include "Core/OptimalMap/Nodes/CostTransform.h"
 #include "Core/Parallel/Progress.h"
 
 #include <cmath>

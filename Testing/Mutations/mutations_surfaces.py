@@ -110,7 +110,7 @@ SURFACES = [
     S(CORE + "SurfaceRelaxation/DensityLevels.cxx", "this->Levels[t] = smooth.data()[t];", "this->SetLevel(t);"),
     E(CORE + "SurfaceRelaxation/SurfaceBoundary.cxx",
       "const double place = «std::clamp(dot(from, edge) / dot(edge, edge), 0.0, 1.0)»;", "0.5"),
-    E(CORE + "SurfaceRelaxation/DotTree.cxx", "< «squaredDotReach» * a.Spacing", "(0.5 * squaredDotReach)"),
+    E(CORE + "SurfaceRelaxation/DotTree.cxx", "< «squaredDotReach» * a.Largest", "(0.5 * squaredDotReach)"),
     S(CORE + "SurfaceRelaxation/WalkedSurface.cxx", "left = along * edge;\n      from = through;",
       "left = 0.0 * edge;\n      from = through;"),
     S(CORE + "SurfaceRelaxation/WalkedSurface.cxx", "place = kept;", ";"),

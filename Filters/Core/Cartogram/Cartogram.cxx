@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Cartogram/Cartogram.h"
 
-#include "Core/Cartogram/DistinctPlaces.h"
 #include "Core/Cartogram/EdgeLengths.h"
 #include "Core/Cartogram/RegionRaster.h"
 #include "Core/Cartogram/RegionValues.h"
 #include "Core/Cartogram/Sea.h"
 #include "Core/Flow/RectifiedFlow.h"
+#include "Core/Geometry/EqualPoints.h"
 #include "Core/Parallel/Stages.h"
 
 #include <algorithm>
@@ -307,7 +307,7 @@ private:
       this->Flow.emplace(DensitySource<2>(array), parts["tables"]);
     }
     std::vector<Point<2>>& points = this->Map.Points();
-    const DistinctPlaces before(points, parts["points"]);
+    const DistinctPoints<2> before(points, parts["points"]);
     std::vector<Point<2>> moved(before.Places().size());
     const std::vector<double> ringAreas = this->RingAreas();
     Rounds flows(parts["flow"], 1);

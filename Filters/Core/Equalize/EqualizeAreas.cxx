@@ -3,8 +3,8 @@
 
 #include "Core/Equalize/AreaProjection.h"
 #include "Core/Equalize/CornerLattice.h"
-#include "Core/Grid/FaceSystem.h"
 #include "Core/Equalize/MoveLimits.h"
+#include "Core/Grid/FaceSystem.h"
 #include "Core/Parallel/Stages.h"
 
 #include <algorithm>

@@ -2,6 +2,8 @@
 #include "Core/Mesh/MergePoints.h"
 
 #include "Core/Geometry/Bins.h"
+#include "Core/Geometry/EqualPoints.h"
+#include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Mesh/Trees.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"
@@ -9,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace RectifiedTransport
@@ -17,40 +18,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-// A power of two, for a load factor of at most 1/2.
-std::int64_t tableSize(std::int64_t count)
-{
-  std::int64_t size = 2;
-  while (size < 2 * count)
-  {
-    size *= 2;
-  }
-  return size;
-}
-
-std::uint64_t mix(std::uint64_t bits)
-{
-  bits ^= bits >> 32;
-  bits *= 0xd6e8feb86659fd93u;
-  bits ^= bits >> 32;
-  bits *= 0xd6e8feb86659fd93u;
-  return bits ^ bits >> 32;
-}
-
-template <int Dimension>
-std::uint64_t hash(const double* point)
-{
-  std::uint64_t mixed = 0;
-  for (int i = 0; i < Dimension; ++i)
-  {
-    const double coordinate = point[i] + 0.0; // -0 is 0
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &coordinate, sizeof(bits));
-    mixed = mix(mixed ^ bits);
-  }
-  return mixed;
-}
 
 // A box of a lattice whose boxes are twice the distance wide.
 using Box = std::array<std::int64_t, 3>;
@@ -60,7 +27,7 @@ std::uint64_t hash(const Box& box)
   std::uint64_t mixed = 0;
   for (const std::int64_t i : box)
   {
-    mixed = mix(mixed ^ static_cast<std::uint64_t>(i));
+    mixed = mixBits(mixed ^ static_cast<std::uint64_t>(i));
   }
   return mixed;
 }
@@ -73,7 +40,7 @@ public:
     : Points(points)
     , Width(2.0 * distance)
     , Parents(parents)
-    , Table(tableSize(points.size()))
+    , Table(hashTableSize(points.size()))
   {
     std::fill_n(this->Table.data(), this->Table.size(), std::int64_t{ -1 });
   }
@@ -155,50 +122,7 @@ private:
   LargeBuffer<std::int64_t> Table; // of each box a point; -1 where it is free
 };
 
-template <int Dimension>
-void mergeSame(ConstPointSpan<Dimension> points, std::int64_t* firsts, const Context& context)
-{
-  LargeBuffer<std::int64_t> memory(tableSize(points.size()));
-  std::int64_t* table = memory.data(); // indices of points, -1 where it is free
-  const auto mask = static_cast<std::uint64_t>(memory.size() - 1);
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
-  Progress progress(context);
-  Stages stages(progress, { { "table", 1 }, { "points", 9 } });
-  stages["table"].ForInOrder(memory.size(), grain, [table](std::int64_t first, std::int64_t last) {
-    std::fill(table + first, table + last, std::int64_t{ -1 });
-  });
-  stages["points"].ForInOrder(
-    points.size(), grain,
-    [=](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        const double* point = points[i];
-        std::uint64_t place = hash<Dimension>(point) & mask;
-        while (table[place] >= 0 && !std::equal(point, point + Dimension, points[table[place]]))
-        {
-          place = (place + 1) & mask;
-        }
-        if (table[place] < 0)
-        {
-          table[place] = i;
-        }
-        firsts[i] = table[place];
-      }
-    },
-    grain);
-}
-
 } // namespace
-
-void mergePoints(ConstPointSpan<2> points, std::int64_t* firsts, const Context& context)
-{
-  mergeSame(points, firsts, context);
-}
-
-void mergePoints(ConstPointSpan<3> points, std::int64_t* firsts, const Context& context)
-{
-  mergeSame(points, firsts, context);
-}
 
 bool mergeNearPoints(
   ConstPointSpan<3> points, double distance, std::int64_t* firsts, const Context& context)
@@ -208,7 +132,7 @@ bool mergeNearPoints(
   Progress progress(context);
   Stages stages(
     progress, { { "equal", 3 }, { "clusters", 2 }, { "neighbours", 4 }, { "firsts", 1 } });
-  mergePoints(points, firsts, stages["equal"]);
+  mergePoints<3>(points, firsts, stages["equal"]);
   LargeBuffer<bool> isDistinct(count);
   for (std::int64_t i = 0; i < count; ++i)
   {

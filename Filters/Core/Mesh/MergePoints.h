@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds points with the same, or nearly the same, coordinates, and triangles with the same points.
+// Finds points with nearly the same coordinates, and triangles with the same points.
 #ifndef RectifiedTransport_MergePoints_h
 #define RectifiedTransport_MergePoints_h
 
@@ -12,15 +12,6 @@
 
 namespace RectifiedTransport
 {
-
-// Writes for each point the index of the first one with the same, finite, coordinates. Uses a hash
-// table of the coordinates' bits, in linear time for any distribution of the points; the bins of a
-// point locator take quadratic time if most points are in one bin. Memory: up to 32 bytes a point.
-// On one thread. Throws std::bad_alloc and Cancelled.
-void mergePoints(
-  ConstPointSpan<2> points, std::int64_t* firsts, const Context& context = Context());
-void mergePoints(
-  ConstPointSpan<3> points, std::int64_t* firsts, const Context& context = Context());
 
 // Writes for each point the index of the point that represents its cluster: the one with the lowest
 // coordinates, by x, then y, then z, for any order of the points. Points that differ by less than

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/SurfaceRepair.h"
 
+#include "Core/Geometry/EqualPoints.h"
 #include "Core/Mesh/FlatShape.h"
 #include "Core/Mesh/FlatTriangles.h"
 #include "Core/Mesh/MergePoints.h"
@@ -125,7 +126,7 @@ private:
     }
     else
     {
-      mergePoints(this->Given.Points, merged.data(), context);
+      mergePoints<3>(this->Given.Points, merged.data(), context);
     }
     for (std::int64_t i = 0; i < points; ++i)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/TJunctionRepair.h"
 
+#include "Core/Geometry/EqualPoints.h"
 #include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/PlaceOnSide.h"
 #include "Core/Parallel/Stages.h"
@@ -177,7 +178,7 @@ TJunctionRepair repairTJunctions(
     { { "rounding", 5 }, { "equal points", 10 }, { "merged equal", 35 }, { "near points", 10 },
       { "merged near", 40 } });
   const double rounding = roundingOfCorners(surface, stages["rounding"]);
-  mergePoints(surface.Points, merged.data(), stages["equal points"]);
+  mergePoints<3>(surface.Points, merged.data(), stages["equal points"]);
   RepairRun equal(surface, merged, rounding, scope, stages["merged equal"]);
   TJunctionRepair repair = equal.Take();
   if (equal.OpenSides() == 0 || rounding == 0.0)

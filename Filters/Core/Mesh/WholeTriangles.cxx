@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/WholeTriangles.h"
 
+#include "Core/Geometry/EqualPoints.h"
 #include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/TJunctions.h"
 #include "Core/Mesh/UnitScale.h"
@@ -100,7 +101,7 @@ void WholeTriangles::LeaveOutRepeated(Progress& progress)
   Stages stages(progress, { { "points", 1 }, { "search", 1 }, { "removal", 1 } });
   const TriangleSurface surface = this->Surface();
   LargeBuffer<std::int64_t> firsts(surface.Points.size());
-  mergePoints(surface.Points, firsts.data(), stages["points"]);
+  mergePoints<3>(surface.Points, firsts.data(), stages["points"]);
   LargeBuffer<std::int64_t> merged(3 * surface.NumberOfTriangles);
   std::transform(surface.Triangles, surface.Triangles + merged.size(), merged.data(),
     [&firsts](std::int64_t point) { return firsts.data()[point]; });

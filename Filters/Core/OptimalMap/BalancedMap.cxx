@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/OptimalMap/BalancedMap.h"
 
+#include "Core/Grid/NodeLevels.h"
+#include "Core/Grid/NodeMoves.h"
+#include "Core/Grid/NodePoisson.h"
 #include "Core/OptimalMap/ImageShares.h"
 #include "Core/OptimalMap/Masses/NodeMasses.h"
-#include "Core/Grid/NodeLevels.h"
-#include "Core/Grid/NodePoisson.h"
-#include "Core/Grid/NodeMoves.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>

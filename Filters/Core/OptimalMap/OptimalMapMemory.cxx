@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How much memory an optimal map takes.
+#include "Core/Grid/NodeLevels.h"
 #include "Core/OptimalMap/CouplingCost.h"
 #include "Core/OptimalMap/Masses/FinishSamples.h"
 #include "Core/OptimalMap/Masses/MassCorrection.h"
-#include "Core/Grid/NodeLevels.h"
 #include "Core/OptimalMap/OptimalMap.h"
 #include "Core/OptimalMap/PotentialSolver.h"
 #include "Core/OptimalMap/StillCells.h"

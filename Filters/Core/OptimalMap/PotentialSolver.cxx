@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/OptimalMap/PotentialSolver.h"
 
+#include "Core/Grid/NodeLevels.h"
+#include "Core/Grid/Prolongation.h"
 #include "Core/OptimalMap/BoxCheck.h"
 #include "Core/OptimalMap/Masses/NodeIntegral.h"
 #include "Core/OptimalMap/Nodes/CostTransform.h"
-#include "Core/Grid/NodeLevels.h"
-#include "Core/Grid/Prolongation.h"
 #include "Core/OptimalMap/Nodes/PushForward.h"
 #include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/SmallWork.h"

@@ -4,11 +4,11 @@
 #ifndef RectifiedTransport_PotentialSolver_h
 #define RectifiedTransport_PotentialSolver_h
 
+#include "Core/Grid/NodeGrid.h"
+#include "Core/Grid/NodePoisson.h"
 #include "Core/OptimalMap/Masses/CellDensity.h"
 #include "Core/OptimalMap/Masses/NodeMasses.h"
-#include "Core/Grid/NodeGrid.h"
 #include "Core/OptimalMap/Nodes/NodeMap.h"
-#include "Core/Grid/NodePoisson.h"
 #include "Core/OptimalMap/Nodes/NodeSums.h"
 
 #include <array>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Relaxation/ReachTree.h"
 
-#include "Core/Geometry/BoxTree.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Relaxation/Polls.h"
 
@@ -55,33 +54,6 @@ int widestAxis(const NumberedPoint<Dimension>* first, const NumberedPoint<Dimens
 
 constexpr std::int64_t wholeBlock = repulsionBlock;
 
-template <int Dimension>
-void join(ReachBounds<Dimension>& bounds, const ReachBounds<Dimension>& other)
-{
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    bounds.Low[axis] = std::min(bounds.Low[axis], other.Low[axis]);
-    bounds.High[axis] = std::max(bounds.High[axis], other.High[axis]);
-  }
-  bounds.Square = std::max(bounds.Square, other.Square);
-}
-
-template <int Dimension>
-bool isInReach(const ReachBounds<Dimension>& a, const ReachBounds<Dimension>& b, double reach)
-{
-  double squared = 0.0;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    // Not the maximum of a list: compilers keep that one in memory.
-    const double above = a.Low[axis] - b.High[axis];
-    const double below = b.Low[axis] - a.High[axis];
-    const double most = above > below ? above : below;
-    const double gap = most > 0.0 ? most : 0.0;
-    squared += gap * gap;
-  }
-  return squared < reach * (a.Square + b.Square);
-}
-
 } // namespace
 
 template <int Dimension>
@@ -89,7 +61,7 @@ void ReachTree<Dimension>::Begin(std::int64_t points)
 {
   this->Count = points;
   this->Sorted.resize(static_cast<std::size_t>((points + repulsionBlock - 1) / repulsionBlock));
-  this->MakeBoxes();
+  this->Boxes = BlockTree<Dimension>(this->Blocks());
 }
 
 template <int Dimension>
@@ -134,25 +106,24 @@ void ReachTree<Dimension>::Build(
   progress.Check();
   this->Begin(static_cast<std::int64_t>(points.size()));
   progress.Check();
-  // Parents are before their children.
   Polls polls(progress);
-  for (const Box& box : this->Boxes)
-  {
-    auto* first = numbered.data() + box.First * repulsionBlock;
-    auto* last = numbered.data() + std::min(box.Last * repulsionBlock, this->Size());
-    const int axis = box.Second < 0 ? 0 : widestAxis<Dimension>(first, last);
+  this->Boxes.ForEach([&](std::int64_t firstBlock, std::int64_t lastBlock) {
+    auto* first = numbered.data() + firstBlock * repulsionBlock;
+    auto* last = numbered.data() + std::min(lastBlock * repulsionBlock, this->Size());
+    const bool isBlock = lastBlock - firstBlock == 1;
+    const int axis = isBlock ? 0 : widestAxis<Dimension>(first, last);
     const auto before = [&polls, axis](const auto& a, const auto& b) {
       polls.Count();
       return isBefore<Dimension>(a, b, axis);
     };
-    if (box.Second < 0)
+    if (isBlock)
     {
       std::sort(first, last, before);
-      continue;
+      return;
     }
-    const std::int64_t middle = this->Boxes[static_cast<std::size_t>(box.Second)].First;
+    const std::int64_t middle = BlockTree<Dimension>::middleOf(firstBlock, lastBlock);
     std::nth_element(first, numbered.data() + middle * repulsionBlock, last, before);
-  }
+  });
   this->Places.resize(numbered.size());
   for (std::size_t i = 0; i < numbered.size(); ++i)
   {
@@ -164,47 +135,20 @@ void ReachTree<Dimension>::Build(
   progress.Check();
 }
 
-// The tree of halves of the blocks, without places yet.
 template <int Dimension>
-void ReachTree<Dimension>::MakeBoxes()
+BlockBounds<Dimension> ReachTree<Dimension>::BoundsOf(std::int64_t number) const
 {
-  this->BlockBox.assign(static_cast<std::size_t>(this->Blocks()), 0);
-  this->Boxes.clear();
-  if (this->Blocks() == 0)
-  {
-    return;
-  }
-  this->Boxes = makeBoxTree<Box>(
-    this->Blocks(),
-    [](std::int64_t first, std::int64_t last) {
-      Box box{};
-      box.First = first;
-      box.Last = last;
-      box.Second = -1;
-      return box;
-    },
-    [](const Box& box) { return (box.First + box.Last) / 2; }); // of one block: the first
-  for (std::size_t i = 0; i < this->Boxes.size(); ++i)
-  {
-    if (this->Boxes[i].Second < 0)
-    {
-      this->BlockBox[static_cast<std::size_t>(this->Boxes[i].First)] = static_cast<std::int64_t>(i);
-    }
-  }
-}
-
-template <int Dimension>
-void ReachTree<Dimension>::Bound(Box& box) const
-{
-  const ScaledBlock<Dimension>& block = this->Sorted[static_cast<std::size_t>(box.First)];
-  const std::int64_t count = std::min(this->Size() - box.First * repulsionBlock, wholeBlock);
-  box.Square = *std::max_element(block.Square, block.Square + count);
+  const ScaledBlock<Dimension>& block = this->Sorted[static_cast<std::size_t>(number)];
+  const std::int64_t count = std::min(this->Size() - number * repulsionBlock, wholeBlock);
+  BlockBounds<Dimension> bounds;
+  bounds.Largest = *std::max_element(block.Square, block.Square + count);
   for (int axis = 0; axis < Dimension; ++axis)
   {
     const double* x = block.X[axis];
-    box.Low[axis] = *std::min_element(x, x + count);
-    box.High[axis] = *std::max_element(x, x + count);
+    bounds.Low[axis] = *std::min_element(x, x + count);
+    bounds.High[axis] = *std::max_element(x, x + count);
   }
+  return bounds;
 }
 
 template <int Dimension>
@@ -240,18 +184,11 @@ void ReachTree<Dimension>::Set(std::int64_t i, const ScaledPoint<Dimension>& poi
 template <int Dimension>
 void ReachTree<Dimension>::Update()
 {
-  for (std::size_t i = this->Boxes.size(); i-- > 0;)
+  for (std::int64_t block = 0; block < this->Blocks(); ++block)
   {
-    Box& box = this->Boxes[i];
-    if (box.Second < 0)
-    {
-      this->Bound(box);
-      continue;
-    }
-    ReachBounds<Dimension>& bounds = box;
-    bounds = this->Boxes[i + 1];
-    join<Dimension>(bounds, this->Boxes[static_cast<std::size_t>(box.Second)]);
+    this->Boxes[block] = this->BoundsOf(block);
   }
+  this->Boxes.Update();
 }
 
 template <int Dimension>
@@ -275,34 +212,12 @@ int ReachTree<Dimension>::Fill(std::int64_t block, RepulsionBlock<Dimension>& in
 template <int Dimension>
 void ReachTree<Dimension>::FindBlocks(const ReachTree& targets, double reach, InReach& found) const
 {
-  ReachBounds<Dimension> target = targets.BoxOf(found.First);
-  for (std::int64_t block = found.First + 1; block < found.Last; ++block)
-  {
-    join<Dimension>(target, targets.BoxOf(block));
-  }
-  found.Blocks.clear();
-  std::int64_t stack[64]; // more than the tree's depth
-  int depth = 0;
-  if (!this->Boxes.empty())
-  {
-    stack[depth++] = 0;
-  }
-  while (depth > 0)
-  {
-    const std::int64_t at = stack[--depth];
-    const Box& box = this->Boxes[static_cast<std::size_t>(at)];
-    if (!isInReach<Dimension>(box, target, reach))
-    {
-      continue;
-    }
-    if (box.Second < 0)
-    {
-      found.Blocks.push_back(box.First);
-      continue;
-    }
-    stack[depth++] = box.Second;
-    stack[depth++] = at + 1;
-  }
+  const BlockBounds<Dimension> target = targets.Boxes.BoundsOf(found.First, found.Last);
+  this->Boxes.Find(
+    [&](const BlockBounds<Dimension>& box) {
+      return squaredGap<Dimension>(box, target) < reach * (box.Largest + target.Largest);
+    },
+    found.Blocks);
 }
 
 template <int Dimension>
@@ -320,7 +235,7 @@ void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t bl
   {
     found.Points.resize(found.Blocks.size() * repulsionBlock);
   }
-  found.Count = this->Kernels.Select(targets.BoxOf(block), reach, this->Points(),
+  found.Count = this->Kernels.Select(targets.Boxes[block], reach, this->Points(),
     found.Blocks.data(), static_cast<std::int64_t>(found.Blocks.size()), found.Points.data());
 }
 

@@ -5,6 +5,7 @@
 #ifndef RectifiedTransport_ReachTree_h
 #define RectifiedTransport_ReachTree_h
 
+#include "Core/Geometry/BlockTree.h"
 #include "Core/Geometry/Points.h"
 #include "Core/Relaxation/Kernels/RepulsionKernels.h"
 
@@ -67,30 +68,17 @@ public:
     InReach& found) const;
 
 private:
-  struct Box : ReachBounds<Dimension>
-  {
-    std::int64_t First; // blocks [First, Last)
-    std::int64_t Last;
-    std::int64_t Second; // the first child is the next box; -1 in a leaf
-  };
-
   void Begin(std::int64_t points);
   void End();
-  void MakeBoxes();
   // For the blocks [found.First, found.Last) of the targets.
   void FindBlocks(const ReachTree& targets, double reach, InReach& found) const;
-  void Bound(Box& leaf) const;
-  const Box& BoxOf(std::int64_t block) const
-  {
-    return this->Boxes[static_cast<std::size_t>(this->BlockBox[static_cast<std::size_t>(block)])];
-  }
+  BlockBounds<Dimension> BoundsOf(std::int64_t block) const;
 
   RepulsionKernels<Dimension> Kernels = repulsionKernels<Dimension>();
   std::int64_t Count = 0;
   std::vector<ScaledBlock<Dimension>> Sorted;
   std::vector<std::int64_t> Places;
-  std::vector<Box> Boxes;
-  std::vector<std::int64_t> BlockBox;
+  BlockTree<Dimension> Boxes; // whose largest numbers are squared spacings
 };
 
 } // namespace RectifiedTransport

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Solid/ClosedMesh.h"
 
+<<<<<<< HEAD
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Mesh/CornerPoint.h"
+=======
+#include "Core/Geometry/EqualPoints.h"
+>>>>>>> e6ffb9dd (Find equal points, and blocks in reach, in one way each)
 #include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/SplitSurface.h"
 #include "Core/Mesh/SurfaceEdges.h"
@@ -138,7 +142,7 @@ void ClosedMesh::Merge(const Context& context)
 {
   const ConstPointSpan<3> points = this->Points();
   this->Firsts = LargeBuffer<std::int64_t>(points.size());
-  mergePoints(points, this->Firsts.data(), context);
+  mergePoints<3>(points, this->Firsts.data(), context);
 }
 
 std::string ClosedMesh::Close(

@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_DotTree_h
 #define RectifiedTransport_DotTree_h
 
-#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Geometry/BlockTree.h"
 #include "Core/SurfaceRelaxation/Kernels/DotKernels.h"
 
 #include <algorithm>
@@ -23,12 +23,8 @@ inline std::int64_t dotsBeforeCut(std::int64_t dots)
   return blocks > 1 ? dotBlock * (blocks / 2) : dots / 2;
 }
 
-struct DotBox
-{
-  double Low[3];
-  double High[3];
-  double Spacing; // the largest
-};
+// The largest number of a box is the dots' spacing.
+using DotBox = BlockBounds<3>;
 
 class DotTree
 {
@@ -37,11 +33,11 @@ public:
   explicit DotTree(std::int64_t dots);
   static double MemoryFor(std::int64_t dots);
 
-  std::int64_t Blocks() const { return this->NumberOfBlocks; }
+  std::int64_t Blocks() const { return this->Tree.Blocks(); }
   // Bounds the dots. Throws Cancelled.
   void Update(const ScaledDot* dots, Progress& progress);
 
-  const DotBox& BoxOf(std::int64_t block) const { return this->Leaves.data()[block]; }
+  const DotBox& BoxOf(std::int64_t block) const { return this->Tree[block]; }
   // The blocks with dots that may push those of the blocks [first, last), in their order.
   void FindInReach(std::int64_t first, std::int64_t last, std::vector<std::int64_t>& found) const;
   // Those of some blocks with dots that may push those of one.
@@ -49,13 +45,8 @@ public:
     std::vector<std::int64_t>& found) const;
 
 private:
-  void Join(std::int64_t node, std::int64_t blocks, std::int64_t first);
-
   std::int64_t Dots;
-  std::int64_t NumberOfBlocks;
-  LargeBuffer<DotBox> Leaves; // of each block
-  // In depth-first order: the first child is the next one, the second one comes after its nodes.
-  LargeBuffer<DotBox> Nodes;
+  BlockTree<3> Tree;
 };
 
 } // namespace RectifiedTransport

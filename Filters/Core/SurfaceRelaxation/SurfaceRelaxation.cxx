@@ -204,7 +204,7 @@ private:
     this->Sum(inReach, own);
     const DotBox& box = this->Tree.BoxOf(block);
     // A mirror image is twice as far as the boundary.
-    this->Boundary.FindNear(box, 0.5 * std::sqrt(squaredDotReach) * box.Spacing, scratch.Sides);
+    this->Boundary.FindNear(box, 0.5 * std::sqrt(squaredDotReach) * box.Largest, scratch.Sides);
     for (std::int64_t lane = 0; lane < count; ++lane)
     {
       const ScaledDot& at = this->Dots.data()[first + lane];

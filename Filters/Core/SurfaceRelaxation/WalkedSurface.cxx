@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SurfaceRelaxation/WalkedSurface.h"
 
+#include "Core/Geometry/EqualPoints.h"
 #include "Core/Geometry/PointBounds.h"
 #include "Core/Mesh/CornerPoint.h"
 #include "Core/Mesh/EdgeSides.h"
-#include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/TJunctions.h"
 #include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/Stages.h"
@@ -103,7 +103,7 @@ WalkedSurface::WalkedSurface(const TriangleSurface& surface, double rounding, Pr
     }
   });
   LargeBuffer<std::int64_t> welded(points);
-  mergePoints(surface.Points, welded.data(), stages["equal points"]);
+  mergePoints<3>(surface.Points, welded.data(), stages["equal points"]);
   for (std::int64_t point = 0; point < points; ++point)
   {
     this->NumberWelded += welded.data()[point] != point ? 1 : 0;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Tables/DensityInspection.h"
 
+#include "Core/Parallel/Reduction.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -130,6 +133,21 @@ void merge(const DensitySummary& part, DensitySummary& whole)
   }
   whole.Minimum = std::min(whole.Minimum, part.Minimum);
   whole.Total += part.Total;
+}
+
+DensitySummary summarize(const DensityValues& density, std::int64_t count, Progress& progress)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+  const auto readChunk = [&](std::int64_t first, std::int64_t last) {
+    std::vector<double> values(static_cast<std::size_t>(last - first));
+    density.Read(first, last - first, values.data());
+    return summarize(values.data(), last - first, first);
+  };
+  const auto join = [](DensitySummary all, const DensitySummary& chunk) {
+    merge(chunk, all);
+    return all;
+  };
+  return reduceChunks(progress, count, grain, DensitySummary(), readChunk, join);
 }
 
 void requireDensity(const DensitySummary& found)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What makes a closed surface of polygons: equal points, edges of two triangles, one orientation.
+#include "Core/Geometry/EqualPoints.h"
 #include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/SurfaceOrientation.h"
 #include "SolidSurfaces.h"
@@ -16,7 +17,7 @@ namespace
 std::vector<std::int64_t> firstsOf(const std::vector<Point<3>>& points)
 {
   std::vector<std::int64_t> firsts(points.size());
-  mergePoints(points, firsts.data());
+  mergePoints<3>(points, firsts.data());
   return firsts;
 }
 
@@ -258,7 +259,7 @@ TEST(ClosedSurface, Cancelled)
       executor, [&reached](double done) { reached = done; },
       [&reached, from]() { return reached >= from; });
     std::vector<std::int64_t> firsts(mesh.Points.size());
-    EXPECT_THROW(mergePoints(mesh.Points, firsts.data(), context), Cancelled);
+    EXPECT_THROW(mergePoints<3>(mesh.Points, firsts.data(), context), Cancelled);
     EXPECT_GE(reached, from);
     reached = -1.0;
     EXPECT_THROW(SurfaceEdges(mesh.Surface(), context), Cancelled);

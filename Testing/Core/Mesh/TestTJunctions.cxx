@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points within edges of other triangles: which are found, that triangles are cut there and keep
 // their areas, and what is no T-junction.
+#include "Core/Geometry/EqualPoints.h"
 #include "Core/Mesh/TJunctions.h"
 
-#include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/SplitSurface.h"
 #include "Core/Mesh/SplitTriangle.h"
 #include "Core/Parallel/Progress.h"
@@ -36,7 +36,7 @@ struct Cut
   {
     Progress progress{ Context() };
     std::vector<std::int64_t> merged(mesh.Points.size());
-    mergePoints(mesh.Points, merged.data());
+    mergePoints<3>(mesh.Points, merged.data());
     for (auto& triangle : this->Given.Triangles)
     {
       for (std::int64_t& point : triangle)

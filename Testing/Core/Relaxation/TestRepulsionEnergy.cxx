@@ -406,10 +406,10 @@ void expectSameBits(InstructionSet set)
   tree.Build(randomScaledPoints<Dimension>(101, 3.0), work);
   std::vector<std::int64_t> blocks(static_cast<std::size_t>(tree.Blocks()));
   std::iota(blocks.begin(), blocks.end(), 0);
-  ReachBounds<Dimension> bounds;
+  BlockBounds<Dimension> bounds;
   std::fill_n(bounds.Low, Dimension, 0.5);
   std::fill_n(bounds.High, Dimension, 1.5);
-  bounds.Square = 0.3;
+  bounds.Largest = 0.3;
   RepulsionBlock<Dimension> block{};
   tree.Fill(3, block);
   RepulsionBlock<Dimension> other = block;

@@ -9,6 +9,7 @@
 #include "Core/Flow/Steps/StepBudget.h"
 #include "Core/Flow/Steps/SweptMass.h"
 #include "Core/Flow/Steps/SymmetricPlace.h"
+#include "Core/Geometry/EqualPoints.h"
 #include "Core/Geometry/ImageMeasure.h"
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/RankExchange.h"
@@ -225,27 +226,20 @@ private:
     return points;
   }
 
-  // In ascending order: blocks share points.
-  static Images Different(Images points)
+  DistinctPoints<Dimension> Distinct(const Images& points) const
   {
-    std::sort(points.begin(), points.end());
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    return points;
+    return DistinctPoints<Dimension>(points, this->Work.Threads());
   }
 
   Images Move(int steps)
   {
     Images points = this->PointsOf(this->Used);
-    const Images different = this->Different(points);
-    Images images = different;
+    const DistinctPoints<Dimension> distinct = this->Distinct(points); // blocks share points
+    Images images = distinct.Places();
     this->Move(
       this->IsBackward() ? AdvectionKind::Backward : AdvectionKind::Forward, steps, images);
     this->Spent += static_cast<double>(images.size()) * steps;
-    for (Point<Dimension>& point : points)
-    {
-      const auto found = std::lower_bound(different.begin(), different.end(), point);
-      point = images[static_cast<std::size_t>(found - different.begin())];
-    }
+    distinct.Move(images, points);
     return points;
   }
 
@@ -331,10 +325,10 @@ private:
       return FlowOptions::MostSteps;
     }
     typename StepBudget<Dimension>::Choosing choosing{ this->Spent,
-      static_cast<double>(this->Different(this->PointsOf(this->Used)).size()), 0.0 };
+      static_cast<double>(this->Distinct(this->PointsOf(this->Used)).Places().size()), 0.0 };
     if (this->IsJudged())
     {
-      std::size_t points = this->Different(this->PointsOf(this->Worse)).size();
+      std::size_t points = this->Distinct(this->PointsOf(this->Worse)).Places().size();
       for (const Judgement& judgement : judgements)
       {
         choosing.Judged += static_cast<double>((judgement.Factor + 1) * points);

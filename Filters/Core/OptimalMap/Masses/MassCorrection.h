@@ -4,10 +4,10 @@
 #ifndef RectifiedTransport_MassCorrection_h
 #define RectifiedTransport_MassCorrection_h
 
-#include "Core/OptimalMap/Masses/CellDensity.h"
-#include "Core/OptimalMap/Masses/NodeMasses.h"
 #include "Core/Grid/NodeGrid.h"
 #include "Core/Grid/NodeMoves.h"
+#include "Core/OptimalMap/Masses/CellDensity.h"
+#include "Core/OptimalMap/Masses/NodeMasses.h"
 
 #include <cstdint>
 #include <vector>

@@ -3,9 +3,9 @@
 #ifndef RectifiedTransport_NodeIntegral_h
 #define RectifiedTransport_NodeIntegral_h
 
+#include "Core/Grid/NodeGrid.h"
 #include "Core/OptimalMap/Masses/CellDensity.h"
 #include "Core/OptimalMap/Masses/NodeMasses.h"
-#include "Core/Grid/NodeGrid.h"
 
 namespace RectifiedTransport
 {

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_NodeMasses_h
 #define RectifiedTransport_NodeMasses_h
 
-#include "Core/OptimalMap/Masses/CellDensity.h"
 #include "Core/Grid/NodeGrid.h"
+#include "Core/OptimalMap/Masses/CellDensity.h"
 
 namespace RectifiedTransport
 {

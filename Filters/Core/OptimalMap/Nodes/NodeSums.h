@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_NodeSums_h
 #define RectifiedTransport_NodeSums_h
 
-#include "Core/OptimalMap/Nodes/IntegerSums.h"
 #include "Core/Grid/NodeGrid.h"
+#include "Core/OptimalMap/Nodes/IntegerSums.h"
 
 #include <array>
 #include <cmath>

@@ -4,6 +4,7 @@
 #ifndef RectifiedTransport_RepulsionKernels_h
 #define RectifiedTransport_RepulsionKernels_h
 
+#include "Core/Geometry/BlockBounds.h"
 #include "Core/Parallel/InstructionSet.h"
 
 #include <cstdint>
@@ -46,15 +47,6 @@ struct ScaledBlock
   double Mass[repulsionBlock];
 };
 
-// The bounds of some points, and the largest of their squared spacings.
-template <int Dimension>
-struct ReachBounds
-{
-  double Low[Dimension];
-  double High[Dimension];
-  double Square;
-};
-
 // Places, and sums over the points y of m K(x, y) and its derivatives at each.
 template <int Dimension>
 struct RepulsionBlock
@@ -74,7 +66,7 @@ struct RepulsionKernels
   // Writes the numbers of those points of some blocks that are closer to the bounds than
   // sqrt(reach * (the sum of both squared spacings)), in their order; returns how many there are.
   // `found` has room for all points of these blocks.
-  std::int64_t (*Select)(const ReachBounds<Dimension>& bounds, double reach,
+  std::int64_t (*Select)(const BlockBounds<Dimension>& bounds, double reach,
     const ScaledBlock<Dimension>* points, const std::int64_t* blocks, std::int64_t count,
     std::int64_t* found);
   // Each place sums over the found points in their order.

@@ -84,7 +84,7 @@ RT_INLINE Value exponential(const Value& q)
 }
 
 template <int Dimension>
-std::int64_t selectPoints(const ReachBounds<Dimension>& bounds, double reach,
+std::int64_t selectPoints(const BlockBounds<Dimension>& bounds, double reach,
   const ScaledBlock<Dimension>* points, const std::int64_t* blocks, std::int64_t count,
   std::int64_t* found)
 {
@@ -105,7 +105,7 @@ std::int64_t selectPoints(const ReachBounds<Dimension>& bounds, double reach,
         gap = gap > Lanes{} ? gap : Lanes{};
         squared += gap * gap;
       }
-      const auto are = squared < reach * (load(block.Square + lane) + bounds.Square);
+      const auto are = squared < reach * (load(block.Square + lane) + bounds.Largest);
       __builtin_memcpy(isInReach + lane, &are, sizeof(are));
     }
     for (int lane = 0; lane < repulsionBlock; ++lane)
