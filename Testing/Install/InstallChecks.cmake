@@ -27,17 +27,18 @@ function (build_against_moved project folder)
   run("${CMAKE_COMMAND}" --build "${WORK}/${folder}")
 endfunction ()
 
-# build_of_readme(FOLDER FIRST): a project of C++ alone with the lines that the README gives for CMake, after
-# FIRST, which defines my_program. Checks that it runs.
-function (build_of_readme folder first)
-  file(READ "${SOURCE}/README.md" readme)
-  if (NOT readme MATCHES "It is linked by\n+```cmake\n([^`]+)```")
-    message(FATAL_ERROR "README.md does not say how it is linked")
+# build_of_page(FOLDER PAGE PROGRAM FIRST): a project of C++ alone with the first lines that a page of the
+# documentation gives for CMake, after FIRST, which come before it defines my_program by the source PROGRAM.
+# Checks that it runs.
+function (build_of_page folder page program first)
+  file(READ "${SOURCE}/${page}" text)
+  if (NOT text MATCHES "```cmake\n([^`]+)```")
+    message(FATAL_ERROR "${page} does not say how it is linked")
   endif ()
   file(WRITE "${WORK}/${folder}Source/CMakeLists.txt" "cmake_minimum_required(VERSION 3.22)
 project(${folder} LANGUAGES CXX)
 ${first}
-add_executable(my_program \"${SOURCE}/Testing/Install/Program/main.cxx\")
+add_executable(my_program \"${program}\")
 ${CMAKE_MATCH_1}")
   run("${CMAKE_COMMAND}" -S "${WORK}/${folder}Source" -B "${WORK}/${folder}" -G Ninja
     -DCMAKE_BUILD_TYPE=Release "-DCMAKE_PREFIX_PATH=${WORK}/moved" ${ARGN})
@@ -93,6 +94,11 @@ function (check_core)
   if (loaded MATCHES "vtk|ParaView")
     message(FATAL_ERROR "${program} loads VTK:\n${loaded}")
   endif ()
+  file(READ "${SOURCE}/Documentation/Core.md" page)
+  string(REGEX MATCH "```cpp\n([^`]+)```" found "${page}")
+  file(WRITE "${WORK}/Core.cxx" "${CMAKE_MATCH_1}")
+  build_of_page(OfCore Documentation/Core.md "${WORK}/Core.cxx" "" ${without_vtk})
+  check_loaded("${WORK}/OfCore/my_program" ${ARGN})
   file(STRINGS "${SOURCE}/Documentation/Core.md" lines REGEX "Core/[A-Za-z]+/[A-Za-z]+[.]h")
   string(REGEX MATCHALL "Core/[A-Za-z]+/[A-Za-z]+[.]h" documented "${lines}")
   foreach (header IN LISTS documented)

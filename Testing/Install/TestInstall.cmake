@@ -13,11 +13,12 @@ endforeach ()
 run("${WORK}/Downstream/Downstream")
 run("${WORK}/StippleImage/StippleImage" "${SOURCE}/Testing/Data/ascent.png" "${WORK}/dots.png" 500)
 run("${WORK}/LiveStippling/LiveStippling" --help)
-build_of_readme(Readme "")
+set(program "${SOURCE}/Testing/Install/Program/main.cxx")
+build_of_page(Readme README.md "${program}" "")
 # With a VTK that the project found before, and with C, whose MPI is then CMake's own.
-build_of_readme(ReadmeAfterVTK
+build_of_page(ReadmeAfterVTK README.md "${program}"
   "find_package(VTK REQUIRED COMPONENTS CommonCore OPTIONAL_COMPONENTS ParallelMPI)" "-DVTK_DIR=${VTK}")
-build_of_readme(ReadmeWithC "enable_language(C)")
+build_of_page(ReadmeWithC README.md "${program}" "enable_language(C)")
 build_against_moved(Testing/Install/Headers Headers)
 check_core(RectifiedTransportCore)
 check_subfolder()

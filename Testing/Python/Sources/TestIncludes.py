@@ -123,6 +123,12 @@ class Includes(unittest.TestCase):
                     else:
                         self.assertFalse(included.startswith("."))
 
+    def test_transport(self):
+        """Transport.h includes what it likes of Core; only its own sources include it."""
+        for path, text in sources("**", "*"):
+            if not path.startswith(os.path.join("Core", "Transport")):
+                self.assertNotIn('"Core/Transport', text, path)
+
     def test_core_knows_neither_vtk_nor_bridge(self):
         for path, text in sources("Core", "**", "*"):
             self.assertNotRegex(text, r'#include [<"](vtk|Bridge/)', path)

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Densities between densities: particles of the uniform measure that are moved to each of them.
+#include "Core/Flow/PivotLattice.h"
+#include "Core/Flow/RectifiedFlow.h"
+#include "Core/Flow/WeightedMean.h"
+#include "Core/Parallel/Stages.h"
+#include "Core/Tables/CellMeans.h"
+#include "Core/TransportBox.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+
+// The pivot's particles in one of the densities.
+template <int D>
+struct BlendedInput
+{
+  BoxDensity<D> Density;
+  double Mass;
+  std::vector<Point<3>> Positions; // in lengths
+};
+
+template <int D>
+class Blend
+{
+public:
+  Blend(
+    const std::vector<BoxDensity<D>>& densities, const BlendOptions& options, Progress& progress)
+    : Options(options)
+  {
+    this->FindGrid(densities);
+    if (options.ParticlesPerCell < 1)
+    {
+      throw std::invalid_argument("ParticlesPerCell is " +
+        std::to_string(options.ParticlesPerCell) + "; it must be at least 1");
+    }
+    const PivotLattice<D> pivot = pivotLattice<D>(this->Cells, options.ParticlesPerCell);
+    this->Count = pivot.NumberOfParticles();
+    Parts parts(progress, static_cast<std::int64_t>(densities.size()));
+    for (const BoxDensity<D>& density : densities)
+    {
+      this->Inputs.push_back(
+        this->MoveTo(density, pivot, parts[static_cast<std::int64_t>(this->Inputs.size())]));
+    }
+  }
+
+  // Particles keep their places in the first density, and have those in the second that the optimal
+  // map gives them, if the grids resolve it.
+  void MoveOptimally(double tolerance, Progress& progress)
+  {
+    Stages stages(progress, { { "map", 70 }, { "images", 30 } });
+    BlendedInput<D>& a = this->Inputs[0];
+    BlendedInput<D>& b = this->Inputs[1];
+    OptimalMapOptions options;
+    options.Tolerance = tolerance;
+    const Point<D>& sides = a.Density.Sides();
+    OptimalMap<D> map(
+      { a.Density.Source(), {}, sides }, { b.Density.Source(), {}, sides }, options, stages["map"]);
+    map.Solve(stages["map"]);
+    if (!isResolved(map, stages["images"]))
+    {
+      return;
+    }
+    std::vector<Point<D>> points(a.Positions.size());
+    const Point<D> cells = cellSides(a.Density);
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      for (int axis = 0; axis < D; ++axis)
+      {
+        points[i][axis] = a.Positions[i][axis] / cells[axis];
+      }
+    }
+    map.Forward(FlowSeeds<D>(points).AsSamples(), points, {}, stages["images"]);
+    b.Positions = this->InSpace(points, b.Density);
+  }
+
+  // The weights sum to 1.
+  MadeDensity<D> Make(const std::vector<double>& weights, Progress& progress) const
+  {
+    constexpr double nearby = 0.1; // how far below 1 a weight is near it
+    constexpr double rounding = 1e-9;
+    Stages stages(progress, { { "mean", 2 }, { "splat", 3 }, { "input", 5 } });
+    const auto heaviest = std::max_element(weights.begin(), weights.end());
+    const BlendedInput<D>& input =
+      this->Inputs[static_cast<std::size_t>(heaviest - weights.begin())];
+    const double linear = 1.0 - (1.0 - *heaviest) / nearby;
+    const double share = linear > rounding ? linear : 0.0;
+    const double mass = this->MassOf(weights);
+    if (*heaviest == 1.0)
+    {
+      return { this->Cells, this->Resample(input, mass, stages["input"]) };
+    }
+    const std::vector<Point<3>> mean = this->MeanOf(weights, stages["mean"]);
+    MadeDensity<D> made{ this->Cells,
+      this->Splat(mean, nullptr, (1.0 - share) * mass / static_cast<double>(this->Count),
+        this->Options.Splat, 1.0 / this->Grid.CellMeasure(), stages["splat"]) };
+    if (share > 0.0)
+    {
+      this->AddMoved(input, share * mass, mean, stages["input"], made.Values);
+    }
+    return made;
+  }
+
+private:
+  // The box that all have, and the largest number of cells along each axis.
+  void FindGrid(const std::vector<BoxDensity<D>>& densities)
+  {
+    if (densities.empty())
+    {
+      throw std::invalid_argument("there are no densities; there must be at least one");
+    }
+    this->Cells.fill(1);
+    for (const BoxDensity<D>& density : densities)
+    {
+      requireSameBox(densities.front(), density);
+      for (int axis = 0; axis < D; ++axis)
+      {
+        this->Cells[axis] = std::max(this->Cells[axis], density.Cells()[axis]);
+      }
+    }
+    this->Grid = gridOf<D>(this->Cells, densities.front().Sides());
+  }
+
+  BlendedInput<D> MoveTo(
+    const BoxDensity<D>& density, const PivotLattice<D>& pivot, Progress& progress) const
+  {
+    Stages stages(progress, { { "tables", 5 }, { "flow", 95 } });
+    const RectifiedFlow<D> flow(density.Source(), stages["tables"]);
+    std::vector<Point<D>> positions(static_cast<std::size_t>(this->Count));
+    transportPivot<D>(flow, pivot, positions, this->Options.Flow, stages["flow"]);
+    return { density, flow.Total() * cellMeasure(density), this->InSpace(positions, density) };
+  }
+
+  // From the index space of a density.
+  std::vector<Point<3>> InSpace(
+    const std::vector<Point<D>>& points, const BoxDensity<D>& density) const
+  {
+    const Point<D> sides = cellSides(density);
+    std::vector<Point<3>> placed(points.size(), Point<3>{});
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      for (int axis = 0; axis < D; ++axis)
+      {
+        placed[i][static_cast<std::size_t>(axis)] = points[i][axis] * sides[axis];
+      }
+    }
+    return placed;
+  }
+
+  double MassOf(const std::vector<double>& weights) const
+  {
+    double sum = 0.0;
+    double product = 1.0;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+    {
+      sum += weights[i] * this->Inputs[i].Mass;
+      product *= std::pow(this->Inputs[i].Mass, weights[i]);
+    }
+    switch (this->Options.Mass)
+    {
+      case BlendedMass::Geometric:
+        return product;
+      case BlendedMass::Source:
+        return this->Inputs.front().Mass;
+      case BlendedMass::Normalize:
+        return 1.0;
+      default:
+        return sum;
+    }
+  }
+
+  std::vector<Point<3>> MeanOf(const std::vector<double>& weights, Progress& progress) const
+  {
+    std::vector<WeightedPositions> parts;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+    {
+      parts.push_back({ ConstPointSpan<3>(this->Inputs[i].Positions), weights[i] });
+    }
+    std::vector<Point<3>> mean(static_cast<std::size_t>(this->Count));
+    progress.For(this->Count, grain,
+      [&](std::int64_t first, std::int64_t last) { writeWeightedMean(parts, first, last, mean); });
+    return mean;
+  }
+
+  std::vector<double> Splat(const std::vector<Point<3>>& points, const double* masses, double each,
+    const SplatOptions& options, double scale, Progress& progress) const
+  {
+    std::vector<double> values(static_cast<std::size_t>(this->Grid.NumberOfCells()));
+    splatMass<D, double>({ points, masses, each, this->Grid.ToIndexMap<D>() }, this->Cells, options,
+      scale, values.data(), progress);
+    return values;
+  }
+
+  // A density with another mass on the common grid.
+  std::vector<double> Resample(const BlendedInput<D>& input, double mass, Progress& progress) const
+  {
+    PlacedCells<D> placed{ input.Density.Cells(), {}, {} };
+    for (int axis = 0; axis < D; ++axis)
+    {
+      placed.Sides[axis] =
+        static_cast<double>(this->Cells[axis]) / static_cast<double>(placed.Size[axis]);
+    }
+    std::vector<double> values(static_cast<std::size_t>(this->Grid.NumberOfCells()));
+    CellMeans<D>(placed, this->Cells, LatticePart<D>::WholeOf(this->Cells))
+      .Write(*input.Density.Source().Whole(), progress, values.data());
+    if (mass != input.Mass)
+    {
+      // In this order no density overflows, however far apart the masses are.
+      std::transform(values.begin(), values.end(), values.begin(),
+        [&](double value) { return value / input.Mass * mass; });
+    }
+    return values;
+  }
+
+  // Adds a density of which each cell is moved by the mean move of the particles in it; cells
+  // without particles stay.
+  void AddMoved(const BlendedInput<D>& input, double mass, const std::vector<Point<3>>& mean,
+    Progress& progress, std::vector<double>& density) const
+  {
+    const SplatOptions cloudInCell;
+    const std::vector<double> values = this->Resample(input, mass, progress);
+    const std::vector<double> particles =
+      this->Splat(input.Positions, nullptr, 1.0, cloudInCell, 1.0, progress);
+    const auto lattice = LatticePart<D>::WholeOf(this->Cells);
+    std::vector<Point<3>> centres(values.size(), Point<3>{});
+    std::vector<double> moves(mean.size());
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(D); ++axis)
+    {
+      const double side = this->Grid.Spacing()[static_cast<Eigen::Index>(axis)];
+      for (std::size_t i = 0; i < moves.size(); ++i)
+      {
+        moves[i] = mean[i][axis] - input.Positions[i][axis];
+      }
+      const std::vector<double> sums =
+        this->Splat(input.Positions, moves.data(), 0.0, cloudInCell, 1.0, progress);
+      for (std::size_t i = 0; i < values.size(); ++i)
+      {
+        const GridSize<D> cell = lattice.CellOf(static_cast<std::int64_t>(i));
+        const double centre = (static_cast<double>(cell[axis]) + 0.5) * side;
+        const double move = particles[i] > 0.0 ? sums[i] / particles[i] : 0.0;
+        centres[i][axis] =
+          std::clamp(centre + move, 0.0, side * static_cast<double>(this->Cells[axis]));
+      }
+    }
+    const std::vector<double> moved =
+      this->Splat(centres, values.data(), 0.0, cloudInCell, 1.0, progress);
+    std::transform(moved.begin(), moved.end(), density.begin(), density.begin(), std::plus<>());
+  }
+
+  const BlendOptions Options;
+  GridSize<D> Cells{};
+  ImageGrid Grid;
+  std::int64_t Count = 0; // of the particles
+  std::vector<BlendedInput<D>> Inputs;
+};
+
+} // namespace
+
+template <int Dimension>
+std::vector<MadeDensity<Dimension>> morph(const BoxDensity<Dimension>& a,
+  const BoxDensity<Dimension>& b, const std::vector<double>& times, const MorphOptions& options,
+  const Context& context)
+{
+  for (const double time : times)
+  {
+    if (!(time >= 0.0 && time <= 1.0))
+    {
+      throw std::invalid_argument("a time is " + std::to_string(time) + "; it must be from 0 to 1");
+    }
+  }
+  const bool isOptimal = options.Method == MapMethod::Optimal;
+  Progress progress(context);
+  Stages stages(progress,
+    { { "maps", 40 }, { "optimal map", isOptimal ? 100.0 : 0.0 },
+      { "densities", 5.0 * static_cast<double>(times.size()) } });
+  Blend<Dimension> blend({ a, b }, options, stages["maps"]);
+  if (isOptimal)
+  {
+    blend.MoveOptimally(options.Tolerance, stages["optimal map"]);
+  }
+  std::vector<MadeDensity<Dimension>> made;
+  Parts parts(stages["densities"], static_cast<std::int64_t>(times.size()));
+  for (const double time : times)
+  {
+    made.push_back(blend.Make({ 1.0 - time, time }, parts[static_cast<std::int64_t>(made.size())]));
+  }
+  return made;
+}
+
+template <int Dimension>
+MadeDensity<Dimension> barycenter(const std::vector<BoxDensity<Dimension>>& densities,
+  const std::vector<double>& weights, const BlendOptions& options, const Context& context)
+{
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const bool areValid = weights.size() == densities.size() && sum > 0.0 && std::isfinite(sum) &&
+    std::all_of(weights.begin(), weights.end(), [](double weight) { return weight >= 0.0; });
+  if (!areValid)
+  {
+    throw std::invalid_argument("there are " + std::to_string(weights.size()) +
+      " weights with the sum " + std::to_string(sum) + " for " + std::to_string(densities.size()) +
+      " densities; there must be one for each, 0 and more, with a positive and finite sum");
+  }
+  std::vector<double> shares(weights.size());
+  std::transform(
+    weights.begin(), weights.end(), shares.begin(), [=](double weight) { return weight / sum; });
+  Progress progress(context);
+  Stages stages(progress, { { "maps", 90 }, { "density", 10 } });
+  const Blend<Dimension> blend(densities, options, stages["maps"]);
+  return blend.Make(shares, stages["density"]);
+}
+
+template std::vector<MadeDensity<1>> morph<1>(const BoxDensity<1>&, const BoxDensity<1>&,
+  const std::vector<double>&, const MorphOptions&, const Context&);
+template std::vector<MadeDensity<2>> morph<2>(const BoxDensity<2>&, const BoxDensity<2>&,
+  const std::vector<double>&, const MorphOptions&, const Context&);
+template std::vector<MadeDensity<3>> morph<3>(const BoxDensity<3>&, const BoxDensity<3>&,
+  const std::vector<double>&, const MorphOptions&, const Context&);
+template MadeDensity<1> barycenter<1>(const std::vector<BoxDensity<1>>&, const std::vector<double>&,
+  const BlendOptions&, const Context&);
+template MadeDensity<2> barycenter<2>(const std::vector<BoxDensity<2>>&, const std::vector<double>&,
+  const BlendOptions&, const Context&);
+template MadeDensity<3> barycenter<3>(const std::vector<BoxDensity<3>>&, const std::vector<double>&,
+  const BlendOptions&, const Context&);
+
+} // namespace RectifiedTransport
