@@ -88,7 +88,7 @@ void expectSameBits(const TestDensity<Dimension>& density)
         job.Weights = method == Integrator::Multistep ? weights.data() : nullptr;
         job.CoarseRatio = 32.0;
         job.TimeCount = 1;
-        const BlockRun<Dimension> plain = advect(flowKernelsSSE2(), job, seeds);
+        const BlockRun<Dimension> plain = advect(flowKernels(InstructionSet::SSE2), job, seeds);
         for (const InstructionSet set : runnableSets())
         {
           const std::string what = std::string(nameOf(set)) + ", " + nameOf(method) +

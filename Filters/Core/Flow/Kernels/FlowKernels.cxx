@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/Kernels/FlowKernels.h"
 
+#include "Core/Parallel/KernelChoice.h"
+
 #include <cstddef>
 
 namespace RectifiedTransport
@@ -109,21 +111,10 @@ StepWeights stretchedWeights(
   return weights;
 }
 
-// AVX-512 and AVX2 exist on x86 alone; elsewhere the kernels of the base instruction set carry the
-// name SSE2.
-const FlowKernels& flowKernels([[maybe_unused]] InstructionSet set)
+const FlowKernels& flowKernels(InstructionSet set)
 {
-#ifdef RECTIFIEDTRANSPORT_X86
-  if (set == InstructionSet::AVX512)
-  {
-    return flowKernelsAVX512();
-  }
-  if (set == InstructionSet::AVX2)
-  {
-    return flowKernelsAVX2();
-  }
-#endif
-  return flowKernelsSSE2();
+  return chooseKernels(
+    set, [](auto chosen) -> const FlowKernels& { return flowKernelsOf<chosen>(); });
 }
 
 } // namespace RectifiedTransport

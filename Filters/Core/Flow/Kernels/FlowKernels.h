@@ -167,9 +167,9 @@ private:
   }
 };
 
-const FlowKernels& flowKernelsSSE2();
-const FlowKernels& flowKernelsAVX2();
-const FlowKernels& flowKernelsAVX512();
+// Compiled for each instruction set.
+template <InstructionSet Set>
+const FlowKernels& flowKernelsOf();
 
 // All compute the same bits.
 const FlowKernels& flowKernels(InstructionSet set = instructionSet());

@@ -79,7 +79,8 @@ std::int64_t advectBlock(const FlowJob<Dimension>& job, const double* seeds,
 
 } // namespace
 
-const FlowKernels& RECTIFIEDTRANSPORT_KERNELS()
+template <>
+const FlowKernels& flowKernelsOf<RECTIFIEDTRANSPORT_SET>()
 {
   static const FlowKernels kernels = { &advectBlock<1>, &advectBlock<2>, &advectBlock<3>,
     &advanceNodes<1>, &advanceNodes<2>, &advanceNodes<3>, &readMap<1>, &readMap<2>, &readMap<3> };

@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernels for AVX512; the flags are in CMakeLists.txt.
-#define RECTIFIEDTRANSPORT_KERNELS flowKernelsAVX512
+#define RECTIFIEDTRANSPORT_SET InstructionSet::AVX512
 #include "Core/Flow/Kernels/FlowKernels.txx"

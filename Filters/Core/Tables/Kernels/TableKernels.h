@@ -71,9 +71,9 @@ struct TableKernels
   AddTableRow3D AddRow3D;
 };
 
-const TableKernels& tableKernelsSSE2();
-const TableKernels& tableKernelsAVX2();
-const TableKernels& tableKernelsAVX512();
+// Compiled for each instruction set.
+template <InstructionSet Set>
+const TableKernels& tableKernelsOf();
 
 // All compute the same bits.
 const TableKernels& tableKernels(InstructionSet set = instructionSet());

@@ -179,7 +179,8 @@ void addTableRow3D(const TableRow3D& row)
 
 } // namespace
 
-const TableKernels& RECTIFIEDTRANSPORT_KERNELS()
+template <>
+const TableKernels& tableKernelsOf<RECTIFIEDTRANSPORT_SET>()
 {
   static const TableKernels kernels = { &inspectRow, &countLargest, &addToColumns, &addTableRow2D,
     &addTableRow3D };

@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernels for AVX2; the flags are in CMakeLists.txt.
-#define RECTIFIEDTRANSPORT_KERNELS tableKernelsAVX2
+#define RECTIFIEDTRANSPORT_SET InstructionSet::AVX2
 #include "Core/Tables/Kernels/TableKernels.txx"

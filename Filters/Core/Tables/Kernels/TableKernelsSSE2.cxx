@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernels for SSE2; the flags are in CMakeLists.txt.
-#define RECTIFIEDTRANSPORT_KERNELS tableKernelsSSE2
+#define RECTIFIEDTRANSPORT_SET InstructionSet::SSE2
 #include "Core/Tables/Kernels/TableKernels.txx"
