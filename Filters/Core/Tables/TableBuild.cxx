@@ -59,6 +59,18 @@ std::int64_t slabOf(std::int64_t count, std::int64_t cellsOfEach, const Executor
   return std::min(count, std::max<std::int64_t>(1, shares * shareCells / cellsOfEach));
 }
 
+// work(task) for all tasks, in any order, until the run is cancelled.
+template <class Work>
+void forTasks(std::int64_t tasks, Progress& progress, const Work& work)
+{
+  progress.Threads().For(tasks, 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t task = first; task < last && !progress.ShouldStop(); ++task)
+    {
+      work(task);
+    }
+  });
+}
+
 // Slabs of rows: first the sums of each row's cells before every strip, then all strips in
 // parallel.
 class Builder2D
@@ -93,23 +105,15 @@ public:
         (this->Begin + this->Count + 1) * this->Build.Tables.Levels[0].Stride[1];
       const std::int64_t pages = this->Untouched.PagesUpTo(nodesEnd, threads);
       const std::int64_t groups = (this->Count + rowsAtOnce - 1) / rowsAtOnce;
-      threads.For(pages + groups, 1, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t task = first; task < last && !progress.ShouldStop(); ++task)
-        {
-          task < pages ? this->Untouched.Touch(task) : this->SumRows(task - pages);
-        }
+      forTasks(pages + groups, progress, [&](std::int64_t task) {
+        task < pages ? this->Untouched.Touch(task) : this->SumRows(task - pages);
       });
       this->Untouched.Pass(nodesEnd);
       for (std::int64_t j = 0; j < this->Count; ++j)
       {
         merge(this->Found[j], this->Build.Found);
       }
-      threads.For(this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t strip = first; strip < last && !progress.ShouldStop(); ++strip)
-        {
-          this->AddStrip(strip);
-        }
-      });
+      forTasks(this->Strips, progress, [&](std::int64_t strip) { this->AddStrip(strip); });
       this->Begin += this->Count;
       progress.EndSlice(this->Count);
     }
@@ -236,29 +240,16 @@ public:
         (this->Begin + this->Count + 1) * this->Build.Tables.Levels[0].Stride[2];
       const std::int64_t pages = this->Untouched.PagesUpTo(nodesEnd, threads);
       const std::int64_t tasks = pages + this->Count * this->Strips;
-      threads.For(tasks, 1, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t task = first; task < last && !progress.ShouldStop(); ++task)
-        {
-          task < pages ? this->Untouched.Touch(task) : this->SumStrip(task - pages);
-        }
+      forTasks(tasks, progress, [&](std::int64_t task) {
+        task < pages ? this->Untouched.Touch(task) : this->SumStrip(task - pages);
       });
       this->Untouched.Pass(nodesEnd);
       for (std::int64_t task = 0; task < this->Count * this->Strips; ++task)
       {
         merge(this->Found[task], this->Build.Found);
       }
-      threads.For(this->Count, 1, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t k = first; k < last && !progress.ShouldStop(); ++k)
-        {
-          this->SumBefore(k);
-        }
-      });
-      threads.For(this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t strip = first; strip < last && !progress.ShouldStop(); ++strip)
-        {
-          this->AddStrip(strip);
-        }
-      });
+      forTasks(this->Count, progress, [&](std::int64_t k) { this->SumBefore(k); });
+      forTasks(this->Strips, progress, [&](std::int64_t strip) { this->AddStrip(strip); });
       this->Begin += this->Count;
       progress.EndSlice(this->Count);
     }
