@@ -167,10 +167,10 @@ std::vector<Point<Dimension>> sample(const BoxDensity<Dimension>& density, std::
   Point<Dimension> cells;
   std::copy(density.Cells().begin(), density.Cells().end(), cells.begin());
   scalePoints<Dimension>(cells, points, stages["seeds"]);
-  const auto map = makeTransport(density, options.Map, stages["map"]);
-  FlowOptions flow = options.Map.Flow;
-  flow.Particles = pattern.Count();
-  map->Forward(FlowSeeds<Dimension>(points).AsSamples(), points, flow, stages["points"]);
+  MethodOptions method = options.Map;
+  method.Flow.Particles = pattern.Count();
+  const auto map = makeTransport(density, method, stages["map"]);
+  map->Forward(FlowSeeds<Dimension>(points).AsSamples(), points, method.Flow, stages["points"]);
   scalePoints<Dimension>(cellSides(density), points, stages["points"]);
   return points;
 }
@@ -320,29 +320,21 @@ std::vector<Point<2>> stipple(const BoxDensity<2>& picture, std::int64_t count,
 }
 
 template class BoxDensity<1>;
-template std::vector<Point<1>> sample<1>(
-  const BoxDensity<1>&, std::int64_t, const SampleOptions&, const Context&);
-template SampledMap<1> map<1>(const BoxDensity<1>&, const MapOptions<1>&, const Context&);
-template DistanceBounds distance<1>(const BoxDensity<1>&, const BoxDensity<1>&, const Context&);
-template EqualMassDivision<1> cells<1>(
-  ConstPointSpan<1>, const BoxDensity<1>&, const CellOptions<1>&, const Context&);
+template decltype(sample<1>) sample<1>;
+template decltype(map<1>) map<1>;
+template decltype(distance<1>) distance<1>;
+template decltype(cells<1>) cells<1>;
 template class BoxDensity<2>;
-template std::vector<Point<2>> sample<2>(
-  const BoxDensity<2>&, std::int64_t, const SampleOptions&, const Context&);
-template SampledMap<2> map<2>(const BoxDensity<2>&, const MapOptions<2>&, const Context&);
-template DistanceBounds distance<2>(const BoxDensity<2>&, const BoxDensity<2>&, const Context&);
-template EqualMassDivision<2> cells<2>(
-  ConstPointSpan<2>, const BoxDensity<2>&, const CellOptions<2>&, const Context&);
-template std::vector<Point<2>> relax<2>(
-  ConstPointSpan<2>, const BoxDensity<2>&, const RelaxOptions&, const Context&);
+template decltype(sample<2>) sample<2>;
+template decltype(map<2>) map<2>;
+template decltype(distance<2>) distance<2>;
+template decltype(cells<2>) cells<2>;
+template decltype(relax<2>) relax<2>;
 template class BoxDensity<3>;
-template std::vector<Point<3>> sample<3>(
-  const BoxDensity<3>&, std::int64_t, const SampleOptions&, const Context&);
-template SampledMap<3> map<3>(const BoxDensity<3>&, const MapOptions<3>&, const Context&);
-template DistanceBounds distance<3>(const BoxDensity<3>&, const BoxDensity<3>&, const Context&);
-template EqualMassDivision<3> cells<3>(
-  ConstPointSpan<3>, const BoxDensity<3>&, const CellOptions<3>&, const Context&);
-template std::vector<Point<3>> relax<3>(
-  ConstPointSpan<3>, const BoxDensity<3>&, const RelaxOptions&, const Context&);
+template decltype(sample<3>) sample<3>;
+template decltype(map<3>) map<3>;
+template decltype(distance<3>) distance<3>;
+template decltype(cells<3>) cells<3>;
+template decltype(relax<3>) relax<3>;
 
 } // namespace RectifiedTransport

@@ -319,17 +319,11 @@ MadeDensity<Dimension> barycenter(const std::vector<BoxDensity<Dimension>>& dens
   return blend.Make(shares, stages["density"]);
 }
 
-template std::vector<MadeDensity<1>> morph<1>(const BoxDensity<1>&, const BoxDensity<1>&,
-  const std::vector<double>&, const MorphOptions&, const Context&);
-template std::vector<MadeDensity<2>> morph<2>(const BoxDensity<2>&, const BoxDensity<2>&,
-  const std::vector<double>&, const MorphOptions&, const Context&);
-template std::vector<MadeDensity<3>> morph<3>(const BoxDensity<3>&, const BoxDensity<3>&,
-  const std::vector<double>&, const MorphOptions&, const Context&);
-template MadeDensity<1> barycenter<1>(const std::vector<BoxDensity<1>>&, const std::vector<double>&,
-  const BlendOptions&, const Context&);
-template MadeDensity<2> barycenter<2>(const std::vector<BoxDensity<2>>&, const std::vector<double>&,
-  const BlendOptions&, const Context&);
-template MadeDensity<3> barycenter<3>(const std::vector<BoxDensity<3>>&, const std::vector<double>&,
-  const BlendOptions&, const Context&);
+template decltype(morph<1>) morph<1>;
+template decltype(morph<2>) morph<2>;
+template decltype(morph<3>) morph<3>;
+template decltype(barycenter<1>) barycenter<1>;
+template decltype(barycenter<2>) barycenter<2>;
+template decltype(barycenter<3>) barycenter<3>;
 
 } // namespace RectifiedTransport

@@ -141,11 +141,8 @@ double leastSquaredDistance(const DensityMoments& a, const DensityMoments& b)
   return std::max(0.0, square + std::max(0.0, traces - 2.0 * cross - rounding * traces));
 }
 
-template DensityMoments momentsOf<1>(
-  const DensityValues&, const GridSize<1>&, const Point<1>&, const Context&);
-template DensityMoments momentsOf<2>(
-  const DensityValues&, const GridSize<2>&, const Point<2>&, const Context&);
-template DensityMoments momentsOf<3>(
-  const DensityValues&, const GridSize<3>&, const Point<3>&, const Context&);
+template decltype(momentsOf<1>) momentsOf<1>;
+template decltype(momentsOf<2>) momentsOf<2>;
+template decltype(momentsOf<3>) momentsOf<3>;
 
 } // namespace RectifiedTransport

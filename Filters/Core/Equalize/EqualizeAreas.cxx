@@ -361,14 +361,11 @@ double equalizeAreasMemory(const GridSize<Dimension>& size)
   }
 }
 
-template EqualizeReport equalizeAreas<1>(const DensityValues&, const GridSize<1>&, double,
-  PointSpan<1>, const EqualizeOptions&, const Context&, float*);
-template EqualizeReport equalizeAreas<2>(const DensityValues&, const GridSize<2>&, double,
-  PointSpan<2>, const EqualizeOptions&, const Context&, float*);
-template EqualizeReport equalizeAreas<3>(const DensityValues&, const GridSize<3>&, double,
-  PointSpan<3>, const EqualizeOptions&, const Context&, float*);
-template double equalizeAreasMemory<1>(const GridSize<1>&);
-template double equalizeAreasMemory<2>(const GridSize<2>&);
-template double equalizeAreasMemory<3>(const GridSize<3>&);
+template decltype(equalizeAreas<1>) equalizeAreas<1>;
+template decltype(equalizeAreas<2>) equalizeAreas<2>;
+template decltype(equalizeAreas<3>) equalizeAreas<3>;
+template decltype(equalizeAreasMemory<1>) equalizeAreasMemory<1>;
+template decltype(equalizeAreasMemory<2>) equalizeAreasMemory<2>;
+template decltype(equalizeAreasMemory<3>) equalizeAreasMemory<3>;
 
 } // namespace RectifiedTransport

@@ -157,11 +157,8 @@ double writeDisplacements(const ImageGrid& grid, const GridSize<Dimension>& latt
 template class MapDisplacement<1>;
 template class MapDisplacement<2>;
 template class MapDisplacement<3>;
-template double writeDisplacements<1>(const ImageGrid&, const GridSize<1>&, ConstPointSpan<1>,
-  const RectifiedFlow<1>*, PointSpan<3>, const Context&);
-template double writeDisplacements<2>(const ImageGrid&, const GridSize<2>&, ConstPointSpan<2>,
-  const RectifiedFlow<2>*, PointSpan<3>, const Context&);
-template double writeDisplacements<3>(const ImageGrid&, const GridSize<3>&, ConstPointSpan<3>,
-  const RectifiedFlow<3>*, PointSpan<3>, const Context&);
+template decltype(writeDisplacements<1>) writeDisplacements<1>;
+template decltype(writeDisplacements<2>) writeDisplacements<2>;
+template decltype(writeDisplacements<3>) writeDisplacements<3>;
 
 } // namespace RectifiedTransport

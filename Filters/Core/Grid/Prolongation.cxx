@@ -52,11 +52,8 @@ NodeValues prolong(const NodeValues& values, const GridSize<Dimension>& from,
   return last;
 }
 
-template NodeValues prolong<1>(
-  const NodeValues&, const GridSize<1>&, const GridSize<1>&, Progress&);
-template NodeValues prolong<2>(
-  const NodeValues&, const GridSize<2>&, const GridSize<2>&, Progress&);
-template NodeValues prolong<3>(
-  const NodeValues&, const GridSize<3>&, const GridSize<3>&, Progress&);
+template decltype(prolong<1>) prolong<1>;
+template decltype(prolong<2>) prolong<2>;
+template decltype(prolong<3>) prolong<3>;
 
 } // namespace RectifiedTransport

@@ -100,14 +100,11 @@ double memoryForCoupling(const GridSize<Dimension>& size, const NodeGrid<Dimensi
   return corners + std::max(memoryForBalancing<Dimension>(size), sharing);
 }
 
-template CouplingCost couplingCost<1>(
-  const CellDensity<1>&, const CellDensity<1>&, NodeMap<1>, Progress&);
-template CouplingCost couplingCost<2>(
-  const CellDensity<2>&, const CellDensity<2>&, NodeMap<2>, Progress&);
-template CouplingCost couplingCost<3>(
-  const CellDensity<3>&, const CellDensity<3>&, NodeMap<3>, Progress&);
-template double memoryForCoupling<1>(const GridSize<1>&, const NodeGrid<1>&);
-template double memoryForCoupling<2>(const GridSize<2>&, const NodeGrid<2>&);
-template double memoryForCoupling<3>(const GridSize<3>&, const NodeGrid<3>&);
+template decltype(couplingCost<1>) couplingCost<1>;
+template decltype(couplingCost<2>) couplingCost<2>;
+template decltype(couplingCost<3>) couplingCost<3>;
+template decltype(memoryForCoupling<1>) memoryForCoupling<1>;
+template decltype(memoryForCoupling<2>) memoryForCoupling<2>;
+template decltype(memoryForCoupling<3>) memoryForCoupling<3>;
 
 } // namespace RectifiedTransport

@@ -219,11 +219,8 @@ CellShares<Dimension> shareImages(const CellDensity<Dimension>& source,
     : Sharing<Dimension, 1>(source, target, corners.Grid, progress).Share(corners);
 }
 
-template CellShares<1> shareImages<1>(
-  const CellDensity<1>&, const CellDensity<1>&, const NodeMap<1>&, bool, Progress&);
-template CellShares<2> shareImages<2>(
-  const CellDensity<2>&, const CellDensity<2>&, const NodeMap<2>&, bool, Progress&);
-template CellShares<3> shareImages<3>(
-  const CellDensity<3>&, const CellDensity<3>&, const NodeMap<3>&, bool, Progress&);
+template decltype(shareImages<1>) shareImages<1>;
+template decltype(shareImages<2>) shareImages<2>;
+template decltype(shareImages<3>) shareImages<3>;
 
 } // namespace RectifiedTransport

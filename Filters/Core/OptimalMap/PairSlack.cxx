@@ -46,11 +46,8 @@ void findSlack(const PotentialSolver<Dimension>& solver, ConstPointSpan<Dimensio
   });
 }
 
-template void findSlack<1>(
-  const PotentialSolver<1>&, ConstPointSpan<1>, ConstPointSpan<1>, double*, Progress&);
-template void findSlack<2>(
-  const PotentialSolver<2>&, ConstPointSpan<2>, ConstPointSpan<2>, double*, Progress&);
-template void findSlack<3>(
-  const PotentialSolver<3>&, ConstPointSpan<3>, ConstPointSpan<3>, double*, Progress&);
+template decltype(findSlack<1>) findSlack<1>;
+template decltype(findSlack<2>) findSlack<2>;
+template decltype(findSlack<3>) findSlack<3>;
 
 } // namespace RectifiedTransport

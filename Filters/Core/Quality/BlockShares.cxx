@@ -153,11 +153,8 @@ void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dime
   }
 }
 
-template void findBlockShares<1>(
-  const RectifiedFlow<1>&, const GridBlocks<1>&, std::int64_t, std::int64_t, double*, Progress&);
-template void findBlockShares<2>(
-  const RectifiedFlow<2>&, const GridBlocks<2>&, std::int64_t, std::int64_t, double*, Progress&);
-template void findBlockShares<3>(
-  const RectifiedFlow<3>&, const GridBlocks<3>&, std::int64_t, std::int64_t, double*, Progress&);
+template decltype(findBlockShares<1>) findBlockShares<1>;
+template decltype(findBlockShares<2>) findBlockShares<2>;
+template decltype(findBlockShares<3>) findBlockShares<3>;
 
 } // namespace RectifiedTransport

@@ -476,18 +476,12 @@ BlockErrors measureBlocksBetween(const MapSamples<Dimension>& map,
     .Forward(stages["errors"], std::move(shares));
 }
 
-template BlockErrors measureBlocks<1>(
-  const MapSamples<1>&, const DensitySource<1>&, double, FlowDirection, Progress&);
-template BlockErrors measureBlocks<2>(
-  const MapSamples<2>&, const DensitySource<2>&, double, FlowDirection, Progress&);
-template BlockErrors measureBlocks<3>(
-  const MapSamples<3>&, const DensitySource<3>&, double, FlowDirection, Progress&);
+template decltype(measureBlocks<1>) measureBlocks<1>;
+template decltype(measureBlocks<2>) measureBlocks<2>;
+template decltype(measureBlocks<3>) measureBlocks<3>;
 
-template BlockErrors measureBlocksBetween<1>(
-  const MapSamples<1>&, const SummedDensity<1>&, const SummedDensity<1>&, Progress&);
-template BlockErrors measureBlocksBetween<2>(
-  const MapSamples<2>&, const SummedDensity<2>&, const SummedDensity<2>&, Progress&);
-template BlockErrors measureBlocksBetween<3>(
-  const MapSamples<3>&, const SummedDensity<3>&, const SummedDensity<3>&, Progress&);
+template decltype(measureBlocksBetween<1>) measureBlocksBetween<1>;
+template decltype(measureBlocksBetween<2>) measureBlocksBetween<2>;
+template decltype(measureBlocksBetween<3>) measureBlocksBetween<3>;
 
 } // namespace RectifiedTransport

@@ -383,14 +383,11 @@ ParticleQuality measureQuality(const ParticleSample& particles,
     .Measure(progress);
 }
 
-template Point<1> boxAspect<1>(const ImageGrid&);
-template Point<2> boxAspect<2>(const ImageGrid&);
-template Point<3> boxAspect<3>(const ImageGrid&);
-template ParticleQuality measureQuality<1>(
-  const ParticleSample&, const RectifiedFlow<1>&, const ImageGrid&, std::int64_t, const Context&);
-template ParticleQuality measureQuality<2>(
-  const ParticleSample&, const RectifiedFlow<2>&, const ImageGrid&, std::int64_t, const Context&);
-template ParticleQuality measureQuality<3>(
-  const ParticleSample&, const RectifiedFlow<3>&, const ImageGrid&, std::int64_t, const Context&);
+template decltype(boxAspect<1>) boxAspect<1>;
+template decltype(boxAspect<2>) boxAspect<2>;
+template decltype(boxAspect<3>) boxAspect<3>;
+template decltype(measureQuality<1>) measureQuality<1>;
+template decltype(measureQuality<2>) measureQuality<2>;
+template decltype(measureQuality<3>) measureQuality<3>;
 
 } // namespace RectifiedTransport

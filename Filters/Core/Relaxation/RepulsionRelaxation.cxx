@@ -109,9 +109,7 @@ RelaxationReport relaxByRepulsion(const DensitySource<Dimension>& density,
   return RepulsionRun<Dimension>(flow, spacing, points).Relax(options, progress);
 }
 
-template RelaxationReport relaxByRepulsion<2>(const DensitySource<2>&, const RectifiedFlow<2>&,
-  const Point<2>&, PointSpan<2>, const RelaxationOptions&, const Context&);
-template RelaxationReport relaxByRepulsion<3>(const DensitySource<3>&, const RectifiedFlow<3>&,
-  const Point<3>&, PointSpan<3>, const RelaxationOptions&, const Context&);
+template decltype(relaxByRepulsion<2>) relaxByRepulsion<2>;
+template decltype(relaxByRepulsion<3>) relaxByRepulsion<3>;
 
 } // namespace RectifiedTransport

@@ -149,11 +149,8 @@ void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
   }
 }
 
-template void generateBlueNoise<1>(
-  const Point<1>&, std::int64_t, std::uint64_t, std::int64_t, PointSpan<1>, Progress&);
-template void generateBlueNoise<2>(
-  const Point<2>&, std::int64_t, std::uint64_t, std::int64_t, PointSpan<2>, Progress&);
-template void generateBlueNoise<3>(
-  const Point<3>&, std::int64_t, std::uint64_t, std::int64_t, PointSpan<3>, Progress&);
+template decltype(generateBlueNoise<1>) generateBlueNoise<1>;
+template decltype(generateBlueNoise<2>) generateBlueNoise<2>;
+template decltype(generateBlueNoise<3>) generateBlueNoise<3>;
 
 } // namespace RectifiedTransport

@@ -396,44 +396,29 @@ void generateJitteredLatticeFrom(const GridSize<Dimension>& size, std::uint64_t 
   visitCells<Dimension>(size, first, unitPoints.size(), context, write);
 }
 
-template GridSize<1> latticeSize<1>(const Point<1>&, std::int64_t);
-template GridSize<2> latticeSize<2>(const Point<2>&, std::int64_t);
-template GridSize<3> latticeSize<3>(const Point<3>&, std::int64_t);
+template decltype(latticeSize<1>) latticeSize<1>;
+template decltype(latticeSize<2>) latticeSize<2>;
+template decltype(latticeSize<3>) latticeSize<3>;
 
-template void generateSeeds<1>(
-  SeedPattern, const Point<1>&, std::uint64_t, PointSpan<1>, const Context&);
-template void generateSeedsFrom<1>(SeedPattern, const Point<1>&, std::int64_t, std::uint64_t,
-  std::int64_t, PointSpan<1>, const Context&);
-template void generateLattice<1>(const GridSize<1>&, PointSpan<1>, const Context&);
-template void generateLatticeFrom<1>(
-  const GridSize<1>&, std::int64_t, PointSpan<1>, const Context&);
-template void generateJitteredLattice<1>(
-  const GridSize<1>&, std::uint64_t, PointSpan<1>, const Context&);
-template void generateJitteredLatticeFrom<1>(
-  const GridSize<1>&, std::uint64_t, std::int64_t, PointSpan<1>, const Context&);
+template decltype(generateSeeds<1>) generateSeeds<1>;
+template decltype(generateSeedsFrom<1>) generateSeedsFrom<1>;
+template decltype(generateLattice<1>) generateLattice<1>;
+template decltype(generateLatticeFrom<1>) generateLatticeFrom<1>;
+template decltype(generateJitteredLattice<1>) generateJitteredLattice<1>;
+template decltype(generateJitteredLatticeFrom<1>) generateJitteredLatticeFrom<1>;
 
-template void generateSeeds<2>(
-  SeedPattern, const Point<2>&, std::uint64_t, PointSpan<2>, const Context&);
-template void generateSeedsFrom<2>(SeedPattern, const Point<2>&, std::int64_t, std::uint64_t,
-  std::int64_t, PointSpan<2>, const Context&);
-template void generateLattice<2>(const GridSize<2>&, PointSpan<2>, const Context&);
-template void generateLatticeFrom<2>(
-  const GridSize<2>&, std::int64_t, PointSpan<2>, const Context&);
-template void generateJitteredLattice<2>(
-  const GridSize<2>&, std::uint64_t, PointSpan<2>, const Context&);
-template void generateJitteredLatticeFrom<2>(
-  const GridSize<2>&, std::uint64_t, std::int64_t, PointSpan<2>, const Context&);
+template decltype(generateSeeds<2>) generateSeeds<2>;
+template decltype(generateSeedsFrom<2>) generateSeedsFrom<2>;
+template decltype(generateLattice<2>) generateLattice<2>;
+template decltype(generateLatticeFrom<2>) generateLatticeFrom<2>;
+template decltype(generateJitteredLattice<2>) generateJitteredLattice<2>;
+template decltype(generateJitteredLatticeFrom<2>) generateJitteredLatticeFrom<2>;
 
-template void generateSeeds<3>(
-  SeedPattern, const Point<3>&, std::uint64_t, PointSpan<3>, const Context&);
-template void generateSeedsFrom<3>(SeedPattern, const Point<3>&, std::int64_t, std::uint64_t,
-  std::int64_t, PointSpan<3>, const Context&);
-template void generateLattice<3>(const GridSize<3>&, PointSpan<3>, const Context&);
-template void generateLatticeFrom<3>(
-  const GridSize<3>&, std::int64_t, PointSpan<3>, const Context&);
-template void generateJitteredLattice<3>(
-  const GridSize<3>&, std::uint64_t, PointSpan<3>, const Context&);
-template void generateJitteredLatticeFrom<3>(
-  const GridSize<3>&, std::uint64_t, std::int64_t, PointSpan<3>, const Context&);
+template decltype(generateSeeds<3>) generateSeeds<3>;
+template decltype(generateSeedsFrom<3>) generateSeedsFrom<3>;
+template decltype(generateLattice<3>) generateLattice<3>;
+template decltype(generateLatticeFrom<3>) generateLatticeFrom<3>;
+template decltype(generateJitteredLattice<3>) generateJitteredLattice<3>;
+template decltype(generateJitteredLatticeFrom<3>) generateJitteredLatticeFrom<3>;
 
 } // namespace RectifiedTransport

@@ -342,11 +342,8 @@ void equalizeSiteCells(const SiteDensity<Dimension>& sites, const Point<Dimensio
   Balance<Dimension>(sites, spacing, owners).Run(progress);
 }
 
-template void equalizeSiteCells<1>(
-  const SiteDensity<1>&, const Point<1>&, std::int64_t*, const Context&);
-template void equalizeSiteCells<2>(
-  const SiteDensity<2>&, const Point<2>&, std::int64_t*, const Context&);
-template void equalizeSiteCells<3>(
-  const SiteDensity<3>&, const Point<3>&, std::int64_t*, const Context&);
+template decltype(equalizeSiteCells<1>) equalizeSiteCells<1>;
+template decltype(equalizeSiteCells<2>) equalizeSiteCells<2>;
+template decltype(equalizeSiteCells<3>) equalizeSiteCells<3>;
 
 } // namespace RectifiedTransport

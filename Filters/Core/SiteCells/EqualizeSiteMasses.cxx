@@ -404,9 +404,7 @@ void equalizeSiteMasses(const SiteGroups& groups, const PixelMasses<Dimension>& 
   MassBalance<Dimension>(groups, masses, places, spacing, owners).Run(progress);
 }
 
-template void equalizeSiteMasses<2>(const SiteGroups&, const PixelMasses<2>&, ConstPointSpan<2>,
-  const Point<2>&, std::int64_t*, const Context&);
-template void equalizeSiteMasses<3>(const SiteGroups&, const PixelMasses<3>&, ConstPointSpan<3>,
-  const Point<3>&, std::int64_t*, const Context&);
+template decltype(equalizeSiteMasses<2>) equalizeSiteMasses<2>;
+template decltype(equalizeSiteMasses<3>) equalizeSiteMasses<3>;
 
 } // namespace RectifiedTransport

@@ -190,9 +190,7 @@ std::int64_t joinSpecks(const SiteGroups& groups, const PixelMasses<Dimension>& 
     : 0;
 }
 
-template std::int64_t joinSpecks<2>(
-  const SiteGroups&, const PixelMasses<2>&, std::int64_t*, Progress&);
-template std::int64_t joinSpecks<3>(
-  const SiteGroups&, const PixelMasses<3>&, std::int64_t*, Progress&);
+template decltype(joinSpecks<2>) joinSpecks<2>;
+template decltype(joinSpecks<3>) joinSpecks<3>;
 
 } // namespace RectifiedTransport

@@ -223,11 +223,8 @@ SiteCellOutlines<Dimension> outlineSiteCells(
   return Outlines<Dimension>(grid, labels).Find(progress);
 }
 
-template SiteCellOutlines<1> outlineSiteCells<1>(
-  const ImageGrid&, const std::int64_t*, const Context&);
-template SiteCellOutlines<2> outlineSiteCells<2>(
-  const ImageGrid&, const std::int64_t*, const Context&);
-template SiteCellOutlines<3> outlineSiteCells<3>(
-  const ImageGrid&, const std::int64_t*, const Context&);
+template decltype(outlineSiteCells<1>) outlineSiteCells<1>;
+template decltype(outlineSiteCells<2>) outlineSiteCells<2>;
+template decltype(outlineSiteCells<3>) outlineSiteCells<3>;
 
 } // namespace RectifiedTransport

@@ -96,11 +96,8 @@ std::vector<std::int64_t> labelSiteCells(ConstPointSpan<3> sites, const ImageGri
 template class SiteCells<1>;
 template class SiteCells<2>;
 template class SiteCells<3>;
-template std::vector<std::int64_t> labelSiteCells<1>(
-  ConstPointSpan<3>, const ImageGrid&, const FlowOptions&, const Context&);
-template std::vector<std::int64_t> labelSiteCells<2>(
-  ConstPointSpan<3>, const ImageGrid&, const FlowOptions&, const Context&);
-template std::vector<std::int64_t> labelSiteCells<3>(
-  ConstPointSpan<3>, const ImageGrid&, const FlowOptions&, const Context&);
+template decltype(labelSiteCells<1>) labelSiteCells<1>;
+template decltype(labelSiteCells<2>) labelSiteCells<2>;
+template decltype(labelSiteCells<3>) labelSiteCells<3>;
 
 } // namespace RectifiedTransport

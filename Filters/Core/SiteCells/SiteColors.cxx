@@ -123,11 +123,8 @@ std::vector<std::uint8_t> colourSiteCells(const GridSize<Dimension>& size,
   return colourInOrder(neighbours);
 }
 
-template std::vector<std::uint8_t> colourSiteCells<1>(
-  const GridSize<1>&, const std::int64_t*, std::int64_t, const Context&);
-template std::vector<std::uint8_t> colourSiteCells<2>(
-  const GridSize<2>&, const std::int64_t*, std::int64_t, const Context&);
-template std::vector<std::uint8_t> colourSiteCells<3>(
-  const GridSize<3>&, const std::int64_t*, std::int64_t, const Context&);
+template decltype(colourSiteCells<1>) colourSiteCells<1>;
+template decltype(colourSiteCells<2>) colourSiteCells<2>;
+template decltype(colourSiteCells<3>) colourSiteCells<3>;
 
 } // namespace RectifiedTransport

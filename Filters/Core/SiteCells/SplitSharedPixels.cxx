@@ -351,15 +351,10 @@ void splitGroupsByMass(const SiteGroups& groups, const PixelMasses<Dimension>& m
     owners, context);
 }
 
-template void splitSharedPixels<1>(
-  const SiteDensity<1>&, ConstPointSpan<1>, const Point<1>&, std::int64_t*, const Context&);
-template void splitSharedPixels<2>(
-  const SiteDensity<2>&, ConstPointSpan<2>, const Point<2>&, std::int64_t*, const Context&);
-template void splitSharedPixels<3>(
-  const SiteDensity<3>&, ConstPointSpan<3>, const Point<3>&, std::int64_t*, const Context&);
-template void splitGroupsByMass<2>(const SiteGroups&, const PixelMasses<2>&, ConstPointSpan<2>,
-  const Point<2>&, std::int64_t*, const Context&);
-template void splitGroupsByMass<3>(const SiteGroups&, const PixelMasses<3>&, ConstPointSpan<3>,
-  const Point<3>&, std::int64_t*, const Context&);
+template decltype(splitSharedPixels<1>) splitSharedPixels<1>;
+template decltype(splitSharedPixels<2>) splitSharedPixels<2>;
+template decltype(splitSharedPixels<3>) splitSharedPixels<3>;
+template decltype(splitGroupsByMass<2>) splitGroupsByMass<2>;
+template decltype(splitGroupsByMass<3>) splitGroupsByMass<3>;
 
 } // namespace RectifiedTransport

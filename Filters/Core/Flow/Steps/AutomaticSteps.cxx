@@ -454,11 +454,8 @@ StepChoice chooseSteps(FlowEngine<Dimension>& engine, const FlowOptions& options
   return StepChooser<Dimension>(engine, options, direction, context).Choose(options);
 }
 
-template StepChoice chooseSteps<1>(
-  FlowEngine<1>&, const FlowOptions&, FlowDirection, const Context&);
-template StepChoice chooseSteps<2>(
-  FlowEngine<2>&, const FlowOptions&, FlowDirection, const Context&);
-template StepChoice chooseSteps<3>(
-  FlowEngine<3>&, const FlowOptions&, FlowDirection, const Context&);
+template decltype(chooseSteps<1>) chooseSteps<1>;
+template decltype(chooseSteps<2>) chooseSteps<2>;
+template decltype(chooseSteps<3>) chooseSteps<3>;
 
 } // namespace RectifiedTransport

@@ -242,20 +242,15 @@ double TilePlan<Dimension>::MemorySize(double particles, bool isLattice) const
     std::max(entries * chunk / BlockSize, (record + noted) * extra);
 }
 
-template GridSize<2> gradedStrides<2>(const GridSize<2>&, const TileLimits&);
-template GridSize<3> gradedStrides<3>(const GridSize<3>&, const TileLimits&);
-template double gradedMemory<2>(const GridSize<2>&, const GridSize<2>&);
-template double gradedMemory<3>(const GridSize<3>&, const GridSize<3>&);
-template bool servesTiles<1>(
-  const GridSize<1>&, const FlowOptions&, FlowDirection, const TileLimits&);
-template bool servesTiles<2>(
-  const GridSize<2>&, const FlowOptions&, FlowDirection, const TileLimits&);
-template bool servesTiles<3>(
-  const GridSize<3>&, const FlowOptions&, FlowDirection, const TileLimits&);
-template void requireTiles<2>(
-  const GridSize<2>&, const FlowOptions&, FlowDirection, const TileLimits&);
-template void requireTiles<3>(
-  const GridSize<3>&, const FlowOptions&, FlowDirection, const TileLimits&);
+template decltype(gradedStrides<2>) gradedStrides<2>;
+template decltype(gradedStrides<3>) gradedStrides<3>;
+template decltype(gradedMemory<2>) gradedMemory<2>;
+template decltype(gradedMemory<3>) gradedMemory<3>;
+template decltype(servesTiles<1>) servesTiles<1>;
+template decltype(servesTiles<2>) servesTiles<2>;
+template decltype(servesTiles<3>) servesTiles<3>;
+template decltype(requireTiles<2>) requireTiles<2>;
+template decltype(requireTiles<3>) requireTiles<3>;
 template struct TilePlan<2>;
 template struct TilePlan<3>;
 

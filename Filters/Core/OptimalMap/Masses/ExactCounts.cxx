@@ -325,14 +325,11 @@ double memoryForExactCounts(const GridSize<Dimension>& size, std::int64_t partic
     static_cast<double>(particles) * sizeof(Candidate);
 }
 
-template std::int64_t makeCountsExact<1>(
-  const CellDensity<1>&, const Point<1>&, PointSpan<1>, Progress&);
-template std::int64_t makeCountsExact<2>(
-  const CellDensity<2>&, const Point<2>&, PointSpan<2>, Progress&);
-template std::int64_t makeCountsExact<3>(
-  const CellDensity<3>&, const Point<3>&, PointSpan<3>, Progress&);
-template double memoryForExactCounts<1>(const GridSize<1>&, std::int64_t);
-template double memoryForExactCounts<2>(const GridSize<2>&, std::int64_t);
-template double memoryForExactCounts<3>(const GridSize<3>&, std::int64_t);
+template decltype(makeCountsExact<1>) makeCountsExact<1>;
+template decltype(makeCountsExact<2>) makeCountsExact<2>;
+template decltype(makeCountsExact<3>) makeCountsExact<3>;
+template decltype(memoryForExactCounts<1>) memoryForExactCounts<1>;
+template decltype(memoryForExactCounts<2>) memoryForExactCounts<2>;
+template decltype(memoryForExactCounts<3>) memoryForExactCounts<3>;
 
 } // namespace RectifiedTransport

@@ -126,11 +126,8 @@ double integrateOver(const CellDensity<Dimension>& density,
   return Integral<Dimension>(density, placement, grid).Over(values, progress);
 }
 
-template double integrateOver<1>(
-  const CellDensity<1>&, const CellPlacement<1>&, const NodeGrid<1>&, const double*, Progress&);
-template double integrateOver<2>(
-  const CellDensity<2>&, const CellPlacement<2>&, const NodeGrid<2>&, const double*, Progress&);
-template double integrateOver<3>(
-  const CellDensity<3>&, const CellPlacement<3>&, const NodeGrid<3>&, const double*, Progress&);
+template decltype(integrateOver<1>) integrateOver<1>;
+template decltype(integrateOver<2>) integrateOver<2>;
+template decltype(integrateOver<3>) integrateOver<3>;
 
 } // namespace RectifiedTransport

@@ -264,29 +264,20 @@ template NodeValues hatMasses<2>(
   const CellDensity<2>&, const CellPlacement<2>&, const NodeGrid<2>&, Progress&);
 template NodeValues hatMasses<3>(
   const CellDensity<3>&, const CellPlacement<3>&, const NodeGrid<3>&, Progress&);
-template NodeValues hatSums<1>(const double*, const GridSize<1>&, const NodeGrid<1>&, Progress&);
+template decltype(hatSums<1>) hatSums<1>;
 template NodeValues hatMasses<1>(const double*, const GridSize<1>&, const NodeGrid<1>&, Progress&);
-template NodeValues coarserCells<1>(
-  const double*, const GridSize<1>&, const NodeGrid<1>&, Progress&);
-template NodeValues hatSums<2>(const double*, const GridSize<2>&, const NodeGrid<2>&, Progress&);
+template decltype(coarserCells<1>) coarserCells<1>;
+template decltype(hatSums<2>) hatSums<2>;
 template NodeValues hatMasses<2>(const double*, const GridSize<2>&, const NodeGrid<2>&, Progress&);
-template NodeValues coarserCells<2>(
-  const double*, const GridSize<2>&, const NodeGrid<2>&, Progress&);
-template NodeValues hatSums<3>(const double*, const GridSize<3>&, const NodeGrid<3>&, Progress&);
+template decltype(coarserCells<2>) coarserCells<2>;
+template decltype(hatSums<3>) hatSums<3>;
 template NodeValues hatMasses<3>(const double*, const GridSize<3>&, const NodeGrid<3>&, Progress&);
-template NodeValues coarserCells<3>(
-  const double*, const GridSize<3>&, const NodeGrid<3>&, Progress&);
-template NodeValues cellMasses<1>(
-  const CellDensity<1>&, const CellPlacement<1>&, const NodeGrid<1>&, Progress&);
-template NodeValues cellMasses<2>(
-  const CellDensity<2>&, const CellPlacement<2>&, const NodeGrid<2>&, Progress&);
-template NodeValues cellMasses<3>(
-  const CellDensity<3>&, const CellPlacement<3>&, const NodeGrid<3>&, Progress&);
-template double lumpingExcess<1>(
-  const CellDensity<1>&, const CellPlacement<1>&, const NodeGrid<1>&, Progress&);
-template double lumpingExcess<2>(
-  const CellDensity<2>&, const CellPlacement<2>&, const NodeGrid<2>&, Progress&);
-template double lumpingExcess<3>(
-  const CellDensity<3>&, const CellPlacement<3>&, const NodeGrid<3>&, Progress&);
+template decltype(coarserCells<3>) coarserCells<3>;
+template decltype(cellMasses<1>) cellMasses<1>;
+template decltype(cellMasses<2>) cellMasses<2>;
+template decltype(cellMasses<3>) cellMasses<3>;
+template decltype(lumpingExcess<1>) lumpingExcess<1>;
+template decltype(lumpingExcess<2>) lumpingExcess<2>;
+template decltype(lumpingExcess<3>) lumpingExcess<3>;
 
 } // namespace RectifiedTransport

@@ -142,15 +142,12 @@ void smoothMap(NodeMap<Dimension>& map, Progress& progress)
   }
 }
 
-template void smoothMap<1>(NodeMap<1>&, Progress&);
-template void smoothMap<2>(NodeMap<2>&, Progress&);
-template void smoothMap<3>(NodeMap<3>&, Progress&);
-template SampleFineness limitFineness<1>(
-  const NodeMap<1>&, const double*, SampleFineness, Progress&);
-template SampleFineness limitFineness<2>(
-  const NodeMap<2>&, const double*, SampleFineness, Progress&);
-template SampleFineness limitFineness<3>(
-  const NodeMap<3>&, const double*, SampleFineness, Progress&);
+template decltype(smoothMap<1>) smoothMap<1>;
+template decltype(smoothMap<2>) smoothMap<2>;
+template decltype(smoothMap<3>) smoothMap<3>;
+template decltype(limitFineness<1>) limitFineness<1>;
+template decltype(limitFineness<2>) limitFineness<2>;
+template decltype(limitFineness<3>) limitFineness<3>;
 template <int Dimension>
 SampleFineness limitFineness(
   const NodeMap<Dimension>& map, const double* masses, SampleFineness fineness, Progress& progress)
@@ -185,8 +182,8 @@ SampleFineness limitFineness(
   return fineness;
 }
 
-template void writeGradientMap<1>(const double*, NodeMap<1>&, Progress&);
-template void writeGradientMap<2>(const double*, NodeMap<2>&, Progress&);
-template void writeGradientMap<3>(const double*, NodeMap<3>&, Progress&);
+template decltype(writeGradientMap<1>) writeGradientMap<1>;
+template decltype(writeGradientMap<2>) writeGradientMap<2>;
+template decltype(writeGradientMap<3>) writeGradientMap<3>;
 
 } // namespace RectifiedTransport

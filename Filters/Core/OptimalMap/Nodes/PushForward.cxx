@@ -32,11 +32,8 @@ void pushForward(const NodeMap<Dimension>& map, const double* cells, const Sampl
     firstCells);
 }
 
-template void pushForward<1>(
-  const NodeMap<1>&, const double*, const SampleFineness&, NodeSums<1>&, Progress&);
-template void pushForward<2>(
-  const NodeMap<2>&, const double*, const SampleFineness&, NodeSums<2>&, Progress&);
-template void pushForward<3>(
-  const NodeMap<3>&, const double*, const SampleFineness&, NodeSums<3>&, Progress&);
+template decltype(pushForward<1>) pushForward<1>;
+template decltype(pushForward<2>) pushForward<2>;
+template decltype(pushForward<3>) pushForward<3>;
 
 } // namespace RectifiedTransport
