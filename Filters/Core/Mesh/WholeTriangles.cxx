@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/WholeTriangles.h"
 
-#include "Core/Mesh/MergePoints.h"
+#include "Core/Geometry/EqualPoints.h"
 #include "Core/Mesh/TJunctions.h"
 #include "Core/Mesh/UnitScale.h"
 #include "Core/Parallel/Reduction.h"
