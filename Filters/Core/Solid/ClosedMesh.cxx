@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Solid/ClosedMesh.h"
 
-<<<<<<< HEAD
+#include "Core/Geometry/EqualPoints.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Mesh/CornerPoint.h"
-=======
-#include "Core/Geometry/EqualPoints.h"
->>>>>>> e6ffb9dd (Find equal points, and blocks in reach, in one way each)
 #include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/SplitSurface.h"
 #include "Core/Mesh/SurfaceEdges.h"
