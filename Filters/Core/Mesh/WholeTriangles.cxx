@@ -2,6 +2,7 @@
 #include "Core/Mesh/WholeTriangles.h"
 
 #include "Core/Geometry/EqualPoints.h"
+#include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/TJunctions.h"
 #include "Core/Mesh/UnitScale.h"
 #include "Core/Parallel/Reduction.h"
