@@ -3,6 +3,8 @@
 #ifndef RectifiedTransport_PartText_h
 #define RectifiedTransport_PartText_h
 
+#include "Core/Parallel/PercentText.h"
+
 #include <cstdint>
 #include <sstream>
 #include <string>
@@ -17,17 +19,6 @@ inline std::string describePart(std::int64_t count, std::int64_t all, const char
   text.precision(3);
   text << count << " of " << all << ' ' << what << " ("
        << 100.0 * static_cast<double>(count) / static_cast<double>(all) << " %)";
-  return text.str();
-}
-
-// "0.41 %", "8.1 %", "810 %": never with an exponent.
-inline std::string percentText(double part)
-{
-  const double percent = 100.0 * part;
-  std::ostringstream text;
-  text.setf(std::ios::fixed);
-  text.precision(percent < 1.0 ? 2 : percent < 10.0 ? 1 : 0);
-  text << percent << " %";
   return text.str();
 }
 

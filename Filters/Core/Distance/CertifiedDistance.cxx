@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Distance/CertifiedDistance.h"
 
-#include "Core/OptimalMap/OptimalMap.h"
 #include "Core/Parallel/Stages.h"
+#include "Core/Plan/TransportPlan.h"
 
 #include <algorithm>
 
@@ -29,15 +29,17 @@ SquaredBracket bracketDistance(const DensitySource<Dimension>& a, const DensityS
 {
   constexpr double enough = 0.02; // a per cent of the distance
   Progress progress(context);
-  Stages stages(progress, { { "reading", 5 }, { "lower bound", 35 }, { "upper bound", 60 } });
-  OptimalMap<Dimension> map(PlacedDensity<Dimension>{ a, {}, sides },
-    PlacedDensity<Dimension>{ b, {}, sides }, optionsOfBounds(), stages["reading"]);
-  map.Solve(stages["lower bound"]);
+  Stages stages(progress, { { "lower bound", 40 }, { "upper bound", 60 } });
+  PlanOptions options;
+  options.HasBound = true;
+  options.Optimal = optionsOfBounds();
+  const TransportPlan<Dimension> plan(PlanEnd<Dimension>({ a, {}, sides }),
+    PlanEnd<Dimension>({ b, {}, sides }), options, stages["lower bound"]);
   SquaredBracket bracket;
-  bracket.Lower = map.LowerBound();
+  bracket.Lower = plan.LowerBound();
   // Where they meet, rounding may part them the wrong way.
   bracket.Upper =
-    std::max(bracket.Lower, map.UpperBound(stages["upper bound"], (1.0 + enough) * bracket.Lower));
+    std::max(bracket.Lower, plan.UpperBound(stages["upper bound"], (1.0 + enough) * bracket.Lower));
   return bracket;
 }
 
@@ -46,7 +48,7 @@ double memoryForBracket(const GridSize<Dimension>& cells)
 {
   OptimalMapUse use;
   use.UpperBound = true;
-  return OptimalMap<Dimension>::MemoryFor(cells, cells, optionsOfBounds(), use);
+  return TransportPlan<Dimension>::MemoryFor(cells, cells, optionsOfBounds(), use);
 }
 
 template SquaredBracket bracketDistance<1>(

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Distance/ReferenceImages.h"
 
-#include "Core/OptimalMap/Masses/CellDensity.h"
-#include "Core/OptimalMap/OptimalMap.h"
-#include "Core/OptimalMap/PointMap.h"
-#include "Core/OptimalMap/PotentialSolver.h"
 #include "Core/Parallel/SmallWork.h"
 #include "Core/Parallel/Stages.h"
+#include "Core/Plan/TransportPlan.h"
 
 #include <algorithm>
 #include <array>
@@ -19,25 +16,12 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = 512;
-
-// Of nodes: a map at points needs some iterations on the finest ones.
-SolverOptions optionsOfMaps()
+OptimalMapOptions optionsOfMaps()
 {
-  SolverOptions options;
-  options.LeastIterations = 4;
+  OptimalMapOptions options;
+  options.RefineBound = false;
+  options.CorrectMasses = false;
   return options;
-}
-
-template <int Dimension>
-Point<Dimension> sidesOfCells(const Point<Dimension>& sides, const GridSize<Dimension>& cells)
-{
-  Point<Dimension> cell;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    cell[axis] = sides[axis] / static_cast<double>(cells[axis]);
-  }
-  return cell;
 }
 
 } // namespace
@@ -65,51 +49,31 @@ ReferenceImages mapReference(
   const DensitySource<Dimension>& density, const Point<Dimension>& sides, const Context& context)
 {
   Progress progress(contextForSize(context, numberOfCells<Dimension>(density.Size)));
-  Stages stages(
-    progress, { { "reading", 5 }, { "potential", 70 }, { "nodes", 5 }, { "images", 20 } });
-  const CellDensity<Dimension> uniform(density.Size);
-  const CellDensity<Dimension> target(density, stages["reading"]);
-  Point<Dimension> all;
-  all.fill(1.0);
-  PotentialSolver<Dimension> solver(
-    { uniform, {}, all }, { target, {}, all }, sides, optionsOfMaps());
-  solver.Solve(stages["potential"]);
-  const Point<Dimension> cell = sidesOfCells<Dimension>(sides, density.Size);
-  const PointMap<Dimension> map(solver, 0, target, cell, PointImages::Inverted, stages["nodes"]);
+  Stages stages(progress, { { "map", 75 }, { "images", 25 } });
+  PlanOptions options;
+  options.IsOptimal = true;
+  options.Optimal = optionsOfMaps();
+  const TransportPlan<Dimension> plan(
+    PlanEnd<Dimension>({ density, {}, sides }), options, stages["map"]);
   const GridSize<Dimension> lattice = referenceLattice<Dimension>(sides);
-  const Point<Dimension> step = latticeStep<Dimension>(lattice, density.Size);
   const auto samples = static_cast<std::int64_t>(numberOfCells<Dimension>(lattice));
   ReferenceImages images{ LargeBuffer<double>(samples * Dimension) };
-  double* coordinates = images.Coordinates.data();
-  stages["images"].For(
-    samples, grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        Point<Dimension> sample;
-        std::int64_t rest = i;
-        for (int axis = 0; axis < Dimension; ++axis)
-        {
-          sample[axis] = (static_cast<double>(rest % lattice[axis]) + 0.5) * step[axis];
-          rest /= lattice[axis];
-        }
-        const Point<Dimension> image = map.At(sample.data());
-        for (int axis = 0; axis < Dimension; ++axis)
-        {
-          coordinates[i * Dimension + axis] = image[axis] * cell[axis];
-        }
-      }
-    },
-    8 * grain);
+  const PointSpan<Dimension> places(images.Coordinates.data(), samples);
+  plan.Forward(FlowSeeds<Dimension>::Lattice(lattice), places, stages["images"]);
+  for (std::int64_t i = 0; i < samples; ++i)
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      places[i][axis] *= sides[axis] / static_cast<double>(density.Size[axis]);
+    }
+  }
   return images;
 }
 
 template <int Dimension>
 double memoryForReference(const GridSize<Dimension>& cells, const Point<Dimension>& sides)
 {
-  OptimalMapOptions options;
-  options.RefineBound = false;
-  return OptimalMap<Dimension>::MemoryFor(cells, cells, options) +
+  return TransportPlan<Dimension>::MemoryFor(cells, cells, optionsOfMaps()) +
     sizeof(double) * Dimension * numberOfCells<Dimension>(referenceLattice<Dimension>(sides));
 }
 

@@ -67,15 +67,28 @@ Point<Dimension> cornerAt(std::int64_t corner, const GridSize<Dimension>& size)
 template <int Dimension>
 AreaCorrection<Dimension>::AreaCorrection(const RectifiedFlow<Dimension>& flow,
   const FlowOptions& options, const EqualizeOptions& equalize, const Context& context)
-  : AreaCorrection(flow, flow, options, equalize, context)
+  : Size(flow.Size())
 {
+  this->Make(flow, equalize, context, [&](PointSpan<Dimension> points, const Context& stage) {
+    flow.Backward(points, points, options, stage);
+  });
 }
 
 template <int Dimension>
 AreaCorrection<Dimension>::AreaCorrection(const RectifiedFlow<Dimension>& flow,
-  const PointTransport<Dimension>& map, const FlowOptions& options, const EqualizeOptions& equalize,
-  const Context& context)
+  const PointTransport<Dimension>& map, const EqualizeOptions& equalize, const Context& context)
   : Size(flow.Size())
+{
+  this->Make(flow, equalize, context, [&](PointSpan<Dimension> points, const Context& stage) {
+    map.Backward(points, points, stage);
+  });
+}
+
+// moveBack(points, context) moves the corners, in place.
+template <int Dimension>
+template <class MoveBack>
+void AreaCorrection<Dimension>::Make(const RectifiedFlow<Dimension>& flow,
+  const EqualizeOptions& equalize, const Context& context, const MoveBack& moveBack)
 {
   Context alone = context;
   alone.Group = &SoloRanks::Get();
@@ -91,7 +104,7 @@ AreaCorrection<Dimension>::AreaCorrection(const RectifiedFlow<Dimension>& flow,
       std::copy_n(place.data(), Dimension, images[i]);
     }
   });
-  map.Backward(images, images, options, stages["map"]);
+  moveBack(images, stages["map"]);
 
   this->Moves = LargeBuffer<float>(count * Dimension);
   stages["moves"].For(count, grain, [&](std::int64_t first, std::int64_t last) {

@@ -5,6 +5,7 @@
 #ifndef RectifiedTransport_AreaCorrection_h
 #define RectifiedTransport_AreaCorrection_h
 
+#include "../Flow/PointTransport.h"
 #include "../Flow/RectifiedFlow.h"
 #include "../Parallel/LargeBuffer.h"
 #include "EqualizeAreas.h"
@@ -22,10 +23,9 @@ public:
   // Throws std::invalid_argument, std::bad_alloc and Cancelled.
   AreaCorrection(const RectifiedFlow<Dimension>& flow, const FlowOptions& options,
     const EqualizeOptions& equalize = {}, const Context& context = Context());
-  // The same of another map of the flow's density.
+  // The same of another map from the uniform measure to the flow's density.
   AreaCorrection(const RectifiedFlow<Dimension>& flow, const PointTransport<Dimension>& map,
-    const FlowOptions& options, const EqualizeOptions& equalize = {},
-    const Context& context = Context());
+    const EqualizeOptions& equalize = {}, const Context& context = Context());
 
   // Options for the correction and for the points: FlowMaps::Auto would choose by the number of
   // points, and the errors of a flow with maps are not those of one without.
@@ -51,6 +51,10 @@ public:
   static double MemoryFor(const GridSize<Dimension>& size);
 
 private:
+  template <class MoveBack>
+  void Make(const RectifiedFlow<Dimension>& flow, const EqualizeOptions& equalize,
+    const Context& context, const MoveBack& moveBack);
+
   const GridSize<Dimension> Size;
   EqualizeReport Found;
   LargeBuffer<float> Moves; // of the corners, interleaved

@@ -3,7 +3,7 @@
 
 #include "Core/Flow/AdvectionJob.h"
 #include "Core/Flow/FlowMapShape.h"
-#include "Core/Flow/PointTransport.h"
+#include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/LowDiscrepancy.h"
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/Ranks.h"
@@ -85,7 +85,7 @@ PivotLattice<Dimension> pivotLattice(const GridSize<Dimension>& grid, std::int64
 }
 
 template <int Dimension>
-FlowReport transportPivot(const PointTransport<Dimension>& flow,
+FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   const PivotLattice<Dimension>& pivot, PointSpan<Dimension> positions, const FlowOptions& options,
   const Context& context)
 {
@@ -99,7 +99,7 @@ FlowReport transportPivot(const PointTransport<Dimension>& flow,
 }
 
 template <int Dimension>
-FlowReport transportPivot(const PointTransport<Dimension>& flow,
+FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   const PivotLattice<Dimension>& pivot, std::int64_t first, PointSpan<Dimension> positions,
   const FlowOptions& options, const Context& context)
 {
@@ -156,17 +156,17 @@ template PivotLattice<1> pivotLattice<1>(const GridSize<1>&, std::int64_t);
 template PivotLattice<2> pivotLattice<2>(const GridSize<2>&, std::int64_t);
 template PivotLattice<3> pivotLattice<3>(const GridSize<3>&, std::int64_t);
 
-template FlowReport transportPivot<1>(const PointTransport<1>&, const PivotLattice<1>&,
+template FlowReport transportPivot<1>(const RectifiedFlow<1>&, const PivotLattice<1>&, PointSpan<1>,
+  const FlowOptions&, const Context&);
+template FlowReport transportPivot<1>(const RectifiedFlow<1>&, const PivotLattice<1>&, std::int64_t,
   PointSpan<1>, const FlowOptions&, const Context&);
-template FlowReport transportPivot<1>(const PointTransport<1>&, const PivotLattice<1>&,
-  std::int64_t, PointSpan<1>, const FlowOptions&, const Context&);
-template FlowReport transportPivot<2>(const PointTransport<2>&, const PivotLattice<2>&,
+template FlowReport transportPivot<2>(const RectifiedFlow<2>&, const PivotLattice<2>&, PointSpan<2>,
+  const FlowOptions&, const Context&);
+template FlowReport transportPivot<2>(const RectifiedFlow<2>&, const PivotLattice<2>&, std::int64_t,
   PointSpan<2>, const FlowOptions&, const Context&);
-template FlowReport transportPivot<2>(const PointTransport<2>&, const PivotLattice<2>&,
-  std::int64_t, PointSpan<2>, const FlowOptions&, const Context&);
-template FlowReport transportPivot<3>(const PointTransport<3>&, const PivotLattice<3>&,
+template FlowReport transportPivot<3>(const RectifiedFlow<3>&, const PivotLattice<3>&, PointSpan<3>,
+  const FlowOptions&, const Context&);
+template FlowReport transportPivot<3>(const RectifiedFlow<3>&, const PivotLattice<3>&, std::int64_t,
   PointSpan<3>, const FlowOptions&, const Context&);
-template FlowReport transportPivot<3>(const PointTransport<3>&, const PivotLattice<3>&,
-  std::int64_t, PointSpan<3>, const FlowOptions&, const Context&);
 
 } // namespace RectifiedTransport

@@ -16,7 +16,7 @@ namespace RectifiedTransport
 {
 
 template <int Dimension>
-class PointTransport;
+class RectifiedFlow;
 
 // One particle at each place, in [0, 1], in each cell of a lattice. They are numbered place by
 // place; for one place over the cells, axis 0 fastest.
@@ -42,13 +42,13 @@ PivotLattice<Dimension> pivotLattice(const GridSize<Dimension>& grid, std::int64
 // Advects the particles of the pivot, on the box of a density, to the density; the positions are in
 // the order of the particles. Throws std::invalid_argument, std::bad_alloc and Cancelled.
 template <int Dimension>
-FlowReport transportPivot(const PointTransport<Dimension>& flow,
+FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   const PivotLattice<Dimension>& pivot, PointSpan<Dimension> positions,
   const FlowOptions& options = {}, const Context& context = Context());
 // Only those from number `first` on, as many as there are positions, with the results of a run of
 // all. Collective, each rank for its own.
 template <int Dimension>
-FlowReport transportPivot(const PointTransport<Dimension>& flow,
+FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   const PivotLattice<Dimension>& pivot, std::int64_t first, PointSpan<Dimension> positions,
   const FlowOptions& options = {}, const Context& context = Context());
 

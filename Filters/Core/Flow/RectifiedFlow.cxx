@@ -193,12 +193,6 @@ void RectifiedFlow<Dimension>::MeasuresOfShares(ConstPointSpan<Dimension> centre
 }
 
 template <int Dimension>
-bool RectifiedFlow<Dimension>::Serves(TransportUse /*use*/) const
-{
-  return this->Engine->HasWholeTables();
-}
-
-template <int Dimension>
 StepChoice RectifiedFlow<Dimension>::ChooseSteps(
   const FlowOptions& options, FlowDirection direction, const Context& context) const
 {

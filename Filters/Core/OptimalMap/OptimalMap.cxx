@@ -2,7 +2,7 @@
 #include "Core/OptimalMap/OptimalMap.h"
 
 #include "Core/Flow/FlowArguments.h"
-#include "Core/Flow/ParticleSource.h"
+#include "Core/Flow/StraightPaths.h"
 #include "Core/OptimalMap/BoxCheck.h"
 #include "Core/OptimalMap/CorrectedMap.h"
 #include "Core/OptimalMap/CouplingCost.h"
@@ -29,8 +29,6 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t group = 64; // of particles that are read together
-
 void check(const OptimalMapOptions& options)
 {
   if (!(options.Tolerance > 0.0 && options.Tolerance < 1.0))
@@ -48,34 +46,6 @@ void check(const OptimalMapOptions& options)
   {
     throw std::invalid_argument(
       "an optimal map has at most " + std::to_string(options.MostNodes) + " nodes, it needs some");
-  }
-}
-
-// kernel(index of the result, point) of all particles, as `source.Count()` units of work.
-template <int Dimension, class Kernel>
-void forParticles(ParticleSource<Dimension>& source, Progress& progress, const Kernel& kernel)
-{
-  const std::int64_t count = source.Count();
-  for (std::int64_t begin = 0; begin < count;)
-  {
-    const std::int64_t chunk = source.Prepare(begin);
-    progress.For(
-      chunk, 8 * group,
-      [&](std::int64_t first, std::int64_t last) {
-        std::int64_t index[group];
-        Point<Dimension> points[group];
-        for (std::int64_t i = first; i < last; i += group)
-        {
-          const auto size = static_cast<int>(std::min(group, last - i));
-          source.Fill(i, size, index, points[0].data());
-          for (int j = 0; j < size; ++j)
-          {
-            kernel(index[j], points[j]);
-          }
-        }
-      },
-      64 * group);
-    begin += chunk;
   }
 }
 
@@ -160,24 +130,31 @@ struct OptimalMap<Dimension>::Implementation
     }
     if (!map.Moving && !map.Still->AreAll())
     {
-      map.Moving.emplace(this->Solver, side, this->Densities[to], this->CellSides(to),
-        this->Options.InterpolatePoints ? PointImages::Interpolated : PointImages::Inverted,
-        progress);
+      map.Moving.emplace(
+        this->Solver, side, this->Densities[to], this->CellSides(to), this->Images(), progress);
     }
     return map;
   }
-  // From the target back to the source, without corrected masses, made when it is first wanted.
-  const PointMap<Dimension>& MapBack(Progress& progress)
+  // The same without corrected masses.
+  const PointMap<Dimension>& PlainMapFrom(int side, Progress& progress)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    if (!this->Back)
+    std::optional<PointMap<Dimension>>& map = this->Plain[static_cast<std::size_t>(side)];
+    const auto to = static_cast<std::size_t>(1 - side);
+    if (!map)
     {
-      this->Back.emplace(this->Solver, 1, this->Densities[0], this->CellSides(0),
-        PointImages::Interpolated, progress);
+      map.emplace(
+        this->Solver, side, this->Densities[to], this->CellSides(to), this->Images(), progress);
     }
-    return *this->Back;
+    return *map;
+  }
+  PointImages Images() const
+  {
+    return this->Options.InterpolatePoints ? PointImages::Interpolated : PointImages::Inverted;
   }
 
+  FlowReport MovePlainly(int side, const FlowSeeds<Dimension>& seeds,
+    PointSpan<Dimension> positions, const Context& context);
   FlowReport Move(int side, const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions,
     const Context& context);
   FlowReport Undo(
@@ -192,7 +169,7 @@ struct OptimalMap<Dimension>::Implementation
   OptimalMapReport Info;
   std::mutex Mutex; // of the maps
   std::array<Direction, 2> Maps;
-  std::optional<PointMap<Dimension>> Back;
+  std::array<std::optional<PointMap<Dimension>>, 2> Plain;
 };
 
 template <int Dimension>
@@ -273,6 +250,10 @@ const OptimalMapReport& OptimalMap<Dimension>::Report() const
 template <int Dimension>
 double OptimalMap<Dimension>::MassError(const Context& context) const
 {
+  if (!this->Self->Options.CorrectMasses)
+  {
+    return 0.0;
+  }
   Progress progress(contextForSize(context, this->Self->Nodes()));
   const auto& map = this->Self->MapFrom(0, progress);
   return map.Moving ? map.Moving->MassError() : 0.0;
@@ -342,24 +323,30 @@ const GridSize<Dimension>& OptimalMap<Dimension>::Size() const
 }
 
 template <int Dimension>
-bool OptimalMap<Dimension>::Serves(TransportUse) const
+FlowReport OptimalMap<Dimension>::Implementation::MovePlainly(int side,
+  const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions, const Context& context)
 {
-  return true;
-}
-
-template <int Dimension>
-StepChoice OptimalMap<Dimension>::ChooseSteps(
-  const FlowOptions&, FlowDirection, const Context&) const
-{
-  StepChoice none;
-  none.NumberOfSteps = 0;
-  return none;
+  Progress progress(contextForSize(context, this->ValuesOf(positions)));
+  Stages stages(progress, { { "map", 2 }, { "points", 8 } });
+  const PointMap<Dimension>& map = this->PlainMapFrom(side, stages["map"]);
+  ParticleSource<Dimension> source(
+    seeds, this->Densities[static_cast<std::size_t>(side)].Size(), positions.size());
+  forParticles(source, stages["points"].Expect(source.Count()),
+    [&](std::int64_t index, const Point<Dimension>& point) {
+      const Point<Dimension> image = map.At(point.data());
+      std::copy(image.begin(), image.end(), positions[index]);
+    });
+  return {};
 }
 
 template <int Dimension>
 FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds<Dimension>& seeds,
   PointSpan<Dimension> positions, const Context& context)
 {
+  if (!this->Options.CorrectMasses)
+  {
+    return this->MovePlainly(side, seeds, positions, context);
+  }
   Progress progress(contextForSize(context, this->ValuesOf(positions)));
   Stages stages(progress, { { "map", 4 }, { "points", 6 } });
   const Direction& map = this->MapFrom(side, stages["map"]);
@@ -400,7 +387,7 @@ FlowReport OptimalMap<Dimension>::Implementation::Undo(
   Progress progress(contextForSize(context, this->ValuesOf(positions)));
   Stages stages(progress, { { "maps", 4 }, { "points", 6 } });
   const Direction& map = this->MapFrom(0, stages["maps"]);
-  const PointMap<Dimension>& back = this->MapBack(stages["maps"]);
+  const PointMap<Dimension>& back = this->PlainMapFrom(1, stages["maps"]);
   ParticleSource<Dimension> source(points, this->Densities[1].Size(), positions.size());
   forParticles(source, stages["points"].Expect(source.Count()),
     [&](std::int64_t index, const Point<Dimension>& point) {
@@ -415,15 +402,15 @@ FlowReport OptimalMap<Dimension>::Implementation::Undo(
 }
 
 template <int Dimension>
-FlowReport OptimalMap<Dimension>::Forward(const FlowSeeds<Dimension>& seeds,
-  PointSpan<Dimension> positions, const FlowOptions&, const Context& context) const
+FlowReport OptimalMap<Dimension>::Forward(
+  const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions, const Context& context) const
 {
   return this->Self->Move(0, seeds, positions, context);
 }
 
 template <int Dimension>
-FlowReport OptimalMap<Dimension>::Backward(const FlowSeeds<Dimension>& points,
-  PointSpan<Dimension> positions, const FlowOptions&, const Context& context) const
+FlowReport OptimalMap<Dimension>::Backward(
+  const FlowSeeds<Dimension>& points, PointSpan<Dimension> positions, const Context& context) const
 {
   return this->Self->Options.InterpolatePoints ? this->Self->Undo(points, positions, context)
                                                : this->Self->Move(1, points, positions, context);
@@ -431,42 +418,30 @@ FlowReport OptimalMap<Dimension>::Backward(const FlowSeeds<Dimension>& points,
 
 template <int Dimension>
 FlowReport OptimalMap<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds,
-  const std::vector<double>& times, PointSpan<Dimension> positions, const FlowOptions&,
-  const Context& context) const
+  const std::vector<double>& times, PointSpan<Dimension> positions, const Context& context) const
 {
   RectifiedTransport::check(times);
   checkCount(positions.size(), seeds.Count() * static_cast<double>(times.size()));
-  const auto several = static_cast<std::int64_t>(times.size());
-  const std::int64_t count = positions.size() / several;
+  const std::int64_t count = positions.size() / static_cast<std::int64_t>(times.size());
   LargeBuffer<double> coordinates(count * Dimension);
   const PointSpan<Dimension> images(coordinates.data(), count);
   Progress progress(context);
   Stages stages(progress, { { "images", 9 }, { "times", 1 } });
   const FlowReport report = this->Self->Move(0, seeds, images, stages["images"]);
-  ParticleSource<Dimension> source(seeds, this->Size(), count);
   const auto& target = this->Self->Solver.Side(1).Placement;
   const auto& from = this->Self->Solver.Side(0).Placement;
-  forParticles(
-    source, stages["times"].Expect(count), [&](std::int64_t index, const Point<Dimension>& point) {
-      // The place of the point in the index space of the target.
-      const Point<Dimension> begins = target.FromNodes(from.ToNodes(point.data()).data());
-      const double* image = images[index];
-      for (std::int64_t t = 0; t < several; ++t)
-      {
-        const double time = times[static_cast<std::size_t>(t)];
-        double* position = positions[index * several + t];
-        for (int axis = 0; axis < Dimension; ++axis)
-        {
-          position[axis] = begins[axis] + time * (image[axis] - begins[axis]);
-        }
-      }
-    });
+  writeStraightPaths<Dimension>(
+    seeds, this->Size(),
+    [&](const Point<Dimension>& point) {
+      return target.FromNodes(from.ToNodes(point.data()).data());
+    },
+    images, times, positions, stages["times"]);
   return report;
 }
 
 template <int Dimension>
-FlowReport OptimalMap<Dimension>::ForwardToCells(const FlowSeeds<Dimension>& seeds,
-  std::int64_t* cells, const FlowOptions&, const Context& context) const
+FlowReport OptimalMap<Dimension>::ForwardToCells(
+  const FlowSeeds<Dimension>& seeds, std::int64_t* cells, const Context& context) const
 {
   std::int64_t count = seeds.Points().size();
   if (seeds.IsLattice())

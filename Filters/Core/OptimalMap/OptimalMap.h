@@ -44,6 +44,9 @@ struct OptimalMapOptions
   // Backward undoes that, near enough, in a fraction of the time. Else both solve for each image,
   // and both have corrected masses.
   bool InterpolatePoints = false;
+  // Forward moves points so that the masses of their images agree with the target's. Without that,
+  // images are those of the potential alone, and MassError is 0.
+  bool CorrectMasses = true;
   // Takes fewer images of cells that have little mass, which bounds do without.
   bool ForBounds = false;
 };
@@ -126,21 +129,19 @@ public:
 
   // Of the source.
   const GridSize<Dimension>& Size() const override;
-  bool Serves(TransportUse use) const override;
-  // Nothing here takes steps: a choice of 0 steps.
-  StepChoice ChooseSteps(const FlowOptions& options, FlowDirection direction,
-    const Context& context = Context()) const override;
-  // Options are not used. Seeds that are samples (FlowSeeds::AsSamples) are moved together, so that
-  // boxes of cells get their shares of them, and parts of cells nearly so.
+  // Nothing here takes steps: reports have 0 of them. Seeds that are samples (FlowSeeds::AsSamples)
+  // are moved together, so that boxes of cells get their shares of them, and parts of cells nearly
+  // so.
   FlowReport Forward(const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions,
-    const FlowOptions& options = {}, const Context& context = Context()) const override;
-  FlowReport Backward(const FlowSeeds<Dimension>& points, PointSpan<Dimension> positions,
-    const FlowOptions& options = {}, const Context& context = Context()) const override;
-  FlowReport ForwardAt(const FlowSeeds<Dimension>& seeds, const std::vector<double>& times,
-    PointSpan<Dimension> positions, const FlowOptions& options = {},
     const Context& context = Context()) const override;
+  FlowReport Backward(const FlowSeeds<Dimension>& points, PointSpan<Dimension> positions,
+    const Context& context = Context()) const override;
+  FlowReport ForwardAt(const FlowSeeds<Dimension>& seeds, const std::vector<double>& times,
+    PointSpan<Dimension> positions, const Context& context = Context()) const override;
+  // Forward, but writes for each point only the number, axis 0 fastest, of the target's cell with
+  // mass in which it ends.
   FlowReport ForwardToCells(const FlowSeeds<Dimension>& seeds, std::int64_t* cells,
-    const FlowOptions& options = {}, const Context& context = Context()) const override;
+    const Context& context = Context()) const;
 
 private:
   struct Implementation;

@@ -152,7 +152,7 @@ DensitySiteCells<Dimension>::DensitySiteCells(ConstPointSpan<3> sites, const Ima
 }
 
 template <int Dimension>
-FlowReport DensitySiteCells<Dimension>::Label(const PointTransport<Dimension>& flow,
+FlowReport DensitySiteCells<Dimension>::Label(const RectifiedFlow<Dimension>& flow,
   std::int64_t* labels, const FlowOptions& options, const Context& context) const
 {
   Progress progress(context);
@@ -206,7 +206,7 @@ void DensitySiteCells<Dimension>::LabelIntervals(std::int64_t* labels) const
 
 // Labels pixels by groups of the sites that the map takes into one pixel.
 template <int Dimension>
-SiteGroups DensitySiteCells<Dimension>::LabelGroups(const PointTransport<Dimension>& flow,
+SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimension>& flow,
   std::int64_t* labels, const FlowOptions& options, const Context& context,
   FlowReport& report) const
 {
@@ -247,7 +247,7 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const PointTransport<Dimensi
 // Where the mass of several groups lies in one pixel, only one of them has got it. The others join
 // it, and divide the pixels of all of them.
 template <int Dimension>
-void DensitySiteCells<Dimension>::MergeGroups(const PointTransport<Dimension>& flow,
+void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& flow,
   const std::vector<Point<Dimension>>& even, SiteGroups& groups, std::int64_t* labels,
   const FlowOptions& options, const Context& context) const
 {

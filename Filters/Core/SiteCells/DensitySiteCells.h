@@ -26,7 +26,7 @@ namespace RectifiedTransport
 {
 
 template <int Dimension>
-class PointTransport;
+class RectifiedFlow;
 
 // Thrown if there are more sites than pixels with mass.
 class TooFewPixels : public std::invalid_argument
@@ -68,14 +68,14 @@ public:
   // in the order of the sites, and the flow is not used. Temporarily takes about 50 and 57 bytes a
   // pixel in 2D and 3D. Reports the way of the sites to the uniform measure. Throws
   // std::invalid_argument for options, std::bad_alloc and Cancelled.
-  FlowReport Label(const PointTransport<Dimension>& flow, std::int64_t* labels,
+  FlowReport Label(const RectifiedFlow<Dimension>& flow, std::int64_t* labels,
     const FlowOptions& options = {}, const Context& context = Context()) const;
 
 private:
   void LabelIntervals(std::int64_t* labels) const;
-  SiteGroups LabelGroups(const PointTransport<Dimension>& flow, std::int64_t* labels,
+  SiteGroups LabelGroups(const RectifiedFlow<Dimension>& flow, std::int64_t* labels,
     const FlowOptions& options, const Context& context, FlowReport& report) const;
-  void MergeGroups(const PointTransport<Dimension>& flow, const std::vector<Point<Dimension>>& even,
+  void MergeGroups(const RectifiedFlow<Dimension>& flow, const std::vector<Point<Dimension>>& even,
     SiteGroups& groups, std::int64_t* labels, const FlowOptions& options,
     const Context& context) const;
 

@@ -162,9 +162,9 @@ TYPED_TEST(InterpolatedPoints, HaveTheSameBitsOnAnyThreads)
     const ThreadsExecutor executor(threads);
     const OptimalMap<D> map = solvedPair<D>(source, target, interpolated());
     Points<D> images(seeds.size());
-    map.Forward(seeds, images, {}, Context(executor));
+    map.Forward(seeds, images, Context(executor));
     EXPECT_TRUE(haveSameBits<D>(images, forward)) << threads;
-    map.Backward(seeds, images, {}, Context(executor));
+    map.Backward(seeds, images, Context(executor));
     EXPECT_TRUE(haveSameBits<D>(images, backward)) << threads;
   }
 }

@@ -42,7 +42,7 @@ double peakOf(const TestDensity<D>& density, const OptimalMapUse& use)
   if (!samples.empty())
   {
     const PointSpan<D> points(samples.front().data(), static_cast<std::int64_t>(samples.size()));
-    map.Forward(FlowSeeds<D>(points).AsSamples(), points, {}, context);
+    map.Forward(FlowSeeds<D>(points).AsSamples(), points, context);
   }
   if (use.UpperBound)
   {

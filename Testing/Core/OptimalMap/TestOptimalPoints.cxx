@@ -214,7 +214,7 @@ TYPED_TEST(OptimalPoints, HaveTheSameBitsOnAnyThreadsAndRanks)
       const ThreadsExecutor executor(threads);
       const OptimalMap<D> map = solvedMap<D>(density, evenPoint<D>(1.0), Context(executor));
       Points<D> images(seeds.size());
-      map.Forward(FlowSeeds<D>(seeds).AsSamples(), images, {}, Context(executor));
+      map.Forward(FlowSeeds<D>(seeds).AsSamples(), images, Context(executor));
       if (threads == 1)
       {
         expected = images;
@@ -232,7 +232,7 @@ TYPED_TEST(OptimalPoints, HaveTheSameBitsOnAnyThreadsAndRanks)
         const OptimalMap<D> map = solvedMap<D>(density, evenPoint<D>(1.0), context);
         Points<D> images(static_cast<std::size_t>(share.Count));
         const FlowSeeds<D> own(seeds[static_cast<std::size_t>(share.First)].data(), share.Count);
-        map.Forward(own.AsSamples(), images, {}, context);
+        map.Forward(own.AsSamples(), images, context);
         EXPECT_EQ(std::memcmp(
                     images.data(), expected.data() + share.First, images.size() * sizeof(Point<D>)),
           0)
@@ -337,7 +337,7 @@ TYPED_TEST(OptimalPoints, ReportProgressAndStop)
   recording.ExpectReported(0.0, 1.0);
   const Points<D> seeds = latticePoints<D>(density.Size, 10);
   Points<D> images(seeds.size());
-  map.Forward(FlowSeeds<D>(seeds).AsSamples(), images, {}, recording.Context());
+  map.Forward(FlowSeeds<D>(seeds).AsSamples(), images, recording.Context());
   recording.ExpectReported(0.0, 1.0);
   const int queries = recording.Queries;
   for (const int part : { 1, 2 })
@@ -348,7 +348,7 @@ TYPED_TEST(OptimalPoints, ReportProgressAndStop)
       {
         OptimalMap<D> again(values, evenPoint<D>(1.0), {}, stopped.Context());
         again.Solve(stopped.Context());
-        again.Forward(seeds, images, {}, stopped.Context());
+        again.Forward(seeds, images, stopped.Context());
       },
       Cancelled);
   }

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Plan/TransportPlan.h"
+
+#include "Core/Flow/StraightPaths.h"
+#include "Core/Geometry/LengthScale.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/PercentText.h"
+#include "Core/Parallel/Stages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+
+// Why an optimal map does not serve whose masses of blocks have this error; empty if it does.
+std::string unresolvedText(double massError)
+{
+  constexpr double most = 0.1;
+  if (!(massError > most))
+  {
+    return {};
+  }
+  return "Method Optimal did not reach the density, which is too thin for its grid: the masses of "
+         "blocks of 8 cells a side are off by " +
+    percentText(massError) + ", more than " + percentText(most) +
+    "; the map is that of Method RectifiedFlow, and TransportCostLowerBound holds (a finer density "
+    "helps, for example by Resample To Image)";
+}
+
+template <int Dimension>
+PlacedDensity<Dimension> read(const PlanEnd<Dimension>& end, const Context& context)
+{
+  return { end.Read(context), end.Low, end.High };
+}
+
+template <int Dimension>
+void release(const PlanEnd<Dimension>& end)
+{
+  if (end.Release)
+  {
+    end.Release();
+  }
+}
+
+// Moves points of the index space of one box to that of another one, whose points correspond.
+template <int Dimension>
+void rescale(const double* point, const GridSize<Dimension>& from, const GridSize<Dimension>& to,
+  double* scaled)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const auto size = static_cast<double>(to[axis]);
+    const double ratio = size / static_cast<double>(from[axis]);
+    scaled[axis] = std::min(size, point[axis] * ratio);
+  }
+}
+
+// visit(number, place in the positions) of all seeds, in a fixed order. Lattices may leave gaps
+// between the positions of their parts.
+template <int Dimension, class Visit>
+void forPositions(
+  const FlowSeeds<Dimension>& seeds, std::int64_t count, Progress& progress, const Visit& visit)
+{
+  if (!seeds.IsLattice())
+  {
+    progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        visit(i, i);
+      }
+    });
+    return;
+  }
+  std::int64_t before = 0;
+  progress.Expect(count);
+  for (const LatticePart<Dimension>& part : seeds.Parts().Parts)
+  {
+    progress.For(part.Count(), grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        visit(before + i, seeds.Parts().IndexOf(part.CellOf(i)));
+      }
+    });
+    before += part.Count();
+  }
+}
+
+template <int Dimension>
+std::int64_t countOf(const FlowSeeds<Dimension>& seeds)
+{
+  std::int64_t count = seeds.Points().size();
+  if (seeds.IsLattice())
+  {
+    for (const LatticePart<Dimension>& part : seeds.Parts().Parts)
+    {
+      count += part.Count();
+    }
+  }
+  return count;
+}
+
+} // namespace
+
+template <int Dimension>
+PlanEnd<Dimension>::PlanEnd(const PlacedDensity<Dimension>& density)
+  : Size(density.Source.Size)
+  , Low(density.Low)
+  , High(density.High)
+  , Read([source = density.Source](const Context&) { return source; })
+{
+}
+
+template <int Dimension>
+PlanEnd<Dimension> PlanEnd<Dimension>::On(const ImageGrid& grid)
+{
+  const LengthScale scale(grid);
+  PlanEnd end;
+  end.Size = grid.Size<Dimension>();
+  end.High = grid.Lengths<Dimension>();
+  for (double& side : end.High)
+  {
+    side = scale.ToUnits(side);
+  }
+  return end;
+}
+
+template <int Dimension>
+PlanEnd<Dimension> PlanEnd<Dimension>::In(const ImageGrid& box, const ImageGrid& grid)
+{
+  constexpr double rounding = 1e-9; // of the sides
+  const LengthScale scale(box);
+  const Point<Dimension> lengths = box.Lengths<Dimension>();
+  const GridSize<Dimension> cells = box.Size<Dimension>();
+  PlanEnd placed;
+  placed.Size = grid.Size<Dimension>();
+  Point<Dimension> corner{};
+  for (Point<Dimension>* end : { &placed.Low, &placed.High })
+  {
+    double x[3];
+    grid.ToPhysical<Dimension>(corner.data(), x);
+    box.ToIndex<Dimension>(x, end->data());
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      double part = (*end)[axis] / static_cast<double>(cells[axis]);
+      part = std::abs(part) < rounding ? 0.0 : std::abs(part - 1.0) < rounding ? 1.0 : part;
+      (*end)[axis] = part * scale.ToUnits(lengths[axis]);
+      corner[axis] = static_cast<double>(placed.Size[axis]);
+    }
+  }
+  return placed;
+}
+
+template <int Dimension>
+TransportPlan<Dimension>::TransportPlan(
+  PlanEnd<Dimension> target, const PlanOptions& options, const Context& context, Map map)
+  : TransportPlan({ std::nullopt, std::move(target) }, options, std::move(map), context)
+{
+}
+
+template <int Dimension>
+TransportPlan<Dimension>::TransportPlan(PlanEnd<Dimension> source, PlanEnd<Dimension> target,
+  const PlanOptions& options, const Context& context, Map map)
+  : TransportPlan({ std::move(source), std::move(target) }, options, std::move(map), context)
+{
+}
+
+template <int Dimension>
+TransportPlan<Dimension>::TransportPlan(std::array<std::optional<PlanEnd<Dimension>>, 2> ends,
+  const PlanOptions& options, Map map, const Context& context)
+  : Ends(std::move(ends))
+  , Chosen(options)
+  , Optimal(std::move(map))
+{
+  if (!options.NeedsMap())
+  {
+    return;
+  }
+  Progress progress(context);
+  Stages stages(
+    progress, { { "map", this->Optimal ? 0.0 : 9.0 }, { "check", options.IsOptimal ? 1.0 : 0.0 } });
+  if (!this->Optimal)
+  {
+    this->Optimal = Solve(
+      this->Ends[0] ? &*this->Ends[0] : nullptr, *this->Ends[1], options.Optimal, stages["map"]);
+  }
+  this->Bound = this->Optimal->LowerBound();
+  if (options.IsOptimal)
+  {
+    this->Text = unresolvedText(this->Optimal->MassError(stages["check"]));
+  }
+}
+
+template <int Dimension>
+TransportPlan<Dimension>::~TransportPlan() = default;
+
+template <int Dimension>
+typename TransportPlan<Dimension>::Map TransportPlan<Dimension>::Solve(
+  const PlanEnd<Dimension>* source, const PlanEnd<Dimension>& target,
+  const OptimalMapOptions& options, const Context& context)
+{
+  Progress progress(context);
+  Stages stages(
+    progress, { { "source", 1 }, { "target", 1 }, { "set-up", 3 }, { "solution", 95 } });
+  std::shared_ptr<OptimalMap<Dimension>> map;
+  if (source)
+  {
+    const PlacedDensity<Dimension> from = read(*source, stages["source"]);
+    const PlacedDensity<Dimension> to = read(target, stages["target"]);
+    map = std::make_shared<OptimalMap<Dimension>>(from, to, options, stages["set-up"]);
+    release(*source);
+  }
+  else
+  {
+    Point<Dimension> sides = target.High;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      sides[axis] -= target.Low[axis];
+    }
+    const DensitySource<Dimension> to = target.Read(stages["target"]);
+    map = std::make_shared<OptimalMap<Dimension>>(to, sides, options, stages["set-up"]);
+  }
+  release(target);
+  map->Solve(stages["solution"]);
+  return map;
+}
+
+template <int Dimension>
+double TransportPlan<Dimension>::MemoryFor(const GridSize<Dimension>& source,
+  const GridSize<Dimension>& target, const OptimalMapOptions& options, const OptimalMapUse& use)
+{
+  return OptimalMap<Dimension>::MemoryFor(source, target, options, use);
+}
+
+template <int Dimension>
+double TransportPlan<Dimension>::MemoryForSamples(
+  const GridSize<Dimension>& target, const OptimalMapUse& use)
+{
+  return OptimalMap<Dimension>::MemoryForSamples(target, use);
+}
+
+template <int Dimension>
+double TransportPlan<Dimension>::UpperBound(const Context& context, double enough) const
+{
+  return this->Optimal->UpperBound(context, enough);
+}
+
+template <int Dimension>
+void TransportPlan<Dimension>::Slack(ConstPointSpan<Dimension> points,
+  ConstPointSpan<Dimension> images, double* slack, const Context& context) const
+{
+  this->Optimal->Slack(points, images, slack, context);
+}
+
+template <int Dimension>
+const GridSize<Dimension>& TransportPlan<Dimension>::Size() const
+{
+  return this->Ends[0] ? this->Ends[0]->Size : this->Ends[1]->Size;
+}
+
+template <int Dimension>
+const RectifiedFlow<Dimension>& TransportPlan<Dimension>::FlowOf(
+  std::size_t end, const Context& context) const
+{
+  const std::lock_guard<std::mutex> lock(this->Making);
+  PlanEnd<Dimension>& density = *this->Ends[end];
+  if (!density.Flow)
+  {
+    density.Flow = std::make_shared<const RectifiedFlow<Dimension>>(density.Read(context), context);
+    release(density);
+  }
+  return *density.Flow;
+}
+
+template <int Dimension>
+void TransportPlan<Dimension>::MakeFlows(const Context& context)
+{
+  if (this->IsOptimal())
+  {
+    return;
+  }
+  this->Optimal = nullptr;
+  Progress progress(context);
+  Parts parts(progress, 2);
+  for (std::size_t end = this->Ends[0] ? 0 : 1; end < 2; ++end)
+  {
+    this->FlowOf(end, parts[static_cast<std::int64_t>(end)]);
+  }
+}
+
+template <int Dimension>
+std::vector<FlowReport> TransportPlan<Dimension>::Move(FlowDirection direction,
+  const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions, const Context& context) const
+{
+  const bool isForward = direction == FlowDirection::Forward;
+  if (this->IsOptimal())
+  {
+    return { isForward ? this->Optimal->Forward(seeds, positions, context)
+                       : this->Optimal->Backward(seeds, positions, context) };
+  }
+  if (this->Ends[0])
+  {
+    return this->MoveByFlows(isForward ? 0 : 1, seeds, positions, context);
+  }
+  const RectifiedFlow<Dimension>& flow = this->FlowOf(1, context);
+  return { isForward ? flow.Forward(seeds, positions, this->Chosen.Flow, context)
+                     : flow.Backward(seeds, positions, this->Chosen.Flow, context) };
+}
+
+template <int Dimension>
+std::vector<FlowReport> TransportPlan<Dimension>::MoveByFlows(std::size_t from,
+  const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions, const Context& context) const
+{
+  Progress progress(context);
+  Stages stages(progress, { { "back", 50 }, { "starts", 1 }, { "forth", 48 }, { "images", 1 } });
+  const RectifiedFlow<Dimension>& first = this->FlowOf(from, stages["back"]);
+  const RectifiedFlow<Dimension>& second = this->FlowOf(1 - from, stages["back"]);
+  const FlowOptions& options = this->Chosen.Flow;
+  const FlowReport back = first.Backward(seeds, positions, options, stages["back"]);
+  const std::int64_t count = countOf(seeds);
+  // Positions of a lattice may have gaps, and points of an array have none.
+  LargeBuffer<double> between(seeds.IsLattice() ? count * Dimension : 0);
+  const PointSpan<Dimension> starts =
+    seeds.IsLattice() ? PointSpan<Dimension>(between.data(), count) : positions;
+  forPositions(seeds, count, stages["starts"], [&](std::int64_t i, std::int64_t place) {
+    rescale<Dimension>(positions[place], first.Size(), second.Size(), starts[i]);
+  });
+  const FlowReport forth =
+    second.Forward(ConstPointSpan<Dimension>(starts), starts, options, stages["forth"]);
+  if (seeds.IsLattice())
+  {
+    forPositions(seeds, count, stages["images"], [&](std::int64_t i, std::int64_t place) {
+      std::copy_n(starts[i], Dimension, positions[place]);
+    });
+  }
+  return { back, forth };
+}
+
+template <int Dimension>
+FlowReport TransportPlan<Dimension>::Forward(
+  const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions, const Context& context) const
+{
+  return this->Move(FlowDirection::Forward, seeds, positions, context).back();
+}
+
+template <int Dimension>
+FlowReport TransportPlan<Dimension>::Backward(
+  const FlowSeeds<Dimension>& points, PointSpan<Dimension> positions, const Context& context) const
+{
+  return this->Move(FlowDirection::Backward, points, positions, context).back();
+}
+
+template <int Dimension>
+Point<Dimension> TransportPlan<Dimension>::ToTarget(const Point<Dimension>& point) const
+{
+  const PlanEnd<Dimension>& from = *this->Ends[0];
+  const PlanEnd<Dimension>& to = *this->Ends[1];
+  Point<Dimension> there;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double part = point[axis] / static_cast<double>(from.Size[axis]);
+    const double length = from.Low[axis] + part * (from.High[axis] - from.Low[axis]);
+    there[axis] =
+      (length - to.Low[axis]) / (to.High[axis] - to.Low[axis]) * static_cast<double>(to.Size[axis]);
+  }
+  return there;
+}
+
+template <int Dimension>
+FlowReport TransportPlan<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds,
+  const std::vector<double>& times, PointSpan<Dimension> positions, const Context& context) const
+{
+  if (this->IsOptimal())
+  {
+    return this->Optimal->ForwardAt(seeds, times, positions, context);
+  }
+  if (!this->Ends[0])
+  {
+    return this->FlowOf(1, context).ForwardAt(seeds, times, positions, this->Chosen.Flow, context);
+  }
+  check(times);
+  checkCount(positions.size(), seeds.Count() * static_cast<double>(times.size()));
+  const std::int64_t count = positions.size() / static_cast<std::int64_t>(times.size());
+  LargeBuffer<double> coordinates(count * Dimension);
+  const PointSpan<Dimension> images(coordinates.data(), count);
+  Progress progress(context);
+  Stages stages(progress, { { "images", 9 }, { "times", 1 } });
+  const FlowReport report = this->Forward(seeds, images, stages["images"]);
+  writeStraightPaths<Dimension>(
+    seeds, this->Size(), [this](const Point<Dimension>& point) { return this->ToTarget(point); },
+    images, times, positions, stages["times"]);
+  return report;
+}
+
+template struct PlanEnd<1>;
+template struct PlanEnd<2>;
+template struct PlanEnd<3>;
+template class TransportPlan<1>;
+template class TransportPlan<2>;
+template class TransportPlan<3>;
+
+} // namespace RectifiedTransport
