@@ -45,7 +45,7 @@ constexpr const char* MeasureTexts[] = { "Uniform", "Density" };
 
 struct vtkEqualMassCells::vtkInternals
 {
-  SiteLabels Labels;
+  StoreSlot Labels;
 };
 
 //------------------------------------------------------------------------------

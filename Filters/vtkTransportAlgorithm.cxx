@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportAlgorithm.h"
 
-#include "Bridge/Density/DensityTransport.h"
+#include "Bridge/Density/DensityPlan.h"
 #include "Bridge/Device/SharedDevices.h"
 #include "Bridge/Ranks/PlaceOnMachine.h"
 #include "Bridge/Run/MpiController.h"

@@ -2,8 +2,6 @@
 #include "vtkTransportMap.h"
 
 #include "Bridge/Density/InputDensity.h"
-#include "Bridge/Flow/MapToTarget.h"
-#include "Bridge/Flow/TargetTransport.h"
 #include "Bridge/Flow/TransportMap.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/SameOnRanks.h"
@@ -210,16 +208,15 @@ int vtkTransportMap::RequestData(
     const Extent wanted = extentToGive(map.SampleGrid(*density).Extent(), outputInformation, ranks);
     if (!isToTarget)
     {
-      return map.Run(*density, wanted, this->GetFlowCache(), stages["map"], output);
+      return map.Run(*density, nullptr, wanted, this->GetFlowCache(), stages["map"], output);
     }
-    const int last = 1 - first;
-    const DensityPair pair(*density, InputNames[first], *densities[last], InputNames[last]);
     if (!this->ToTarget)
     {
-      this->ToTarget.reset(new TargetTransport);
+      this->ToTarget.reset(new TargetCache);
     }
-    return runToTarget(
-      map, pair, wanted, this->GetFlowCache(), *this->ToTarget, stages["map"], output);
+    const int last = 1 - first;
+    MapGoal goal(*density, InputNames[first], *densities[last], InputNames[last], *this->ToTarget);
+    return map.Run(*density, &goal, wanted, this->GetFlowCache(), stages["map"], output);
   };
   const TransportMap::Report result = run();
   std::vector<DensityReading> readings;
@@ -238,14 +235,14 @@ int vtkTransportMap::RequestData(
   if (isToTarget)
   {
     this->WarnOfSteps(
-      stepWarning(result.Flow, map.Flow, FlowDirection::Backward), InputNames[first]);
+      stepWarning(result.Flows[0], map.Flow, FlowDirection::Backward), InputNames[first]);
     this->WarnOfSteps(
-      stepWarning(result.ToTarget, map.Flow, FlowDirection::Forward), InputNames[1 - first]);
+      stepWarning(result.Flows[1], map.Flow, FlowDirection::Forward), InputNames[1 - first]);
   }
   else
   {
     this->WarnOfSteps(stepWarning(
-      result.Flow, map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward));
+      result.Flows[0], map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward));
   }
   if (result.IsUncorrected)
   {

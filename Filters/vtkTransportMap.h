@@ -110,7 +110,7 @@ namespace RectifiedTransport
 {
 namespace Bridge
 {
-class TargetTransport;
+struct TargetCache;
 } // namespace Bridge
 } // namespace RectifiedTransport
 
@@ -238,7 +238,7 @@ private:
   bool ReadPair(vtkInformationVector** inputVector, RectifiedTransport::Progress& progress,
     std::unique_ptr<RectifiedTransport::Bridge::InputDensity>* densities);
   // Kept while there is a target.
-  std::unique_ptr<RectifiedTransport::Bridge::TargetTransport> ToTarget;
+  std::unique_ptr<RectifiedTransport::Bridge::TargetCache> ToTarget;
 
   vtkTransportMap(const vtkTransportMap&) = delete;
   void operator=(const vtkTransportMap&) = delete;

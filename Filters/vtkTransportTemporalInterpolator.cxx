@@ -380,13 +380,12 @@ bool vtkTransportTemporalInterpolator::ReadStep(
       return false;
     }
     read.Input->SetInputName(read.Title);
-    kept.Density = readStepDensity(*read.Input, kept.Density, progress);
+    read.Density = readStepDensity(*read.Input, kept.Density, progress);
   }
   catch (const Failure& failure)
   {
     throw Failure(read.Title, failure);
   }
-  read.Density = kept.Density;
   return true;
 }
 

@@ -1,47 +1,158 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/FlowCache.h"
 
+#include "Bridge/Image/GridText.h"
+#include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace RectifiedTransport::Bridge
 {
 
+namespace
+{
+
+template <int D>
+OptimalMemory memoryOfMap(
+  const InputDensity& density, const OptimalNeeds& needs, const Ranks& ranks)
+{
+  const GridSize<D> size = density.Grid().Size<D>();
+  return OptimalMemory::Of<D>(
+    "of a density of " + describeSize<D>(size) + " cells", size, size, needs, ranks);
+}
+
+// What an optimal map depends on besides the values of the density, which may be those of boxes of
+// different sides.
+template <int D>
+void addSetting(const OptimalSetting& setting, const PlanEnd<D>& end, DataIdentity& identity)
+{
+  identity.AddNumbers(&setting.Tolerance, 1);
+  identity.AddNumbers(end.High.data(), D);
+}
+
+} // namespace
+
 const SharedFlow& FlowCache::Update(
   InputDensity& density, Progress& progress, FlowTables tables, const OptimalNeeds& needs)
 {
-  if (this->Kept && this->Kept->Tables() != tables)
+  const auto kept = this->Tables.Kept<SharedFlow>();
+  if (kept && kept->Tables() != tables)
   {
     this->Release();
   }
-  // Times are local: a rank on which the last run failed may be alone in having to build.
-  if (onAllRanks(progress.Group(), !this->IsOutdated(density)))
+  const bool isKnown = onAllRanks(progress.Group(), !this->IsOutdated(density));
+  Stages stages(progress, { { "hash", isKnown ? 0.0 : 5.0 }, { "tables", 95 } });
+  const auto make = [&](std::shared_ptr<SharedFlow> previous) {
+    const auto build = dispatchDimension(
+      density.Grid().Dimension(), &FlowCache::Build<1>, &FlowCache::Build<2>, &FlowCache::Build<3>);
+    return (this->*build)(density, tables, needs, std::move(previous), stages["tables"]);
+  };
+  // Flows with tiles are not shared because they read the density of one filter's run.
+  const auto flow = this->Tables.Get<SharedFlow>(density.Identity(), progress.Group(),
+    stages["hash"], tables == FlowTables::Whole ? Sharing::Process : Sharing::None, make);
+  this->Time = std::max(this->Time, flow->BuildTime());
+  flow->Attach(density, stages["tables"]);
+  if (!isKnown)
   {
-    this->Kept->Attach(density, progress);
-    return *this->Kept;
+    density.TellUnusual(flow->Unusual(), stages["tables"]);
   }
-  Stages stages(progress, { { "hash", 5 }, { "tables", 95 } });
-  const ContentHash hash(density, stages["hash"]);
-  if (!onAllRanks(progress.Group(), this->Kept && this->Hash == hash))
+  return *flow;
+}
+
+template <int D>
+std::shared_ptr<SharedFlow> FlowCache::Build(InputDensity& density, FlowTables tables,
+  const OptimalNeeds& needs, std::shared_ptr<SharedFlow> previous, Progress& progress)
+{
+  this->ForgetMaps();
+  if (needs.Setting.NeedsMap())
   {
-    this->Hash = ContentHash(); // invalid until the tables are built
-    this->ForgetCorrection();
-    this->KeptMap.reset();
-    const auto findOrBuild = dispatchDimension(density.Grid().Dimension(),
-      &SharedFlow::FindOrBuild<1>, &SharedFlow::FindOrBuild<2>, &SharedFlow::FindOrBuild<3>);
-    this->Kept = findOrBuild(density, hash, tables, needs, std::move(this->Kept), stages["tables"]);
-    this->Time = std::max(this->Time, this->Kept->BuildTime());
+    const bool hasMemory = previous && previous->HasFlow<D>();
+    memoryOfMap<D>(density, needs, progress.Group())
+      .Require(hasMemory ? 0.0 : RectifiedFlow<D>::MemoryFor(density.Grid().Size<D>()));
+  }
+  return SharedFlow::Make<D>(density, tables, std::move(previous), progress);
+}
+
+template <int D>
+TransportPlan<D> FlowCache::Plan(
+  const OptimalNeeds& needs, const FlowOptions& options, InputDensity& density, Progress& progress)
+{
+  const OptimalSetting& setting = needs.Setting;
+  PlanEnd<D> end = planEnd<D>(PlanEnd<D>::On(density.Grid()), density);
+  end.Flow = this->Flow<D>();
+  const PlanOptions chosen = planOptions(setting, options);
+  Stages stages(progress, { { "map", 8 }, { "check", 2 } });
+  typename TransportPlan<D>::Map map;
+  if (setting.NeedsMap())
+  {
+    DataIdentity identity = this->Identity();
+    addSetting<D>(setting, end, identity);
+    const auto solve = [&]() {
+      const OptimalMemory memory = memoryOfMap<D>(density, needs, progress.Group());
+      memory.Require();
+      return withMemory(memory.Purpose, memory.Bytes,
+        [&]() { return TransportPlan<D>::Solve(nullptr, end, chosen.Optimal, stages["map"]); });
+    };
+    map = this->Map.Get<typename TransportPlan<D>::Map::element_type>(
+      identity, progress.Group(), stages["map"], Sharing::Process, solve);
   }
   else
   {
-    this->Kept->Attach(density, stages["tables"]);
+    this->Map.Release();
   }
-  this->Hash = hash;
-  density.TellUnusual(this->Kept->Unusual(), stages["tables"]);
-  return *this->Kept;
+  needs.RequireForSamples<D>(end.Size, progress.Group());
+  return withMemory(std::string("the optimal map (") + setting.Advice() + ")",
+    TransportPlan<D>::MemoryFor(end.Size, end.Size),
+    [&]() { return TransportPlan<D>(end, chosen, stages["check"], map); });
 }
+
+template <int D>
+std::shared_ptr<const AreaCorrection<D>> FlowCache::Correction(const TransportPlan<D>& plan,
+  const OptimalSetting& setting, const FlowOptions& options, Progress& progress)
+{
+  const auto flow = this->Flow<D>();
+  DataIdentity identity = this->Identity();
+  FlowOptions resolved;
+  if (plan.IsOptimal())
+  {
+    addSetting<D>(setting, plan.Target(), identity);
+  }
+  else
+  {
+    resolved = AreaCorrection<D>::Resolve(*flow, options, progress);
+    identity.AddOptions(resolved);
+  }
+  const auto make = [&]() {
+    const std::string purpose =
+      "the areas of " + describeSize<D>(flow->Size()) + " cells (EqualizeAreas Off needs none)";
+    const double bytes = AreaCorrection<D>::MemoryFor(flow->Size());
+    requireMemory(purpose, bytes);
+    return withMemory(purpose, bytes, [&]() {
+      return plan.IsOptimal()
+        ? std::make_shared<const AreaCorrection<D>>(*flow, plan, EqualizeOptions(), progress)
+        : std::make_shared<const AreaCorrection<D>>(*flow, resolved, EqualizeOptions(), progress);
+    });
+  };
+  return this->Areas.Get<const AreaCorrection<D>>(
+    identity, SoloRanks::Get(), progress, Sharing::Process, make);
+}
+
+template TransportPlan<1> FlowCache::Plan<1>(
+  const OptimalNeeds&, const FlowOptions&, InputDensity&, Progress&);
+template std::shared_ptr<const AreaCorrection<1>> FlowCache::Correction<1>(
+  const TransportPlan<1>&, const OptimalSetting&, const FlowOptions&, Progress&);
+template TransportPlan<2> FlowCache::Plan<2>(
+  const OptimalNeeds&, const FlowOptions&, InputDensity&, Progress&);
+template std::shared_ptr<const AreaCorrection<2>> FlowCache::Correction<2>(
+  const TransportPlan<2>&, const OptimalSetting&, const FlowOptions&, Progress&);
+template TransportPlan<3> FlowCache::Plan<3>(
+  const OptimalNeeds&, const FlowOptions&, InputDensity&, Progress&);
+template std::shared_ptr<const AreaCorrection<3>> FlowCache::Correction<3>(
+  const TransportPlan<3>&, const OptimalSetting&, const FlowOptions&, Progress&);
 
 } // namespace RectifiedTransport::Bridge

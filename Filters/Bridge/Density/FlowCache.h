@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flow of a density, kept by a filter until the density changes.
+// The flow of a density, and what is made for some filters: its optimal map and corrections of
+// areas. A filter keeps them until the density changes, and shares them with other filters.
 #ifndef RectifiedTransport_FlowCache_h
 #define RectifiedTransport_FlowCache_h
 
-#include "Bridge/Density/ContentHash.h"
-#include "Bridge/Density/DensityTransport.h"
+#include "Bridge/Density/DensityPlan.h"
 #include "Bridge/Density/SharedFlow.h"
-#include "Core/Parallel/Stages.h"
+#include "Bridge/Store/Store.h"
+#include "Core/Equalize/AreaCorrection.h"
+#include "Core/Plan/TransportPlan.h"
 
 #include <memory>
-#include <utility>
 
 namespace RectifiedTransport::Bridge
 {
@@ -20,76 +21,67 @@ public:
   // Whether Update must compute the content hash and probably builds tables.
   bool IsOutdated(const InputDensity& density) const
   {
-    return !this->Kept || !this->Hash.IsOf(density);
+    return !this->Tables.Holds(density.Identity());
   }
 
   // The flow of a density. Tables are built if the content of the density differs from that of the
   // last update and no other filter has them. A flow with tiles is valid only as long as the
-  // density lives. If Transport follows, its needs are known before tables are built: these are
-  // not, if memory for a map is missing. Throws Failure and Cancelled; the next update then builds.
+  // density lives. If Plan follows, its needs are known before tables are built: these are not, if
+  // memory for a map is missing. Throws Failure and Cancelled; the next update then builds.
   const SharedFlow& Update(InputDensity& density, Progress& progress,
     FlowTables tables = FlowTables::Whole, const OptimalNeeds& needs = {});
+  // Of the last update.
+  template <int D>
+  std::shared_ptr<const RectifiedFlow<D>> Flow() const
+  {
+    const auto shared = this->Tables.Kept<const SharedFlow>();
+    return { shared, &shared->template Flow<D>() };
+  }
+  const DataIdentity& Identity() const { return this->Tables.Identity(); }
 
   // After Update of the same density, with whole tables where the setting needs a map: what moves
   // its points. An optimal map is kept until a setting that needs none, another one or another
-  // density, and shared with other filters. Valid as the flow. Collective. Throws Failure and
-  // Cancelled.
+  // density. Valid as the flow. Collective. Throws Failure and Cancelled.
   template <int D>
-  DensityTransport<D> Transport(
-    const OptimalNeeds& needs, InputDensity& density, Progress& progress)
-  {
-    const OptimalSetting& setting = needs.Setting;
-    Stages stages(progress, { { "map", 8 }, { "check", 2 } });
-    std::shared_ptr<const OptimalMap<D>> map;
-    if (setting.NeedsMap())
-    {
-      map =
-        this->Kept->template Optimal<D>(needs, density, std::move(this->KeptMap), stages["map"]);
-    }
-    this->KeptMap = map;
-    needs.RequireForSamples<D>(density.Grid().Size<D>(), progress.Group());
-    return { this->Kept->template Flow<D>(), density.Grid(), setting, map, stages["check"] };
-  }
-  // Whether Transport probably solves.
+  TransportPlan<D> Plan(const OptimalNeeds& needs, const FlowOptions& options,
+    InputDensity& density, Progress& progress);
+  // Whether Plan probably solves.
   bool MustSolve(const OptimalSetting& setting) const
   {
-    return setting.NeedsMap() && !this->KeptMap;
+    return setting.NeedsMap() && this->Map.IsEmpty();
   }
 
-  // After Update, with whole tables: by what points that go back have to be corrected for equal
-  // areas. Kept until other options, another density or ForgetCorrection, and shared with other
-  // filters. Not collective. Throws Failure and Cancelled.
+  // After Update, with whole tables: by what points that a plan takes back have to be corrected for
+  // equal areas. Kept until other options, another density or ForgetCorrection. Not collective.
+  // Throws Failure and Cancelled.
   template <int D>
-  std::shared_ptr<const AreaCorrection<D>> Correction(
-    const DensityTransport<D>& transport, const FlowOptions& options, Progress& progress)
-  {
-    const auto found = this->Kept->template Correction<D>(
-      transport, options, std::move(this->KeptCorrection), progress);
-    this->KeptCorrection = found;
-    return found;
-  }
-  void ForgetCorrection() { this->KeptCorrection.reset(); }
+  std::shared_ptr<const AreaCorrection<D>> Correction(const TransportPlan<D>& plan,
+    const OptimalSetting& setting, const FlowOptions& options, Progress& progress);
+  void ForgetCorrection() { this->Areas.Release(); }
   void ForgetMaps()
   {
     this->ForgetCorrection();
-    this->KeptMap.reset();
+    this->Map.Release();
   }
 
   // Releases this filter's references to the tables and what was made for them.
   void Release()
   {
     this->ForgetMaps();
-    this->Kept.reset();
+    this->Tables.Release();
   }
 
   // Grows with each build; 0 before the first.
   vtkMTimeType BuildTime() const { return this->Time; }
 
 private:
-  std::shared_ptr<SharedFlow> Kept;
-  std::shared_ptr<const void> KeptMap;
-  std::shared_ptr<const void> KeptCorrection;
-  ContentHash Hash;
+  template <int D>
+  std::shared_ptr<SharedFlow> Build(InputDensity& density, FlowTables tables,
+    const OptimalNeeds& needs, std::shared_ptr<SharedFlow> previous, Progress& progress);
+
+  StoreSlot Tables;
+  StoreSlot Map;
+  StoreSlot Areas;
   vtkMTimeType Time = 0;
 };
 

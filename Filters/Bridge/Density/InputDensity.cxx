@@ -110,7 +110,18 @@ void InputDensity::SetForm(const ArrayForm& form)
     bitsOf(this->Rules.Missing.High), number(rule.Cells), bitsOf(rule.Value), 0 };
 }
 
-const InputDensity::Content& InputDensity::GetContent(Progress& progress)
+DataIdentity InputDensity::Identity() const
+{
+  DataIdentity identity;
+  std::for_each(this->Reading.begin() + 1, this->Reading.end(),
+    [&](std::uint64_t number) { identity.AddNumber(number); });
+  std::for_each(this->Changed.begin(), this->Changed.end(),
+    [&](std::uint64_t time) { identity.AddTime(time); });
+  identity.SetHasher([this](Progress& progress) { return this->GetContent(progress)[0]; });
+  return identity;
+}
+
+const InputDensity::Content& InputDensity::GetContent(Progress& progress) const
 {
   if (this->Hashed == Content{})
   {

@@ -6,6 +6,7 @@
 #include "Bridge/Density/DensityReader.h"
 #include "Bridge/Density/UnusualValues.h"
 #include "Bridge/Ranks/TupleBoxes.h"
+#include "Bridge/Store/DataIdentity.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowTables.h"
 #include "Core/Geometry/ImageGrid.h"
@@ -71,11 +72,11 @@ public:
   // The name of its array; empty if it has none.
   virtual std::string NameOfArray() const = 0;
   const DensityReading& HowRead() const { return this->Read; }
-  const Times& GetTimes() const { return this->Changed; }
-  // The content without the hash.
-  const Content& GetReading() const { return this->Reading; }
   // Computed once. Throws Cancelled.
-  const Content& GetContent(Progress& progress);
+  const Content& GetContent(Progress& progress) const;
+  // To compare it with others while it is there; hashing it is collective. Values that are no
+  // contiguous array in memory have no hash.
+  DataIdentity Identity() const;
 
   // Computes what reading for such tables needs from all values, such as the largest value. Call it
   // before Values and Source. Throws Failure and Cancelled.
@@ -170,7 +171,7 @@ private:
   bool MayBeEmpty = false; // some cells
   bool MustFindEmpty = false;
   Content Reading{};
-  Content Hashed{}; // all 0 before GetContent
+  mutable Content Hashed{}; // all 0 before GetContent
 };
 
 } // namespace RectifiedTransport::Bridge

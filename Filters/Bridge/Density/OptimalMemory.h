@@ -3,15 +3,22 @@
 #ifndef RectifiedTransport_OptimalMemory_h
 #define RectifiedTransport_OptimalMemory_h
 
+#include "Bridge/Image/GridText.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Settings/OptimalSettings.h"
-#include "Core/OptimalMap/OptimalMap.h"
 #include "Core/Parallel/Ranks.h"
+#include "Core/Plan/TransportPlan.h"
 
 #include <string>
 
 namespace RectifiedTransport::Bridge
 {
+
+// The fewest iterations between two densities for what a setting asks for.
+inline int leastIterations(const OptimalSetting& setting)
+{
+  return setting.IsOptimal ? 4 : 1;
+}
 
 // What an optimal map is wanted for.
 struct OptimalNeeds
@@ -31,7 +38,7 @@ struct OptimalNeeds
   void RequireForSamples(const GridSize<D>& target, const Ranks& ranks) const
   {
     requireMemory(std::string("the exact counts of particles (") + this->Setting.Advice() + ")",
-      OptimalMap<D>::MemoryForSamples(target, this->Use(ranks)));
+      TransportPlan<D>::MemoryForSamples(target, this->Use(ranks)));
   }
 };
 
@@ -43,7 +50,16 @@ struct OptimalMemory
     const GridSize<D>& target, const OptimalNeeds& needs, const Ranks& ranks)
   {
     return { "the optimal map " + densities + " (" + needs.Setting.Advice() + ")",
-      OptimalMap<D>::MemoryFor(source, target, OptimalMapOptions(), needs.Use(ranks)) };
+      TransportPlan<D>::MemoryFor(source, target, OptimalMapOptions(), needs.Use(ranks)) };
+  }
+
+  template <int D>
+  static OptimalMemory Between(const GridSize<D>& source, const GridSize<D>& target,
+    const OptimalNeeds& needs, const Ranks& ranks)
+  {
+    return Of<D>("between densities of " + describeSize<D>(source) + " and " +
+        describeSize<D>(target) + " cells",
+      source, target, needs, ranks);
   }
 
   // Throws Failure if this and so many more bytes are not there.

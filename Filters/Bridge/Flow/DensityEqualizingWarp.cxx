@@ -85,12 +85,12 @@ public:
     return outside;
   }
 
-  FlowReport Flow(const PointTransport<D>& flow, const FlowOptions& options, Progress& progress)
+  FlowReport Flow(const TransportPlan<D>& plan, Progress& progress)
   {
     const PointSpan<D> points(this->Index, this->Count);
     try
     {
-      return flow.Backward(points, points, options, progress);
+      return plan.Backward(points, points, progress);
     }
     catch (const std::bad_alloc& caught)
     {
@@ -161,9 +161,8 @@ private:
 // The mean squared displacement of the mass of the density, by the centres of its cells, of which
 // each rank moves its share. Collective.
 template <int D>
-double costOfMap(const ImageGrid& grid, const RectifiedFlow<D>& flow, const PointTransport<D>& map,
-  const FlowOptions& options, const AreaCorrection<D>* correction, const std::string& purpose,
-  Progress& progress)
+double costOfMap(const ImageGrid& grid, const RectifiedFlow<D>& flow, const TransportPlan<D>& plan,
+  const AreaCorrection<D>* correction, const std::string& purpose, Progress& progress)
 {
   const GridSize<D>& size = flow.Size();
   auto part = LatticePart<D>::WholeOf(size);
@@ -177,7 +176,7 @@ double costOfMap(const ImageGrid& grid, const RectifiedFlow<D>& flow, const Poin
     LargeBuffer<double> buffer(part.Count() * D);
     const PointSpan<D> images(buffer.data(), part.Count());
     const LatticeParts<D> parts(part, part);
-    map.Backward(FlowSeeds<D>::Lattice(size, parts), images, options, stages["map"]);
+    plan.Backward(FlowSeeds<D>::Lattice(size, parts), images, stages["map"]);
     Progress& counting = stages["cost"].Expect((correction ? 2 : 1) * part.Count());
     if (correction)
     {
@@ -224,25 +223,25 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
   int passes = 0;
   if (moves)
   {
-    const DensityTransport<D> transport =
-      cache.Transport<D>({ optimal }, density, stages["optimal map"]);
-    report.Transport = transport.Report();
-    report.Flow = points.Flow(transport.Points(), options, stages["points"]);
+    const TransportPlan<D> plan =
+      cache.Plan<D>({ optimal }, options, density, stages["optimal map"]);
+    report.Transport = TransportReport(plan);
+    report.Flow = points.Flow(plan, stages["points"]);
     std::shared_ptr<const AreaCorrection<D>> correction;
-    if (equalizes && (input->GetNumberOfPoints() > 0 || transport.Certificate()))
+    if (equalizes && (input->GetNumberOfPoints() > 0 || plan.HasMap()))
     {
-      correction = cache.Correction<D>(transport, options, stages["areas"]);
+      correction = cache.Correction<D>(plan, optimal, options, stages["areas"]);
       points.Correct(*correction, stages["correction"]);
       passes = correction->Report().Passes;
     }
-    if (transport.Certificate())
+    if (plan.HasMap())
     {
       const std::string purpose = "the images of " +
         std::to_string(density.Grid().NumberOfCells()) + " cells (" + optimal.Advice() + ")";
-      const double cost = costOfMap<D>(density.Grid(), shared.Flow<D>(), transport.Points(),
-        options, correction.get(), purpose, stages["cost"]);
+      const double cost = costOfMap<D>(
+        density.Grid(), shared.Flow<D>(), plan, correction.get(), purpose, stages["cost"]);
       addFieldValue(output, "TransportCost", cost);
-      transport.AddBound(cost, output);
+      addBound<D>(plan, density.Grid(), cost, density.Grid(), output);
     }
   }
   points.Write(settings.Blend, stages["write"], output);

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_DensityEqualizingWarp_h
 #define RectifiedTransport_DensityEqualizingWarp_h
 
-#include "Bridge/Density/DensityTransport.h"
+#include "Bridge/Density/DensityPlan.h"
 #include "Bridge/Flow/MeshInversion.h"
 #include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/TableSettings.h"

@@ -7,8 +7,11 @@
 #include "Bridge/Flow/CorrectedImages.h"
 #include "Bridge/Flow/MapField.h"
 #include "Bridge/Flow/MapShares.h"
+#include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
@@ -20,8 +23,8 @@
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
 
-#include <array>
-#include <cstdint>
+#include <cstddef>
+#include <optional>
 
 namespace RectifiedTransport::Bridge
 {
@@ -29,82 +32,35 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-template <int D>
-TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
-  const ImageGrid& samples, const Extent& wanted, FlowCache& cache, Progress& progress,
-  vtkImageData* output)
+// The box alone matters: few values, however fine the densities are and however far apart.
+ImageGrid boxOf(const NamedGrid& source, const NamedGrid& target)
 {
-  const Ranks& ranks = progress.Group();
-  const GridSize<D> lattice = samples.Size<D>();
-  const double all = numberOfCells<D>(lattice);
-  const double count = all / ranks.Count();
-  const bool equalizes = map.Backward && map.EqualizeAreas;
-  const FlowOptions options = equalizes ? AreaCorrection<D>::OptionsFor(map.Flow) : map.Flow;
-  const double cells = static_cast<double>(density.Grid().NumberOfCells());
-  Stages stages(progress,
-    { { "tables", Cost::tables(cache, density) },
-      { "optimal map", Cost::optimal(cache, density, map.Optimal) },
-      { "samples", Cost::flow(options, D) * count },
-      { "areas", equalizes ? Cost::equalization(options, D) * cells : 0.0 },
-      { "correction", equalizes ? Cost::Seed * count : 0.0 },
-      { "reading", Cost::Reading * cells / ranks.Count() },
-      { "write", (map.Backward && D == 3 ? Cost::MassShare : Cost::Write) * count } });
-  const int owner = samples.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
-  MapField<D> field(density.Grid(), samples, tuplesOf(wanted, owner, samples.Extent()),
-    "a map of " + describeSize<D>(lattice) + " samples (see SampleDimensions)", ranks);
-  applyGrid(samples, output);
-  Extent extent = wanted; // VTK takes no constant one
-  output->SetExtent(extent.data());
-
-  const FlowTables tables = chooseTables<D>(map.Tables, density.Grid().Size<D>(),
-    { options, map.Backward ? FlowDirection::Backward : FlowDirection::Forward, count, true,
-      equalizes ? EqualAreas : map.Optimal.WholeFor() });
-  const SharedFlow& shared = cache.Update(density, stages["tables"], tables, { map.Optimal });
-  const RectifiedFlow<D>& flow = shared.Flow<D>();
-  const DensityTransport<D> transport =
-    cache.Transport<D>({ map.Optimal }, density, stages["optimal map"]);
-  const auto seeds = FlowSeeds<D>::Lattice(lattice, field.Parts());
-  FlowReport report = map.Backward
-    ? transport.Points().Backward(seeds, field.Positions(), options, stages["samples"])
-    : transport.Points().Forward(seeds, field.Positions(), options, stages["samples"]);
-  int passes = 0;
-  if (equalizes)
+  int values[3];
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const auto correction = cache.Correction<D>(transport, options, stages["areas"]);
-    correctImages<D>(*correction, latticeStep<D>(lattice, flow.Size()), field.Part(), field.Parts(),
-      field.Positions(), stages["correction"]);
-    passes = correction->Report().Passes;
+    values[axis] = source.Grid.IsAxis(axis) ? 2 : 1;
   }
-  else
-  {
-    cache.ForgetCorrection();
-  }
-  if (map.Backward)
-  {
-    prepareShares<D>(flow, field.Whole(), field.Part());
-  }
-  // Whole tables may have been made by another filter: these values are read piece by piece.
-  density.Prepare(FlowTables::Tiled, stages["reading"]);
-  const MapFigures figures =
-    field.Write(flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward,
-      density.Source<D>(), stages["write"], output->GetAttributes(owner));
-  addFieldValue(output, "TotalMass", shared.TotalMass());
-  addFieldValue(output, "TransportCost", figures.Cost);
-  transport.AddBound(figures.Cost, output);
-  const std::int64_t moved = sumOverRanks(ranks, report.MovedToMass);
-  addFieldValue(output, "MovedSamples", static_cast<double>(moved));
-  addFieldValue(output, "FoldedCells", static_cast<double>(figures.Folded));
-  addFieldTuple(output, "LargestBlockError", { figures.Blocks.Quantile, figures.Blocks.Largest });
-  const bool isUncorrected = equalizes && addEqualAreas(output, ranks, passes, report) == 0;
-  addSteps(output, { report });
-  return { samples, all, report, transport.Report(), moved, figures.Folded, figures.ShowsFolds,
-    isUncorrected, {} };
+  return commonGrid({ source, target }, values, MostCells::Any);
 }
 
-} // namespace
+// What the optimal map to a goal is of.
+DataIdentity identityOf(const DataIdentity& source, const DataIdentity& target,
+  const ImageGrid& sourceGrid, const MapGoal& goal, const OptimalSetting& setting)
+{
+  DataIdentity identity = source;
+  identity.Add(target);
+  identity.AddGrid(sourceGrid);
+  identity.AddGrid(goal.Density.Grid());
+  identity.AddNumbers(&setting.Tolerance, 1);
+  identity.AddNumber(setting.IsOptimal ? 1 : 0);
+  identity.AddNumber(setting.Certifies ? 1 : 0);
+  return identity;
+}
 
-void passArrays(const InputDensity& density, const ImageGrid& samples,
-  const std::array<int, 6>& part, vtkImageData* output)
+// Gives the part of an image the arrays of the density's input, if the samples are on its grid.
+// Collective.
+void passArrays(
+  const InputDensity& density, const ImageGrid& samples, const Extent& part, vtkImageData* output)
 {
   if (samples.Extent() == density.Grid().Extent())
   {
@@ -114,19 +70,288 @@ void passArrays(const InputDensity& density, const ImageGrid& samples,
   }
 }
 
+template <int D>
+class MapMaker
+{
+public:
+  MapMaker(const TransportMap& map, InputDensity& density, MapGoal* goal, const ImageGrid& samples,
+    const Extent& wanted, FlowCache& cache, Progress& progress)
+    : Map(map)
+    , Density(density)
+    , Goal(goal)
+    , Samples(samples)
+    , Wanted(wanted)
+    , Cache(cache)
+    , Work(progress)
+    , Lattice(samples.Size<D>())
+    , All(numberOfCells<D>(this->Lattice))
+    , Count(this->All / progress.Group().Count())
+    , IsBackward(goal || map.Backward)
+    , Equalizes(!goal && map.Backward && map.EqualizeAreas)
+    , Options(this->Equalizes ? AreaCorrection<D>::OptionsFor(map.Flow) : map.Flow)
+  {
+  }
+
+  TransportMap::Report Make(vtkImageData* output)
+  {
+    const auto cells = static_cast<double>(
+      this->Density.Grid().NumberOfCells() + (this->Goal ? this->GoalCells() : 0));
+    const bool equalizes = this->Equalizes;
+    const double count = this->Count;
+    const bool countsMasses = D == 3 && this->IsBackward;
+    const double steps = Cost::flow(this->Options, D) * count;
+    Stages stages(this->Work,
+      { { "tables", Cost::tables(this->Cache, this->Density) },
+        { "target tables", this->GoalCost() },
+        { "optimal map", this->MustSolve() ? Cost::OptimalCell * cells : 0.0 },
+        { "samples", this->Goal ? 2.0 * steps : steps },
+        { "areas", equalizes ? Cost::equalization(this->Options, D) * cells : 0.0 },
+        { "correction", equalizes ? Cost::Seed * count : 0.0 },
+        { "reading", Cost::Reading * cells / this->Work.Group().Count() },
+        { "write", (countsMasses ? Cost::MassShare : Cost::Write) * count } });
+    const int owner = this->Samples.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
+    MapField<D> field(this->Density.Grid(), this->Samples,
+      tuplesOf(this->Wanted, owner, this->Samples.Extent()),
+      "a map of " + describeSize<D>(this->Lattice) + " samples (see SampleDimensions)",
+      this->Work.Group(), this->Goal != nullptr);
+    this->RequireMemoryForGoal();
+    applyGrid(this->Samples, output);
+    output->SetExtent(this->Wanted.data());
+
+    const SharedFlow& shared = this->UpdateTables(stages);
+    const RectifiedFlow<D>& flow = shared.Flow<D>();
+    const TransportPlan<D> plan = this->Plan(stages["optimal map"]);
+    std::vector<FlowReport> reports = this->MoveSamples(plan, field, stages["samples"]);
+    const int passes = this->Correct(plan, field, stages);
+    if (this->IsBackward)
+    {
+      prepareShares<D>(flow, this->Lattice, this->Goal ? field.WeighedPart() : field.Part());
+    }
+    const MapFigures figures = this->Write(flow, field, stages, output->GetAttributes(owner));
+    addFieldValue(output, "TotalMass", shared.TotalMass());
+    addFieldValue(output, "TransportCost", figures.Cost);
+    addBound<D>(plan, this->Goal ? this->Goal->Box : this->Density.Grid(), figures.Cost,
+      this->Density.Grid(), output);
+    const Ranks& ranks = this->Work.Group();
+    const std::int64_t moved = sumOverRanks(ranks, reports.back().MovedToMass);
+    addFieldValue(output, "MovedSamples", static_cast<double>(moved));
+    addFieldValue(output, "FoldedCells", static_cast<double>(figures.Folded));
+    addFieldTuple(output, "LargestBlockError", { figures.Blocks.Quantile, figures.Blocks.Largest });
+    const bool isUncorrected =
+      equalizes && addEqualAreas(output, ranks, passes, reports.front()) == 0;
+    addSteps(output, reports);
+    return { this->Samples, this->All, reports, TransportReport(plan), moved, figures.Folded,
+      figures.ShowsFolds, isUncorrected };
+  }
+
+private:
+  std::int64_t GoalCells() const { return this->Goal->Density.Grid().NumberOfCells(); }
+  double GoalCost() const
+  {
+    return this->Goal ? Cost::tables(this->Goal->Cache.Tables, this->Goal->Density) : 0.0;
+  }
+  bool MustSolve() const
+  {
+    const OptimalSetting& setting = this->Map.Optimal;
+    if (!this->Goal)
+    {
+      return Cost::optimal(this->Cache, this->Density, setting) > 0.0;
+    }
+    return setting.NeedsMap() &&
+      !this->Goal->Cache.Map.Holds(identityOf(this->Density.Identity(),
+        this->Goal->Density.Identity(), this->Density.Grid(), *this->Goal, setting));
+  }
+
+  // Before the tables: they would take long for nothing.
+  void RequireMemoryForGoal() const
+  {
+    const Ranks& ranks = this->Work.Group();
+    if (this->Goal && !onAllRanks(ranks, !this->MustSolve()))
+    {
+      this->GoalMemory().Require(RectifiedFlow<D>::MemoryFor(this->Density.Grid().Size<D>()) +
+        RectifiedFlow<D>::MemoryFor(this->Goal->Density.Grid().Size<D>()));
+    }
+  }
+  OptimalMemory GoalMemory() const
+  {
+    return OptimalMemory::Between<D>(this->Density.Grid().Size<D>(),
+      this->Goal->Density.Grid().Size<D>(), { this->Map.Optimal }, this->Work.Group());
+  }
+
+  FlowTables TablesOf(const InputDensity& density, FlowDirection direction, bool isLattice) const
+  {
+    return chooseTables<D>(this->Map.Tables, density.Grid().Size<D>(),
+      { this->Options, direction, this->Count, isLattice,
+        this->Equalizes ? EqualAreas : this->Map.Optimal.WholeFor() });
+  }
+
+  const SharedFlow& UpdateTables(Stages& stages)
+  {
+    const FlowTables tables = this->TablesOf(
+      this->Density, this->IsBackward ? FlowDirection::Backward : FlowDirection::Forward, true);
+    if (!this->Goal)
+    {
+      return this->Cache.Update(this->Density, stages["tables"], tables, { this->Map.Optimal });
+    }
+    const auto update = [&](FlowCache& flows, InputDensity& density, const std::string& name,
+                          FlowTables kind, Progress& making) -> const SharedFlow& {
+      try
+      {
+        return flows.Update(density, making, kind);
+      }
+      catch (const Failure& failure)
+      {
+        throw Failure(name, failure);
+      }
+    };
+    const SharedFlow& shared =
+      update(this->Cache, this->Density, this->Goal->SourceName, tables, stages["tables"]);
+    this->Cache.ForgetMaps(); // to the uniform measure
+    update(this->Goal->Cache.Tables, this->Goal->Density, this->Goal->Name,
+      this->TablesOf(this->Goal->Density, FlowDirection::Forward, false), stages["target tables"]);
+    return shared;
+  }
+
+  TransportPlan<D> Plan(Progress& progress)
+  {
+    return this->Goal
+      ? this->PlanToGoal(progress)
+      : this->Cache.template Plan<D>({ this->Map.Optimal }, this->Options, this->Density, progress);
+  }
+
+  TransportPlan<D> PlanToGoal(Progress& progress)
+  {
+    const OptimalSetting& setting = this->Map.Optimal;
+    TargetCache& kept = this->Goal->Cache;
+    PlanEnd<D> source =
+      planEnd<D>(PlanEnd<D>::In(this->Goal->Box, this->Density.Grid()), this->Density);
+    PlanEnd<D> target =
+      planEnd<D>(PlanEnd<D>::In(this->Goal->Box, this->Goal->Density.Grid()), this->Goal->Density);
+    source.Flow = this->Cache.template Flow<D>();
+    target.Flow = kept.Tables.Flow<D>();
+    PlanOptions options = planOptions(setting, this->Options);
+    options.Optimal.LeastIterations = leastIterations(setting);
+    const OptimalMemory memory = this->GoalMemory();
+    Stages stages(progress, { { "map", 9 }, { "check", 1 } });
+    typename TransportPlan<D>::Map map;
+    if (setting.NeedsMap())
+    {
+      const auto solve = [&]() {
+        memory.Require();
+        return withMemory(memory.Purpose, memory.Bytes, [&]() {
+          return TransportPlan<D>::Solve(&source, target, options.Optimal, stages["map"]);
+        });
+      };
+      map = kept.Map.Get<typename TransportPlan<D>::Map::element_type>(
+        identityOf(this->Cache.Identity(), kept.Tables.Identity(), this->Density.Grid(),
+          *this->Goal, setting),
+        this->Work.Group(), stages["map"], Sharing::Process, solve);
+    }
+    else
+    {
+      kept.Map.Release();
+    }
+    return withMemory(memory.Purpose, memory.Bytes,
+      [&]() { return TransportPlan<D>(source, target, options, stages["check"], map); });
+  }
+
+  // With a goal, reports both flows.
+  std::vector<FlowReport> MoveSamples(
+    const TransportPlan<D>& plan, MapField<D>& field, Progress& progress) const
+  {
+    const auto seeds = FlowSeeds<D>::Lattice(this->Lattice, field.Parts());
+    if (!this->Goal)
+    {
+      return plan.Move(this->Map.Backward ? FlowDirection::Backward : FlowDirection::Forward, seeds,
+        field.Positions(), progress);
+    }
+    const double bytes = 2.0 * D * sizeof(double) * static_cast<double>(field.Part().Count());
+    auto reports = withMemory("the samples between the densities (see SampleDimensions)", bytes,
+      [&]() { return plan.Move(FlowDirection::Forward, seeds, field.Positions(), progress); });
+    reports.resize(2);
+    return reports;
+  }
+
+  // Returns how many passes corrected the areas.
+  int Correct(const TransportPlan<D>& plan, MapField<D>& field, Stages& stages)
+  {
+    if (!this->Equalizes)
+    {
+      this->Cache.ForgetCorrection();
+      return 0;
+    }
+    const auto correction =
+      this->Cache.template Correction<D>(plan, this->Map.Optimal, this->Options, stages["areas"]);
+    correctImages<D>(*correction, latticeStep<D>(this->Lattice, plan.Size()), field.Part(),
+      field.Parts(), field.Positions(), stages["correction"]);
+    return correction->Report().Passes;
+  }
+
+  MapFigures Write(
+    const RectifiedFlow<D>& flow, MapField<D>& field, Stages& stages, vtkDataSetAttributes* output)
+  {
+    // Whole tables may have been made by another filter: these values are read piece by piece.
+    this->Density.Prepare(FlowTables::Tiled, stages["reading"]);
+    std::optional<MapTarget<D>> target;
+    if (this->Goal)
+    {
+      InputDensity& density = this->Goal->Density;
+      density.Prepare(FlowTables::Tiled, stages["reading"]);
+      target.emplace(MapTarget<D>{ density.Grid(),
+        { density.Source<D>(), this->Goal->Cache.Tables.template Flow<D>()->Total() } });
+    }
+    return field.Write(flow, this->IsBackward ? FlowDirection::Backward : FlowDirection::Forward,
+      this->Density.Source<D>(), stages["write"], output, target ? &*target : nullptr);
+  }
+
+  const TransportMap& Map;
+  InputDensity& Density;
+  MapGoal* const Goal;
+  const ImageGrid& Samples;
+  Extent Wanted; // VTK takes no constant one
+  FlowCache& Cache;
+  Progress& Work;
+  const GridSize<D> Lattice;
+  const double All; // samples
+  const double Count;
+  const bool IsBackward; // samples are of the density, not of the uniform measure
+  const bool Equalizes;
+  const FlowOptions Options;
+};
+
+template <int D>
+TransportMap::Report makeMap(const TransportMap& map, InputDensity& density, MapGoal* goal,
+  const ImageGrid& samples, const Extent& wanted, FlowCache& cache, Progress& progress,
+  vtkImageData* output)
+{
+  return MapMaker<D>(map, density, goal, samples, wanted, cache, progress).Make(output);
+}
+
+} // namespace
+
+MapGoal::MapGoal(const InputDensity& source, const std::string& sourceName, InputDensity& target,
+  const std::string& targetName, TargetCache& cache)
+  : Density(target)
+  , SourceName(sourceName)
+  , Name(targetName)
+  , Box(boxOf({ source.Grid(), sourceName }, { target.Grid(), targetName }))
+  , Cache(cache)
+{
+}
+
 ImageGrid TransportMap::SampleGrid(const InputDensity& density) const
 {
   return gridWithValues(density.Grid(), this->SampleDimensions.data(), "SampleDimensions");
 }
 
-TransportMap::Report TransportMap::Run(InputDensity& density, const Extent& wanted,
+TransportMap::Report TransportMap::Run(InputDensity& density, MapGoal* goal, const Extent& wanted,
   FlowCache& cache, Progress& progress, vtkImageData* output) const
 {
   const ImageGrid samples = this->SampleGrid(density);
   const Extent part = intersectionOf(wanted, samples.Extent());
   passArrays(density, samples, part, output);
   return dispatchDimension(samples.Dimension(), makeMap<1>, makeMap<2>, makeMap<3>)(
-    *this, density, samples, part, cache, progress, output);
+    *this, density, goal, samples, part, cache, progress, output);
 }
 
 } // namespace RectifiedTransport::Bridge

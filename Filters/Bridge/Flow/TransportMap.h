@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The map between the uniform measure and a density: the worker of vtkTransportMap.
+// The map between the uniform measure and a density, or between two densities: the worker of
+// vtkTransportMap.
 #ifndef RectifiedTransport_TransportMap_h
 #define RectifiedTransport_TransportMap_h
 
-#include "Bridge/Density/DensityTransport.h"
+#include "Bridge/Density/DensityPlan.h"
+#include "Bridge/Density/FlowCache.h"
 #include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
@@ -12,6 +14,8 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
@@ -26,7 +30,27 @@ namespace RectifiedTransport::Bridge
 {
 
 class InputDensity;
-class FlowCache;
+
+// What a filter keeps of a map to another density: the flow of that one, and the optimal map.
+struct TargetCache
+{
+  FlowCache Tables;
+  StoreSlot Map;
+};
+
+// The density that a map leads to from another one.
+struct MapGoal
+{
+  // Throws Failure for grids of different axes, planes or directions.
+  MapGoal(const InputDensity& source, const std::string& sourceName, InputDensity& target,
+    const std::string& targetName, TargetCache& cache);
+
+  InputDensity& Density;
+  std::string SourceName; // in messages
+  std::string Name;
+  ImageGrid Box; // that holds both
+  TargetCache& Cache;
+};
 
 // The members are the properties of that class.
 struct TransportMap
@@ -34,7 +58,7 @@ struct TransportMap
   FlowOptions Flow;
   TableSetting Tables;
   OptimalSetting Optimal;
-  bool Backward;
+  bool Backward;                       // to the uniform measure; has no effect with a goal
   bool EqualizeAreas;                  // of Backward
   std::array<int, 3> SampleDimensions; // 0 keeps the number of the density's values
 
@@ -42,13 +66,12 @@ struct TransportMap
   {
     ImageGrid Grid; // of all samples
     double Samples;
-    FlowReport Flow;
+    std::vector<FlowReport> Flows; // with a goal that of the source, then that of the target
     TransportReport Transport;
-    std::int64_t MovedToMass; // from empty cells of the density
+    std::int64_t MovedToMass; // from empty cells of the density that the map leads to
     std::int64_t Folded;
-    bool ShowsFolds;     // enough for a warning
-    bool IsUncorrected;  // EqualizeAreas has changed nothing
-    FlowReport ToTarget; // the second flow, of a map to a target
+    bool ShowsFolds;    // enough for a warning
+    bool IsUncorrected; // EqualizeAreas has changed nothing
   };
 
   // The grid of the samples on the density's domain. Throws Failure.
@@ -56,16 +79,11 @@ struct TransportMap
 
   // Writes the map's fields, sampled on a grid on the density's domain, into an image, which gets
   // this grid. If it is the density's grid, the image also gets the arrays of the input. Each rank
-  // gets the part of the grid in the extent that it wants. Collective. Throws Failure and
-  // Cancelled.
-  Report Run(InputDensity& density, const std::array<int, 6>& wanted, FlowCache& cache,
-    Progress& progress, vtkImageData* output) const;
+  // gets the part of the grid in the extent that it wants. `goal` may be nullptr. Collective.
+  // Throws Failure and Cancelled.
+  Report Run(InputDensity& density, MapGoal* goal, const std::array<int, 6>& wanted,
+    FlowCache& cache, Progress& progress, vtkImageData* output) const;
 };
-
-// Gives the part of an image the arrays of the density's input, if the samples are on its grid.
-// Collective.
-void passArrays(const InputDensity& density, const ImageGrid& samples,
-  const std::array<int, 6>& part, vtkImageData* output);
 
 } // namespace RectifiedTransport::Bridge
 

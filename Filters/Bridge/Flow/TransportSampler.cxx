@@ -190,8 +190,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   {
     makeSeeds<D>(pattern, grid.Size<D>(), purpose, share.First, stages["seeds"], particles.Seeds());
   }
-  const DensityTransport<D> transport = cache.Transport<D>(needs, density, stages["optimal map"]);
-  report.Transport = transport.Report();
+  const TransportPlan<D> plan = cache.Plan<D>(needs, options, density, stages["optimal map"]);
+  report.Transport = TransportReport(plan);
   const ConstPointSpan<D> seeds = particles.Seeds();
   const PointSpan<D> positions = particles.Positions();
   const FlowSeeds<D> starts = given ? FlowSeeds<D>(seeds) : FlowSeeds<D>(seeds).AsSamples();
@@ -206,15 +206,15 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     }
     else if (times.back() == 1.0 && times.size() == 1)
     {
-      report.Flow = transport.Points().Forward(starts, positions, options, stages["flow"]);
-      if (transport.Certificate())
+      report.Flow = plan.Forward(starts, positions, stages["flow"]);
+      if (plan.HasMap())
       {
-        slack = transport.Slack(seeds, positions, stages["slack"]);
+        slack = slackOf<D>(plan, grid, seeds, positions, stages["slack"]);
       }
     }
     else
     {
-      report.Flow = transport.Points().ForwardAt(starts, times, positions, options, stages["flow"]);
+      report.Flow = plan.ForwardAt(starts, times, positions, stages["flow"]);
     }
   }
   catch (const std::bad_alloc& caught)
@@ -256,7 +256,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   addFieldValue(output, "TransportCost", cost);
   if (sampler.FlowTime == 1.0) // as the bound is
   {
-    transport.AddBound(cost, output);
+    addBound<D>(plan, grid, cost, grid, output);
   }
   addFieldValue(output, "MovedParticles", static_cast<double>(report.ParticlesMoved));
   addFieldValue(output, "OutsideSeeds", static_cast<double>(report.SeedsMoved));

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_TransportSampler_h
 #define RectifiedTransport_TransportSampler_h
 
-#include "Bridge/Density/DensityTransport.h"
+#include "Bridge/Density/DensityPlan.h"
 #include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"

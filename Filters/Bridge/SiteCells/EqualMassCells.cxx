@@ -71,20 +71,28 @@ SiteCells<D> placeSites(vtkPointSet* sites, const ImageGrid& grid, Progress& pro
     });
 }
 
+// The kept division, or the one that make() returns.
+template <class Make>
+std::shared_ptr<const SiteDivision> updateDivision(
+  const DataIdentity& identity, StoreSlot& kept, Progress& progress, const Make& make)
+{
+  return kept.Get<const SiteDivision>(identity, SoloRanks::Get(), progress, Sharing::None,
+    [&]() { return std::make_shared<const SiteDivision>(make()); });
+}
+
 // The kept labels, or those that label(labels, progress) writes; it returns the report of the flow.
 template <int D, class Label>
-SiteLabels::Division updateLabels(vtkPointSet* sites, const SiteLabels::Settings& settings,
-  double bytes, SiteLabels& kept, Progress& progress, const Label& label)
+SiteDivision updateLabels(const DataIdentity& identity, const ImageGrid& grid, double bytes,
+  StoreSlot& kept, Progress& progress, const Label& label)
 {
-  const ImageGrid& grid = settings.Grid;
   Stages stages(progress, { { "comparison", 1 }, { "labels", 92 } });
-  const auto make = [&]() -> SiteLabels::Division {
+  const auto make = [&]() -> SiteDivision {
     auto labels = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
     const FlowReport flow = withMemory("labels of " + describeSize<D>(grid.Size<D>()) + " pixels",
       bytes, [&]() { return label(labels->GetPointer(0), stages["labels"]); });
     return { labels, nullptr, flow };
   };
-  return kept.Update(sites, settings, stages["comparison"], make);
+  return *updateDivision(identity, kept, stages["comparison"], make);
 }
 
 // Writes the labels, what measure(statistics, progress) measures of the sites' cells, and their
@@ -115,11 +123,11 @@ void writeCells(const ImageGrid& grid, SiteIdArray* labels, vtkIdType sites, Pro
 
 template <int D>
 EqualMassCells::Report divide(const EqualMassCells& cells, vtkPointSet* sites,
-  const ImageGrid& grid, SiteLabels& kept, Progress& progress, const CellOutputs& outputs)
+  const ImageGrid& grid, StoreSlot& kept, Progress& progress, const CellOutputs& outputs)
 {
   Stages stages(progress, { { "sites", 1 }, { "labels", 94 }, { "output", 5 } });
   const SiteCells<D> placed = placeSites<D>(sites, grid, stages["sites"]);
-  const SiteLabels::Division division = updateLabels<D>(sites, { grid, false, cells.Flow },
+  const SiteDivision division = updateLabels<D>(identityOfDivision(sites, grid, &cells.Flow), grid,
     bytesOfLabelling<D>(grid), kept, stages["labels"],
     [&](std::int64_t* values, Progress& work) { return placed.Label(values, cells.Flow, work); });
   SiteIdArray* labels = division.Labels;
@@ -133,13 +141,12 @@ EqualMassCells::Report divide(const EqualMassCells& cells, vtkPointSet* sites,
 // The sites' cells by the mass of a density.
 template <int D>
 EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* sites,
-  const ImageGrid& grid, InputDensity& density, FlowCache& cache, SiteLabels& kept,
+  const ImageGrid& grid, InputDensity& density, FlowCache& cache, StoreSlot& kept,
   Progress& progress, const CellOutputs& outputs)
 {
   const auto count = static_cast<vtkIdType>(sites->GetNumberOfPoints());
   Stages stages(progress,
-    { { "tables", 4 }, { "reading", 1 }, { "masses", 1 }, { "hash", 1 }, { "labels", 88 },
-      { "output", 5 } });
+    { { "tables", 4 }, { "reading", 1 }, { "masses", 1 }, { "labels", 89 }, { "output", 5 } });
   const SharedFlow& flow = cache.Update(density, stages["tables"]);
   Progress& reading = stages["reading"];
   density.Prepare(FlowTables::Whole, reading);
@@ -160,13 +167,11 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
         " pixels; raise Resolution until there is a pixel with mass for each");
     }
   });
-  const SiteLabels::Settings settings{ grid, false, cells.Flow, true,
-    kept.HashOf(density, stages["hash"]) };
-  const SiteLabels::Division division =
-    updateLabels<D>(sites, settings, bytesOfLabellingByMass<D>(grid), kept, stages["labels"],
-      [&](std::int64_t* values, Progress& work) {
-        return placed.Label(flow.Flow<D>(), values, cells.Flow, work);
-      });
+  const SiteDivision division = updateLabels<D>(
+    identityOfDivision(sites, grid, &cells.Flow, &density), grid, bytesOfLabellingByMass<D>(grid),
+    kept, stages["labels"], [&](std::int64_t* values, Progress& work) {
+      return placed.Label(flow.Flow<D>(), values, cells.Flow, work);
+    });
   SiteIdArray* labels = division.Labels;
   EqualMassCells::Report report{ placed.NumberOutside(), 0, division.Flow };
   writeCells<D>(grid, labels, count, stages["output"], outputs,
@@ -181,14 +186,14 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
 
 // make(points, progress) returns the power cells of the sites.
 template <class Make>
-SiteLabels::Division makePowerCells(
+SiteDivision makePowerCells(
   vtkPointSet* sites, const ImageGrid& grid, double moreBytes, Progress& progress, const Make& make)
 {
   const std::int64_t count = sites->GetNumberOfPoints();
   Stages stages(progress, { { "points", 1 }, { "cells", 87 }, { "labels", 5 } });
   visitPoints(sites, "input point set", stages["points"], [](std::int64_t, const double*) {});
   const DoubleTuples points(sites->GetPoints()->GetData(), stages["points"]);
-  SiteLabels::Division division;
+  SiteDivision division;
   // The factors of the linear systems are the peak.
   constexpr double eachSite = 1500.0;
   withMemory("the power cells of " + std::to_string(count) + " sites",
@@ -204,7 +209,7 @@ SiteLabels::Division makePowerCells(
 }
 
 std::int64_t writePowerCells(
-  const SiteLabels::Division& division, Progress& progress, const CellOutputs& outputs)
+  const SiteDivision& division, Progress& progress, const CellOutputs& outputs)
 {
   const PowerSiteCells& power = *division.Power;
   outputs.Labels->GetCellData()->SetScalars(division.Labels);
@@ -218,28 +223,26 @@ std::int64_t writePowerCells(
   return power.NumberOutside();
 }
 
-std::int64_t divideByPower(vtkPointSet* sites, const ImageGrid& grid, SiteLabels& kept,
+std::int64_t divideByPower(vtkPointSet* sites, const ImageGrid& grid, StoreSlot& kept,
   Progress& progress, const CellOutputs& outputs)
 {
   Stages stages(progress, { { "comparison", 2 }, { "cells", 93 }, { "output", 5 } });
   const auto make = [&](ConstPointSpan<3> points, Progress& work) {
     return PowerSiteCells(points, grid, work);
   };
-  const SiteLabels::Division& division =
-    kept.Update(sites, { grid, true, {} }, stages["comparison"],
+  const auto division =
+    updateDivision(identityOfDivision(sites, grid, nullptr), kept, stages["comparison"],
       [&]() { return makePowerCells(sites, grid, 0.0, stages["cells"], make); });
-  return writePowerCells(division, stages["output"], outputs);
+  return writePowerCells(*division, stages["output"], outputs);
 }
 
 std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, InputDensity& density,
-  SiteLabels& kept, Progress& progress, const CellOutputs& outputs)
+  StoreSlot& kept, Progress& progress, const CellOutputs& outputs)
 {
   constexpr double rowMoments = 18.0; // bytes a cell of the density
   double mass = 0.0;
-  Stages stages(progress,
-    { { "hash", 1 }, { "comparison", 1 }, { "cells", 93 }, { "empty pixels", 1 },
-      { "output", 4 } });
-  const SiteLabels::Settings settings{ grid, true, {}, true, kept.HashOf(density, stages["hash"]) };
+  Stages stages(
+    progress, { { "comparison", 2 }, { "cells", 93 }, { "empty pixels", 1 }, { "output", 4 } });
   const auto make = [&](ConstPointSpan<3> points, Progress& work) {
     Stages parts(work, { { "density", 2 }, { "cells", 98 } });
     density.Prepare(FlowTables::Whole, parts["density"]);
@@ -255,7 +258,7 @@ std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, InputD
   };
   const double bytes = rowMoments * static_cast<double>(density.Grid().NumberOfCells());
   const auto makeWithoutEmpty = [&]() {
-    SiteLabels::Division division = makePowerCells(sites, grid, bytes, stages["cells"], make);
+    SiteDivision division = makePowerCells(sites, grid, bytes, stages["cells"], make);
     withMemory("the masses of " + describeValues(grid) + " pixels",
       numberOfValues(grid) * sizeof(std::int64_t), [&]() {
         Progress& work = stages["empty pixels"];
@@ -265,9 +268,9 @@ std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, InputD
       });
     return division;
   };
-  const SiteLabels::Division& division =
-    kept.Update(sites, settings, stages["comparison"], makeWithoutEmpty);
-  return writePowerCells(division, stages["output"], outputs);
+  const auto division = updateDivision(identityOfDivision(sites, grid, nullptr, &density), kept,
+    stages["comparison"], makeWithoutEmpty);
+  return writePowerCells(*division, stages["output"], outputs);
 }
 
 void requirePlane(const ImageGrid& grid)
@@ -287,7 +290,7 @@ std::string describeLabels(const ImageGrid& grid)
 } // namespace
 
 EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* domain,
-  SiteLabels& kept, Progress& progress, const CellOutputs& outputs) const
+  StoreSlot& kept, Progress& progress, const CellOutputs& outputs) const
 {
   Stages stages(progress, { { "points", 1 }, { "cells", 99 } });
   if (!domain)
@@ -302,7 +305,7 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* do
   {
     requirePlane(grid);
   }
-  if (!kept.IsFor(sites, { grid, this->IsPower, this->Flow }))
+  if (!kept.Holds(identityOfDivision(sites, grid, this->IsPower ? nullptr : &this->Flow)))
   {
     const auto bytes = dispatchDimension(
       grid.Dimension(), bytesOfLabelling<1>, bytesOfLabelling<2>, bytesOfLabelling<3>);
@@ -320,7 +323,7 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* do
 }
 
 EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, InputDensity& density,
-  FlowCache& cache, SiteLabels& kept, Progress& progress, const CellOutputs& outputs) const
+  FlowCache& cache, StoreSlot& kept, Progress& progress, const CellOutputs& outputs) const
 {
   const ImageGrid grid = LabelGrid{ this->Resolution }.On(density.Grid());
   requireCells(grid);

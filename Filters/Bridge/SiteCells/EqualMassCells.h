@@ -5,6 +5,7 @@
 
 #include "Bridge/SiteCells/CellOutputs.h"
 #include "Bridge/SiteCells/SiteLabels.h"
+#include "Bridge/Store/Store.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/SiteCells/SiteCellStatistics.h"
@@ -47,9 +48,9 @@ struct EqualMassCells
   // pixels around the sites. Sites get equally many pixels or, if the density is not nullptr, equal
   // masses of it. Reuses the kept labels if they are valid. Throws Failure, std::invalid_argument,
   // std::runtime_error, std::bad_alloc and Cancelled.
-  Report Run(vtkPointSet* sites, vtkDataObject* domain, SiteLabels& kept, Progress& progress,
+  Report Run(vtkPointSet* sites, vtkDataObject* domain, StoreSlot& kept, Progress& progress,
     const CellOutputs& outputs) const;
-  Report Run(vtkPointSet* sites, InputDensity& density, FlowCache& cache, SiteLabels& kept,
+  Report Run(vtkPointSet* sites, InputDensity& density, FlowCache& cache, StoreSlot& kept,
     Progress& progress, const CellOutputs& outputs) const;
 };
 

@@ -5,6 +5,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/SiteCells/SiteLabels.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/SiteCells/SiteColors.h"
 
 #include "vtkCellData.h"

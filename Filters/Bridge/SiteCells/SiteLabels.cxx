@@ -1,36 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/SiteCells/SiteLabels.h"
 
-#include "Bridge/Run/Fingerprint.h"
+#include "Bridge/Density/InputDensity.h"
 
 #include "vtkPointSet.h"
-
-#include <utility>
+#include "vtkPoints.h"
 
 namespace RectifiedTransport::Bridge
 {
 
-// The modification time of the data set itself: its GetMTime() includes its points.
-SiteLabels::Stamp SiteLabels::StampOf(vtkPointSet* sites)
+DataIdentity identityOfDivision(
+  vtkPointSet* sites, const ImageGrid& grid, const FlowOptions* flow, const InputDensity* density)
 {
-  return { sites->GetPoints(), sites->GetPoints()->GetMTime(), sites->vtkObject::GetMTime() };
-}
-
-bool SiteLabels::IsFor(vtkPointSet* sites, const Settings& settings) const
-{
-  const Stamp now = StampOf(sites);
-  return this->Kept.Labels && this->Of == settings && now.HasPointsOf(this->Sites) &&
-    now.SetTime == this->Sites.SetTime;
-}
-
-bool SiteLabels::UpdateStamp(vtkPointSet* sites, Progress& progress)
-{
-  const Stamp before = std::exchange(this->Sites, {}); // none is kept if fingerprint() throws
-  Stamp now = StampOf(sites);
-  now.Bits = fingerprint({ sites->GetPoints()->GetData() }, progress);
-  this->Sites = now;
-  return now.HasPointsOf(before) &&
-    (now.SetTime == before.SetTime || (now.Bits != 0 && now.Bits == before.Bits));
+  DataIdentity identity;
+  // Programs that write into an array often call Modified() only on the data set, whose GetMTime()
+  // includes its points.
+  identity.AddTimeOf(sites->GetPoints());
+  identity.AddTime(static_cast<std::uint64_t>(sites->vtkObject::GetMTime()));
+  identity.AddArray(sites->GetPoints()->GetData());
+  identity.AddGrid(grid);
+  identity.AddNumber(flow ? 1 : 0);
+  if (flow)
+  {
+    identity.AddOptions(*flow);
+  }
+  if (density)
+  {
+    identity.Add(density->Identity());
+  }
+  return identity;
 }
 
 } // namespace RectifiedTransport::Bridge

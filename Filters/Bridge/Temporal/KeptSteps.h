@@ -11,7 +11,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithm;
@@ -26,7 +25,7 @@ struct KeptStep
   bool IsKept = false;
   double Time = 0.0;
   vtkSmartPointer<vtkDataObject> Data; // may be nullptr
-  std::shared_ptr<const StepDensity> Density;
+  StoreSlot Density;                   // a StepDensity
   std::uint64_t Used = 0;
 };
 

@@ -2,7 +2,7 @@
 #include "Bridge/Temporal/MovingParticles.h"
 
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Temporal/IntervalMap.h"
+#include "Bridge/Temporal/IntervalPlan.h"
 #include "Bridge/Temporal/StepDensity.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
@@ -31,11 +31,11 @@ SeriesParticles make(const StepDensity& from, const StepDensity& to, const Movin
   std::string warning;
   const auto move = [&](PointSpan<D> first, PointSpan<D> second, Progress& moving) {
     Stages stages(moving, { { "map", 8 }, { "forward", 1 }, { "backward", 1 } });
-    const IntervalMap<D> map(from, to, settings.IsOptimal, 0.0, stages["map"]);
-    map.Forward(first, false, stages["forward"]);
-    map.Backward(second, stages["backward"]);
-    bound = map.LowerBound();
-    warning = map.Warning();
+    const IntervalPlan<D> plan(from, to, settings.IsOptimal, 0.0, stages["map"]);
+    plan.Points().Forward(ConstPointSpan<D>(first), first, stages["forward"]);
+    plan.Points().Backward(ConstPointSpan<D>(second), second, stages["backward"]);
+    bound = plan.LowerBound();
+    warning = plan.Points().Warning();
     hasMoved = true;
   };
   SeriesParticles particles =
@@ -119,11 +119,12 @@ void SeriesTracks::ExtendBy(
   }
   const auto move = [&](PointSpan<D> samples, Progress& moving) -> MoveReport {
     Stages stages(moving, { { "map", 6 }, { "images", 4 } });
-    const IntervalMap<D> map(*before, density, this->Settings.IsOptimal,
+    const IntervalPlan<D> plan(*before, density, this->Settings.IsOptimal,
       static_cast<double>(this->Tracked.All()), stages["map"]);
-    map.Forward(samples, true, stages["images"]);
-    this->Text = map.Warning();
-    return { map.LowerBound(), this->Settings.IsOptimal };
+    const FlowSeeds<D> seeds{ ConstPointSpan<D>(samples) };
+    plan.Points().Forward(seeds.AsSamples(), samples, stages["images"]);
+    this->Text = plan.Points().Warning();
+    return { plan.LowerBound(), this->Settings.IsOptimal };
   };
   this->Tracked.Follow<D>(before->Grid, density.Grid, move, progress);
 }

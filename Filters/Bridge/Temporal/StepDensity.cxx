@@ -4,8 +4,7 @@
 #include "Bridge/Density/DensityMass.h"
 #include "Bridge/Density/WholeValues.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Parallel/Progress.h"
-#include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Tables/DensityInspection.h"
 
 #include <cmath>
@@ -39,28 +38,26 @@ void read(InputDensity& density, StepDensity& step, Progress& progress)
 } // namespace
 
 std::shared_ptr<const StepDensity> readStepDensity(
-  InputDensity& density, std::shared_ptr<const StepDensity> before, Progress& progress)
+  InputDensity& density, StoreSlot& kept, Progress& progress)
 {
-  StepDensity step;
-  step.ArrayName = density.NameOfArray();
-  step.Grid = density.Grid();
-  const auto isSame = [&]() {
-    return before && before->ArrayName == step.ArrayName && before->Grid == step.Grid;
-  };
-  const Ranks& ranks = progress.Group();
-  if (!ranks.AreSeveral() && isSame() && before->Content.IsOf(density))
+  Stages stages(progress, { { "hash", 1 }, { "values", 9 } });
+  DataIdentity identity = density.Identity();
+  identity.AddGrid(density.Grid());
+  for (const char letter : density.NameOfArray())
   {
-    return before;
+    identity.AddNumber(static_cast<unsigned char>(letter));
   }
-  step.Content = ContentHash(density, progress);
-  if (onAllRanks(ranks, isSame() && before->Content == step.Content))
-  {
-    auto same = std::make_shared<StepDensity>(*before);
-    same->Content = step.Content;
-    return same;
-  }
-  dispatchDimension(step.Grid.Dimension(), read<1>, read<2>, read<3>)(density, step, progress);
-  return std::make_shared<const StepDensity>(std::move(step));
+  return kept.Get<const StepDensity>(
+    identity, progress.Group(), stages["hash"], Sharing::None, [&]() {
+      auto step = std::make_shared<StepDensity>();
+      step->ArrayName = density.NameOfArray();
+      step->Grid = density.Grid();
+      step->Identity = identity;
+      step->Identity.Hash(stages["hash"]);
+      dispatchDimension(step->Grid.Dimension(), read<1>, read<2>, read<3>)(
+        density, *step, stages["values"]);
+      return step;
+    });
 }
 
 } // namespace RectifiedTransport::Bridge

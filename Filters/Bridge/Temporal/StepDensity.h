@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_StepDensity_h
 #define RectifiedTransport_StepDensity_h
 
-#include "Bridge/Density/ContentHash.h"
+#include "Bridge/Store/Store.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Tables/Density.h"
 
@@ -27,7 +27,7 @@ struct StepDensity
 {
   std::string ArrayName;
   ImageGrid Grid;
-  ContentHash Content;
+  DataIdentity Identity;
   // Of all cells, axis 0 of index space fastest; on each rank.
   vtkSmartPointer<vtkDoubleArray> Values;
   double Mass = 0.0; // density times cell measure, summed; may be 0
@@ -40,14 +40,14 @@ struct StepDensity
   // Whether a map to or from the other density serves this one.
   bool IsSameAs(const StepDensity& other) const
   {
-    return this->Content == other.Content && this->Grid == other.Grid;
+    return this->Identity.IsByContent(other.Identity);
   }
 };
 
-// Returns `before`, which may be nullptr, if it is of the same density; else reads it. Collective.
-// Throws Failure for values that are no density, and Cancelled.
+// Returns what is kept, if it is of the same density; else reads it. Collective. Throws Failure for
+// values that are no density, and Cancelled.
 std::shared_ptr<const StepDensity> readStepDensity(
-  InputDensity& density, std::shared_ptr<const StepDensity> before, Progress& progress);
+  InputDensity& density, StoreSlot& kept, Progress& progress);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Temporal/TemporalInterpolation.h"
 
-#include "Bridge/Density/CostBound.h"
+#include "Bridge/Density/DensityPlan.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"

@@ -117,7 +117,7 @@ public:
 
   // The source's index space.
   const GridSize<Dimension>& Size() const override;
-  const GridSize<Dimension>& TargetSize() const { return this->Ends[1]->Size; }
+  const PlanEnd<Dimension>& Target() const { return *this->Ends[1]; }
 
   // Moves points with a report for each flow on their way, in the order of that way; one for the
   // optimal map.

@@ -111,7 +111,7 @@ TYPED_TEST(Plans, MoveByTwoFlows)
   const double bound = plan.LowerBound();
   EXPECT_GT(bound, 0.0);
   EXPECT_TRUE(plan.HasMap());
-  EXPECT_EQ(plan.TargetSize(), target.Size);
+  EXPECT_EQ(plan.Target().Size, target.Size);
   const auto from = source.Source();
   const auto to = target.Source();
   const RectifiedFlow<D> first(from);

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plans between densities of inputs: what they are asked for, what they need, and what outputs and
+// warnings say of them.
+#ifndef RectifiedTransport_DensityPlan_h
+#define RectifiedTransport_DensityPlan_h
+
+#include "Bridge/Density/InputDensity.h"
+#include "Bridge/Density/OptimalMemory.h"
+#include "Bridge/Settings/OptimalSettings.h"
+#include "Core/Plan/TransportPlan.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+namespace RectifiedTransport::Bridge
+{
+
+inline PlanOptions planOptions(const OptimalSetting& setting, const FlowOptions& flow)
+{
+  PlanOptions options;
+  options.IsOptimal = setting.IsOptimal;
+  options.HasBound = setting.Certifies;
+  options.Flow = flow;
+  options.Optimal.Tolerance = setting.Tolerance;
+  return options;
+}
+
+// The density of an input, at its place. It must outlive the plan.
+template <int D>
+PlanEnd<D> planEnd(PlanEnd<D> place, InputDensity& density)
+{
+  place.Read = [&density](const Context& context) {
+    Progress progress(context);
+    density.Prepare(FlowTables::Whole, progress);
+    return density.Source<D>();
+  };
+  place.Release = [&density]() { density.ReleaseGathered(); };
+  return place;
+}
+
+// What a filter tells about the plan that it took.
+struct TransportReport
+{
+  TransportReport() = default;
+  template <int D>
+  explicit TransportReport(const TransportPlan<D>& plan)
+    : IsOptimal(plan.IsOptimal())
+    , Warning(plan.Warning())
+  {
+  }
+
+  // Ends a warning about samples that more steps would help.
+  const char* WithSteps(const char* advice) const { return this->IsOptimal ? "" : advice; }
+
+  bool IsOptimal = false;
+  std::string Warning; // why the flow moves the points with Method Optimal; else empty
+};
+
+// TransportCostLowerBound, and OptimalityGap of a map of this cost on a grid. Where the bound is no
+// more than the rounding that it allows for (see PotentialSolver), their ratio says nothing: the
+// gap is 0 for ways of less than a tenth of a cell, which are errors of integration, else infinite.
+void addCostBound(vtkDataObject* output, double bound, double cost, const ImageGrid& grid);
+
+// The same of a plan, whose lengths are in the LengthScale of `box`; nothing if it has no bound.
+// Throws std::overflow_error as LengthScale.
+template <int D>
+void addBound(const TransportPlan<D>& plan, const ImageGrid& box, double cost,
+  const ImageGrid& grid, vtkDataObject* output);
+
+// The array Slack of points and their images, in squared physical units of a plan that has a map
+// and lengths in the LengthScale of `box`. Throws Failure and Cancelled.
+template <int D>
+vtkSmartPointer<vtkDoubleArray> slackOf(const TransportPlan<D>& plan, const ImageGrid& box,
+  ConstPointSpan<D> points, ConstPointSpan<D> images, Progress& progress);
+
+} // namespace RectifiedTransport::Bridge
+
+#endif
