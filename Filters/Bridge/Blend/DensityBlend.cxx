@@ -2,8 +2,6 @@
 #include "Bridge/Blend/DensityBlend.h"
 
 #include "Bridge/Blend/MovedInput.h"
-#include "Bridge/Blend/ParticlePositions.h"
-#include "Bridge/Density/CostBound.h"
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/CommonGrid.h"
@@ -16,8 +14,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/Splat/DistributedSplat.h"
-#include "Core/Geometry/LengthScale.h"
-#include "Core/Parallel/ExactSum.h"
+#include "Core/Flow/WeightedMean.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 
@@ -33,8 +30,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <numeric>
+#include <cstddef>
 #include <sstream>
 #include <utility>
 
@@ -89,24 +85,27 @@ void reuseOrMake(
   array->Modified();
 }
 
-} // namespace
-
-// The map of a density among others; the end if there is none. By times alone, or else by contents.
-// On ranks, whose times and kept maps differ, all of them have it or none.
-template <class Maps>
-auto findMap(const Maps& begin, const Maps& end, InputDensity& density,
-  const LinearizedMapSettings& settings, bool byContents, Progress& progress)
+// The slot among others that keeps a map; the end if there is none. By times alone, or else by
+// contents. On ranks, whose times and kept maps differ, all of them have it or none.
+template <class Slots>
+Slots findMap(
+  const Slots& begin, const Slots& end, DataIdentity& identity, bool byContents, Progress& progress)
 {
-  Maps found =
-    std::find_if(begin, end, [&](const LinearizedMap& map) { return map.IsOf(density, settings); });
-  if (found == end && byContents)
+  const auto agreed = [&](const Slots& found) {
+    return onAllRanks(progress.Group(), found != end) ? found : end;
+  };
+  const Slots found =
+    agreed(std::find_if(begin, end, [&](const StoreSlot& slot) { return slot.Holds(identity); }));
+  if (found != end || !byContents)
   {
-    const ContentHash content(density, progress);
-    found = std::find_if(begin, end,
-      [&](const LinearizedMap& map) { return map.IsOf(content, density.Grid(), settings); });
+    return found;
   }
-  return onAllRanks(progress.Group(), found != end) ? found : end;
+  identity.Hash(progress);
+  return agreed(
+    std::find_if(begin, end, [&](const StoreSlot& slot) { return slot.HoldsContent(identity); }));
 }
+
+} // namespace
 
 BlendOutput::BlendOutput(vtkInformationVector* outputs)
   : Announced(outputs->GetInformationObject(0))
@@ -135,12 +134,11 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
   if (newMaps > 0)
   {
     // Releases memory for the tables.
-    this->Means = this->Masses = this->Density = this->Displacements = nullptr;
-    this->Ends = {};
+    this->Means = this->Masses = this->Density = nullptr;
+    this->Found.Release();
     if (settings.Optimal.NeedsMap()) // before the work of the tables
     {
-      requireMemoryForMaps(this->Given(inputs),
-        { settings.Optimal, geometry, settings.ComparesEnds }, static_cast<double>(count), ranks);
+      requireMemoryForMaps(inputs, settings, geometry, all, ranks);
     }
   }
   const double mapCost =
@@ -150,7 +148,6 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
     : 0.0;
   Stages stages(whole["blend"],
     { { "maps", mapCost }, { "optimal maps", solutions }, { "mean", 0.2 * Cost::MeanAndSplat },
-      { "cost", settings.ComparesEnds ? 0.05 * Cost::MeanAndSplat : 0.0 },
       { "particles", 0.15 * Cost::MeanAndSplat }, { "density", 0.6 * Cost::MeanAndSplat } });
   BlendReport report = this->MakeMaps(inputs, pivot, tables, stages["maps"]);
   if (settings.Optimal.IsOptimal)
@@ -158,40 +155,45 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
     // The flow only leads to where the optimal maps begin, and its properties are not shown.
     report = {};
   }
-  this->FindPositions(inputs, settings, geometry, stages["optimal maps"]);
-  report.Steps.insert(report.Steps.end(), this->Found.Warnings.begin(), this->Found.Warnings.end());
-
-  this->TakeMeans(inputs, stages["mean"]);
+  const auto found =
+    this->FindPositions(inputs, settings, geometry, count, stages["optimal maps"], report.Steps);
+  this->TakeMeans(inputs, *found, stages["mean"]);
   const double mass = this->TotalMass(inputs, settings.Mode);
   const SplatTarget target{ geometry, settings.Splat, true };
   requireFiniteDensity(mass, target, "The particles' masses", "or the cells larger");
   const double massEach = mass / static_cast<double>(count);
-  double cost = 0.0;
   if (settings.ComparesEnds)
   {
-    cost = this->CompareEnds(geometry, count, stages["cost"]);
-    output.Particles->GetPointData()->SetVectors(this->Displacements);
+    output.Particles->GetPointData()->SetVectors(found->Displacements);
   }
-  this->WriteParticles(inputs, geometry, massEach, stages["particles"], output.Particles);
-  this->WriteDensity(inputs, target, { mass, massEach }, wanted, stages["density"], output.Density);
-  const std::int64_t movedInAll =
-    std::accumulate(this->Maps.begin(), this->Maps.end(), std::int64_t{ 0 },
-      [](std::int64_t sum, const LinearizedMap& map) { return sum + map.Moved(); });
+  this->WriteParticles(inputs, *found, geometry, massEach, stages["particles"], output.Particles);
+  this->WriteDensity(
+    inputs, *found, target, { mass, massEach }, wanted, stages["density"], output.Density);
+  std::int64_t movedInAll = 0;
   std::vector<FlowReport> flows;
-  std::transform(this->Maps.begin(), this->Maps.end(), std::back_inserter(flows),
-    [](const LinearizedMap& map) { return map.Flow(); });
   std::vector<DensityReading> readings;
-  std::transform(inputs.begin(), inputs.end(), std::back_inserter(readings),
-    [](const BlendInput& input) { return input.Density->HowRead(); });
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    flows.push_back(this->MapOf(i).Flow);
+    movedInAll += flows.back().MovedToMass;
+    readings.push_back(inputs[i].Density->HowRead());
+  }
   const auto movedOnRanks = static_cast<double>(sumOverRanks(ranks, movedInAll));
   for (vtkDataObject* part :
     { static_cast<vtkDataObject*>(output.Density), static_cast<vtkDataObject*>(output.Particles) })
   {
     if (settings.ComparesEnds)
     {
-      addFieldValue(part, "TransportCost", cost);
+      addFieldValue(part, "TransportCost", found->Cost);
     }
-    this->AddBound(geometry, settings.ComparesEnds ? cost : this->Found.Cost, part);
+    if (found->Slack)
+    {
+      addCostBound(part, found->Bound, found->Cost, geometry);
+    }
+    if (!found->Functional.empty())
+    {
+      addFieldValues(part, "Functional", found->Functional);
+    }
     addFieldValue(part, "TotalMass", mass);
     addFieldValue(part, "MovedParticles", movedOnRanks);
     addSteps(part, flows);
@@ -204,8 +206,9 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
 
 // At a weight of 1 the density of that input; near it, more and more of that density as its cells
 // move, so that there is no jump; else that of the particles.
-void DensityBlend::WriteDensity(const std::vector<BlendInput>& inputs, const SplatTarget& target,
-  const BlendMass& mass, Extent wanted, Progress& progress, vtkImageData* output)
+void DensityBlend::WriteDensity(const std::vector<BlendInput>& inputs, const BlendPositions& found,
+  const SplatTarget& target, const BlendMass& mass, Extent wanted, Progress& progress,
+  vtkImageData* output)
 {
   constexpr double nearby = 0.1; // how far below 1 a weight is near it
   constexpr double rounding = 1e-9;
@@ -220,8 +223,8 @@ void DensityBlend::WriteDensity(const std::vector<BlendInput>& inputs, const Spl
   const auto number = static_cast<std::size_t>(heaviest - inputs.begin());
   const double linear = 1.0 - (1.0 - heaviest->Weight) / nearby;
   const double share = linear > rounding ? linear : 0.0;
-  const MovedInput input{ *heaviest->Density, this->Maps[number].TotalMass(), share * mass.All,
-    this->Found.Positions[number], this->Means };
+  const MovedInput input{ *heaviest->Density, this->MapOf(number).TotalMass, share * mass.All,
+    found.Positions[number], this->Means };
   if (heaviest->Weight == 1.0)
   {
     writeInput(input, geometry, box, progress, this->Density->GetPointer(0));
@@ -241,24 +244,22 @@ void DensityBlend::WriteDensity(const std::vector<BlendInput>& inputs, const Spl
 std::size_t DensityBlend::MatchMaps(
   const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings, Progress& progress)
 {
-  const std::vector<LinearizedMap> before = std::exchange(this->Maps, {});
+  const std::vector<StoreSlot> before = std::exchange(this->Maps, {});
+  const bool byContents = !before.empty() || progress.Group().AreSeveral();
   std::size_t missing = 0;
   for (const BlendInput& input : inputs)
   {
-    InputDensity& density = *input.Density;
-    this->Maps.emplace_back();
-    const bool byContents = !before.empty() || progress.Group().AreSeveral();
-    const auto match =
-      findMap(before.begin(), before.end(), density, settings, byContents, progress);
-    if (match == before.end())
-    {
-      ++missing;
-      continue;
-    }
-    this->Maps.back() = *match;
-    this->Maps.back().SetTimes(density);
+    DataIdentity identity = identityOfMap(*input.Density, settings);
+    const auto match = findMap(before.begin(), before.end(), identity, byContents, progress);
+    this->Maps.push_back(match == before.end() ? StoreSlot() : *match);
+    match == before.end() ? void(++missing) : this->Maps.back().TakeTimes(identity);
   }
   return missing;
+}
+
+const LinearizedMap& DensityBlend::MapOf(std::size_t input) const
+{
+  return *this->Maps[input].Kept<const LinearizedMap>();
 }
 
 BlendReport DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
@@ -274,28 +275,30 @@ BlendReport DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
   Parts parts(progress, static_cast<std::int64_t>(inputs.size()));
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
-    LinearizedMap& map = this->Maps[i];
-    InputDensity& density = *inputs[i].Density;
-    if (map.Positions())
+    if (!this->Maps[i].IsEmpty())
     {
       continue;
     }
-    Progress& making = parts[static_cast<std::int64_t>(i)];
+    InputDensity& density = *inputs[i].Density;
+    Stages making(parts[static_cast<std::int64_t>(i)], { { "comparison", 1 }, { "map", 99 } });
+    DataIdentity identity = identityOfMap(density, settings);
     // Several inputs may have the same density.
     const auto before = this->Maps.cbegin() + static_cast<std::ptrdiff_t>(i);
     const auto made = findMap(
-      this->Maps.cbegin(), before, density, settings, progress.Group().AreSeveral(), making);
+      this->Maps.cbegin(), before, identity, progress.Group().AreSeveral(), making["comparison"]);
     if (made != before)
     {
-      map = *made;
+      this->Maps[i] = *made;
       continue;
     }
     try
     {
-      map.Make(density, settings, tables, making);
-      report.Moved += map.Moved();
+      const auto map = this->Maps[i].Get<const LinearizedMap>(identity, progress.Group(),
+        making["comparison"], Sharing::None,
+        [&]() { return makeLinearizedMap(density, settings, tables, making["map"]); });
+      report.Moved += map->Flow.MovedToMass;
       const std::string warning =
-        stepWarning(map.Flow(), settings.Options, FlowDirection::Forward, true);
+        stepWarning(map->Flow, settings.Options, FlowDirection::Forward, true);
       if (!warning.empty())
       {
         report.Steps.push_back(inputs[i].Name + ": " + warning);
@@ -309,131 +312,68 @@ BlendReport DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
   return report;
 }
 
-// With the positions of the maps that there are.
-std::vector<OptimalBlendInput> DensityBlend::Given(const std::vector<BlendInput>& inputs) const
+std::shared_ptr<const BlendPositions> DensityBlend::FindPositions(
+  const std::vector<BlendInput>& inputs, const BlendSettings& settings, const ImageGrid& geometry,
+  std::int64_t particles, Progress& progress, std::vector<std::string>& warnings)
 {
-  std::vector<OptimalBlendInput> given;
+  const OptimalSetting& optimal = settings.Optimal;
+  DataIdentity identity;
+  identity.AddGrid(geometry);
+  identity.AddNumbers(&optimal.Tolerance, 1);
+  identity.AddNumber((optimal.IsOptimal ? 1 : 0) + (optimal.Certifies ? 2 : 0));
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
-    given.push_back(
-      { inputs[i].Density.get(), inputs[i].Name, inputs[i].Weight, this->Maps[i].Positions() });
-  }
-  return given;
-}
-
-void DensityBlend::FindPositions(const std::vector<BlendInput>& inputs,
-  const BlendSettings& settings, const ImageGrid& geometry, Progress& progress)
-{
-  decltype(this->FoundFor) now;
-  now.Optimal = settings.Optimal;
-  now.Geometry = geometry;
-  const std::vector<OptimalBlendInput> given = this->Given(inputs);
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-  {
-    now.Maps.emplace_back(given[i].Positions);
+    identity.Add(this->Maps[i].Identity());
     // Between two inputs particles only move along their ways.
-    now.Weights.push_back(settings.ComparesEnds ? 0.0 : inputs[i].Weight);
+    const bool counts = optimal.NeedsMap() && !settings.ComparesEnds;
+    const double weight = counts ? inputs[i].Weight : 0.0;
+    identity.AddNumbers(&weight, 1);
   }
-  if (!settings.Optimal.NeedsMap())
+  std::vector<vtkSmartPointer<vtkDoubleArray>> given;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
   {
-    this->Found = {};
-    for (const OptimalBlendInput& input : given)
-    {
-      this->Found.Positions.emplace_back(input.Positions);
-    }
+    given.push_back(this->MapOf(i).Positions);
   }
-  else
-  {
-    const bool isFound = now.Maps == this->FoundFor.Maps && now.Weights == this->FoundFor.Weights &&
-      now.Optimal == this->FoundFor.Optimal && now.Geometry == this->FoundFor.Geometry;
-    if (!onAllRanks(progress.Group(), isFound))
-    {
-      this->Found = {};
-      this->FoundFor = {};
-      this->Found =
-        blendOptimally(given, { settings.Optimal, geometry, settings.ComparesEnds }, progress);
-    }
-    else
-    {
-      this->Found.Warnings.clear();
-    }
-  }
-  this->FoundFor = now;
-}
-
-void DensityBlend::AddBound(const ImageGrid& geometry, double cost, vtkDataObject* output) const
-{
-  if (this->Found.Slack)
-  {
-    addCostBound(output, this->Found.Bound, cost, geometry);
-  }
-  if (!this->Found.Functional.empty())
-  {
-    addFieldValues(output, "Functional", this->Found.Functional);
-  }
-}
-
-void DensityBlend::TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress)
-{
-  const std::int64_t count = this->Maps.front().Positions()->GetNumberOfTuples();
-  reuseOrMake(this->Means, "Points", 3, count);
-  writeMeans(this->Found.Positions, inputs, progress, { this->Means->GetPointer(0), count });
-}
-
-// Takes the displacements y - x of the particles between their positions x and y in the two inputs.
-// Returns the mean of |y - x|^2 over all of them. No work where the maps are those of the last
-// call.
-double DensityBlend::CompareEnds(
-  const ImageGrid& geometry, std::int64_t particles, Progress& progress)
-{
-  const std::array<vtkDoubleArray*, 2> ends = { this->Found.Positions[0],
-    this->Found.Positions[1] };
-  if (onAllRanks(progress.Group(), this->Ends[0] == ends[0] && this->Ends[1] == ends[1]))
-  {
-    return this->EndsCost;
-  }
-  const std::int64_t count = ends[0]->GetNumberOfTuples();
-  const ConstPointSpan<3> from(ends[0]->GetPointer(0), count);
-  const ConstPointSpan<3> to(ends[1]->GetPointer(0), count);
-  this->Displacements = newArray<vtkDoubleArray>("Displacement", 3, count);
-  const PointSpan<3> displacements(this->Displacements->GetPointer(0), count);
-  const LengthScale scale(geometry);
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
-  const auto own = sumExactly<ExactSum>(
-    progress, count, grain, [&](std::int64_t first, std::int64_t last, ExactSum& sum) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        sum.Add(scale.SquaredDistanceInUnits(to[i], from[i]));
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          displacements[i][axis] = to[i][axis] - from[i][axis];
-        }
-      }
+  Stages stages(progress, { { "hash", 0 }, { "positions", 1 } });
+  return this->Found.Get<const BlendPositions>(
+    identity, progress.Group(), stages["hash"], Sharing::None, [&]() {
+      return makePositions(
+        inputs, given, settings, geometry, particles, stages["positions"], warnings);
     });
-  const ExactSum squares = sumOverRanks(progress.Group(), own);
-  this->EndsCost = scale.CostFromUnits(squares.Value() / static_cast<double>(particles));
-  this->Ends = { ends[0], ends[1] };
-  return this->EndsCost;
+}
+
+void DensityBlend::TakeMeans(
+  const std::vector<BlendInput>& inputs, const BlendPositions& found, Progress& progress)
+{
+  const std::int64_t count = found.Positions.front()->GetNumberOfTuples();
+  reuseOrMake(this->Means, "Points", 3, count);
+  std::vector<WeightedPositions> parts;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    parts.push_back({ { found.Positions[i]->GetPointer(0), count }, inputs[i].Weight });
+  }
+  writeWeightedMean(parts, { this->Means->GetPointer(0), count }, progress);
 }
 
 double DensityBlend::TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const
 {
   if (mode == MassMode::Source || mode == MassMode::Normalize)
   {
-    return mode == MassMode::Source ? this->Maps.front().TotalMass() : 1.0;
+    return mode == MassMode::Source ? this->MapOf(0).TotalMass : 1.0;
   }
   double sum = 0.0;
   double product = 1.0;
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
-    sum += inputs[i].Weight * this->Maps[i].TotalMass();
-    product *= std::pow(this->Maps[i].TotalMass(), inputs[i].Weight);
+    sum += inputs[i].Weight * this->MapOf(i).TotalMass;
+    product *= std::pow(this->MapOf(i).TotalMass, inputs[i].Weight);
   }
   return mode == MassMode::Linear ? sum : product;
 }
 
-void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, const ImageGrid& geometry,
-  double massEach, Progress& progress, vtkPolyData* output)
+void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs,
+  const BlendPositions& found, const ImageGrid& geometry, double massEach, Progress& progress,
+  vtkPolyData* output)
 {
   vtkNew<vtkPoints> points;
   points->SetData(this->Means);
@@ -444,15 +384,15 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, const I
     {
       // Inputs of one density share the values, under different names.
       vtkNew<vtkDoubleArray> named;
-      named->ShallowCopy(this->Found.Positions[i]);
+      named->ShallowCopy(found.Positions[i]);
       named->SetName(inputs[i].PositionName.c_str());
       output->GetPointData()->AddArray(named);
     }
   }
-  if (this->Found.Slack)
+  if (found.Slack)
   {
     vtkNew<vtkDoubleArray> slack;
-    slack->ShallowCopy(this->Found.Slack);
+    slack->ShallowCopy(found.Slack);
     slack->SetName("Slack");
     output->GetPointData()->AddArray(slack);
   }

@@ -5,18 +5,20 @@
 #ifndef RectifiedTransport_DensityBlend_h
 #define RectifiedTransport_DensityBlend_h
 
+#include "Bridge/Blend/BlendPositions.h"
 #include "Bridge/Blend/LinearizedMap.h"
-#include "Bridge/Blend/OptimalBlend.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/TableSettings.h"
+#include "Bridge/Store/Store.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Splat/Splat.h"
 
-#include "vtkWeakPointer.h"
+#include "vtkDoubleArray.h"
+#include "vtkSmartPointer.h"
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -103,35 +105,24 @@ private:
   // Returns how many particles of this rank the new maps moved, and their warnings.
   BlendReport MakeMaps(const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings,
     FlowCache& tables, Progress& progress);
-  std::vector<OptimalBlendInput> Given(const std::vector<BlendInput>& inputs) const;
-  double CompareEnds(const ImageGrid& geometry, std::int64_t particles, Progress& progress);
+  const LinearizedMap& MapOf(std::size_t input) const;
   // With an optimal map or its bound: finds the particles' positions anew where anything that they
-  // depend on has changed. Else takes those of the maps.
-  void FindPositions(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
-    const ImageGrid& geometry, Progress& progress);
-  void AddBound(const ImageGrid& geometry, double cost, vtkDataObject* output) const;
-  void TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress);
+  // depend on has changed. Else takes those of the maps. Adds warnings.
+  std::shared_ptr<const BlendPositions> FindPositions(const std::vector<BlendInput>& inputs,
+    const BlendSettings& settings, const ImageGrid& geometry, std::int64_t particles,
+    Progress& progress, std::vector<std::string>& warnings);
+  void TakeMeans(
+    const std::vector<BlendInput>& inputs, const BlendPositions& found, Progress& progress);
   double TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const;
-  void WriteParticles(const std::vector<BlendInput>& inputs, const ImageGrid& geometry,
-    double massEach, Progress& progress, vtkPolyData* output);
+  void WriteParticles(const std::vector<BlendInput>& inputs, const BlendPositions& found,
+    const ImageGrid& geometry, double massEach, Progress& progress, vtkPolyData* output);
   void WriteVertices(Progress& progress, vtkPolyData* output);
-  void WriteDensity(const std::vector<BlendInput>& inputs, const SplatTarget& target,
-    const BlendMass& mass, Extent wanted, Progress& progress, vtkImageData* output);
+  void WriteDensity(const std::vector<BlendInput>& inputs, const BlendPositions& found,
+    const SplatTarget& target, const BlendMass& mass, Extent wanted, Progress& progress,
+    vtkImageData* output);
 
-  std::vector<LinearizedMap> Maps;
-  // The particles' positions in the inputs, and what an optimal map says of them.
-  OptimalBlendResult Found;
-  struct
-  {
-    std::vector<vtkWeakPointer<vtkDoubleArray>> Maps; // the positions that it is from
-    std::vector<double> Weights;
-    OptimalSetting Optimal;
-    ImageGrid Geometry;
-  } FoundFor;
-  // The arrays of the last CompareEnds.
-  std::array<vtkWeakPointer<vtkDoubleArray>, 2> Ends;
-  double EndsCost = 0.0;
-  vtkSmartPointer<vtkDoubleArray> Displacements;
+  std::vector<StoreSlot> Maps;            // by the inputs
+  StoreSlot Found;                        // BlendPositions
   vtkSmartPointer<vtkCellArray> Vertices; // reused while the number of particles is the same
   // The arrays of the last output, reused if they have no other owner: the system clears new
   // memory, and that takes as long as all other work after the maps.

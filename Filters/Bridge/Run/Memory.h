@@ -69,6 +69,19 @@ vtkSmartPointer<ArrayT> newArray(const std::string& name, int components, vtkIdT
   return array;
 }
 
+// A VTK array of values that are there, which it takes.
+template <class ArrayT>
+vtkSmartPointer<ArrayT> arrayOf(
+  const std::string& name, int components, LargeBuffer<typename ArrayT::ValueType>& values)
+{
+  auto array = vtkSmartPointer<ArrayT>::New();
+  const std::int64_t count = values.size();
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(components);
+  array->SetArray(values.release(), count, 0, vtkAbstractArray::VTK_DATA_ARRAY_ALIGNED_FREE);
+  return array;
+}
+
 } // namespace RectifiedTransport::Bridge
 
 #endif

@@ -55,6 +55,8 @@ public:
     return std::static_pointer_cast<T>(this->Object);
   }
   void Release() { *this = StoreSlot(); }
+  // For data of the content that is kept: takes their times.
+  void TakeTimes(const DataIdentity& of) { this->Of = this->Holds(of) ? this->Of : of; }
 
   // Returns the object of these data: the one that is kept here or, if it may be shared, by another
   // filter, else a new one, which make() returns. Before that, what was kept is released; or

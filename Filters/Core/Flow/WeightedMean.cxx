@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/WeightedMean.h"
 
+#include "Core/Parallel/Progress.h"
+
 #include <algorithm>
 
 namespace RectifiedTransport
@@ -44,6 +46,15 @@ void writeWeightedMean(const std::vector<WeightedPositions>& parts, std::int64_t
       isFirst = false;
     }
   }
+}
+
+void writeWeightedMean(
+  const std::vector<WeightedPositions>& parts, PointSpan<3> mean, const Context& context)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+  Progress progress(context);
+  progress.For(mean.size(), grain,
+    [&](std::int64_t first, std::int64_t last) { writeWeightedMean(parts, first, last, mean); });
 }
 
 } // namespace RectifiedTransport

@@ -5,6 +5,7 @@
 #define RectifiedTransport_WeightedMean_h
 
 #include "../Geometry/Points.h"
+#include "../Parallel/Context.h"
 
 #include <cstdint>
 #include <vector>
@@ -22,6 +23,9 @@ struct WeightedPositions
 // single part of weight 1 is copied bitwise. At least one weight is not 0.
 void writeWeightedMean(const std::vector<WeightedPositions>& parts, std::int64_t first,
   std::int64_t last, PointSpan<3> mean);
+// Writes all of them. Throws Cancelled.
+void writeWeightedMean(const std::vector<WeightedPositions>& parts, PointSpan<3> mean,
+  const Context& context = Context());
 
 } // namespace RectifiedTransport
 

@@ -92,6 +92,12 @@ public:
     this->Memory.reset(static_cast<T*>(memory));
   }
 
+  // The memory, for an owner that frees it with freeLarge.
+  T* release()
+  {
+    this->Count = 0;
+    return this->Memory.release();
+  }
   T* data() { return this->Memory.get(); }
   const T* data() const { return this->Memory.get(); }
   std::int64_t size() const { return this->Count; }
