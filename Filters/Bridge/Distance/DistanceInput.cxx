@@ -4,11 +4,8 @@
 #include "Bridge/Density/DensityMass.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Density/WholeValues.h"
-#include "Bridge/Run/Fingerprint.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
-
-#include <algorithm>
 
 namespace RectifiedTransport::Bridge
 {
@@ -27,8 +24,8 @@ DistanceInput read(InputDensity& density, Progress& progress)
   const GridSize<D> size = input.Grid.Size<D>();
   input.Mass =
     requireMass(density, DensityArray<D, double>(input.Values->GetPointer(0), size), progress);
-  input.Key.Hash = fingerprint({ input.Values }, progress);
-  std::copy(size.begin(), size.end(), input.Key.Cells.begin());
+  input.Identity.AddArray(input.Values);
+  input.Identity.Hash(progress);
   return input;
 }
 

@@ -4,17 +4,14 @@
 #define RectifiedTransport_DistanceInput_h
 
 #include "Bridge/Density/InputDensity.h"
-#include "Core/Distance/DensityMoments.h"
+#include "Bridge/Store/DataIdentity.h"
 #include "Core/Geometry/ImageGrid.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
 
-#include <array>
-#include <cstdint>
 #include <limits>
 #include <string>
-#include <tuple>
 
 namespace RectifiedTransport
 {
@@ -24,23 +21,6 @@ class Progress;
 namespace RectifiedTransport::Bridge
 {
 
-// What the distances of a density depend on: its values, on which grid of which box.
-struct DensityKey
-{
-  std::uint64_t Hash = 0;
-  std::array<std::int64_t, 3> Cells{};
-  std::array<double, 3> Sides{}; // of the box
-
-  bool operator==(const DensityKey& other) const { return this->All() == other.All(); }
-  bool operator<(const DensityKey& other) const { return this->All() < other.All(); }
-
-private:
-  std::tuple<std::uint64_t, std::array<std::int64_t, 3>, std::array<double, 3>> All() const
-  {
-    return { this->Hash, this->Cells, this->Sides };
-  }
-};
-
 struct DistanceInput
 {
   std::string Title; // in messages
@@ -48,10 +28,9 @@ struct DistanceInput
   double Time = std::numeric_limits<double>::quiet_NaN();
   DensityReading Reading;
   ImageGrid Grid;
-  double Mass = 0.0;      // density times cell measure
-  DensityKey Key;         // Sides are set later, those of one box for all
-  DensityMoments Moments; // with Linearized, in the units of Sides
-  // Of the cells, axis 0 of index space fastest; released as soon as nothing needs them.
+  double Mass = 0.0;     // density times cell measure
+  DataIdentity Identity; // of the values, hashed
+  // Of the cells, axis 0 of index space fastest, until it is added to the distances.
   vtkSmartPointer<vtkDoubleArray> Values;
 };
 

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Distance/DistanceSet.h"
+
+#include "Core/Geometry/Dispatch.h"
+#include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Stages.h"
+
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+#include <set>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Of as many maps as are made together: each thread makes one by itself.
+constexpr std::size_t mapsAtOnce = 16;
+// Larger densities are mapped one after the other, each by all threads.
+constexpr double mostCellsOfThread = 0x1p18;
+
+template <int D>
+GridSize<D> sizeOf(const GridSize<3>& cells)
+{
+  GridSize<D> size;
+  std::copy_n(cells.begin(), D, size.begin());
+  return size;
+}
+
+// Of the maps first, first + 1 ... each rank has made one; gives all to all.
+void shareMaps(
+  std::vector<std::shared_ptr<ReferenceImages>>& maps, std::size_t first, const Ranks& ranks)
+{
+  const std::size_t own = first + static_cast<std::size_t>(ranks.Own());
+  const bool hasOne = own < maps.size();
+  const std::vector<Bytes> all =
+    ranks.Gather(hasOne ? toBytes(maps[own]->Coordinates.data(),
+                            static_cast<std::size_t>(maps[own]->Coordinates.size()))
+                        : Bytes());
+  for (std::size_t i = first; i < std::min(maps.size(), first + all.size()); ++i)
+  {
+    const Bytes& bytes = all[i - first];
+    if (i != own)
+    {
+      maps[i] = std::make_shared<ReferenceImages>();
+      maps[i]->Coordinates =
+        LargeBuffer<double>(static_cast<std::int64_t>(bytes.size() / sizeof(double)));
+      std::memcpy(maps[i]->Coordinates.data(), bytes.data(), bytes.size());
+    }
+  }
+}
+
+// So that a result does not depend on the order of the densities.
+template <class Name>
+std::pair<Name, Name> ordered(const Name& a, const Name& b)
+{
+  return b < a ? std::make_pair(b, a) : std::make_pair(a, b);
+}
+
+template <int D>
+DensityMoments momentsIn(const double* values, const GridSize<3>& cells,
+  const std::vector<double>& sides, const Context& context)
+{
+  Point<D> lengths;
+  std::copy_n(sides.begin(), D, lengths.begin());
+  const GridSize<D> size = sizeOf<D>(cells);
+  return momentsOf<D>(DensityArray<D, double>(values, size), size, lengths, context);
+}
+
+template <int D>
+double memoryOfMap(const GridSize<3>& cells, const std::vector<double>& sides)
+{
+  Point<D> lengths;
+  std::copy_n(sides.begin(), D, lengths.begin());
+  return memoryForReference<D>(sizeOf<D>(cells), lengths);
+}
+
+template <int D>
+double memoryOfPair(const GridSize<3>& cells)
+{
+  return memoryForBracket<D>(sizeOf<D>(cells));
+}
+
+double cellsOf(const GridSize<3>& cells)
+{
+  return numberOfCells<3>(cells);
+}
+
+// work(item, context) for all items, on this rank.
+template <class Work>
+void forItems(std::int64_t count, double cells, Progress& progress, const Work& work)
+{
+  if (cells <= mostCellsOfThread)
+  {
+    static const SerialExecutor serial;
+    progress.For(
+      count, 1,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          work(i, Context(serial, {}, [&]() { return progress.ShouldStop(); }));
+        }
+      },
+      1);
+    return;
+  }
+  Parts parts(progress, count);
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    Context context = parts[i];
+    context.Group = &SoloRanks::Get();
+    work(i, context);
+  }
+}
+
+// The items of [0, count) that this rank does: every so many, as neighbours may be alike.
+std::vector<std::int64_t> itemsOfRank(std::int64_t count, const Ranks& ranks)
+{
+  std::vector<std::int64_t> items;
+  for (std::int64_t i = ranks.Own(); i < count; i += ranks.Count())
+  {
+    items.push_back(i);
+  }
+  return items;
+}
+
+} // namespace
+
+void DistanceSet::Begin(DistanceMethod method, const std::vector<double>& sides)
+{
+  this->Method = method;
+  this->Sides = sides;
+  this->Given.clear();
+  this->Waiting.clear();
+}
+
+template <int D>
+Point<D> DistanceSet::SidesOf() const
+{
+  Point<D> sides;
+  std::copy_n(this->Sides.begin(), D, sides.begin());
+  return sides;
+}
+
+bool DistanceSet::Add(
+  const Name& name, const GridSize<3>& cells, Values values, const Context& context)
+{
+  Density density{ name, cells, std::move(values), {} };
+  const auto ranks = static_cast<std::size_t>(context.Group->Count());
+  if (this->Method == DistanceMethod::Linearized)
+  {
+    density.Moments = dispatchDimension(this->Dimension(), momentsIn<1>, momentsIn<2>,
+      momentsIn<3>)(density.Cell.get(), cells, this->Sides, *context.Threads);
+    const bool waits = std::any_of(this->Waiting.begin(), this->Waiting.end(),
+      [&](std::size_t other) { return this->Given[other].Key == name; });
+    const bool isNew = !waits && this->Maps.count(name) == 0;
+    const auto place = static_cast<int>(this->Waiting.size() % ranks);
+    if (!isNew || place != context.Group->Own())
+    {
+      density.Cell = nullptr;
+    }
+    if (isNew)
+    {
+      this->Waiting.push_back(this->Given.size());
+    }
+  }
+  this->Given.push_back(std::move(density));
+  return this->Waiting.size() >= mapsAtOnce * ranks;
+}
+
+double DistanceSet::CellsOfMaps() const
+{
+  double cells = 0.0;
+  for (const std::size_t waiting : this->Waiting)
+  {
+    cells = std::max(cells, cellsOf(this->Given[waiting].Cells));
+  }
+  return cells;
+}
+
+double DistanceSet::MemoryForMaps() const
+{
+  double bytes = 0.0;
+  for (const std::size_t waiting : this->Waiting)
+  {
+    const auto memory =
+      dispatchDimension(this->Dimension(), memoryOfMap<1>, memoryOfMap<2>, memoryOfMap<3>);
+    bytes = std::max(bytes, memory(this->Given[waiting].Cells, this->Sides));
+  }
+  return bytes;
+}
+
+void DistanceSet::MakeMaps(const Context& context)
+{
+  Progress progress(context);
+  const auto make = dispatchDimension(this->Dimension(), &DistanceSet::MakeMapsIn<1>,
+    &DistanceSet::MakeMapsIn<2>, &DistanceSet::MakeMapsIn<3>);
+  (this->*make)(progress);
+}
+
+template <int D>
+void DistanceSet::MakeMapsIn(Progress& progress)
+{
+  const Ranks& ranks = progress.Group();
+  const auto count = static_cast<std::int64_t>(this->Waiting.size());
+  const std::vector<std::int64_t> own = itemsOfRank(count, ranks);
+  const Point<D> sides = this->SidesOf<D>();
+  std::vector<std::shared_ptr<ReferenceImages>> made(this->Waiting.size());
+  forItems(static_cast<std::int64_t>(own.size()), this->CellsOfMaps(), progress,
+    [&](std::int64_t item, const Context& context) {
+      const auto place = static_cast<std::size_t>(own[static_cast<std::size_t>(item)]);
+      Density& density = this->Given[this->Waiting[place]];
+      const DensityArray<D, double> values(density.Cell.get(), sizeOf<D>(density.Cells));
+      made[place] = std::make_shared<ReferenceImages>(mapReference<D>(values, sides, context));
+      density.Cell = nullptr;
+    });
+  for (std::size_t first = 0; first < made.size() && ranks.AreSeveral();
+       first += static_cast<std::size_t>(ranks.Count()))
+  {
+    shareMaps(made, first, ranks);
+  }
+  for (std::size_t i = 0; i < made.size(); ++i)
+  {
+    this->Maps[this->Given[this->Waiting[i]].Key] = made[i];
+  }
+  this->Solutions += count;
+  this->Waiting.clear();
+}
+
+double DistanceSet::MemoryForPairs() const
+{
+  const bool isCertified = this->Method == DistanceMethod::Certified;
+  return isCertified && !this->MissingPairs().empty()
+    ? dispatchDimension(this->Dimension(), memoryOfPair<1>, memoryOfPair<2>, memoryOfPair<3>)(
+        this->Given.front().Cells)
+    : 0.0;
+}
+
+std::vector<SquaredBracket> DistanceSet::Find(const Context& context)
+{
+  Progress progress(context);
+  const auto find = dispatchDimension(this->Dimension(), &DistanceSet::FindMissing<1>,
+    &DistanceSet::FindMissing<2>, &DistanceSet::FindMissing<3>);
+  (this->*find)(progress);
+  this->KeepOnlyGiven();
+  std::vector<SquaredBracket> all;
+  for (std::size_t i = 0; i < this->Given.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < this->Given.size(); ++j)
+    {
+      SquaredBracket& pair = all.emplace_back();
+      const auto found = this->Known().find(ordered(this->Given[i].Key, this->Given[j].Key));
+      if (found != this->Known().end()) // else both are the same
+      {
+        pair = found->second;
+      }
+      if (this->Method == DistanceMethod::Linearized)
+      {
+        pair.Lower = leastSquaredDistance(this->Given[i].Moments, this->Given[j].Moments);
+        // Where both meet, the errors of the maps may part them the wrong way.
+        pair.Upper = std::max(pair.Upper, pair.Lower);
+      }
+    }
+  }
+  return all;
+}
+
+std::vector<DistanceSet::NamePair> DistanceSet::MissingPairs() const
+{
+  const auto& known = this->Pairs[static_cast<std::size_t>(this->Method)];
+  std::set<NamePair> missing;
+  for (std::size_t i = 0; i < this->Given.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < this->Given.size(); ++j)
+    {
+      const NamePair pair = ordered(this->Given[i].Key, this->Given[j].Key);
+      if (!(pair.first == pair.second) && known.count(pair) == 0)
+      {
+        missing.insert(pair);
+      }
+    }
+  }
+  return { missing.begin(), missing.end() };
+}
+
+template <int D>
+SquaredBracket DistanceSet::FindPair(const NamePair& pair, const Context& context) const
+{
+  if (this->Method == DistanceMethod::Linearized)
+  {
+    return { 0.0, meanSquaredDistance<D>(*this->Maps.at(pair.first), *this->Maps.at(pair.second)) };
+  }
+  const auto valuesOf = [this](const Name& name) -> DensityArray<D, double> {
+    const auto density = std::find_if(this->Given.begin(), this->Given.end(),
+      [&](const Density& given) { return given.Key == name; });
+    return { density->Cell.get(), sizeOf<D>(density->Cells) };
+  };
+  return bracketDistance<D>(
+    valuesOf(pair.first), valuesOf(pair.second), this->SidesOf<D>(), context);
+}
+
+template <int D>
+void DistanceSet::FindMissing(Progress& progress)
+{
+  const Ranks& ranks = progress.Group();
+  const std::vector<NamePair> missing = this->MissingPairs();
+  const std::vector<std::int64_t> own =
+    itemsOfRank(static_cast<std::int64_t>(missing.size()), ranks);
+  std::vector<SquaredBracket> found(own.size());
+  const bool isCertified = this->Method == DistanceMethod::Certified;
+  forItems(static_cast<std::int64_t>(own.size()),
+    isCertified ? cellsOf(this->Given.front().Cells) : 0.0, progress,
+    [&](std::int64_t item, const Context& context) {
+      const auto place = static_cast<std::size_t>(item);
+      found[place] = this->FindPair<D>(missing[static_cast<std::size_t>(own[place])], context);
+    });
+  this->Solutions += isCertified ? static_cast<std::int64_t>(missing.size()) : 0;
+  const std::vector<Bytes> all = ranks.Gather(toBytes(found));
+  for (std::size_t rank = 0; rank < all.size(); ++rank)
+  {
+    const std::vector<SquaredBracket> theirs = fromBytes<SquaredBracket>(all[rank]);
+    for (std::size_t i = 0; i < theirs.size(); ++i)
+    {
+      this->Known()[missing[rank + i * all.size()]] = theirs[i];
+    }
+  }
+}
+
+// So that memory does not grow with each change of the inputs.
+void DistanceSet::KeepOnlyGiven()
+{
+  std::set<Name> given;
+  for (const Density& density : this->Given)
+  {
+    given.insert(density.Key);
+  }
+  for (auto map = this->Maps.begin(); map != this->Maps.end();)
+  {
+    map = given.count(map->first) == 0 ? this->Maps.erase(map) : std::next(map);
+  }
+  for (auto& pairs : this->Pairs)
+  {
+    for (auto pair = pairs.begin(); pair != pairs.end();)
+    {
+      const bool isUsed = given.count(pair->first.first) > 0 && given.count(pair->first.second) > 0;
+      pair = isUsed ? std::next(pair) : pairs.erase(pair);
+    }
+  }
+}
+
+} // namespace RectifiedTransport
