@@ -6,7 +6,10 @@
 
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Density/OptimalMemory.h"
+#include "Bridge/Run/Memory.h"
 #include "Bridge/Settings/OptimalSettings.h"
+#include "Core/Geometry/LengthScale.h"
+#include "Core/Parallel/Stages.h"
 #include "Core/Plan/TransportPlan.h"
 
 #include "vtkDoubleArray.h"
@@ -67,13 +70,35 @@ void addCostBound(vtkDataObject* output, double bound, double cost, const ImageG
 // Throws std::overflow_error as LengthScale.
 template <int D>
 void addBound(const TransportPlan<D>& plan, const ImageGrid& box, double cost,
-  const ImageGrid& grid, vtkDataObject* output);
+  const ImageGrid& grid, vtkDataObject* output)
+{
+  if (plan.Certificate())
+  {
+    addCostBound(output, LengthScale(box).CostFromUnits(plan.LowerBound()), cost, grid);
+  }
+}
 
 // The array Slack of points and their images, in squared physical units of a plan that has a map
 // and lengths in the LengthScale of `box`. Throws Failure and Cancelled.
 template <int D>
 vtkSmartPointer<vtkDoubleArray> slackOf(const TransportPlan<D>& plan, const ImageGrid& box,
-  ConstPointSpan<D> points, ConstPointSpan<D> images, Progress& progress);
+  ConstPointSpan<D> points, ConstPointSpan<D> images, Progress& progress)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+  const std::int64_t count = points.size();
+  const LengthScale scale(box);
+  auto array = newArray<vtkDoubleArray>("Slack", 1, count);
+  double* slack = array->GetPointer(0);
+  Stages stages(progress, { { "slack", 9 }, { "units", 1 } });
+  plan.Certificate()->Slack(points, images, slack, stages["slack"]);
+  stages["units"].For(count, grain, [=](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      slack[i] = scale.SquareFromUnits(slack[i]);
+    }
+  });
+  return array;
+}
 
 } // namespace RectifiedTransport::Bridge
 

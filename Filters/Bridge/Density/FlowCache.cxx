@@ -40,8 +40,8 @@ void addSetting(const OptimalSetting& setting, const PlanEnd<D>& end, DataIdenti
 const SharedFlow& FlowCache::Update(
   InputDensity& density, Progress& progress, FlowTables tables, const OptimalNeeds& needs)
 {
-  const auto kept = this->Tables.Kept<SharedFlow>();
-  if (kept && kept->Tables() != tables)
+  // Nobody else may own what is kept here while other tables take its memory.
+  if (!this->Tables.IsEmpty() && this->Tables.Kept<SharedFlow>()->Tables() != tables)
   {
     this->Release();
   }

@@ -228,13 +228,13 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
     report.Transport = TransportReport(plan);
     report.Flow = points.Flow(plan, stages["points"]);
     std::shared_ptr<const AreaCorrection<D>> correction;
-    if (equalizes && (input->GetNumberOfPoints() > 0 || plan.HasMap()))
+    if (equalizes && (input->GetNumberOfPoints() > 0 || plan.Certificate()))
     {
       correction = cache.Correction<D>(plan, optimal, options, stages["areas"]);
       points.Correct(*correction, stages["correction"]);
       passes = correction->Report().Passes;
     }
-    if (plan.HasMap())
+    if (plan.Certificate())
     {
       const std::string purpose = "the images of " +
         std::to_string(density.Grid().NumberOfCells()) + " cells (" + optimal.Advice() + ")";

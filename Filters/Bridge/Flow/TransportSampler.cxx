@@ -207,7 +207,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     else if (times.back() == 1.0 && times.size() == 1)
     {
       report.Flow = plan.Forward(starts, positions, stages["flow"]);
-      if (plan.HasMap())
+      if (plan.Certificate())
       {
         slack = slackOf<D>(plan, grid, seeds, positions, stages["slack"]);
       }

@@ -98,7 +98,7 @@ private:
     ConstPointSpan<D> images, Progress& progress)
   {
     LargeBuffer<double> slack(this->Count);
-    plan.Slack(points, images, slack.data(), progress);
+    plan.Certificate()->Slack(points, images, slack.data(), progress);
     double* sum = this->Result.Slack.data();
     this->Work.Threads().For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)

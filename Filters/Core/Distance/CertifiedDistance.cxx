@@ -38,8 +38,8 @@ SquaredBracket bracketDistance(const DensitySource<Dimension>& a, const DensityS
   SquaredBracket bracket;
   bracket.Lower = plan.LowerBound();
   // Where they meet, rounding may part them the wrong way.
-  bracket.Upper =
-    std::max(bracket.Lower, plan.UpperBound(stages["upper bound"], (1.0 + enough) * bracket.Lower));
+  bracket.Upper = std::max(bracket.Lower,
+    plan.Certificate()->UpperBound(stages["upper bound"], (1.0 + enough) * bracket.Lower));
   return bracket;
 }
 

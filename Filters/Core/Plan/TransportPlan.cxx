@@ -198,9 +198,6 @@ TransportPlan<Dimension>::TransportPlan(std::array<std::optional<PlanEnd<Dimensi
 }
 
 template <int Dimension>
-TransportPlan<Dimension>::~TransportPlan() = default;
-
-template <int Dimension>
 typename TransportPlan<Dimension>::Map TransportPlan<Dimension>::Solve(
   const PlanEnd<Dimension>* source, const PlanEnd<Dimension>& target,
   const OptimalMapOptions& options, const Context& context)
@@ -229,39 +226,6 @@ typename TransportPlan<Dimension>::Map TransportPlan<Dimension>::Solve(
   release(target);
   map->Solve(stages["solution"]);
   return map;
-}
-
-template <int Dimension>
-double TransportPlan<Dimension>::MemoryFor(const GridSize<Dimension>& source,
-  const GridSize<Dimension>& target, const OptimalMapOptions& options, const OptimalMapUse& use)
-{
-  return OptimalMap<Dimension>::MemoryFor(source, target, options, use);
-}
-
-template <int Dimension>
-double TransportPlan<Dimension>::MemoryForSamples(
-  const GridSize<Dimension>& target, const OptimalMapUse& use)
-{
-  return OptimalMap<Dimension>::MemoryForSamples(target, use);
-}
-
-template <int Dimension>
-double TransportPlan<Dimension>::UpperBound(const Context& context, double enough) const
-{
-  return this->Optimal->UpperBound(context, enough);
-}
-
-template <int Dimension>
-void TransportPlan<Dimension>::Slack(ConstPointSpan<Dimension> points,
-  ConstPointSpan<Dimension> images, double* slack, const Context& context) const
-{
-  this->Optimal->Slack(points, images, slack, context);
-}
-
-template <int Dimension>
-const GridSize<Dimension>& TransportPlan<Dimension>::Size() const
-{
-  return this->Ends[0] ? this->Ends[0]->Size : this->Ends[1]->Size;
 }
 
 template <int Dimension>

@@ -85,38 +85,42 @@ public:
   // From one density to another.
   TransportPlan(PlanEnd<Dimension> source, PlanEnd<Dimension> target, const PlanOptions& options,
     const Context& context = Context(), Map map = nullptr);
-  ~TransportPlan() override;
 
   // Solves the map of a plan; without a source from the uniform measure. The densities are released
   // before it is solved.
   static Map Solve(const PlanEnd<Dimension>* source, const PlanEnd<Dimension>& target,
     const OptimalMapOptions& options, const Context& context = Context());
-  // About the most bytes of a map, while it is solved and used.
+  // As of OptimalMap: about the most bytes of a map, while it is solved and used.
   static double MemoryFor(const GridSize<Dimension>& source, const GridSize<Dimension>& target,
-    const OptimalMapOptions& options = {}, const OptimalMapUse& use = {});
+    const OptimalMapOptions& options = {}, const OptimalMapUse& use = {})
+  {
+    return OptimalMap<Dimension>::MemoryFor(source, target, options, use);
+  }
   // Of these, those that samples take beyond what a map has, while Forward moves them.
-  static double MemoryForSamples(const GridSize<Dimension>& target, const OptimalMapUse& use);
+  static double MemoryForSamples(const GridSize<Dimension>& target, const OptimalMapUse& use)
+  {
+    return OptimalMap<Dimension>::MemoryForSamples(target, use);
+  }
 
   // Whether the optimal map moves points; else flows do.
   bool IsOptimal() const { return this->Chosen.IsOptimal && this->Text.empty(); }
   // Why flows move the points of a plan that should be optimal; else empty.
   const std::string& Warning() const { return this->Text; }
 
-  // Whether there is a map that Slack and UpperBound ask.
-  bool HasMap() const { return this->Optimal != nullptr; }
+  // The map that says what is optimal, by Slack and UpperBound; nullptr if there is none.
+  const OptimalMap<Dimension>* Certificate() const { return this->Optimal.get(); }
   // No map between the two densities costs less, in squared lengths; 0 where no map was wanted.
   double LowerBound() const { return this->Bound; }
-  // See OptimalMap.
-  double UpperBound(const Context& context = Context(), double enough = 0.0) const;
-  void Slack(ConstPointSpan<Dimension> points, ConstPointSpan<Dimension> images, double* slack,
-    const Context& context = Context()) const;
 
   // Where flows move points, makes those that are missing now, in the memory of the map: the bound
   // alone stays.
   void MakeFlows(const Context& context = Context());
 
   // The source's index space.
-  const GridSize<Dimension>& Size() const override;
+  const GridSize<Dimension>& Size() const override
+  {
+    return this->Ends[0] ? this->Ends[0]->Size : this->Ends[1]->Size;
+  }
   const PlanEnd<Dimension>& Target() const { return *this->Ends[1]; }
 
   // Moves points with a report for each flow on their way, in the order of that way; one for the

@@ -47,7 +47,7 @@ TYPED_TEST(Plans, MoveByTheFlowOfADensity)
   const TestDensity<D> density = twoGaussians<D>(evenSize<D>(24));
   const TransportPlan<D> plan(endOf(density), PlanOptions());
   EXPECT_FALSE(plan.IsOptimal());
-  EXPECT_FALSE(plan.HasMap());
+  EXPECT_FALSE(plan.Certificate());
   EXPECT_EQ(plan.Warning(), "");
   EXPECT_EQ(plan.LowerBound(), 0.0);
   EXPECT_EQ(plan.Size(), density.Size);
@@ -89,7 +89,7 @@ TYPED_TEST(Plans, MoveByTheOptimalMap)
   fromUniform.Forward(FlowSeeds<D>(seeds).AsSamples(), expected);
   EXPECT_TRUE(sameBits<D>(images, expected));
   std::vector<double> slack(2 * seeds.size());
-  one.Slack(seeds, images, slack.data());
+  one.Certificate()->Slack(seeds, images, slack.data());
   fromUniform.Slack(seeds, images, slack.data() + seeds.size());
   EXPECT_TRUE(
     std::equal(slack.begin(), slack.begin() + seeds.size(), slack.begin() + seeds.size()));
@@ -110,7 +110,7 @@ TYPED_TEST(Plans, MoveByTwoFlows)
   TransportPlan<D> plan(endOf(source), endOf(target), options);
   const double bound = plan.LowerBound();
   EXPECT_GT(bound, 0.0);
-  EXPECT_TRUE(plan.HasMap());
+  EXPECT_TRUE(plan.Certificate());
   EXPECT_EQ(plan.Target().Size, target.Size);
   const auto from = source.Source();
   const auto to = target.Source();
@@ -148,7 +148,7 @@ TYPED_TEST(Plans, MoveByTwoFlows)
   const Point<D> nothing = evenPoint<D>(-1.0);
   std::fill(images.begin(), images.end(), nothing);
   plan.MakeFlows();
-  EXPECT_FALSE(plan.HasMap());
+  EXPECT_FALSE(plan.Certificate());
   EXPECT_EQ(plan.LowerBound(), bound);
   plan.Forward(FlowSeeds<D>::Lattice(lattice, { part, LatticePart<D>::WholeOf(lattice) }), images);
   for (std::size_t i = 0; i < images.size(); ++i)
@@ -228,8 +228,8 @@ TEST(Plan, BoundsFromBothSides)
     endOf(ballAt<2>(size, { 0.4, 0.5 })), endOf(ballAt<2>(size, { 0.6, 0.5 })), options);
   EXPECT_LE(plan.LowerBound(), 0.04 + 1e-9);
   EXPECT_GE(plan.LowerBound(), 0.039);
-  EXPECT_GE(plan.UpperBound(), plan.LowerBound());
-  EXPECT_LE(plan.UpperBound(), 0.041);
+  EXPECT_GE(plan.Certificate()->UpperBound(), plan.LowerBound());
+  EXPECT_LE(plan.Certificate()->UpperBound(), 0.041);
 }
 
 // Places of grids in a box, in lengths of its diagonal's power of two.

@@ -23,7 +23,9 @@ CORE = {
     "Quality": {"Parallel", "Geometry", "Tables", "Flow"},
     "PowerCells": {"Parallel", "Algebra", "Geometry", "Tables"},
     "Relaxation": {"Parallel", "Algebra", "Geometry", "Tables", "Flow", "PowerCells"},
-    "Distance": {"Parallel", "Tables", "OptimalMap"},
+    "Plan": {"Parallel", "Geometry", "Tables", "Flow", "OptimalMap"},
+    "Blend": {"Parallel", "Geometry", "Flow", "Splat", "Plan"},
+    "Distance": {"Parallel", "Geometry", "Tables", "Plan"},
     "Seeds": {"Parallel", "Geometry"},
     "Series": {"Parallel", "Geometry", "Tables", "Flow", "Splat"},
     "Splat": {"Parallel", "Geometry"},
@@ -42,7 +44,7 @@ OPTIMAL_MAP = {
     "Masses": ({"Nodes"}, {"Parallel", "Geometry", "Grid", "Tables"}),
 }
 RUN = {"Run"}
-WORKERS = RUN | {"Image", "Points", "Settings", "Density", "Ranks"}
+WORKERS = RUN | {"Image", "Points", "Settings", "Density", "Ranks", "Store"}
 BRIDGE = {
     "Pipeline": set(),
     "Device": set(),
@@ -53,9 +55,10 @@ BRIDGE = {
     "Settings": RUN,
     "Triangles": RUN | {"Points"},
     "Drawing": RUN | {"Points"},
-    "Density": RUN | {"Image", "Points", "Settings", "Ranks"},
-    "Blocks": RUN | {"Image", "Points", "Ranks"},
-    "Cells": RUN | {"Image", "Points", "Ranks", "Density", "Blocks"},
+    "Store": RUN,
+    "Density": RUN | {"Image", "Points", "Settings", "Ranks", "Store"},
+    "Blocks": RUN | {"Image", "Points", "Ranks", "Store"},
+    "Cells": RUN | {"Image", "Points", "Ranks", "Density", "Blocks", "Store"},
     "Blend": WORKERS | {"Splat"},
     "Distance": WORKERS,
     "Temporal": WORKERS | {"Splat"},
@@ -106,6 +109,26 @@ class Includes(unittest.TestCase):
 
     def test_bridge(self):
         self.check("Bridge", BRIDGE)
+
+    def outside(self, pattern, *places):
+        """The files outside of some places in which a pattern is found."""
+        return [path for path, text in sources("**", "*")
+                if not path.startswith(places) and re.search(pattern, text)]
+
+    def test_plans(self):
+        """All maps between two densities are plans: a second class of them, or an optimal map that is
+        solved elsewhere, would need its own fall-back, bound and memory."""
+        solvers = tuple(os.path.join("Core", room, "") for room in ("Plan", "Flow", "OptimalMap"))
+        self.assertEqual(self.outside(r":\s*public\s+PointTransport\b", *solvers), [])
+        self.assertEqual(self.outside(r'#include "(?:Core|[.][.])/OptimalMap/', *solvers), [])
+
+    def test_store(self):
+        """What was computed is kept and shared in one place, and compared in one way. Devices are no
+        results; the others hash what they read for DataIdentity."""
+        self.assertEqual(self.outside(r"\bweak_ptr\b", *(os.path.join(*place) for place in (
+            ("Bridge", "Store", ""), ("Bridge", "Device", ""), ("Core", "Flow", "Devices", "")))), [])
+        self.assertEqual(self.outside(r"\bfingerprint\(", *(os.path.join("Bridge", place, "")
+                                                          for place in ("Store", "Run", "Density"))), [])
 
     def test_relative_paths(self):
         """Public headers of Core include each other by them, where no other project's folder Core can come
