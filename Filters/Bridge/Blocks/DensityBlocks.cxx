@@ -56,7 +56,7 @@ std::uint64_t timeOf(vtkDataObject* data)
   return static_cast<std::uint64_t>(newest);
 }
 
-void addCells(vtkCellArray* cells, DataContent& content)
+void addCells(vtkCellArray* cells, DataIdentity& content)
 {
   content.AddTimeOf(cells);
   content.AddArray(cells ? cells->GetOffsetsArray() : nullptr);
@@ -75,7 +75,7 @@ bool mayHavePolyhedra(vtkUnstructuredGrid* grid)
   return std::find(first, last, static_cast<unsigned char>(VTK_POLYHEDRON)) != last;
 }
 
-void addExtent(const int* extent, DataContent& content)
+void addExtent(const int* extent, DataIdentity& content)
 {
   for (int i = 0; i < 6; ++i)
   {
@@ -163,7 +163,7 @@ std::vector<DensityBlock> densityBlocks(
   return blocks;
 }
 
-void addGeometry(const DensityBlock& block, DataContent& content)
+void addGeometry(const DensityBlock& block, DataIdentity& content)
 {
   vtkDataSet* data = block.Data;
   content.AddTime(block.Time);
@@ -222,7 +222,7 @@ void addGeometry(const DensityBlock& block, DataContent& content)
   }
 }
 
-void addArrays(const DensityBlock& block, DataContent& content)
+void addArrays(const DensityBlock& block, DataIdentity& content)
 {
   for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
   {

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_DensityBlocks_h
 #define RectifiedTransport_DensityBlocks_h
 
-#include "Bridge/Blocks/DataContent.h"
+#include "Bridge/Store/DataIdentity.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Ranks.h"
 
@@ -90,8 +90,8 @@ std::vector<DensityBlock> densityBlocks(vtkDataObject* data, OtherLeaves* others
   Progress* progress = nullptr, const Ranks& ranks = SoloRanks::Get());
 
 // Adds everything that a block's points and cells are made of, with ghost flags; and all arrays.
-void addGeometry(const DensityBlock& block, DataContent& content);
-void addArrays(const DensityBlock& block, DataContent& content);
+void addGeometry(const DensityBlock& block, DataIdentity& content);
+void addArrays(const DensityBlock& block, DataIdentity& content);
 
 } // namespace RectifiedTransport::Bridge
 

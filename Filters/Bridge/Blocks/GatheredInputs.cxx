@@ -26,9 +26,9 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-DataContent contentOf(const std::vector<DensityBlock>& blocks)
+DataIdentity contentOf(const std::vector<DensityBlock>& blocks)
 {
-  DataContent content;
+  DataIdentity content;
   for (const DensityBlock& block : blocks)
   {
     content.AddNumber(static_cast<std::uint64_t>(block.Number));
@@ -101,7 +101,7 @@ vtkSmartPointer<vtkDataObject> gatherAny(vtkDataObject* own, GatheredKind kind, 
 const std::vector<DensityBlock>& GatheredBlocks::Gather(
   const std::vector<DensityBlock>& own, const Ranks& ranks, Progress& progress)
 {
-  DataContent content = contentOf(own);
+  DataIdentity content = contentOf(own);
   if (onAllRanks(ranks, content.IsSameAs(this->Content, progress)))
   {
     return this->Blocks;
@@ -112,7 +112,7 @@ const std::vector<DensityBlock>& GatheredBlocks::Gather(
     const auto time = static_cast<std::uint64_t>(part.Data->GetMTime());
     this->Blocks.push_back({ part.Data, part.Name, part.Number, time });
   }
-  content.Keep(progress);
+  content.Hash(progress);
   this->Content = std::move(content);
   return this->Blocks;
 }

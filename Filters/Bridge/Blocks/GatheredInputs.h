@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_GatheredInputs_h
 #define RectifiedTransport_GatheredInputs_h
 
-#include "Bridge/Blocks/DataContent.h"
 #include "Bridge/Blocks/DensityBlocks.h"
+#include "Bridge/Store/DataIdentity.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Ranks.h"
 
@@ -37,7 +37,7 @@ public:
     const std::vector<DensityBlock>& own, const Ranks& ranks, Progress& progress);
 
 private:
-  DataContent Content; // what this rank's blocks have
+  DataIdentity Content; // what this rank's blocks have
   std::vector<DensityBlock> Blocks;
 };
 

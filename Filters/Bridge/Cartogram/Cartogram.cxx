@@ -267,7 +267,7 @@ private:
 
   CartogramStart FindStart(Progress& progress)
   {
-    DataContent content;
+    DataIdentity content;
     vtkPolyData* data = this->Cells.Data;
     content.AddArray(data->GetPoints()->GetData());
     for (vtkCellArray* cells : { data->GetLines(), data->GetPolys() })
@@ -286,7 +286,7 @@ private:
     {
       return this->Kept.Start;
     }
-    content.Keep(progress);
+    content.Hash(progress);
     this->Kept = { std::move(content), {} }; // an abort may follow
     return {};
   }

@@ -3,9 +3,9 @@
 #ifndef RectifiedTransport_CartogramWorker_h
 #define RectifiedTransport_CartogramWorker_h
 
-#include "Bridge/Blocks/DataContent.h"
 #include "Bridge/Cartogram/OverlayParts.h"
 #include "Bridge/Cartogram/RegionCells.h"
+#include "Bridge/Store/DataIdentity.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Cartogram/Cartogram.h"
 
@@ -27,7 +27,7 @@ namespace RectifiedTransport::Bridge
 // Kept between runs: what depends on the regions' shapes alone.
 struct KeptMap
 {
-  DataContent Content;
+  DataIdentity Content;
   CartogramStart Start;
 };
 

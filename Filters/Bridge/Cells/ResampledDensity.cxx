@@ -42,13 +42,13 @@ std::vector<DensityBlock> withMass(const std::vector<DensityBlock>& blocks)
   return with;
 }
 
-DataContent contentOf(const DensityBlocks& blocks, int resolution, const DensityRules& rules)
+DataIdentity contentOf(const DensityBlocks& blocks, int resolution, const DensityRules& rules)
 {
   // Images may be joined, with all their arrays.
   const bool mayJoin = blocks.All.size() > 1 &&
     std::all_of(blocks.All.begin(), blocks.All.end(),
       [](const DensityBlock& block) { return vtkImageData::SafeDownCast(block.Data) != nullptr; });
-  DataContent content;
+  DataIdentity content;
   for (const DensityBlock& block : blocks.All)
   {
     addGeometry(block, content);
@@ -148,7 +148,7 @@ private:
 std::unique_ptr<InputDensity> ResampledDensity::Read(
   const DensityBlocks& blocks, int resolution, const DensityRules& rules, Progress& progress)
 {
-  DataContent content = contentOf(blocks, resolution, rules);
+  DataIdentity content = contentOf(blocks, resolution, rules);
   if (!content.IsSameAs(this->Content, progress))
   {
     *this = ResampledDensity();
@@ -157,7 +157,7 @@ std::unique_ptr<InputDensity> ResampledDensity::Read(
     {
       this->Resample(blocks, resolution, rules, progress);
     }
-    content.Keep(progress);
+    content.Hash(progress);
     this->Content = std::move(content);
   }
   // The data sets may be new ones with the same content.

@@ -3,10 +3,10 @@
 #ifndef RectifiedTransport_ResampledDensity_h
 #define RectifiedTransport_ResampledDensity_h
 
-#include "Bridge/Blocks/DataContent.h"
 #include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Cells/BlockValues.h"
 #include "Bridge/Density/InputDensity.h"
+#include "Bridge/Store/DataIdentity.h"
 #include "Core/Resampling/CellLattice.h"
 #include "Core/Resampling/CellPieces.h"
 
@@ -50,8 +50,8 @@ private:
     double* values) const;
   void FillEmpty(const ImageGrid& grid, const EmptyRule& rule, Progress& progress, double* values);
 
-  DataContent Content; // what the last Read got
-  DensityReading How;  // of resampled data
+  DataIdentity Content; // what the last Read got
+  DensityReading How;   // of resampled data
   vtkSmartPointer<vtkImageData> Image;
   // If the image was resampled: the data sets with mass, the lattice of their cells if they form
   // one, and findings about values that are probably not meant.
