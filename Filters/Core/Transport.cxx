@@ -5,7 +5,6 @@
 #include "Core/Flow/MapDerivatives.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/ImageGrid.h"
-#include "Core/OptimalMap/OptimalMap.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Seeds/UnitSeeds.h"
 #include "Core/SiteCells/DensitySiteCells.h"
@@ -27,25 +26,16 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 
-// The map between the uniform measure and a density: what is asked for, or the flow where the
-// density is too thin for the optimal map.
+// The map between the uniform measure and a density.
 template <int D>
-std::unique_ptr<PointTransport<D>> makeTransport(
+TransportPlan<D> makePlan(
   const BoxDensity<D>& density, const MethodOptions& options, Progress& progress)
 {
-  if (options.Method == MapMethod::Optimal)
-  {
-    OptimalMapOptions optimal;
-    optimal.Tolerance = options.Tolerance;
-    auto map =
-      std::make_unique<OptimalMap<D>>(density.Source(), density.Sides(), optimal, progress);
-    map->Solve(progress);
-    if (isResolved(*map, progress))
-    {
-      return map;
-    }
-  }
-  return std::make_unique<RectifiedFlow<D>>(density.Source(), progress);
+  PlanOptions plan;
+  plan.IsOptimal = options.Method == MapMethod::Optimal;
+  plan.Flow = options.Flow;
+  plan.Optimal.Tolerance = options.Tolerance;
+  return TransportPlan<D>(planEnd(density), plan, progress);
 }
 
 // The density of ink in a picture.
@@ -169,8 +159,8 @@ std::vector<Point<Dimension>> sample(const BoxDensity<Dimension>& density, std::
   scalePoints<Dimension>(cells, points, stages["seeds"]);
   MethodOptions method = options.Map;
   method.Flow.Particles = pattern.Count();
-  const auto map = makeTransport(density, method, stages["map"]);
-  map->Forward(FlowSeeds<Dimension>(points).AsSamples(), points, method.Flow, stages["points"]);
+  const auto plan = makePlan(density, method, stages["map"]);
+  plan.Forward(FlowSeeds<Dimension>(points).AsSamples(), points, stages["points"]);
   scalePoints<Dimension>(cellSides(density), points, stages["points"]);
   return points;
 }
@@ -188,16 +178,16 @@ SampledMap<Dimension> map(const BoxDensity<Dimension>& density,
   sampled.Displacement.resize(size);
   sampled.Divergence.resize(size);
   sampled.Determinant.resize(size);
-  const auto transport = makeTransport(density, options.Map, stages["map"]);
+  const auto plan = makePlan(density, options.Map, stages["map"]);
   const auto seeds = FlowSeeds<Dimension>::Lattice(sampled.Samples);
   std::vector<Point<Dimension>>& images = sampled.Displacement; // at first
   if (options.Direction == FlowDirection::Forward)
   {
-    transport->Forward(seeds, images, options.Map.Flow, stages["samples"]);
+    plan.Forward(seeds, images, stages["samples"]);
   }
   else
   {
-    transport->Backward(seeds, images, options.Map.Flow, stages["samples"]);
+    plan.Backward(seeds, images, stages["samples"]);
   }
   const Point<Dimension> step = latticeStep<Dimension>(sampled.Samples, density.Cells());
   const MapDerivatives<Dimension> derivatives(sampled.Samples, step, images);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Densities between densities: particles of the uniform measure that are moved to each of them.
+#include "Core/Blend/MovedCells.h"
 #include "Core/Flow/PivotLattice.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Flow/WeightedMean.h"
@@ -61,13 +62,11 @@ public:
     Stages stages(progress, { { "map", 70 }, { "images", 30 } });
     BlendedInput<D>& a = this->Inputs[0];
     BlendedInput<D>& b = this->Inputs[1];
-    OptimalMapOptions options;
-    options.Tolerance = tolerance;
-    const Point<D>& sides = a.Density.Sides();
-    OptimalMap<D> map(
-      { a.Density.Source(), {}, sides }, { b.Density.Source(), {}, sides }, options, stages["map"]);
-    map.Solve(stages["map"]);
-    if (!isResolved(map, stages["images"]))
+    PlanOptions options;
+    options.IsOptimal = true;
+    options.Optimal.Tolerance = tolerance;
+    const TransportPlan<D> plan(planEnd(a.Density), planEnd(b.Density), options, stages["map"]);
+    if (!plan.IsOptimal())
     {
       return;
     }
@@ -80,7 +79,7 @@ public:
         points[i][axis] = a.Positions[i][axis] / cells[axis];
       }
     }
-    map.Forward(FlowSeeds<D>(points).AsSamples(), points, {}, stages["images"]);
+    plan.Forward(FlowSeeds<D>(points).AsSamples(), points, stages["images"]);
     b.Positions = this->InSpace(points, b.Density);
   }
 
@@ -106,7 +105,11 @@ public:
         this->Options.Splat, 1.0 / this->Grid.CellMeasure(), stages["splat"]) };
     if (share > 0.0)
     {
-      this->AddMoved(input, share * mass, mean, stages["input"], made.Values);
+      const std::vector<double> values = this->Resample(input, share * mass, stages["input"]);
+      const auto whole = LatticePart<D>::WholeOf(this->Cells);
+      addMovedCells<D>({ this->Grid, whole, values.data(), ConstPointSpan<3>(input.Positions),
+                         ConstPointSpan<3>(mean) },
+        whole, stages["input"], made.Values.data());
     }
     return made;
   }
@@ -220,41 +223,6 @@ private:
         [&](double value) { return value / input.Mass * mass; });
     }
     return values;
-  }
-
-  // Adds a density of which each cell is moved by the mean move of the particles in it; cells
-  // without particles stay.
-  void AddMoved(const BlendedInput<D>& input, double mass, const std::vector<Point<3>>& mean,
-    Progress& progress, std::vector<double>& density) const
-  {
-    const SplatOptions cloudInCell;
-    const std::vector<double> values = this->Resample(input, mass, progress);
-    const std::vector<double> particles =
-      this->Splat(input.Positions, nullptr, 1.0, cloudInCell, 1.0, progress);
-    const auto lattice = LatticePart<D>::WholeOf(this->Cells);
-    std::vector<Point<3>> centres(values.size(), Point<3>{});
-    std::vector<double> moves(mean.size());
-    for (std::size_t axis = 0; axis < static_cast<std::size_t>(D); ++axis)
-    {
-      const double side = this->Grid.Spacing()[static_cast<Eigen::Index>(axis)];
-      for (std::size_t i = 0; i < moves.size(); ++i)
-      {
-        moves[i] = mean[i][axis] - input.Positions[i][axis];
-      }
-      const std::vector<double> sums =
-        this->Splat(input.Positions, moves.data(), 0.0, cloudInCell, 1.0, progress);
-      for (std::size_t i = 0; i < values.size(); ++i)
-      {
-        const GridSize<D> cell = lattice.CellOf(static_cast<std::int64_t>(i));
-        const double centre = (static_cast<double>(cell[axis]) + 0.5) * side;
-        const double move = particles[i] > 0.0 ? sums[i] / particles[i] : 0.0;
-        centres[i][axis] =
-          std::clamp(centre + move, 0.0, side * static_cast<double>(this->Cells[axis]));
-      }
-    }
-    const std::vector<double> moved =
-      this->Splat(centres, values.data(), 0.0, cloudInCell, 1.0, progress);
-    std::transform(moved.begin(), moved.end(), density.begin(), density.begin(), std::plus<>());
   }
 
   const BlendOptions Options;

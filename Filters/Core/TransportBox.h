@@ -4,8 +4,8 @@
 #define RectifiedTransport_TransportBox_h
 
 #include "Core/Geometry/ImageGrid.h"
-#include "Core/OptimalMap/OptimalMap.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Plan/TransportPlan.h"
 #include "Core/Transport.h"
 
 #include <cstdint>
@@ -73,12 +73,10 @@ void requireSameBox(const BoxDensity<D>& a, const BoxDensity<D>& b)
   }
 }
 
-// Whether the nodes of a map resolve its target: else the images have other masses.
 template <int D>
-bool isResolved(const OptimalMap<D>& map, Progress& progress)
+PlanEnd<D> planEnd(const BoxDensity<D>& density)
 {
-  constexpr double most = 0.1;
-  return !(map.MassError(progress) > most);
+  return PlanEnd<D>(PlacedDensity<D>{ density.Source(), {}, density.Sides() });
 }
 
 } // namespace RectifiedTransport
