@@ -235,7 +235,7 @@ EqualMassDivision<Dimension> cells(ConstPointSpan<Dimension> sites,
   division.Pixels = options.Pixels == GridSize<Dimension>{} ? density.Cells() : options.Pixels;
   division.Labels.resize(static_cast<std::size_t>(numberOfCells<Dimension>(division.Pixels)));
   const std::vector<Point<3>> placed = inSpace<Dimension>(sites);
-  if (options.Shape == CellShape::Flow)
+  if (options.Shape == SiteCellShape::Flow)
   {
     divideByFlow<Dimension>(placed, density, options, progress, division);
   }
@@ -246,7 +246,7 @@ EqualMassDivision<Dimension> cells(ConstPointSpan<Dimension> sites,
   else
   {
     throw std::invalid_argument(
-      "CellShape::Power needs 2 dimensions; the density has " + std::to_string(Dimension));
+      "SiteCellShape::Power needs 2 dimensions; the density has " + std::to_string(Dimension));
   }
   return division;
 }

@@ -189,7 +189,7 @@ template <int Dimension>
 DistanceBounds distance(const BoxDensity<Dimension>& a, const BoxDensity<Dimension>& b,
   const Context& context = Context());
 
-enum class CellShape
+enum class SiteCellShape
 {
   Flow, // pixels, by the rectified flow
   Power // polygons of least cost: a power diagram; 2D
@@ -198,10 +198,10 @@ enum class CellShape
 template <int Dimension>
 struct CellOptions
 {
-  CellShape Shape = CellShape::Flow;
+  SiteCellShape Shape = SiteCellShape::Flow;
   GridSize<Dimension> Pixels{}; // along each axis of the box; 0: as the density has cells
-  FlowOptions Flow;             // of CellShape::Flow
-  CostNorm Norm;                // of CellShape::Flow; Power has squared distances
+  FlowOptions Flow;             // of SiteCellShape::Flow
+  CostNorm Norm;                // of SiteCellShape::Flow; Power has squared distances
 };
 
 template <int Dimension>

@@ -136,11 +136,11 @@ bool isEmpty(const OrientedPiece& piece)
 } // namespace
 
 template <>
-std::vector<OrientedPiece> orientedPieces<1>(CellShape shape, std::int64_t corners)
+std::vector<OrientedPiece> orientedPieces<1>(OrientedShape shape, std::int64_t corners)
 {
-  const std::int64_t count = shape == CellShape::Line ? 2
-    : shape == CellShape::PolyLine                    ? corners
-                                                      : 0;
+  const std::int64_t count = shape == OrientedShape::Line ? 2
+    : shape == OrientedShape::PolyLine                    ? corners
+                                                          : 0;
   std::vector<OrientedPiece> lines;
   for (std::int64_t i = 0; i + 1 < count; ++i)
   {
@@ -150,18 +150,18 @@ std::vector<OrientedPiece> orientedPieces<1>(CellShape shape, std::int64_t corne
 }
 
 template <>
-std::vector<OrientedPiece> orientedPieces<2>(CellShape shape, std::int64_t corners)
+std::vector<OrientedPiece> orientedPieces<2>(OrientedShape shape, std::int64_t corners)
 {
   std::vector<OrientedPiece> pieces;
-  if (shape == CellShape::Polygon)
+  if (shape == OrientedShape::Polygon)
   {
     pieces.push_back({ firstCorners(corners) });
   }
-  else if (shape == CellShape::Pixel)
+  else if (shape == OrientedShape::Pixel)
   {
     pieces.push_back({ { 0, 1, 3, 2 } });
   }
-  for (std::int64_t i = 0; shape == CellShape::TriangleStrip && i + 2 < corners; ++i)
+  for (std::int64_t i = 0; shape == OrientedShape::TriangleStrip && i + 2 < corners; ++i)
   {
     const std::int64_t odd = i % 2; // every other triangle runs the other way round
     pieces.push_back({ { i + odd, i + 1 - odd, i + 2 } });
@@ -170,25 +170,25 @@ std::vector<OrientedPiece> orientedPieces<2>(CellShape shape, std::int64_t corne
 }
 
 template <>
-std::vector<OrientedPiece> orientedPieces<3>(CellShape shape, std::int64_t /*corners*/)
+std::vector<OrientedPiece> orientedPieces<3>(OrientedShape shape, std::int64_t /*corners*/)
 {
   switch (shape)
   {
-    case CellShape::Tetrahedron:
+    case OrientedShape::Tetrahedron:
       return { { { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 }, { 0, 2, 1 } } };
-    case CellShape::Voxel:
+    case OrientedShape::Voxel:
       return { { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 2, 3, 1 },
         { 4, 5, 7, 6 } } };
-    case CellShape::Hexahedron:
+    case OrientedShape::Hexahedron:
       return { { { 0, 4, 7, 3 }, { 1, 2, 6, 5 }, { 0, 1, 5, 4 }, { 3, 7, 6, 2 }, { 0, 3, 2, 1 },
         { 4, 5, 6, 7 } } };
-    case CellShape::Wedge:
+    case OrientedShape::Wedge:
       return { { { 0, 1, 2 }, { 3, 5, 4 }, { 0, 3, 4, 1 }, { 1, 4, 5, 2 }, { 2, 5, 3, 0 } } };
-    case CellShape::Pyramid:
+    case OrientedShape::Pyramid:
       return { { { 0, 3, 2, 1 }, { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } } };
-    case CellShape::PentagonalPrism:
+    case OrientedShape::PentagonalPrism:
       return { facesOfPrism(5) };
-    case CellShape::HexagonalPrism:
+    case OrientedShape::HexagonalPrism:
       return { facesOfPrism(6) };
     default:
       return {};

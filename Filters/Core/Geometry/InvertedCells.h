@@ -13,7 +13,7 @@ namespace RectifiedTransport
 {
 
 // Corners are numbered as those of VTK's linear cells.
-enum class CellShape
+enum class OrientedShape
 {
   None, // has no orientation
   Line,
@@ -37,7 +37,7 @@ using OrientedPiece = std::vector<PieceOutline>;
 
 // The pieces of a cell with so many corners; none if the shape is not of D dimensions.
 template <int D>
-std::vector<OrientedPiece> orientedPieces(CellShape shape, std::int64_t corners);
+std::vector<OrientedPiece> orientedPieces(OrientedShape shape, std::int64_t corners);
 
 struct InvertedCells
 {

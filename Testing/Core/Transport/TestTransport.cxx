@@ -305,7 +305,7 @@ TEST(Transport, PowerCellsHaveEqualMasses)
   const Values<2> values = step<2>();
   const std::vector<Point<2>> sites = sample(values.Box(), 12);
   CellOptions<2> options;
-  options.Shape = CellShape::Power;
+  options.Shape = SiteCellShape::Power;
   options.Pixels = { 64, 48 };
   const EqualMassDivision<2> found = cells<2>(sites, values.Box(), options);
   EXPECT_EQ(found.Labels.size(), 64U * 48U);

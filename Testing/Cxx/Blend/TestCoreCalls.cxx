@@ -171,15 +171,15 @@ void checkCells(Checks& checks)
   }
   vtkNew<vtkPolyData> input;
   input->SetPoints(points);
-  for (const CellShape shape : { CellShape::Flow, CellShape::Power })
+  for (const SiteCellShape shape : { SiteCellShape::Flow, SiteCellShape::Power })
   {
     vtkNew<vtkEqualMassCells> filter;
     filter->SetInputData(input);
     filter->SetDomainData(pair.A);
     filter->SetMeasureToDensity();
     filter->SetResolution(nx);
-    filter->SetShape(
-      shape == CellShape::Flow ? vtkEqualMassCells::SHAPE_FLOW : vtkEqualMassCells::SHAPE_POWER);
+    filter->SetShape(shape == SiteCellShape::Flow ? vtkEqualMassCells::SHAPE_FLOW
+                                                  : vtkEqualMassCells::SHAPE_POWER);
     filter->Update();
     CellOptions<2> options;
     options.Shape = shape;
