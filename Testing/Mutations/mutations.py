@@ -386,7 +386,7 @@ OTHERS = [
     E(CORE + "Plan/TransportPlan.cxx", "(*end)[axis] = part * «scale.ToUnits(lengths[axis])»;", "1.0"),
     E(CORE + "Plan/TransportPlan.cxx", "if («!(massError > most)»)", "true"),
     S(BRIDGE + "Blend/DensityBlend.cxx", "identity.AddNumbers(&weight, 1);", ";"),
-    E(BRIDGE + "Density/DensityPlan.cxx", "std::sqrt(cost) <= «nothing * cell»;", "0.0"),
+    E(BRIDGE + "Density/DensityPlan.h", "std::sqrt(cost) <= «nothing * cell»;", "0.0"),
     # distances
     E(CORE + "Distance/ClassicalScaling.cxx", "return entry < 0.0 ? «-1.0» : 1.0;", "1.0"),
     E(CORE + "Distance/ClassicalScaling.cxx", "const double factor = signOf(vector) * «std::sqrt(value)»;", "value"),

@@ -6,6 +6,7 @@
 
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Density/OptimalMemory.h"
+#include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Settings/OptimalSettings.h"
 #include "Core/Geometry/LengthScale.h"
@@ -15,6 +16,9 @@
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 namespace RectifiedTransport::Bridge
@@ -64,7 +68,20 @@ struct TransportReport
 // TransportCostLowerBound, and OptimalityGap of a map of this cost on a grid. Where the bound is no
 // more than the rounding that it allows for (see PotentialSolver), their ratio says nothing: the
 // gap is 0 for ways of less than a tenth of a cell, which are errors of integration, else infinite.
-void addCostBound(vtkDataObject* output, double bound, double cost, const ImageGrid& grid);
+inline void addCostBound(vtkDataObject* output, double bound, double cost, const ImageGrid& grid)
+{
+  constexpr double rounding = 1e-12; // of the squared diagonal
+  double gap = std::max(0.0, cost / bound - 1.0);
+  if (!(bound > rounding * grid.Diagonal() * grid.Diagonal()))
+  {
+    constexpr double nothing = 0.1; // cells
+    const double cell = std::pow(grid.CellMeasure(), 1.0 / grid.Dimension());
+    const bool isNothing = std::sqrt(cost) <= nothing * cell;
+    gap = isNothing ? 0.0 : std::numeric_limits<double>::infinity();
+  }
+  addFieldValue(output, "TransportCostLowerBound", bound);
+  addFieldValue(output, "OptimalityGap", gap);
+}
 
 // The same of a plan, whose lengths are in the LengthScale of `box`; nothing if it has no bound.
 // Throws std::overflow_error as LengthScale.
