@@ -81,7 +81,7 @@ BlockErrors measureBlocks(const MapSamples<Dimension>& map, const DensitySource<
 template <int Dimension>
 struct SummedDensity
 {
-  const DensitySource<Dimension>& Density;
+  DensitySource<Dimension> Density;
   double Total; // the sum of the density
 };
 

@@ -172,12 +172,14 @@ TYPED_TEST(Plans, MoveByTwoFlows)
   }
 }
 
-// Lines of one cell on nodes that are far apart.
+// Single cells on nodes that are far apart.
 TEST(Plan, FallsBackToTheFlow)
 {
   const GridSize<2> size = evenSize<2>(64);
-  const TestDensity<2> thin = sampleDensity<2>(
-    size, [](const Point<2>& p) { return std::fmod(64.0 * p[0], 8.0) < 1.0 ? 1.0 : 0.0; });
+  const TestDensity<2> thin = sampleDensity<2>(size, [](const Point<2>& p) {
+    const double number = 64.0 * p[0] + 64.0 * 64.0 * p[1];
+    return std::fmod(number, 151.0) < 1.0 ? 1.0 : 0.0;
+  });
   PlanOptions options = optimal();
   options.Optimal.MostNodes = 64.0;
   TransportPlan<2> plan(endOf(thin), options);
@@ -224,12 +226,13 @@ TEST(Plan, BoundsFromBothSides)
   const GridSize<2> size = evenSize<2>(48);
   PlanOptions options;
   options.HasBound = true;
+  // A move by 12 cells.
   const TransportPlan<2> plan(
-    endOf(ballAt<2>(size, { 0.4, 0.5 })), endOf(ballAt<2>(size, { 0.6, 0.5 })), options);
-  EXPECT_LE(plan.LowerBound(), 0.04 + 1e-9);
-  EXPECT_GE(plan.LowerBound(), 0.039);
+    endOf(ballAt<2>(size, { 0.375, 0.5 })), endOf(ballAt<2>(size, { 0.625, 0.5 })), options);
+  EXPECT_LE(plan.LowerBound(), 0.0625 + 1e-9);
+  EXPECT_GE(plan.LowerBound(), 0.0615);
   EXPECT_GE(plan.Certificate()->UpperBound(), plan.LowerBound());
-  EXPECT_LE(plan.Certificate()->UpperBound(), 0.041);
+  EXPECT_LE(plan.Certificate()->UpperBound(), 0.0635);
 }
 
 // Places of grids in a box, in lengths of its diagonal's power of two.
