@@ -14,12 +14,6 @@
 namespace RectifiedTransport::Bridge
 {
 
-// The fewest iterations between two densities for what a setting asks for.
-inline int leastIterations(const OptimalSetting& setting)
-{
-  return setting.IsOptimal ? 4 : 1;
-}
-
 // What an optimal map is wanted for.
 struct OptimalNeeds
 {

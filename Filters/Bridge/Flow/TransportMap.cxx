@@ -230,7 +230,7 @@ private:
     source.Flow = this->Cache.template Flow<D>();
     target.Flow = kept.Tables.Flow<D>();
     PlanOptions options = planOptions(setting, this->Options);
-    options.Optimal.LeastIterations = leastIterations(setting);
+    options.Optimal.LeastIterations = leastIterations(setting.IsOptimal);
     const OptimalMemory memory = this->GoalMemory();
     Stages stages(progress, { { "map", 9 }, { "check", 1 } });
     typename TransportPlan<D>::Map map;

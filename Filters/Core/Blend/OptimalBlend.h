@@ -56,12 +56,6 @@ struct OptimalPositions
   std::vector<std::pair<std::size_t, std::string>> Warnings;
 };
 
-// The fewest iterations of the map between two densities.
-constexpr int leastIterations(bool isOptimal)
-{
-  return isOptimal ? 4 : 1;
-}
-
 // Of two densities the particles of the first one go to their images in the second. Of several,
 // those of their mean go to the mean of their images until that lowers the functional no more:
 // Alvarez-Esteban, del Barrio, Cuesta-Albertos and Matran, "A fixed-point approach to barycenters

@@ -45,6 +45,13 @@ struct PlanOptions
   bool NeedsMap() const { return this->IsOptimal || this->HasBound; }
 };
 
+// OptimalMapOptions::LeastIterations of a map between two densities that moves points, or that
+// gives a bound alone.
+constexpr int leastIterations(bool movesPoints)
+{
+  return movesPoints ? 4 : 1;
+}
+
 // A density at its place in a box, where plans begin and end.
 template <int Dimension>
 struct PlanEnd
