@@ -92,7 +92,7 @@ RectifiedTransport::Bridge::BlendSettings vtkTransportBlend::GetBlendSettings()
   // With fewer, surfaces of solids have terraces; with more, pictures are hardly better.
   constexpr int autoParticles = 4;
   settings.ParticlesPerCell = this->ParticlesPerCell > 0 ? this->ParticlesPerCell : autoParticles;
-  settings.Mode = static_cast<RectifiedTransport::Bridge::MassMode>(this->MassMode);
+  settings.Mode = static_cast<BlendedMass>(this->MassMode);
   settings.Flow = this->GetFlowOptions();
   settings.Optimal = this->GetOptimalSetting();
   settings.Splat = splatOptions(this->Kernel, this->Radius);

@@ -21,6 +21,7 @@
 #ifndef RectifiedTransport_Transport_h
 #define RectifiedTransport_Transport_h
 
+#include "Blend/BlendWeights.h"
 #include "Flow/FlowOptions.h"
 #include "Geometry/GridSize.h"
 #include "Geometry/Points.h"
@@ -120,15 +121,6 @@ struct SampledMap
 template <int Dimension>
 SampledMap<Dimension> map(const BoxDensity<Dimension>& density,
   const MapOptions<Dimension>& options = {}, const Context& context = Context());
-
-// The mass of what is between densities of masses m_i, by their weights w_i with the sum 1.
-enum class BlendedMass
-{
-  Linear,    // sum of w_i m_i
-  Geometric, // product of m_i^w_i
-  Source,    // that of the first density
-  Normalize  // 1
-};
 
 struct BlendOptions
 {

@@ -20,8 +20,6 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-
 // The pivot's particles in one of the densities.
 template <int D>
 struct BlendedInput
@@ -86,14 +84,11 @@ public:
   // The weights sum to 1.
   MadeDensity<D> Make(const std::vector<double>& weights, Progress& progress) const
   {
-    constexpr double nearby = 0.1; // how far below 1 a weight is near it
-    constexpr double rounding = 1e-9;
     Stages stages(progress, { { "mean", 2 }, { "splat", 3 }, { "input", 5 } });
     const auto heaviest = std::max_element(weights.begin(), weights.end());
     const BlendedInput<D>& input =
       this->Inputs[static_cast<std::size_t>(heaviest - weights.begin())];
-    const double linear = 1.0 - (1.0 - *heaviest) / nearby;
-    const double share = linear > rounding ? linear : 0.0;
+    const double share = shareOfHeaviest(*heaviest);
     const double mass = this->MassOf(weights);
     if (*heaviest == 1.0)
     {
@@ -162,24 +157,12 @@ private:
 
   double MassOf(const std::vector<double>& weights) const
   {
-    double sum = 0.0;
-    double product = 1.0;
-    for (std::size_t i = 0; i < weights.size(); ++i)
+    std::vector<double> masses;
+    for (const BlendedInput<D>& input : this->Inputs)
     {
-      sum += weights[i] * this->Inputs[i].Mass;
-      product *= std::pow(this->Inputs[i].Mass, weights[i]);
+      masses.push_back(input.Mass);
     }
-    switch (this->Options.Mass)
-    {
-      case BlendedMass::Geometric:
-        return product;
-      case BlendedMass::Source:
-        return this->Inputs.front().Mass;
-      case BlendedMass::Normalize:
-        return 1.0;
-      default:
-        return sum;
-    }
+    return blendedMass(this->Options.Mass, masses, weights);
   }
 
   std::vector<Point<3>> MeanOf(const std::vector<double>& weights, Progress& progress) const
@@ -190,8 +173,7 @@ private:
       parts.push_back({ ConstPointSpan<3>(this->Inputs[i].Positions), weights[i] });
     }
     std::vector<Point<3>> mean(static_cast<std::size_t>(this->Count));
-    progress.For(this->Count, grain,
-      [&](std::int64_t first, std::int64_t last) { writeWeightedMean(parts, first, last, mean); });
+    writeWeightedMean(parts, mean, progress);
     return mean;
   }
 
@@ -216,12 +198,7 @@ private:
     std::vector<double> values(static_cast<std::size_t>(this->Grid.NumberOfCells()));
     CellMeans<D>(placed, this->Cells, LatticePart<D>::WholeOf(this->Cells))
       .Write(*input.Density.Source().Whole(), progress, values.data());
-    if (mass != input.Mass)
-    {
-      // In this order no density overflows, however far apart the masses are.
-      std::transform(values.begin(), values.end(), values.begin(),
-        [&](double value) { return value / input.Mass * mass; });
-    }
+    rescaleMass(input.Mass, mass, values.data(), this->Grid.NumberOfCells());
     return values;
   }
 

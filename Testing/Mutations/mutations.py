@@ -119,7 +119,7 @@ OTHERS = [
       "(cell + 1) / (this->BlockSize + 1)"),
     S(CORE + "Quality/ParticleQuality.cxx", "sums.Difference += off * off / measure;",
       "sums.Difference += off * off;"),
-    E(BRIDGE + "Blend/DensityBlend.cxx", "«this->MapOf(0).TotalMass» : 1.0",
+    E(CORE + "Blend/BlendWeights.h", "«masses.front()» : 1.0",
       "this->MapOf(inputs.size() - 1).TotalMass"),
     E(BRIDGE + "Image/CommonGrid.cxx", "finest = «std::min(finest, std::abs(side.Spacing))»",
       "std::max(finest, std::abs(side.Spacing))"),

@@ -29,7 +29,6 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <sstream>
 #include <utility>
@@ -210,8 +209,6 @@ void DensityBlend::WriteDensity(const std::vector<BlendInput>& inputs, const Ble
   const SplatTarget& target, const BlendMass& mass, Extent wanted, Progress& progress,
   vtkImageData* output)
 {
-  constexpr double nearby = 0.1; // how far below 1 a weight is near it
-  constexpr double rounding = 1e-9;
   const ImageGrid& geometry = target.Geometry;
   const int owner = geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
   const TupleBox box = tuplesOf(wanted, owner, geometry.Extent());
@@ -221,8 +218,7 @@ void DensityBlend::WriteDensity(const std::vector<BlendInput>& inputs, const Ble
   const auto heaviest = std::max_element(inputs.begin(), inputs.end(),
     [](const BlendInput& a, const BlendInput& b) { return a.Weight < b.Weight; });
   const auto number = static_cast<std::size_t>(heaviest - inputs.begin());
-  const double linear = 1.0 - (1.0 - heaviest->Weight) / nearby;
-  const double share = linear > rounding ? linear : 0.0;
+  const double share = shareOfHeaviest(heaviest->Weight);
   const MovedInput input{ *heaviest->Density, this->MapOf(number).TotalMass, share * mass.All,
     found.Positions[number], this->Means };
   if (heaviest->Weight == 1.0)
@@ -355,20 +351,16 @@ void DensityBlend::TakeMeans(
   writeWeightedMean(parts, { this->Means->GetPointer(0), count }, progress);
 }
 
-double DensityBlend::TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const
+double DensityBlend::TotalMass(const std::vector<BlendInput>& inputs, BlendedMass mode) const
 {
-  if (mode == MassMode::Source || mode == MassMode::Normalize)
-  {
-    return mode == MassMode::Source ? this->MapOf(0).TotalMass : 1.0;
-  }
-  double sum = 0.0;
-  double product = 1.0;
+  std::vector<double> masses;
+  std::vector<double> weights;
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
-    sum += inputs[i].Weight * this->MapOf(i).TotalMass;
-    product *= std::pow(this->MapOf(i).TotalMass, inputs[i].Weight);
+    masses.push_back(this->MapOf(i).TotalMass);
+    weights.push_back(inputs[i].Weight);
   }
-  return mode == MassMode::Linear ? sum : product;
+  return blendedMass(mode, masses, weights);
 }
 
 void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs,

@@ -13,6 +13,7 @@
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/Store/Store.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Blend/BlendWeights.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Splat/Splat.h"
 
@@ -37,15 +38,6 @@ namespace RectifiedTransport::Bridge
 
 struct SplatTarget;
 
-// As in vtkTransportBlend.
-enum class MassMode
-{
-  Linear,
-  Geometric,
-  Source,
-  Normalize
-};
-
 struct BlendInput
 {
   std::unique_ptr<InputDensity> Density;
@@ -58,7 +50,7 @@ struct BlendSettings
 {
   int Dimensions[3]; // of commonGrid
   int ParticlesPerCell;
-  MassMode Mode;
+  BlendedMass Mode;
   FlowOptions Flow;
   TableSetting Tables;
   OptimalSetting Optimal;
@@ -113,7 +105,7 @@ private:
     Progress& progress, std::vector<std::string>& warnings);
   void TakeMeans(
     const std::vector<BlendInput>& inputs, const BlendPositions& found, Progress& progress);
-  double TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const;
+  double TotalMass(const std::vector<BlendInput>& inputs, BlendedMass mode) const;
   void WriteParticles(const std::vector<BlendInput>& inputs, const BlendPositions& found,
     const ImageGrid& geometry, double massEach, Progress& progress, vtkPolyData* output);
   void WriteVertices(Progress& progress, vtkPolyData* output);

@@ -3,6 +3,7 @@
 
 #include "Bridge/Density/DensityOnGrid.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Blend/BlendWeights.h"
 #include "Core/Blend/MovedCells.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/LargeBuffer.h"
@@ -58,13 +59,7 @@ void writeInput(const MovedInput& input, const ImageGrid& grid, const TupleBox& 
   Progress& progress, double* values)
 {
   writeDensityOn(grid, input.Density, wanted, progress, values);
-  if (input.Mass == input.OwnMass)
-  {
-    return;
-  }
-  // In this order no density overflows, however far apart the masses are.
-  std::transform(values, values + wanted.Count(), values,
-    [&](double value) { return value / input.OwnMass * input.Mass; });
+  rescaleMass(input.OwnMass, input.Mass, values, wanted.Count());
 }
 
 void addMovedInput(const MovedInput& input, const ImageGrid& grid, const TupleBox& wanted,
