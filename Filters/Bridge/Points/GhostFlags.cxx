@@ -6,7 +6,6 @@
 
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
-#include "vtkIdList.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -37,18 +36,8 @@ const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what)
 
 BlankedCells::BlankedCells(vtkDataSet* data, const char* what)
   : OfCells(ghostFlags(data, vtkDataObject::CELL, what))
-  , OfPoints(ghostFlags(data, vtkDataObject::POINT, what))
 {
-}
-
-bool BlankedCells::HasPointOf(vtkIdList* points) const
-{
-  bool has = false;
-  for (vtkIdType i = 0; this->OfPoints && i < points->GetNumberOfIds(); ++i)
-  {
-    has = has || (this->OfPoints[points->GetId(i)] & vtkDataSetAttributes::HIDDENPOINT);
-  }
-  return has;
+  ghostFlags(data, vtkDataObject::POINT, what);
 }
 
 void blankCellsOfHiddenPoints(const std::array<int, 3>& dimensions, const unsigned char* points,

@@ -14,7 +14,6 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataSet;
-class vtkIdList;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport::Bridge
@@ -34,17 +33,13 @@ const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what);
 class BlankedCells
 {
 public:
-  // Throws as ghostFlags.
+  // Throws as ghostFlags, also for those of points.
   BlankedCells(vtkDataSet* data, const char* what);
 
   bool Has(vtkIdType cell) const { return this->OfCells && (this->OfCells[cell] & ghostCell); }
-  // Whether points may be hidden, and with them their cells.
-  bool MayHavePoints() const { return this->OfPoints != nullptr; }
-  bool HasPointOf(vtkIdList* points) const;
 
 private:
   const unsigned char* OfCells;
-  const unsigned char* OfPoints;
 };
 
 // Writes the flags of the cells in some rows of an image along its first axis: ghostCell if a point

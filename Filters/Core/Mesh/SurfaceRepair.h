@@ -36,7 +36,6 @@ public:
 
   // The new point for a given point; -1 if no triangle with area uses it.
   std::int64_t NewPoint(std::int64_t given) const { return this->NewPoints.data()[given]; }
-  const std::int64_t* AllNewPoints() const { return this->NewPoints.data(); }
   std::int64_t NumberOfGivenPoints() const { return this->NewPoints.size(); }
   // The first given point that became this one.
   std::int64_t FirstGivenPoint(std::int64_t point) const { return this->FirstGiven.data()[point]; }

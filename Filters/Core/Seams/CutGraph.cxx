@@ -6,6 +6,7 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Seams/SeamSearch.h"
 
+#include <limits>
 #include <numeric>
 #include <vector>
 

@@ -58,10 +58,6 @@ public:
   {
     return this->Other(side) < 0 || side < this->Other(side);
   }
-  std::int64_t FirstSide(std::int64_t side) const
-  {
-    return this->IsFirst(side) ? side : this->Other(side);
-  }
   bool MayBeSeam(std::int64_t side) const
   {
     return this->Other(side) >= 0 && this->OriginOf(side) != this->OriginOf(this->Other(side));

@@ -3,6 +3,8 @@
 
 #include "Core/Parallel/Progress.h"
 
+#include <limits>
+
 namespace RectifiedTransport
 {
 

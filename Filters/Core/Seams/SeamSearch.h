@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -37,10 +36,6 @@ public:
   double Distance(std::int64_t point) const
   {
     return this->Distances[static_cast<std::size_t>(point)];
-  }
-  bool IsReached(std::int64_t point) const
-  {
-    return this->Distance(point) < std::numeric_limits<double>::infinity();
   }
   std::int64_t SideTo(std::int64_t point) const
   {
