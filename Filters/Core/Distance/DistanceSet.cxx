@@ -16,7 +16,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Of as many maps as are made together: each thread makes one by itself.
+// As many maps are made together, each by one thread.
 constexpr std::size_t mapsAtOnce = 16;
 // Larger densities are mapped one after the other, each by all threads.
 constexpr double mostCellsOfThread = 0x1p18;
@@ -27,6 +27,14 @@ GridSize<D> sizeOf(const GridSize<3>& cells)
   GridSize<D> size;
   std::copy_n(cells.begin(), D, size.begin());
   return size;
+}
+
+template <int D>
+Point<D> lengthsOf(const std::vector<double>& sides)
+{
+  Point<D> lengths;
+  std::copy_n(sides.begin(), D, lengths.begin());
+  return lengths;
 }
 
 // Of the maps first, first + 1 ... each rank has made one; gives all to all.
@@ -63,29 +71,20 @@ template <int D>
 DensityMoments momentsIn(const double* values, const GridSize<3>& cells,
   const std::vector<double>& sides, const Context& context)
 {
-  Point<D> lengths;
-  std::copy_n(sides.begin(), D, lengths.begin());
   const GridSize<D> size = sizeOf<D>(cells);
-  return momentsOf<D>(DensityArray<D, double>(values, size), size, lengths, context);
+  return momentsOf<D>(DensityArray<D, double>(values, size), size, lengthsOf<D>(sides), context);
 }
 
 template <int D>
 double memoryOfMap(const GridSize<3>& cells, const std::vector<double>& sides)
 {
-  Point<D> lengths;
-  std::copy_n(sides.begin(), D, lengths.begin());
-  return memoryForReference<D>(sizeOf<D>(cells), lengths);
+  return memoryForReference<D>(sizeOf<D>(cells), lengthsOf<D>(sides));
 }
 
 template <int D>
 double memoryOfPair(const GridSize<3>& cells)
 {
   return memoryForBracket<D>(sizeOf<D>(cells));
-}
-
-double cellsOf(const GridSize<3>& cells)
-{
-  return numberOfCells<3>(cells);
 }
 
 // work(item, context) for all items, on this rank.
@@ -136,14 +135,6 @@ void DistanceSet::Begin(DistanceMethod method, const std::vector<double>& sides)
   this->Waiting.clear();
 }
 
-template <int D>
-Point<D> DistanceSet::SidesOf() const
-{
-  Point<D> sides;
-  std::copy_n(this->Sides.begin(), D, sides.begin());
-  return sides;
-}
-
 bool DistanceSet::Add(
   const Name& name, const GridSize<3>& cells, Values values, const Context& context)
 {
@@ -175,7 +166,7 @@ double DistanceSet::CellsOfMaps() const
   double cells = 0.0;
   for (const std::size_t waiting : this->Waiting)
   {
-    cells = std::max(cells, cellsOf(this->Given[waiting].Cells));
+    cells = std::max(cells, numberOfCells<3>(this->Given[waiting].Cells));
   }
   return cells;
 }
@@ -206,7 +197,7 @@ void DistanceSet::MakeMapsIn(Progress& progress)
   const Ranks& ranks = progress.Group();
   const auto count = static_cast<std::int64_t>(this->Waiting.size());
   const std::vector<std::int64_t> own = itemsOfRank(count, ranks);
-  const Point<D> sides = this->SidesOf<D>();
+  const Point<D> sides = lengthsOf<D>(this->Sides);
   std::vector<std::shared_ptr<ReferenceImages>> made(this->Waiting.size());
   forItems(static_cast<std::int64_t>(own.size()), this->CellsOfMaps(), progress,
     [&](std::int64_t item, const Context& context) {
@@ -298,7 +289,7 @@ SquaredBracket DistanceSet::FindPair(const NamePair& pair, const Context& contex
     return { density->Cell.get(), sizeOf<D>(density->Cells) };
   };
   return bracketDistance<D>(
-    valuesOf(pair.first), valuesOf(pair.second), this->SidesOf<D>(), context);
+    valuesOf(pair.first), valuesOf(pair.second), lengthsOf<D>(this->Sides), context);
 }
 
 template <int D>
@@ -311,7 +302,7 @@ void DistanceSet::FindMissing(Progress& progress)
   std::vector<SquaredBracket> found(own.size());
   const bool isCertified = this->Method == DistanceMethod::Certified;
   forItems(static_cast<std::int64_t>(own.size()),
-    isCertified ? cellsOf(this->Given.front().Cells) : 0.0, progress,
+    isCertified ? numberOfCells<3>(this->Given.front().Cells) : 0.0, progress,
     [&](std::int64_t item, const Context& context) {
       const auto place = static_cast<std::size_t>(item);
       found[place] = this->FindPair<D>(missing[static_cast<std::size_t>(own[place])], context);

@@ -71,8 +71,6 @@ private:
 
   int Dimension() const { return static_cast<int>(this->Sides.size()); }
   template <int D>
-  Point<D> SidesOf() const;
-  template <int D>
   void MakeMapsIn(Progress& progress);
   template <int D>
   void FindMissing(Progress& progress);
