@@ -6,6 +6,7 @@
 
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
+#include "vtkDataObject.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointSet.h"
@@ -175,7 +176,7 @@ InvertedCells count(
   {
     surface->BuildCells(); // afterwards threads may read cells
   }
-  const BlankedCells blanked(before, "input");
+  const unsigned char* ghosts = ghostFlags(before, vtkDataObject::CELL, "input");
   const double origin[3] = { 0.0, 0.0, 0.0 };
   Point<D> index;
   grid.ToIndex<D>(origin, index.data());
@@ -192,7 +193,7 @@ InvertedCells count(
       std::vector<Point<D>> moved;
       for (vtkIdType cell = first; cell < last; ++cell)
       {
-        if (blanked.Has(cell))
+        if (ghosts && (ghosts[cell] & ghostCell))
         {
           continue;
         }

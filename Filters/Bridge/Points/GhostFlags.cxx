@@ -34,12 +34,6 @@ const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what)
   return array->GetPointer(0);
 }
 
-BlankedCells::BlankedCells(vtkDataSet* data, const char* what)
-  : OfCells(ghostFlags(data, vtkDataObject::CELL, what))
-{
-  ghostFlags(data, vtkDataObject::POINT, what);
-}
-
 void blankCellsOfHiddenPoints(const std::array<int, 3>& dimensions, const unsigned char* points,
   const unsigned char* cells, std::int64_t firstRow, std::int64_t lastRow, unsigned char* flags)
 {

@@ -29,19 +29,6 @@ constexpr unsigned char ghostCell = vtkDataSetAttributes::DUPLICATECELL |
 // there is none. Throws Failure for a ghost array of another length; `what` names the input.
 const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what);
 
-// The cells that have no mass because of ghost flags.
-class BlankedCells
-{
-public:
-  // Throws as ghostFlags, also for those of points.
-  BlankedCells(vtkDataSet* data, const char* what);
-
-  bool Has(vtkIdType cell) const { return this->OfCells && (this->OfCells[cell] & ghostCell); }
-
-private:
-  const unsigned char* OfCells;
-};
-
 // Writes the flags of the cells in some rows of an image along its first axis: ghostCell if a point
 // of the cell is hidden, else the cell's own flags, 0 if `cells` is nullptr. `dimensions` are
 // numbers of points; 1 is no axis.
