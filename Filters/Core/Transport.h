@@ -77,9 +77,9 @@ enum class MapMethod
 struct MethodOptions
 {
   MapMethod Method = MapMethod::RectifiedFlow;
-  FlowOptions Flow; // of RectifiedFlow
-  // Of Optimal, > 0: iterations end when one raises the bound of the cost by less than a quarter of
-  // this part of it.
+  FlowOptions Flow; // for RectifiedFlow
+  // For Optimal, > 0: iterations end when one raises the bound of the cost by less than a quarter
+  // of this part of it.
   double Tolerance = 1e-3;
 };
 
@@ -112,8 +112,8 @@ struct SampledMap
 {
   GridSize<Dimension> Samples{};
   std::vector<Point<Dimension>> Displacement; // T(x) - x
-  std::vector<double> Divergence;             // of the displacement
-  // Of T's derivative: how many times as large T makes a small cell; below 0 where T is folded.
+  std::vector<double> Divergence;             // the displacement's
+  // How many times as large T makes a small cell, from T's derivative; below 0 where T is folded.
   std::vector<double> Determinant;
 };
 

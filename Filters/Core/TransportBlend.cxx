@@ -205,7 +205,7 @@ private:
   const BlendOptions Options;
   GridSize<D> Cells{};
   ImageGrid Grid;
-  std::int64_t Count = 0; // of the particles
+  std::int64_t Count = 0; // particles
   std::vector<BlendedInput<D>> Inputs;
 };
 

@@ -42,8 +42,8 @@ struct BlendPositions
 void requireMemoryForMaps(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
   const ImageGrid& geometry, double particles, const Ranks& ranks);
 
-// From the positions that the flow gives to this rank's particles, of which all ranks have so many.
-// Adds warnings. Collective. Throws Failure and Cancelled.
+// `given`: where the flow moves this rank's particles. All ranks together have `particles`. Adds
+// warnings. Collective. Throws Failure and Cancelled.
 std::shared_ptr<const BlendPositions> makePositions(const std::vector<BlendInput>& inputs,
   const std::vector<vtkSmartPointer<vtkDoubleArray>>& given, const BlendSettings& settings,
   const ImageGrid& geometry, std::int64_t particles, Progress& progress,

@@ -37,8 +37,8 @@ struct LinearizedMap
   // The share's positions, physical, 3 components, in the order of PivotLattice. Read-only.
   vtkSmartPointer<vtkDoubleArray> Positions;
   double TotalMass = 0.0; // density times cell measure, summed
-  // Of this rank. Particles that ended in an empty cell of the density were moved to the nearest
-  // mass.
+  // Counts this rank's particles. Those that ended in an empty cell of the density were moved to
+  // the nearest mass.
   FlowReport Flow;
 };
 

@@ -229,7 +229,7 @@ std::vector<unsigned char> presentBlocks(vtkOverlappingAMR* grids, const Ranks& 
   return present;
 }
 
-// The blocks of a level, of which `present` says whether they have a grid.
+// The blocks of a level that have a grid; `present` says which do.
 Level levelOf(vtkOverlappingAMR* grids, unsigned int number, const unsigned char* present)
 {
   Level level;

@@ -30,7 +30,7 @@ public:
   // memory for a map is missing. Throws Failure and Cancelled; the next update then builds.
   const SharedFlow& Update(InputDensity& density, Progress& progress,
     FlowTables tables = FlowTables::Whole, const OptimalNeeds& needs = {});
-  // Of the last update.
+  // The flow of the last update.
   template <int D>
   std::shared_ptr<const RectifiedFlow<D>> Flow() const
   {

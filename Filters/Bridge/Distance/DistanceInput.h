@@ -29,8 +29,8 @@ struct DistanceInput
   DensityReading Reading;
   ImageGrid Grid;
   double Mass = 0.0;     // density times cell measure
-  DataIdentity Identity; // of the values, hashed
-  // Of the cells, axis 0 of index space fastest, until it is added to the distances.
+  DataIdentity Identity; // identifies the values; hashed
+  // One value per cell, axis 0 of index space fastest; released when added to the distances.
   vtkSmartPointer<vtkDoubleArray> Values;
 };
 

@@ -33,8 +33,8 @@ using SiteIdArray =
 struct SiteDivision
 {
   vtkSmartPointer<SiteIdArray> Labels;
-  std::shared_ptr<const PowerSiteCells> Power; // of Shape Power, else nullptr
-  FlowReport Flow;                             // of Shape Flow
+  std::shared_ptr<const PowerSiteCells> Power; // only with Shape Power
+  FlowReport Flow;                             // only with Shape Flow
 };
 
 // What a division depends on. `flow`: nullptr with Shape Power; `density`: nullptr for none.

@@ -47,7 +47,7 @@ public:
   {
     return this->Object && of.IsByContent(this->Of);
   }
-  // Of what is kept, hashed.
+  // Identifies what is kept; hashed.
   const DataIdentity& Identity() const { return this->Of; }
   template <class T>
   std::shared_ptr<T> Kept() const

@@ -34,7 +34,7 @@ std::string titleOf(vtkDataArray* array)
   return std::string("The density array '") + (name ? name : "") + "'";
 }
 
-// Of the values of points or cells from `begin` on that are no ghosts.
+// Sums up the values of points or cells from `begin` on, but not those of ghosts.
 DensitySummary summaryOf(const double* values, const unsigned char* ghosts, std::int64_t begin,
   std::int64_t end, Progress& progress)
 {

@@ -68,7 +68,7 @@ private:
     const TupleBox& wanted, vtkDoubleArray* mass, Progress& progress, vtkImageData* output) const;
 
   std::vector<Advected> Arrays;
-  std::array<AdvectedLabels, 2> Labels; // of cells and of points
+  std::array<AdvectedLabels, 2> Labels; // cells, then points
   std::vector<std::string> Lacking;
 };
 

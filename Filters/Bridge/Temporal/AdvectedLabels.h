@@ -44,7 +44,7 @@ private:
   struct Labels
   {
     std::string Name;
-    std::array<vtkSmartPointer<vtkAbstractArray>, 2> Arrays; // of the first and the second image
+    std::array<vtkSmartPointer<vtkAbstractArray>, 2> Arrays; // first and second image
     std::vector<std::int64_t> Equal; // for each tuple the number of the first equal one
   };
 

@@ -22,13 +22,13 @@ template <int D>
 class IntervalPlan
 {
 public:
-  // Both densities have mass, and outlive the plan. `samples`: those that Forward moves together,
-  // of all ranks. Collective. Throws Failure and Cancelled.
+  // Both densities have mass, and outlive the plan. Forward moves at most `samples` together,
+  // counted on all ranks. Collective. Throws Failure and Cancelled.
   IntervalPlan(const StepDensity& from, const StepDensity& to, bool isOptimal, double samples,
     Progress& progress);
 
   const TransportPlan<D>& Points() const { return *this->Plan; }
-  // Of the mean squared distance, physical; 0 with flows alone.
+  // Bounds the mean squared distance, physical; 0 with flows alone.
   double LowerBound() const { return this->Bound; }
 
 private:

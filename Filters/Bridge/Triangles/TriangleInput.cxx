@@ -174,7 +174,7 @@ OpenedSurface TriangleInput::Opened(Progress& progress)
     [&]() { this->Triangles.CloseTJunctions(TJunctionScope::All, stages["T-junctions"]); });
   const TriangleSurface surface = this->Triangles.Surface();
   constexpr double bytesOfTriangle = 250.0;
-  constexpr double bytesOfPoint = 1350.0; // of the conformal map
+  constexpr double bytesOfPoint = 1350.0; // the conformal map's
   SeamOptions options;
   options.Rounding = this->Triangles.Rounding();
   try

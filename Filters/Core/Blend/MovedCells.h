@@ -21,7 +21,7 @@ struct MovedCells
 {
   const ImageGrid& Grid;
   LatticePart<D> Own;    // each cell is of one rank
-  const double* Density; // of the own cells
+  const double* Density; // one value per own cell
   ConstPointSpan<3> From;
   ConstPointSpan<3> To;
 };

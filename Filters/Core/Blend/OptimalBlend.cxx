@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
-constexpr int mostRounds = 20; // of a barycenter
+constexpr int mostRounds = 20; // for a barycenter
 
 // Particles and maps in index spaces, in which densities differ, and in the lengths of the common
 // directions.
@@ -184,7 +184,7 @@ private:
   // densities are the same, and their mean is where they are.
   bool AreOne(const std::vector<std::size_t>& used)
   {
-    constexpr double rounding = 1e-5; // of a cell; the flow amplifies that of the densities
+    constexpr double rounding = 1e-5; // in cells; the flow amplifies that of the densities
     const double most = rounding * std::pow(this->Options.Geometry.CellMeasure(), 1.0 / D);
     const double* first = this->Densities[used.front()].Positions.data();
     const bool areOne = std::all_of(used.begin() + 1, used.end(), [&](std::size_t i) {
@@ -252,7 +252,7 @@ private:
     const LargeBuffer<double> buffer = this->MeanOf(stages["mean"]);
     const ConstPointSpan<3> mean(buffer.data(), this->Count);
     const GridSize<D> size = geometry.Size<D>();
-    LargeBuffer<double> density(geometry.NumberOfCells()); // of all ranks' particles, on each
+    LargeBuffer<double> density(geometry.NumberOfCells()); // each rank has the whole
     splatInCells<D>(mean, nullptr, nullptr, geometry, LatticePart<D>::WholeOf(size), 1.0,
       density.data(), stages["density"]);
     const DensityArray<D, double> values(density.data(), size);
@@ -279,7 +279,7 @@ private:
   const LengthScale Scale;
   Progress& Work;
   const std::int64_t Count;
-  const double All; // of the particles, on all ranks
+  const double All; // particles on all ranks
   OptimalPositions Result;
 };
 

@@ -48,16 +48,17 @@ struct OptimalPositions
   // For each particle what its ways cost more than the bound allows for, halved: the weighted mean
   // over the densities. In squared physical lengths.
   LargeBuffer<double> Slack;
-  double Bound = 0.0; // of the cost between two densities, or the weighted mean from the barycenter
-  double Cost = 0.0;  // of a barycenter: what it is a bound of
+  double Bound =
+    0.0; // bounds the cost between two densities, or the weighted mean from the barycenter
+  double Cost = 0.0; // with a barycenter: the cost that Bound bounds
   // If IsOptimal, from the barycenter: the weighted mean of the bounds, for each iteration.
   std::vector<double> Functional;
   // Where the optimal map does not reach a density, whose particles stay: its number, and why.
   std::vector<std::pair<std::size_t, std::string>> Warnings;
 };
 
-// Of two densities the particles of the first one go to their images in the second. Of several,
-// those of their mean go to the mean of their images until that lowers the functional no more:
+// With two densities, the particles of the first one go to their images in the second. With more,
+// the particles go to the mean of their images, until that lowers the functional no more:
 // Alvarez-Esteban, del Barrio, Cuesta-Albertos and Matran, "A fixed-point approach to barycenters
 // in Wasserstein space", Journal of Mathematical Analysis and Applications 441, 2016. Collective.
 // Throws InvalidDensity, std::overflow_error (LengthScale), std::bad_alloc and Cancelled.

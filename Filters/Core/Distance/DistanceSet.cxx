@@ -37,7 +37,7 @@ Point<D> lengthsOf(const std::vector<double>& sides)
   return lengths;
 }
 
-// Of the maps first, first + 1 ... each rank has made one; gives all to all.
+// Each rank has made one of the maps first, first + 1 ...; gives all to all.
 void shareMaps(
   std::vector<std::shared_ptr<ReferenceImages>>& maps, std::size_t first, const Ranks& ranks)
 {

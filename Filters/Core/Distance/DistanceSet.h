@@ -37,14 +37,14 @@ class DistanceSet
 public:
   // The same numbers for equal values on a grid of as many cells in a box of the same sides alone.
   using Name = std::vector<std::uint64_t>;
-  using Values = std::shared_ptr<const double>; // of the cells, axis 0 fastest
+  using Values = std::shared_ptr<const double>; // one per cell, axis 0 fastest
 
   // Forgets the densities, but not what is known. The box has one to three axes of these lengths.
   void Begin(DistanceMethod method, const std::vector<double>& sides);
   // Returns whether maps should be made before more densities are added.
   bool Add(const Name& name, const GridSize<3>& cells, Values values, const Context& context);
 
-  // Of the maps that are missing, which need the most memory where they are made together.
+  // Whether maps are missing, and what they need: maps that are made together need the most memory.
   bool LacksMaps() const { return !this->Waiting.empty(); }
   double CellsOfMaps() const;
   double MemoryForMaps() const;

@@ -18,7 +18,7 @@ namespace RectifiedTransport
 template <int Dimension, class Kernel>
 void forParticles(ParticleSource<Dimension>& source, Progress& progress, const Kernel& kernel)
 {
-  constexpr std::int64_t group = 64; // of particles that are read together
+  constexpr std::int64_t group = 64; // particles that are read together
   const std::int64_t count = source.Count();
   for (std::int64_t begin = 0; begin < count;)
   {

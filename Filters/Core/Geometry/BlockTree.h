@@ -169,7 +169,7 @@ private:
     join<Dimension>(box, this->Boxes[static_cast<std::size_t>(part.SecondHalf().Box)]);
   }
 
-  std::vector<Bounds> Leaves; // of the blocks
+  std::vector<Bounds> Leaves; // one per block
   std::vector<Bounds> Boxes;
 };
 

@@ -48,7 +48,7 @@ public:
 
 private:
   std::vector<Point<Dimension>> Found;
-  std::vector<std::int64_t> PlaceOf; // of each point
+  std::vector<std::int64_t> PlaceOf; // one per point
 };
 
 } // namespace RectifiedTransport

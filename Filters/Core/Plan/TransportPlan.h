@@ -66,7 +66,7 @@ struct PlanEnd
   static PlanEnd In(const ImageGrid& box, const ImageGrid& grid);
 
   GridSize<Dimension> Size{};
-  Point<Dimension> Low{}; // of its box, in lengths
+  Point<Dimension> Low{}; // corners of its box, in lengths
   Point<Dimension> High{};
   // Called where something has to be made: returns the density, which stays until Release.
   std::function<DensitySource<Dimension>(const Context&)> Read;
@@ -97,13 +97,13 @@ public:
   // before it is solved.
   static Map Solve(const PlanEnd<Dimension>* source, const PlanEnd<Dimension>& target,
     const OptimalMapOptions& options, const Context& context = Context());
-  // As of OptimalMap: about the most bytes of a map, while it is solved and used.
+  // About the most bytes that a map takes, while it is solved and used.
   static double MemoryFor(const GridSize<Dimension>& source, const GridSize<Dimension>& target,
     const OptimalMapOptions& options = {}, const OptimalMapUse& use = {})
   {
     return OptimalMap<Dimension>::MemoryFor(source, target, options, use);
   }
-  // Of these, those that samples take beyond what a map has, while Forward moves them.
+  // The part of these bytes that samples take, while Forward moves them.
   static double MemoryForSamples(const GridSize<Dimension>& target, const OptimalMapUse& use)
   {
     return OptimalMap<Dimension>::MemoryForSamples(target, use);

@@ -42,8 +42,8 @@ public:
   {
   }
 
-  // Of a part, by the determinants of the samples of a larger part, axis 0 fastest. Throws
-  // Cancelled.
+  // Counts the folds in a part. The determinants are those of the samples of a larger part, axis 0
+  // fastest. Throws Cancelled.
   FoldCount Count(const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
     const double* determinants, Progress& progress) const;
   // The same by their images, as MapDerivatives takes them.

@@ -17,7 +17,7 @@ namespace RectifiedTransport
 // What cells contain, in grid cells.
 struct CellSize
 {
-  double Integral = 0.0; // of the density
+  double Integral = 0.0; // the cells' mass
   double Measure = 0.0;
   std::int64_t LeftOut = 0;     // cells that cannot be divided into simplices
   double LeftOutIntegral = 0.0; // at most: of the boxes around these

@@ -15,7 +15,7 @@ namespace RectifiedTransport
 struct AdvectedValues
 {
   std::array<const double*, 2> OfParticles;
-  std::array<const double*, 2> InPlace; // of all cells of the image, axis 0 fastest
+  std::array<const double*, 2> InPlace; // one per cell of the image, axis 0 fastest
   std::int64_t Stride;                  // from one particle or cell to the next
 
   // Each value moves linearly in time; at an end that end's alone counts.

@@ -12,7 +12,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Of the length of a lattice's cell, of which one of several particles has a share.
+// The length of one particle's share of a lattice's cell, in lengths of that cell.
 template <int D>
 double shareOfCell(const PivotLattice<D>& lattice)
 {

@@ -22,7 +22,7 @@ struct LabelVote
   float Lengths[D]; // in cells
   double Mass;
   std::int64_t Tuple;
-  std::int64_t Number; // of the cloud, among those of all ranks
+  std::int64_t Number; // the cloud's, among those of all ranks
 };
 
 template <int D>

@@ -51,7 +51,7 @@ private:
 
   std::array<ImageGrid, 2> Grids;
   int Parts = 1;
-  // Of the parts of each particle, at both ends of its way.
+  // One for each part of each particle, at both ends of its way.
   std::array<std::vector<std::int64_t>, 2> Tuples;
 };
 

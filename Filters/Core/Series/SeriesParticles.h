@@ -37,11 +37,11 @@ private:
 struct SeriesStep
 {
   const ImageGrid& Grid;
-  const double* Values; // of all cells, axis 0 of index space fastest
+  const double* Values; // one per cell, axis 0 of index space fastest
   double Mass;          // density times cell measure, summed; may be 0
 };
 
-// Of this rank, in the order of their numbers.
+// The particles of this rank, in the order of their numbers.
 struct SeriesParticles
 {
   std::shared_ptr<const SeriesPositions> From;
@@ -56,7 +56,7 @@ struct SeriesParticles
   // lengths of the cells of the particle's own step, so that no unit of physical lengths is beyond
   // a float. Empty for points.
   std::array<std::vector<float>, 2> Clouds;
-  std::array<ImageGrid, 2> Grids; // of the two steps, where there are clouds
+  std::array<ImageGrid, 2> Grids; // those of both steps, where there are clouds
   double Cost = 0.0;              // the mean over the first step's mass of |To - From|^2
   double Bound = 0.0;             // of the least cost; 0 without an optimal map
   bool HasBound = false;

@@ -15,7 +15,7 @@ namespace RectifiedTransport
 // What a map says of itself when it has moved particles to the next step.
 struct MoveReport
 {
-  double Bound = 0.0; // of the mean squared distance
+  double Bound = 0.0; // bounds the mean squared distance from below
   bool HasBound = false;
 };
 
@@ -24,7 +24,7 @@ template <int D>
 using MoveSamples = std::function<MoveReport(PointSpan<D> samples, Progress& progress)>;
 
 // Equal shares of the mass. They begin as samples of the first step, and each interval's map takes
-// all of them together to the next step, so that errors of masses do not add up. Of each rank its
+// all of them together to the next step, so that errors of masses do not add up. Each rank has a
 // share.
 class TrackedParticles
 {
@@ -33,7 +33,7 @@ public:
   int Count() const { return static_cast<int>(this->Steps.size()); }
   // Forgets the positions from this step on.
   void Keep(int steps) { this->Steps.resize(static_cast<std::size_t>(steps)); }
-  // Of all ranks.
+  // The number of particles on all ranks.
   std::int64_t All() const { return this->Particles; }
 
   // Places `perCell` particles for each cell of the first step, which has mass. Collective. Throws

@@ -48,7 +48,7 @@ inline CloudRow cloudRow(double centre, double length, std::int64_t cells)
   return row;
 }
 
-// Of a cloud along all axes.
+// A cloud is a row along each axis.
 template <int D>
 using CloudRows = std::array<CloudRow, D>;
 
@@ -77,7 +77,7 @@ struct ScaledClouds
   const double* Masses;
   // Where the way begins and where it ends; along D axes, interleaved. May be null, for points.
   std::array<const float*, 2> Lengths;
-  double Part; // of the way
+  double Part; // done of the way
   // The units of the lengths, in cells of the grid: those of the clouds before `Second`, and of the
   // others.
   std::array<Point<D>, 2> Units;

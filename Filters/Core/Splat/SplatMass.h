@@ -19,7 +19,7 @@ namespace RectifiedTransport
 
 constexpr std::int64_t splatSumChunk = std::int64_t{ 1 } << 13; // consecutive cells
 
-// Of all cells. Throws Cancelled.
+// Adds up all cells in a fixed order. Throws Cancelled.
 inline double sumOfCells(const double* cells, std::int64_t count, Progress& progress)
 {
   return reduceChunks(

@@ -28,7 +28,7 @@ template <int Dimension>
 class TileRounds
 {
 public:
-  // Of a distributed density all members are collective on the ranks.
+  // If the density is distributed, all members are collective.
   TileRounds(const DensitySource<Dimension>& density, const GradedTables<Dimension>& graded,
     const GridTiles<Dimension>& tiles, const Ranks& ranks)
     : Density(density)
@@ -96,7 +96,7 @@ private:
     }
   }
 
-  // Of a tile, measured at a particle a cell.
+  // The shares of a tile's time, measured at a particle a cell.
   static Stages stagesOf(Progress& tile) { return { tile, { { "tables", 1 }, { "items", 9 } } }; }
 
   // In rounds: in each, every rank has the tables of one tile at most, for its own particles and
