@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_CornerSettings_h
 #define RectifiedTransport_CornerSettings_h
 
-#include "Core/Mesh/RepairedDisk.h"
+#include "Core/Mesh/Repair/RepairedDisk.h"
 #include "Core/Parameterization/SquareCorners.h"
 
 #include "vtkIndent.h"

@@ -4,8 +4,8 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/PolygonInput.h"
-#include "Core/Mesh/RepairText.h"
-#include "Core/Mesh/TJunctions.h"
+#include "Core/Mesh/Repair/RepairText.h"
+#include "Core/Mesh/Repair/TJunctions.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"
 

@@ -5,7 +5,7 @@
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/PolygonInput.h"
-#include "Core/Mesh/TJunctions.h"
+#include "Core/Mesh/Repair/TJunctions.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkCellData.h"

@@ -7,7 +7,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Mesh/DiskTriangles.h"
-#include "Core/Mesh/RepairText.h"
+#include "Core/Mesh/Repair/RepairText.h"
 #include "Core/Mesh/SurfaceTriangles.h"
 #include "Core/Mesh/WholeTriangles.h"
 #include "Core/Parallel/LargeBuffer.h"

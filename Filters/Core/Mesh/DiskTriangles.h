@@ -4,7 +4,7 @@
 #define RectifiedTransport_DiskTriangles_h
 
 #include "Core/Mesh/PlacedTriangles.h"
-#include "Core/Mesh/RepairedDisk.h"
+#include "Core/Mesh/Repair/RepairedDisk.h"
 #include "Core/Mesh/SurfaceTriangles.h"
 #include "Core/Parallel/Progress.h"
 

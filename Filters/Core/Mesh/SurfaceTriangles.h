@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_SurfaceTriangles_h
 #define RectifiedTransport_SurfaceTriangles_h
 
-#include "Core/Mesh/SplitSurface.h"
-#include "Core/Mesh/TJunctionRepair.h"
+#include "Core/Mesh/Repair/SplitSurface.h"
+#include "Core/Mesh/Repair/TJunctionRepair.h"
 #include "Core/Mesh/TriangleSurface.h"
 #include "Core/Parallel/Context.h"
 #include "Core/Parallel/LargeBuffer.h"

@@ -2,8 +2,8 @@
 #include "Core/Mesh/WholeTriangles.h"
 
 #include "Core/Geometry/EqualPoints.h"
-#include "Core/Mesh/MergePoints.h"
-#include "Core/Mesh/TJunctions.h"
+#include "Core/Mesh/Repair/MergePoints.h"
+#include "Core/Mesh/Repair/TJunctions.h"
 #include "Core/Mesh/UnitScale.h"
 #include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/Stages.h"

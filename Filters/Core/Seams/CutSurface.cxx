@@ -3,7 +3,7 @@
 
 #include "Core/Mesh/CornerPoint.h"
 #include "Core/Mesh/FlatShape.h"
-#include "Core/Mesh/SurfaceRepair.h"
+#include "Core/Mesh/Repair/SurfaceRepair.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Seams/HoleFans.h"
 #include "Core/Seams/OpenedComponent.h"

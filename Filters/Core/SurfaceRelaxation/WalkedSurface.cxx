@@ -5,7 +5,7 @@
 #include "Core/Geometry/PointBounds.h"
 #include "Core/Mesh/CornerPoint.h"
 #include "Core/Mesh/EdgeSides.h"
-#include "Core/Mesh/TJunctions.h"
+#include "Core/Mesh/Repair/TJunctions.h"
 #include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/Stages.h"
 

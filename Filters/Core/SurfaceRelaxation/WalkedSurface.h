@@ -5,7 +5,7 @@
 
 #include "Core/Geometry/Vectors.h"
 #include "Core/Mesh/PlaceOnTriangle.h"
-#include "Core/Mesh/SplitSurface.h"
+#include "Core/Mesh/Repair/SplitSurface.h"
 #include "Core/Mesh/TriangleSurface.h"
 #include "Core/Parallel/LargeBuffer.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces with points and triangles of no area: which of them are disks, what is left out and
 // merged, that the area is kept, and where points and triangles go.
-#include "Core/Mesh/RepairedDisk.h"
+#include "Core/Mesh/Repair/RepairedDisk.h"
 #include "SolidSurfaces.h"
 #include "TestMesh.h"
 

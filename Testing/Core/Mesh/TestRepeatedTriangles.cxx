@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles that a surface has twice: in either direction, with points of their own, in a disk.
-#include "Core/Mesh/MergePoints.h"
-#include "Core/Mesh/RepairedDisk.h"
+#include "Core/Mesh/Repair/MergePoints.h"
+#include "Core/Mesh/Repair/RepairedDisk.h"
 #include "DiskSurfaces.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What makes a closed surface of polygons: equal points, edges of two triangles, one orientation.
 #include "Core/Geometry/EqualPoints.h"
-#include "Core/Mesh/MergePoints.h"
+#include "Core/Mesh/Repair/MergePoints.h"
 #include "Core/Mesh/SurfaceOrientation.h"
 #include "SolidSurfaces.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // T-junctions of surfaces whose points are not merged, and those that triangles without area leave.
-#include "Core/Mesh/TJunctionRepair.h"
+#include "Core/Mesh/Repair/TJunctionRepair.h"
 
 #include "Core/Mesh/DiskMesh.h"
-#include "Core/Mesh/RepairedDisk.h"
+#include "Core/Mesh/Repair/RepairedDisk.h"
 #include "HangingNodes.h"
 #include "SurfaceRelaxation/SurfaceMeasures.h"
 

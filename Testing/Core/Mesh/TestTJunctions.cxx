@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points within edges of other triangles: which are found, that triangles are cut there and keep
 // their areas, and what is no T-junction.
-#include "Core/Mesh/TJunctions.h"
+#include "Core/Mesh/Repair/TJunctions.h"
 
 #include "Core/Geometry/EqualPoints.h"
 #include "Core/Geometry/Vectors.h"
-#include "Core/Mesh/SplitSurface.h"
-#include "Core/Mesh/SplitTriangle.h"
+#include "Core/Mesh/Repair/SplitSurface.h"
+#include "Core/Mesh/Repair/SplitTriangle.h"
 #include "Core/Parallel/Progress.h"
 #include "HangingNodes.h"
 #include "SurfaceRelaxation/SurfaceMeasures.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Mesh/SurfaceRepair.h"
+#include "Core/Mesh/Repair/SurfaceRepair.h"
 
 #include "Core/Geometry/EqualPoints.h"
 #include "Core/Mesh/FlatShape.h"
 #include "Core/Mesh/FlatTriangles.h"
-#include "Core/Mesh/MergePoints.h"
+#include "Core/Mesh/Repair/MergePoints.h"
 #include "Core/Mesh/SurfaceOrientation.h"
 #include "Core/Mesh/Trees.h"
 #include "Core/Parallel/Stages.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Mesh/RepairText.h"
+#include "Core/Mesh/Repair/RepairText.h"
 
 #include <sstream>
 

@@ -4,7 +4,7 @@
 #define RectifiedTransport_RepairedDisk_h
 
 #include "Core/Mesh/DiskMesh.h"
-#include "Core/Mesh/SurfaceRepair.h"
+#include "Core/Mesh/Repair/SurfaceRepair.h"
 #include "Core/Parallel/Context.h"
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Mesh/TJunctions.h"
+#include "Core/Mesh/Repair/TJunctions.h"
 
 #include "Core/Geometry/BoxTree.h"
 #include "Core/Geometry/PointBounds.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Mesh/RepairedDisk.h"
+#include "Core/Mesh/Repair/RepairedDisk.h"
 
 #include "Core/Parallel/Stages.h"
 

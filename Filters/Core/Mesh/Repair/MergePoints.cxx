@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Mesh/MergePoints.h"
+#include "Core/Mesh/Repair/MergePoints.h"
 
 #include "Core/Geometry/Bins.h"
 #include "Core/Geometry/EqualPoints.h"

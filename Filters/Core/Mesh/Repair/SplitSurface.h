@@ -4,7 +4,7 @@
 #define RectifiedTransport_SplitSurface_h
 
 #include "Core/Mesh/PlaceOnTriangle.h"
-#include "Core/Mesh/TJunctions.h"
+#include "Core/Mesh/Repair/TJunctions.h"
 #include "Core/Mesh/TriangleSurface.h"
 #include "Core/Parallel/LargeBuffer.h"
 

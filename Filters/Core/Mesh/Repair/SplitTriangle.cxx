@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Mesh/SplitTriangle.h"
+#include "Core/Mesh/Repair/SplitTriangle.h"
 
 #include "Core/Mesh/FlatShape.h"
 

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_TJunctionRepair_h
 #define RectifiedTransport_TJunctionRepair_h
 
-#include "Core/Mesh/SplitSurface.h"
+#include "Core/Mesh/Repair/SplitSurface.h"
 #include "Core/Mesh/TriangleSurface.h"
 #include "Core/Parallel/Context.h"
 

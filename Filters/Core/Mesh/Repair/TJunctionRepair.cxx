@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Mesh/TJunctionRepair.h"
+#include "Core/Mesh/Repair/TJunctionRepair.h"
 
 #include "Core/Geometry/EqualPoints.h"
-#include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/PlaceOnSide.h"
+#include "Core/Mesh/Repair/MergePoints.h"
 #include "Core/Parallel/Stages.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Mesh/SplitSurface.h"
+#include "Core/Mesh/Repair/SplitSurface.h"
 
-#include "Core/Mesh/SplitTriangle.h"
+#include "Core/Mesh/Repair/SplitTriangle.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
