@@ -3,7 +3,7 @@
 // threads.
 #include "BenchmarkInputs.h"
 
-#include "Core/Flow/ParticleOrder.h"
+#include "Core/Flow/Particles/ParticleOrder.h"
 #include "PaperTransport.h"
 
 #include <string>

@@ -3,8 +3,8 @@
 // flow, in either direction.
 #include "BenchmarkInputs.h"
 
-#include "Core/Flow/LatticeOrder.h"
-#include "Core/Flow/ParticleOrder.h"
+#include "Core/Flow/Particles/LatticeOrder.h"
+#include "Core/Flow/Particles/ParticleOrder.h"
 
 namespace RectifiedTransport
 {

@@ -5,7 +5,7 @@
 
 #include "FreshMemory.h"
 
-#include "Core/Flow/LatticeOrder.h"
+#include "Core/Flow/Particles/LatticeOrder.h"
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Splat/Splat.h"

@@ -4,10 +4,10 @@
 
 #include "Core/Device/Device.h"
 #include "Core/Device/DeviceUse.h"
-#include "Core/Flow/Compaction.h"
 #include "Core/Flow/Devices/DeviceTables.h"
 #include "Core/Flow/Devices/FlowPrograms.h"
 #include "Core/Flow/Kernels/SharedInputs.h"
+#include "Core/Flow/Particles/Compaction.h"
 
 #include <random>
 #include <vector>

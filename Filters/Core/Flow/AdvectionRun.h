@@ -6,10 +6,10 @@
 
 #include "Core/Flow/AdvectionCounters.h"
 #include "Core/Flow/AdvectionJob.h"
-#include "Core/Flow/Compaction.h"
 #include "Core/Flow/Devices/DeviceAdvection.h"
 #include "Core/Flow/FlowMap.h"
-#include "Core/Flow/ParticleSource.h"
+#include "Core/Flow/Particles/Compaction.h"
+#include "Core/Flow/Particles/ParticleSource.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/NearestMass.h"
 

@@ -4,7 +4,7 @@
 #define RectifiedTransport_FlowArguments_h
 
 #include "Core/Flow/FlowSeeds.h"
-#include "Core/Flow/LatticeOrder.h"
+#include "Core/Flow/Particles/LatticeOrder.h"
 #include "Core/Geometry/CountText.h"
 #include "Core/Geometry/GridSize.h"
 #include "Core/Geometry/LatticePart.h"

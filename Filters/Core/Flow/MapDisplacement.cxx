@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/MapDisplacement.h"
 
-#include "Core/Flow/LatticeOrder.h"
+#include "Core/Flow/Particles/LatticeOrder.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/CountText.h"
 

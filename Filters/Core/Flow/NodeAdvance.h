@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_NodeAdvance_h
 #define RectifiedTransport_NodeAdvance_h
 
-#include "Core/Flow/Compaction.h"
 #include "Core/Flow/Kernels/FlowKernels.h"
+#include "Core/Flow/Particles/Compaction.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>

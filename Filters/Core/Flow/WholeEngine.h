@@ -7,7 +7,7 @@
 #include "Core/Flow/Devices/DeviceAdvection.h"
 #include "Core/Flow/FlowEngine.h"
 #include "Core/Flow/KeptFlowMap.h"
-#include "Core/Flow/ParticleSource.h"
+#include "Core/Flow/Particles/ParticleSource.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Tables/BoxShare.h"
 #include "Core/Tables/SummedAreaTables.h"

@@ -2,7 +2,7 @@
 #include "Core/OptimalMap/OptimalMap.h"
 
 #include "Core/Flow/FlowArguments.h"
-#include "Core/Flow/StraightPaths.h"
+#include "Core/Flow/Particles/StraightPaths.h"
 #include "Core/OptimalMap/BoxCheck.h"
 #include "Core/OptimalMap/CorrectedMap.h"
 #include "Core/OptimalMap/CouplingCost.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Plan/TransportPlan.h"
 
-#include "Core/Flow/StraightPaths.h"
+#include "Core/Flow/Particles/StraightPaths.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/PercentText.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The flow of a lattice: its order is complete and compact, its results are those of any order, and
 // each direction by itself agrees with the oracle.
-#include "Core/Flow/LatticeOrder.h"
+#include "Core/Flow/Particles/LatticeOrder.h"
 #include "TestFlow.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The order of particles: neighbours in memory are neighbours in space.
-#include "Core/Flow/ParticleOrder.h"
+#include "Core/Flow/Particles/ParticleOrder.h"
 #include "TestFlow.h"
 
 #include <gtest/gtest.h>

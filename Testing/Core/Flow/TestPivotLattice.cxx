@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The particles of the pivot: exactly as many in each cell, spread evenly, and moved as any others.
-#include "Core/Flow/LatticeOrder.h"
+#include "Core/Flow/Particles/LatticeOrder.h"
 #include "Core/Flow/PivotLattice.h"
 #include "FlowMapShapes.h"
 #include "TestFlow.h"

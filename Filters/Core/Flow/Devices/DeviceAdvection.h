@@ -6,7 +6,7 @@
 #include "Core/Flow/AdvectionJob.h"
 #include "Core/Flow/FlowMap.h"
 #include "Core/Flow/FlowOptions.h"
-#include "Core/Flow/ParticleSource.h"
+#include "Core/Flow/Particles/ParticleSource.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/Density.h"
 #include "Core/Tables/SummedAreaTables.h"

@@ -7,7 +7,7 @@
 #include "Core/Flow/AdvectionJob.h"
 #include "Core/Flow/Devices/DeviceTables.h"
 #include "Core/Flow/Kernels/FlowMapView.h"
-#include "Core/Flow/LatticeOrder.h"
+#include "Core/Flow/Particles/LatticeOrder.h"
 #include "Core/Parallel/Progress.h"
 
 #include <cstdint>

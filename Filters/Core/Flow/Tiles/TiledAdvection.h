@@ -15,7 +15,7 @@
 
 #include "Core/Flow/AdvectionRun.h"
 #include "Core/Flow/NodeAdvance.h"
-#include "Core/Flow/ParticleSource.h"
+#include "Core/Flow/Particles/ParticleSource.h"
 #include "Core/Flow/Tiles/TileEntries.h"
 #include "Core/Flow/Tiles/TilePlan.h"
 #include "Core/Flow/Tiles/TileRounds.h"

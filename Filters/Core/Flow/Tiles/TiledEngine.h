@@ -5,7 +5,7 @@
 
 #include "Core/Flow/FlowEngine.h"
 #include "Core/Flow/KeptFlowMap.h"
-#include "Core/Flow/ParticleSource.h"
+#include "Core/Flow/Particles/ParticleSource.h"
 #include "Core/Flow/Tiles/TiledAdvection.h"
 #include "Core/Flow/Tiles/TiledShares.h"
 #include "Core/Tables/DensityShare.h"

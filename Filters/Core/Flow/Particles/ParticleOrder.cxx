@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Flow/ParticleOrder.h"
+#include "Core/Flow/Particles/ParticleOrder.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Flow/LatticeOrder.h"
+#include "Core/Flow/Particles/LatticeOrder.h"
 
 #include <algorithm>
 

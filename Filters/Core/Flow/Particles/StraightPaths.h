@@ -4,7 +4,7 @@
 #define RectifiedTransport_StraightPaths_h
 
 #include "Core/Flow/FlowArguments.h"
-#include "Core/Flow/ParticleSource.h"
+#include "Core/Flow/Particles/ParticleSource.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>

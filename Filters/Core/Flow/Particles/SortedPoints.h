@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_SortedPoints_h
 #define RectifiedTransport_SortedPoints_h
 
-#include "Core/Flow/ParticleOrder.h"
+#include "Core/Flow/Particles/ParticleOrder.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 
 #include "Core/Flow/FlowArguments.h"
 #include "Core/Flow/FlowSeeds.h"
-#include "Core/Flow/LatticeOrder.h"
-#include "Core/Flow/SortedPoints.h"
+#include "Core/Flow/Particles/LatticeOrder.h"
+#include "Core/Flow/Particles/SortedPoints.h"
 #include "Core/Geometry/GridSize.h"
 
 #include <cstdint>
