@@ -161,7 +161,7 @@ std::vector<MadeDensity<Dimension>> morph(const BoxDensity<Dimension>& a,
 
 // The weighted mean of densities in the same box, as `morph`: particles are at the sum of w_i
 // T_i(x) for the maps T_i of the uniform measure to density i (Section 3.4 of the paper). `weights`
-// has one number for each, 0 and more, with a sum above 0, by which they are divided.
+// has one number >= 0 for each. They are divided by their sum, which is above 0.
 template <int Dimension>
 MadeDensity<Dimension> barycenter(const std::vector<BoxDensity<Dimension>>& densities,
   const std::vector<double>& weights, const BlendOptions& options = {},
@@ -174,9 +174,9 @@ struct DistanceBounds
   double Upper = 0.0;
 };
 
-// The 2-Wasserstein distance of two densities, each divided by its mass: the root of the least mean
-// squared length by which the mass of one can be moved to the other. Boxes and numbers of cells are
-// the same. The lower bound loses about the square of a cell's side, of W2^2.
+// The 2-Wasserstein distance of two densities, each divided by its mass. Its square is the least
+// mean squared length of the ways that move the mass of one to the other. Boxes and numbers of
+// cells are the same. The lower bound loses about the square of a cell's side, of W2^2.
 template <int Dimension>
 DistanceBounds distance(const BoxDensity<Dimension>& a, const BoxDensity<Dimension>& b,
   const Context& context = Context());

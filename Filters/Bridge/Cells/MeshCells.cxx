@@ -86,7 +86,7 @@ const double* coordinatesOf(vtkDataSet* data)
   return doubles ? doubles->GetPointer(0) : nullptr;
 }
 
-// Quadratic cells that VTK leaves undivided, or of which it divides a half.
+// Quadratic cells that VTK does not divide, or divides by half.
 bool isDividedByNodes(int type)
 {
   return type == VTK_TRIQUADRATIC_HEXAHEDRON || type == VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON ||

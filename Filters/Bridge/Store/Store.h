@@ -31,7 +31,7 @@ bool withdraw(const std::shared_ptr<void>& object);
 // Whether an object is shared with other filters.
 enum class Sharing
 {
-  Process, // with those that need one of the same data
+  Process, // with filters that need one for the same data
   None
 };
 

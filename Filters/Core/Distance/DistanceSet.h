@@ -87,7 +87,7 @@ private:
   DistanceMethod Method = DistanceMethod::Linearized;
   std::vector<double> Sides;
   std::vector<Density> Given;
-  std::vector<std::size_t> Waiting; // densities of which there is no map yet
+  std::vector<std::size_t> Waiting; // densities that have no map yet
   std::map<Name, std::shared_ptr<const ReferenceImages>> Maps;
   std::array<std::map<NamePair, SquaredBracket>, 2> Pairs; // by method
 };

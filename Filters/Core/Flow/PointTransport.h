@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The interface of a map between two measures on boxes, of which the first may be uniform, that
-// moves points.
+// The interface of maps between two measures on boxes. A map moves points. The first measure may
+// be uniform.
 #ifndef RectifiedTransport_PointTransport_h
 #define RectifiedTransport_PointTransport_h
 

@@ -14,7 +14,8 @@
 namespace RectifiedTransport
 {
 
-// The cells of which a part of a lattice, `ratio` times as fine along each axis, covers some.
+// The coarse cells that a part of a fine lattice touches; `ratio` fine cells, along each axis, fit
+// into a coarse one.
 template <int Dimension>
 LatticePart<Dimension> coarsened(const LatticePart<Dimension>& fine, int ratio)
 {

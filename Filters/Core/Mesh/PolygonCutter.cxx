@@ -169,7 +169,7 @@ PolygonCutter::Ring PolygonCutter::WithoutEqual(const Ring& ring) const
   return kept;
 }
 
-// Without corners on the line through their neighbours, no two of which are neighbours.
+// Takes out corners that are on the line through their neighbours, but no two neighbours.
 PolygonCutter::Ring PolygonCutter::WithoutStraight(const Ring& ring) const
 {
   if (ring.size() < 3)

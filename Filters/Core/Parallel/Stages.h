@@ -71,7 +71,7 @@ private:
   std::vector<double> Ends; // empty: all are equal
 };
 
-// Parts of which nobody knows how many there will be. The first `usual` ones are half of the whole;
+// Parts whose number is not known in advance. The first `usual` ones are half of the whole;
 // the others lead towards its end.
 class Rounds : private ProgressPart
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The map between two densities, of which the first may be the uniform measure, by a flow or by the
-// optimal map, with a bound of the least cost. All that moves points between densities is one of
+// The map between two densities, by a flow or by the optimal map, with a bound of the least cost.
+// The first density may be the uniform measure. All that moves points between densities is one of
 // these; RectifiedFlow and OptimalMap are its solvers.
 //
 //   const auto end = [&](const DensitySource<2>& density) {

@@ -49,7 +49,7 @@ public:
 class CellSet
 {
 public:
-  // Flags of cells or points, of which those with one of the bits of the mask are hidden.
+  // Flags of cells or points. A cell or point is hidden if its flags have a bit of the mask.
   struct HiddenFlags
   {
     const unsigned char* Flags = nullptr; // none are hidden
