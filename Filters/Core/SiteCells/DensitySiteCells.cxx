@@ -4,10 +4,10 @@
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"
-#include "Core/SiteCells/EqualizeSiteMasses.h"
-#include "Core/SiteCells/JoinSpecks.h"
+#include "Core/SiteCells/EqualMasses/EqualizeSiteMasses.h"
+#include "Core/SiteCells/EqualMasses/JoinSpecks.h"
+#include "Core/SiteCells/EqualMasses/SplitSharedPixels.h"
 #include "Core/SiteCells/SiteDensity.h"
-#include "Core/SiteCells/SplitSharedPixels.h"
 
 #include <algorithm>
 #include <atomic>

@@ -3,8 +3,8 @@
 
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parallel/Stages.h"
-#include "Core/SiteCells/EqualizeSiteCells.h"
-#include "Core/SiteCells/SplitSharedPixels.h"
+#include "Core/SiteCells/EqualMasses/EqualizeSiteCells.h"
+#include "Core/SiteCells/EqualMasses/SplitSharedPixels.h"
 
 #include <algorithm>
 #include <atomic>

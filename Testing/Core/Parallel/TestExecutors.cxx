@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a kernel throws comes out of For; above all where memory runs out in the middle of a range.
 #include "Core/Quality/NearestNeighbours.h"
-#include "Core/SiteCells/EqualizeSiteCells.h"
-#include "Core/SiteCells/SplitSharedPixels.h"
+#include "Core/SiteCells/EqualMasses/EqualizeSiteCells.h"
+#include "Core/SiteCells/EqualMasses/SplitSharedPixels.h"
 #include "SolidSurfaces.h"
 #include "TestFlow.h"
 #include "TestSplat.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The masses of pixels, pixels that move until groups of sites have equal masses, and groups that
 // are divided among their sites.
-#include "Core/SiteCells/EqualizeSiteMasses.h"
+#include "Core/SiteCells/EqualMasses/EqualizeSiteMasses.h"
+#include "Core/SiteCells/EqualMasses/SplitSharedPixels.h"
 #include "Core/SiteCells/PixelMasses.h"
-#include "Core/SiteCells/SplitSharedPixels.h"
 
 #include "TestFlow.h"
 #include "TestMasses.h"

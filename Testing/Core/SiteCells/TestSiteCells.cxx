@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells of sites: which pixel comes to which site, cells made equal, cells that sites share.
-#include "Core/SiteCells/EqualizeSiteCells.h"
+#include "Core/SiteCells/EqualMasses/EqualizeSiteCells.h"
+#include "Core/SiteCells/EqualMasses/SplitSharedPixels.h"
 #include "Core/SiteCells/SiteDensity.h"
-#include "Core/SiteCells/SplitSharedPixels.h"
 #include "Oracle.h"
 #include "TestFlow.h"
 

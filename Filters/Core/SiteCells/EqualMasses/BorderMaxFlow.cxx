@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/SiteCells/BorderMaxFlow.h"
+#include "Core/SiteCells/EqualMasses/BorderMaxFlow.h"
 
 #include "Core/Parallel/Progress.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/SiteCells/JoinSpecks.h"
+#include "Core/SiteCells/EqualMasses/JoinSpecks.h"
 
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/SiteCells/SplitSharedPixels.h"
+#include "Core/SiteCells/EqualMasses/SplitSharedPixels.h"
 
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/SiteCells/EqualizeSiteCells.h"
+#include "Core/SiteCells/EqualMasses/EqualizeSiteCells.h"
 
 #include "Core/Parallel/Stages.h"
-#include "Core/SiteCells/BorderMaxFlow.h"
+#include "Core/SiteCells/EqualMasses/BorderMaxFlow.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/SiteCells/EqualizeSiteMasses.h"
+#include "Core/SiteCells/EqualMasses/EqualizeSiteMasses.h"
 
 #include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/Stages.h"
-#include "Core/SiteCells/BorderMaxFlow.h"
+#include "Core/SiteCells/EqualMasses/BorderMaxFlow.h"
 
 #include <algorithm>
 #include <cstdlib>
