@@ -21,25 +21,25 @@ namespace
 
 // What the optimal maps of a blend need. `particles` are those of all ranks.
 template <int D>
-std::vector<OptimalMemory> memoriesOfMaps(const std::vector<BlendInput>& inputs,
+std::vector<MemoryPlan> memoriesOfMaps(const std::vector<BlendInput>& inputs,
   const BlendSettings& settings, const ImageGrid& geometry, double particles, const Ranks& ranks)
 {
   const OptimalNeeds needs{ settings.Optimal, particles };
   const auto sizeOf = [&](std::size_t i) { return inputs[i].Density->Grid().Size<D>(); };
   if (settings.ComparesEnds)
   {
-    return { OptimalMemory::Between<D>(sizeOf(0), sizeOf(1), needs, ranks) };
+    return { memoryOfOptimalMap<D>(sizeOf(0), sizeOf(1), needs, ranks) };
   }
-  std::vector<OptimalMemory> memories;
+  std::vector<MemoryPlan> memories;
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
     if (inputs[i].Weight > 0.0)
     {
-      memories.push_back(OptimalMemory::Between<D>(geometry.Size<D>(), sizeOf(i), needs, ranks));
+      memories.push_back(memoryOfOptimalMap<D>(geometry.Size<D>(), sizeOf(i), needs, ranks));
     }
   }
   // The mean of one density is that density.
-  return memories.size() > 1 ? memories : std::vector<OptimalMemory>();
+  return memories.size() > 1 ? memories : std::vector<MemoryPlan>();
 }
 
 template <int D>
@@ -48,10 +48,9 @@ void requireFor(const std::vector<BlendInput>& inputs, const BlendSettings& sett
 {
   // Positions in the inputs and slack, and points and images in index spaces.
   const double each = sizeof(double) * (3.0 * static_cast<double>(inputs.size()) + 1.0 + 2.0 * D);
-  for (const OptimalMemory& memory :
-    memoriesOfMaps<D>(inputs, settings, geometry, particles, ranks))
+  for (const MemoryPlan& memory : memoriesOfMaps<D>(inputs, settings, geometry, particles, ranks))
   {
-    memory.Require(each * particles / ranks.Count());
+    requireMemory(memory.With(each * particles / ranks.Count()));
   }
 }
 
@@ -86,17 +85,16 @@ void findOptimal(const std::vector<BlendInput>& inputs, const BlendSettings& set
     densities.push_back({ planEnd<D>(PlanEnd<D>::In(geometry, grid), *inputs[i].Density), grid,
       inputs[i].Weight, spanOf(found.Positions[i]) });
   }
-  OptimalMemory largest{ "the optimal maps", 0.0 };
-  for (const OptimalMemory& memory :
+  MemoryPlan largest{ "the optimal maps", 0.0 };
+  for (const MemoryPlan& memory :
     memoriesOfMaps<D>(inputs, settings, geometry, static_cast<double>(particles), progress.Group()))
   {
     largest = memory.Bytes > largest.Bytes ? memory : largest;
   }
-  largest.Require();
   const OptimalBlendOptions options{ settings.Optimal.IsOptimal, settings.Optimal.Tolerance,
     settings.ComparesEnds, geometry };
-  OptimalPositions moved = withMemory(largest.Purpose, largest.Bytes,
-    [&]() { return blendOptimally<D>(densities, options, progress); });
+  OptimalPositions moved =
+    withRequiredMemory(largest, [&]() { return blendOptimally<D>(densities, options, progress); });
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
     if (moved.Moved[i])

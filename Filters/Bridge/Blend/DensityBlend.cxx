@@ -64,7 +64,7 @@ void requireMemoryFor(double particles, std::size_t inputs, bool withDisplacemen
   std::ostringstream purpose;
   purpose.precision(20);
   purpose << particles << " particles (see ParticlesPerCell and Dimensions)";
-  requireMemory(purpose.str(), each * particles);
+  requireMemory({ purpose.str(), each * particles });
 }
 
 // Makes an array of values that are not initialised, in the memory of the last one where it has no

@@ -40,7 +40,7 @@ std::shared_ptr<const LinearizedMap> make(InputDensity& density,
   if constexpr (D != 3)
   {
     const std::int64_t numbers = particles * D;
-    withMemory("the particles", static_cast<double>(numbers) * sizeof(double),
+    withMemory({ "the particles", static_cast<double>(numbers) * sizeof(double) },
       [&]() { buffer = LargeBuffer<double>(numbers); });
     positions = buffer.data();
   }

@@ -68,7 +68,7 @@ void addMovedInput(const MovedInput& input, const ImageGrid& grid, const TupleBo
   const double cells = static_cast<double>(wanted.Count());
   const double bytes = 8.0 * (6.0 + grid.Dimension()) * cells +
     8.0 * static_cast<double>(input.From->GetNumberOfTuples());
-  withMemory("the cells near an input", bytes, [&]() {
+  withMemory({ "the cells near an input", bytes }, [&]() {
     dispatchDimension(grid.Dimension(), addMoved<1>, addMoved<2>, addMoved<3>)(
       input, grid, wanted, progress, density);
   });

@@ -176,7 +176,7 @@ vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid, Progre
   {
     return cells;
   }
-  withMemory(purpose, static_cast<double>(grid->GetNumberOfCells()) * sizeof(Bounds), [&]() {
+  withMemory({ purpose, static_cast<double>(grid->GetNumberOfCells()) * sizeof(Bounds) }, [&]() {
     const Leaves leaves = leavesOf(grid, progress);
     const int corners = 1 << axes.size();
     vtkNew<vtkPoints> points;

@@ -47,7 +47,7 @@ std::vector<unsigned char> flagsOfCells(vtkImageData* image, const std::string& 
   image->GetDimensions(dimensions.data());
   const std::int64_t cells = image->GetNumberOfCells();
   std::vector<unsigned char> flags;
-  withMemory("the flags of the cells of the " + name, static_cast<double>(cells),
+  withMemory({ "the flags of the cells of the " + name, static_cast<double>(cells) },
     [&]() { flags.resize(static_cast<std::size_t>(cells)); });
   blankCellsOfHiddenPoints(dimensions, points, ghostFlags(image, vtkDataObject::CELL, name.c_str()),
     0, cells / std::max(1, dimensions[0] - 1), flags.data());
@@ -193,11 +193,11 @@ vtkSmartPointer<vtkDataArray> joinArrays(const std::vector<Part>& parts, int own
     static_cast<double>(all.Count()) * like->GetNumberOfComponents() * like->GetDataTypeSize();
   const std::string name = like->GetName() ? like->GetName() : "without a name";
   const std::string purpose = "the array " + name + " of images that are joined";
-  requireMemory(purpose, bytes);
+  requireMemory({ purpose, bytes });
   const auto joined = vtkSmartPointer<vtkDataArray>::Take(like->NewInstance());
   joined->SetName(like->GetName());
   joined->SetNumberOfComponents(like->GetNumberOfComponents());
-  withMemory(purpose, bytes, [&]() { joined->SetNumberOfTuples(all.Count()); });
+  withMemory({ purpose, bytes }, [&]() { joined->SetNumberOfTuples(all.Count()); });
   joined->Fill(0.0);
   // The first image that has a value gives it.
   for (auto part = parts.rbegin(); part != parts.rend(); ++part)
@@ -244,8 +244,9 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
   const TupleBox all = tuplesOf(whole, ofDensity, whole);
   std::vector<vtkIdType> given;
   std::vector<std::int32_t> giver;
-  withMemory("the lattice of images that are joined",
-    numberOfValues(grid) * (sizeof(vtkIdType) + sizeof(std::int32_t)), [&]() {
+  withMemory({ "the lattice of images that are joined",
+               numberOfValues(grid) * (sizeof(vtkIdType) + sizeof(std::int32_t)) },
+    [&]() {
       given.resize(static_cast<std::size_t>(all.Count()));
       giver.assign(static_cast<std::size_t>(all.Count()), -1);
     });

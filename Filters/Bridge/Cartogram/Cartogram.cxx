@@ -261,8 +261,8 @@ private:
     constexpr double bytesOfCell = 40.0; // of a density and its flow
     const auto side = static_cast<double>(this->Box.Side);
     const std::string text = std::to_string(this->Box.Side);
-    requireMemory("a raster of " + text + " x " + text + " cells (see Resolution)",
-      bytesOfCell * side * side + RegionRaster::BytesOf(this->Map, this->Box.Side));
+    requireMemory({ "a raster of " + text + " x " + text + " cells (see Resolution)",
+      bytesOfCell * side * side + RegionRaster::BytesOf(this->Map, this->Box.Side) });
   }
 
   CartogramStart FindStart(Progress& progress)

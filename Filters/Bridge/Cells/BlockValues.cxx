@@ -73,8 +73,9 @@ public:
   {
     const auto count = static_cast<std::int64_t>(this->Flags.size());
     LargeBuffer<double> density;
-    withMemory("the values of the " + this->Found.Array,
-      static_cast<double>(count) * sizeof(double), [&]() { density = LargeBuffer<double>(count); });
+    withMemory(
+      { "the values of the " + this->Found.Array, static_cast<double>(count) * sizeof(double) },
+      [&]() { density = LargeBuffer<double>(count); });
     double* values = density.data();
     progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
       this->Reader->Read(first, last - first, values + first);
@@ -157,8 +158,8 @@ BlockValues readBlocks(const std::vector<DensityBlock>& blocks, const CellSets& 
   readings.reserve(blocks.size());
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {
-    withMemory("the flags of the cells of the " + blocks[b].Name,
-      static_cast<double>(sets[b]->NumberOfCells),
+    withMemory({ "the flags of the cells of the " + blocks[b].Name,
+                 static_cast<double>(sets[b]->NumberOfCells) },
       [&]() { readings.emplace_back(blocks[b], sets[b], onPoints, mass, rules, progress); });
   }
   if (std::any_of(readings.begin(), readings.end(),

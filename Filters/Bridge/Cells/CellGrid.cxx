@@ -102,9 +102,10 @@ std::optional<CellLattice> latticeOf(
   std::optional<CellLattice> lattice = CellLattice::Find(sets, dimension, progress);
   for (std::size_t b = 0; lattice && b < sets.size(); ++b)
   {
-    const bool isPlaced = withMemory("the places of cells in their lattice",
-      static_cast<double>(sets[b]->NumberOfCells) * sizeof(std::int64_t),
-      [&]() { return lattice->Place(*sets[b], blocks[b].Array != nullptr, progress); });
+    const bool isPlaced =
+      withMemory({ "the places of cells in their lattice",
+                   static_cast<double>(sets[b]->NumberOfCells) * sizeof(std::int64_t) },
+        [&]() { return lattice->Place(*sets[b], blocks[b].Array != nullptr, progress); });
     if (!isPlaced)
     {
       lattice.reset();

@@ -81,15 +81,16 @@ void sampleCells(const BlockValues& blocks, const std::optional<CellLattice>& la
   }
   if (lattice)
   {
-    const auto lookup = withMemory("the cells in a lattice",
-      static_cast<double>(lattice->Grid().NumberOfCells()) * sizeof(std::int64_t),
-      [&]() { return LatticeLookup(*lattice, blocks.Cells, stages["places"]); });
+    const auto lookup =
+      withMemory({ "the cells in a lattice",
+                   static_cast<double>(lattice->Grid().NumberOfCells()) * sizeof(std::int64_t) },
+        [&]() { return LatticeLookup(*lattice, blocks.Cells, stages["places"]); });
     sampleArrays(source, PlacesInLattice(lookup, particles), stages["arrays"], output);
     return;
   }
   const LargeBuffer<MeshPlace> found =
-    withMemory("the places of the particles in the input's cells",
-      static_cast<double>(particles.size()) * sizeof(MeshPlace),
+    withMemory({ "the places of the particles in the input's cells",
+                 static_cast<double>(particles.size()) * sizeof(MeshPlace) },
       [&]() { return findPlaces(blocks.Cells, grid, particles, stages["places"]); });
   sampleArrays(source, PlacesInMeshes(found), stages["arrays"], output);
 }

@@ -211,9 +211,9 @@ void ResampledDensity::Resample(
     markRegions(this->Blocks.Cells, grid, progress);
   }
   const bool isLatticeImage = this->Lattice && !blocks.OnPoints;
-  requireMemory("an image of " + describeValues(grid) +
+  requireMemory({ "an image of " + describeValues(grid) +
       (isLatticeImage ? " cells" : " cells (see DensityResolution)"),
-    numberOfValues(grid) * sizeof(double));
+    numberOfValues(grid) * sizeof(double) });
   this->Image = vtkSmartPointer<vtkImageData>::New();
   applyGrid(grid, this->Image);
   vtkDataArray* first = read.front().Array;
@@ -240,7 +240,7 @@ CellSize ResampledDensity::AddCells(const ImageGrid& grid, const std::vector<Cel
     this->Lattice->CopyValues(cells, values, progress);
     return {};
   }
-  const CellSize size = withMemory("the order of the input's cells", 0.0,
+  const CellSize size = withMemory({ "the order of the input's cells", 0.0 },
     [&]() { return resampleCells(cells, grid, progress, values); });
   if (this->Lattice)
   {
@@ -264,7 +264,7 @@ void ResampledDensity::FillEmpty(
     filled.Least = std::min(filled.Least, block.Least);
   }
   LargeBuffer<double> covered;
-  withMemory("what the input's cells cover", numberOfValues(grid) * sizeof(double),
+  withMemory({ "what the input's cells cover", numberOfValues(grid) * sizeof(double) },
     [&]() { covered = LargeBuffer<double>(grid.NumberOfCells()); });
   this->AddCells(grid, ground, progress, covered.data());
   constexpr double rounding = 1e-9;

@@ -128,7 +128,7 @@ void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
     return;
   }
   const std::int64_t cells = this->Geometry.NumberOfCells();
-  withMemory("the flags of the cells of the input image", static_cast<double>(cells),
+  withMemory({ "the flags of the cells of the input image", static_cast<double>(cells) },
     [&]() { this->CombinedFlags.resize(static_cast<std::size_t>(cells)); });
   const std::array<int, 3> points = this->Geometry.NumberOfPoints();
   const std::int64_t columns = std::max(1, points[0] - 1);

@@ -48,12 +48,13 @@ void write(const ImageGrid& grid, InputDensity& density, const TupleBox& wanted,
   double* values)
 {
   density.Prepare(FlowTables::Tiled, progress);
-  withMemory("the density on the output's grid", 8.0 * static_cast<double>(wanted.Count()), [&]() {
-    const CellMeans<D> means(
-      placeCells<D>(grid, density.Grid()), grid.Size<D>(), latticePartOf<D>(wanted, grid));
-    const auto part = density.Source<D>().Part(means.Low(), means.High());
-    means.Write(*part, progress, values);
-  });
+  withMemory(
+    { "the density on the output's grid", 8.0 * static_cast<double>(wanted.Count()) }, [&]() {
+      const CellMeans<D> means(
+        placeCells<D>(grid, density.Grid()), grid.Size<D>(), latticePartOf<D>(wanted, grid));
+      const auto part = density.Source<D>().Part(means.Low(), means.High());
+      means.Write(*part, progress, values);
+    });
   density.ReleaseGathered();
 }
 

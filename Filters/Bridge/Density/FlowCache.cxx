@@ -18,11 +18,10 @@ namespace
 {
 
 template <int D>
-OptimalMemory memoryOfMap(
-  const InputDensity& density, const OptimalNeeds& needs, const Ranks& ranks)
+MemoryPlan memoryOfMap(const InputDensity& density, const OptimalNeeds& needs, const Ranks& ranks)
 {
   const GridSize<D> size = density.Grid().Size<D>();
-  return OptimalMemory::Of<D>(
+  return memoryOfOptimalMap<D>(
     "of a density of " + describeSize<D>(size) + " cells", size, size, needs, ranks);
 }
 
@@ -72,8 +71,8 @@ std::shared_ptr<SharedFlow> FlowCache::Build(InputDensity& density, FlowTables t
   if (needs.Setting.NeedsMap())
   {
     const bool hasMemory = previous && previous->HasFlow<D>();
-    memoryOfMap<D>(density, needs, progress.Group())
-      .Require(hasMemory ? 0.0 : RectifiedFlow<D>::MemoryFor(density.Grid().Size<D>()));
+    const double bytes = RectifiedFlow<D>::MemoryFor(density.Grid().Size<D>());
+    requireMemory(memoryOfMap<D>(density, needs, progress.Group()).With(hasMemory ? 0.0 : bytes));
   }
   return SharedFlow::Make<D>(density, tables, std::move(previous), progress);
 }
@@ -93,9 +92,7 @@ TransportPlan<D> FlowCache::Plan(
     DataIdentity identity = this->Identity();
     addSetting<D>(setting, end, identity);
     const auto solve = [&]() {
-      const OptimalMemory memory = memoryOfMap<D>(density, needs, progress.Group());
-      memory.Require();
-      return withMemory(memory.Purpose, memory.Bytes,
+      return withRequiredMemory(memoryOfMap<D>(density, needs, progress.Group()),
         [&]() { return TransportPlan<D>::Solve(nullptr, end, chosen.Optimal, stages["map"]); });
     };
     map = this->Map.Get<typename TransportPlan<D>::Map::element_type>(
@@ -106,8 +103,8 @@ TransportPlan<D> FlowCache::Plan(
     this->Map.Release();
   }
   needs.RequireForSamples<D>(end.Size, progress.Group());
-  return withMemory(std::string("the optimal map (") + setting.Advice() + ")",
-    TransportPlan<D>::MemoryFor(end.Size, end.Size),
+  return withMemory({ std::string("the optimal map (") + setting.Advice() + ")",
+                      TransportPlan<D>::MemoryFor(end.Size, end.Size) },
     [&]() { return TransportPlan<D>(end, chosen, stages["check"], map); });
 }
 
@@ -128,11 +125,10 @@ std::shared_ptr<const AreaCorrection<D>> FlowCache::Correction(const TransportPl
     identity.AddOptions(resolved);
   }
   const auto make = [&]() {
-    const std::string purpose =
-      "the areas of " + describeSize<D>(flow->Size()) + " cells (EqualizeAreas Off needs none)";
-    const double bytes = AreaCorrection<D>::MemoryFor(flow->Size());
-    requireMemory(purpose, bytes);
-    return withMemory(purpose, bytes, [&]() {
+    const MemoryPlan memory{ "the areas of " + describeSize<D>(flow->Size()) +
+        " cells (EqualizeAreas Off needs none)",
+      AreaCorrection<D>::MemoryFor(flow->Size()) };
+    return withRequiredMemory(memory, [&]() {
       return plan.IsOptimal()
         ? std::make_shared<const AreaCorrection<D>>(*flow, plan, EqualizeOptions(), progress)
         : std::make_shared<const AreaCorrection<D>>(*flow, resolved, EqualizeOptions(), progress);

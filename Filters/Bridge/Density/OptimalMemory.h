@@ -31,37 +31,28 @@ struct OptimalNeeds
   template <int D>
   void RequireForSamples(const GridSize<D>& target, const Ranks& ranks) const
   {
-    requireMemory(std::string("the exact counts of particles (") + this->Setting.Advice() + ")",
-      TransportPlan<D>::MemoryForSamples(target, this->Use(ranks)));
+    requireMemory({ std::string("the exact counts of particles (") + this->Setting.Advice() + ")",
+      TransportPlan<D>::MemoryForSamples(target, this->Use(ranks)) });
   }
 };
 
-struct OptimalMemory
+// `densities` are those of the map, for messages.
+template <int D>
+MemoryPlan memoryOfOptimalMap(const std::string& densities, const GridSize<D>& source,
+  const GridSize<D>& target, const OptimalNeeds& needs, const Ranks& ranks)
 {
-  // `densities` are those of the map, for messages.
-  template <int D>
-  static OptimalMemory Of(const std::string& densities, const GridSize<D>& source,
-    const GridSize<D>& target, const OptimalNeeds& needs, const Ranks& ranks)
-  {
-    return { "the optimal map " + densities + " (" + needs.Setting.Advice() + ")",
-      TransportPlan<D>::MemoryFor(source, target, OptimalMapOptions(), needs.Use(ranks)) };
-  }
+  return { "the optimal map " + densities + " (" + needs.Setting.Advice() + ")",
+    TransportPlan<D>::MemoryFor(source, target, OptimalMapOptions(), needs.Use(ranks)) };
+}
 
-  template <int D>
-  static OptimalMemory Between(const GridSize<D>& source, const GridSize<D>& target,
-    const OptimalNeeds& needs, const Ranks& ranks)
-  {
-    return Of<D>("between densities of " + describeSize<D>(source) + " and " +
-        describeSize<D>(target) + " cells",
-      source, target, needs, ranks);
-  }
-
-  // Throws Failure if this and so many more bytes are not there.
-  void Require(double more = 0.0) const { requireMemory(this->Purpose, this->Bytes + more); }
-
-  std::string Purpose;
-  double Bytes;
-};
+template <int D>
+MemoryPlan memoryOfOptimalMap(const GridSize<D>& source, const GridSize<D>& target,
+  const OptimalNeeds& needs, const Ranks& ranks)
+{
+  return memoryOfOptimalMap<D>("between densities of " + describeSize<D>(source) + " and " +
+      describeSize<D>(target) + " cells",
+    source, target, needs, ranks);
+}
 
 } // namespace RectifiedTransport::Bridge
 

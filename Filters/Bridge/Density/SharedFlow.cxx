@@ -59,8 +59,9 @@ std::shared_ptr<SharedFlow> SharedFlow::Make(InputDensity& density, FlowTables t
   catch (const std::bad_alloc& caught)
   {
     const GridSize<D> size = density.Grid().Size<D>();
-    failOutOfMemory(caught, "the tables of a density of " + describeSize<D>(size) + " cells",
-      RectifiedFlow<D>::MemoryFor(size));
+    failOutOfMemory(caught,
+      { "the tables of a density of " + describeSize<D>(size) + " cells",
+        RectifiedFlow<D>::MemoryFor(size) });
   }
   density.ReleaseGathered(); // whole tables need no values
   return made;

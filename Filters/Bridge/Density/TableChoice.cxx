@@ -57,7 +57,7 @@ FlowTables choose(TableSetting setting, const GridSize<D>& size, const FindRefus
     }
     return FlowTables::Whole;
   }
-  requireMemory("the tiles of a density of " + describeSize<D>(size) + " cells", findMemory());
+  requireMemory({ "the tiles of a density of " + describeSize<D>(size) + " cells", findMemory() });
   return FlowTables::Tiled;
 }
 

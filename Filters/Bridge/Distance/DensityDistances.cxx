@@ -102,12 +102,12 @@ void DensityDistances::Add(DistanceInput input, Progress& progress)
 
 void DensityDistances::MakeMaps(Progress& progress)
 {
-  const std::string purpose = "the optimal map to a density of " +
-    std::to_string(static_cast<std::int64_t>(this->Distances.CellsOfMaps())) +
-    " cells (a coarser image takes less)";
-  const double bytes = this->Distances.MemoryForMaps();
-  requireMemory(purpose, bytes);
-  withMemory(purpose, bytes, [&]() { this->Distances.MakeMaps(progress); });
+  const std::string cells =
+    std::to_string(static_cast<std::int64_t>(this->Distances.CellsOfMaps()));
+  withRequiredMemory(
+    { "the optimal map to a density of " + cells + " cells (a coarser image takes less)",
+      this->Distances.MemoryForMaps() },
+    [&]() { this->Distances.MakeMaps(progress); });
 }
 
 std::vector<DistancePair> DensityDistances::Find(Progress& progress)
@@ -118,11 +118,9 @@ std::vector<DistancePair> DensityDistances::Find(Progress& progress)
   {
     this->MakeMaps(stages["maps"]);
   }
-  const std::string purpose = "the bounds of a distance (Method Linearized takes less)";
-  const double bytes = this->Distances.MemoryForPairs();
-  requireMemory(purpose, bytes);
-  const std::vector<SquaredBracket> squares =
-    withMemory(purpose, bytes, [&]() { return this->Distances.Find(stages["pairs"]); });
+  const std::vector<SquaredBracket> squares = withRequiredMemory(
+    { "the bounds of a distance (Method Linearized takes less)", this->Distances.MemoryForPairs() },
+    [&]() { return this->Distances.Find(stages["pairs"]); });
   const LengthScale scale(this->Given.front().Grid);
   std::vector<DistancePair> pairs;
   for (const SquaredBracket& square : squares)

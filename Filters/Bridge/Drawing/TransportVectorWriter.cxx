@@ -70,8 +70,8 @@ bool isStroked(const DrawnLayer& layer, const Shape& shape)
 LargeBuffer<double> dotsOf(
   const std::vector<DrawnLayer>& layers, std::int64_t count, Progress& progress)
 {
-  LargeBuffer<double> dots = withMemory("the places of " + std::to_string(count) + " dots",
-    3.0 * sizeof(double) * static_cast<double>(count),
+  LargeBuffer<double> dots = withMemory({ "the places of " + std::to_string(count) + " dots",
+                                          3.0 * sizeof(double) * static_cast<double>(count) },
     [&]() { return LargeBuffer<double>(3 * count); });
   double* next = dots.data();
   for (const DrawnLayer& layer : layers)

@@ -47,10 +47,10 @@ public:
   {
     constexpr double real = sizeof(double);
     const double scratch = D == 3 ? 0.0 : real * D;
-    requireMemory(this->Purpose, static_cast<double>(this->Count) * (6 * real + scratch));
+    requireMemory({ this->Purpose, static_cast<double>(this->Count) * (6 * real + scratch) });
     this->Points = newArray<vtkDoubleArray>("Points", 3, this->Count);
     this->Displacements = newArray<vtkDoubleArray>("Displacement", 3, this->Count);
-    withMemory(this->Purpose, static_cast<double>(this->Count) * scratch,
+    withMemory({ this->Purpose, static_cast<double>(this->Count) * scratch },
       [&]() { this->Separate = LargeBuffer<double>(D == 3 ? 0 : this->Count * D); });
     this->Index = D == 3 ? this->Displacements->GetPointer(0) : this->Separate.data();
   }
@@ -95,7 +95,7 @@ public:
     catch (const std::bad_alloc& caught)
     {
       const double sort = static_cast<double>(this->Count) * sizeof(std::int64_t);
-      failOutOfMemory(caught, this->Purpose, sort);
+      failOutOfMemory(caught, { this->Purpose, sort });
     }
   }
 
@@ -169,10 +169,9 @@ double costOfMap(const ImageGrid& grid, const RectifiedFlow<D>& flow, const Tran
   const RankShare layers(size[D - 1], progress.Group());
   part.Low[D - 1] = layers.First;
   part.Cells[D - 1] = layers.Count;
-  const double bytes = static_cast<double>(part.Count()) * D * sizeof(double);
-  requireMemory(purpose, bytes);
+  const MemoryPlan memory{ purpose, static_cast<double>(part.Count()) * D * sizeof(double) };
   Stages stages(progress, { { "map", 9 }, { "cost", 1 } });
-  return withMemory(purpose, bytes, [&]() {
+  return withRequiredMemory(memory, [&]() {
     LargeBuffer<double> buffer(part.Count() * D);
     const PointSpan<D> images(buffer.data(), part.Count());
     const LatticeParts<D> parts(part, part);

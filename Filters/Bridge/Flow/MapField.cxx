@@ -52,11 +52,11 @@ MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const
   const double vectors = D == 3 ? std::max(kept, count) : count;
   const double scratch = D == 3 ? 0.0 : real * D * kept;
   const double scalars = hasTarget ? 3.0 : 2.0;
-  requireMemory(purpose, real * (3.0 * vectors + scalars * count) + scratch);
+  requireMemory({ purpose, real * (3.0 * vectors + scalars * count) + scratch });
   this->Displacement = newArray<vtkDoubleArray>("Displacement", 3, static_cast<vtkIdType>(vectors));
   if (D != 3)
   {
-    withMemory(purpose, scratch,
+    withMemory({ purpose, scratch },
       [&]() { this->PositionBuffer = LargeBuffer<double>(this->Kept.Count() * D); });
   }
 }

@@ -168,13 +168,14 @@ private:
     const Ranks& ranks = this->Work.Group();
     if (this->Goal && !onAllRanks(ranks, !this->MustSolve()))
     {
-      this->GoalMemory().Require(RectifiedFlow<D>::MemoryFor(this->Density.Grid().Size<D>()) +
-        RectifiedFlow<D>::MemoryFor(this->Goal->Density.Grid().Size<D>()));
+      const double tables = RectifiedFlow<D>::MemoryFor(this->Density.Grid().Size<D>()) +
+        RectifiedFlow<D>::MemoryFor(this->Goal->Density.Grid().Size<D>());
+      requireMemory(this->GoalMemory().With(tables));
     }
   }
-  OptimalMemory GoalMemory() const
+  MemoryPlan GoalMemory() const
   {
-    return OptimalMemory::Between<D>(this->Density.Grid().Size<D>(),
+    return memoryOfOptimalMap<D>(this->Density.Grid().Size<D>(),
       this->Goal->Density.Grid().Size<D>(), { this->Map.Optimal }, this->Work.Group());
   }
 
@@ -231,14 +232,13 @@ private:
     target.Flow = kept.Tables.Flow<D>();
     PlanOptions options = planOptions(setting, this->Options);
     options.Optimal.LeastIterations = leastIterations(setting.IsOptimal);
-    const OptimalMemory memory = this->GoalMemory();
+    const MemoryPlan memory = this->GoalMemory();
     Stages stages(progress, { { "map", 9 }, { "check", 1 } });
     typename TransportPlan<D>::Map map;
     if (setting.NeedsMap())
     {
       const auto solve = [&]() {
-        memory.Require();
-        return withMemory(memory.Purpose, memory.Bytes, [&]() {
+        return withRequiredMemory(memory, [&]() {
           return TransportPlan<D>::Solve(&source, target, options.Optimal, stages["map"]);
         });
       };
@@ -251,8 +251,8 @@ private:
     {
       kept.Map.Release();
     }
-    return withMemory(memory.Purpose, memory.Bytes,
-      [&]() { return TransportPlan<D>(source, target, options, stages["check"], map); });
+    return withMemory(
+      memory, [&]() { return TransportPlan<D>(source, target, options, stages["check"], map); });
   }
 
   // With a goal, reports both flows.
@@ -265,9 +265,10 @@ private:
       return plan.Move(this->Map.Backward ? FlowDirection::Backward : FlowDirection::Forward, seeds,
         field.Positions(), progress);
     }
-    const double bytes = 2.0 * D * sizeof(double) * static_cast<double>(field.Part().Count());
-    auto reports = withMemory("the samples between the densities (see SampleDimensions)", bytes,
-      [&]() { return plan.Move(FlowDirection::Forward, seeds, field.Positions(), progress); });
+    auto reports =
+      withMemory({ "the samples between the densities (see SampleDimensions)",
+                   2.0 * D * sizeof(double) * static_cast<double>(field.Part().Count()) },
+        [&]() { return plan.Move(FlowDirection::Forward, seeds, field.Positions(), progress); });
     reports.resize(2);
     return reports;
   }

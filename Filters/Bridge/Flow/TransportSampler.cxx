@@ -85,7 +85,7 @@ void makeSeeds(const UnitSeeds<D>& pattern, const GridSize<D>& size, const std::
   std::int64_t firstSeed, Progress& progress, PointSpan<D> seeds)
 {
   Stages stages(progress, { { "pattern", 8 }, { "scale", 2 } });
-  withMemory(purpose, pattern.Count() * D * sizeof(double),
+  withMemory({ purpose, pattern.Count() * D * sizeof(double) },
     [&]() { pattern.GenerateFrom(firstSeed, seeds, stages["pattern"]); });
   stages["scale"].For(seeds.size(), grain, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
@@ -220,7 +220,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   catch (const std::bad_alloc& caught)
   {
     const double sort = count * sizeof(std::int64_t);
-    failOutOfMemory(caught, purpose, sort);
+    failOutOfMemory(caught, { purpose, sort });
   }
 
   if (given)

@@ -109,8 +109,8 @@ void applyGrid(const ImageGrid& grid, vtkImageData* image)
   {
     planes += points;
   }
-  requireMemory(
-    "an image of " + describeValues(grid.WithValuesOn(true)) + " points", planes * sizeof(double));
+  requireMemory({ "an image of " + describeValues(grid.WithValuesOn(true)) + " points",
+    planes * sizeof(double) });
   std::array<int, 6> extent = grid.Extent();
   image->SetExtent(extent.data());
   image->SetOrigin(grid.Origin().data());

@@ -57,9 +57,9 @@ void copyTuples(const TupleSource& source, std::int64_t count,
   {
     vtkAbstractArray* array = source.From->GetAbstractArray(i);
     requireTuples(array, source.Count, source.Owner, source.Name);
-    requireMemory("the " + titleOf(array),
+    requireMemory({ "the " + titleOf(array),
       static_cast<double>(count) * array->GetNumberOfComponents() *
-        std::max(1, array->GetDataTypeSize()));
+        std::max(1, array->GetDataTypeSize()) });
   }
   to->CopyAllocate(source.From, static_cast<vtkIdType>(count));
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;

@@ -35,8 +35,8 @@ void DoubleTuples::Copy(
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   const int components = array->GetNumberOfComponents();
   const std::int64_t values = count * components;
-  withMemory("a copy of " + std::to_string(count) + " tuples in double precision",
-    static_cast<double>(values) * sizeof(double),
+  withMemory({ "a copy of " + std::to_string(count) + " tuples in double precision",
+               static_cast<double>(values) * sizeof(double) },
     [&]() { this->Copies = LargeBuffer<double>(values); });
   double* copies = this->Copies.data();
   progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {

@@ -85,8 +85,8 @@ CountedPoints::CountedPoints(std::int64_t all, const unsigned char* flags, unsig
     return;
   }
   this->Number -= std::count_if(flags, flags + all, isGhost);
-  withMemory("the numbers of the points that are no ghosts",
-    sizeof(std::int64_t) * static_cast<double>(this->Number),
+  withMemory({ "the numbers of the points that are no ghosts",
+               sizeof(std::int64_t) * static_cast<double>(this->Number) },
     [&]() { this->Indices = LargeBuffer<std::int64_t>(this->Number); });
   std::int64_t number = 0;
   for (std::int64_t point = 0; point < all; ++point)

@@ -35,7 +35,7 @@ ParticleSet<D>::ParticleSet(const ImageGrid& geometry, const std::string& purpos
   const double written = paths ? each * (5 * real + 2 * id) + id : 10 * real + 3 * id;
   const double scratch =
     real * D * ((separateSeeds ? 1.0 : 0.0) + (separatePositions ? each : 0.0));
-  requireMemory(purpose, count * (written + scratch));
+  requireMemory({ purpose, count * (written + scratch) });
 
   this->NumberOfParticles = static_cast<std::int64_t>(count);
   this->AllParticles = this->NumberOfParticles;
@@ -44,7 +44,7 @@ ParticleSet<D>::ParticleSet(const ImageGrid& geometry, const std::string& purpos
   {
     this->SeedPosition = newArray<vtkDoubleArray>("SeedPosition", 3, this->NumberOfParticles);
   }
-  withMemory(purpose, count * scratch, [&]() {
+  withMemory({ purpose, count * scratch }, [&]() {
     if (separateSeeds)
     {
       this->SeedBuffer = LargeBuffer<double>(this->NumberOfParticles * D);

@@ -98,7 +98,7 @@ vtkSmartPointer<vtkAbstractArray> makeLike(vtkAbstractArray* array, std::int64_t
     "the array " + (array->GetName() ? nameOf(array) : std::string("without name"));
   const double bytes = static_cast<double>(tuples) * array->GetNumberOfComponents() *
     std::max(1, array->GetDataTypeSize());
-  requireMemory(purpose, bytes);
+  requireMemory({ purpose, bytes });
   const auto made = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
   made->SetName(array->GetName());
   made->SetNumberOfComponents(array->GetNumberOfComponents());
@@ -111,7 +111,8 @@ vtkSmartPointer<vtkAbstractArray> makeLike(vtkAbstractArray* array, std::int64_t
   {
     data->SetLookupTable(vtkDataArray::SafeDownCast(array)->GetLookupTable());
   }
-  withMemory(purpose, bytes, [&]() { made->SetNumberOfTuples(static_cast<vtkIdType>(tuples)); });
+  withMemory(
+    { purpose, bytes }, [&]() { made->SetNumberOfTuples(static_cast<vtkIdType>(tuples)); });
   return made;
 }
 

@@ -198,11 +198,10 @@ ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid,
       blockSizeFor<D>(grid.Size<D>(), sumOverRanks(progress.Group(), count), usualParticles);
   }
   const double blocks = GridBlocks<D>(grid.Size<D>(), blockSize).Count();
-  const std::string purpose = "the comparison of " + std::to_string(count) + " particles with " +
-    std::to_string(static_cast<std::int64_t>(blocks)) + " blocks (see BlockSize)";
-  const double bytes = static_cast<double>(count) * eachParticle + blocks * eachBlock;
-  requireMemory(purpose, bytes);
-  return withMemory(purpose, bytes,
+  const MemoryPlan memory{ "the comparison of " + std::to_string(count) + " particles with " +
+      std::to_string(static_cast<std::int64_t>(blocks)) + " blocks (see BlockSize)",
+    static_cast<double>(count) * eachParticle + blocks * eachBlock };
+  return withRequiredMemory(memory,
     [&]() { return measureQuality<D>(particles, flow.Flow<D>(), grid, blockSize, progress); });
 }
 

@@ -201,8 +201,9 @@ CountedPoints countedOf(vtkPointSet* points, unsigned char ghosts, const Ranks& 
     return counted;
   }
   std::vector<unsigned char> left;
-  withMemory("a comparison of the points of ranks",
-    100.0 * static_cast<double>(points->GetNumberOfPoints()), [&]() {
+  withMemory({ "a comparison of the points of ranks",
+               100.0 * static_cast<double>(points->GetNumberOfPoints()) },
+    [&]() {
       const std::vector<unsigned char> repeated = repeatedPoints(points, counted, ranks);
       left.assign(
         repeated.empty() ? 0 : static_cast<std::size_t>(points->GetNumberOfPoints()), ghosts);
@@ -293,7 +294,7 @@ void DistributedPoints::FindKeys(const Ranks& ranks)
     if (onAllRanks(ranks, array != nullptr || this->Number.Count() == 0))
     {
       const std::int64_t count = this->Number.Count();
-      withMemory("the order of points", sizeof(std::int64_t) * static_cast<double>(count),
+      withMemory({ "the order of points", sizeof(std::int64_t) * static_cast<double>(count) },
         [&]() { this->Order = LargeBuffer<std::int64_t>(count); });
       CopyIntegers copy;
       if (count > 0)

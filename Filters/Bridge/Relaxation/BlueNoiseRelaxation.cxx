@@ -54,7 +54,7 @@ public:
     const vtkIdType count = input->GetNumberOfPoints();
     const std::int64_t coordinates = this->Counted.Count() * D;
     this->Points = newArray<vtkDoubleArray>("Points", 3, count);
-    withMemory(purpose, static_cast<double>(coordinates) * sizeof(double),
+    withMemory({ purpose, static_cast<double>(coordinates) * sizeof(double) },
       [&]() { this->Index = LargeBuffer<double>(coordinates); });
     return readSeeds<D>(input, this->Counted, "input point set", this->Grid, progress,
       this->Relaxed(), { this->Points->GetPointer(0), count });
@@ -156,7 +156,7 @@ BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, InputDens
   const std::string purpose = "the relaxation of " + std::to_string(counted.Count()) +
     " points in " + std::to_string(density.Grid().NumberOfCells()) + " cells of the density";
   const double bytes = coreMemory(settings.ByTransport, D, cells, count);
-  requireMemory(purpose, bytes + sizeof(double) * (3.0 * all + D * count));
+  requireMemory({ purpose, bytes + sizeof(double) * (3.0 * all + D * count) });
 
   const SharedFlow* flow = nullptr;
   if (!settings.ByTransport)
@@ -178,7 +178,7 @@ BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, InputDens
   report.PointsMoved = points.Read(input, purpose, stages["points"]);
   if (counted.Count() > 0)
   {
-    withMemory(purpose, bytes, [&]() {
+    withMemory({ purpose, bytes }, [&]() {
       report.Energy =
         relaxPoints<D>(settings, density, flow, points.Relaxed(), stages["relaxation"]).Energy;
     });

@@ -57,7 +57,7 @@ int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs, Rank
   }
   catch (const NoMemoryForFlowMap& map)
   {
-    error = describeLack("a flow map (FlowMaps Off needs none)", map.MemorySize());
+    error = describeLack({ "a flow map (FlowMaps Off needs none)", map.MemorySize() });
   }
   catch (const std::bad_alloc&)
   {

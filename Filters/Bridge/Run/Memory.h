@@ -5,6 +5,7 @@
 #define RectifiedTransport_Memory_h
 
 #include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/MemoryPlan.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkSmartPointer.h"
@@ -17,23 +18,22 @@ namespace RectifiedTransport::Bridge
 {
 
 // The text of the error.
-std::string describeLack(const std::string& purpose, double bytes);
+std::string describeLack(const MemoryPlan& plan);
 
-[[noreturn]] void failOutOfMemory(const std::string& purpose, double bytes);
+[[noreturn]] void failOutOfMemory(const MemoryPlan& plan);
 // The same for the exception that a handler has caught, unless it names its purpose itself: then it
 // is thrown again.
-[[noreturn]] void failOutOfMemory(
-  const std::bad_alloc& caught, const std::string& purpose, double bytes);
+[[noreturn]] void failOutOfMemory(const std::bad_alloc& caught, const MemoryPlan& plan);
 
 // Throws Failure if a single block of this size cannot be allocated. Systems that overcommit memory
 // refuse single blocks that exceed it, but not sums of blocks.
-void requireMemory(const std::string& purpose, double bytes);
+void requireMemory(const MemoryPlan& plan);
 
 // Calls a function; its std::bad_alloc becomes a Failure, unless the exception itself names its
-// purpose. Workers build tables and advect in a try block instead: many calls lead from there to
-// the kernels, and a lambda would be one more.
+// purpose. Workers build tables and advect in a try block instead: many
+// calls lead from there to the kernels, and a lambda would be one more.
 template <class Function>
-auto withMemory(const std::string& purpose, double bytes, Function&& function)
+auto withMemory(const MemoryPlan& plan, Function&& function)
 {
   try
   {
@@ -41,8 +41,16 @@ auto withMemory(const std::string& purpose, double bytes, Function&& function)
   }
   catch (const std::bad_alloc& caught)
   {
-    failOutOfMemory(caught, purpose, bytes);
+    failOutOfMemory(caught, plan);
   }
+}
+
+// The same, if the memory is there before.
+template <class Function>
+auto withRequiredMemory(const MemoryPlan& plan, Function&& function)
+{
+  requireMemory(plan);
+  return withMemory(plan, function);
 }
 
 // A VTK array whose values are not initialised. (A failed allocation by VTK itself prints an error
@@ -59,7 +67,7 @@ vtkSmartPointer<ArrayT> newArray(const std::string& name, int components, vtkIdT
   }
   if (!memory)
   {
-    failOutOfMemory("the array " + name, bytes);
+    failOutOfMemory({ "the array " + name, bytes });
   }
   auto array = vtkSmartPointer<ArrayT>::New();
   array->SetName(name.c_str());

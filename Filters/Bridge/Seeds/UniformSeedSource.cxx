@@ -57,14 +57,14 @@ void fillBox(
   constexpr double maximumCount = 9e18;
   const RankShare share(
     static_cast<std::int64_t>(std::min(seeds.Count(), maximumCount)), pieces, piece);
-  requireMemory(purpose, static_cast<double>(share.Count) * bytesPerPoint);
+  requireMemory({ purpose, static_cast<double>(share.Count) * bytesPerPoint });
   const auto count = static_cast<vtkIdType>(share.Count);
 
   auto coordinates = newArray<vtkDoubleArray>("Points", 3, count);
   double* points = coordinates->GetPointer(0);
   LargeBuffer<double> separate;
   Stages stages(progress, { { "pattern", 6 }, { "points", 2 }, { "cells", 2 } });
-  withMemory(purpose, static_cast<double>(count) * D * sizeof(double), [&]() {
+  withMemory({ purpose, static_cast<double>(count) * D * sizeof(double) }, [&]() {
     separate = LargeBuffer<double>(D == 3 ? 0 : count * D);
     const PointSpan<D> made(D == 3 ? points : separate.data(), count);
     seeds.GenerateFrom(share.First, made, stages["pattern"]);

@@ -66,7 +66,7 @@ SiteCells<D> placeSites(vtkPointSet* sites, const ImageGrid& grid, Progress& pro
   const DoubleTuples points(sites->GetPoints()->GetData(), progress);
   constexpr double eachSite = (D + 3 + 4) * sizeof(double);
   return withMemory(
-    "the " + std::to_string(count) + " sites", static_cast<double>(count) * eachSite, [&]() {
+    { "the " + std::to_string(count) + " sites", static_cast<double>(count) * eachSite }, [&]() {
       return SiteCells<D>({ points.data(), count }, grid, progress);
     });
 }
@@ -88,8 +88,9 @@ SiteDivision updateLabels(const DataIdentity& identity, const ImageGrid& grid, d
   Stages stages(progress, { { "comparison", 1 }, { "labels", 92 } });
   const auto make = [&]() -> SiteDivision {
     auto labels = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
-    const FlowReport flow = withMemory("labels of " + describeSize<D>(grid.Size<D>()) + " pixels",
-      bytes, [&]() { return label(labels->GetPointer(0), stages["labels"]); });
+    const FlowReport flow =
+      withMemory({ "labels of " + describeSize<D>(grid.Size<D>()) + " pixels", bytes },
+        [&]() { return label(labels->GetPointer(0), stages["labels"]); });
     return { labels, nullptr, flow };
   };
   return *updateDivision(identity, kept, stages["comparison"], make);
@@ -106,7 +107,7 @@ void writeCells(const ImageGrid& grid, SiteIdArray* labels, vtkIdType sites, Pro
     { { "statistics", 6 }, { "outlines", 2 }, { "polygons", 1 }, { "written polygons", 1 } });
   const double bytes = static_cast<double>(sites) * 2.0 * (D + 2) * sizeof(double);
   const auto withSums = [&](const SiteCellStatistics& statistics) {
-    return withMemory("the sums of the " + std::to_string(sites) + " cells", bytes,
+    return withMemory({ "the sums of the " + std::to_string(sites) + " cells", bytes },
       [&]() { return measure(statistics, stages["statistics"]); });
   };
   addStatistics(outputs, withSums);
@@ -115,7 +116,7 @@ void writeCells(const ImageGrid& grid, SiteIdArray* labels, vtkIdType sites, Pro
   if constexpr (D == 2)
   {
     SiteCellPolygons polygons =
-      withMemory("the polygons of the cells", 9.0 * static_cast<double>(grid.NumberOfCells()),
+      withMemory({ "the polygons of the cells", 9.0 * static_cast<double>(grid.NumberOfCells()) },
         [&]() { return polygonsOfSiteCells(grid, labels->GetPointer(0), stages["polygons"]); });
     writePolygons(std::move(polygons), outputs, stages["written polygons"]);
   }
@@ -153,20 +154,21 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
   visitPoints(sites, "input point set", reading, [](std::int64_t, const double*) {});
   const DoubleTuples points(sites->GetPoints()->GetData(), reading);
   const double bytes = numberOfValues(grid) * sizeof(std::int64_t);
-  const auto placed = withMemory("the masses of " + describeValues(grid) + " pixels", bytes, [&]() {
-    try
-    {
-      return DensitySiteCells<D>({ points.data(), count }, grid, density.Source<D>(),
-        flow.Flow<D>().Total(), stages["masses"]);
-    }
-    catch (const TooFewPixels& few)
-    {
-      throw Failure("The input has " + std::to_string(count) + " sites, and the " +
-        density.GetName() + " has mass in " + std::to_string(few.PixelsWithMass()) + " of " +
-        describeSize<D>(grid.Size<D>()) +
-        " pixels; raise Resolution until there is a pixel with mass for each");
-    }
-  });
+  const auto placed =
+    withMemory({ "the masses of " + describeValues(grid) + " pixels", bytes }, [&]() {
+      try
+      {
+        return DensitySiteCells<D>({ points.data(), count }, grid, density.Source<D>(),
+          flow.Flow<D>().Total(), stages["masses"]);
+      }
+      catch (const TooFewPixels& few)
+      {
+        throw Failure("The input has " + std::to_string(count) + " sites, and the " +
+          density.GetName() + " has mass in " + std::to_string(few.PixelsWithMass()) + " of " +
+          describeSize<D>(grid.Size<D>()) +
+          " pixels; raise Resolution until there is a pixel with mass for each");
+      }
+    });
   const SiteDivision division = updateLabels<D>(
     identityOfDivision(sites, grid, &cells.Flow, &density), grid, bytesOfLabellingByMass<D>(grid),
     kept, stages["labels"], [&](std::int64_t* values, Progress& work) {
@@ -196,14 +198,15 @@ SiteDivision makePowerCells(
   SiteDivision division;
   // The factors of the linear systems are the peak.
   constexpr double eachSite = 1500.0;
-  withMemory("the power cells of " + std::to_string(count) + " sites",
-    static_cast<double>(count) * eachSite + moreBytes, [&]() {
+  withMemory({ "the power cells of " + std::to_string(count) + " sites",
+               static_cast<double>(count) * eachSite + moreBytes },
+    [&]() {
       division.Power = std::make_shared<PowerSiteCells>(
         make(ConstPointSpan<3>(points.data(), count), stages["cells"]));
     });
   division.Labels =
     newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
-  withMemory("the polygons in the rows of pixels", static_cast<double>(count) * sizeof(double),
+  withMemory({ "the polygons in the rows of pixels", static_cast<double>(count) * sizeof(double) },
     [&]() { division.Power->Label(division.Labels->GetPointer(0), stages["labels"]); });
   return division;
 }
@@ -217,9 +220,10 @@ std::int64_t writePowerCells(
     outputs, [&power](const SiteCellStatistics& statistics) { return power.Measure(statistics); });
   const double bytes = 60.0 * 6.0 * static_cast<double>(power.NumberOfSites());
   withMemory(
-    "the outlines", bytes, [&]() { writeOutlines<2>(power.Outlines(), outputs.Outlines); });
-  writePolygons(withMemory("the polygons of the cells", bytes, [&]() { return power.Polygons(); }),
-    outputs, progress);
+    { "the outlines", bytes }, [&]() { writeOutlines<2>(power.Outlines(), outputs.Outlines); });
+  writePolygons(
+    withMemory({ "the polygons of the cells", bytes }, [&]() { return power.Polygons(); }), outputs,
+    progress);
   return power.NumberOutside();
 }
 
@@ -259,8 +263,9 @@ std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, InputD
   const double bytes = rowMoments * static_cast<double>(density.Grid().NumberOfCells());
   const auto makeWithoutEmpty = [&]() {
     SiteDivision division = makePowerCells(sites, grid, bytes, stages["cells"], make);
-    withMemory("the masses of " + describeValues(grid) + " pixels",
-      numberOfValues(grid) * sizeof(std::int64_t), [&]() {
+    withMemory({ "the masses of " + describeValues(grid) + " pixels",
+                 numberOfValues(grid) * sizeof(std::int64_t) },
+      [&]() {
         Progress& work = stages["empty pixels"];
         const PixelMasses<2> masses(
           density.Source<2>(), mass / density.Grid().CellMeasure(), grid.Size<2>(), work);
@@ -309,8 +314,8 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* do
   {
     const auto bytes = dispatchDimension(
       grid.Dimension(), bytesOfLabelling<1>, bytesOfLabelling<2>, bytesOfLabelling<3>);
-    requireMemory(describeLabels(grid),
-      numberOfValues(grid) * sizeof(std::int64_t) + (this->IsPower ? 0.0 : bytes(grid)));
+    requireMemory({ describeLabels(grid),
+      numberOfValues(grid) * sizeof(std::int64_t) + (this->IsPower ? 0.0 : bytes(grid)) });
   }
   applyGrid(grid, outputs.Labels);
   writeSites(sites, outputs.Sites);
@@ -333,9 +338,9 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, InputDensity& den
   }
   const auto bytes = dispatchDimension(grid.Dimension(), bytesOfLabellingByMass<1>,
     bytesOfLabellingByMass<2>, bytesOfLabellingByMass<3>);
-  requireMemory(describeLabels(grid),
+  requireMemory({ describeLabels(grid),
     numberOfValues(grid) * sizeof(std::int64_t) * (this->IsPower ? 1.0 : 2.0) +
-      (this->IsPower ? 0.0 : bytes(grid)));
+      (this->IsPower ? 0.0 : bytes(grid)) });
   applyGrid(grid, outputs.Labels);
   writeSites(sites, outputs.Sites);
   if (this->IsPower)

@@ -72,8 +72,9 @@ void addSiteColors(vtkImageData* labels, vtkPolyData* polygons, vtkIdType sites,
   vtkCellData* data = labels->GetCellData();
   auto* ids = SiteIdArray::SafeDownCast(data->GetScalars());
   constexpr double eachSite = 120.0; // a dozen neighbours
-  const Colors ofSites = withMemory("the neighbours of the " + std::to_string(sites) + " sites",
-    static_cast<double>(sites) * eachSite, [&]() {
+  const Colors ofSites = withMemory({ "the neighbours of the " + std::to_string(sites) + " sites",
+                                      static_cast<double>(sites) * eachSite },
+    [&]() {
       return dispatchDimension(grid.Dimension(), colorsOf<1>, colorsOf<2>, colorsOf<3>)(
         grid, ids->GetPointer(0), sites, progress);
     });

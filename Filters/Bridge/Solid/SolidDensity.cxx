@@ -31,14 +31,16 @@ vtkSmartPointer<vtkDoubleArray> cover(const SolidSurface& surface, const GridSiz
 {
   const std::string grid = describeSize<3>(part.Cells) + " cells (see Resolution)";
   const double count = numberOfCells<3>(part.Cells);
-  requireMemory("a density of " + grid, count * sizeof(double));
+  requireMemory({ "a density of " + grid, count * sizeof(double) });
   auto density = newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(count));
-  const CoverageReport report = withMemory("the surface's " +
-      std::to_string(surface.Triangles.NumberOfTriangles) + " triangles in the layers of " + grid,
-    static_cast<double>(surface.Triangles.NumberOfTriangles) * sizeof(vtkIdType), [&]() {
-      return coverPartOfSolid(
-        surface, cells, part, supersampling, density->GetPointer(0), progress);
-    });
+  const CoverageReport report =
+    withMemory({ "the surface's " + std::to_string(surface.Triangles.NumberOfTriangles) +
+                   " triangles in the layers of " + grid,
+                 static_cast<double>(surface.Triangles.NumberOfTriangles) * sizeof(vtkIdType) },
+      [&]() {
+        return coverPartOfSolid(
+          surface, cells, part, supersampling, density->GetPointer(0), progress);
+      });
   if (report.OpenLines > 0)
   {
     throw Failure("The input surface leaves " + std::to_string(report.OpenLines) +

@@ -45,12 +45,12 @@ std::int64_t splatIn(const OwnPoints<Real>& own, const SplatTarget& target, cons
   if (progress.Group().AreSeveral())
   {
     return withMemory(
-      "the exchange of " + std::to_string(own.Points.size()) + " points", 100.0 * count, [&]() {
+      { "the exchange of " + std::to_string(own.Points.size()) + " points", 100.0 * count }, [&]() {
         return splatOnRanks<D, Real>(particles, own.Order, size, latticePartOf<D>(wanted, geometry),
           target.Options, 1.0 / target.CellMeasure(), cells, progress);
       });
   }
-  return withMemory("putting the points in order", 8.0 * count, [&]() {
+  return withMemory({ "putting the points in order", 8.0 * count }, [&]() {
     return splatMass<D, Real>(
       particles, size, target.Options, 1.0 / target.CellMeasure(), cells, progress)
       .Outside;

@@ -61,8 +61,8 @@ void requireMemoryFor(double values, const ImageGrid& cells)
 {
   const std::array<int, 3> along = cells.NumberOfValues();
   const GridSize<3> size{ along[0], along[1], along[2] };
-  requireMemory("the array Density of " + describeSize<3>(size) + " values (see Dimensions)",
-    values * sizeof(double));
+  requireMemory({ "the array Density of " + describeSize<3>(size) + " values (see Dimensions)",
+    values * sizeof(double) });
 }
 
 void requireFinite(double sizes, const SplatTarget& target)

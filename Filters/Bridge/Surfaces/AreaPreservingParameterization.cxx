@@ -176,11 +176,11 @@ template <class Map>
 auto withFlowMemory(std::int64_t points, int resolution, const Map& map)
 {
   const std::string cells = std::to_string(resolution);
-  const double bytes = 40.0 * resolution * resolution + 200.0 * static_cast<double>(points);
-  const std::string flow = "the flow of " + std::to_string(points) + " points on " + cells + " x " +
-    cells + " cells (see Resolution)";
-  requireMemory(flow, bytes);
-  return withMemory(flow, bytes, map);
+  return withRequiredMemory(
+    { "the flow of " + std::to_string(points) + " points on " + cells + " x " + cells +
+        " cells (see Resolution)",
+      40.0 * resolution * resolution + 200.0 * static_cast<double>(points) },
+    map);
 }
 
 // Which point of the input each point is, and which component each cell; -1 for cells that are no

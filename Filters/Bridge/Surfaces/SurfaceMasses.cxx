@@ -110,8 +110,9 @@ SurfaceMasses::SurfaceMasses(const TriangleInput& triangles, const PlacedTriangl
   };
   const std::int64_t count = surface.NumberOfTriangles();
   vtkDataArray* array = density.Array();
-  withMemory("the masses of " + std::to_string(count) + " triangles",
-    static_cast<double>(count) * sizeof(double), [&]() {
+  withMemory({ "the masses of " + std::to_string(count) + " triangles",
+               static_cast<double>(count) * sizeof(double) },
+    [&]() {
       if (array)
       {
         const DoubleTuples values(array, progress);

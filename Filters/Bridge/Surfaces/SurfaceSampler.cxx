@@ -109,7 +109,7 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
   const std::string particles =
     std::to_string(this->Options.NumberOfSamples) + " particles (see NumberOfParticles)";
   const double bytes = asked * BytesOfSurfaceParticle;
-  requireMemory(particles, bytes);
+  requireMemory({ particles, bytes });
 
   TriangleInput read(input, "it must be a surface", stages["input"]);
   const WholeTriangles surface = read.Whole(stages["triangles"]);
@@ -117,22 +117,23 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
   const SurfaceMasses masses(read, surface, density, stages["masses"]);
   const SurfaceDensityValues relative = masses.Density();
   const TriangleSurface triangles = surface.Surface();
-  const SurfaceRelaxation samples = withMemory("the relaxation of " + particles,
-    bytes +
-      memoryForSurfaceRelaxation(triangles.Points.size(), triangles.NumberOfTriangles,
-        relative.AtPoints || relative.OfTriangles, this->Options.NumberOfSamples),
-    [&]() {
-      try
-      {
-        return relaxOnSurface(triangles, relative, options, stages["relaxation"]);
-      }
-      catch (const std::invalid_argument&) // all else was checked before
-      {
-        throw Failure("The input surface has no area: each of its " +
-          std::to_string(triangles.NumberOfTriangles) +
-          " triangles is lower than 1e-12 of its length, or nothing beside the bounds");
-      }
-    });
+  const SurfaceRelaxation samples =
+    withMemory({ "the relaxation of " + particles,
+                 bytes +
+                   memoryForSurfaceRelaxation(triangles.Points.size(), triangles.NumberOfTriangles,
+                     relative.AtPoints || relative.OfTriangles, this->Options.NumberOfSamples) },
+      [&]() {
+        try
+        {
+          return relaxOnSurface(triangles, relative, options, stages["relaxation"]);
+        }
+        catch (const std::invalid_argument&) // all else was checked before
+        {
+          throw Failure("The input surface has no area: each of its " +
+            std::to_string(triangles.NumberOfTriangles) +
+            " triangles is lower than 1e-12 of its length, or nothing beside the bounds");
+        }
+      });
   writeSurfaceParticles(
     { given, read, surface, samples.Places }, masses.Total(), stages["particles"], output);
   SurfaceSamplingReport report;
@@ -162,7 +163,7 @@ SurfaceSamplingReport SurfaceSampler::Transport(const SurfaceInput& given,
   const std::string particles =
     std::to_string(this->Options.NumberOfSamples) + " particles (see NumberOfParticles)";
   constexpr double bytesOfParticle = BytesOfSurfaceParticle + sizeof(PlaceOnTriangle);
-  requireMemory(particles, asked * bytesOfParticle);
+  requireMemory({ particles, asked * bytesOfParticle });
 
   TriangleInput read(input, "it must be a disk", stages["input"]);
   const DiskTriangles surface = read.Disk(stages["triangles"]);
@@ -174,9 +175,10 @@ SurfaceSamplingReport SurfaceSampler::Transport(const SurfaceInput& given,
   const double tables = memoryForSurfaceFlow(grid);
   const std::string flow = "the flow on " + std::to_string(grid[0]) + " x " +
     std::to_string(grid[1]) + " cells (see Resolution)";
-  requireMemory(flow, tables);
-  const SurfaceSamples samples = withMemory(flow + " and " + particles,
-    tables + asked * bytesOfParticle + 80.0 * static_cast<double>(disk.NumberOfTriangles()),
+  requireMemory({ flow, tables });
+  const SurfaceSamples samples = withMemory(
+    { flow + " and " + particles,
+      tables + asked * bytesOfParticle + 80.0 * static_cast<double>(disk.NumberOfTriangles()) },
     [&]() { return sampleSurface(disk, map, masses.Values(), this->Options, stages["flow"]); });
 
   writeSurfaceParticles(

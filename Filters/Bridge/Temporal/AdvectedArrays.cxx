@@ -42,7 +42,7 @@ SeriesPositions placesOf(const ImageGrid& grid)
   vtkNew<vtkImageData> image;
   applyGrid(grid.IsOnPoints() ? grid : grid.AtCellCentres(), image);
   const vtkIdType count = image->GetNumberOfPoints();
-  return withMemory("the array Places", 24.0 * static_cast<double>(count), [&]() {
+  return withMemory({ "the array Places", 24.0 * static_cast<double>(count) }, [&]() {
     SeriesPositions places(count);
     for (vtkIdType i = 0; i < count; ++i)
     {
@@ -175,7 +175,8 @@ void AdvectedArrays::WriteOne(const Advected& advected, const SeriesMoment& mome
   made->SetName(advected.Name.c_str());
   made->SetNumberOfComponents(components);
   made->CopyComponentNames(advected.Like);
-  withMemory("the array " + advected.Name, 8.0 * static_cast<double>(wanted.Count()) * components,
+  withMemory(
+    { "the array " + advected.Name, 8.0 * static_cast<double>(wanted.Count()) * components },
     [&]() { made->SetNumberOfTuples(wanted.Count()); });
   const auto moments = newArray<vtkDoubleArray>("Moments", 1, moment.Count());
   const auto sums = newArray<vtkDoubleArray>("Sums", 1, wanted.Count());

@@ -111,8 +111,8 @@ void AdvectedLabels::Make(int owner, const std::vector<std::string>& names,
     Labels labels{ name, { arrayOf(first), arrayOf(second) }, {} };
     const double tuples = static_cast<double>(
       labels.Arrays[0]->GetNumberOfTuples() + labels.Arrays[1]->GetNumberOfTuples());
-    withMemory(
-      "the labels of " + name, 48.0 * tuples, [&]() { labels.Equal = findEqual(labels.Arrays); });
+    withMemory({ "the labels of " + name, 48.0 * tuples },
+      [&]() { labels.Equal = findEqual(labels.Arrays); });
     this->Arrays.push_back(std::move(labels));
   }
   if (names.empty())
@@ -122,8 +122,9 @@ void AdvectedLabels::Make(int owner, const std::vector<std::string>& names,
   const bool onPoints = owner == vtkDataObject::POINT;
   const bool isAcross = first.Grid.IsOnPoints() != onPoints;
   const double parts = isAcross ? std::exp2(first.Grid.Dimension()) : 1.0;
-  withMemory("the labels that move along",
-    2.0 * sizeof(std::int64_t) * parts * static_cast<double>(particles.Count()), [&]() {
+  withMemory({ "the labels that move along",
+               2.0 * sizeof(std::int64_t) * parts * static_cast<double>(particles.Count()) },
+    [&]() {
       this->OfParticles =
         SeriesLabels({ first.Grid.WithValuesOn(onPoints), second.Grid.WithValuesOn(onPoints) },
           isAcross, particles);
@@ -145,8 +146,8 @@ void AdvectedLabels::Write(const SeriesMoment& moment, const ImageGrid& geometry
     made->SetName(labels.Name.c_str());
     made->SetNumberOfComponents(labels.Arrays[0]->GetNumberOfComponents());
     made->CopyComponentNames(labels.Arrays[0]);
-    withMemory("the array " + labels.Name,
-      8.0 * static_cast<double>(box.Count()) * made->GetNumberOfComponents(),
+    withMemory({ "the array " + labels.Name,
+                 8.0 * static_cast<double>(box.Count()) * made->GetNumberOfComponents() },
       [&]() { made->SetNumberOfTuples(box.Count()); });
     for (vtkIdType i = 0; i < box.Count(); ++i)
     {
@@ -161,11 +162,12 @@ void AdvectedLabels::Write(const SeriesMoment& moment, const ImageGrid& geometry
   {
     equal.push_back(&labels.Equal);
   }
-  withMemory("the labels that move along", this->OfParticles.BytesOfVotes(moment.Count()), [&]() {
-    const ImageGrid own = geometry.WithValuesOn(this->Owner == vtkDataObject::POINT);
-    dispatchDimension(own.Dimension(), find<1>, find<2>, find<3>)(
-      this->OfParticles, moment, own, box, equal, progress, write);
-  });
+  withMemory(
+    { "the labels that move along", this->OfParticles.BytesOfVotes(moment.Count()) }, [&]() {
+      const ImageGrid own = geometry.WithValuesOn(this->Owner == vtkDataObject::POINT);
+      dispatchDimension(own.Dimension(), find<1>, find<2>, find<3>)(
+        this->OfParticles, moment, own, box, equal, progress, write);
+    });
 }
 
 } // namespace RectifiedTransport::Bridge

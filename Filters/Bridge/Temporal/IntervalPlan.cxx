@@ -57,21 +57,18 @@ IntervalPlan<D>::IntervalPlan(const StepDensity& from, const StepDensity& to, bo
   options.Optimal = optionsOfIntervals(box.NumberOfCells());
   OptimalNeeds needs{ {}, samples };
   needs.Setting.IsOptimal = isOptimal;
-  const OptimalMemory memory =
-    OptimalMemory::Between<D>(from.Grid.Size<D>(), to.Grid.Size<D>(), needs, progress.Group());
-  if (isOptimal)
-  {
-    memory.Require();
-  }
+  const double cells =
+    static_cast<double>(std::max(from.Grid.NumberOfCells(), to.Grid.NumberOfCells()));
+  const MemoryPlan memory = isOptimal
+    ? memoryOfOptimalMap<D>(from.Grid.Size<D>(), to.Grid.Size<D>(), needs, progress.Group())
+    : MemoryPlan{ "the tables of a density", bytesOfTables * cells };
   Stages stages(progress, { { "map", isOptimal ? 1.0 : 0.0 }, { "flows", isOptimal ? 0.0 : 1.0 } });
-  withMemory(memory.Purpose, memory.Bytes, [&]() {
+  withRequiredMemory(memory, [&]() {
     this->Plan.emplace(
       endOf<D>(box, from, this->From), endOf<D>(box, to, this->To), options, stages["map"]);
+    this->Plan->MakeFlows(stages["flows"]);
   });
   this->Bound = LengthScale(box).CostFromUnits(this->Plan->LowerBound());
-  const double bytes = bytesOfTables *
-    static_cast<double>(std::max(from.Grid.NumberOfCells(), to.Grid.NumberOfCells()));
-  withMemory("the tables of a density", bytes, [&]() { this->Plan->MakeFlows(stages["flows"]); });
 }
 
 template class IntervalPlan<1>;

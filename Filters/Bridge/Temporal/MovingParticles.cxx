@@ -58,9 +58,8 @@ SeriesParticles makeParticles(const StepDensity& from, const StepDensity& to,
   std::ostringstream purpose;
   purpose.precision(20);
   purpose << particles << " particles (see ParticlesPerCell)";
-  const double bytes = each * particles / progress.Group().Count();
-  requireMemory(purpose.str(), bytes);
-  return withMemory(purpose.str(), bytes, [&]() {
+  const MemoryPlan memory{ purpose.str(), each * particles / progress.Group().Count() };
+  return withRequiredMemory(memory, [&]() {
     return dispatchDimension(from.Grid.Dimension(), make<1>, make<2>, make<3>)(
       from, to, settings, progress);
   });
@@ -93,10 +92,9 @@ bool SeriesTracks::Extend(const StepDensity* before, const StepDensity& density,
   const std::int64_t particles = before
     ? this->Tracked.All()
     : density.Grid.NumberOfCells() * static_cast<std::int64_t>(this->Settings.ParticlesPerCell);
-  const std::string purpose = std::to_string(particles) + " particles (see ParticlesPerCell)";
-  const double bytes = 160.0 * static_cast<double>(particles) / progress.Group().Count();
-  requireMemory(purpose, bytes);
-  withMemory(purpose, bytes, [&]() {
+  const MemoryPlan memory{ std::to_string(particles) + " particles (see ParticlesPerCell)",
+    160.0 * static_cast<double>(particles) / progress.Group().Count() };
+  withRequiredMemory(memory, [&]() {
     (this
         ->*dispatchDimension(density.Grid.Dimension(), &Self::ExtendBy<1>, &Self::ExtendBy<2>, &Self::ExtendBy<3>))(
       before, density, progress);

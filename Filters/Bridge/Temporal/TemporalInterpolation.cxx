@@ -113,7 +113,7 @@ void writeClouds(const SeriesMoment& moment, const ImageGrid& geometry, double m
   const TupleBox& wanted, double* density, Progress& progress)
 {
   const double bytes = 16.0 * static_cast<double>(geometry.NumberOfCells());
-  withMemory("the sums of the cells", bytes, [&]() {
+  withMemory({ "the sums of the cells", bytes }, [&]() {
     splatClouds<D>(moment.CloudsIn<D>(geometry), geometry, most, latticePartOf<D>(wanted, geometry),
       density, progress);
   });

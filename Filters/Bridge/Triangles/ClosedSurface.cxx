@@ -56,13 +56,14 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress)
   this->Box = polygonBounds(input);
   const ClosingDistances distances(this->Box, input->GetPoints()->GetDataType() == VTK_FLOAT);
   const auto add = [&](ClosedMesh&, Progress& part) { this->AddPolygons(input, part); };
-  withMemory("the table of the surface's " + std::to_string(input->GetNumberOfPoints()) + " points",
-    points * 4.0 * sizeof(std::int64_t),
+  withMemory(
+    { "the table of the surface's " + std::to_string(input->GetNumberOfPoints()) + " points",
+      points * 4.0 * sizeof(std::int64_t) },
     [&]() { this->Mesh.emplace(std::move(coordinates), stages["table"]); });
   const std::int64_t triangles = countTriangles(input);
   const std::string problem =
-    withMemory("the edges of the surface's " + std::to_string(triangles) + " triangles",
-      static_cast<double>(triangles) * 110.0,
+    withMemory({ "the edges of the surface's " + std::to_string(triangles) + " triangles",
+                 static_cast<double>(triangles) * 110.0 },
       [&]() { return this->Mesh->Close(add, distances, stages["polygons"]); });
   if (!problem.empty())
   {
@@ -149,9 +150,10 @@ SolidSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress)
   Stages stages(progress, { { "points", 1 }, { "orientation", 1 } });
   this->Mesh->MoveToCells(grid, this->Box, stages["points"]);
   const std::int64_t triangles = this->Mesh->Surface().NumberOfTriangles;
-  const bool oriented = withMemory("the orientation of the surface's triangles",
-    static_cast<double>(triangles) * (2 * sizeof(std::int64_t) + 1),
-    [&]() { return this->Mesh->Orient(stages["orientation"]); });
+  const bool oriented =
+    withMemory({ "the orientation of the surface's triangles",
+                 static_cast<double>(triangles) * (2 * sizeof(std::int64_t) + 1) },
+      [&]() { return this->Mesh->Orient(stages["orientation"]); });
   if (!oriented)
   {
     throw Failure("The input surface is not orientable: it has one side only, as a Klein bottle; "

@@ -22,8 +22,9 @@ LargeBuffer<double> readSurfacePoints(
 {
   const std::int64_t points = surface->GetNumberOfPoints();
   LargeBuffer<double> coordinates = withMemory(
-    "the surface's " + std::to_string(points) + " points",
-    static_cast<double>(points) * bytesOfPoint, [&]() {
+    { "the surface's " + std::to_string(points) + " points",
+      static_cast<double>(points) * bytesOfPoint },
+    [&]() {
       LargeBuffer<double> read(3 * points);
       visitPoints(surface, "input surface", progress,
         [copy = read.data()](std::int64_t i, const double* x) { std::copy_n(x, 3, copy + 3 * i); });

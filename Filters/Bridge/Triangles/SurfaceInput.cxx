@@ -185,7 +185,7 @@ SurfaceInput::SurfaceInput(vtkDataObject* input, Progress& progress)
   const std::string purpose =
     "the surface of " + std::to_string(set->GetNumberOfCells()) + " cells of the input";
   constexpr double bytesOfCell = 16.0 * sizeof(vtkIdType);
-  requireMemory(purpose, cells * bytesOfCell);
+  requireMemory({ purpose, cells * bytesOfCell });
   requireReadableCells(set, "input surface");
   Stages stages(progress, { { "types", 1 }, { "cells", 9 } });
   if (isFlat(set, stages["types"]))

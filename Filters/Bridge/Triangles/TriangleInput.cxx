@@ -74,13 +74,14 @@ LargeBuffer<std::int64_t> TriangleInput::ReadCorners(
   if (isAllTriangles(this->Surface))
   {
     const vtkIdType count = this->Surface->GetNumberOfPolys();
-    return withMemory("the surface's " + std::to_string(count) + " triangles",
-      static_cast<double>(count) * 3.0 * sizeof(std::int64_t),
+    return withMemory({ "the surface's " + std::to_string(count) + " triangles",
+                        static_cast<double>(count) * 3.0 * sizeof(std::int64_t) },
       [&]() { return this->Corners(work); });
   }
   const std::int64_t count = countTriangles(this->Surface);
-  return withMemory(std::to_string(count) + " triangles of the input surface",
-    static_cast<double>(count) * 4.0 * sizeof(vtkIdType), [&]() {
+  return withMemory({ std::to_string(count) + " triangles of the input surface",
+                      static_cast<double>(count) * 4.0 * sizeof(vtkIdType) },
+    [&]() {
       this->Cells = LargeBuffer<vtkIdType>(count);
       LargeBuffer<std::int64_t> corners(3 * count);
       PolygonCutter cutter(points, rounding, makeRingCutter());
@@ -140,10 +141,10 @@ DiskTriangles TriangleInput::Disk(Progress& progress)
   const TriangleSurface surface = this->Triangles.Surface();
   try
   {
-    DiskTriangles disk = withMemory(
-      "the surface's " + std::to_string(surface.Points.size()) + " points and " + countOf(surface),
-      static_cast<double>(surface.Points.size()) * 40.0 +
-        static_cast<double>(surface.NumberOfTriangles) * 80.0,
+    DiskTriangles disk = withMemory({ "the surface's " + std::to_string(surface.Points.size()) +
+                                        " points and " + countOf(surface),
+                                      static_cast<double>(surface.Points.size()) * 40.0 +
+                                        static_cast<double>(surface.NumberOfTriangles) * 80.0 },
       [&]() { return DiskTriangles(this->Triangles, progress); });
     this->Triangles.FreePoints();
     if (this->IsInput())
@@ -169,8 +170,8 @@ DiskTriangles TriangleInput::Disk(Progress& progress)
 OpenedSurface TriangleInput::Opened(Progress& progress)
 {
   Stages stages(progress, { { "T-junctions", 5 }, { "seams", 95 } });
-  withMemory("the edges of the surface's " + countOf(this->Triangles.Surface()),
-    static_cast<double>(this->Triangles.Surface().NumberOfTriangles) * 150.0,
+  withMemory({ "the edges of the surface's " + countOf(this->Triangles.Surface()),
+               static_cast<double>(this->Triangles.Surface().NumberOfTriangles) * 150.0 },
     [&]() { this->Triangles.CloseTJunctions(TJunctionScope::All, stages["T-junctions"]); });
   const TriangleSurface surface = this->Triangles.Surface();
   constexpr double bytesOfTriangle = 250.0;
@@ -179,9 +180,9 @@ OpenedSurface TriangleInput::Opened(Progress& progress)
   options.Rounding = this->Triangles.Rounding();
   try
   {
-    return withMemory("the seams of " + countOf(surface),
-      static_cast<double>(surface.NumberOfTriangles) * bytesOfTriangle +
-        static_cast<double>(surface.Points.size()) * bytesOfPoint,
+    return withMemory({ "the seams of " + countOf(surface),
+                        static_cast<double>(surface.NumberOfTriangles) * bytesOfTriangle +
+                          static_cast<double>(surface.Points.size()) * bytesOfPoint },
       [&]() { return OpenedSurface(surface, options, stages["seams"]); });
   }
   catch (const NotADisk& error)
@@ -203,9 +204,9 @@ WholeTriangles TriangleInput::Whole(Progress& progress)
   const TriangleSurface surface = this->Triangles.Surface();
   try
   {
-    return withMemory("the surface's " + countOf(surface),
-      static_cast<double>(surface.NumberOfTriangles) * 80.0 +
-        static_cast<double>(surface.Points.size()) * 48.0,
+    return withMemory({ "the surface's " + countOf(surface),
+                        static_cast<double>(surface.NumberOfTriangles) * 80.0 +
+                          static_cast<double>(surface.Points.size()) * 48.0 },
       [&]() {
         return WholeTriangles(this->Triangles.TakePoints(), this->Triangles.TakeCorners(),
           ghosts ? isGhost : nullptr, progress);
@@ -243,8 +244,8 @@ vtkSmartPointer<vtkPolyData> TriangleInput::Triangulated(Progress& progress) con
   const TriangleSurface triangles = this->Triangles.Surface();
   Stages stages(progress, { { "triangles", 1 }, { "arrays", 2 } });
   auto made = vtkSmartPointer<vtkPolyData>::New();
-  requireMemory("the cells of the surface's " + countOf(triangles),
-    static_cast<double>(triangles.NumberOfTriangles) * 5.0 * sizeof(vtkIdType));
+  requireMemory({ "the cells of the surface's " + countOf(triangles),
+    static_cast<double>(triangles.NumberOfTriangles) * 5.0 * sizeof(vtkIdType) });
   setTriangles(this->Surface, this->Surface->GetPoints(),
     cellsOf(triangles.Triangles, triangles.NumberOfTriangles, stages["triangles"]), made);
   made->GetPointData()->PassData(this->Surface->GetPointData());
@@ -268,8 +269,8 @@ void TriangleInput::CopyOpened(
   vtkNew<vtkPoints> points;
   points->SetDataType(from->GetPoints()->GetDataType());
   const std::int64_t count = opened.NumberOfPoints();
-  requireMemory("the points of the surface with its seams",
-    static_cast<double>(count) * 3.0 * points->GetData()->GetDataTypeSize());
+  requireMemory({ "the points of the surface with its seams",
+    static_cast<double>(count) * 3.0 * points->GetData()->GetDataTypeSize() });
   points->SetNumberOfPoints(static_cast<vtkIdType>(count));
   for (std::int64_t point = 0; point < count; ++point)
   {
@@ -303,8 +304,8 @@ ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progres
   const std::int64_t points = disk.NumberOfPoints();
   try
   {
-    return withMemory("the conformal map of " + std::to_string(points) + " points",
-      bytesOfPoint * static_cast<double>(points),
+    return withMemory({ "the conformal map of " + std::to_string(points) + " points",
+                        bytesOfPoint * static_cast<double>(points) },
       [&]() { return mapConformally(disk, corners, progress); });
   }
   catch (const std::invalid_argument& error)

@@ -202,7 +202,9 @@ void checkExactCounts(Checks& checks)
       OptimalNeeds needs{ {}, particles };
       needs.Setting.IsOptimal = isOptimal;
       const bool isWrong = isOptimal && particles > 1e14;
-      const auto map = [&]() { OptimalMemory::Of<2>("", size, size, needs, alone).Require(); };
+      const auto map = [&]() {
+        requireMemory(memoryOfOptimalMap<2>("", size, size, needs, alone));
+      };
       const auto counts = [&]() { needs.RequireForSamples<2>(size, alone); };
       CHECK(checks, isRefused(map) == isWrong);
       CHECK(checks, isRefused(counts) == isWrong);

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a computation is about to allocate: one value for the check before it and for its error.
+#ifndef RectifiedTransport_MemoryPlan_h
+#define RectifiedTransport_MemoryPlan_h
+
+#include <string>
+
+namespace RectifiedTransport
+{
+
+struct MemoryPlan
+{
+  std::string Purpose; // continues "Not enough memory for "
+  double Bytes = 0.0;
+
+  // The same with more bytes.
+  MemoryPlan With(double bytes) const { return { this->Purpose, this->Bytes + bytes }; }
+};
+
+} // namespace RectifiedTransport
+
+#endif
