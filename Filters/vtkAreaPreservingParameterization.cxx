@@ -3,7 +3,7 @@
 
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Settings/CornerSettings.h"
+#include "Bridge/Run/Settings/CornerSettings.h"
 #include "Bridge/Surfaces/AreaPreservingParameterization.h"
 #include "Bridge/Triangles/SurfaceInput.h"
 #include "Core/Parallel/Stages.h"

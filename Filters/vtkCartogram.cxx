@@ -6,7 +6,7 @@
 #include "Bridge/Cartogram/MapProjection.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Settings/MissingData.h"
+#include "Bridge/Run/Settings/MissingData.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkCompositeDataSet.h"

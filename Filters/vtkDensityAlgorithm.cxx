@@ -8,7 +8,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Settings/MissingData.h"
+#include "Bridge/Run/Settings/MissingData.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 

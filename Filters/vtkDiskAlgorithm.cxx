@@ -2,7 +2,7 @@
 #include "vtkDiskAlgorithm.h"
 
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Settings/CornerSettings.h"
+#include "Bridge/Run/Settings/CornerSettings.h"
 #include "Bridge/Triangles/SurfaceInput.h"
 
 #include "vtkDataObject.h"

@@ -7,9 +7,9 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/Settings/AssociationSettings.h"
+#include "Bridge/Run/Settings/SplatSettings.h"
 #include "Bridge/Run/WarningLimit.h"
-#include "Bridge/Settings/AssociationSettings.h"
-#include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Splat/MassSplatter.h"
 
 #include "vtkDataSetAttributes.h"

@@ -8,7 +8,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Settings/AssociationSettings.h"
+#include "Bridge/Run/Settings/AssociationSettings.h"
 #include "Bridge/Solid/SolidDensity.h"
 
 #include "vtkImageData.h"

@@ -2,12 +2,12 @@
 #include "vtkTransportAlgorithm.h"
 
 #include "Bridge/Density/DensityPlan.h"
-#include "Bridge/Device/SharedDevices.h"
 #include "Bridge/Ranks/PlaceOnMachine.h"
+#include "Bridge/Run/Device/SharedDevices.h"
 #include "Bridge/Run/MpiController.h"
-#include "Bridge/Settings/FlowSettings.h"
-#include "Bridge/Settings/OptimalSettings.h"
-#include "Bridge/Settings/TableSettings.h"
+#include "Bridge/Run/Settings/FlowSettings.h"
+#include "Bridge/Run/Settings/OptimalSettings.h"
+#include "Bridge/Run/Settings/TableSettings.h"
 
 #include "vtkNew.h"
 #include "vtkStringArray.h"

@@ -8,9 +8,9 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/Settings/SplatSettings.h"
+#include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Run/WarningLimit.h"
-#include "Bridge/Settings/SplatSettings.h"
-#include "Bridge/Settings/TableSettings.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkDataObject.h"

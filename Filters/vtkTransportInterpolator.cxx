@@ -5,7 +5,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/SeparateInputs.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Settings/TargetArray.h"
+#include "Bridge/Run/Settings/TargetArray.h"
 #include "Core/Device/DeviceUse.h"
 #include "Core/Parallel/Stages.h"
 

@@ -9,7 +9,7 @@
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Settings/TableSettings.h"
+#include "Bridge/Run/Settings/TableSettings.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkDoubleArray.h"

@@ -7,10 +7,10 @@
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/Settings/SeedSettings.h"
+#include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/Run/WarningLimit.h"
-#include "Bridge/Settings/SeedSettings.h"
-#include "Bridge/Settings/TableSettings.h"
 #include "Core/Device/DeviceUse.h"
 #include "Core/Parallel/Stages.h"
 

@@ -3,8 +3,8 @@
 
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/Settings/SeedSettings.h"
 #include "Bridge/Seeds/UniformSeedSource.h"
-#include "Bridge/Settings/SeedSettings.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

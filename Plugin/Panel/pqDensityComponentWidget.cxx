@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqDensityComponentWidget.h"
 
-#include "Bridge/Settings/ComponentChoice.h"
+#include "Bridge/Run/Settings/ComponentChoice.h"
 
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"

@@ -292,10 +292,10 @@ OTHERS = [
     E(BRIDGE + "Points/SampledArrays.cxx",
       "«number >= static_cast<double>(std::numeric_limits<Value>::max())»", "false"),
     # missing data
-    E(BRIDGE + "Settings/MissingData.h", "value < this->Low || «value > this->High»", "false"),
-    E(BRIDGE + "Settings/MissingData.h", "validRange[1] < «Unbounded»", "1e3 * Unbounded"),
+    E(BRIDGE + "Run/Settings/MissingData.h", "value < this->Low || «value > this->High»", "false"),
+    E(BRIDGE + "Run/Settings/MissingData.h", "validRange[1] < «Unbounded»", "1e3 * Unbounded"),
     E(BRIDGE + "Density/DensityReader.cxx", "? components : components >= 3 ? «3» : 1;", "1"),
-    E(BRIDGE + "Settings/ComponentChoice.h", "type == VTK_UNSIGNED_CHAR || «type == VTK_UNSIGNED_SHORT»",
+    E(BRIDGE + "Run/Settings/ComponentChoice.h", "type == VTK_UNSIGNED_CHAR || «type == VTK_UNSIGNED_SHORT»",
       "false"),
     E(BRIDGE + "Run/NumbersOfText.cxx", "read.ec == std::errc() && «read.ptr == last»", "true"),
     E(BRIDGE + "Points/IgnoredFlags.cxx", "if («array && !vtkUnsignedCharArray::SafeDownCast(array)»)",
@@ -359,7 +359,7 @@ OTHERS = [
     S(CORE + "Flow/Kernels/Shared/Particle.h", "s->IsUnresolved |= !isInMass(tables, s->End);", ";"),
     E(CORE + "Flow/Kernels/Shared/Particle.h", "input->HasEmptyCells && «3 * step >= steps»", "1"),
     E(CORE + "Flow/Kernels/Shared/Particle.h", "box->IsVoid > 0.0 && «!input->Backward» ?", "1"),
-    E(BRIDGE + "Device/SharedDevices.cxx", "this->Opened && «name == this->Name»", "true"),
+    E(BRIDGE + "Run/Device/SharedDevices.cxx", "this->Opened && «name == this->Name»", "true"),
     E("Filters/vtkTransportAlgorithm.cxx", "«first != all.end()»)", "false"),
     # optimal maps
     S(CORE + "OptimalMap/PointMap.cxx", "smoothMap(this->There, progress);", ";"),

@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_LinearizedMap_h
 #define RectifiedTransport_LinearizedMap_h
 
-#include "Bridge/Settings/TableSettings.h"
+#include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Store/DataIdentity.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Parallel/RankShare.h"

@@ -8,7 +8,7 @@
 #include "Bridge/Density/OptimalMemory.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Settings/OptimalSettings.h"
+#include "Bridge/Run/Settings/OptimalSettings.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Plan/TransportPlan.h"

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_DensityReader_h
 #define RectifiedTransport_DensityReader_h
 
-#include "Bridge/Settings/ComponentChoice.h"
-#include "Bridge/Settings/MissingData.h"
+#include "Bridge/Run/Settings/ComponentChoice.h"
+#include "Bridge/Run/Settings/MissingData.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Tables/Density.h"
 

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_FilledCells_h
 #define RectifiedTransport_FilledCells_h
 
-#include "Bridge/Settings/MissingData.h"
+#include "Bridge/Run/Settings/MissingData.h"
 #include "Core/Parallel/ExactSum.h"
 
 #include <cstdint>

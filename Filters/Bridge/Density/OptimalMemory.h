@@ -5,7 +5,7 @@
 
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Settings/OptimalSettings.h"
+#include "Bridge/Run/Settings/OptimalSettings.h"
 #include "Core/Parallel/Ranks.h"
 #include "Core/Plan/TransportPlan.h"
 

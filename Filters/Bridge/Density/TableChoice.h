@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_TableChoice_h
 #define RectifiedTransport_TableChoice_h
 
-#include "Bridge/Settings/TableSettings.h"
+#include "Bridge/Run/Settings/TableSettings.h"
 #include "Core/Flow/FlowTables.h"
 #include "Core/Geometry/Points.h"
 

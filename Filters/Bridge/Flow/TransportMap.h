@@ -6,8 +6,8 @@
 
 #include "Bridge/Density/DensityPlan.h"
 #include "Bridge/Density/FlowCache.h"
-#include "Bridge/Settings/OptimalSettings.h"
-#include "Bridge/Settings/TableSettings.h"
+#include "Bridge/Run/Settings/OptimalSettings.h"
+#include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Geometry/ImageGrid.h"

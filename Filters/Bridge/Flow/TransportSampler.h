@@ -4,8 +4,8 @@
 #define RectifiedTransport_TransportSampler_h
 
 #include "Bridge/Density/DensityPlan.h"
-#include "Bridge/Settings/OptimalSettings.h"
-#include "Bridge/Settings/TableSettings.h"
+#include "Bridge/Run/Settings/OptimalSettings.h"
+#include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Seeds/Seeds.h"

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_TransportQuality_h
 #define RectifiedTransport_TransportQuality_h
 
-#include "Bridge/Settings/TableSettings.h"
+#include "Bridge/Run/Settings/TableSettings.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Quality/ParticleQuality.h"
 

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_AreaPreservingParameterization_h
 #define RectifiedTransport_AreaPreservingParameterization_h
 
-#include "Bridge/Settings/CornerSettings.h"
+#include "Bridge/Run/Settings/CornerSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parameterization/MapDistortion.h"
 

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_SurfaceSampler_h
 #define RectifiedTransport_SurfaceSampler_h
 
-#include "Bridge/Settings/CornerSettings.h"
+#include "Bridge/Run/Settings/CornerSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/SurfaceSampling/SurfaceSamples.h"
 

@@ -4,9 +4,9 @@
 #include "../../MemoryLimit.h"
 #include "BlendTest.h"
 
-#include "Bridge/Device/SharedDevices.h"
 #include "Bridge/Ranks/PlaceOnMachine.h"
 #include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Device/SharedDevices.h"
 #include "Core/Device/DeviceError.h"
 #include "Core/Flow/FlowOptions.h"
 

@@ -44,19 +44,17 @@ OPTIMAL_MAP = {
     "Masses": ({"Nodes"}, {"Parallel", "Geometry", "Grid", "Tables"}),
 }
 RUN = {"Run"}
-WORKERS = RUN | {"Image", "Points", "Settings", "Density", "Ranks", "Store"}
+WORKERS = RUN | {"Image", "Points", "Density", "Ranks", "Store"}
 BRIDGE = {
     "Pipeline": set(),
-    "Device": set(),
     "Run": {"Pipeline"},
     "Image": RUN,
     "Points": RUN,
     "Ranks": RUN | {"Image", "Points"},
-    "Settings": RUN,
     "Triangles": RUN | {"Points"},
     "Drawing": RUN | {"Points"},
     "Store": RUN,
-    "Density": RUN | {"Image", "Points", "Settings", "Ranks", "Store"},
+    "Density": RUN | {"Image", "Points", "Ranks", "Store"},
     "Blocks": RUN | {"Image", "Points", "Ranks", "Store"},
     "Cells": RUN | {"Image", "Points", "Ranks", "Density", "Blocks", "Store"},
     "Blend": WORKERS | {"Splat"},
@@ -126,7 +124,7 @@ class Includes(unittest.TestCase):
         """What was computed is kept and shared in one place, and compared in one way. Devices are no
         results; the others hash what they read for DataIdentity."""
         self.assertEqual(self.outside(r"\bweak_ptr\b", *(os.path.join(*place) for place in (
-            ("Bridge", "Store", ""), ("Bridge", "Device", ""), ("Core", "Flow", "Devices", "")))), [])
+            ("Bridge", "Store", ""), ("Bridge", "Run", "Device", ""), ("Core", "Flow", "Devices", "")))), [])
         self.assertEqual(self.outside(r"\bfingerprint\(", *(os.path.join("Bridge", place, "")
                                                           for place in ("Store", "Run", "Density"))), [])
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Device/SharedDevices.h"
+#include "Bridge/Run/Device/SharedDevices.h"
 
 #include "Core/Device/DeviceError.h"
 #include "Core/Device/DeviceList.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Settings/CornerSettings.h"
+#include "Bridge/Run/Settings/CornerSettings.h"
 
 #include "Bridge/Run/Failure.h"
 
