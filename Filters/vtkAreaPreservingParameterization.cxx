@@ -3,10 +3,10 @@
 
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Run/Settings/CornerSettings.h"
 #include "Bridge/Surfaces/AreaPreservingParameterization.h"
 #include "Bridge/Triangles/SurfaceInput.h"
 #include "Core/Parallel/Stages.h"
+#include "Core/Parameterization/CornerSettings.h"
 
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"

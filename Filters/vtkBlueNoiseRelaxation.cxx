@@ -9,7 +9,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Run/WarningLimit.h"
+#include "Core/Messages/PartText.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkCellData.h"

@@ -16,9 +16,9 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/Inputs/WholeInputs.h"
-#include "Bridge/Run/MessageText.h"
 #include "Bridge/Run/RankRun.h"
 #include "Bridge/Run/SMPExecutor.h"
+#include "Core/Messages/MessageText.h"
 
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
@@ -383,7 +383,7 @@ void vtkCollectiveAlgorithm::WarnOnFirstRank(const std::string& text)
 {
   if (this->GetRanks().IsFirst())
   {
-    vtkWarningMacro(<< RectifiedTransport::Bridge::messageText(text));
+    vtkWarningMacro(<< RectifiedTransport::messageText(text));
   }
 }
 

@@ -8,12 +8,11 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/FieldValue.h"
-#include "Bridge/Run/PartText.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Run/StepReport.h"
-#include "Bridge/Run/WarningLimit.h"
 #include "Core/Device/DeviceUse.h"
+#include "Core/Messages/PartText.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDiskAlgorithm.h"
 
-#include "Bridge/Run/Failure.h"
-#include "Bridge/Run/Settings/CornerSettings.h"
 #include "Bridge/Triangles/SurfaceInput.h"
+#include "Core/Parameterization/CornerSettings.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkPolyData.h"
+
+#include <stdexcept>
 
 VTK_ABI_NAMESPACE_BEGIN
 
@@ -27,9 +28,9 @@ void changeCorners(vtkObject* object, const Change& change)
       object->Modified();
     }
   }
-  catch (const Failure& failure)
+  catch (const std::invalid_argument& error)
   {
-    vtkErrorWithObjectMacro(object, << failure.what());
+    vtkErrorWithObjectMacro(object, << error.what());
   }
 }
 } // namespace
@@ -94,6 +95,6 @@ int vtkDiskAlgorithm::FillOutputPortInformation(int, vtkInformation* info)
 void vtkDiskAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  this->Corners->Print(os, indent);
+  os << indent << "Corners:" << this->Corners->Text() << "\n";
 }
 VTK_ABI_NAMESPACE_END

@@ -20,10 +20,7 @@
 
 namespace RectifiedTransport
 {
-namespace Bridge
-{
 struct CornerSettings;
-} // namespace Bridge
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -70,10 +67,10 @@ protected:
   /**
    * The corners, not checked.
    */
-  const RectifiedTransport::Bridge::CornerSettings& GetCorners() const { return *this->Corners; }
+  const RectifiedTransport::CornerSettings& GetCorners() const { return *this->Corners; }
 
 private:
-  std::unique_ptr<RectifiedTransport::Bridge::CornerSettings> Corners;
+  std::unique_ptr<RectifiedTransport::CornerSettings> Corners;
 
   vtkDiskAlgorithm(const vtkDiskAlgorithm&) = delete;
   void operator=(const vtkDiskAlgorithm&) = delete;

@@ -9,8 +9,8 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/AssociationSettings.h"
 #include "Bridge/Run/Settings/SplatSettings.h"
-#include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Splat/MassSplatter.h"
+#include "Core/Messages/PartText.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"

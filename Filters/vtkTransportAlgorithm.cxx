@@ -2,12 +2,12 @@
 #include "vtkTransportAlgorithm.h"
 
 #include "Bridge/Density/DensityPlan.h"
-#include "Bridge/Ranks/PlaceOnMachine.h"
-#include "Bridge/Run/Device/SharedDevices.h"
 #include "Bridge/Run/MpiController.h"
 #include "Bridge/Run/Settings/FlowSettings.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"
 #include "Bridge/Run/Settings/TableSettings.h"
+#include "Core/Device/SharedDevices.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkNew.h"
 #include "vtkStringArray.h"
@@ -147,14 +147,13 @@ void vtkTransportAlgorithm::EndDevice(const DeviceUse& device)
     return;
   }
   const std::string& fault = device.Fault();
-  const std::vector<Bytes> all = this->GetRanks().Gather(Bytes(fault.begin(), fault.end()));
+  const std::vector<std::string> all = gatherTexts(this->GetRanks(), fault);
   const auto first =
-    std::find_if(all.begin(), all.end(), [](const Bytes& there) { return !there.empty(); });
+    std::find_if(all.begin(), all.end(), [](const std::string& there) { return !there.empty(); });
   if (first != all.end())
   {
     const auto rank = first - all.begin();
-    this->WarnOnFirstRank((rank > 0 ? "Rank " + std::to_string(rank) + ": " : "") +
-      std::string(first->begin(), first->end()) +
+    this->WarnOnFirstRank((rank > 0 ? "Rank " + std::to_string(rank) + ": " : "") + *first +
       "; the processor did the work, with the same result");
   }
 }

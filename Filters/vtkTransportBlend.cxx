@@ -10,7 +10,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/SplatSettings.h"
 #include "Bridge/Run/Settings/TableSettings.h"
-#include "Bridge/Run/WarningLimit.h"
+#include "Core/Messages/PartText.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkDataObject.h"

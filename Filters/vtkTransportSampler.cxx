@@ -10,8 +10,8 @@
 #include "Bridge/Run/Settings/SeedSettings.h"
 #include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Run/StepReport.h"
-#include "Bridge/Run/WarningLimit.h"
 #include "Core/Device/DeviceUse.h"
+#include "Core/Messages/PartText.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkInformation.h"

@@ -9,8 +9,8 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Run/PartText.h"
 #include "Core/Cartogram/RegionRaster.h"
+#include "Core/Messages/PartText.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkAbstractArray.h"

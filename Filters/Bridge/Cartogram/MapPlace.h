@@ -4,8 +4,8 @@
 #define RectifiedTransport_MapPlace_h
 
 #include "Bridge/Cartogram/MapProjection.h"
-#include "Bridge/Points/PlaneFrame.h"
 #include "Core/Cartogram/Cartogram.h"
+#include "Core/Geometry/PlaneFrame.h"
 
 namespace RectifiedTransport::Bridge
 {

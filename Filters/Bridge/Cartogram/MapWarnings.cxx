@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Cartogram/MapWarnings.h"
 
-#include "Bridge/Run/PartText.h"
+#include "Core/Messages/PartText.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_OutlinedRegions_h
 #define RectifiedTransport_OutlinedRegions_h
 
-#include "Bridge/Points/PlaneFrame.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/PlaneFrame.h"
 
 #include "vtkType.h"
 

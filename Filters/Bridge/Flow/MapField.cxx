@@ -2,8 +2,8 @@
 #include "Bridge/Flow/MapField.h"
 
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Run/WarningLimit.h"
 #include "Core/Flow/RectifiedFlow.h"
+#include "Core/Messages/PartText.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Quality/MapFolds.h"

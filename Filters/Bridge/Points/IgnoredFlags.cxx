@@ -2,7 +2,7 @@
 #include "Bridge/Points/IgnoredFlags.h"
 
 #include "Bridge/Run/Inputs/InputExtents.h"
-#include "Bridge/Run/MessageText.h"
+#include "Core/Messages/MessageText.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"

@@ -2,11 +2,11 @@
 #include "Bridge/Run/ExceptionBarrier.h"
 
 #include "Bridge/Pipeline/ConsumerExtents.h"
-#include "Bridge/Run/Memory.h"
-#include "Bridge/Run/MessageText.h"
 #include "Bridge/Run/RankRun.h"
 #include "Core/Flow/NoMemoryForFlowMap.h"
+#include "Core/Messages/MessageText.h"
 #include "Core/Parallel/Context.h"
+#include "Core/Parallel/MemoryPlan.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
@@ -57,7 +57,7 @@ int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs, Rank
   }
   catch (const NoMemoryForFlowMap& map)
   {
-    error = describeLack({ "a flow map (FlowMaps Off needs none)", map.MemorySize() });
+    error = MemoryPlan{ "a flow map (FlowMaps Off needs none)", map.MemorySize() }.DescribeLack();
   }
   catch (const std::bad_alloc&)
   {

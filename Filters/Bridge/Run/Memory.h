@@ -4,6 +4,8 @@
 #ifndef RectifiedTransport_Memory_h
 #define RectifiedTransport_Memory_h
 
+#include "Bridge/Run/Failure.h"
+#include "Core/Flow/NoMemoryForFlowMap.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/MemoryPlan.h"
 
@@ -17,17 +19,29 @@
 namespace RectifiedTransport::Bridge
 {
 
-// The text of the error.
-std::string describeLack(const MemoryPlan& plan);
-
-[[noreturn]] void failOutOfMemory(const MemoryPlan& plan);
+[[noreturn]] inline void failOutOfMemory(const MemoryPlan& plan)
+{
+  throw Failure(plan.DescribeLack());
+}
 // The same for the exception that a handler has caught, unless it names its purpose itself: then it
 // is thrown again.
-[[noreturn]] void failOutOfMemory(const std::bad_alloc& caught, const MemoryPlan& plan);
+[[noreturn]] inline void failOutOfMemory(const std::bad_alloc& caught, const MemoryPlan& plan)
+{
+  if (dynamic_cast<const NoMemoryForFlowMap*>(&caught))
+  {
+    throw; // what the handler has caught
+  }
+  failOutOfMemory(plan);
+}
 
-// Throws Failure if a single block of this size cannot be allocated. Systems that overcommit memory
-// refuse single blocks that exceed it, but not sums of blocks.
-void requireMemory(const MemoryPlan& plan);
+// Throws Failure if a single block of this size cannot be allocated.
+inline void requireMemory(const MemoryPlan& plan)
+{
+  if (!plan.Fits())
+  {
+    failOutOfMemory(plan);
+  }
+}
 
 // Calls a function; its std::bad_alloc becomes a Failure, unless the exception itself names its
 // purpose. Workers build tables and advect in a try block instead: many

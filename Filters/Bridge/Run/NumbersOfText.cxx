@@ -2,25 +2,22 @@
 #include "Bridge/Run/NumbersOfText.h"
 
 #include "Bridge/Run/Memory.h"
+#include "Core/Messages/NumberText.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkStringArray.h"
 #include "vtkVariant.h"
 
-#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <sstream>
-#include <system_error>
 
 namespace RectifiedTransport::Bridge
 {
 
 namespace
 {
-
-const char* const blanks = " \t\r\n\f\v";
 
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 
@@ -42,39 +39,7 @@ Text textAt(vtkAbstractArray* array, vtkIdType value)
     variant.IsNumeric() ? std::optional<double>(variant.ToDouble()) : std::nullopt };
 }
 
-std::string shortened(const std::string& text)
-{
-  constexpr std::size_t most = 40;
-  return text.size() > most ? text.substr(0, most) + "..." : text;
-}
-
 } // namespace
-
-std::optional<double> numberOfText(const std::string& text)
-{
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string::npos)
-  {
-    return std::nullopt;
-  }
-  const char* first = text.data() + begin;
-  const char* last = text.data() + text.find_last_not_of(blanks) + 1;
-  // from_chars takes a minus alone.
-  if (*first == '+' && last - first > 1 && first[1] != '-')
-  {
-    ++first;
-  }
-  double number = 0.0;
-  std::from_chars_result read = std::from_chars(first, last, number);
-  if (read.ec == std::errc::result_out_of_range)
-  {
-    // Infinite past the largest double, 0 below the least one, as literals are.
-    long double wide = 0.0L;
-    read = std::from_chars(first, last, wide);
-    number = static_cast<double>(wide);
-  }
-  return read.ec == std::errc() && read.ptr == last ? std::optional<double>(number) : std::nullopt;
-}
 
 NumbersOfText numbersOf(vtkAbstractArray* array, bool emptyIsNaN,
   const std::function<std::string(vtkIdType tuple)>& placeOf)
@@ -95,8 +60,7 @@ NumbersOfText numbersOf(vtkAbstractArray* array, bool emptyIsNaN,
   for (vtkIdType i = 0; i < count; ++i)
   {
     const Text text = textAt(array, i);
-    const bool isMissing =
-      emptyIsNaN && text.Letters.find_first_not_of(blanks) == std::string::npos;
+    const bool isMissing = emptyIsNaN && isBlank(text.Letters);
     const std::optional<double> number = text.Number ? text.Number
       : isMissing                                    ? std::optional<double>(notANumber)
                                                      : numberOfText(text.Letters);

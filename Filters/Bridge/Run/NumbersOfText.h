@@ -11,7 +11,6 @@
 #include "vtkType.h"
 
 #include <functional>
-#include <optional>
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -20,10 +19,6 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport::Bridge
 {
-
-// The number that a text is, with a dot and blanks around it in any locale; NaN and infinite ones
-// by their names. No value for other texts.
-std::optional<double> numberOfText(const std::string& text);
 
 struct NumbersOfText
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/SampledFingerprint.h"
 
+#include "Core/Parallel/BytesHash.h"
+
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
@@ -13,33 +15,12 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace RectifiedTransport::Bridge
 {
 
 namespace
 {
-
-// FNV-1a.
-class Mixer
-{
-public:
-  template <class Value>
-  void Add(Value value)
-  {
-    unsigned char bytes[sizeof(Value)];
-    std::memcpy(bytes, &value, sizeof(Value));
-    for (const unsigned char byte : bytes)
-    {
-      this->State = (this->State ^ byte) * 0x100000001b3;
-    }
-  }
-  std::uint64_t Mixed() const { return this->State; }
-
-private:
-  std::uint64_t State = 0xcbf29ce484222325;
-};
 
 // Of an array of any length: samples suffice, as pieces of a data set differ nearly everywhere.
 constexpr vtkIdType maximumSamples = 4096;
@@ -54,41 +35,41 @@ void visitSamples(vtkIdType count, const Visit& visit)
   }
 }
 
-void addArray(vtkDataArray* array, Mixer& mixer)
+void addArray(vtkDataArray* array, ValueHash& hash)
 {
   visitSamples(array ? array->GetNumberOfTuples() : 0,
-    [&](vtkIdType tuple) { mixer.Add(array->GetComponent(tuple, 0)); });
+    [&](vtkIdType tuple) { hash.Add(array->GetComponent(tuple, 0)); });
 }
 
-void addArrays(vtkFieldData* attributes, Mixer& mixer)
+void addArrays(vtkFieldData* attributes, ValueHash& hash)
 {
   for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
   {
-    addArray(attributes->GetArray(i), mixer);
+    addArray(attributes->GetArray(i), hash);
   }
 }
 
-void addTrees(vtkHyperTreeGrid* grid, Mixer& mixer)
+void addTrees(vtkHyperTreeGrid* grid, ValueHash& hash)
 {
   double bounds[6];
   grid->GetBounds(bounds);
-  std::for_each(bounds, bounds + 6, [&](double bound) { mixer.Add(bound); });
-  mixer.Add(grid->GetNumberOfCells());
+  std::for_each(bounds, bounds + 6, [&](double bound) { hash.Add(bound); });
+  hash.Add(grid->GetNumberOfCells());
   if (vtkFieldData* values = grid->GetAttributesAsFieldData(vtkDataObject::CELL))
   {
-    addArrays(values, mixer);
+    addArrays(values, hash);
   }
 }
 
 // Grids of damaged files may have fewer coordinates than their extent says.
-void addPlaces(vtkDataSet* data, Mixer& mixer)
+void addPlaces(vtkDataSet* data, ValueHash& hash)
 {
   if (auto* grid = vtkRectilinearGrid::SafeDownCast(data))
   {
     for (vtkDataArray* axis :
       { grid->GetXCoordinates(), grid->GetYCoordinates(), grid->GetZCoordinates() })
     {
-      addArray(axis, mixer);
+      addArray(axis, hash);
     }
   }
   else if (!vtkImageData::SafeDownCast(data))
@@ -96,27 +77,27 @@ void addPlaces(vtkDataSet* data, Mixer& mixer)
     visitSamples(data->GetNumberOfPoints(), [&](vtkIdType i) {
       double x[3];
       data->GetPoint(i, x);
-      std::for_each(x, x + 3, [&](double place) { mixer.Add(place); });
+      std::for_each(x, x + 3, [&](double place) { hash.Add(place); });
     });
   }
 }
 
-void addDataSet(vtkDataSet* data, Mixer& mixer)
+void addDataSet(vtkDataSet* data, ValueHash& hash)
 {
   double bounds[6];
   data->GetBounds(bounds);
-  std::for_each(bounds, bounds + 6, [&](double bound) { mixer.Add(bound); });
-  mixer.Add(data->GetNumberOfPoints());
-  mixer.Add(data->GetNumberOfCells());
-  addPlaces(data, mixer);
+  std::for_each(bounds, bounds + 6, [&](double bound) { hash.Add(bound); });
+  hash.Add(data->GetNumberOfPoints());
+  hash.Add(data->GetNumberOfCells());
+  addPlaces(data, hash);
   for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
-    addArrays(data->GetAttributes(owner), mixer);
+    addArrays(data->GetAttributes(owner), hash);
   }
 }
 
 // Returns whether it has points.
-bool addData(vtkDataObject* data, Mixer& mixer)
+bool addData(vtkDataObject* data, ValueHash& hash)
 {
   if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
   {
@@ -124,13 +105,13 @@ bool addData(vtkDataObject* data, Mixer& mixer)
     const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
     for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
     {
-      hasAny = addData(leaves->GetCurrentDataObject(), mixer) || hasAny;
+      hasAny = addData(leaves->GetCurrentDataObject(), hash) || hasAny;
     }
     return hasAny;
   }
   if (auto* trees = vtkHyperTreeGrid::SafeDownCast(data))
   {
-    addTrees(trees, mixer);
+    addTrees(trees, hash);
     return trees->GetNumberOfCells() > 0;
   }
   auto* set = vtkDataSet::SafeDownCast(data);
@@ -138,7 +119,7 @@ bool addData(vtkDataObject* data, Mixer& mixer)
   {
     return false;
   }
-  addDataSet(set, mixer);
+  addDataSet(set, hash);
   return true;
 }
 
@@ -146,14 +127,14 @@ bool addData(vtkDataObject* data, Mixer& mixer)
 
 std::uint64_t sampledFingerprint(const std::vector<vtkDataObject*>& data)
 {
-  Mixer mixer;
+  ValueHash hash;
   bool hasAny = false;
   for (vtkDataObject* object : data)
   {
-    mixer.Add(hasAny);
-    hasAny = addData(object, mixer) || hasAny;
+    hash.Add(hasAny);
+    hasAny = addData(object, hash) || hasAny;
   }
-  return hasAny ? std::max<std::uint64_t>(1, mixer.Mixed()) : 0;
+  return hasAny ? std::max<std::uint64_t>(1, hash.Mixed()) : 0;
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -4,9 +4,9 @@
 #define RectifiedTransport_StepReport_h
 
 #include "Bridge/Run/FieldValue.h"
-#include "Bridge/Run/PartText.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Flow/Steps/ProbePlan.h"
+#include "Core/Messages/PartText.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_AreaPreservingParameterization_h
 #define RectifiedTransport_AreaPreservingParameterization_h
 
-#include "Bridge/Run/Settings/CornerSettings.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Parameterization/CornerSettings.h"
 #include "Core/Parameterization/MapDistortion.h"
 
 #include <cstdint>

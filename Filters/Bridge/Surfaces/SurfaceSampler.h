@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_SurfaceSampler_h
 #define RectifiedTransport_SurfaceSampler_h
 
-#include "Bridge/Run/Settings/CornerSettings.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Parameterization/CornerSettings.h"
 #include "Core/SurfaceSampling/SurfaceSamples.h"
 
 #include <cstdint>

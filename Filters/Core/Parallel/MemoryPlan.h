@@ -13,6 +13,11 @@ struct MemoryPlan
   std::string Purpose; // continues "Not enough memory for "
   double Bytes = 0.0;
 
+  // "Not enough memory for ...: 3.2 GB were asked for".
+  std::string DescribeLack() const;
+  // Whether a single block of this size can be allocated now. Systems that overcommit memory refuse
+  // single blocks that exceed it, but not sums of blocks.
+  bool Fits() const;
   // The same with more bytes.
   MemoryPlan With(double bytes) const { return { this->Purpose, this->Bytes + bytes }; }
 };

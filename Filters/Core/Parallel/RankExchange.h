@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -56,6 +57,24 @@ std::vector<T> gatherValues(const Ranks& ranks, const T& own)
     values.push_back(fromBytes<T>(bytes).front());
   }
   return values;
+}
+
+// One text from each rank, in their order.
+inline std::vector<std::string> gatherTexts(const Ranks& ranks, const std::string& own)
+{
+  std::vector<std::string> texts;
+  for (const Bytes& bytes : ranks.Gather(Bytes(own.begin(), own.end())))
+  {
+    texts.emplace_back(bytes.begin(), bytes.end());
+  }
+  return texts;
+}
+
+// How many ranks before this one run on a machine of the same name.
+inline int placeOnMachine(const Ranks& ranks, const std::string& machine)
+{
+  const std::vector<std::string> all = gatherTexts(ranks, machine);
+  return static_cast<int>(std::count(all.begin(), all.begin() + ranks.Own(), machine));
 }
 
 // Sends values to each rank, including this one, and returns those that each sent here.

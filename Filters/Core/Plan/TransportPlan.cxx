@@ -3,8 +3,8 @@
 
 #include "Core/Flow/Particles/StraightPaths.h"
 #include "Core/Geometry/LengthScale.h"
+#include "Core/Messages/PartText.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/PercentText.h"
 #include "Core/Parallel/Stages.h"
 
 #include <algorithm>

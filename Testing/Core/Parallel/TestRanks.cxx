@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace RectifiedTransport
@@ -69,6 +70,16 @@ TEST(Ranks, AgreeAndAdd)
     EXPECT_EQ(sumOverRanks<std::int64_t>(ranks, 1 << ranks.Own()), 7);
     EXPECT_FALSE(onAllRanks(ranks, ranks.Own() != 1));
     EXPECT_TRUE(onAllRanks(ranks, true));
+  });
+}
+
+TEST(Ranks, PlacesOnMachinesCountThoseBefore)
+{
+  const std::vector<std::string> machines{ "a", "b", "a", "ab", "b", "a" };
+  const std::vector<int> expected{ 0, 0, 1, 0, 1, 2 };
+  runOnRanks(6, [&](const Ranks& ranks) {
+    const auto own = static_cast<std::size_t>(ranks.Own());
+    EXPECT_EQ(placeOnMachine(ranks, machines[own]), expected[own]);
   });
 }
 

@@ -4,10 +4,9 @@
 #include "../../MemoryLimit.h"
 #include "BlendTest.h"
 
-#include "Bridge/Ranks/PlaceOnMachine.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/Device/SharedDevices.h"
 #include "Core/Device/DeviceError.h"
+#include "Core/Device/SharedDevices.h"
 #include "Core/Flow/FlowOptions.h"
 
 #include "vtkDensityEqualizingWarp.h"
@@ -396,51 +395,12 @@ void checkNames(Checks& checks)
   CHECK(checks, sampler->GetDeviceNames()->GetNumberOfValues() == 1);
 }
 
-// Ranks of machines of these names, as the one of `own` sees them.
-class NamedRanks final : public Ranks
-{
-public:
-  NamedRanks(std::vector<std::string> machines, int own)
-    : Machines(std::move(machines))
-    , This(own)
-  {
-  }
-  int Count() const override { return static_cast<int>(this->Machines.size()); }
-  int Own() const override { return this->This; }
-  std::vector<Bytes> Gather(const Bytes&) const override
-  {
-    std::vector<Bytes> all;
-    for (const std::string& machine : this->Machines)
-    {
-      all.emplace_back(machine.begin(), machine.end());
-    }
-    return all;
-  }
-  std::vector<Bytes> Exchange(std::vector<Bytes> parts) const override { return parts; }
-
-private:
-  const std::vector<std::string> Machines;
-  const int This;
-};
-
-void checkPlaces(Checks& checks)
-{
-  const std::vector<std::string> machines{ "a", "b", "a", "ab", "b", "a" };
-  const std::vector<int> expected{ 0, 0, 1, 0, 1, 2 };
-  for (int own = 0; own < 6; ++own)
-  {
-    const auto place = static_cast<std::size_t>(own);
-    const NamedRanks ranks(machines, own);
-    CHECK(checks, placeOnMachine(ranks, machines[place]) == expected[place]);
-  }
-}
-
 } // namespace
 
 int TestDevice(int, char*[])
 {
   return runChecks({ checkProperties, checkNoDevice, checkEmptyInput, checkDevice, checkSharing,
-    checkKeeping, checkThreads, checkFailure, checkNames, checkPlaces,
+    checkKeeping, checkThreads, checkFailure, checkNames,
 #ifdef HAS_MEMORY_LIMIT
     checkLittleMemory
 #endif

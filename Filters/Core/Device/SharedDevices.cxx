@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Run/Device/SharedDevices.h"
+#include "Core/Device/SharedDevices.h"
 
 #include "Core/Device/DeviceError.h"
 #include "Core/Device/DeviceList.h"
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <mutex>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 namespace
@@ -83,4 +83,4 @@ std::vector<std::string> deviceNames()
   return names;
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Run/MessageText.h"
+#include "Core/Messages/MessageText.h"
 
 #include <cstddef>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 namespace
@@ -60,4 +60,4 @@ std::string messageText(const std::string& text)
   return result;
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // What a filter keeps of its device between runs: to open one takes about a second, and what the
@@ -35,6 +35,6 @@ private:
 // The names of the devices of this machine that lack nothing, each once. Loads the driver.
 std::vector<std::string> deviceNames();
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Run/Settings/CornerSettings.h"
-
-#include "Bridge/Run/Failure.h"
+#include "Core/Parameterization/CornerSettings.h"
 
 #include <algorithm>
-#include <ostream>
 #include <stdexcept>
 #include <string>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 std::int64_t CornerSettings::At(int index) const
@@ -20,8 +17,8 @@ bool CornerSettings::Resize(int count)
 {
   if (count < 0 || count > MaximumNumber)
   {
-    throw Failure("The number of corners is " + std::to_string(count) + "; it must be from 0 to " +
-      std::to_string(MaximumNumber));
+    throw std::invalid_argument("The number of corners is " + std::to_string(count) +
+      "; it must be from 0 to " + std::to_string(MaximumNumber));
   }
   const bool changes = count != this->Number();
   this->Points.resize(static_cast<std::size_t>(count), -1);
@@ -32,8 +29,8 @@ bool CornerSettings::Set(int index, std::int64_t point)
 {
   if (index < 0 || index >= MaximumNumber)
   {
-    throw Failure("The index of a corner is " + std::to_string(index) + "; it must be from 0 to " +
-      std::to_string(MaximumNumber - 1));
+    throw std::invalid_argument("The index of a corner is " + std::to_string(index) +
+      "; it must be from 0 to " + std::to_string(MaximumNumber - 1));
   }
   const bool grows = this->Resize(std::max(index + 1, this->Number()));
   std::int64_t& known = this->Points[static_cast<std::size_t>(index)];
@@ -46,7 +43,7 @@ void CornerSettings::Check() const
 {
   if (!this->Points.empty() && this->Points.size() != 4)
   {
-    throw Failure("Corners are " + std::to_string(this->Points.size()) +
+    throw std::invalid_argument("Corners are " + std::to_string(this->Points.size()) +
       " points; they must be 4 of the boundary, or none");
   }
 }
@@ -63,13 +60,13 @@ SquareCorners CornerSettings::Of(const RepairedDisk& disk) const
     const std::string have = "Corners have the point " + std::to_string(point);
     if (point < 0 || point >= disk.NumberOfGivenPoints())
     {
-      throw Failure(
+      throw std::invalid_argument(
         have + "; there are points 0 to " + std::to_string(disk.NumberOfGivenPoints() - 1));
     }
     corners.push_back(disk.PointOf(point));
     if (corners.back() < 0)
     {
-      throw Failure(have +
+      throw std::invalid_argument(have +
         ", which is in no triangle with area; they must be 4 points of the "
         "boundary of the surface");
     }
@@ -80,18 +77,18 @@ SquareCorners CornerSettings::Of(const RepairedDisk& disk) const
   }
   catch (const std::invalid_argument& error)
   {
-    throw Failure(std::string("Corners ") + error.what());
+    throw std::invalid_argument(std::string("Corners ") + error.what());
   }
 }
 
-void CornerSettings::Print(std::ostream& os, vtkIndent indent) const
+std::string CornerSettings::Text() const
 {
-  os << indent << "Corners:";
+  std::string text;
   for (const std::int64_t point : this->Points)
   {
-    os << " " << point;
+    text += " " + std::to_string(point);
   }
-  os << (this->Points.empty() ? " automatic\n" : "\n");
+  return this->Points.empty() ? " automatic" : text;
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

@@ -3,12 +3,12 @@
 #ifndef RectifiedTransport_PlaneFrame_h
 #define RectifiedTransport_PlaneFrame_h
 
+#include "Core/Geometry/PointBounds.h"
 #include "Core/Geometry/Points.h"
 
-#include <cmath>
 #include <vector>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 class PlaneFrame
@@ -43,12 +43,11 @@ public:
   double Extent() const;
 
 private:
-  Point<3> Low{ HUGE_VAL, HUGE_VAL, HUGE_VAL };
-  Point<3> High{ -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+  PointBounds Bounds;
   Point<3> Largest{ 0.0, 0.0, 0.0 }; // area vector of a ring
   Point<3> Sum{ 0.0, 0.0, 0.0 };
 };
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

@@ -5,13 +5,13 @@
 
 #include <string>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // Bytes that are no UTF-8 are read as Latin-1, as in old files: Python's observers get no text at
 // all if one byte is wrong.
 std::string messageText(const std::string& text);
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

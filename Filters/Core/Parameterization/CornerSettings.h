@@ -6,13 +6,11 @@
 #include "Core/Mesh/Repair/RepairedDisk.h"
 #include "Core/Parameterization/SquareCorners.h"
 
-#include "vtkIndent.h"
-
 #include <cstdint>
-#include <iosfwd>
+#include <string>
 #include <vector>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 struct CornerSettings
@@ -25,18 +23,19 @@ struct CornerSettings
   int Number() const { return static_cast<int>(this->Points.size()); }
   // -1 if there is none.
   std::int64_t At(int index) const;
-  // Return whether anything changed. Throw Failure for arguments out of range.
+  // Return whether anything changed. Throw std::invalid_argument for arguments out of range.
   bool Resize(int count);
   bool Set(int index, std::int64_t point);
 
-  // Throws Failure unless there are none or four.
+  // Throws std::invalid_argument unless there are none or four.
   void Check() const;
   // The corners of a disk, from the given points of it; chosen automatically if there are none.
-  // Throws Failure unless they are four different points of its boundary.
+  // Throws std::invalid_argument unless they are four different points of its boundary.
   SquareCorners Of(const RepairedDisk& disk) const;
-  void Print(std::ostream& os, vtkIndent indent) const;
+  // The points for PrintSelf, each after a blank.
+  std::string Text() const;
 };
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif
