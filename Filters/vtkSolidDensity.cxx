@@ -9,7 +9,7 @@
 #include "Bridge/Run/Inputs/InputBlock.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/AssociationSettings.h"
-#include "Bridge/Solid/SolidDensity.h"
+#include "Bridge/Triangles/SolidDensity.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"

@@ -52,7 +52,7 @@ BRIDGE = {
     "Image": RUN,
     "Points": RUN,
     "Ranks": RUN | {"Image", "Points"},
-    "Triangles": RUN | {"Points"},
+    "Triangles": RUN | {"Image", "Points", "Ranks"},
     "Drawing": RUN | {"Points"},
     "Store": RUN,
     "Density": RUN | {"Image", "Points", "Ranks", "Store"},
@@ -63,7 +63,7 @@ BRIDGE = {
     "Temporal": WORKERS | {"Splat"},
     **{folder: WORKERS | {"Blocks"} for folder in ("Cartogram", "SiteCells")},
     **{folder: WORKERS for folder in ("Flow", "Quality", "Relaxation", "Seeds", "Splat")},
-    **{folder: WORKERS | {"Triangles"} for folder in ("Solid", "Surfaces")},
+    "Surfaces": WORKERS | {"Triangles"},
 }
 
 

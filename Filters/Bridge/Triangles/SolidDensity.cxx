@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Solid/SolidDensity.h"
+#include "Bridge/Triangles/SolidDensity.h"
 
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
