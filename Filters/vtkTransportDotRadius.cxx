@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportDotRadius.h"
 
-#include "Bridge/Drawing/DotRadius.h"
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Core/Parallel/Stages.h"
+#include "Core/Quality/DotRadius.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"

@@ -1,12 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportPDFWriter.h"
 
-#include "Bridge/Drawing/PdfDrawing.h"
+#include "Core/Drawing/PdfDrawing.h"
 
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkZLibDataCompressor.h"
+
+#include <string>
+#include <string_view>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportPDFWriter);
+
+namespace
+{
+std::string compress(std::string_view data)
+{
+  vtkNew<vtkZLibDataCompressor> compressor;
+  std::string packed(compressor->GetMaximumCompressionSpace(data.size()), '\0');
+  packed.resize(compressor->Compress(reinterpret_cast<const unsigned char*>(data.data()),
+    data.size(), reinterpret_cast<unsigned char*>(packed.data()), packed.size()));
+  return packed;
+}
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkTransportPDFWriter::vtkTransportPDFWriter() = default;
@@ -15,10 +32,10 @@ vtkTransportPDFWriter::vtkTransportPDFWriter() = default;
 vtkTransportPDFWriter::~vtkTransportPDFWriter() = default;
 
 //------------------------------------------------------------------------------
-std::unique_ptr<RectifiedTransport::Bridge::Drawing> vtkTransportPDFWriter::NewDrawing(
-  RectifiedTransport::Bridge::OutputFile& file) const
+std::unique_ptr<RectifiedTransport::Drawing> vtkTransportPDFWriter::NewDrawing(
+  RectifiedTransport::OutputFile& file) const
 {
-  return std::make_unique<RectifiedTransport::Bridge::PdfDrawing>(file);
+  return std::make_unique<RectifiedTransport::PdfDrawing>(file, compress);
 }
 
 //------------------------------------------------------------------------------

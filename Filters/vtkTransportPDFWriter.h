@@ -33,8 +33,8 @@ protected:
   vtkTransportPDFWriter();
   ~vtkTransportPDFWriter() override;
 
-  std::unique_ptr<RectifiedTransport::Bridge::Drawing> NewDrawing(
-    RectifiedTransport::Bridge::OutputFile& file) const override;
+  std::unique_ptr<RectifiedTransport::Drawing> NewDrawing(
+    RectifiedTransport::OutputFile& file) const override;
 
 private:
   vtkTransportPDFWriter(const vtkTransportPDFWriter&) = delete;

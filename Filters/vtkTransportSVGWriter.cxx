@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportSVGWriter.h"
 
-#include "Bridge/Drawing/SvgDrawing.h"
+#include "Core/Drawing/SvgDrawing.h"
 
 #include "vtkObjectFactory.h"
 
@@ -15,10 +15,10 @@ vtkTransportSVGWriter::vtkTransportSVGWriter() = default;
 vtkTransportSVGWriter::~vtkTransportSVGWriter() = default;
 
 //------------------------------------------------------------------------------
-std::unique_ptr<RectifiedTransport::Bridge::Drawing> vtkTransportSVGWriter::NewDrawing(
-  RectifiedTransport::Bridge::OutputFile& file) const
+std::unique_ptr<RectifiedTransport::Drawing> vtkTransportSVGWriter::NewDrawing(
+  RectifiedTransport::OutputFile& file) const
 {
-  return std::make_unique<RectifiedTransport::Bridge::SvgDrawing>(file);
+  return std::make_unique<RectifiedTransport::SvgDrawing>(file);
 }
 
 //------------------------------------------------------------------------------

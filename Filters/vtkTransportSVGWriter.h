@@ -32,8 +32,8 @@ protected:
   vtkTransportSVGWriter();
   ~vtkTransportSVGWriter() override;
 
-  std::unique_ptr<RectifiedTransport::Bridge::Drawing> NewDrawing(
-    RectifiedTransport::Bridge::OutputFile& file) const override;
+  std::unique_ptr<RectifiedTransport::Drawing> NewDrawing(
+    RectifiedTransport::OutputFile& file) const override;
 
 private:
   vtkTransportSVGWriter(const vtkTransportSVGWriter&) = delete;

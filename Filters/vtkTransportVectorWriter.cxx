@@ -3,13 +3,13 @@
 
 #include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Blocks/OptionalArray.h"
-#include "Bridge/Drawing/Drawing.h"
-#include "Bridge/Drawing/OutputFile.h"
 #include "Bridge/Drawing/TransportVectorWriter.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
+#include "Core/Drawing/Drawing.h"
+#include "Core/Drawing/OutputFile.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -98,9 +98,9 @@ int vtkTransportVectorWriter::RequestData(
   {
     throw Failure("FileName is empty; it must be the file to write");
   }
-  TransportVectorWriter writer{ this->Width, this->PageMargin, {}, this->PointRadius,
-    this->LineWidth, this->FillOutlines != 0, this->LookupTable };
-  std::copy_n(this->PageBounds, writer.PageBounds.size(), writer.PageBounds.begin());
+  TransportVectorWriter writer{ { this->Width, this->PageMargin, {}, this->LineWidth },
+    this->PointRadius, this->FillOutlines != 0, this->LookupTable };
+  std::copy_n(this->PageBounds, writer.Page.Bounds.size(), writer.Page.Bounds.begin());
   writer.Check();
   AlgorithmProgress progress(this, this->Threading);
 

@@ -39,12 +39,8 @@
 
 namespace RectifiedTransport
 {
-namespace Bridge
-{
 class Drawing;
 class OutputFile;
-struct DrawnData;
-} // namespace Bridge
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -146,8 +142,8 @@ protected:
   /**
    * The format, on a file that outlives the result.
    */
-  virtual std::unique_ptr<RectifiedTransport::Bridge::Drawing> NewDrawing(
-    RectifiedTransport::Bridge::OutputFile& file) const = 0;
+  virtual std::unique_ptr<RectifiedTransport::Drawing> NewDrawing(
+    RectifiedTransport::OutputFile& file) const = 0;
 
   char* FileName;
   double Width;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// One of the data sets while it is drawn.
 #ifndef RectifiedTransport_DrawnLayer_h
 #define RectifiedTransport_DrawnLayer_h
 
@@ -7,34 +8,21 @@
 #include "Bridge/Drawing/ShapeColours.h"
 #include "Bridge/Drawing/TransportVectorWriter.h"
 #include "Bridge/Points/DoubleTuples.h"
+#include "Core/Drawing/PageLayout.h"
 #include "Core/Parallel/Progress.h"
 
-#include "vtkPoints.h"
-
-#include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace RectifiedTransport::Bridge
 {
 
-// One of the data sets while it is drawn.
 class DrawnLayer
 {
 public:
-  DrawnLayer(const DrawnData& data, vtkScalarsToColors* table, Progress& progress)
-    : Shapes(data.Shapes)
-    , Points(data.Shapes.Data()->GetPoints()->GetData(), progress)
-  {
-    if (data.Colours)
-    {
-      this->Colours = ShapeColours(data.Colours, data.HasColoursOnPoints, table);
-    }
-    if (data.Radii)
-    {
-      this->Radii.emplace(data.Radii, progress);
-    }
-  }
+  // If `fillsOutlines` and there are colours, closed lines bound polygons.
+  DrawnLayer(
+    const DrawnData& data, bool fillsOutlines, vtkScalarsToColors* table, Progress& progress);
 
   const double* At(vtkIdType point) const { return this->Points.data() + 3 * point; }
   // In units of the data.
@@ -43,26 +31,12 @@ public:
     return this->Radii ? this->Radii->data()[point] : this->Radius;
   }
   bool NeedsRadius() const { return !this->Radii; }
-  // As polygons, which without colours are outlined alone.
-  void FillOutlines()
-  {
-    if (this->Colours.AreGiven())
-    {
-      this->Regions = findOutlinedRegions(this->Shapes.Data()).Regions;
-      this->Outlines.assign(static_cast<std::size_t>(this->Shapes.Data()->GetNumberOfCells()), 0);
-      for (const std::vector<Outline>& region : this->Regions)
-      {
-        for (const Outline& outline : region)
-        {
-          this->Outlines[static_cast<std::size_t>(outline.Cell)] = 1;
-        }
-      }
-    }
-  }
   bool IsOutline(vtkIdType cell) const
   {
     return !this->Outlines.empty() && this->Outlines[static_cast<std::size_t>(cell)];
   }
+  // Throws std::runtime_error, if the drawing cannot be written, and Cancelled.
+  void Draw(const PageLayout& layout, Drawing& drawing, Progress& progress) const;
 
   const PolyDataShapes& Shapes;
   DoubleTuples Points;

@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_PolyDataShapes_h
 #define RectifiedTransport_PolyDataShapes_h
 
+#include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Progress.h"
@@ -39,11 +40,21 @@ class PolyDataShapes
 {
 public:
   // Throws Failure if cells have points that do not exist; `name` is what messages call the data.
-  PolyDataShapes(vtkPolyData* data, const std::string& name);
+  PolyDataShapes(vtkPolyData* data, const std::string& name)
+    : Input(data)
+    , HasCells(data->GetNumberOfCells() > 0)
+    , GhostPoints(ghostFlags(data, vtkDataObject::POINT, name.c_str()))
+    , GhostCells(ghostFlags(data, vtkDataObject::CELL, name.c_str()))
+  {
+    requireReadableCells(data, name);
+  }
 
   vtkPolyData* Data() const { return this->Input; }
   // An upper bound, as units of work.
-  std::int64_t Count() const;
+  std::int64_t Count() const
+  {
+    return this->HasCells ? this->Input->GetNumberOfCells() : this->Input->GetNumberOfPoints();
+  }
 
   // Calls visit(shape) for all of them. Throws Cancelled.
   template <class Visit>

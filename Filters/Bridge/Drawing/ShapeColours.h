@@ -3,9 +3,9 @@
 #ifndef RectifiedTransport_ShapeColours_h
 #define RectifiedTransport_ShapeColours_h
 
-#include "Bridge/Drawing/Drawing.h"
 #include "Bridge/Drawing/PolyDataShapes.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Drawing/Drawing.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"

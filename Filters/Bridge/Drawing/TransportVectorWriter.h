@@ -5,9 +5,9 @@
 
 #include "Bridge/Drawing/PolyDataShapes.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Drawing/PageLayout.h"
 #include "Core/Parallel/Progress.h"
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -17,10 +17,13 @@ class vtkDataArray;
 class vtkScalarsToColors;
 VTK_ABI_NAMESPACE_END
 
+namespace RectifiedTransport
+{
+class Drawing;
+} // namespace RectifiedTransport
+
 namespace RectifiedTransport::Bridge
 {
-
-class Drawing;
 
 // One of the data sets on a page. What is later lies on top.
 struct DrawnData
@@ -34,11 +37,8 @@ struct DrawnData
 // The members are the properties of that class.
 struct TransportVectorWriter
 {
-  double Width;
-  double PageMargin;
-  std::array<double, 6> PageBounds; // all 0: of what is drawn
+  PageSettings Page;
   double PointRadius;
-  double LineWidth;
   bool FillOutlines;
   vtkScalarsToColors* LookupTable; // nullptr: VTK's colours over the range of the values
 

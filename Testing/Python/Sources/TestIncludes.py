@@ -12,6 +12,7 @@ CORE = {
     "Algebra": {"Parallel"},
     "Device": {"Parallel"},
     "Geometry": {"Parallel"},
+    "Drawing": {"Parallel", "Geometry"},
     "Mesh": {"Parallel", "Geometry"},
     "Messages": set(),
     "Tables": {"Parallel", "Geometry"},

@@ -3,12 +3,41 @@
 #ifndef RectifiedTransport_OutputTarget_h
 #define RectifiedTransport_OutputTarget_h
 
-#include "Bridge/Drawing/FileDescriptor.h"
+#include <unistd.h>
 
 #include <string>
+#include <utility>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
+
+// An open file of POSIX, or none.
+class FileDescriptor
+{
+public:
+  explicit FileDescriptor(int number = -1)
+    : Number(number)
+  {
+  }
+  ~FileDescriptor() { this->Close(); }
+  FileDescriptor(FileDescriptor&& other) noexcept
+    : Number(std::exchange(other.Number, -1))
+  {
+  }
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept
+  {
+    std::swap(this->Number, other.Number);
+    return *this;
+  }
+
+  bool IsOpen() const { return this->Number >= 0; }
+  int Get() const { return this->Number; }
+  // Returns whether all of it was written; errno says why not.
+  bool Close() { return this->Number < 0 || close(std::exchange(this->Number, -1)) == 0; }
+
+private:
+  int Number;
+};
 
 struct OutputTarget
 {
@@ -23,14 +52,14 @@ struct OutputTarget
 };
 
 // Follows symbolic links, if the system would. A descriptor of this process, such as /dev/stdout,
-// is written on. Throws Failure for folders, block devices, sockets, pipes that no program reads,
-// files that may not be written and folders that do not exist.
+// is written on. Throws std::runtime_error for folders, block devices, sockets, pipes that no
+// program reads, files that may not be written and folders that do not exist.
 OutputTarget findOutputTarget(const std::string& name);
 
 // Gives a new file the owner, the group, the access list and the mode of an earlier one, or less
 // access where the system does not allow that.
 void copyAccess(const FileDescriptor& earlier, const FileDescriptor& file);
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

@@ -3,13 +3,13 @@
 #ifndef RectifiedTransport_OutputFile_h
 #define RectifiedTransport_OutputFile_h
 
-#include "Bridge/Drawing/OutputTarget.h"
+#include "Core/Drawing/OutputTarget.h"
 
 #include <cstdint>
 #include <string>
 #include <string_view>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // Writes to a hidden file beside the target, which replaces it at the end and has its mode.
@@ -17,17 +17,17 @@ namespace RectifiedTransport::Bridge
 class OutputFile
 {
 public:
-  // `name` in UTF-8. Throws Failure if the file cannot be written.
+  // `name` in UTF-8. Throws std::runtime_error if the file cannot be written.
   explicit OutputFile(const std::string& name);
   // Removes what was written, unless Close has been called.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  // Throws Failure if the disk is full, for example.
+  // Throws std::runtime_error if the disk is full, for example.
   void Write(std::string_view bytes);
   std::int64_t Size() const { return this->Written; }
-  // Gives the file its name, in place of an earlier one. Throws Failure.
+  // Gives the file its name, in place of an earlier one. Throws std::runtime_error.
   void Close();
 
 private:
@@ -40,6 +40,6 @@ private:
   std::int64_t Written = 0;
 };
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_PdfDrawing_h
 #define RectifiedTransport_PdfDrawing_h
 
-#include "Bridge/Drawing/Drawing.h"
+#include "Core/Drawing/Drawing.h"
 
 #include <bitset>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 class OutputFile;
@@ -21,9 +21,13 @@ class OutputFile;
 class PdfDrawing final : public Drawing
 {
 public:
+  // Compresses in the format of zlib.
+  using Compress = std::string(std::string_view data);
+
   // The file must outlive this object.
-  explicit PdfDrawing(OutputFile& file)
+  PdfDrawing(OutputFile& file, Compress* compress)
     : File(file)
+    , Packed(compress)
   {
   }
 
@@ -49,6 +53,7 @@ private:
   void WriteContent();
 
   OutputFile& File;
+  Compress* const Packed;
   std::vector<std::int64_t> Offsets; // of the objects in the file
   std::vector<std::size_t> Contents; // the page's streams
   std::string Text;                  // of the next one
@@ -61,6 +66,6 @@ private:
   std::size_t Disc = 0;       // the object of the unit disc
 };
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

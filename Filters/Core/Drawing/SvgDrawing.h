@@ -3,11 +3,11 @@
 #ifndef RectifiedTransport_SvgDrawing_h
 #define RectifiedTransport_SvgDrawing_h
 
-#include "Bridge/Drawing/Drawing.h"
+#include "Core/Drawing/Drawing.h"
 
 #include <string>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 class OutputFile;
@@ -50,6 +50,6 @@ private:
   Group Open = Group::None;
 };
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

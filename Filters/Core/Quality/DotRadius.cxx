@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Drawing/DotRadius.h"
+#include "Core/Quality/DotRadius.h"
 
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/RankExchange.h"
@@ -12,7 +12,7 @@
 #include <numeric>
 #include <vector>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 namespace
@@ -64,4 +64,4 @@ double radiusOfDots(ConstPointSpan<3> points, const Context& context)
   return 0.5 * *dense;
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

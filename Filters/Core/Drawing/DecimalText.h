@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // Appends a number below 10^12 with up to 6 decimals, without trailing zeros.
@@ -37,6 +37,6 @@ inline void appendDecimal(std::string& text, double value, int decimals)
   }
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

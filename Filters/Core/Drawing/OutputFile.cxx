@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Drawing/OutputFile.h"
+#include "Core/Drawing/OutputFile.h"
 
-#include "Bridge/Run/Failure.h"
+#include "Core/Parallel/ThrowError.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -12,7 +12,7 @@
 #include <csignal>
 #include <cstdio>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 namespace
@@ -129,7 +129,7 @@ void OutputFile::WaitForReader() const
   pollfd file{ this->File.Get(), POLLOUT, 0 };
   if (poll(&file, 1, longest) == 0)
   {
-    fail("FileName '", this->Target.Name, "' is a pipe whose reader has read nothing for ",
+    throwError("FileName '", this->Target.Name, "' is a pipe whose reader has read nothing for ",
       longest / 1000, " s; a program must read it");
   }
 }
@@ -150,4 +150,4 @@ void OutputFile::Close()
   this->Part.clear();
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

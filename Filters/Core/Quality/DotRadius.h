@@ -6,7 +6,7 @@
 #include "Core/Geometry/Points.h"
 #include "Core/Parallel/Context.h"
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // One for all: half the distance of neighbours where the points are dense, so that dots of equal
@@ -14,6 +14,6 @@ namespace RectifiedTransport::Bridge
 // Collective. Throws Cancelled and std::bad_alloc.
 double radiusOfDots(ConstPointSpan<3> points, const Context& context);
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Drawing/PdfDrawing.h"
+#include "Core/Drawing/PdfDrawing.h"
 
-#include "Bridge/Drawing/DecimalText.h"
-#include "Bridge/Drawing/OutputFile.h"
-
-#include "vtkNew.h"
-#include "vtkUnsignedCharArray.h"
-#include "vtkZLibDataCompressor.h"
+#include "Core/Drawing/DecimalText.h"
+#include "Core/Drawing/OutputFile.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <initializer_list>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 namespace
@@ -155,17 +151,10 @@ void PdfDrawing::WriteObject(std::size_t number, std::string_view text)
 
 void PdfDrawing::WriteStream(std::size_t number, const std::string& entries, std::string_view data)
 {
-  vtkNew<vtkZLibDataCompressor> compressor;
-  vtkNew<vtkUnsignedCharArray> packed;
-  packed->SetNumberOfValues(
-    static_cast<vtkIdType>(compressor->GetMaximumCompressionSpace(data.size())));
-  const std::size_t size = compressor->Compress(reinterpret_cast<const unsigned char*>(data.data()),
-    data.size(), packed->GetPointer(0), static_cast<std::size_t>(packed->GetNumberOfValues()));
-  std::string text =
-    "<< " + entries + " /Filter /FlateDecode /Length " + std::to_string(size) + " >>\nstream\n";
-  text.append(reinterpret_cast<const char*>(packed->GetPointer(0)), size);
-  text += "\nendstream";
-  this->WriteObject(number, text);
+  const std::string packed = this->Packed(data);
+  this->WriteObject(number,
+    "<< " + entries + " /Filter /FlateDecode /Length " + std::to_string(packed.size()) +
+      " >>\nstream\n" + packed + "\nendstream");
 }
 
 void PdfDrawing::WriteTable(std::size_t root)
@@ -237,4 +226,4 @@ void PdfDrawing::WriteContent()
   this->Text.clear();
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Drawing/SvgDrawing.h"
+#include "Core/Drawing/SvgDrawing.h"
 
-#include "Bridge/Drawing/DecimalText.h"
-#include "Bridge/Drawing/OutputFile.h"
+#include "Core/Drawing/DecimalText.h"
+#include "Core/Drawing/OutputFile.h"
 
 #include <cstddef>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 namespace
@@ -182,4 +182,4 @@ void SvgDrawing::Flush()
   }
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // Red, green and blue light and opacity, 0 to 255.
@@ -45,8 +45,8 @@ enum class FillRule
   Odd  // an odd number of them
 };
 
-// Call Begin first and End last. What is drawn later lies on top. Everything throws Failure if the
-// file cannot be written.
+// Call Begin first and End last. What is drawn later lies on top. Everything throws
+// std::runtime_error if the file cannot be written.
 class Drawing
 {
 public:
@@ -65,6 +65,6 @@ public:
   virtual void End() = 0;
 };
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Drawing/PageLayout.h"
+
+#include "Core/Parallel/ThrowError.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace RectifiedTransport
+{
+
+PageLayout::PageLayout(const std::array<std::size_t, 2>& axes, const DrawnBounds& bounds,
+  double pageWidth, double margin)
+  : Axes(axes)
+  , Origin{ bounds.LowerCorner()[axes[0]], bounds.LowerCorner()[axes[1]] }
+  , Margins{ margin, margin }
+{
+  constexpr double rounding = 1e-9;       // of lengths
+  constexpr double shortestHeight = 1e-3; // of a page whose polygons have no area
+  const double width = bounds.Length(axes[0]);
+  const double height = bounds.Length(axes[1]);
+  if (!std::isfinite(width) || !std::isfinite(height))
+  {
+    throwError("The input has a length past the largest double; its coordinates must be smaller");
+  }
+  const bool isVertical = width <= rounding * height;
+  const double length = isVertical ? height : width;
+  this->Unit = length > 0.0 ? (pageWidth - 2.0 * margin) / length : 1.0;
+  if (!std::isfinite(this->Unit))
+  {
+    throwError(
+      "The input is ", length, " long, too little for a page; its coordinates must be larger");
+  }
+  this->Sides = { pageWidth, std::max(this->Unit * height + 2.0 * margin, shortestHeight) };
+  this->Margins[0] = 0.5 * (pageWidth - this->Unit * width);
+}
+
+void PageSettings::CheckBounds() const
+{
+  const std::array<double, 6>& bounds = this->Bounds;
+  int ascending = 0;
+  int equal = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double length = bounds[2 * axis + 1] - bounds[2 * axis];
+    ascending += length > 0.0 && std::isfinite(length) ? 1 : 0;
+    equal += length == 0.0 ? 1 : 0;
+  }
+  if (this->HasBounds() && (ascending < 2 || ascending + equal < 3))
+  {
+    throwError("PageBounds are ", bounds[0], " ", bounds[1], " ", bounds[2], " ", bounds[3], " ",
+      bounds[4], " ", bounds[5],
+      "; they must be the lowest and highest x, y and z, and longer than 0 along two axes, or all "
+      "0");
+  }
+}
+
+PageLayout PageSettings::LayoutInBounds(const DrawnBounds& drawn) const
+{
+  constexpr double farthest = 1e6; // millimetres, for numbers that all readers take
+  DrawnBounds shown;
+  for (std::size_t side = 0; side < 2; ++side)
+  {
+    shown.Include(
+      Point<3>{ this->Bounds[side], this->Bounds[2 + side], this->Bounds[4 + side] }.data());
+  }
+  const PageLayout layout(shown.LongestAxes(), shown, this->Width, this->Margin);
+  for (const double* corner : { drawn.LowerCorner(), drawn.UpperCorner() })
+  {
+    for (const double distance : layout.At(corner))
+    {
+      if (!(std::abs(distance) <= farthest))
+      {
+        throwError("PageBounds are so small that the input reaches ", std::abs(distance),
+          " mm from the page; it may reach ", farthest, " mm: cut it with Clip or Threshold");
+      }
+    }
+  }
+  return layout;
+}
+
+PageLayout PageSettings::Layout(const DrawnExtent& extent, double longestSide) const
+{
+  const bool fitsStrokes = extent.HasStrokes && !this->HasBounds();
+  const double margin = this->Margin + (fitsStrokes ? 0.5 * this->LineWidth : 0.0);
+  if (!(2.0 * margin < this->Width))
+  {
+    throwError("Width is ", this->Width, "; it must be more than ", 2.0 * margin,
+      fitsStrokes ? ", twice PageMargin and the LineWidth" : ", twice PageMargin");
+  }
+  const PageLayout layout = this->HasBounds()
+    ? this->LayoutInBounds(extent.Rest)
+    : PageLayout(extent.Points.LongestAxes(), extent.Rest, this->Width, margin);
+  const Point<2>& size = layout.Size();
+  const double longest = std::max(size[0], size[1]);
+  if (longest > longestSide)
+  {
+    throwError("The page is ", size[0], " x ", size[1], " mm with Width ", this->Width,
+      "; no side may be longer than ", longestSide, " mm in this format: Width must be at most ",
+      this->Width * longestSide / longest);
+  }
+  return layout;
+}
+
+} // namespace RectifiedTransport

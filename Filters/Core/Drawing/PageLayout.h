@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where data lie on a page.
+#ifndef RectifiedTransport_PageLayout_h
+#define RectifiedTransport_PageLayout_h
+
+#include "Core/Drawing/DrawnExtent.h"
+#include "Core/Geometry/Points.h"
+
+#include <array>
+#include <cstddef>
+
+namespace RectifiedTransport
+{
+
+// The first axis points to the right, the second up. The bounds fill the width but for the margin
+// on all four sides. If all of them lie on one vertical line, its length does instead.
+class PageLayout
+{
+public:
+  // `width` and `margin` in millimetres. Throws std::runtime_error if the lengths, or millimetres
+  // for a unit of them, are past the largest double.
+  PageLayout(
+    const std::array<std::size_t, 2>& axes, const DrawnBounds& bounds, double width, double margin);
+
+  // Millimetres for a unit of the data.
+  double Scale() const { return this->Unit; }
+  const Point<2>& Size() const { return this->Sides; }
+  Point<2> At(const double* point) const
+  {
+    return { this->Margins[0] + this->Unit * (point[this->Axes[0]] - this->Origin[0]),
+      this->Margins[1] + this->Unit * (point[this->Axes[1]] - this->Origin[1]) };
+  }
+
+private:
+  std::array<std::size_t, 2> Axes;
+  Point<2> Origin;
+  Point<2> Margins;
+  Point<2> Sides;
+  double Unit;
+};
+
+// In millimetres, but for the bounds.
+struct PageSettings
+{
+  double Width;
+  double Margin;                // on all four sides
+  std::array<double, 6> Bounds; // of the data on the page; all 0: of what is drawn
+  double LineWidth;
+
+  bool HasBounds() const { return this->Bounds != std::array<double, 6>{}; }
+  // Throws std::runtime_error unless they are ascending along at least two axes.
+  void CheckBounds() const;
+  // A page in a format whose sides are not longer than this. Throws std::runtime_error for margins
+  // past the width, bounds that are too small for what is drawn and pages that are too long.
+  PageLayout Layout(const DrawnExtent& extent, double longestSide) const;
+
+private:
+  PageLayout LayoutInBounds(const DrawnBounds& drawn) const;
+};
+
+} // namespace RectifiedTransport
+
+#endif
