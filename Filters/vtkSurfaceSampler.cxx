@@ -7,7 +7,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/FlowSettings.h"
 #include "Bridge/Run/Settings/SeedSettings.h"
-#include "Bridge/Surfaces/SurfaceMasses.h"
+#include "Bridge/Surfaces/SurfaceDensityArray.h"
 #include "Bridge/Surfaces/SurfaceSampler.h"
 #include "Bridge/Triangles/SurfaceInput.h"
 #include "Core/Parallel/Stages.h"

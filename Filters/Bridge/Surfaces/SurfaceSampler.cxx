@@ -6,7 +6,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/StepReport.h"
-#include "Bridge/Surfaces/SurfaceMasses.h"
+#include "Bridge/Surfaces/SurfaceDensityArray.h"
 #include "Bridge/Surfaces/SurfaceParticles.h"
 #include "Bridge/Triangles/SurfaceInput.h"
 #include "Bridge/Triangles/TriangleInput.h"
@@ -114,7 +114,7 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
   TriangleInput read(input, "it must be a surface", stages["input"]);
   const WholeTriangles surface = read.Whole(stages["triangles"]);
   options.Rounding = surface.Rounding();
-  const SurfaceMasses masses(read, surface, density, stages["masses"]);
+  const SurfaceMasses masses = density.MassesOf(read, surface, stages["masses"]);
   const SurfaceDensityValues relative = masses.Density();
   const TriangleSurface triangles = surface.Surface();
   const SurfaceRelaxation samples =
@@ -169,7 +169,7 @@ SurfaceSamplingReport SurfaceSampler::Transport(const SurfaceInput& given,
   const DiskTriangles surface = read.Disk(stages["triangles"]);
   const DiskMesh& disk = surface.Disk();
   const ConformalMap map = mapDisk(disk, this->Corners.Of(surface.Repaired()), stages["map"]);
-  const SurfaceMasses masses(read, surface, density, stages["masses"]);
+  const SurfaceMasses masses = density.MassesOf(read, surface, stages["masses"]);
 
   const GridSize<2> grid = flatGrid(map.AspectRatio, this->Options.Resolution);
   const double tables = memoryForSurfaceFlow(grid);

@@ -4,7 +4,6 @@
 #define RectifiedTransport_ClosedSurface_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Mesh/PolygonCutter.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Solid/ClosedMesh.h"
 
@@ -51,9 +50,6 @@ public:
   SolidSurface InCells(const ImageGrid& grid, Progress& progress);
 
 private:
-  void AddPolygons(vtkPolyData* input, Progress& progress);
-  PolygonCutter::Corners Merged(const PolygonCutter::Corners& corners) const;
-
   std::array<double, 6> Box{};
   std::optional<ClosedMesh> Mesh;
 };

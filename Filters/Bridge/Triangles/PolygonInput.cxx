@@ -17,6 +17,69 @@
 namespace RectifiedTransport::Bridge
 {
 
+namespace
+{
+
+std::int64_t countTriangles(vtkPolyData* surface)
+{
+  std::int64_t triangles = 0;
+  for (vtkCellArray* cells : { surface->GetPolys(), surface->GetStrips() })
+  {
+    for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+    {
+      triangles += std::max<std::int64_t>(0, cells->GetCellSize(cell) - 2);
+    }
+  }
+  return triangles;
+}
+
+// The way of vtkPolygon.
+RingCutter makeRingCutter()
+{
+  auto polygon = vtkSmartPointer<vtkPolygon>::New();
+  polygon->Points->SetDataTypeToDouble();
+  auto places = vtkSmartPointer<vtkIdList>::New(); // three corners a triangle
+  auto ignored = vtkSmartPointer<vtkPoints>::New();
+  return [=](const std::vector<Point<3>>& ring, std::vector<std::size_t>& triangles) {
+    places->Reset();
+    const auto count = static_cast<vtkIdType>(ring.size());
+    polygon->PointIds->SetNumberOfIds(count);
+    polygon->Points->SetNumberOfPoints(count);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      polygon->PointIds->SetId(i, i);
+      polygon->Points->SetPoint(i, ring[static_cast<std::size_t>(i)].data());
+    }
+    const bool isCut = polygon->Triangulate(0, places, ignored) != 0;
+    std::for_each(places->begin(), places->end(),
+      [&](vtkIdType place) { triangles.push_back(static_cast<std::size_t>(place)); });
+    return isCut;
+  };
+}
+
+PolygonSource::Visits visitsOf(vtkCellArray* cells)
+{
+  return [cells](Progress& progress, const PolygonSource::Visit& visit) {
+    constexpr std::int64_t grain = std::int64_t{ 1 } << 8;
+    constexpr std::int64_t units = std::int64_t{ 1 } << 12; // polygons that take some milliseconds
+    vtkNew<vtkIdList> ids;
+    PolygonCutter::Corners corners;
+    progress.ForInOrder(
+      cells->GetNumberOfCells(), grain,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t cell = first; cell < last; ++cell)
+        {
+          cells->GetCellAtId(static_cast<vtkIdType>(cell), ids);
+          corners.assign(ids->begin(), ids->end());
+          visit(cell, corners);
+        }
+      },
+      units);
+  };
+}
+
+} // namespace
+
 LargeBuffer<double> readSurfacePoints(
   vtkPolyData* surface, const std::string& need, Progress& progress, double bytesOfPoint)
 {
@@ -44,60 +107,11 @@ bool isAllTriangles(vtkPolyData* surface)
   return surface->GetNumberOfStrips() == 0 && surface->GetPolys()->IsHomogeneous() == 3;
 }
 
-std::int64_t countTriangles(vtkPolyData* surface)
+PolygonSource polygonsOf(vtkPolyData* surface)
 {
-  std::int64_t triangles = 0;
-  for (vtkCellArray* cells : { surface->GetPolys(), surface->GetStrips() })
-  {
-    for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
-    {
-      triangles += std::max<std::int64_t>(0, cells->GetCellSize(cell) - 2);
-    }
-  }
-  return triangles;
-}
-
-RingCutter makeRingCutter()
-{
-  auto polygon = vtkSmartPointer<vtkPolygon>::New();
-  polygon->Points->SetDataTypeToDouble();
-  auto places = vtkSmartPointer<vtkIdList>::New(); // three corners a triangle
-  auto ignored = vtkSmartPointer<vtkPoints>::New();
-  return [=](const std::vector<Point<3>>& ring, std::vector<std::size_t>& triangles) {
-    places->Reset();
-    const auto count = static_cast<vtkIdType>(ring.size());
-    polygon->PointIds->SetNumberOfIds(count);
-    polygon->Points->SetNumberOfPoints(count);
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      polygon->PointIds->SetId(i, i);
-      polygon->Points->SetPoint(i, ring[static_cast<std::size_t>(i)].data());
-    }
-    const bool isCut = polygon->Triangulate(0, places, ignored) != 0;
-    std::for_each(places->begin(), places->end(),
-      [&](vtkIdType place) { triangles.push_back(static_cast<std::size_t>(place)); });
-    return isCut;
-  };
-}
-
-void visitCells(vtkCellArray* cells, Progress& progress,
-  const std::function<void(std::int64_t, const PolygonCutter::Corners&)>& visit)
-{
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 8;
-  constexpr std::int64_t units = std::int64_t{ 1 } << 12; // polygons that take some milliseconds
-  vtkNew<vtkIdList> ids;
-  PolygonCutter::Corners corners;
-  progress.ForInOrder(
-    cells->GetNumberOfCells(), grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t cell = first; cell < last; ++cell)
-      {
-        cells->GetCellAtId(static_cast<vtkIdType>(cell), ids);
-        corners.assign(ids->begin(), ids->end());
-        visit(cell, corners);
-      }
-    },
-    units);
+  return { visitsOf(surface->GetPolys()), visitsOf(surface->GetStrips()),
+    surface->GetNumberOfPolys(), surface->GetNumberOfStrips(), countTriangles(surface),
+    makeRingCutter() };
 }
 
 } // namespace RectifiedTransport::Bridge

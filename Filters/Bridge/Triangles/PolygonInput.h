@@ -5,7 +5,7 @@
 
 #include "Bridge/Points/IntegerArrays.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Mesh/PolygonCutter.h"
+#include "Core/Mesh/CutPolygons.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 
@@ -15,7 +15,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
 
 namespace RectifiedTransport::Bridge
@@ -33,15 +32,8 @@ LargeBuffer<double> readSurfacePoints(
 // Whether all polygons are triangles, and there are no strips.
 bool isAllTriangles(vtkPolyData* surface);
 
-// The number of triangles of all polygons and strips: one for each point beyond the second.
-std::int64_t countTriangles(vtkPolyData* surface);
-
-// vtkPolygon's way.
-RingCutter makeRingCutter();
-
-// Calls visit(i, corners) for every cell i in order, with its points. Throws Cancelled.
-void visitCells(vtkCellArray* cells, Progress& progress,
-  const std::function<void(std::int64_t, const PolygonCutter::Corners&)>& visit);
+// Its polygons and strips, cell by cell, and vtkPolygon's way to cut. The surface must outlive it.
+PolygonSource polygonsOf(vtkPolyData* surface);
 
 // Calls visit(i, points) for every triangle i in order. All cells must be triangles. Throws
 // Cancelled.

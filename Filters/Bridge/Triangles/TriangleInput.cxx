@@ -23,6 +23,27 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+constexpr double bytesOfMappedPoint = 1350.0; // of the conformal map
+
+// Calls a function with the errors of a run: what Core says is wrong with a surface is the
+// predicate of a sentence.
+template <class Function>
+auto withSurface(const MemoryPlan& plan, const Function& function)
+{
+  try
+  {
+    return withMemory(plan, function);
+  }
+  catch (const NotADisk& error)
+  {
+    fail("The input surface ", error.what());
+  }
+  catch (const std::invalid_argument& error)
+  {
+    fail("The input surface ", error.what());
+  }
+}
+
 std::string countOf(const TriangleSurface& surface)
 {
   return std::to_string(surface.NumberOfTriangles) + " triangles";
@@ -78,62 +99,19 @@ LargeBuffer<std::int64_t> TriangleInput::ReadCorners(
                         static_cast<double>(count) * 3.0 * sizeof(std::int64_t) },
       [&]() { return this->Corners(work); });
   }
-  const std::int64_t count = countTriangles(this->Surface);
-  return withMemory({ std::to_string(count) + " triangles of the input surface",
-                      static_cast<double>(count) * 4.0 * sizeof(vtkIdType) },
-    [&]() {
-      this->Cells = LargeBuffer<vtkIdType>(count);
-      LargeBuffer<std::int64_t> corners(3 * count);
-      PolygonCutter cutter(points, rounding, makeRingCutter());
-      this->CutPolygons(cutter, corners.data(), work);
-      vtkCellData* data = this->Surface->GetCellData();
-      for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-      {
-        requireTuples(
-          data->GetAbstractArray(i), this->Surface->GetNumberOfCells(), "cell", "input surface");
-      }
-      return corners;
-    });
-}
-
-void TriangleInput::CutPolygons(PolygonCutter& cutter, std::int64_t* corners, Progress& progress)
-{
-  std::int64_t missing = 0;
-  std::int64_t firstMissing = 0;
-  vtkIdType* cells = this->Cells.data();
-  const auto append = [&](std::int64_t cell) {
-    const std::vector<std::int64_t>& made = cutter.Triangles();
-    corners = std::copy(made.begin(), made.end(), corners);
-    cells = std::fill_n(cells, made.size() / 3, this->FirstPolygon + static_cast<vtkIdType>(cell));
-  };
-  vtkCellArray* polygons = this->Surface->GetPolys();
-  const vtkIdType count = polygons->GetNumberOfCells();
-  Stages stages(progress,
-    { { "polygons", static_cast<double>(count) },
-      { "strips", static_cast<double>(this->Surface->GetNumberOfStrips()) } });
-  visitCells(
-    polygons, stages["polygons"], [&](std::int64_t cell, const PolygonCutter::Corners& points) {
-      if (cutter.Cut(points))
-      {
-        append(cell);
-        return;
-      }
-      firstMissing = missing == 0 ? cell : firstMissing;
-      missing += static_cast<std::int64_t>(points.size()) - 2;
-    });
-  visitCells(this->Surface->GetStrips(), stages["strips"],
-    [&](std::int64_t strip, const PolygonCutter::Corners& points) {
-      cutter.CutStrip(points);
-      append(count + strip);
-    });
-  if (missing != 0)
+  const PolygonSource polygons = polygonsOf(this->Surface);
+  const std::int64_t count = polygons.NumberOfTriangles;
+  CutTriangles cut = withMemory({ std::to_string(count) + " triangles of the input surface",
+                                  static_cast<double>(count) * 4.0 * sizeof(std::int64_t) },
+    [&]() { return cutPolygons(polygons, points, rounding, work); });
+  vtkCellData* data = this->Surface->GetCellData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
-    throw Failure("The input surface has polygons that cannot be cut into triangles: " +
-      std::to_string(missing) + " triangles are missing (the first of polygon " +
-      std::to_string(firstMissing) +
-      ", counted from 0); polygons must be simple: edges must not cross, and no corner be "
-      "there twice");
+    requireTuples(
+      data->GetAbstractArray(i), this->Surface->GetNumberOfCells(), "cell", "input surface");
   }
+  this->Polygons = std::move(cut.Cells);
+  return std::move(cut.Corners);
 }
 
 DiskTriangles TriangleInput::Disk(Progress& progress)
@@ -155,15 +133,12 @@ DiskTriangles TriangleInput::Disk(Progress& progress)
   }
   catch (const DiskTriangles::NoDisk& defect)
   {
-    std::string message = std::string("The input surface ") + defect.what();
-    const std::int64_t cell =
-      defect.GivenTriangle < 0 ? defect.First() : this->CellOf(defect.GivenTriangle);
-    if (cell != defect.First())
-    {
-      message +=
-        "; triangle " + std::to_string(defect.First()) + " is of cell " + std::to_string(cell);
-    }
-    throw NoDiskSurface(message);
+    const std::int64_t first = defect.First();
+    const std::int64_t cell = defect.GivenTriangle < 0 ? first : this->CellOf(defect.GivenTriangle);
+    throw NoDiskSurface(std::string("The input surface ") + defect.what() +
+      (cell == first
+          ? ""
+          : "; triangle " + std::to_string(first) + " is of cell " + std::to_string(cell)));
   }
 }
 
@@ -175,24 +150,12 @@ OpenedSurface TriangleInput::Opened(Progress& progress)
     [&]() { this->Triangles.CloseTJunctions(TJunctionScope::All, stages["T-junctions"]); });
   const TriangleSurface surface = this->Triangles.Surface();
   constexpr double bytesOfTriangle = 250.0;
-  constexpr double bytesOfPoint = 1350.0; // the conformal map's
   SeamOptions options;
   options.Rounding = this->Triangles.Rounding();
-  try
-  {
-    return withMemory({ "the seams of " + countOf(surface),
-                        static_cast<double>(surface.NumberOfTriangles) * bytesOfTriangle +
-                          static_cast<double>(surface.Points.size()) * bytesOfPoint },
-      [&]() { return OpenedSurface(surface, options, stages["seams"]); });
-  }
-  catch (const NotADisk& error)
-  {
-    throw Failure(std::string("The input surface ") + error.what());
-  }
-  catch (const std::invalid_argument& error)
-  {
-    throw Failure(std::string("The input surface ") + error.what());
-  }
+  return withSurface({ "the seams of " + countOf(surface),
+                       static_cast<double>(surface.NumberOfTriangles) * bytesOfTriangle +
+                         static_cast<double>(surface.Points.size()) * bytesOfMappedPoint },
+    [&]() { return OpenedSurface(surface, options, stages["seams"]); });
 }
 
 WholeTriangles TriangleInput::Whole(Progress& progress)
@@ -202,20 +165,13 @@ WholeTriangles TriangleInput::Whole(Progress& progress)
     return (ghosts[this->CellOf(triangle)] & ghostCell) != 0;
   };
   const TriangleSurface surface = this->Triangles.Surface();
-  try
-  {
-    return withMemory({ "the surface's " + countOf(surface),
-                        static_cast<double>(surface.NumberOfTriangles) * 80.0 +
-                          static_cast<double>(surface.Points.size()) * 48.0 },
-      [&]() {
-        return WholeTriangles(this->Triangles.TakePoints(), this->Triangles.TakeCorners(),
-          ghosts ? isGhost : nullptr, progress);
-      });
-  }
-  catch (const std::invalid_argument& error)
-  {
-    throw Failure(std::string("The input surface ") + error.what());
-  }
+  return withSurface({ "the surface's " + countOf(surface),
+                       static_cast<double>(surface.NumberOfTriangles) * 80.0 +
+                         static_cast<double>(surface.Points.size()) * 48.0 },
+    [&]() {
+      return WholeTriangles(this->Triangles.TakePoints(), this->Triangles.TakeCorners(),
+        ghosts ? isGhost : nullptr, progress);
+    });
 }
 
 LargeBuffer<std::int64_t> TriangleInput::Corners(Progress& progress) const
@@ -300,18 +256,10 @@ std::string TriangleInput::RepairWarning(
 
 ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progress& progress)
 {
-  constexpr double bytesOfPoint = 1350.0;
   const std::int64_t points = disk.NumberOfPoints();
-  try
-  {
-    return withMemory({ "the conformal map of " + std::to_string(points) + " points",
-                        bytesOfPoint * static_cast<double>(points) },
-      [&]() { return mapConformally(disk, corners, progress); });
-  }
-  catch (const std::invalid_argument& error)
-  {
-    throw Failure(std::string("The input surface ") + error.what());
-  }
+  return withSurface({ "the conformal map of " + std::to_string(points) + " points",
+                       bytesOfMappedPoint * static_cast<double>(points) },
+    [&]() { return mapConformally(disk, corners, progress); });
 }
 
 std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles, bool isCut)

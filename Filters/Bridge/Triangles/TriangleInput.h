@@ -22,11 +22,6 @@
 #include <cstdint>
 #include <string>
 
-namespace RectifiedTransport
-{
-class PolygonCutter;
-} // namespace RectifiedTransport
-
 namespace RectifiedTransport::Bridge
 {
 
@@ -54,8 +49,8 @@ public:
   // The cell of the input that a given triangle was cut from.
   vtkIdType CellOf(std::int64_t given) const
   {
-    return this->Cells.size() > 0 ? this->Cells.data()[given]
-                                  : this->FirstPolygon + static_cast<vtkIdType>(given);
+    return this->FirstPolygon +
+      static_cast<vtkIdType>(this->Polygons.size() > 0 ? this->Polygons.data()[given] : given);
   }
 
   // One of the following, or Disk() and, after NoDiskSurface, Opened(). They are valid as long as
@@ -85,12 +80,11 @@ public:
 
 private:
   LargeBuffer<std::int64_t> ReadCorners(ConstPointSpan<3> points, double rounding, Progress& work);
-  void CutPolygons(PolygonCutter& cutter, std::int64_t* corners, Progress& progress);
-  bool IsInput() const { return this->Cells.size() == 0 && !this->Triangles.Parts(); }
+  bool IsInput() const { return this->Polygons.size() == 0 && !this->Triangles.Parts(); }
 
   vtkPolyData* const Surface;
   const vtkIdType FirstPolygon;
-  LargeBuffer<vtkIdType> Cells; // by given triangles; empty if these are the input's polygons
+  LargeBuffer<std::int64_t> Polygons; // by given triangles; empty if these are the input's polygons
   SurfaceTriangles Triangles;
 };
 

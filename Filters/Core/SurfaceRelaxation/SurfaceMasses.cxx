@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SurfaceRelaxation/SurfaceMasses.h"
+
+#include "Core/Parallel/Reduction.h"
+#include "Core/Parallel/ThrowError.h"
+#include "Core/Tables/DensityInspection.h"
+
+#include <cmath>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
+
+// Sums up the values of points or cells, but not those of ghosts.
+DensitySummary summaryOf(const ReadDensity& density, Progress& progress)
+{
+  const double* values = density.Values;
+  const bool haveGhosts = density.IsGhost && !density.OnPoints;
+  const auto add = [](DensitySummary all, const DensitySummary& more) {
+    merge(more, all);
+    return all;
+  };
+  return reduceChunks(
+    progress, density.Last - density.First, Grain, DensitySummary(),
+    [&](std::int64_t first, std::int64_t last) {
+      const std::int64_t from = density.First + first;
+      if (!haveGhosts)
+      {
+        return summarize(values + from, last - first, from);
+      }
+      DensitySummary found;
+      for (std::int64_t i = from; i < density.First + last; ++i)
+      {
+        found = density.IsGhost(i) ? found : add(found, summarize(values + i, 1, i));
+      }
+      return found;
+    },
+    add);
+}
+
+void requireValid(const DensitySummary& found, const ReadDensity& density)
+{
+  if (found.NotFinite + found.Negative == 0)
+  {
+    return;
+  }
+  const bool isFinite = found.NotFinite == 0;
+  const std::int64_t count = isFinite ? found.Negative : found.NotFinite;
+  const std::int64_t first = isFinite ? found.FirstNegative : found.FirstNotFinite;
+  const char* const what = isFinite
+    ? (count == 1 ? " negative value" : " negative values")
+    : (count == 1 ? " value that is NaN or infinite" : " values that are NaN or infinite");
+  throwError(density.Name, " has ", count, what, ", the first at index ", first, " (",
+    density.Values[first], "); ",
+    isFinite ? "a density must not be negative" : "every value must be finite");
+}
+
+} // namespace
+
+SurfaceMasses::SurfaceMasses(
+  const PlacedTriangles& surface, const ReadDensity& density, Progress& progress)
+  : OnPoints(density.OnPoints)
+{
+  if (density.Values)
+  {
+    this->ReadRelative(surface.NumberOfTriangles(), density, progress);
+  }
+  const auto isGhost = [&](std::int64_t triangle) {
+    return density.IsGhost(density.CellOf(triangle));
+  };
+  this->Masses = massesOf(surface, this->Density(),
+    density.IsGhost ? isGhost : std::function<bool(std::int64_t)>(), progress);
+  this->FindTotal(surface.Areas(), density);
+}
+
+void SurfaceMasses::ReadRelative(
+  std::int64_t triangles, const ReadDensity& density, Progress& progress)
+{
+  const DensitySummary found = summaryOf(density, progress);
+  requireValid(found, density);
+  this->Largest = found.Maximum > 0.0 ? found.Maximum : 1.0;
+  this->Relative = LargeBuffer<double>(this->OnPoints ? density.Last : triangles);
+  progress.For(this->Relative.size(), Grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      this->Relative.data()[i] =
+        density.Values[this->OnPoints ? i : density.CellOf(i)] / this->Largest;
+    }
+  });
+}
+
+void SurfaceMasses::FindTotal(const SurfaceAreas& areas, const ReadDensity& density)
+{
+  const bool isGiven = density.Values != nullptr;
+  const std::string title =
+    isGiven ? density.Name + " has a total mass" : std::string("The input surface has an area");
+  if (!(this->Masses.Sum > 0.0))
+  {
+    throwError(title, " of zero",
+      density.IsGhost ? " (duplicate and blanked ghosts carry none)" : "",
+      isGiven ? "; at least one value must be positive" : "");
+  }
+  this->Sum = this->Masses.Sum * areas.Total * areas.Unit * this->Largest * areas.Unit;
+  if (!(this->Sum > 0.0))
+  {
+    throwError(title, " below the least double; ",
+      isGiven ? "its values, or the coordinates, must be larger"
+              : "the coordinates must be larger");
+  }
+  if (!std::isfinite(this->Sum))
+  {
+    throwError(title, " past the largest double; ",
+      isGiven ? "its values must be smaller" : "the coordinates must be smaller");
+  }
+}
+
+SurfaceDensityValues SurfaceMasses::Density() const
+{
+  const double* values = this->Relative.size() > 0 ? this->Relative.data() : nullptr;
+  SurfaceDensityValues found;
+  (this->OnPoints ? found.AtPoints : found.OfTriangles) = values;
+  return found;
+}
+
+} // namespace RectifiedTransport
