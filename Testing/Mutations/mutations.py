@@ -66,7 +66,7 @@ OTHERS = [
       "RT_ENTRY(linear, 2)"),
     E(CORE + "Tables/NearestMass.cxx", "return tables.Occupied + «row * tables.WordsPerRow»",
       "row * ((tables.Cells[0] >> 6) + 1)"),
-    S(CORE + "Splat/SplatTiles.cxx", "visit(row * this->Tiles[0] + i);",
+    S(CORE + "Splat/SplatTiles.h", "visit(row * this->Tiles[0] + i);",
       "if (i < high[0] || i == low[0]) { visit(row * this->Tiles[0] + i); }"),
     E(CORE + "Flow/PivotLattice.cxx", "placeInCell<Dimension>(«i», perCell)", "(i ^ 1) % perCell"),
     # seeds
