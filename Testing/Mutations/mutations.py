@@ -330,8 +330,8 @@ OTHERS = [
     E(CORE + "Geometry/InvertedCells.cxx", "const std::int64_t odd = «i % 2»", "0"),
     E(CORE + "Geometry/InvertedCells.cxx", "«std::copysign(1.0, old.Value)» * moved.Value", "1.0"),
     E(CORE + "Equalize/AreaCorrection.cxx", "move[axis] += «weight» *", "(corner == 0 ? 1.0 : 0.0)"),
-    E(CORE + "Equalize/MoveLimits.cxx", "round >= projections && «moved.Folded <= folded»", "true"),
-    S(CORE + "Equalize/AreaProjection.cxx", "this->Lattice.KeepOnSides(cornerRow, row.After);", ";"),
+    E(CORE + "Equalize/MoveLimits.h", "round >= projections && «moved.Folded <= folded»", "true"),
+    S(CORE + "Equalize/AreaProjection.h", "this->Lattice.KeepOnSides(cornerRow, row.After);", ";"),
     E(BRIDGE + "Run/StepReport.h", "if (!(flow.AreaError > «options.AreaTolerance»))", "10.0"),
     # devices
     S(CORE + "Device/Device.cxx", "this->Taken += bytes;", ";"),
