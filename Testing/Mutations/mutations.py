@@ -232,7 +232,7 @@ OTHERS = [
     E(CORE + "Flow/Tiles/TiledAdvection.h", "level.HandOver = «this->Plan.HandOver << pass»",
       "this->Plan.HandOver"),
     E(CORE + "Flow/Tiles/TiledAdvection.h", "«extra.Troubled[static_cast<std::size_t>(i)]» &&", "false"),
-    S(CORE + "Flow/Tiles/TileTask.h", "this->Job.StopsAtMap = stage.StopsAtMap;", ""),
+    S(CORE + "Flow/Tiles/TiledAdvection.h", "job.StopsAtMap = job.Backward;", ""),
     E(CORE + "Tables/GradedTables.cxx", "moment += cells[i] * (static_cast<double>(i) + «0.5»)", "0.0"),
     E(CORE + "Tables/DensityShare.h", "sum += values[cell] * («x.PartOf(i + cell)» * part)", "1.0"),
     E(BRIDGE + "Density/SharedFlow.cxx",
