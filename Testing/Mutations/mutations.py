@@ -169,7 +169,7 @@ OTHERS = [
     E(CORE + "Flow/FlowMap.cxx", "int relevant = «isTroubled»", "0"),
     E(CORE + "Flow/FlowMapShape.cxx", "return particles * share * this->Saved() > «this->Cost»", "0.0"),
     E(CORE + "Flow/PivotLattice.cxx", "flow.Forward(seeds, part, «same», ", "options"),
-    E(CORE + "Flow/KeptFlowMap.h", "return «steps == this->Of» ?", "true"),
+    E(CORE + "Flow/KeptFlowMap.h", "return «steps == kept.Of» ?", "true"),
     E(CORE + "Flow/WholeEngine.h", "«firstTime < 1.0 - shape.Levels.back().TimeLeft»", "false"),
     # relaxation and power cells
     E(CORE + "Relaxation/RelaxationDescent.cxx", "const double rest = «isAimed» ? 0.0", "false"),
