@@ -101,9 +101,9 @@ private:
     KernelReport report;
     double* own = positions + first * Dimension;
     if (!this->Use.Run(
-          [&](Device& device) {
-            report = this->Kernels->Run(
-              device, count, this->Kernels->FromLattice(device, lattice, first), own, progress);
+          [&](Device&) {
+            report =
+              this->Kernels->Run(count, this->Kernels->FromLattice(lattice, first), own, progress);
           },
           stopsOf(progress)))
     {
@@ -134,14 +134,14 @@ private:
     };
     KernelReport report;
     if (!this->Use.Run(
-          [&](Device& device) {
-            const auto transfer = this->Kernels->FromPoints(device, points);
+          [&](Device&) {
+            const auto transfer = this->Kernels->FromPoints(points);
             const auto prepare = [&](std::int64_t begin, std::int64_t length,
                                    const DeviceBuffer& seeds) {
               fill(begin, length);
               return transfer(begin, length, seeds);
             };
-            report = this->Kernels->Run(device, count, prepare, points, progress);
+            report = this->Kernels->Run(count, prepare, points, progress);
           },
           stopsOf(progress)))
     {
@@ -350,9 +350,7 @@ DeviceNodes<Dimension> DeviceFlow<Dimension>::BeginNodes(
       {
         // No others wait for the device while progress is reported.
         const std::int64_t slice = std::min(count - done, progress.NextSlice(run->FewestNodes()));
-        use.Run(
-          [&](Device& device) { evaluations += run->Run(device, first + done, slice, marks); },
-          stops);
+        use.Run([&](Device&) { evaluations += run->Run(first + done, slice, marks); }, stops);
         done += slice;
         progress.EndSlice(slice);
       }
