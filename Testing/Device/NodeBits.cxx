@@ -89,7 +89,7 @@ void compareMaps(const std::shared_ptr<Device>& device, BitsTable& table, const 
     DeviceUse use(device);
     const std::uint64_t before = device->Work().Kernels;
     const auto nodes = onDevice.BeginNodes(use, job);
-    const FlowMap<Dimension> found(shape, job.Job, Context(), nodes.get());
+    const FlowMap<Dimension> found(shape, job.Job, Context(), nodes);
     if (!use.Serves() || device->Work().Kernels == before)
     {
       table.AddFault("advanceNodes", what, use.Fault());

@@ -408,8 +408,8 @@ void compareWrong(const std::shared_ptr<Device>& device)
     KernelRun<2> run(opened, program, job,
       std::make_shared<const DeviceTables<2>>(opened, tables.View()), nullptr,
       std::make_shared<DeviceWeights>());
-    run.Run(opened, static_cast<std::int64_t>(found.size()),
-      run.FromPoints(opened, seeds.data()->data()), found.data()->data(), work);
+    run.Run(static_cast<std::int64_t>(found.size()), run.FromPoints(seeds.data()->data()),
+      found.data()->data(), work);
   });
   BitsTable::Print("advectForward", "contraction on: most differ, if the compiler contracts",
     compare<2>(seeds, found, right));

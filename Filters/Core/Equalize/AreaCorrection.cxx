@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Equalize/AreaCorrection.h"
 
-#include "Core/Equalize/CornerLattice.h"
 #include "Core/Flow/FlowMapShape.h"
 #include "Core/Parallel/Ranks.h"
 #include "Core/Parallel/Stages.h"

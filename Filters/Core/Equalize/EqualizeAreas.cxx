@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Equalize/EqualizeAreas.h"
 
-#include "Core/Equalize/AreaProjection.h"
-#include "Core/Equalize/CornerLattice.h"
 #include "Core/Equalize/MoveLimits.h"
 #include "Core/Grid/FaceSystem.h"
-#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,9 +98,8 @@ public:
       {
         break;
       }
-      this->ForRows(
-        this->Lattice.CornerRows(), [&](std::int64_t row) { this->Lattice.Apply(row, moves); },
-        stages["corners"]);
+      this->Lattice.ForRows(this->Lattice.CornerRows(), stages["corners"],
+        [&](std::int64_t row) { this->Lattice.Apply(row, moves); });
       report.FoldedAfter = moved.Folded;
       ++report.Passes;
     }
@@ -112,17 +108,6 @@ public:
   }
 
 private:
-  template <class WorkOfRow>
-  void ForRows(std::int64_t rows, const WorkOfRow& work, Progress& progress)
-  {
-    this->Lattice.ForRows(rows, progress, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t row = first; row < last; ++row)
-      {
-        work(row);
-      }
-    });
-  }
-
   void Sweep(int count, Progress& progress)
   {
     for (int sweep = 0; sweep < count; ++sweep)
@@ -134,21 +119,18 @@ private:
   void ClearMoves(Progress& progress)
   {
     const std::int64_t count = this->Lattice.CornersOfRow();
-    this->ForRows(
-      this->Lattice.CornerRows(),
-      [&](std::int64_t row) {
-        for (int axis = 0; axis < Dimension; ++axis)
-        {
-          std::fill_n(this->Lattice.Moves(axis) + row * count, count, 0.0F);
-        }
-      },
-      progress);
+    this->Lattice.ForRows(this->Lattice.CornerRows(), progress, [&](std::int64_t row) {
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        std::fill_n(this->Lattice.Moves(axis) + row * count, count, 0.0F);
+      }
+    });
   }
 
   // Areas, the weights of faces, and the right-hand side: minus the missing areas.
   AreaSums Measure(bool isFirst, Progress& progress)
   {
-    this->Lattice.ForRows(
+    this->Lattice.ForRanges(
       this->Lattice.CellRows(), progress, [&](std::int64_t first, std::int64_t last) {
         typename CornerLattice<Dimension>::Rows rows(this->Lattice, false);
         std::vector<double> masses(static_cast<std::size_t>(this->Size[0]));
@@ -228,7 +210,7 @@ private:
 
   void FindMoves(Progress& progress)
   {
-    this->Lattice.ForRows(
+    this->Lattice.ForRanges(
       this->Lattice.CornerRows(), progress, [&](std::int64_t first, std::int64_t last) {
         typename CornerLattice<Dimension>::Rows rows(this->Lattice, false);
         for (std::int64_t row = first; row < last; ++row)

@@ -2,7 +2,6 @@
 #include "Core/Flow/FlowMap.h"
 
 #include "Core/Flow/AdvectionJob.h"
-#include "Core/Flow/Devices/DeviceAdvection.h"
 #include "Core/Flow/Kernels/LatticePlaces.h"
 #include "Core/Flow/NodeAdvance.h"
 #include "Core/Parallel/RankExchange.h"
@@ -34,7 +33,7 @@ class LatticeBuild
 public:
   // Edges may deviate from cubics by `deviation` along each axis.
   LatticeBuild(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level,
-    const Point<Dimension>& deviation, DeviceNodes<Dimension>* onDevice)
+    const Point<Dimension>& deviation, const DeviceNodes<Dimension>& onDevice)
     : Job(job)
     , Level(level)
     , OnDevice(onDevice)
@@ -74,7 +73,7 @@ public:
     const Ranks& ranks = progress.Group();
     const RankShare share(nodes, ranks);
     std::int64_t evaluations = this->OnDevice
-      ? this->OnDevice->Run(
+      ? this->OnDevice(
           *this->Job.Map, this->Level, share.First, share.Count, this->Marks.data(), progress)
       : -1;
     if (evaluations < 0)
@@ -245,12 +244,12 @@ private:
 
   const FlowJob<Dimension>& Job;
   const FlowMapLevel<Dimension>& Level;
-  DeviceNodes<Dimension>* const OnDevice; // may be null
-  GridSize<Dimension> Nodes;              // along each axis
-  GridSize<Dimension> Stride;             // in nodes
-  float InverseDeviation[Dimension];      // 1 / cells
-  std::vector<double> Places[Dimension];  // of the nodes along each axis, in cells
-  std::vector<unsigned char> Marks;       // of the nodes
+  const DeviceNodes<Dimension>& OnDevice;
+  GridSize<Dimension> Nodes;             // along each axis
+  GridSize<Dimension> Stride;            // in nodes
+  float InverseDeviation[Dimension];     // 1 / cells
+  std::vector<double> Places[Dimension]; // of the nodes along each axis, in cells
+  std::vector<unsigned char> Marks;      // of the nodes
 };
 
 } // namespace
@@ -259,7 +258,7 @@ private:
 // there.
 template <int Dimension>
 FlowMap<Dimension>::FlowMap(const FlowMapShape<Dimension>& shape, const FlowJob<Dimension>& job,
-  const Context& context, DeviceNodes<Dimension>* onDevice)
+  const Context& context, const DeviceNodes<Dimension>& onDevice)
 {
   Progress progress(context);
   this->Weights = multistepWeightsOf(shape.Steps, shape.Direction);

@@ -9,26 +9,34 @@
 #include "Core/Flow/Kernels/FlowKernels.h"
 #include "Core/Parallel/Context.h"
 #include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace RectifiedTransport
 {
 
+// A device that makes the records of the nodes [first, first + count) of a level from the levels
+// that the map has so far, and their marks (NodeAdvance::Run). Returns the number of velocity
+// evaluations, or -1 where the device does not serve, or not any more. Throws Cancelled. May be
+// empty.
 template <int Dimension>
-class DeviceNodes;
+using DeviceNodes = std::function<std::int64_t(const FlowMapView<Dimension>& map,
+  const FlowMapLevel<Dimension>& level, std::int64_t first, std::int64_t count,
+  unsigned char* marks, Progress& progress)>;
 
 template <int Dimension>
 class FlowMap
 {
 public:
-  // Makes all levels of a shape, on a device if `nodes` is given and serves. Forward, it stops at
+  // Makes all levels of a shape, on a device if one is given and serves. Forward, it stops at
   // the first level whose share of bad cells is larger than the share of the steps that it saves.
   // The job gives the tables, the direction, the steps and their weights. Collective on the ranks
   // of the context. Throws std::bad_alloc and Cancelled.
   FlowMap(const FlowMapShape<Dimension>& shape, const FlowJob<Dimension>& job,
-    const Context& context, DeviceNodes<Dimension>* nodes = nullptr);
+    const Context& context, const DeviceNodes<Dimension>& onDevice = {});
   FlowMap(const FlowMap&) = delete;
   FlowMap& operator=(const FlowMap&) = delete;
 

@@ -110,7 +110,7 @@ void MapDisplacement<Dimension>::Displace(
   const double* position = this->Positions[this->Within.NumberOf(cell)];
   for (int a = 0; a < Dimension; ++a)
   {
-    moved[a] = position[a] - latticeCentre(cell[a], this->Lattice[a], this->Size[a]);
+    moved[a] = position[a] - latticePoint(cell[a], 0.5, this->Lattice[a], this->Size[a]);
   }
   this->Grid.template VectorToPhysical<Dimension>(moved, displacement);
 }

@@ -119,18 +119,12 @@ private:
     bool isNew = false;
     if (shape)
     {
-      std::unique_ptr<DeviceNodes<Dimension>> onDevice;
-      map = this->Maps.At(directionOf(kind))
-              .FindOrMake(
-                *shape, shared.Refinement, shared.Job, *context.Group,
-                [&]() -> Context {
-                  if (context.Device)
-                  {
-                    onDevice = this->OnDevice.BeginNodes(*context.Device, shared);
-                  }
-                  return stages["map"];
-                },
-                isNew, onDevice);
+      map = this->Maps.FindOrMake(*shape, shared.Refinement, *context.Group, [&]() {
+        isNew = true;
+        const auto nodes = context.Device ? this->OnDevice.BeginNodes(*context.Device, shared)
+                                          : DeviceNodes<Dimension>();
+        return std::make_shared<const FlowMap<Dimension>>(*shape, shared.Job, stages["map"], nodes);
+      });
     }
     AdvectionRun<Dimension> run(shared, stages["particles"]);
     if (map)

@@ -144,17 +144,11 @@ std::int64_t splatOnRanks(const SplatParticles<Dimension, Real>& particles,
   return sumOverRanks(ranks, sent.Outside);
 }
 
-template std::int64_t splatOnRanks<1, float>(const SplatParticles<1, float>&, const std::int64_t*,
-  const GridSize<1>&, const LatticePart<1>&, const SplatOptions&, double, double*, Progress&);
-template std::int64_t splatOnRanks<2, float>(const SplatParticles<2, float>&, const std::int64_t*,
-  const GridSize<2>&, const LatticePart<2>&, const SplatOptions&, double, double*, Progress&);
-template std::int64_t splatOnRanks<3, float>(const SplatParticles<3, float>&, const std::int64_t*,
-  const GridSize<3>&, const LatticePart<3>&, const SplatOptions&, double, double*, Progress&);
-template std::int64_t splatOnRanks<1, double>(const SplatParticles<1, double>&, const std::int64_t*,
-  const GridSize<1>&, const LatticePart<1>&, const SplatOptions&, double, double*, Progress&);
-template std::int64_t splatOnRanks<2, double>(const SplatParticles<2, double>&, const std::int64_t*,
-  const GridSize<2>&, const LatticePart<2>&, const SplatOptions&, double, double*, Progress&);
-template std::int64_t splatOnRanks<3, double>(const SplatParticles<3, double>&, const std::int64_t*,
-  const GridSize<3>&, const LatticePart<3>&, const SplatOptions&, double, double*, Progress&);
+template decltype(splatOnRanks<1, float>) splatOnRanks<1, float>;
+template decltype(splatOnRanks<2, float>) splatOnRanks<2, float>;
+template decltype(splatOnRanks<3, float>) splatOnRanks<3, float>;
+template decltype(splatOnRanks<1, double>) splatOnRanks<1, double>;
+template decltype(splatOnRanks<2, double>) splatOnRanks<2, double>;
+template decltype(splatOnRanks<3, double>) splatOnRanks<3, double>;
 
 } // namespace RectifiedTransport

@@ -114,11 +114,8 @@ void splatClouds(const ScaledClouds<D>& clouds, const ImageGrid& grid, double mo
     [=](std::int64_t sum) { return std::ldexp(static_cast<double>(sum), -exponent) / measure; });
 }
 
-template void splatClouds<1>(
-  const ScaledClouds<1>&, const ImageGrid&, double, const LatticePart<1>&, double*, Progress&);
-template void splatClouds<2>(
-  const ScaledClouds<2>&, const ImageGrid&, double, const LatticePart<2>&, double*, Progress&);
-template void splatClouds<3>(
-  const ScaledClouds<3>&, const ImageGrid&, double, const LatticePart<3>&, double*, Progress&);
+template decltype(splatClouds<1>) splatClouds<1>;
+template decltype(splatClouds<2>) splatClouds<2>;
+template decltype(splatClouds<3>) splatClouds<3>;
 
 } // namespace RectifiedTransport

@@ -228,48 +228,25 @@ private:
 
 template <int Dimension, class Real>
 SplatReport splatMass(const SplatParticles<Dimension, Real>& particles,
-  const GridSize<Dimension>& size, const SplatOptions& options, double scale, double* cells,
-  const Context& context)
+  const GridSize<Dimension>& size, const LatticePart<Dimension>& part, const SplatOptions& options,
+  double scale, double* cells, const Context& context)
 {
-  return SplatRun<Dimension, Real>(
-    particles, size, LatticePart<Dimension>::WholeOf(size), options, scale, cells)
-    .Run(context);
-}
-
-template <int Dimension, class Real>
-void splatMass(const SplatParticles<Dimension, Real>& particles, const GridSize<Dimension>& size,
-  const LatticePart<Dimension>& part, const SplatOptions& options, double scale, double* cells,
-  const Context& context)
-{
-  if (part.Count() > 0)
-  {
-    SplatRun<Dimension, Real>(particles, size, part, options, scale, cells).Run(context);
-  }
+  return part.Count() > 0
+    ? SplatRun<Dimension, Real>(particles, size, part, options, scale, cells).Run(context)
+    : SplatReport();
 }
 
 template SplatReport splatMass<1, float>(const SplatParticles<1, float>&, const GridSize<1>&,
-  const SplatOptions&, double, double*, const Context&);
-template void splatMass<1, float>(const SplatParticles<1, float>&, const GridSize<1>&,
   const LatticePart<1>&, const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<2, float>(const SplatParticles<2, float>&, const GridSize<2>&,
-  const SplatOptions&, double, double*, const Context&);
-template void splatMass<2, float>(const SplatParticles<2, float>&, const GridSize<2>&,
   const LatticePart<2>&, const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<3, float>(const SplatParticles<3, float>&, const GridSize<3>&,
-  const SplatOptions&, double, double*, const Context&);
-template void splatMass<3, float>(const SplatParticles<3, float>&, const GridSize<3>&,
   const LatticePart<3>&, const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<1, double>(const SplatParticles<1, double>&, const GridSize<1>&,
-  const SplatOptions&, double, double*, const Context&);
-template void splatMass<1, double>(const SplatParticles<1, double>&, const GridSize<1>&,
   const LatticePart<1>&, const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<2, double>(const SplatParticles<2, double>&, const GridSize<2>&,
-  const SplatOptions&, double, double*, const Context&);
-template void splatMass<2, double>(const SplatParticles<2, double>&, const GridSize<2>&,
   const LatticePart<2>&, const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<3, double>(const SplatParticles<3, double>&, const GridSize<3>&,
-  const SplatOptions&, double, double*, const Context&);
-template void splatMass<3, double>(const SplatParticles<3, double>&, const GridSize<3>&,
   const LatticePart<3>&, const SplatOptions&, double, double*, const Context&);
 
 } // namespace RectifiedTransport

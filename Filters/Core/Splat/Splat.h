@@ -59,20 +59,24 @@ struct SplatReport
   std::int64_t Outside = 0;
 };
 
-// Writes `scale` times the mass of every grid cell, axis 0 fastest, at most 2^30 cells an axis. The
-// terms of a cell are added in the order of the particles: for every executor, the result is
-// bitwise that of a serial loop. Throws std::bad_alloc and Cancelled.
+// Writes `scale` times the mass of the grid cells of a part, axis 0 fastest, at most 2^30 cells an
+// axis; bitwise as in the whole grid. Particles that reach none of them may be left out. The terms
+// of a cell are added in the order of the particles: for every executor, the result is bitwise that
+// of a serial loop. Throws std::bad_alloc and Cancelled.
+template <int Dimension, class Real>
+SplatReport splatMass(const SplatParticles<Dimension, Real>& particles,
+  const GridSize<Dimension>& size, const LatticePart<Dimension>& part, const SplatOptions& options,
+  double scale, double* cells, const Context& context = Context());
+
+// The same for the whole grid.
 template <int Dimension, class Real>
 SplatReport splatMass(const SplatParticles<Dimension, Real>& particles,
   const GridSize<Dimension>& size, const SplatOptions& options, double scale, double* cells,
-  const Context& context = Context());
-
-// The same for the cells of a part of the grid, bitwise as in the whole grid. Particles that reach
-// none of them may be left out.
-template <int Dimension, class Real>
-void splatMass(const SplatParticles<Dimension, Real>& particles, const GridSize<Dimension>& size,
-  const LatticePart<Dimension>& part, const SplatOptions& options, double scale, double* cells,
-  const Context& context = Context());
+  const Context& context = Context())
+{
+  return splatMass<Dimension, Real>(
+    particles, size, LatticePart<Dimension>::WholeOf(size), options, scale, cells, context);
+}
 
 } // namespace RectifiedTransport
 

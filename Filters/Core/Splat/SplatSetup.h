@@ -5,6 +5,7 @@
 
 #include "Core/Splat/Kernels/SplatKernels.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -17,7 +18,27 @@ class SplatSetup
 public:
   // Does not set the cells in memory, the Job's Box and the scale. Throws std::bad_alloc.
   SplatSetup(const SplatParticles<Dimension, Real>& particles, const GridSize<Dimension>& size,
-    const SplatOptions& options);
+    const SplatOptions& options)
+  {
+    this->Job.Particles = particles;
+    this->Job.Renormalize = options.Boundary == SplatBoundary::Renormalize;
+    // Weights of two cells that keep the centroid are those of the CloudInCell.
+    constexpr double twoCells = 1.0 / 3.0;
+    const bool isNarrow = options.Kernel == SplatKernel::Gaussian && options.Radius <= twoCells;
+    const SplatKernel kernel = isNarrow ? SplatKernel::CloudInCell : options.Kernel;
+    this->Kernels = splatKernels<Dimension, Real>(kernel);
+    this->Job.Width = this->Kernels.Width;
+    if (kernel == SplatKernel::Gaussian)
+    {
+      this->UseGaussian(options.Radius);
+    }
+    for (int a = 0; a < Dimension; ++a)
+    {
+      this->Job.Size[a] = static_cast<std::int32_t>(size[a]);
+      this->Job.Kept[a] = std::min(this->Job.Width, this->Job.Size[a]);
+    }
+  }
+
   SplatSetup(const SplatSetup&) = delete;
   SplatSetup& operator=(const SplatSetup&) = delete;
 
@@ -25,7 +46,19 @@ public:
   SplatKernels<Dimension, Real> Kernels;
 
 private:
-  void UseGaussian(double radius);
+  void UseGaussian(double radius)
+  {
+    this->Job.Cut = 3.0 * radius;
+    this->Job.PerVariance = 1.0 / (radius * radius);
+    this->Job.Width = static_cast<std::int32_t>(2.0 * this->Job.Cut) + 1;
+    const int farthest = static_cast<int>(this->Job.Cut + 0.5) + 1;
+    for (int k = 0; k <= farthest; ++k)
+    {
+      const double square = static_cast<double>(k) * k;
+      this->AtOffset.push_back(this->Kernels.Exponential(-0.5 * square * this->Job.PerVariance));
+    }
+    this->Job.AtOffset = this->AtOffset.data();
+  }
 
   std::vector<double> AtOffset; // of the Job
 };

@@ -57,7 +57,7 @@ void GradedTables<Dimension>::Allocate(
 {
   TableView<Dimension>& tables = this->Tables;
   GridSize<Dimension> counts;
-  std::int64_t rows = 1;
+  const std::int64_t words = setGrid<Dimension>(tables, size);
   for (int axis = 0; axis < Dimension; ++axis)
   {
     this->Nodes[axis] = gradedNodes(size[axis], strides[axis], ratio);
@@ -70,13 +70,8 @@ void GradedTables<Dimension>::Allocate(
       this->NodeBelow[axis].insert(this->NodeBelow[axis].end(),
         static_cast<std::size_t>(nodes[node + 1] - nodes[node]), static_cast<std::int32_t>(node));
     }
-    tables.Cells[axis] = size[axis];
-    tables.Size[axis] = static_cast<double>(size[axis]);
-    tables.Low[axis] = 0.0;
-    tables.High[axis] = tables.Size[axis];
     tables.EvenLevels[axis] = false;
     tables.Uneven[axis] = { this->NodeBelow[axis].data(), this->Places[axis].data() };
-    rows *= axis > 0 ? size[axis] : 1;
   }
   tables.IsUneven = true;
   tables.LevelCount = 2;
@@ -84,8 +79,7 @@ void GradedTables<Dimension>::Allocate(
   this->Records = LargeBuffer<double>(layOutNodes<Dimension>(counts, tables.Levels[1].Stride));
   tables.Levels[1].Nodes = this->Records.data();
   tables.Levels[0] = tables.Levels[1];
-  tables.WordsPerRow = (size[0] + 63) / 64;
-  this->Occupied = LargeBuffer<std::uint64_t>(tables.WordsPerRow * rows);
+  this->Occupied = LargeBuffer<std::uint64_t>(words);
 }
 
 template <int Dimension>
@@ -111,18 +105,7 @@ GradedTables<Dimension>::GradedTables(const DensitySource<Dimension>& density,
     last +=
       (static_cast<std::int64_t>(this->Nodes[axis].size()) - 1) * tables.Levels[1].Stride[axis];
   }
-  const double* sums = this->Records.data() + last;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    tables.Centroid[axis] = sums[1 + axis] / sums[0];
-  }
-  tables.VoidMass = voidShare * sums[0];
-  bool full = true;
-  for (std::int64_t word = 0; word < this->Occupied.size() && full; ++word)
-  {
-    full = this->Occupied.data()[word] == ~std::uint64_t{ 0 };
-  }
-  tables.Occupied = full ? nullptr : this->Occupied.data();
+  setTotals(tables, this->Records.data() + last, this->Occupied.data(), this->Occupied.size());
 }
 
 template <int Dimension>
@@ -180,13 +163,7 @@ void GradedTables<Dimension>::Add(
     low[axis] = this->Nodes[axis][static_cast<std::size_t>(own.First)];
     high[axis] = this->Nodes[axis][static_cast<std::size_t>(own.End)];
     const std::shared_ptr<const DensityValues> values = density.Part(low, high);
-    const ScaledDensity scaled(*values, scaling);
-    const DensityValues* read = values.get();
-    if (scaling != 0)
-    {
-      read = &scaled;
-    }
-    this->AddLayers(*read, own, stages["reading"], found);
+    this->AddLayers(ScaledDensity(*values, scaling), own, stages["reading"], found);
   }
   if (density.IsDistributed())
   {

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Tables/NodeLayout.h"
 
-#include "Core/Tables/TableView.h"
-
-#include <algorithm>
-
 namespace RectifiedTransport
 {
 

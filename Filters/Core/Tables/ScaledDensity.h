@@ -22,27 +22,28 @@ inline int scalingOf(double maximum)
     : 0;
 }
 
-// A density times a power of two.
+// A density times a power of two, with the exponent 0 the density itself.
 class ScaledDensity final : public DensityValues
 {
 public:
   ScaledDensity(const DensityValues& density, int exponent)
     : Density(density)
-    , Scale(std::ldexp(1.0, exponent))
+    , Exponent(exponent)
   {
   }
   void Read(std::int64_t first, std::int64_t count, double* values) const override
   {
     this->Density.Read(first, count, values);
-    for (std::int64_t i = 0; i < count; ++i)
+    const double scale = std::ldexp(1.0, this->Exponent);
+    for (std::int64_t i = 0; i < count && this->Exponent != 0; ++i)
     {
-      values[i] *= this->Scale;
+      values[i] *= scale;
     }
   }
 
 private:
   const DensityValues& Density;
-  const double Scale;
+  const int Exponent;
 };
 
 } // namespace RectifiedTransport

@@ -67,18 +67,7 @@ SummedAreaTables<Dimension>::SummedAreaTables(
     node += tables.Cells[axis] *
       (axis == 0 ? TableView<Dimension>::Record : tables.Levels[0].Stride[axis]);
   }
-  const double* last = nodes + node;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    tables.Centroid[axis] = last[1 + axis] / last[0];
-  }
-  tables.VoidMass = voidShare * last[0];
-  bool full = true;
-  for (std::int64_t word = 0; word < this->Memory.Occupied.size() && full; ++word)
-  {
-    full = occupied[word] == ~std::uint64_t{ 0 };
-  }
-  tables.Occupied = full ? nullptr : occupied;
+  setTotals(tables, nodes + node, occupied, this->Memory.Occupied.size());
 }
 
 template <int Dimension>
@@ -93,16 +82,11 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
   }
   const std::int64_t widest = std::int64_t{ 1 } << ((tables.LevelCount - 1) * levelShift);
   double estimate = TableView<Dimension>::Record;
-  std::int64_t rows = 1;
+  const std::int64_t words = setGrid<Dimension>(tables, size);
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    tables.Cells[axis] = size[axis];
-    tables.Size[axis] = static_cast<double>(size[axis]);
-    tables.Low[axis] = 0.0;
-    tables.High[axis] = tables.Size[axis];
     tables.EvenLevels[axis] = size[axis] % widest == 0;
     estimate *= tables.Size[axis] + 1.0;
-    rows *= axis > 0 ? size[axis] : 1;
   }
   if (estimate > 1e17)
   {
@@ -126,8 +110,7 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
   {
     tables.Levels[level].Nodes = this->Memory.Nodes.data() + offset[level];
   }
-  tables.WordsPerRow = (size[0] + 63) / 64;
-  resize(this->Memory.Occupied, tables.WordsPerRow * rows);
+  resize(this->Memory.Occupied, words);
 }
 
 template class SummedAreaTables<1>;

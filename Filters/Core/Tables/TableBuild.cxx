@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Tables/TableBuild.h"
 
+#include "Core/Parallel/Executor.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/DensityInspection.h"
 #include "Core/Tables/Kernels/TableKernels.h"
-#include "Core/Tables/NewNodes.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace RectifiedTransport
@@ -71,64 +72,145 @@ void forTasks(std::int64_t tasks, Progress& progress, const Work& work)
   });
 }
 
-// Slabs of rows: first the sums of each row's cells before every strip, then all strips in
-// parallel.
-class Builder2D
+// Nodes in memory that may be new. The system clears new memory page by page at the first write. If
+// several threads write to the same new huge page at once, each clears a page, and all except one
+// are thrown away. Hence one thread touches every page before several write to it.
+class NewNodes
 {
 public:
-  explicit Builder2D(const TableBuild<2>& build)
+  // Begins at a node; nodes are in the order of their addresses.
+  explicit NewNodes(double* nodes)
+    : Next(nodes)
+  {
+  }
+
+  // The number of pages to touch that begin in the nodes up to an end; 0 for one thread.
+  std::int64_t PagesUpTo(const double* end, const Executor& threads) const
+  {
+    return threads.Concurrency() > 1 ? pageFrom(end) - pageFrom(this->Next) : 0;
+  }
+  // Writes to one of these pages. Call it before anything else is written to these nodes.
+  void Touch(std::int64_t page) const
+  {
+    const std::int64_t address = (pageFrom(this->Next) + page) * pageBytes;
+    this->Next[(address - addressOf(this->Next)) / doubleBytes] = 0.0;
+  }
+  // Continues with the nodes from there on.
+  void Pass(double* end) { this->Next = end; }
+
+private:
+  static constexpr std::int64_t pageBytes = std::int64_t{ 1 } << 21;
+  static constexpr auto doubleBytes = static_cast<std::int64_t>(sizeof(double));
+
+  static std::int64_t addressOf(const double* node)
+  {
+    return static_cast<std::int64_t>(reinterpret_cast<std::uintptr_t>(node));
+  }
+  // The number of the first page that begins at a node or after it.
+  static std::int64_t pageFrom(const double* node)
+  {
+    return (addressOf(node) + pageBytes - 1) / pageBytes;
+  }
+
+  double* Next;
+};
+
+// What the tables in 2D and 3D have in common: slabs of layers along the last axis, in which the
+// sums before every strip come first, and then all strips in parallel.
+template <int Dimension>
+class SlabBuilder
+{
+protected:
+  // A slab has at most so many layers, of so many sums that inspect cells each.
+  SlabBuilder(const TableBuild<Dimension>& build, std::int64_t slab, std::int64_t sumsOfLayer)
     : Build(build)
-    , Columns(build.Tables.Cells[0])
-    , Rows(build.Tables.Cells[1])
-    , Strips((this->Columns + stripCells - 1) / stripCells)
-    , Slab(slabOf(this->Rows, this->Columns, build.Work.Threads()))
+    , Slab(slab)
+    , SumsOfLayer(sumsOfLayer)
+    , Found(static_cast<std::size_t>(slab * sumsOfLayer))
     , Untouched(build.Nodes)
-    , Values(this->Slab * this->Columns)
-    , Prefixes(this->Slab * this->Strips * 2)
-    , Found(static_cast<std::size_t>(this->Slab))
   {
     for (int level = 0; level < build.Tables.LevelCount; ++level)
     {
-      std::fill_n(build.Level(level), build.Tables.Levels[level].Stride[1], 0.0);
+      std::fill_n(build.Level(level), build.Tables.Levels[level].Stride[axis], 0.0);
     }
   }
 
-  void Run()
+  // sum(number) for the sums of a slab, `atOnce` of them a task; then add().
+  template <class Sum, class Add>
+  void ForSlabs(std::int64_t atOnce, const Sum& sum, const Add& add)
   {
     Progress& progress = this->Build.Work;
-    const Executor& threads = progress.Threads();
-    while (this->Begin < this->Rows)
+    const std::int64_t layers = this->Build.Tables.Cells[axis];
+    while (this->Begin < layers)
     {
-      this->Count =
-        std::min({ this->Slab, this->Rows - this->Begin, progress.NextSlice(this->Slab) });
+      this->Count = std::min({ this->Slab, layers - this->Begin, progress.NextSlice(this->Slab) });
       double* nodesEnd = this->Build.Nodes +
-        (this->Begin + this->Count + 1) * this->Build.Tables.Levels[0].Stride[1];
-      const std::int64_t pages = this->Untouched.PagesUpTo(nodesEnd, threads);
-      const std::int64_t groups = (this->Count + rowsAtOnce - 1) / rowsAtOnce;
-      forTasks(pages + groups, progress, [&](std::int64_t task) {
-        task < pages ? this->Untouched.Touch(task) : this->SumRows(task - pages);
+        (this->Begin + this->Count + 1) * this->Build.Tables.Levels[0].Stride[axis];
+      const std::int64_t pages = this->Untouched.PagesUpTo(nodesEnd, progress.Threads());
+      const std::int64_t sums = this->Count * this->SumsOfLayer;
+      forTasks(pages + (sums + atOnce - 1) / atOnce, progress, [&](std::int64_t task) {
+        if (task < pages)
+        {
+          this->Untouched.Touch(task);
+          return;
+        }
+        const std::int64_t first = (task - pages) * atOnce;
+        for (std::int64_t i = first; i < std::min(first + atOnce, sums); ++i)
+        {
+          sum(i);
+        }
       });
       this->Untouched.Pass(nodesEnd);
-      for (std::int64_t j = 0; j < this->Count; ++j)
+      for (std::int64_t i = 0; i < sums; ++i)
       {
-        merge(this->Found[j], this->Build.Found);
+        merge(this->Found[static_cast<std::size_t>(i)], this->Build.Found);
       }
-      forTasks(this->Strips, progress, [&](std::int64_t strip) { this->AddStrip(strip); });
+      add();
       this->Begin += this->Count;
       progress.EndSlice(this->Count);
     }
   }
 
+  const TableBuild<Dimension>& Build;
+  const std::int64_t Slab; // layers, at most
+  const std::int64_t SumsOfLayer;
+  std::int64_t Begin = 0;            // of the slab
+  std::int64_t Count = 0;            // layers in it
+  std::vector<DensitySummary> Found; // by the sums of the slab
+
 private:
-  void SumRows(std::int64_t group)
+  static constexpr int axis = Dimension - 1; // across the layers
+
+  NewNodes Untouched;
+};
+
+// Slabs of rows: first the sums of each row's cells before every strip, then all strips in
+// parallel.
+class Builder2D : SlabBuilder<2>
+{
+public:
+  explicit Builder2D(const TableBuild<2>& build)
+    : SlabBuilder(
+        build, slabOf(build.Tables.Cells[1], build.Tables.Cells[0], build.Work.Threads()), 1)
+    , Columns(build.Tables.Cells[0])
+    , Rows(build.Tables.Cells[1])
+    , Strips((this->Columns + stripCells - 1) / stripCells)
+    , Values(this->Slab * this->Columns)
+    , Prefixes(this->Slab * this->Strips * 2)
   {
-    const std::int64_t last = std::min((group + 1) * rowsAtOnce, this->Count);
-    for (std::int64_t j = group * rowsAtOnce; j < last; ++j)
-    {
-      this->SumRow(j);
-    }
   }
 
+  void Run()
+  {
+    this->ForSlabs(
+      rowsAtOnce, [this](std::int64_t row) { this->SumRow(row); },
+      [this]() {
+        forTasks(
+          this->Strips, this->Build.Work, [this](std::int64_t strip) { this->AddStrip(strip); });
+      });
+  }
+
+private:
   // Row j of the slab.
   void SumRow(std::int64_t j)
   {
@@ -190,69 +272,43 @@ private:
     }
   }
 
-  const TableBuild<2>& Build;
   const AddTableRow2D AddRow = tableKernels().AddRow2D;
   const std::int64_t Columns;
   const std::int64_t Rows;
   const std::int64_t Strips;
-  const std::int64_t Slab; // rows, at most
-  NewNodes Untouched;
-  std::int64_t Begin = 0; // of the slab
-  std::int64_t Count = 0; // rows in it
   LargeBuffer<double> Values;
   LargeBuffer<double> Prefixes;
-  std::vector<DensitySummary> Found;
 };
 
 // Slabs of slices: first the sums of each strip's columns, then those of the columns before every
 // strip, then all strips in parallel.
-class Builder3D
+class Builder3D : SlabBuilder<3>
 {
 public:
   explicit Builder3D(const TableBuild<3>& build)
-    : Build(build)
+    : SlabBuilder(build,
+        slabOf(build.Tables.Cells[2], build.Tables.Cells[0] * build.Tables.Cells[1],
+          build.Work.Threads()),
+        (build.Tables.Cells[1] + stripRows - 1) / stripRows)
     , Columns(build.Tables.Cells[0])
     , Rows(build.Tables.Cells[1])
     , Slices(build.Tables.Cells[2])
-    , Strips((this->Rows + stripRows - 1) / stripRows)
-    , Slab(slabOf(this->Slices, this->Columns * this->Rows, build.Work.Threads()))
-    , Untouched(build.Nodes)
+    , Strips(this->SumsOfLayer)
     , Values(this->Slab * this->Columns * this->Rows)
     , Sums(this->Slab * this->Strips * this->Columns * 2)
     , Before(this->Slab * this->Strips * this->Columns * 4)
-    , Found(static_cast<std::size_t>(this->Slab * this->Strips))
   {
-    for (int level = 0; level < build.Tables.LevelCount; ++level)
-    {
-      std::fill_n(build.Level(level), build.Tables.Levels[level].Stride[2], 0.0);
-    }
   }
 
   void Run()
   {
-    Progress& progress = this->Build.Work;
-    const Executor& threads = progress.Threads();
-    while (this->Begin < this->Slices)
-    {
-      this->Count =
-        std::min({ this->Slab, this->Slices - this->Begin, progress.NextSlice(this->Slab) });
-      double* nodesEnd = this->Build.Nodes +
-        (this->Begin + this->Count + 1) * this->Build.Tables.Levels[0].Stride[2];
-      const std::int64_t pages = this->Untouched.PagesUpTo(nodesEnd, threads);
-      const std::int64_t tasks = pages + this->Count * this->Strips;
-      forTasks(tasks, progress, [&](std::int64_t task) {
-        task < pages ? this->Untouched.Touch(task) : this->SumStrip(task - pages);
+    this->ForSlabs(
+      1, [this](std::int64_t task) { this->SumStrip(task); },
+      [this]() {
+        Progress& progress = this->Build.Work;
+        forTasks(this->Count, progress, [this](std::int64_t k) { this->SumBefore(k); });
+        forTasks(this->Strips, progress, [this](std::int64_t strip) { this->AddStrip(strip); });
       });
-      this->Untouched.Pass(nodesEnd);
-      for (std::int64_t task = 0; task < this->Count * this->Strips; ++task)
-      {
-        merge(this->Found[task], this->Build.Found);
-      }
-      forTasks(this->Count, progress, [&](std::int64_t k) { this->SumBefore(k); });
-      forTasks(this->Strips, progress, [&](std::int64_t strip) { this->AddStrip(strip); });
-      this->Begin += this->Count;
-      progress.EndSlice(this->Count);
-    }
   }
 
 private:
@@ -361,21 +417,15 @@ private:
     }
   }
 
-  const TableBuild<3>& Build;
   const AddToColumns AddColumns = tableKernels().AddColumns;
   const AddTableRow3D AddRow = tableKernels().AddRow3D;
   const std::int64_t Columns;
   const std::int64_t Rows;
   const std::int64_t Slices;
   const std::int64_t Strips;
-  const std::int64_t Slab; // slices, at most
-  NewNodes Untouched;
-  std::int64_t Begin = 0; // of the slab
-  std::int64_t Count = 0; // slices in it
   LargeBuffer<double> Values;
   LargeBuffer<double> Sums;   // {f, f * centre 1} of the columns, a slice and strip together
   LargeBuffer<double> Before; // the records of the columns before each strip, within the slice
-  std::vector<DensitySummary> Found;
 };
 
 } // namespace

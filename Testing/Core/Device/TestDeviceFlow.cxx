@@ -133,8 +133,8 @@ void expectSameInParts(Device& device, const TestDensity<Dimension>& density)
     {
       KernelRun<Dimension> run(device, flowProgram(device, Dimension), job, copied, nullptr,
         std::make_shared<DeviceWeights>(), i == 0 ? 1000 : 130);
-      reports[i] = run.Run(device, 1000, run.FromPoints(device, seeds.data()->data()),
-        found[i].data()->data(), progress);
+      reports[i] =
+        run.Run(1000, run.FromPoints(seeds.data()->data()), found[i].data()->data(), progress);
     }
     EXPECT_TRUE(sameBits<Dimension>(found[0], found[1]));
     EXPECT_EQ(reports[0].Unresolved, reports[1].Unresolved);

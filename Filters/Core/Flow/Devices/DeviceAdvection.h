@@ -40,23 +40,6 @@ public:
     double* positions, FlowReport& counts, Progress& progress) = 0;
 };
 
-// The records of a flow map's nodes, on the tables of one density.
-template <int Dimension>
-class DeviceNodes
-{
-public:
-  DeviceNodes() = default;
-  virtual ~DeviceNodes() = default;
-  DeviceNodes(const DeviceNodes&) = delete;
-  DeviceNodes& operator=(const DeviceNodes&) = delete;
-
-  // Makes the records of the nodes [first, first + count) of a level from the levels that the map
-  // has so far, and their marks (NodeAdvance::Run); returns the number of velocity evaluations, or
-  // -1 where the device does not serve, or not any more. Throws Cancelled.
-  virtual std::int64_t Run(const FlowMapView<Dimension>& map, const FlowMapLevel<Dimension>& level,
-    std::int64_t first, std::int64_t count, unsigned char* marks, Progress& progress) = 0;
-};
-
 // What a device keeps of a flow: its tables, and the map of the last run in either direction.
 template <int Dimension>
 class DeviceFlow
@@ -83,8 +66,7 @@ public:
     Progress& progress);
 
   // The nodes of maps of such an advection.
-  std::unique_ptr<DeviceNodes<Dimension>> BeginNodes(
-    DeviceUse& use, const AdvectionJob<Dimension>& job);
+  DeviceNodes<Dimension> BeginNodes(DeviceUse& use, const AdvectionJob<Dimension>& job);
 
 private:
   class Implementation;

@@ -101,9 +101,9 @@ private:
     KernelReport report;
     double* own = positions + first * Dimension;
     if (!this->Use.Run(
-          [&](Device& device) {
-            report = this->Kernels->Run(
-              device, count, this->Kernels->FromLattice(device, lattice, first), own, progress);
+          [&](Device&) {
+            report =
+              this->Kernels->Run(count, this->Kernels->FromLattice(lattice, first), own, progress);
           },
           stopsOf(progress)))
     {
@@ -134,14 +134,14 @@ private:
     };
     KernelReport report;
     if (!this->Use.Run(
-          [&](Device& device) {
-            const auto transfer = this->Kernels->FromPoints(device, points);
+          [&](Device&) {
+            const auto transfer = this->Kernels->FromPoints(points);
             const auto prepare = [&](std::int64_t begin, std::int64_t length,
                                    const DeviceBuffer& seeds) {
               fill(begin, length);
               return transfer(begin, length, seeds);
             };
-            report = this->Kernels->Run(device, count, prepare, points, progress);
+            report = this->Kernels->Run(count, prepare, points, progress);
           },
           stopsOf(progress)))
     {
@@ -185,55 +185,6 @@ private:
   // Of the particles of one call: the places of their results, and their seeds, then positions.
   std::vector<std::int64_t> Index;
   std::vector<double> Points;
-};
-
-template <int Dimension>
-class Nodes final : public DeviceNodes<Dimension>
-{
-public:
-  using FindTables = std::function<std::shared_ptr<const DeviceTables<Dimension>>(
-    Device& device, const TableView<Dimension>& tables)>;
-
-  Nodes(DeviceUse& use, const FlowJob<Dimension>& job, FindTables tables)
-    : Use(use)
-    , Job(job)
-    , Tables(std::move(tables))
-  {
-  }
-
-  std::int64_t Run(const FlowMapView<Dimension>& map, const FlowMapLevel<Dimension>& level,
-    std::int64_t first, std::int64_t count, unsigned char* marks, Progress& progress) override
-  {
-    const auto stops = stopsOf(progress);
-    std::unique_ptr<NodeRun<Dimension>> run;
-    if (!this->Use.Run(
-          [&](Device& device) {
-            run = std::make_unique<NodeRun<Dimension>>(device, flowProgram(device, Dimension),
-              this->Job, this->Tables(device, this->Job.Tables), map, level);
-          },
-          stops))
-    {
-      return -1;
-    }
-    progress.Expect(count);
-    std::int64_t evaluations = 0;
-    for (std::int64_t done = 0; done < count && this->Use.Serves();)
-    {
-      // No others wait for the device while progress is reported.
-      const std::int64_t slice = std::min(count - done, progress.NextSlice(run->FewestNodes()));
-      this->Use.Run(
-        [&](Device& device) { evaluations += run->Run(device, first + done, slice, marks); },
-        stops);
-      done += slice;
-      progress.EndSlice(slice);
-    }
-    return this->Use.Serves() ? evaluations : -1;
-  }
-
-private:
-  DeviceUse& Use;
-  const FlowJob<Dimension>& Job;
-  const FindTables Tables;
 };
 
 } // namespace
@@ -303,10 +254,8 @@ void DeviceFlow<Dimension>::MakeTables(DeviceUse& use, const DensitySource<Dimen
       return;
     }
     const auto cells = static_cast<std::int64_t>(numberOfCells<Dimension>(density.Size));
-    const int exponent = scalingOf(tables.Summary().Maximum);
     const std::shared_ptr<const DensityValues> source = density.Whole();
-    const ScaledDensity scaled(*source, exponent);
-    const DensityValues& given = exponent != 0 ? scaled : *source;
+    const ScaledDensity given(*source, scalingOf(tables.Summary().Maximum));
     const auto stops = stopsOf(progress);
     const std::int64_t most = std::min(cells, std::int64_t{ 1 } << 20);
     std::vector<double> part(static_cast<std::size_t>(most));
@@ -376,18 +325,42 @@ std::unique_ptr<DeviceAdvection<Dimension>> DeviceFlow<Dimension>::Begin(DeviceU
 }
 
 template <int Dimension>
-std::unique_ptr<DeviceNodes<Dimension>> DeviceFlow<Dimension>::BeginNodes(
-  DeviceUse& use, const AdvectionJob<Dimension>& job)
+DeviceNodes<Dimension> DeviceFlow<Dimension>::BeginNodes(
+  [[maybe_unused]] DeviceUse& use, [[maybe_unused]] const AdvectionJob<Dimension>& job)
 {
-  std::unique_ptr<DeviceNodes<Dimension>> nodes;
   if constexpr (Dimension > 1)
   {
-    nodes = std::make_unique<Nodes<Dimension>>(
-      use, job.Job, [this](Device& device, const TableView<Dimension>& tables) {
-        return this->Kept->On(device)->TablesOn(device, tables);
-      });
+    return [this, &use, &job](const FlowMapView<Dimension>& map,
+             const FlowMapLevel<Dimension>& level, std::int64_t first, std::int64_t count,
+             unsigned char* marks, Progress& progress) -> std::int64_t {
+      const auto stops = stopsOf(progress);
+      std::unique_ptr<NodeRun<Dimension>> run;
+      if (!use.Run(
+            [&](Device& device) {
+              run = std::make_unique<NodeRun<Dimension>>(device, flowProgram(device, Dimension),
+                job.Job, this->Kept->On(device)->TablesOn(device, job.Job.Tables), map, level);
+            },
+            stops))
+      {
+        return -1;
+      }
+      progress.Expect(count);
+      std::int64_t evaluations = 0;
+      for (std::int64_t done = 0; done < count && use.Serves();)
+      {
+        // No others wait for the device while progress is reported.
+        const std::int64_t slice = std::min(count - done, progress.NextSlice(run->FewestNodes()));
+        use.Run([&](Device&) { evaluations += run->Run(first + done, slice, marks); }, stops);
+        done += slice;
+        progress.EndSlice(slice);
+      }
+      return use.Serves() ? evaluations : -1;
+    };
   }
-  return nodes;
+  else
+  {
+    return {};
+  }
 }
 
 template class DeviceFlow<1>;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -21,6 +22,12 @@ DeviceBuffer upload(Device& device, const T* values, std::int64_t count, const c
     device.Allocate(static_cast<std::size_t>(std::max<std::int64_t>(count, 1)) * sizeof(T), what);
   device.Write(buffer, values, static_cast<std::size_t>(count) * sizeof(T));
   return buffer;
+}
+
+template <class T>
+DeviceBuffer upload(Device& device, const std::vector<T>& values, const char* what)
+{
+  return upload(device, values.data(), static_cast<std::int64_t>(values.size()), what);
 }
 
 template <int Dimension>

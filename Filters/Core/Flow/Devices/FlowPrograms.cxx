@@ -73,10 +73,8 @@ public:
     Progress progress(serial);
     const SummedAreaTables<Dimension> tables(
       DensityArray<Dimension, double>(this->Values.data(), this->Size), progress);
-    const auto made =
-      std::make_shared<const DeviceTables<Dimension>>(device, program, tables.View(),
-        upload(
-          device, this->Values.data(), static_cast<std::int64_t>(this->Values.size()), "a test"));
+    const auto made = std::make_shared<const DeviceTables<Dimension>>(
+      device, program, tables.View(), upload(device, this->Values, "a test"));
     std::vector<double> last(4);
     const std::int64_t place = this->LastNode(tables.View());
     device.Read(made->Fine, last.data(), last.size() * sizeof(double),
@@ -101,7 +99,7 @@ public:
       KernelRun<Dimension> run(
         device, program, job, made, nullptr, std::make_shared<DeviceWeights>());
       const KernelReport report =
-        run.Run(device, count, run.FromPoints(device, this->Seeds.data()), found.data(), progress);
+        run.Run(count, run.FromPoints(this->Seeds.data()), found.data(), progress);
       Counters moved;
       for (const std::uint32_t particle : report.Unresolved)
       {

@@ -57,8 +57,7 @@ DeviceMap<Dimension>::DeviceMap(Device& device, const FlowMapView<Dimension>& ma
   forLevels([&](const FlowMapLevel<Dimension>& level, std::int64_t, std::int64_t) {
     levels.push_back(mapLevelInput<Dimension>(level, records, marks));
   });
-  this->Levels =
-    upload(device, levels.data(), static_cast<std::int64_t>(levels.size()), "a flow map");
+  this->Levels = upload(device, levels, "a flow map");
   this->Records = device.Allocate(static_cast<std::size_t>(records) * sizeof(float), "a flow map");
   this->Bad = device.Allocate(static_cast<std::size_t>(marks), "a flow map");
   forLevels([&](const FlowMapLevel<Dimension>& level, std::int64_t ofRecords, std::int64_t cells) {
@@ -74,7 +73,8 @@ KernelRun<Dimension>::KernelRun(Device& device, const DeviceProgram& program,
   const AdvectionJob<Dimension>& job, std::shared_ptr<const DeviceTables<Dimension>> tables,
   std::shared_ptr<const DeviceMap<Dimension>> map, std::shared_ptr<DeviceWeights> weights,
   std::int64_t mostOfPart)
-  : Job(job)
+  : Owner(device)
+  , Job(job)
   , Tables(std::move(tables))
   , Map(std::move(map))
   , OfSteps(std::move(weights))
@@ -101,8 +101,7 @@ std::shared_ptr<const DeviceBuffer> DeviceWeights::Of(
     return found->second;
   }
   const std::vector<StepWeights> weights = multistepWeightsOf(steps, direction);
-  auto made = std::make_shared<const DeviceBuffer>(
-    upload(device, weights.data(), static_cast<std::int64_t>(weights.size()), "weights of steps"));
+  auto made = std::make_shared<const DeviceBuffer>(upload(device, weights, "weights of steps"));
   if (steps <= mostKept)
   {
     this->Kept.emplace(std::make_pair(steps, direction), made);
@@ -111,15 +110,14 @@ std::shared_ptr<const DeviceBuffer> DeviceWeights::Of(
 }
 
 template <int Dimension>
-std::shared_ptr<const DeviceBuffer> KernelRun<Dimension>::WeightsOf(
-  Device& device, std::int64_t steps)
+std::shared_ptr<const DeviceBuffer> KernelRun<Dimension>::WeightsOf(std::int64_t steps)
 {
   return this->OfSteps->Of(
-    device, steps, this->Job.Job.Backward ? FlowDirection::Backward : FlowDirection::Forward);
+    this->Owner, steps, this->Job.Job.Backward ? FlowDirection::Backward : FlowDirection::Forward);
 }
 
 template <int Dimension>
-void KernelRun<Dimension>::MakeRoom(Device& device, std::int64_t count, bool hasTwoSets)
+void KernelRun<Dimension>::MakeRoom(std::int64_t count, bool hasTwoSets)
 {
   if (count <= this->Room && (this->HasTwoSets || !hasTwoSets))
   {
@@ -128,7 +126,7 @@ void KernelRun<Dimension>::MakeRoom(Device& device, std::int64_t count, bool has
   const auto particles = static_cast<std::size_t>(count);
   const auto allocate = [&](DeviceBuffer& buffer, std::size_t bytes) {
     buffer = {}; // before the new one
-    buffer = device.Allocate(bytes, "particles");
+    buffer = this->Owner.Allocate(bytes, "particles");
   };
   for (int set = 0; set < (hasTwoSets ? 2 : 1); ++set)
   {
@@ -144,18 +142,17 @@ void KernelRun<Dimension>::MakeRoom(Device& device, std::int64_t count, bool has
 }
 
 template <int Dimension>
-typename KernelRun<Dimension>::Prepare KernelRun<Dimension>::FromPoints(
-  Device& device, const double* points)
+typename KernelRun<Dimension>::Prepare KernelRun<Dimension>::FromPoints(const double* points)
 {
-  return [&device, points](std::int64_t first, std::int64_t count, const DeviceBuffer& seeds) {
-    return device.StartWrite(seeds, points + first * Dimension,
+  return [this, points](std::int64_t first, std::int64_t count, const DeviceBuffer& seeds) {
+    return this->Owner.StartWrite(seeds, points + first * Dimension,
       static_cast<std::size_t>(count) * Dimension * sizeof(double));
   };
 }
 
 template <int Dimension>
 typename KernelRun<Dimension>::Prepare KernelRun<Dimension>::FromLattice(
-  Device& device, const LatticeOrder<Dimension>& lattice, std::int64_t begin)
+  const LatticeOrder<Dimension>& lattice, std::int64_t begin)
 {
   LatticeInput shape{};
   for (int axis = 0; axis < Dimension; ++axis)
@@ -164,9 +161,9 @@ typename KernelRun<Dimension>::Prepare KernelRun<Dimension>::FromLattice(
     shape.Size[axis] = static_cast<double>(lattice.Box()[axis]);
     shape.Place[axis] = lattice.PlaceInCell()[axis];
   }
-  return [this, &device, shape, begin](
-           std::int64_t first, std::int64_t count, const DeviceBuffer& seeds) {
-    device.Run(this->PlaceKernel.With(shape, begin + first, static_cast<cl_uint>(count), seeds),
+  return [this, shape, begin](std::int64_t first, std::int64_t count, const DeviceBuffer& seeds) {
+    this->Owner.Run(
+      this->PlaceKernel.With(shape, begin + first, static_cast<cl_uint>(count), seeds),
       static_cast<std::size_t>(count));
     return DeviceTransfer();
   };
@@ -174,10 +171,10 @@ typename KernelRun<Dimension>::Prepare KernelRun<Dimension>::FromLattice(
 
 template <int Dimension>
 KernelReport KernelRun<Dimension>::Run(
-  Device& device, std::int64_t count, const Prepare& prepare, double* positions, Progress& progress)
+  std::int64_t count, const Prepare& prepare, double* positions, Progress& progress)
 {
   const std::int64_t most = std::min(count, this->MostOfPart);
-  this->MakeRoom(device, most, count > most);
+  this->MakeRoom(most, count > most);
   const auto lengthAt = [&](std::int64_t first) { return std::min(most, count - first); };
   KernelReport report;
   DeviceTransfer toDevice[2];
@@ -196,15 +193,15 @@ KernelReport KernelRun<Dimension>::Run(
     const auto meanwhile = [&]() {
       if (next < count)
       {
-        device.Start();
+        this->Owner.Start();
         toDevice[1 - set] = prepare(next, lengthAt(next), this->Seeds[1 - set]);
       }
     };
     const auto particles = static_cast<std::uint32_t>(lengthAt(first));
     const KernelReport part = this->Job.Job.Backward
-      ? this->RunBackward(device, particles, meanwhile, progress)
-      : this->RunForward(device, particles, meanwhile, progress);
-    fromDevice[set] = device.StartRead(this->Positions[set], positions + first * Dimension,
+      ? this->RunBackward(particles, meanwhile, progress)
+      : this->RunForward(particles, meanwhile, progress);
+    fromDevice[set] = this->Owner.StartRead(this->Positions[set], positions + first * Dimension,
       std::size_t{ particles } * Dimension * sizeof(double));
     report.Evaluations += part.Evaluations;
     report.Redone += part.Redone;
@@ -224,32 +221,31 @@ KernelReport KernelRun<Dimension>::Run(
 template <int Dimension>
 template <class RunPiece>
 void KernelRun<Dimension>::ForPieces(
-  Device& device, std::int64_t steps, std::uint32_t count, Progress& progress, const RunPiece& run)
+  std::int64_t steps, std::uint32_t count, Progress& progress, const RunPiece& run)
 {
-  const std::int64_t atOnce = stepsAtOnce(device, count);
+  const std::int64_t atOnce = stepsAtOnce(this->Owner, count);
   if (steps > atOnce && this->States.Size() < count * stateSize<Dimension>)
   {
     this->States = {};
-    this->States = device.Allocate(count * stateSize<Dimension>, "particles");
+    this->States = this->Owner.Allocate(count * stateSize<Dimension>, "particles");
   }
   for (std::int64_t first = 0; first < steps && !progress.ShouldStop(); first += atOnce)
   {
     run(first, std::min(first + atOnce, steps));
     if (first + atOnce < steps)
     {
-      device.Finish();
+      this->Owner.Finish();
     }
   }
 }
 
 template <int Dimension>
-void KernelRun<Dimension>::RunPass(
-  Device& device, int pass, int lastPass, std::uint32_t count, Progress& progress)
+void KernelRun<Dimension>::RunPass(int pass, int lastPass, std::uint32_t count, Progress& progress)
 {
   const DeviceMap<Dimension>* map = this->Map.get();
   const std::int64_t steps = this->Job.Job.Steps << std::max(lastPass, 0);
-  const auto weights = this->WeightsOf(device, steps);
-  const auto ofMap = map ? this->WeightsOf(device, map->Steps) : weights;
+  const auto weights = this->WeightsOf(steps);
+  const auto ofMap = map ? this->WeightsOf(map->Steps) : weights;
   const DeviceBuffer& none = this->Total; // in place of what is not read
   const auto run = [&](std::int64_t first, std::int64_t last) {
     this->AdvectKernel.With(this->Input, this->Tables->Fine, this->Tables->Coarse,
@@ -259,34 +255,33 @@ void KernelRun<Dimension>::RunPass(
       cl_int{ lastPass < this->Job.LastPass() ? 1 : 0 }, this->Seeds[this->Set],
       cl_int{ this->IsListed ? 1 : 0 }, this->Lists[0], cl_uint{ count }, this->States,
       this->Positions[this->Set], this->Status);
-    device.Run(this->AdvectKernel, count);
+    this->Owner.Run(this->AdvectKernel, count);
   };
   if (lastPass < 0)
   {
     run(0, steps);
     return;
   }
-  this->ForPieces(device, steps, count, progress, run);
+  this->ForPieces(steps, count, progress, run);
 }
 
 // Counts the unresolved, which become the list of the next pass.
 template <int Dimension>
-std::uint32_t KernelRun<Dimension>::CountPass(
-  Device& device, std::uint32_t count, KernelReport& report)
+std::uint32_t KernelRun<Dimension>::CountPass(std::uint32_t count, KernelReport& report)
 {
   const std::uint32_t groups = (count + groupSize - 1) / groupSize;
-  device.Run(
+  this->Owner.Run(
     this->CountKernel.With(this->Status, cl_uint{ count }, this->Counts), count, groupSize);
-  device.Run(
+  this->Owner.Run(
     this->SumKernel.With(this->Counts, cl_uint{ groups }, this->Total), groupSize, groupSize);
   PassCounts total{};
-  device.Read(this->Total, &total, sizeof(total));
+  this->Owner.Read(this->Total, &total, sizeof(total));
   report.Evaluations += total.Evaluations;
   const auto left = static_cast<std::uint32_t>(total.Unresolved);
   if (left > 0)
   {
-    device.Run(this->KeepKernel.With(this->Status, cl_uint{ count }, this->Counts,
-                 cl_int{ this->IsListed ? 1 : 0 }, this->Lists[0], this->Lists[1]),
+    this->Owner.Run(this->KeepKernel.With(this->Status, cl_uint{ count }, this->Counts,
+                      cl_int{ this->IsListed ? 1 : 0 }, this->Lists[0], this->Lists[1]),
       count, groupSize);
     std::swap(this->Lists[0], this->Lists[1]);
     this->IsListed = true;
@@ -299,7 +294,7 @@ std::uint32_t KernelRun<Dimension>::CountPass(
 template <int Dimension>
 template <class Meanwhile>
 KernelReport KernelRun<Dimension>::RunForward(
-  Device& device, std::uint32_t count, const Meanwhile& meanwhile, Progress& progress)
+  std::uint32_t count, const Meanwhile& meanwhile, Progress& progress)
 {
   KernelReport report;
   this->IsListed = false;
@@ -307,22 +302,22 @@ KernelReport KernelRun<Dimension>::RunForward(
   std::uint32_t left = count;
   for (int pass = -levels; pass <= this->Job.LastPass() && left > 0 && !progress.ShouldStop();)
   {
-    const int lastPass = pass >= 0                        ? pass
-      : this->Job.Job.Steps <= stepsAtOnce(device, count) ? 0
-                                                          : -1;
-    this->RunPass(device, pass, lastPass, left, progress);
+    const int lastPass = pass >= 0                             ? pass
+      : this->Job.Job.Steps <= stepsAtOnce(this->Owner, count) ? 0
+                                                               : -1;
+    this->RunPass(pass, lastPass, left, progress);
     if (pass == -levels)
     {
       meanwhile();
     }
-    left = this->CountPass(device, left, report);
+    left = this->CountPass(left, report);
     report.Redone += lastPass == 0 ? left : 0;
     pass = lastPass + 1;
   }
   if (this->IsListed) // else none is left, or all was stopped
   {
     report.Unresolved.resize(left);
-    device.Read(this->Lists[0], report.Unresolved.data(), left * sizeof(std::uint32_t));
+    this->Owner.Read(this->Lists[0], report.Unresolved.data(), left * sizeof(std::uint32_t));
   }
   return report;
 }
@@ -330,24 +325,24 @@ KernelReport KernelRun<Dimension>::RunForward(
 template <int Dimension>
 template <class Meanwhile>
 KernelReport KernelRun<Dimension>::RunBackward(
-  Device& device, std::uint32_t count, const Meanwhile& meanwhile, Progress& progress)
+  std::uint32_t count, const Meanwhile& meanwhile, Progress& progress)
 {
   KernelReport report;
   const DeviceMap<Dimension>* map = this->Map.get();
   const std::int64_t steps = map ? map->Steps : this->Job.Job.Steps;
-  const auto weights = this->WeightsOf(device, steps);
+  const auto weights = this->WeightsOf(steps);
   const DeviceBuffer& none = this->Total;
-  this->ForPieces(device, steps, count, progress, [&](std::int64_t first, std::int64_t last) {
+  this->ForPieces(steps, count, progress, [&](std::int64_t first, std::int64_t last) {
     this->AdvectKernel.With(this->Input, this->Tables->Fine, this->Tables->Coarse,
       this->Tables->Occupied, cl_long{ steps }, cl_long{ map ? map->LevelCount : 0 },
       map ? map->Levels : none, map ? map->Records : none, map ? map->Bad : none, *weights,
       cl_long{ steps }, cl_long{ first }, cl_long{ last }, this->Seeds[this->Set], cl_uint{ count },
       this->States, this->Positions[this->Set], this->Status);
-    device.Run(this->AdvectKernel, count);
+    this->Owner.Run(this->AdvectKernel, count);
   });
   meanwhile();
   this->IsListed = false;
-  this->CountPass(device, count, report);
+  this->CountPass(count, report);
   return report;
 }
 

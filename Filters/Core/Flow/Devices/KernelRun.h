@@ -69,8 +69,8 @@ public:
   // Particles for which transfers that overlap with kernels pay.
   static constexpr std::int64_t UsualPart = std::int64_t{ 1 } << 17;
 
-  // The job must outlive it. Without a map all particles take all steps. More particles than
-  // `mostOfPart` are run in parts, one after the other. Throws DeviceError.
+  // The device and the job must outlive it. Without a map all particles take all steps. More
+  // particles than `mostOfPart` are run in parts, one after the other. Throws DeviceError.
   KernelRun(Device& device, const DeviceProgram& program, const AdvectionJob<Dimension>& job,
     std::shared_ptr<const DeviceTables<Dimension>> tables,
     std::shared_ptr<const DeviceMap<Dimension>> map, std::shared_ptr<DeviceWeights> weights,
@@ -83,30 +83,28 @@ public:
 
   // Writes where `count` particles go, interleaved, after all passes. Stops early, with undefined
   // positions, where the progress is to stop. Throws DeviceError: positions are undefined.
-  KernelReport Run(Device& device, std::int64_t count, const Prepare& prepare, double* positions,
-    Progress& progress);
+  KernelReport Run(
+    std::int64_t count, const Prepare& prepare, double* positions, Progress& progress);
 
   // Seeds in memory, which must not be used before the end of the run.
-  static Prepare FromPoints(Device& device, const double* points);
+  Prepare FromPoints(const double* points);
   // The points of a lattice, in the order of its cells, from number `begin` on.
-  Prepare FromLattice(Device& device, const LatticeOrder<Dimension>& lattice, std::int64_t begin);
+  Prepare FromLattice(const LatticeOrder<Dimension>& lattice, std::int64_t begin);
 
 private:
-  std::shared_ptr<const DeviceBuffer> WeightsOf(Device& device, std::int64_t steps);
-  void MakeRoom(Device& device, std::int64_t count, bool hasTwoSets);
+  std::shared_ptr<const DeviceBuffer> WeightsOf(std::int64_t steps);
+  void MakeRoom(std::int64_t count, bool hasTwoSets);
   template <class Meanwhile>
-  KernelReport RunForward(
-    Device& device, std::uint32_t count, const Meanwhile& meanwhile, Progress& progress);
+  KernelReport RunForward(std::uint32_t count, const Meanwhile& meanwhile, Progress& progress);
   template <class Meanwhile>
-  KernelReport RunBackward(
-    Device& device, std::uint32_t count, const Meanwhile& meanwhile, Progress& progress);
-  void RunPass(Device& device, int pass, int lastPass, std::uint32_t count, Progress& progress);
-  std::uint32_t CountPass(Device& device, std::uint32_t count, KernelReport& report);
+  KernelReport RunBackward(std::uint32_t count, const Meanwhile& meanwhile, Progress& progress);
+  void RunPass(int pass, int lastPass, std::uint32_t count, Progress& progress);
+  std::uint32_t CountPass(std::uint32_t count, KernelReport& report);
   // Calls run(first, last) for pieces of the steps, until the progress is to stop.
   template <class RunPiece>
-  void ForPieces(Device& device, std::int64_t steps, std::uint32_t count, Progress& progress,
-    const RunPiece& run);
+  void ForPieces(std::int64_t steps, std::uint32_t count, Progress& progress, const RunPiece& run);
 
+  Device& Owner;
   const AdvectionJob<Dimension>& Job;
   const std::shared_ptr<const DeviceTables<Dimension>> Tables;
   const std::shared_ptr<const DeviceMap<Dimension>> Map;

@@ -36,10 +36,9 @@ std::unique_ptr<DeviceAdvection<Dimension>> DeviceFlow<Dimension>::Begin(
 }
 
 template <int Dimension>
-std::unique_ptr<DeviceNodes<Dimension>> DeviceFlow<Dimension>::BeginNodes(
-  DeviceUse&, const AdvectionJob<Dimension>&)
+DeviceNodes<Dimension> DeviceFlow<Dimension>::BeginNodes(DeviceUse&, const AdvectionJob<Dimension>&)
 {
-  return nullptr;
+  return {};
 }
 
 template class DeviceFlow<1>;

@@ -14,8 +14,6 @@
 namespace RectifiedTransport
 {
 
-class Ranks;
-
 template <int Dimension>
 class LatticeOrder
 {
@@ -41,16 +39,6 @@ public:
   }
 
   std::int64_t Count() const { return this->Samples; }
-  static std::int64_t Chunks() { return 1; }
-  // The number of samples of the whole lattice.
-  double CountOfAll(const Ranks& /*ranks*/) const
-  {
-    return numberOfCells<Dimension>(this->Lattice);
-  }
-
-  // The number of samples from `first` on. No preparation is needed.
-  std::int64_t Prepare(std::int64_t first) const { return this->Count() - first; }
-
   const GridSize<Dimension>& Cells() const { return this->Lattice; }
   const GridSize<Dimension>& Box() const { return this->Size; }
   const Point<Dimension>& PlaceInCell() const { return this->Place; }
@@ -73,11 +61,6 @@ inline double latticePoint(std::int64_t cell, double place, std::int64_t cells, 
 {
   return (static_cast<double>(cell) + place) * static_cast<double>(size) /
     static_cast<double>(cells);
-}
-
-inline double latticeCentre(std::int64_t cell, std::int64_t cells, std::int64_t size)
-{
-  return latticePoint(cell, 0.5, cells, size);
 }
 
 } // namespace RectifiedTransport

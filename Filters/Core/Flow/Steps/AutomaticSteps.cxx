@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/Steps/AutomaticSteps.h"
 
-#include "Core/Flow/FlowMapShape.h"
-#include "Core/Flow/Steps/BlockSurface.h"
 #include "Core/Flow/Steps/LittleContrast.h"
 #include "Core/Flow/Steps/ProbeBlocks.h"
-#include "Core/Flow/Steps/ProbePlan.h"
 #include "Core/Flow/Steps/StepBudget.h"
 #include "Core/Flow/Steps/SweptMass.h"
-#include "Core/Flow/Steps/SymmetricPlace.h"
 #include "Core/Geometry/EqualPoints.h"
 #include "Core/Geometry/ImageMeasure.h"
 #include "Core/Geometry/ReproducibleMath.h"
@@ -31,7 +27,6 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr int unit = 8;            // numbers of steps are multiples of it
 constexpr int lastCompared = 1024; // steps, with twice as many
 
 // The error that 99.9 % of the blocks keep is that of the worst after one in a thousand.
@@ -61,7 +56,7 @@ int stepsFor(double factor, int steps, int most, Integrator integrator)
   int found = steps;
   while (found <= most && !(fall(static_cast<double>(found) / steps, integrator) >= factor))
   {
-    found += unit;
+    found += stepUnit;
   }
   return found;
 }
@@ -356,7 +351,7 @@ private:
       choice.NumberOfSteps = before.Steps;
       do
       {
-        choice.NumberOfSteps += unit;
+        choice.NumberOfSteps += stepUnit;
         choice.AreaError = errorBetween(before, now, choice.NumberOfSteps);
       } while (choice.NumberOfSteps < std::min(most, now.Steps) && choice.AreaError > tolerance);
     }

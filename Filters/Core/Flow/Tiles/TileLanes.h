@@ -43,14 +43,12 @@ public:
 
   // How many doubles a particle's seed, or its state, has.
   static int valuesOf(bool fromStates) { return fromStates ? StateSize : Dimension; }
-  int ValuesEach() const { return this->Size; }
 
-  // Where the seed, or the state, of the next particle goes.
-  double* Next() { return this->Seeds + this->Count * this->Size; }
-
-  // Takes it, for a place in the positions, and advances all if there are no more lanes.
-  void Add(std::int64_t index, std::int64_t particle)
+  // Takes the seed, or the state, of a particle, for a place in the positions, and advances all if
+  // there are no more lanes.
+  void Add(const double* values, std::int64_t index, std::int64_t particle)
   {
+    std::copy_n(values, this->Size, this->Seeds + this->Count * this->Size);
     this->Index[this->Count] = index;
     this->Particle[this->Count] = particle;
     if (++this->Count == BlockSize)

@@ -78,16 +78,15 @@ public:
       {
         continue;
       }
-      GridSize<Dimension> low;
-      GridSize<Dimension> high;
-      this->Tiles.FindCells(tile, low, high);
       Stages stages = stagesOf(tiles[tile]);
-      this->Tile.Build(*this->Density.Part(low, high), low, high, stages["tables"]);
+      this->MakeTile(tile, stages["tables"]);
       task.Run(first, first + count, stages["items"]);
     }
   }
 
 private:
+  static constexpr std::int64_t none = -1; // a number of a tile
+
   void ReserveIf(bool isNeeded)
   {
     if (isNeeded)
@@ -122,7 +121,7 @@ private:
       Stages stages = stagesOf(each[static_cast<std::int64_t>(round)]);
       const bool hasTile = round < units[own].size();
       // Collective, also for ranks without a tile: each holds a part of the density.
-      this->MakeTile(hasTile ? &units[own][round] : nullptr, stages["tables"]);
+      this->MakeTile(hasTile ? units[own][round].Tile : none, stages["tables"]);
       Progress& work = stages["items"];
       if (hasTile)
       {
@@ -141,16 +140,12 @@ private:
       TileVisitors<Item> visitors(items, units, round, ranks);
       while (visitors.HaveMore())
       {
-        std::vector<Bytes> parts = ranks.Exchange(visitors.Leave(task.ValuesEach(),
-          [&task](const Item& item, const auto& give) { task.Give(item, give); }));
+        std::vector<Bytes> parts = ranks.Exchange(visitors.Leave(task));
         for (Bytes& part : parts)
         {
           part = task.Serve(std::move(part), work);
         }
-        visitors.Return(ranks.Exchange(std::move(parts)),
-          [&task](const char* reply, std::int64_t index, std::int64_t particle) {
-            task.Take(reply, index, particle);
-          });
+        visitors.Return(ranks.Exchange(std::move(parts)), task);
       }
     }
   }
@@ -181,17 +176,17 @@ private:
       all, cell * numberOfCells<Dimension>(this->Tiles.MostCells()) / particlesOfItem);
   }
 
-  // nullptr where this rank needs none: others may need its part of the density.
-  void MakeTile(const TileUnit* unit, Progress& progress)
+  // `none` where this rank needs none: others may need its part of the density.
+  void MakeTile(std::int64_t tile, Progress& progress)
   {
     GridSize<Dimension> low{};
     GridSize<Dimension> high{};
-    if (unit)
+    if (tile != none)
     {
-      this->Tiles.FindCells(unit->Tile, low, high);
+      this->Tiles.FindCells(tile, low, high);
     }
     const auto values = this->Density.Part(low, high);
-    if (unit)
+    if (tile != none)
     {
       this->Tile.Build(*values, low, high, progress);
     }

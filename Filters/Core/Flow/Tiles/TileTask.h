@@ -18,22 +18,13 @@
 namespace RectifiedTransport
 {
 
-// How the particles of tiles are advected: from their seeds, their places at time 1 or the states
-// of a map's records.
+// How the kernels advect the particles of tiles, and where results go.
 template <int Dimension>
 struct TileStage
 {
-  FlowMapView<Dimension> Map; // its finest level ends at the hand-over
-  bool FromStates;            // see FlowJob
-  bool StopsAtMap;            // see FlowJob
-  bool IsKept;                // where particles are that stay unresolved
-  int Pass;                   // of the kernel
-};
-
-// Where results go.
-template <int Dimension>
-struct TileResults
-{
+  FlowJob<Dimension> Job; // its tables are set for each tile
+  int Pass;               // of the kernel
+  bool IsKept;            // where particles are that stay unresolved
   const PointSpan<Dimension> Positions;
   ParticleMask& Left; // those that are unresolved
   Counters& Count;
@@ -48,48 +39,29 @@ class TileTask
 public:
   static constexpr double Cell = 0.02; // measured, in the time of a particle
 
-  // `wide` is the job on the graded tables, `tables` those of the tile that is worked on.
-  TileTask(const FlowJob<Dimension>& wide, const TableView<Dimension>& tables,
-    const TileStage<Dimension>& stage, const ByTile<Item>& items, const GiveItem& giveItem,
-    const TileResults<Dimension>& results)
-    : Job(wide)
+  // `tables` are those of the tile that is worked on.
+  TileTask(const TileStage<Dimension>& stage, const TableView<Dimension>& tables,
+    const ByTile<Item>& items, const GiveItem& giveItem)
+    : Stage(stage)
     , Tables(tables)
-    , Stage(stage)
     , Items(items)
     , GiveParticles(giveItem)
-    , Results(results)
   {
-    this->Job.Sparse = false; // particles of a tile lie close together
-    this->Job.Map = &stage.Map;
-    this->Job.FromStates = stage.FromStates;
-    this->Job.StopsAtMap = stage.StopsAtMap;
   }
 
   void Run(std::int64_t first, std::int64_t last, Progress& progress)
   {
-    this->Job.Tables = this->Tables;
-    stopWith(this->Job, progress);
-    progress.For(
-      last - first, grain,
-      [&](std::int64_t b, std::int64_t e) {
-        // Each range has lanes of its own, and so at most one block that is not full.
-        TileLanes<Dimension> lanes(this->Job, this->Stage.Pass, this->Stage.IsKept,
-          this->Results.Positions, this->Results.Left, this->Results.Count.Evaluations);
-        for (std::int64_t item = first + b; item < first + e && !progress.ShouldStop(); ++item)
-        {
-          this->GiveParticles(this->Items[item],
-            [&](const double* values, std::int64_t index, std::int64_t particle) {
-              // Lanes are filled over the borders of items, and advanced when a block is full; the
-              // rest at the end of the range.
-              std::copy_n(values, lanes.ValuesEach(), lanes.Next());
-              lanes.Add(index, particle);
-            });
-        }
-        lanes.Advance();
-      },
-      grain);
+    // Lanes are filled over the borders of items, and advanced when a block is full; the rest at
+    // the end of the range.
+    this->Advance(
+      last - first, grain, this->Stage, progress, [&](std::int64_t i, TileLanes<Dimension>& lanes) {
+        this->GiveParticles(this->Items[first + i],
+          [&](const double* values, std::int64_t index, std::int64_t particle) {
+            lanes.Add(values, index, particle);
+          });
+      });
   }
-  int ValuesEach() const { return TileLanes<Dimension>::valuesOf(this->Stage.FromStates); }
+  int ValuesEach() const { return TileLanes<Dimension>::valuesOf(this->Stage.Job.FromStates); }
   template <class GiveOne>
   void Give(const Item& item, const GiveOne& give) const
   {
@@ -100,8 +72,6 @@ public:
   // unresolved.
   Bytes Serve(Bytes visitors, Progress& progress)
   {
-    this->Job.Tables = this->Tables;
-    stopWith(this->Job, progress);
     // [particle][each] as they were sent.
     const int each = this->ValuesEach();
     const std::vector<double> values = fromBytes<double>(visitors);
@@ -111,20 +81,12 @@ public:
     std::vector<double> ends(static_cast<std::size_t>(count * Dimension));
     ParticleMask unresolved(count);
     const PointSpan<Dimension> places(ends.data(), count);
-    constexpr std::int64_t particles = grain * BlockSize;
-    progress.For(
-      count, particles,
-      [&](std::int64_t first, std::int64_t last) {
-        TileLanes<Dimension> lanes(
-          this->Job, this->Stage.Pass, true, places, unresolved, this->Results.Count.Evaluations);
-        for (std::int64_t i = first; i < last && !progress.ShouldStop(); ++i)
-        {
-          std::copy_n(values.data() + i * each, each, lanes.Next());
-          lanes.Add(i, i);
-        }
-        lanes.Advance();
-      },
-      particles);
+    const TileStage<Dimension> stage{ this->Stage.Job, this->Stage.Pass, true, places, unresolved,
+      this->Stage.Count };
+    this->Advance(
+      count, grain * BlockSize, stage, progress, [&](std::int64_t i, TileLanes<Dimension>& lanes) {
+        lanes.Add(values.data() + i * each, i, i);
+      });
     // A reply is [particle]{Dimension doubles, one byte}, in the order in which the particles came.
     constexpr std::size_t bytes = sizeof(double) * Dimension;
     Bytes reply(static_cast<std::size_t>(count) * (bytes + 1));
@@ -143,23 +105,44 @@ public:
     const bool isUnresolved = reply[bytes] != 0;
     if (!isUnresolved || this->Stage.IsKept)
     {
-      std::memcpy(this->Results.Positions[index], reply, bytes);
+      std::memcpy(this->Stage.Positions[index], reply, bytes);
     }
     if (isUnresolved)
     {
-      this->Results.Left.Add(particle);
+      this->Stage.Left.Add(particle);
     }
   }
 
 private:
   static constexpr std::int64_t grain = 32; // entries or blocks a range
 
-  FlowJob<Dimension> Job;
-  const TableView<Dimension>& Tables;
+  // add(i, lanes) for the items [0, count). Each range has lanes of its own, and so at most one
+  // block that is not full.
+  template <class AddItem>
+  void Advance(std::int64_t count, std::int64_t itemsOfRange, const TileStage<Dimension>& stage,
+    Progress& progress, const AddItem& add) const
+  {
+    FlowJob<Dimension> job = stage.Job;
+    job.Tables = this->Tables;
+    stopWith(job, progress);
+    progress.For(
+      count, itemsOfRange,
+      [&](std::int64_t first, std::int64_t last) {
+        TileLanes<Dimension> lanes(
+          job, stage.Pass, stage.IsKept, stage.Positions, stage.Left, stage.Count.Evaluations);
+        for (std::int64_t i = first; i < last && !progress.ShouldStop(); ++i)
+        {
+          add(i, lanes);
+        }
+        lanes.Advance();
+      },
+      itemsOfRange);
+  }
+
   const TileStage<Dimension>& Stage;
+  const TableView<Dimension>& Tables;
   const ByTile<Item>& Items;
   const GiveItem& GiveParticles;
-  const TileResults<Dimension> Results;
 };
 
 } // namespace RectifiedTransport

@@ -68,13 +68,13 @@ public:
   // On all ranks alike.
   bool HaveMore() const { return this->Done < this->Longest; }
 
-  // The next ones, `each` values a particle, which giveAll(item, give) gives, for each rank.
-  template <class GiveAll>
-  std::vector<Bytes> Leave(int each, const GiveAll& giveAll)
+  // The next ones of a task (TileRounds.h), for each rank.
+  template <class Task>
+  std::vector<Bytes> Leave(const Task& task)
   {
     this->Places.assign(this->Runs.size(), {});
     std::vector<Bytes> parts(this->Runs.size());
-    const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(each);
+    const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(task.ValuesEach());
     for (std::size_t rank = 0; rank < this->Runs.size(); ++rank)
     {
       Bytes& part = parts[rank];
@@ -91,7 +91,7 @@ public:
       {
         for (; run.Next < run.End && taken < this->Most; ++run.Next, ++taken)
         {
-          giveAll(this->Items[run.Next], give);
+          task.Give(this->Items[run.Next], give);
         }
       }
     }
@@ -99,9 +99,9 @@ public:
     return parts;
   }
 
-  // Calls take(bytes, index, particle) for each with what came back for it: as many bytes for all.
-  template <class Take>
-  void Return(const std::vector<Bytes>& replies, const Take& take) const
+  // Lets the task take what came back for each: as many bytes for all.
+  template <class Task>
+  void Return(const std::vector<Bytes>& replies, Task& task) const
   {
     for (std::size_t rank = 0; rank < replies.size(); ++rank)
     {
@@ -111,7 +111,7 @@ public:
       const std::size_t each = places.empty() ? 0 : replies[rank].size() / places.size();
       for (const Place& place : places)
       {
-        take(reply, place.Index, place.Particle);
+        task.Take(reply, place.Index, place.Particle);
         reply += each;
       }
     }

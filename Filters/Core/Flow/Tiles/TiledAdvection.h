@@ -106,12 +106,16 @@ private:
     {
       // Which particles are in which tile, then all tiles that have any.
       const ByTile<Entry> entries = this->FindTiles(source, length, left, stages["map"]);
-      const TileStage<Dimension> stage = this->StageOfEntries();
+      // The kernels take them from the map forwards, to it backwards, in the pass of its finest
+      // level.
+      const FlowMapView<Dimension> map = this->MapOfEntries();
+      FlowJob<Dimension> job = this->JobOfTiles(map);
+      job.StopsAtMap = job.Backward; // keeps those that the map gives no seed
+      const TileStage<Dimension> stage{ job, -map.LevelCount, job.Backward, positions, left,
+        this->Count };
       const EntryParticles giveEntry{ source };
-      this->Rounds.Run(entries,
-        TileTask(this->Wide, this->Rounds.Tables(), stage, entries, giveEntry,
-          TileResults<Dimension>{ positions, left, this->Count }),
-        stages["tiles"]);
+      this->Rounds.Run(
+        entries, TileTask(stage, this->Rounds.Tables(), entries, giveEntry), stages["tiles"]);
     }
     else
     {
@@ -212,21 +216,27 @@ private:
       found, this->Plan.Tiles.Count(), [](const Entry& entry) { return entry.Tile; });
   }
 
-  // How the kernels advect the particles of entries: from the map forwards, to it backwards, in the
-  // pass of its finest level.
-  TileStage<Dimension> StageOfEntries() const
+  FlowMapView<Dimension> MapOfEntries() const
   {
-    const bool isBackward = this->Wide.Backward; // keeps those that the map gives no seed
-    TileStage<Dimension> stage{ this->Map, false, isBackward, isBackward, 0 };
-    if (isBackward && !this->HandsOverFromMap())
+    FlowMapView<Dimension> map = this->Map;
+    if (this->Wide.Backward && !this->HandsOverFromMap())
     {
       // A level without records: all particles stop at the hand-over.
-      stage.Map.LevelCount = 1;
-      stage.Map.Levels[0].HandOver = this->Plan.HandOver;
-      stage.Map.Levels[0].Records = nullptr;
+      map.LevelCount = 1;
+      map.Levels[0].HandOver = this->Plan.HandOver;
+      map.Levels[0].Records = nullptr;
     }
-    stage.Pass = -stage.Map.LevelCount;
-    return stage;
+    return map;
+  }
+
+  // The job in the tables of tiles, where particles lie close together. The finest level of the map
+  // ends at the hand-over.
+  FlowJob<Dimension> JobOfTiles(const FlowMapView<Dimension>& map) const
+  {
+    FlowJob<Dimension> job = this->Wide;
+    job.Sparse = false;
+    job.Map = &map;
+    return job;
   }
 
   // Gives TileTask the particles of an entry.
@@ -373,7 +383,10 @@ private:
       std::copy_n(level.Records + number * record, Dimension, place);
       return this->Plan.TileOf(place);
     });
-    const TileStage<Dimension> stage{ map, true, false, pass == this->LastPass, -1 };
+    job = this->JobOfTiles(map);
+    job.FromStates = true;
+    const TileStage<Dimension> stage{ job, -1, pass == this->LastPass, positions, left,
+      this->Count };
     const auto giveNumber = [&](std::int64_t number, const auto& give) {
       std::int64_t index = 0;
       double seed[Dimension];
@@ -382,10 +395,8 @@ private:
       std::copy_n(level.Records + number * record, TileLanes<Dimension>::StateSize, state);
       give(state, index, particle(number));
     };
-    this->Rounds.Run(byTile,
-      TileTask(this->Wide, this->Rounds.Tables(), stage, byTile, giveNumber,
-        TileResults<Dimension>{ positions, left, this->Count }),
-      stages["tiles"]);
+    this->Rounds.Run(
+      byTile, TileTask(stage, this->Rounds.Tables(), byTile, giveNumber), stages["tiles"]);
   }
 
   // The seeds that the records have, clamped to the domain.

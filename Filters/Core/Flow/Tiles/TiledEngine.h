@@ -102,11 +102,12 @@ public:
     std::shared_ptr<const FlowMap<Dimension>> map;
     if (!plan.Shape.Levels.empty())
     {
-      bool isNew = false;
-      map = this->Maps.At(direction).FindOrMake(
-        plan.Shape, 0, shared.Job, *context.Group, [&]() -> Context { return stages["map"]; },
-        isNew);
-      counters.Evaluations += isNew ? map->Evaluations() : 0;
+      map = this->Maps.FindOrMake(plan.Shape, 0, *context.Group, [&]() {
+        auto made =
+          std::make_shared<const FlowMap<Dimension>>(plan.Shape, shared.Job, stages["map"]);
+        counters.Evaluations += made->Evaluations();
+        return made;
+      });
     }
     TiledAdvection<Dimension>(
       this->Density, this->Graded, plan, shared, map.get(), counters, stages["particles"])
