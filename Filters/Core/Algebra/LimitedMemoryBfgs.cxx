@@ -4,6 +4,7 @@
 #include "Core/Parallel/Reduction.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace RectifiedTransport
 {
@@ -26,39 +27,30 @@ void addMultiple(
     });
 }
 
-// The sum of a^2 * d.
-double weightedSquare(
-  const std::vector<double>& a, const std::vector<double>& d, Progress& progress)
+// The sum of term(i) of [0, count), bitwise the same for any number of threads.
+template <class Term>
+double sumOf(std::size_t count, const Term& term, Progress& progress)
 {
   return reduceChunks(
-    progress, static_cast<std::int64_t>(a.size()), grain, 0.0,
+    progress, static_cast<std::int64_t>(count), grain, 0.0,
     [&](std::int64_t first, std::int64_t last) {
       double sum = 0.0;
       for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
       {
-        sum += a[i] * a[i] * d[i];
+        sum += term(i);
       }
       return sum;
     },
-    [](double x, double y) { return x + y; });
+    std::plus<>());
 }
-
-} // namespace
 
 double innerProduct(const std::vector<double>& a, const std::vector<double>& b, Progress& progress)
 {
-  return reduceChunks(
-    progress, static_cast<std::int64_t>(a.size()), grain, 0.0,
-    [&](std::int64_t first, std::int64_t last) {
-      double sum = 0.0;
-      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-      {
-        sum += a[i] * b[i];
-      }
-      return sum;
-    },
-    [](double x, double y) { return x + y; });
+  return sumOf(
+    a.size(), [&](std::size_t i) { return a[i] * b[i]; }, progress);
 }
+
+} // namespace
 
 void LimitedMemoryBfgs::Add(
   const std::vector<double>& step, const std::vector<double>& change, Progress& progress)
@@ -98,7 +90,11 @@ void LimitedMemoryBfgs::FindDirection(const std::vector<double>& gradient,
   if (!this->Pairs.empty())
   {
     const Pair& last = this->Pairs.back();
-    scale = last.Curvature / weightedSquare(last.Change, diagonal, progress);
+    const std::vector<double>& change = last.Change;
+    scale = last.Curvature /
+      sumOf(
+        change.size(), [&](std::size_t i) { return change[i] * change[i] * diagonal[i]; },
+        progress);
   }
   for (std::size_t i = 0; i < direction.size(); ++i)
   {
