@@ -4,7 +4,6 @@
 #include "Core/Parallel/Reduction.h"
 
 #include <algorithm>
-#include <functional>
 
 namespace RectifiedTransport
 {
@@ -18,36 +17,14 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 void addMultiple(
   double factor, const std::vector<double>& from, std::vector<double>& to, Progress& progress)
 {
-  progress.For(
-    static_cast<std::int64_t>(to.size()), grain, [&](std::int64_t first, std::int64_t last) {
-      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-      {
-        to[i] += factor * from[i];
-      }
-    });
-}
-
-// The sum of term(i) of [0, count), bitwise the same for any number of threads.
-template <class Term>
-double sumOf(std::size_t count, const Term& term, Progress& progress)
-{
-  return reduceChunks(
-    progress, static_cast<std::int64_t>(count), grain, 0.0,
-    [&](std::int64_t first, std::int64_t last) {
-      double sum = 0.0;
-      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-      {
-        sum += term(i);
-      }
-      return sum;
-    },
-    std::plus<>());
+  progress.ForEach(static_cast<std::int64_t>(to.size()), grain,
+    [factor, a = from.data(), b = to.data()](std::int64_t i) { b[i] += factor * a[i]; });
 }
 
 double innerProduct(const std::vector<double>& a, const std::vector<double>& b, Progress& progress)
 {
-  return sumOf(
-    a.size(), [&](std::size_t i) { return a[i] * b[i]; }, progress);
+  return sumTerms(progress, static_cast<std::int64_t>(a.size()), grain,
+    [&](std::int64_t i) { return a.data()[i] * b.data()[i]; });
 }
 
 } // namespace
@@ -90,11 +67,10 @@ void LimitedMemoryBfgs::FindDirection(const std::vector<double>& gradient,
   if (!this->Pairs.empty())
   {
     const Pair& last = this->Pairs.back();
-    const std::vector<double>& change = last.Change;
-    scale = last.Curvature /
-      sumOf(
-        change.size(), [&](std::size_t i) { return change[i] * change[i] * diagonal[i]; },
-        progress);
+    const double* change = last.Change.data();
+    const double square = sumTerms(progress, static_cast<std::int64_t>(diagonal.size()), grain,
+      [&](std::int64_t i) { return change[i] * change[i] * diagonal.data()[i]; });
+    scale = last.Curvature / square;
   }
   for (std::size_t i = 0; i < direction.size(); ++i)
   {

@@ -145,16 +145,13 @@ private:
 
   void Classify()
   {
-    this->Work.For(this->Nodes.Count(), grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t cell = first; cell < last; ++cell)
-      {
-        const double source = MassOf(this->SourceCells, cell);
-        const double target = MassOf(this->TargetCells, cell);
-        const auto [less, more] = std::minmax(source, target);
-        const bool mayBeStill = more > 0.0 && less >= leastSame * more &&
-          this->SlackAbout(this->NodeOf(this->Nodes.CellOf(cell))) <= this->Most;
-        this->Kinds.data()[cell] = !(more > 0.0) ? Empty : mayBeStill ? MayBeStill : Moving;
-      }
+    this->Work.ForEach(this->Nodes.Count(), grain, [&](std::int64_t cell) {
+      const double source = MassOf(this->SourceCells, cell);
+      const double target = MassOf(this->TargetCells, cell);
+      const auto [less, more] = std::minmax(source, target);
+      const bool mayBeStill = more > 0.0 && less >= leastSame * more &&
+        this->SlackAbout(this->NodeOf(this->Nodes.CellOf(cell))) <= this->Most;
+      this->Kinds.data()[cell] = !(more > 0.0) ? Empty : mayBeStill ? MayBeStill : Moving;
     });
   }
 

@@ -159,12 +159,8 @@ template <int Dimension>
 void PixelMasses<Dimension>::RemoveEmptyPixels(std::int64_t* labels, Progress& progress) const
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
-  progress.For(this->NumberOfPixels(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t pixel = first; pixel < last; ++pixel)
-    {
-      labels[pixel] = (*this)[pixel] > 0 ? labels[pixel] : -1;
-    }
-  });
+  progress.ForEach(this->NumberOfPixels(), grain,
+    [&](std::int64_t pixel) { labels[pixel] = (*this)[pixel] > 0 ? labels[pixel] : -1; });
 }
 
 template class PixelMasses<1>;

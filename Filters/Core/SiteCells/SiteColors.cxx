@@ -111,14 +111,8 @@ std::vector<std::uint8_t> colourSiteCells(const GridSize<Dimension>& size,
   }
   Neighbours neighbours(sites);
   constexpr std::int64_t pixels = std::int64_t{ 1 } << 20;
-  progress.ForInOrder(
-    rows, 1,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t row = first; row < last; ++row)
-      {
-        joinRow<Dimension>(size, labels, row, neighbours);
-      }
-    },
+  progress.ForEachInOrder(
+    rows, 1, [&](std::int64_t row) { joinRow<Dimension>(size, labels, row, neighbours); },
     std::max<std::int64_t>(1, pixels / size[0]));
   return colourInOrder(neighbours);
 }

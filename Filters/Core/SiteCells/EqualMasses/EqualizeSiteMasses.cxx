@@ -123,26 +123,13 @@ private:
   {
     constexpr std::int64_t pixels = std::int64_t{ 1 } << 14;
     const std::int64_t grain = std::max<std::int64_t>(1, pixels / this->Size[0]);
-    progress.For(
-      this->Rows, grain,
-      [&visit](std::int64_t first, std::int64_t last) {
-        for (std::int64_t row = first; row < last; ++row)
-        {
-          visit(row);
-        }
-      },
-      grain);
+    progress.ForEach(this->Rows, grain, visit, grain);
   }
 
   void SumMasses(Progress& progress)
   {
-    progress.ForInOrder(this->Masses.NumberOfPixels(), std::int64_t{ 1 } << 16,
-      [this](std::int64_t first, std::int64_t last) {
-        for (std::int64_t pixel = first; pixel < last; ++pixel)
-        {
-          this->Mass[this->Owners[pixel]] += this->Masses[pixel];
-        }
-      });
+    progress.ForEachInOrder(this->Masses.NumberOfPixels(), std::int64_t{ 1 } << 16,
+      [this](std::int64_t pixel) { this->Mass[this->Owners[pixel]] += this->Masses[pixel]; });
     // In fractions that do not overflow; what rounding leaves is far below a pixel.
     const std::int64_t sites = this->Groups.NumberOfSites();
     const std::int64_t each = this->Masses.Total() / sites;

@@ -290,11 +290,8 @@ void split(const SiteGroups& groups, const GridSize<Dimension>& size,
   // The pixels of each site cell of several sites.
   const std::int64_t cells = groups.NumberOfGroups();
   Numbers first(static_cast<std::size_t>(cells) + 1, 0);
-  stages["counts"].ForInOrder(pixels, sliceOfPixels, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t pixel = begin; pixel < end; ++pixel)
-    {
-      first[owners[pixel] + 1] += groups.SitesIn(owners[pixel]) > 1 ? 1 : 0;
-    }
+  stages["counts"].ForEachInOrder(pixels, sliceOfPixels, [&](std::int64_t pixel) {
+    first[owners[pixel] + 1] += groups.SitesIn(owners[pixel]) > 1 ? 1 : 0;
   });
   const std::int64_t largest = *std::max_element(first.begin(), first.end());
   for (std::int64_t cell = 0; cell < cells; ++cell)
@@ -303,16 +300,13 @@ void split(const SiteGroups& groups, const GridSize<Dimension>& size,
   }
   LargeBuffer<std::int64_t> members(first.back());
   Numbers next(first);
-  stages["pixels"].ForInOrder(pixels, sliceOfPixels, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t pixel = begin; pixel < end; ++pixel)
+  stages["pixels"].ForEachInOrder(pixels, sliceOfPixels, [&](std::int64_t pixel) {
+    const std::int64_t cell = owners[pixel];
+    if (groups.SitesIn(cell) > 1)
     {
-      const std::int64_t cell = owners[pixel];
-      if (groups.SitesIn(cell) > 1)
-      {
-        members.data()[next[cell]++] = pixel;
-      }
-      owners[pixel] = groups.Site(cell, 0);
+      members.data()[next[cell]++] = pixel;
     }
+    owners[pixel] = groups.Site(cell, 0);
   });
   CellBisection<Dimension, Weight> bisection(
     size, coordinates, spacing, weight, owners, stages["bisection"].Expect(first.back()), largest);
