@@ -39,18 +39,6 @@ void rescale(PointSpan<Dimension> points, const GridSize<Dimension>& from,
   });
 }
 
-template <int Dimension>
-std::int64_t pixelAt(const double* point, const GridSize<Dimension>& size)
-{
-  std::int64_t pixel = 0;
-  for (int axis = Dimension; axis-- > 0;)
-  {
-    const auto along = static_cast<std::int64_t>(point[axis]);
-    pixel = pixel * size[axis] + std::min(along, size[axis] - 1);
-  }
-  return pixel;
-}
-
 // With as many steps as site cells take at least.
 FlowOptions refined(FlowOptions options)
 {
@@ -277,7 +265,7 @@ void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& fl
   std::iota(joined.begin(), joined.end(), std::int64_t{ 0 });
   for (std::size_t i = 0; i < without.size(); ++i)
   {
-    const std::int64_t owner = labels[pixelAt<Dimension>(points[i].data(), size)];
+    const std::int64_t owner = labels[numberOfCellAt<Dimension>(points[i].data(), size)];
     joined[without[i]] = mass[owner] > 0 ? owner : labels[heaviest];
   }
   SiteGroups merged;
