@@ -59,8 +59,7 @@ bool GraphLaplacian::Solve(std::vector<double>& values) const
   SparseCholesky::Vector right(static_cast<Eigen::Index>(values.size()));
   std::copy(values.begin(), values.end(), right.begin());
   const SparseCholesky::Vector solution = this->System.Solve(right);
-  std::transform(solution.begin(), solution.end(), values.begin(),
-    [](const InterruptibleReal& value) { return value.Value; });
+  std::copy(solution.begin(), solution.end(), values.begin());
   return std::all_of(
     values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }

@@ -6,8 +6,6 @@
 
 #include <Eigen/Core>
 
-#include <cmath>
-
 namespace RectifiedTransport
 {
 
@@ -54,6 +52,7 @@ private:
   double Done = 0.0;
 };
 
+// A double in all but its divisions.
 struct InterruptibleReal
 {
   double Value;
@@ -62,92 +61,34 @@ struct InterruptibleReal
     : Value(value)
   {
   }
-  InterruptibleReal& operator+=(const InterruptibleReal& other)
+  operator double() const { return this->Value; } // NOLINT: a number
+
+  InterruptibleReal& operator+=(double other)
   {
-    this->Value += other.Value;
+    this->Value += other;
     return *this;
   }
-  InterruptibleReal& operator-=(const InterruptibleReal& other)
+  InterruptibleReal& operator-=(double other)
   {
-    this->Value -= other.Value;
+    this->Value -= other;
     return *this;
   }
-  InterruptibleReal& operator*=(const InterruptibleReal& other)
+  InterruptibleReal& operator*=(double other)
   {
-    this->Value *= other.Value;
+    this->Value *= other;
     return *this;
   }
-  InterruptibleReal& operator/=(const InterruptibleReal& other)
+  InterruptibleReal& operator/=(double other)
   {
     DivisionPoll::Count();
-    this->Value /= other.Value;
+    this->Value /= other;
     return *this;
   }
 };
 
-inline InterruptibleReal operator+(const InterruptibleReal& a, const InterruptibleReal& b)
-{
-  return a.Value + b.Value;
-}
-
-inline InterruptibleReal operator-(const InterruptibleReal& a, const InterruptibleReal& b)
-{
-  return a.Value - b.Value;
-}
-
-inline InterruptibleReal operator-(const InterruptibleReal& a)
-{
-  return -a.Value;
-}
-
-inline InterruptibleReal operator*(const InterruptibleReal& a, const InterruptibleReal& b)
-{
-  return a.Value * b.Value;
-}
-
 inline InterruptibleReal operator/(InterruptibleReal a, const InterruptibleReal& b)
 {
   return a /= b;
-}
-
-inline bool operator==(const InterruptibleReal& a, const InterruptibleReal& b)
-{
-  return a.Value == b.Value;
-}
-
-inline bool operator!=(const InterruptibleReal& a, const InterruptibleReal& b)
-{
-  return a.Value != b.Value;
-}
-
-inline bool operator<(const InterruptibleReal& a, const InterruptibleReal& b)
-{
-  return a.Value < b.Value;
-}
-
-inline bool operator>(const InterruptibleReal& a, const InterruptibleReal& b)
-{
-  return b < a;
-}
-
-inline bool operator<=(const InterruptibleReal& a, const InterruptibleReal& b)
-{
-  return a.Value <= b.Value;
-}
-
-inline bool operator>=(const InterruptibleReal& a, const InterruptibleReal& b)
-{
-  return b <= a;
-}
-
-inline InterruptibleReal sqrt(const InterruptibleReal& a)
-{
-  return std::sqrt(a.Value);
-}
-
-inline InterruptibleReal abs(const InterruptibleReal& a)
-{
-  return std::abs(a.Value);
 }
 
 } // namespace RectifiedTransport

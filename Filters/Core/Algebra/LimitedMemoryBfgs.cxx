@@ -17,48 +17,17 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 void addMultiple(
   double factor, const std::vector<double>& from, std::vector<double>& to, Progress& progress)
 {
-  progress.For(
-    static_cast<std::int64_t>(to.size()), grain, [&](std::int64_t first, std::int64_t last) {
-      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-      {
-        to[i] += factor * from[i];
-      }
-    });
+  progress.ForEach(static_cast<std::int64_t>(to.size()), grain,
+    [factor, a = from.data(), b = to.data()](std::int64_t i) { b[i] += factor * a[i]; });
 }
-
-// The sum of a^2 * d.
-double weightedSquare(
-  const std::vector<double>& a, const std::vector<double>& d, Progress& progress)
-{
-  return reduceChunks(
-    progress, static_cast<std::int64_t>(a.size()), grain, 0.0,
-    [&](std::int64_t first, std::int64_t last) {
-      double sum = 0.0;
-      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-      {
-        sum += a[i] * a[i] * d[i];
-      }
-      return sum;
-    },
-    [](double x, double y) { return x + y; });
-}
-
-} // namespace
 
 double innerProduct(const std::vector<double>& a, const std::vector<double>& b, Progress& progress)
 {
-  return reduceChunks(
-    progress, static_cast<std::int64_t>(a.size()), grain, 0.0,
-    [&](std::int64_t first, std::int64_t last) {
-      double sum = 0.0;
-      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-      {
-        sum += a[i] * b[i];
-      }
-      return sum;
-    },
-    [](double x, double y) { return x + y; });
+  return sumTerms(progress, static_cast<std::int64_t>(a.size()), grain,
+    [&](std::int64_t i) { return a.data()[i] * b.data()[i]; });
 }
+
+} // namespace
 
 void LimitedMemoryBfgs::Add(
   const std::vector<double>& step, const std::vector<double>& change, Progress& progress)
@@ -98,7 +67,10 @@ void LimitedMemoryBfgs::FindDirection(const std::vector<double>& gradient,
   if (!this->Pairs.empty())
   {
     const Pair& last = this->Pairs.back();
-    scale = last.Curvature / weightedSquare(last.Change, diagonal, progress);
+    const double* change = last.Change.data();
+    const double square = sumTerms(progress, static_cast<std::int64_t>(diagonal.size()), grain,
+      [&](std::int64_t i) { return change[i] * change[i] * diagonal.data()[i]; });
+    scale = last.Curvature / square;
   }
   for (std::size_t i = 0; i < direction.size(); ++i)
   {

@@ -12,9 +12,6 @@ namespace RectifiedTransport
 
 class Progress;
 
-// The inner product, bitwise the same for any number of threads.
-double innerProduct(const std::vector<double>& a, const std::vector<double>& b, Progress& progress);
-
 class LimitedMemoryBfgs
 {
 public:

@@ -292,13 +292,10 @@ template <class Visit>
 void RegionRaster::ForMixed(Progress& progress, const Visit& visit) const
 {
   const auto mixed = static_cast<std::int64_t>(this->Mixed.size());
-  progress.For(mixed, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      const auto at = static_cast<std::size_t>(i);
-      visit(this->Mixed[at], this->SetsOfMixed[at], this->Shares.data() + this->Begins[at],
-        this->Begins[at + 1] - this->Begins[at]);
-    }
+  progress.ForEach(mixed, grain, [&](std::int64_t i) {
+    const auto at = static_cast<std::size_t>(i);
+    visit(this->Mixed[at], this->SetsOfMixed[at], this->Shares.data() + this->Begins[at],
+      this->Begins[at + 1] - this->Begins[at]);
   });
 }
 
@@ -326,12 +323,9 @@ void RegionRaster::Fill(const std::vector<double>& values, double around,
   cells.clear();
   cells.reserve(this->Owners.size());
   const std::vector<double> sums = this->SumsOfSets(values);
-  progress.ForInOrder(all, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      const std::int32_t owner = this->Owners[static_cast<std::size_t>(i)];
-      cells.push_back(owner < 0 ? around : sums[static_cast<std::size_t>(owner)]);
-    }
+  progress.ForEachInOrder(all, grain, [&](std::int64_t i) {
+    const std::int32_t owner = this->Owners[static_cast<std::size_t>(i)];
+    cells.push_back(owner < 0 ? around : sums[static_cast<std::size_t>(owner)]);
   });
   this->ForMixed(
     progress, [&](std::int64_t cell, std::int32_t set, const Share* shares, std::int64_t count) {
@@ -359,14 +353,11 @@ void RegionRaster::Scale(const std::vector<double>& exponents, double least,
   const auto scale = [least](double factor, double& cell) {
     cell = std::max(std::min(least, cell), factor * cell);
   };
-  progress.For(all, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
+  progress.ForEach(all, grain, [&](std::int64_t i) {
+    const std::int32_t owner = this->Owners[static_cast<std::size_t>(i)];
+    if (owner >= 0)
     {
-      const std::int32_t owner = this->Owners[static_cast<std::size_t>(i)];
-      if (owner >= 0)
-      {
-        scale(factors[static_cast<std::size_t>(owner)], cells[static_cast<std::size_t>(i)]);
-      }
+      scale(factors[static_cast<std::size_t>(owner)], cells[static_cast<std::size_t>(i)]);
     }
   });
   this->ForMixed(

@@ -5,6 +5,7 @@
 
 #include "Points.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -47,6 +48,19 @@ double numberOfCorners(GridSize<Dimension> cells)
     ++side;
   }
   return numberOfCells<Dimension>(cells);
+}
+
+// The number, axis 0 fastest, of the cell that holds a point in index space, or is nearest to it.
+template <int Dimension>
+std::int64_t numberOfCellAt(const double* point, const GridSize<Dimension>& size)
+{
+  std::int64_t number = 0;
+  for (int axis = Dimension; axis-- > 0;)
+  {
+    const auto last = static_cast<double>(size[axis] - 1);
+    number = number * size[axis] + static_cast<std::int64_t>(std::clamp(point[axis], 0.0, last));
+  }
+  return number;
 }
 
 // The sides of a cell of a lattice that fills the box [0, size].

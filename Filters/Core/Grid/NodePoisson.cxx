@@ -195,22 +195,14 @@ struct NodePoisson<Dimension>::Implementation
       sumOverNodes(this->Grid, progress, [=](std::int64_t i) { return masses[i]; });
     double flux = 0.0;
     double value = 0.0;
-    progress.ForInOrder(this->Nodes, this->Chunk, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        p[i] = value;
-        flux += masses[i] - all * (shareOf(i, cells) / number);
-        value -= flux / conductance;
-      }
+    progress.ForEachInOrder(this->Nodes, this->Chunk, [&](std::int64_t i) {
+      p[i] = value;
+      flux += masses[i] - all * (shareOf(i, cells) / number);
+      value -= flux / conductance;
     });
     const double mean = sumOverNodes(
       this->Grid, progress, [=](std::int64_t i) { return p[i] * (shareOf(i, cells) / number); });
-    progress.For(this->Nodes, this->Chunk, [=](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        p[i] -= mean;
-      }
-    });
+    progress.ForEach(this->Nodes, this->Chunk, [=](std::int64_t i) { p[i] -= mean; });
   }
 
   void SolveByTransforms(const double* masses, double* p, Progress& progress)

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 
 namespace RectifiedTransport
 {
@@ -45,17 +44,7 @@ double shareOfRow(const NodeGrid<Dimension>& grid, std::int64_t row)
 template <int Dimension, class Term>
 double sumOverNodes(const NodeGrid<Dimension>& grid, Progress& progress, const Term& term)
 {
-  return reduceChunks(
-    progress, grid.NumberOfNodes(), chunkOfRows(grid), 0.0,
-    [&](std::int64_t first, std::int64_t last) {
-      double sum = 0.0;
-      for (std::int64_t node = first; node < last; ++node)
-      {
-        sum += term(node);
-      }
-      return sum;
-    },
-    std::plus<>());
+  return sumTerms(progress, grid.NumberOfNodes(), chunkOfRows(grid), term);
 }
 
 } // namespace RectifiedTransport

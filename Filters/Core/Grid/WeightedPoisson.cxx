@@ -97,12 +97,8 @@ void WeightedPoisson<Dimension>::Turn(double beta, Progress& progress)
 {
   const double* z = this->Preconditioned.data();
   double* direction = this->Direction.data();
-  progress.For(this->Nodes, this->Chunk, [=](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      direction[i] = z[i] + beta * direction[i];
-    }
-  });
+  progress.ForEach(
+    this->Nodes, this->Chunk, [=](std::int64_t i) { direction[i] = z[i] + beta * direction[i]; });
 }
 
 // Image = -div(weight grad Direction), as masses. Returns its product with Direction.
@@ -172,12 +168,9 @@ void WeightedPoisson<Dimension>::Advance(double alpha, double* p, Progress& prog
   const double* direction = this->Direction.data();
   const double* image = this->Image.data();
   double* rest = this->Rest.data();
-  progress.For(this->Nodes, this->Chunk, [=](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      p[i] += alpha * direction[i];
-      rest[i] -= alpha * image[i];
-    }
+  progress.ForEach(this->Nodes, this->Chunk, [=](std::int64_t i) {
+    p[i] += alpha * direction[i];
+    rest[i] -= alpha * image[i];
   });
 }
 

@@ -70,11 +70,8 @@ private:
       shareImages<Dimension>(this->Source, this->Target, this->Corners, withCosts, this->Work);
     NodeValues rest(this->Target.NumberOfCells());
     double* values = rest.data();
-    this->Work.For(rest.size(), grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t cell = first; cell < last; ++cell)
-      {
-        values[cell] = static_cast<double>(shares.RestOf(cell, this->Target)) / integerUnit;
-      }
+    this->Work.ForEach(rest.size(), grain, [&](std::int64_t cell) {
+      values[cell] = static_cast<double>(shares.RestOf(cell, this->Target)) / integerUnit;
     });
     return hatSums<Dimension>(values, this->Target.Size(), this->Nodes, this->Work);
   }
@@ -88,20 +85,17 @@ private:
       images[axis] = this->Corners.Images[axis].data();
     }
     const std::int64_t corners = this->Corners.Grid.NumberOfNodes();
-    this->Work.For(corners, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t corner = first; corner < last; ++corner)
+    this->Work.ForEach(corners, grain, [&](std::int64_t corner) {
+      Point<Dimension> at;
+      for (std::size_t axis = 0; axis < images.size(); ++axis)
       {
-        Point<Dimension> at;
-        for (std::size_t axis = 0; axis < images.size(); ++axis)
-        {
-          at[axis] = images[axis][corner];
-        }
-        const Point<Dimension> move = moves.At(toNodes.ToNodes(at.data()).data());
-        for (std::size_t axis = 0; axis < images.size(); ++axis)
-        {
-          images[axis][corner] = std::clamp(at[axis] + move[axis] / toNodes.Sides[axis], 0.0,
-            static_cast<double>(this->Corners.Grid.Cells[axis]));
-        }
+        at[axis] = images[axis][corner];
+      }
+      const Point<Dimension> move = moves.At(toNodes.ToNodes(at.data()).data());
+      for (std::size_t axis = 0; axis < images.size(); ++axis)
+      {
+        images[axis][corner] = std::clamp(at[axis] + move[axis] / toNodes.Sides[axis], 0.0,
+          static_cast<double>(this->Corners.Grid.Cells[axis]));
       }
     });
   }

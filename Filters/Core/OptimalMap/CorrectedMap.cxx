@@ -118,18 +118,10 @@ void CorrectedMap<Dimension>::MeasureBlocks(const CellDensity<Dimension>& target
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   std::vector<double> wanted(static_cast<std::size_t>(count), 0.0);
   std::vector<double> excess(static_cast<std::size_t>(count), 0.0);
-  progress.ForInOrder(target.NumberOfCells(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t cell = first; cell < last; ++cell)
-    {
-      wanted[blockOf(cell)] += target.Share(cell);
-    }
-  });
-  progress.ForInOrder(images.size(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      excess[blockOf(target.CellOf(images[i]))] += masses[i];
-    }
-  });
+  progress.ForEachInOrder(target.NumberOfCells(), grain,
+    [&](std::int64_t cell) { wanted[blockOf(cell)] += target.Share(cell); });
+  progress.ForEachInOrder(images.size(), grain,
+    [&](std::int64_t i) { excess[blockOf(target.CellOf(images[i]))] += masses[i]; });
   double squares = 0.0;
   double errors = 0.0;
   for (std::size_t block = 0; block < wanted.size(); ++block)

@@ -454,12 +454,8 @@ FlowReport OptimalMap<Dimension>::ForwardToCells(
   Stages stages(progress, { { "images", 9 }, { "cells", 1 } });
   const FlowReport report = this->Self->Move(0, seeds, images, stages["images"]);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  stages["cells"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      cells[i] = this->Self->Densities[1].CellOf(images[i]);
-    }
-  });
+  stages["cells"].ForEach(
+    count, grain, [&](std::int64_t i) { cells[i] = this->Self->Densities[1].CellOf(images[i]); });
   return report;
 }
 

@@ -54,13 +54,7 @@ private:
   void ForCells(const Visit& visit)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-    this->Work.ForInOrder(
-      this->Target.NumberOfCells(), grain, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t cell = first; cell < last; ++cell)
-        {
-          visit(cell);
-        }
-      });
+    this->Work.ForEachInOrder(this->Target.NumberOfCells(), grain, visit);
   }
 
   double PartOf(std::int64_t mass, std::int64_t cell) const

@@ -122,11 +122,8 @@ PointMap<Dimension>::PointMap(const PotentialSolver<Dimension>& solver, int from
     NodeValues restricted(nodes);
     double* values = restricted.data();
     const double* potential = this->Potential;
-    progress.For(nodes, grain, [=](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        values[i] = hats[i] > 0.0 ? potential[i] : -std::numeric_limits<double>::infinity();
-      }
+    progress.ForEach(nodes, grain, [=](std::int64_t i) {
+      values[i] = hats[i] > 0.0 ? potential[i] : -std::numeric_limits<double>::infinity();
     });
     this->Minimizers = LargeBuffer<std::int64_t>(nodes);
     costMinimizers<Dimension>(solver.Grid(), values, this->Minimizers.data(), progress);

@@ -425,12 +425,8 @@ void PotentialSolver<Dimension>::HalfStep(Scratch& scratch, int side, Progress& 
     double* movedOther = scratch.NewOther.data();
     const double* potential = own.Potential.data();
     const double length = step;
-    progress.For(this->Nodes.NumberOfNodes(), grain, [=](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        moved[i] = potential[i] + length * p[i];
-      }
-    });
+    progress.ForEach(this->Nodes.NumberOfNodes(), grain,
+      [=](std::int64_t i) { moved[i] = potential[i] + length * p[i]; });
     costTransform<Dimension>(this->Nodes, moved, movedOther, progress);
     costTransform<Dimension>(this->Nodes, movedOther, moved, progress);
     const double bound =

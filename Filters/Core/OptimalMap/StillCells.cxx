@@ -145,16 +145,13 @@ private:
 
   void Classify()
   {
-    this->Work.For(this->Nodes.Count(), grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t cell = first; cell < last; ++cell)
-      {
-        const double source = MassOf(this->SourceCells, cell);
-        const double target = MassOf(this->TargetCells, cell);
-        const auto [less, more] = std::minmax(source, target);
-        const bool mayBeStill = more > 0.0 && less >= leastSame * more &&
-          this->SlackAbout(this->NodeOf(this->Nodes.CellOf(cell))) <= this->Most;
-        this->Kinds.data()[cell] = !(more > 0.0) ? Empty : mayBeStill ? MayBeStill : Moving;
-      }
+    this->Work.ForEach(this->Nodes.Count(), grain, [&](std::int64_t cell) {
+      const double source = MassOf(this->SourceCells, cell);
+      const double target = MassOf(this->TargetCells, cell);
+      const auto [less, more] = std::minmax(source, target);
+      const bool mayBeStill = more > 0.0 && less >= leastSame * more &&
+        this->SlackAbout(this->NodeOf(this->Nodes.CellOf(cell))) <= this->Most;
+      this->Kinds.data()[cell] = !(more > 0.0) ? Empty : mayBeStill ? MayBeStill : Moving;
     });
   }
 
@@ -308,17 +305,14 @@ StillCells<Dimension>::StillCells(const PotentialSolver<Dimension>& solver, int 
 template <int Dimension>
 bool StillCells<Dimension>::Have(const double* image) const
 {
-  std::int64_t cell = 0;
-  for (int axis = Dimension; axis-- > 0;)
+  for (int axis = 0; axis < Dimension; ++axis)
   {
-    const auto cells = static_cast<double>(this->Size[axis]);
-    if (!(image[axis] >= 0.0 && image[axis] <= cells))
+    if (!(image[axis] >= 0.0 && image[axis] <= static_cast<double>(this->Size[axis])))
     {
       return false;
     }
-    cell = cell * this->Size[axis] + static_cast<std::int64_t>(std::min(image[axis], cells - 1.0));
   }
-  return this->AreStill.data()[cell] != 0;
+  return this->AreStill.data()[numberOfCellAt<Dimension>(image, this->Size)] != 0;
 }
 
 template <int Dimension>

@@ -44,6 +44,20 @@ public:
   void ForInOrder(
     std::int64_t count, std::int64_t grain, RangeKernel kernel, std::int64_t units = usualUnits);
 
+  // The same for a kernel(i), which is called for each i of [0, count).
+  template <class Kernel>
+  void ForEach(
+    std::int64_t count, std::int64_t grain, const Kernel& kernel, std::int64_t units = usualUnits)
+  {
+    this->For(count, grain, eachOf(kernel), units);
+  }
+  template <class Kernel>
+  void ForEachInOrder(
+    std::int64_t count, std::int64_t grain, const Kernel& kernel, std::int64_t units = usualUnits)
+  {
+    this->ForInOrder(count, grain, eachOf(kernel), units);
+  }
+
   // The number of units of the caller's next slice, a multiple of `smallest`.
   std::int64_t NextSlice(std::int64_t smallest);
   // Reports units as done. Throws Cancelled.
@@ -66,6 +80,18 @@ private:
   using Clock = std::chrono::steady_clock;
   static constexpr std::int64_t usualUnits = std::int64_t{ 1 } << 18;
 
+  // A range kernel. The copy of what the kernel captures may stay in registers.
+  template <class Kernel>
+  static auto eachOf(const Kernel& kernel)
+  {
+    return [&kernel](std::int64_t first, std::int64_t last) {
+      const Kernel own = kernel;
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        own(i);
+      }
+    };
+  }
   void Run(const Executor& executor, std::int64_t count, std::int64_t grain,
     const RangeKernel& kernel, std::int64_t units);
   void Report(double fraction);

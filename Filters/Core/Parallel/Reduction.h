@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <type_traits>
 #include <vector>
 
@@ -42,6 +43,24 @@ Part reduceChunks(Progress& progress, std::int64_t count, std::int64_t grain, co
     all = combine(all, part);
   }
   return all;
+}
+
+// The sum of term(i) of [0, count), which are added one after another in each chunk. As
+// reduceChunks.
+template <class Term>
+double sumTerms(Progress& progress, std::int64_t count, std::int64_t grain, const Term& term)
+{
+  return reduceChunks(
+    progress, count, grain, 0.0,
+    [&term](std::int64_t first, std::int64_t last) {
+      double sum = 0.0;
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        sum += term(i);
+      }
+      return sum;
+    },
+    std::plus<>());
 }
 
 } // namespace RectifiedTransport

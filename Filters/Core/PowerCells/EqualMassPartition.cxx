@@ -152,15 +152,7 @@ bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
 template <class Visit>
 void EqualMassPartition::VisitCells(Progress& progress, std::int64_t units, const Visit& visit)
 {
-  progress.For(
-    this->Cells.NumberOfCells(), PowerDiagram::cellsOfChunk,
-    [&visit](std::int64_t first, std::int64_t last) {
-      for (std::int64_t place = first; place < last; ++place)
-      {
-        visit(place);
-      }
-    },
-    units);
+  progress.ForEach(this->Cells.NumberOfCells(), PowerDiagram::cellsOfChunk, visit, units);
 }
 
 EqualMassPartition::Deviation EqualMassPartition::Evaluate(

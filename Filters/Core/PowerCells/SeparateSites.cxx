@@ -133,15 +133,8 @@ void separateSites(
   PointSpan<2> sites, double distance, const SiteBounds& bounds, Progress& progress)
 {
   SiteSquares squares(sites, distance, bounds);
-  progress.ForInOrder(
-    sites.size(), 1,
-    [&squares](std::int64_t first, std::int64_t last) {
-      for (std::int64_t site = first; site < last; ++site)
-      {
-        squares.Place(site);
-      }
-    },
-    1 << 10);
+  progress.ForEachInOrder(
+    sites.size(), 1, [&squares](std::int64_t site) { squares.Place(site); }, 1 << 10);
 }
 
 } // namespace RectifiedTransport

@@ -65,23 +65,15 @@ void SiteTree::Bound(Box& box) const
 void SiteTree::SetWeights(const double* weights, Progress& progress)
 {
   constexpr std::int64_t sitesOfRange = 1 << 12;
-  progress.For(this->Size(), sitesOfRange, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      WeightedSite& site = this->Sites[static_cast<std::size_t>(i)];
-      site.Weight = weights[site.Id];
-    }
+  progress.ForEach(this->Size(), sitesOfRange, [&](std::int64_t i) {
+    WeightedSite& site = this->Sites[static_cast<std::size_t>(i)];
+    site.Weight = weights[site.Id];
   });
   constexpr std::int64_t boxesOfRange = 64; // some have all sites
   const std::int64_t firstSlice = this->Size() > sitesOfRange ? boxesOfRange : 1 << 14;
-  progress.For(
+  progress.ForEach(
     static_cast<std::int64_t>(this->Boxes.size()), boxesOfRange,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        this->BoundWeights(this->Boxes[static_cast<std::size_t>(i)]);
-      }
-    },
+    [&](std::int64_t i) { this->BoundWeights(this->Boxes[static_cast<std::size_t>(i)]); },
     firstSlice);
 }
 

@@ -141,14 +141,8 @@ void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dime
       progress.EndSlice(turn.IsFirst ? 1 : 0);
       continue;
     }
-    progress.For(
-      turn.Count, grain,
-      [&](std::int64_t from, std::int64_t to) {
-        for (std::int64_t i = from; i < to; ++i)
-        {
-          found[i] = shareIn(blocks.Box(turn.First + i));
-        }
-      },
+    progress.ForEach(
+      turn.Count, grain, [&](std::int64_t i) { found[i] = shareIn(blocks.Box(turn.First + i)); },
       16 * grain);
   }
 }

@@ -80,18 +80,15 @@ public:
     const auto whole = LatticePart<Dimension>::WholeOf(this->Density.Size);
     const std::int64_t grain = std::max<std::int64_t>(1, (std::int64_t{ 1 } << 13) / cells);
     const std::int64_t units = std::max<std::int64_t>(1, (std::int64_t{ 1 } << 18) / cells);
-    progress.For(
+    progress.ForEach(
       rows, grain,
-      [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t row = first; row < last; ++row)
+      [&](std::int64_t row) {
+        double* sums = this->Sums.data() + row * (cells + 1);
+        values->Read(whole.NumberOf(box.CellOf(row * cells)), cells, sums + 1);
+        sums[0] = 0.0;
+        for (std::int64_t i = 1; i <= cells; ++i)
         {
-          double* sums = this->Sums.data() + row * (cells + 1);
-          values->Read(whole.NumberOf(box.CellOf(row * cells)), cells, sums + 1);
-          sums[0] = 0.0;
-          for (std::int64_t i = 1; i <= cells; ++i)
-          {
-            sums[i] = sums[i - 1] + sums[i] * this->Scaling;
-          }
+          sums[i] = sums[i - 1] + sums[i] * this->Scaling;
         }
       },
       units);

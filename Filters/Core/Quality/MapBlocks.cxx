@@ -154,15 +154,12 @@ private:
     Progress& progress)
   {
     const LatticePart<Dimension>& faces = this->Faces[axis];
-    progress.For(
+    progress.ForEach(
       count, grain,
-      [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
-        {
-          const std::int64_t face = numberOf(i);
-          this->Through[axis][static_cast<std::size_t>(face)] +=
-            this->Images.Across(axis, faces.CellOf(face), integral);
-        }
+      [&](std::int64_t i) {
+        const std::int64_t face = numberOf(i);
+        this->Through[axis][static_cast<std::size_t>(face)] +=
+          this->Images.Across(axis, faces.CellOf(face), integral);
       },
       64 * grain);
   }
@@ -178,12 +175,8 @@ private:
     const std::int64_t each = this->Rows.LayersAtOnce();
     if (Dimension > 1 && !cells.IsEmpty() && cells.Low[Last] / each != (cells.End(Last) - 1) / each)
     {
-      progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
-        {
-          spans[static_cast<std::size_t>(i)] =
-            this->Images.LayersOf(samplesOf(i), this->Size[Last]);
-        }
+      progress.ForEach(count, grain, [&](std::int64_t i) {
+        spans[static_cast<std::size_t>(i)] = this->Images.LayersOf(samplesOf(i), this->Size[Last]);
       });
     }
     return ItemsByLayer(std::move(spans));
@@ -286,26 +279,23 @@ private:
     std::vector<double>& masses, Progress& progress)
   {
     constexpr std::int64_t size = MapBlocks<Dimension>::Size;
-    progress.For(
+    progress.ForEach(
       static_cast<std::int64_t>(blocks.size()), grain,
-      [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
+      [&](std::int64_t i) {
+        const std::int64_t number = blocks[static_cast<std::size_t>(i)];
+        const GridSize<Dimension> block = this->Blocks.CellOf(number);
+        GridSize<Dimension> middle = block;
+        for (std::int64_t& sample : middle)
         {
-          const std::int64_t number = blocks[static_cast<std::size_t>(i)];
-          const GridSize<Dimension> block = this->Blocks.CellOf(number);
-          GridSize<Dimension> middle = block;
-          for (std::int64_t& sample : middle)
-          {
-            sample = size * sample + size / 2;
-          }
-          const MassIntegral<Dimension> mass(this->Rows, *this->Images.At(middle), rule);
-          for (int axis = 0; axis < Dimension; ++axis)
-          {
-            GridSize<Dimension> above = block;
-            ++above[axis];
-            masses[static_cast<std::size_t>(number)] +=
-              this->Images.Across(axis, above, mass) - this->Images.Across(axis, block, mass);
-          }
+          sample = size * sample + size / 2;
+        }
+        const MassIntegral<Dimension> mass(this->Rows, *this->Images.At(middle), rule);
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          GridSize<Dimension> above = block;
+          ++above[axis];
+          masses[static_cast<std::size_t>(number)] +=
+            this->Images.Across(axis, above, mass) - this->Images.Across(axis, block, mass);
         }
       },
       16 * grain);
@@ -429,12 +419,8 @@ private:
   std::vector<double> Errors(const Error& error, Progress& progress)
   {
     std::vector<double> errors(static_cast<std::size_t>(this->Count));
-    progress.For(this->Count, 16 * grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        errors[static_cast<std::size_t>(i)] = error(i);
-      }
-    });
+    progress.ForEach(this->Count, 16 * grain,
+      [&](std::int64_t i) { errors[static_cast<std::size_t>(i)] = error(i); });
     return errors;
   }
 

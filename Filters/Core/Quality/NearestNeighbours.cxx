@@ -203,16 +203,13 @@ std::vector<double> answersTo(
   const std::vector<Query>& queries, const PointTree& tree, Progress& progress)
 {
   std::vector<double> answers(queries.size());
-  progress.For(
+  progress.ForEach(
     static_cast<std::int64_t>(queries.size()), grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        const Query& query = queries[static_cast<std::size_t>(i)];
-        constexpr std::int64_t notHere = -1;
-        answers[static_cast<std::size_t>(i)] =
-          tree.Search({ { query.X[0], query.X[1], query.X[2] }, notHere }, query.Best);
-      }
+    [&](std::int64_t i) {
+      const Query& query = queries[static_cast<std::size_t>(i)];
+      constexpr std::int64_t notHere = -1;
+      answers[static_cast<std::size_t>(i)] =
+        tree.Search({ { query.X[0], query.X[1], query.X[2] }, notHere }, query.Best);
     },
     grain);
   return answers;
@@ -268,16 +265,13 @@ void nearestDistances(ConstPointSpan<3> points, double* distances, const Context
     { { "tree", 4 }, { "search", areSeveral ? 3.0 : 6.0 }, { "ranks", areSeveral ? 3.0 : 0.0 } });
   PointTree tree(points.size());
   tree.Build(points, stages["tree"]);
-  stages["search"].For(
+  stages["search"].ForEach(
     points.size(), grain,
-    [&](std::int64_t first, std::int64_t last) {
+    [&](std::int64_t i) {
       // Neighbours in the tree are neighbours in space.
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        const TreePoint& point = tree.At(i);
-        const double squared = tree.Search(point, std::numeric_limits<double>::infinity());
-        distances[point.Id] = areSeveral ? squared : std::sqrt(squared);
-      }
+      const TreePoint& point = tree.At(i);
+      const double squared = tree.Search(point, std::numeric_limits<double>::infinity());
+      distances[point.Id] = areSeveral ? squared : std::sqrt(squared);
     },
     grain);
   if (areSeveral)

@@ -94,12 +94,7 @@ private:
   template <class Kernel>
   void InOrder(std::int64_t count, Progress& progress, const Kernel& kernel)
   {
-    progress.ForInOrder(count, grain, [&kernel](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        kernel(i);
-      }
-    });
+    progress.ForEachInOrder(count, grain, kernel);
   }
 
   // The sum of value(i) over the particles of all ranks in their order.
@@ -128,26 +123,23 @@ private:
   {
     std::atomic<std::int64_t> outside{ 0 };
     std::atomic<std::int64_t> inEmpty{ 0 };
-    progress.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+    progress.ForEach(this->Count, grain, [&](std::int64_t i) {
+      const double* x = this->Particles.Points[i];
+      std::transform(x, x + 3, this->Points.data() + 3 * i, [this](double coordinate) {
+        return std::clamp(this->Scale.ToUnits(coordinate), -farOutside, farOutside);
+      });
+      Point<Dimension> index;
+      if (!this->Grid.template NearestIndex<Dimension>(x, index.data()))
       {
-        const double* x = this->Particles.Points[i];
-        std::transform(x, x + 3, this->Points.data() + 3 * i, [this](double coordinate) {
-          return std::clamp(this->Scale.ToUnits(coordinate), -farOutside, farOutside);
-        });
-        Point<Dimension> index;
-        if (!this->Grid.template NearestIndex<Dimension>(x, index.data()))
-        {
-          ++outside;
-          this->Block.data()[i] = noBlock;
-          continue;
-        }
-        if (!this->Flow.HasMass(index))
-        {
-          ++inEmpty;
-        }
-        this->Block.data()[i] = this->Blocks.At(index);
+        ++outside;
+        this->Block.data()[i] = noBlock;
+        return;
       }
+      if (!this->Flow.HasMass(index))
+      {
+        ++inEmpty;
+      }
+      this->Block.data()[i] = this->Blocks.At(index);
     });
     this->Quality.Outside = sumOverRanks(this->Group, outside.load());
     this->Quality.InEmptyCells = sumOverRanks(this->Group, inEmpty.load());
@@ -275,26 +267,20 @@ private:
     const PointSpan<Dimension> index(this->Points.data(), this->Count);
     LargeBuffer<double> measures(this->Count);
     double* measure = measures.data();
-    stages["shares"].For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        const double share = this->Share(i);
-        const bool isDefined =
-          this->Block.data()[i] != noBlock && share > 0.0 && !std::isinf(spacing[i]);
-        spacing[i] = isDefined ? spacing[i] : -1.0;
-        measure[i] = isDefined ? share : 0.0;
-        this->Grid.template NearestIndex<Dimension>(this->Particles.Points[i], index[i]);
-      }
+    stages["shares"].ForEach(this->Count, grain, [=](std::int64_t i) {
+      const double share = this->Share(i);
+      const bool isDefined =
+        this->Block.data()[i] != noBlock && share > 0.0 && !std::isinf(spacing[i]);
+      spacing[i] = isDefined ? spacing[i] : -1.0;
+      measure[i] = isDefined ? share : 0.0;
+      this->Grid.template NearestIndex<Dimension>(this->Particles.Points[i], index[i]);
     });
     this->Flow.MeasuresOfShares(
       index, boxAspect<Dimension>(this->Grid), measure, measure, stages["measures"]);
     const double side = this->Scale.ToUnits(root<Dimension>(this->Grid.CellMeasure()));
-    stages["spacings"].For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        spacing[i] = spacing[i] < 0.0 ? spacing[i]
-                                      : spacing[i] / (largestSpacing<Dimension>(measure[i]) * side);
-      }
+    stages["spacings"].ForEach(this->Count, grain, [=](std::int64_t i) {
+      spacing[i] =
+        spacing[i] < 0.0 ? spacing[i] : spacing[i] / (largestSpacing<Dimension>(measure[i]) * side);
     });
   }
 

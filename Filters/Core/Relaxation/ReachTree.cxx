@@ -83,12 +83,8 @@ void ReachTree<Dimension>::BuildInOrder(
   this->Begin(static_cast<std::int64_t>(points.size()));
   progress.Check();
   constexpr std::int64_t grain = 512 * wholeBlock;
-  progress.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      this->Set(i, points[static_cast<std::size_t>(i)]);
-    }
-  });
+  progress.ForEach(
+    this->Count, grain, [&](std::int64_t i) { this->Set(i, points[static_cast<std::size_t>(i)]); });
   this->End();
   progress.Check();
 }

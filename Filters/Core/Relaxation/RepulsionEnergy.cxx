@@ -40,46 +40,43 @@ template <int Dimension>
 ReachTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progress) const
 {
   std::vector<ScaledPoint<Dimension>> sources(static_cast<std::size_t>(this->Tree.Leaves()));
-  progress.For(
+  progress.ForEach(
     this->Tree.Leaves(), grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t leaf = first; leaf < last; ++leaf)
+    [&](std::int64_t leaf) {
+      const Point<Dimension> low = this->Tree.LeafLow(leaf);
+      const Point<Dimension> sides = this->Tree.LeafSides(leaf);
+      double mass = 0.0;
+      Point<Dimension> centroid{};
+      for (int part = 0; part < hermiteCorners<Dimension>; ++part)
       {
-        const Point<Dimension> low = this->Tree.LeafLow(leaf);
-        const Point<Dimension> sides = this->Tree.LeafSides(leaf);
-        double mass = 0.0;
-        Point<Dimension> centroid{};
-        for (int part = 0; part < hermiteCorners<Dimension>; ++part)
+        Point<Dimension> lowIndex;
+        Point<Dimension> highIndex;
+        for (int axis = 0; axis < Dimension; ++axis)
         {
-          Point<Dimension> lowIndex;
-          Point<Dimension> highIndex;
-          for (int axis = 0; axis < Dimension; ++axis)
-          {
-            const double from = low[axis] + ((part >> axis & 1) ? 0.5 : 0.0) * sides[axis];
-            lowIndex[axis] = from / this->Frame.CellSides[axis];
-            highIndex[axis] = (from + 0.5 * sides[axis]) / this->Frame.CellSides[axis];
-          }
-          const double share = this->Flow.Share(lowIndex, highIndex);
-          mass += share;
-          for (int axis = 0; axis < Dimension; ++axis)
-          {
-            centroid[axis] += share * ((part >> axis & 1) ? 0.75 : 0.25);
-          }
+          const double from = low[axis] + ((part >> axis & 1) ? 0.5 : 0.0) * sides[axis];
+          lowIndex[axis] = from / this->Frame.CellSides[axis];
+          highIndex[axis] = (from + 0.5 * sides[axis]) / this->Frame.CellSides[axis];
         }
-        double spacing = 1.0;
-        if (mass > 0.0)
+        const double share = this->Flow.Share(lowIndex, highIndex);
+        mass += share;
+        for (int axis = 0; axis < Dimension; ++axis)
         {
-          Point<Dimension> at;
-          for (int axis = 0; axis < Dimension; ++axis)
-          {
-            at[axis] = centroid[axis] / mass;
-            centroid[axis] = low[axis] + at[axis] * sides[axis];
-          }
-          spacing = this->Tree.Evaluate(this->Tree.Spacing(), this->Tree.InLeaf(leaf, at))[0];
+          centroid[axis] += share * ((part >> axis & 1) ? 0.75 : 0.25);
         }
-        sources[static_cast<std::size_t>(leaf)] =
-          scaledPoint<Dimension>(centroid, spacing, mass * this->Count);
       }
+      double spacing = 1.0;
+      if (mass > 0.0)
+      {
+        Point<Dimension> at;
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          at[axis] = centroid[axis] / mass;
+          centroid[axis] = low[axis] + at[axis] * sides[axis];
+        }
+        spacing = this->Tree.Evaluate(this->Tree.Spacing(), this->Tree.InLeaf(leaf, at))[0];
+      }
+      sources[static_cast<std::size_t>(leaf)] =
+        scaledPoint<Dimension>(centroid, spacing, mass * this->Count);
     },
     firstSlice);
   sources.erase(std::remove_if(sources.begin(), sources.end(),
@@ -147,17 +144,14 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
     this->Tree.FindMixed(attraction, false, progress);
     progress.Check();
     std::vector<double> parts(static_cast<std::size_t>(sources.Size()));
-    progress.For(
+    progress.ForEach(
       sources.Size(), grain,
-      [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
-        {
-          const ScaledPoint<Dimension> source = sources.Get(i);
-          Point<Dimension> x;
-          std::copy_n(source.X, Dimension, x.begin());
-          parts[static_cast<std::size_t>(i)] =
-            source.Mass * this->Tree.Evaluate(attraction, this->Tree.Locate(x))[0];
-        }
+      [&](std::int64_t i) {
+        const ScaledPoint<Dimension> source = sources.Get(i);
+        Point<Dimension> x;
+        std::copy_n(source.X, Dimension, x.begin());
+        parts[static_cast<std::size_t>(i)] =
+          source.Mass * this->Tree.Evaluate(attraction, this->Tree.Locate(x))[0];
       },
       firstSlice);
     this->Constant = std::accumulate(parts.begin(), parts.end(), 0.0);

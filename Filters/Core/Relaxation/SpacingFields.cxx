@@ -57,36 +57,33 @@ template <int Dimension>
 void SpacingTree<Dimension>::FindMixed(Field& field, bool first, Progress& progress) const
 {
   const Field given = field;
-  progress.For(
+  progress.ForEach(
     this->Nodes(), grain,
-    [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i)
+    [&](std::int64_t i) {
+      const auto node = static_cast<std::size_t>(i);
+      const Point<Dimension> x = this->NodePoint(i);
+      const Point<Dimension>& sides = this->LeafSides(this->NodeLeaf[node]);
+      // The difference of an entry along an axis, one-sided at the border.
+      const auto difference = [&](int entry, int axis) {
+        Point<Dimension> low = x;
+        Point<Dimension> high = x;
+        low[axis] = std::max(x[axis] - sides[axis], 0.0);
+        high[axis] = std::min(x[axis] + sides[axis], this->Frame.Sides[axis]);
+        return (this->Linear(given, entry, high) - this->Linear(given, entry, low)) /
+          (high[axis] - low[axis]);
+      };
+      for (int axis = 0; axis < Dimension && first; ++axis)
       {
-        const auto node = static_cast<std::size_t>(i);
-        const Point<Dimension> x = this->NodePoint(i);
-        const Point<Dimension>& sides = this->LeafSides(this->NodeLeaf[node]);
-        // The difference of an entry along an axis, one-sided at the border.
-        const auto difference = [&](int entry, int axis) {
-          Point<Dimension> low = x;
-          Point<Dimension> high = x;
-          low[axis] = std::max(x[axis] - sides[axis], 0.0);
-          high[axis] = std::min(x[axis] + sides[axis], this->Frame.Sides[axis]);
-          return (this->Linear(given, entry, high) - this->Linear(given, entry, low)) /
-            (high[axis] - low[axis]);
-        };
-        for (int axis = 0; axis < Dimension && first; ++axis)
+        field[node][std::size_t{ 1 } << axis] = difference(0, axis);
+      }
+      if (!first)
+      {
+        for (int a = 0; a < Dimension; ++a)
         {
-          field[node][std::size_t{ 1 } << axis] = difference(0, axis);
-        }
-        if (!first)
-        {
-          for (int a = 0; a < Dimension; ++a)
+          for (int b = 0; b < a; ++b)
           {
-            for (int b = 0; b < a; ++b)
-            {
-              field[node][static_cast<std::size_t>(1 << a | 1 << b)] =
-                0.5 * (difference(1 << a, b) + difference(1 << b, a));
-            }
+            field[node][static_cast<std::size_t>(1 << a | 1 << b)] =
+              0.5 * (difference(1 << a, b) + difference(1 << b, a));
           }
         }
       }
@@ -103,13 +100,10 @@ void SpacingTree<Dimension>::FindSpacing(Progress& progress)
 {
   Field& field = this->SpacingField;
   field.assign(this->NodePlaces.size(), {});
-  progress.For(
+  progress.ForEach(
     this->Nodes(), grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t node = first; node < last; ++node)
-      {
-        field[static_cast<std::size_t>(node)][0] = this->ExactSpacing(this->NodePoint(node));
-      }
+    [&](std::int64_t node) {
+      field[static_cast<std::size_t>(node)][0] = this->ExactSpacing(this->NodePoint(node));
     },
     4 * grain);
   progress.Check();

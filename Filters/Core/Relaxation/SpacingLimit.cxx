@@ -54,16 +54,13 @@ double affordableSpacing(const SpacingTree<Dimension>& tree, ConstPointSpan<Dime
     return std::numeric_limits<double>::infinity();
   }
   std::vector<ScaledPoint<Dimension>> scaled(static_cast<std::size_t>(points.size()));
-  progress.For(
+  progress.ForEach(
     points.size(), grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        Point<Dimension> x;
-        std::copy_n(points[i], Dimension, x.begin());
-        const double spacing = tree.Evaluate(tree.Spacing(), tree.Locate(x))[0];
-        scaled[static_cast<std::size_t>(i)] = scaledPoint<Dimension>(x, spacing, 1.0);
-      }
+    [&](std::int64_t i) {
+      Point<Dimension> x;
+      std::copy_n(points[i], Dimension, x.begin());
+      const double spacing = tree.Evaluate(tree.Spacing(), tree.Locate(x))[0];
+      scaled[static_cast<std::size_t>(i)] = scaledPoint<Dimension>(x, spacing, 1.0);
     },
     16 * grain);
   ReachTree<Dimension> neighbours;

@@ -124,19 +124,16 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
     const double widest = *std::max_element(sides.begin(), sides.end());
     if (depth < DeepestLevel)
     {
-      progress.For(
+      progress.ForEach(
         static_cast<std::int64_t>(divided.size()), grain,
-        [&](std::int64_t begin, std::int64_t end) {
-          for (std::int64_t i = begin; i < end; ++i)
+        [&](std::int64_t i) {
+          Point<Dimension> centre =
+            this->PointOf(this->Boxes[first + static_cast<std::size_t>(i)].Low);
+          for (int axis = 0; axis < Dimension; ++axis)
           {
-            Point<Dimension> centre =
-              this->PointOf(this->Boxes[first + static_cast<std::size_t>(i)].Low);
-            for (int axis = 0; axis < Dimension; ++axis)
-            {
-              centre[axis] += 0.5 * sides[axis];
-            }
-            divided[static_cast<std::size_t>(i)] = this->IsSpacingBelow(widest / finest, centre);
+            centre[axis] += 0.5 * sides[axis];
           }
+          divided[static_cast<std::size_t>(i)] = this->IsSpacingBelow(widest / finest, centre);
         },
         4 * grain);
     }
@@ -246,14 +243,11 @@ void SpacingTree<Dimension>::Number(Progress& progress)
   this->NodePlaces = numbers.Release();
   progress.Check();
   this->NodeLeaf.resize(this->NodePlaces.size());
-  progress.For(
+  progress.ForEach(
     this->Nodes(), grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t node = first; node < last; ++node)
-      {
-        this->NodeLeaf[static_cast<std::size_t>(node)] =
-          this->WidestLeafAt(this->NodePlaces[static_cast<std::size_t>(node)]);
-      }
+    [&](std::int64_t node) {
+      this->NodeLeaf[static_cast<std::size_t>(node)] =
+        this->WidestLeafAt(this->NodePlaces[static_cast<std::size_t>(node)]);
     },
     firstSlice);
   this->Boxes = {}; // places are found without

@@ -36,13 +36,10 @@ void TransportEnergy::VisitPoints(
   ConstPointSpan<2> points, bool haveMass, Progress& progress, const Visit& visit) const
 {
   constexpr std::int64_t grain = 256;
-  progress.For(points.size(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
+  progress.ForEach(points.size(), grain, [&](std::int64_t i) {
+    if (this->Partition.Density().HasMass({ points[i][0], points[i][1] }) == haveMass)
     {
-      if (this->Partition.Density().HasMass({ points[i][0], points[i][1] }) == haveMass)
-      {
-        visit(i);
-      }
+      visit(i);
     }
   });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The toroidal blue-noise point sets that BlueNoise.cxx repeats periodically. The generator and the
-// method are in Generators/GenerateBlueNoiseTile.cxx.
+// method are in Testing/Generators/GenerateBlueNoiseTile.cxx.
 #ifndef RectifiedTransport_BlueNoiseTile_h
 #define RectifiedTransport_BlueNoiseTile_h
 

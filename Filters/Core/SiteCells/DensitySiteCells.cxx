@@ -30,28 +30,13 @@ void rescale(PointSpan<Dimension> points, const GridSize<Dimension>& from,
   const GridSize<Dimension>& to, Progress& progress)
 {
   const Point<Dimension> step = latticeStep<Dimension>(from, to);
-  progress.For(points.size(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
+  progress.ForEach(points.size(), grain, [&](std::int64_t i) {
+    double* x = points[i];
+    for (int axis = 0; axis < Dimension; ++axis)
     {
-      double* x = points[i];
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        x[axis] = std::min(x[axis] * step[axis], static_cast<double>(to[axis]));
-      }
+      x[axis] = std::min(x[axis] * step[axis], static_cast<double>(to[axis]));
     }
   });
-}
-
-template <int Dimension>
-std::int64_t pixelAt(const double* point, const GridSize<Dimension>& size)
-{
-  std::int64_t pixel = 0;
-  for (int axis = Dimension; axis-- > 0;)
-  {
-    const auto along = static_cast<std::int64_t>(point[axis]);
-    pixel = pixel * size[axis] + std::min(along, size[axis] - 1);
-  }
-  return pixel;
 }
 
 // With as many steps as site cells take at least.
@@ -136,12 +121,9 @@ DensitySiteCells<Dimension>::DensitySiteCells(ConstPointSpan<3> sites, const Ima
   const PointSpan<Dimension> inside(this->Inside);
   Progress progress(context);
   Stages stages(progress, { { "sites", 3 }, { "pixels", 7 } });
-  stages["sites"].For(sites.size(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      std::copy_n(sites[i], 3, this->Given[static_cast<std::size_t>(i)].begin());
-      outside += grid.NearestIndex<Dimension>(sites[i], inside[i]) ? 0 : 1;
-    }
+  stages["sites"].ForEach(sites.size(), grain, [&](std::int64_t i) {
+    std::copy_n(sites[i], 3, this->Given[static_cast<std::size_t>(i)].begin());
+    outside += grid.NearestIndex<Dimension>(sites[i], inside[i]) ? 0 : 1;
   });
   this->Outside = outside;
   this->Pixels.emplace(density, total, grid.Size<Dimension>(), stages["pixels"]);
@@ -257,14 +239,10 @@ void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& fl
   Stages stages(progress, { { "masses", 3 }, { "points", 3 }, { "labels", 4 } });
   std::vector<std::int64_t> mass(static_cast<std::size_t>(groups.NumberOfGroups()), 0);
   std::int64_t heaviest = 0;
-  stages["masses"].ForInOrder(
-    masses.NumberOfPixels(), grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t pixel = first; pixel < last; ++pixel)
-      {
-        mass[labels[pixel]] += masses[pixel];
-        heaviest = masses[pixel] > masses[heaviest] ? pixel : heaviest;
-      }
-    });
+  stages["masses"].ForEachInOrder(masses.NumberOfPixels(), grain, [&](std::int64_t pixel) {
+    mass[labels[pixel]] += masses[pixel];
+    heaviest = masses[pixel] > masses[heaviest] ? pixel : heaviest;
+  });
   // Of each group without mass, a point of the density that comes to its sites.
   std::vector<std::int64_t> without;
   std::vector<Point<Dimension>> points;
@@ -287,7 +265,7 @@ void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& fl
   std::iota(joined.begin(), joined.end(), std::int64_t{ 0 });
   for (std::size_t i = 0; i < without.size(); ++i)
   {
-    const std::int64_t owner = labels[pixelAt<Dimension>(points[i].data(), size)];
+    const std::int64_t owner = labels[numberOfCellAt<Dimension>(points[i].data(), size)];
     joined[without[i]] = mass[owner] > 0 ? owner : labels[heaviest];
   }
   SiteGroups merged;

@@ -48,14 +48,8 @@ public:
   {
     this->FindBands(progress);
     const std::int64_t bands = static_cast<std::int64_t>(this->FirstOfBand.size()) - 1;
-    progress.For(
-      bands, 1,
-      [this](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t band = begin; band < end; ++band)
-        {
-          this->FillBand(band);
-        }
-      },
+    progress.ForEach(
+      bands, 1, [this](std::int64_t band) { this->FillBand(band); },
       std::max<std::int64_t>(1, (1 << 16) / (rowsOfBand * this->Size[0])));
   }
 
@@ -95,18 +89,15 @@ private:
     const auto polygons = static_cast<std::int64_t>(this->First.size()) - 1;
     std::vector<std::int64_t> next(static_cast<std::size_t>(bands) + 1, 0);
     const auto visit = [&](const auto& call) {
-      progress.ForInOrder(polygons, 1 << 10, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t polygon = first; polygon < last; ++polygon)
+      progress.ForEachInOrder(polygons, 1 << 10, [&](std::int64_t polygon) {
+        const Range columns = PixelsOf(this->ExtentOf(polygon, 0), this->Size[0]);
+        const Range rows = PixelsOf(this->ExtentOf(polygon, 1), this->Size[1]);
+        // Many may lie between the centres of columns.
+        const std::int64_t end = columns.Begin < columns.End ? rows.End : rows.Begin;
+        for (std::int64_t band = rows.Begin / rowsOfBand;
+             rows.Begin < end && band <= (end - 1) / rowsOfBand; ++band)
         {
-          const Range columns = PixelsOf(this->ExtentOf(polygon, 0), this->Size[0]);
-          const Range rows = PixelsOf(this->ExtentOf(polygon, 1), this->Size[1]);
-          // Many may lie between the centres of columns.
-          const std::int64_t end = columns.Begin < columns.End ? rows.End : rows.Begin;
-          for (std::int64_t band = rows.Begin / rowsOfBand;
-               rows.Begin < end && band <= (end - 1) / rowsOfBand; ++band)
-          {
-            call(static_cast<std::size_t>(band), polygon);
-          }
+          call(static_cast<std::size_t>(band), polygon);
         }
       });
     };

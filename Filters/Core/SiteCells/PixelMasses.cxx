@@ -125,11 +125,7 @@ PixelMasses<Dimension>::PixelMasses(const DensitySource<Dimension>& density, dou
 {
   constexpr double whole = static_cast<double>(std::int64_t{ 1 } << 58);
   constexpr std::int64_t pixelsOfChunk = std::int64_t{ 1 } << 15;
-  std::int64_t count = 1;
-  for (const std::int64_t cells : pixels)
-  {
-    count *= cells;
-  }
+  const auto count = static_cast<std::int64_t>(numberOfCells<Dimension>(pixels));
   this->Units = LargeBuffer<std::int64_t>(count);
   const std::int64_t width = pixels[0];
   const auto read = [&](std::int64_t first, std::int64_t last) {
@@ -159,12 +155,8 @@ template <int Dimension>
 void PixelMasses<Dimension>::RemoveEmptyPixels(std::int64_t* labels, Progress& progress) const
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
-  progress.For(this->NumberOfPixels(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t pixel = first; pixel < last; ++pixel)
-    {
-      labels[pixel] = (*this)[pixel] > 0 ? labels[pixel] : -1;
-    }
-  });
+  progress.ForEach(this->NumberOfPixels(), grain,
+    [&](std::int64_t pixel) { labels[pixel] = (*this)[pixel] > 0 ? labels[pixel] : -1; });
 }
 
 template class PixelMasses<1>;

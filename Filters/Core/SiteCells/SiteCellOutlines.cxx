@@ -42,15 +42,8 @@ public:
   {
     const std::int64_t layers = this->Size[Dimension - 1] + 1;
     constexpr std::int64_t pixels = std::int64_t{ 1 } << 16;
-    progress.ForInOrder(
-      layers, 1,
-      [this](std::int64_t first, std::int64_t last) {
-        for (std::int64_t layer = first; layer < last; ++layer)
-        {
-          this->AddLayer(layer);
-        }
-      },
-      pixels / this->LayerPixels);
+    progress.ForEachInOrder(
+      layers, 1, [this](std::int64_t layer) { this->AddLayer(layer); }, pixels / this->LayerPixels);
     return std::move(this->Found);
   }
 

@@ -83,14 +83,8 @@ public:
     this->PointIds = LargeBuffer<std::int64_t>((this->Size[0] + 1) * (this->Size[1] + 1));
     std::fill_n(this->PointIds.data(), this->PointIds.size(), none);
     const auto count = static_cast<std::int64_t>(this->Outer.size());
-    stages["corners"].ForInOrder(
-      count, 1,
-      [this](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
-        {
-          this->Append(this->Outer[static_cast<std::size_t>(i)]);
-        }
-      },
+    stages["corners"].ForEachInOrder(
+      count, 1, [this](std::int64_t i) { this->Append(this->Outer[static_cast<std::size_t>(i)]); },
       1 + count / 64);
     this->Found.First.push_back(static_cast<std::int64_t>(this->Found.CornerIds.size()));
     return std::move(this->Found);
@@ -153,19 +147,16 @@ private:
     this->Outer.clear();
     this->Seen.assign(static_cast<std::size_t>(this->Size[0] * this->Size[1]), false);
     const std::int64_t rows = std::max<std::int64_t>(1, pixelsOfStep / this->Size[0]);
-    progress.ForInOrder(
+    progress.ForEachInOrder(
       this->Size[1], 1,
-      [this](std::int64_t first, std::int64_t last) {
-        for (std::int64_t y = first; y < last; ++y)
+      [this](std::int64_t y) {
+        for (std::int64_t x = 0; x < this->Size[0]; ++x)
         {
-          for (std::int64_t x = 0; x < this->Size[0]; ++x)
+          const Edge edge{ x, y, 0 };
+          if (this->LabelAt(edge) != none && !this->Seen[this->PixelOf(x, y)] &&
+            this->IsBorder(edge))
           {
-            const Edge edge{ x, y, 0 };
-            if (this->LabelAt(edge) != none && !this->Seen[this->PixelOf(x, y)] &&
-              this->IsBorder(edge))
-            {
-              this->FindRing(edge);
-            }
+            this->FindRing(edge);
           }
         }
       },

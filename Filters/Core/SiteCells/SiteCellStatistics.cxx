@@ -69,128 +69,90 @@ double costOf(const double* d, const CostNorm& norm)
   return std::pow(length, norm.Exponent);
 }
 
-struct EqualPixels
+// Adds pixels [first, last) with their weights.
+template <int Dimension, class Weight, class Cost>
+void addPixels(const ImageGrid& grid, const std::int64_t* labels, ConstPointSpan<3> sites,
+  const Weight& weightOf, const Cost& cost, std::int64_t first, std::int64_t last,
+  CellSum<Dimension>* sums)
 {
-  double operator()(std::int64_t) const { return 1.0; }
-};
-
-template <int Dimension>
-struct PixelsByMass
-{
-  const PixelMasses<Dimension>& Masses;
-  double operator()(std::int64_t pixel) const
+  const GridSize<Dimension> size = grid.Size<Dimension>();
+  double index[Dimension];
+  std::int64_t rest = first;
+  for (int axis = 0; axis < Dimension; ++axis)
   {
-    return static_cast<double>(this->Masses[pixel]) / static_cast<double>(this->Masses.Total());
+    index[axis] = static_cast<double>(rest % size[axis]) + 0.5;
+    rest /= size[axis];
   }
-};
-
-template <int Dimension, class Weight>
-class CellSums
-{
-public:
-  CellSums(const ImageGrid& grid, const std::int64_t* labels, ConstPointSpan<3> sites,
-    const Weight& weight)
-    : Grid(grid)
-    , Size(grid.Size<Dimension>())
-    , Labels(labels)
-    , Sites(sites)
-    , WeightOf(weight)
+  for (std::int64_t pixel = first; pixel < last; ++pixel)
   {
-  }
-
-  // The sums of fixed chunks make the result the same for every executor. Their number keeps the
-  // memory for them below that of the labels.
-  std::vector<CellSum<Dimension>> Run(const CostNorm& norm, Progress& progress) const
-  {
-    const std::int64_t sites = this->Sites.size();
-    const auto pixels = static_cast<std::int64_t>(numberOfCells<Dimension>(this->Size));
-    const std::int64_t chunks = std::clamp<std::int64_t>(pixels / (16 * sites), 1, 1024);
-    const std::int64_t chunk = (pixels + chunks - 1) / chunks;
-    std::vector<std::vector<CellSum<Dimension>>> parts(static_cast<std::size_t>(chunks));
-    for (auto& part : parts)
+    const std::int64_t label = labels[pixel];
+    if (label >= 0)
     {
-      part.resize(static_cast<std::size_t>(sites));
-    }
-    const bool isSquare = norm.Norm == 2.0 && norm.Exponent == 2.0;
-    progress.For(pixels, chunk, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t begin = first; begin < last; begin += chunk)
-      {
-        CellSum<Dimension>* sums = parts[static_cast<std::size_t>(begin / chunk)].data();
-        const std::int64_t end = std::min(begin + chunk, last);
-        // With many sites there are few chunks, and long ones.
-        for (std::int64_t slice = begin; slice < end && !progress.ShouldStop();
-             slice += sliceOfPixels)
-        {
-          const std::int64_t sliceEnd = std::min(slice + sliceOfPixels, end);
-          if (isSquare)
-          {
-            this->Sum(slice, sliceEnd, sums, squaredLength);
-          }
-          else
-          {
-            this->Sum(slice, sliceEnd, sums, [&norm](const double* d) { return costOf(d, norm); });
-          }
-        }
-      }
-    });
-    std::vector<CellSum<Dimension>> all(static_cast<std::size_t>(sites));
-    for (const auto& part : parts)
-    {
-      for (std::size_t i = 0; i < all.size(); ++i)
-      {
-        all[i].Add(part[i]);
-      }
-    }
-    return all;
-  }
-
-private:
-  template <class Cost>
-  void Sum(std::int64_t first, std::int64_t last, CellSum<Dimension>* sums, const Cost& cost) const
-  {
-    double index[Dimension];
-    std::int64_t rest = first;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      index[axis] = static_cast<double>(rest % this->Size[axis]) + 0.5;
-      rest /= this->Size[axis];
-    }
-    for (std::int64_t pixel = first; pixel < last; ++pixel)
-    {
-      const std::int64_t label = this->Labels[pixel];
-      if (label >= 0)
-      {
-        double x[3];
-        this->Grid.template ToPhysical<Dimension>(index, x);
-        const double* site = this->Sites[label];
-        const double d[3] = { x[0] - site[0], x[1] - site[1], x[2] - site[2] };
-        CellSum<Dimension>& sum = sums[label];
-        const double weight = this->WeightOf(pixel);
-        sum.Weight += weight;
-        for (int axis = 0; axis < Dimension; ++axis)
-        {
-          sum.Index[axis] += weight * index[axis];
-        }
-        sum.Cost += weight * cost(d);
-      }
+      double x[3];
+      grid.ToPhysical<Dimension>(index, x);
+      const double* site = sites[label];
+      const double d[3] = { x[0] - site[0], x[1] - site[1], x[2] - site[2] };
+      CellSum<Dimension>& sum = sums[label];
+      const double weight = weightOf(pixel);
+      sum.Weight += weight;
       for (int axis = 0; axis < Dimension; ++axis)
       {
-        index[axis] += 1.0;
-        if (index[axis] < static_cast<double>(this->Size[axis]))
-        {
-          break;
-        }
-        index[axis] = 0.5;
+        sum.Index[axis] += weight * index[axis];
       }
+      sum.Cost += weight * cost(d);
+    }
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      index[axis] += 1.0;
+      if (index[axis] < static_cast<double>(size[axis]))
+      {
+        break;
+      }
+      index[axis] = 0.5;
     }
   }
+}
 
-  const ImageGrid& Grid;
-  const GridSize<Dimension> Size;
-  const std::int64_t* Labels;
-  const ConstPointSpan<3> Sites;
-  const Weight WeightOf;
-};
+// The sums of the site cells. Those of fixed chunks make the result the same for every executor.
+// Their number keeps the memory for them below that of the labels.
+template <int Dimension, class Weight>
+std::vector<CellSum<Dimension>> sumCells(const ImageGrid& grid, const std::int64_t* labels,
+  ConstPointSpan<3> sites, const Weight& weightOf, const CostNorm& norm, Progress& progress)
+{
+  const std::int64_t pixels = grid.NumberOfCells();
+  const std::int64_t chunks = std::clamp<std::int64_t>(pixels / (16 * sites.size()), 1, 1024);
+  const std::int64_t chunk = (pixels + chunks - 1) / chunks;
+  using Sums = std::vector<CellSum<Dimension>>;
+  std::vector<Sums> parts(
+    static_cast<std::size_t>(chunks), Sums(static_cast<std::size_t>(sites.size())));
+  const bool isSquare = norm.Norm == 2.0 && norm.Exponent == 2.0;
+  progress.For(pixels, chunk, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t begin = first; begin < last; begin += chunk)
+    {
+      CellSum<Dimension>* sums = parts[static_cast<std::size_t>(begin / chunk)].data();
+      const std::int64_t end = std::min(begin + chunk, last);
+      // With many sites there are few chunks, and long ones.
+      for (std::int64_t slice = begin; slice < end && !progress.ShouldStop();
+           slice += sliceOfPixels)
+      {
+        const std::int64_t sliceEnd = std::min(slice + sliceOfPixels, end);
+        const auto add = [&](const auto& cost) {
+          addPixels<Dimension>(grid, labels, sites, weightOf, cost, slice, sliceEnd, sums);
+        };
+        isSquare ? add(squaredLength) : add([&norm](const double* d) { return costOf(d, norm); });
+      }
+    }
+  });
+  Sums all(static_cast<std::size_t>(sites.size()));
+  for (const Sums& part : parts)
+  {
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      all[i].Add(part[i]);
+    }
+  }
+  return all;
+}
 
 void requireCost(double cost, const CostNorm& norm)
 {
@@ -208,8 +170,8 @@ double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* l
   const CostNorm& norm, const SiteCellStatistics& statistics, const Context& context)
 {
   Progress progress(context);
-  const std::vector<CellSum<Dimension>> sums =
-    CellSums<Dimension, EqualPixels>(cells.Grid(), labels, cells.Sites(), {}).Run(norm, progress);
+  const std::vector<CellSum<Dimension>> sums = sumCells<Dimension>(
+    cells.Grid(), labels, cells.Sites(), [](std::int64_t) { return 1.0; }, norm, progress);
   const SiteDensity<Dimension>& shared = cells.Pixels();
   const double pixels = numberOfCells<Dimension>(shared.Size());
   double total = 0.0;
@@ -254,9 +216,12 @@ double measureSiteCells(const DensitySiteCells<Dimension>& cells, const std::int
   const Context& context)
 {
   Progress progress(context);
-  const std::vector<CellSum<Dimension>> sums = CellSums<Dimension, PixelsByMass<Dimension>>(
-    cells.Grid(), labels, cells.Sites(), { cells.Masses() })
-                                                 .Run(norm, progress);
+  const PixelMasses<Dimension>& masses = cells.Masses();
+  const auto weightOf = [&masses](std::int64_t pixel) {
+    return static_cast<double>(masses[pixel]) / static_cast<double>(masses.Total());
+  };
+  const std::vector<CellSum<Dimension>> sums =
+    sumCells<Dimension>(cells.Grid(), labels, cells.Sites(), weightOf, norm, progress);
   double total = 0.0;
   for (std::int64_t i = 0; i < cells.NumberOfSites(); ++i)
   {

@@ -31,14 +31,11 @@ SiteCells<Dimension>::SiteCells(
   const PointSpan<Dimension> inside(this->Inside);
   std::atomic<std::int64_t> outside{ 0 };
   Progress progress(context);
-  progress.For(sites.size(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
+  progress.ForEach(sites.size(), grain, [&](std::int64_t i) {
+    std::copy_n(sites[i], 3, this->Given[static_cast<std::size_t>(i)].begin());
+    if (!grid.NearestIndex<Dimension>(sites[i], inside[i]))
     {
-      std::copy_n(sites[i], 3, this->Given[static_cast<std::size_t>(i)].begin());
-      if (!grid.NearestIndex<Dimension>(sites[i], inside[i]))
-      {
-        ++outside;
-      }
+      ++outside;
     }
   });
   this->Outside = outside;

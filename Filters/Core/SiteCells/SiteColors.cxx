@@ -2,6 +2,7 @@
 #include "Core/SiteCells/SiteColors.h"
 
 #include "Core/Parallel/Progress.h"
+#include "Core/SiteCells/PixelRows.h"
 
 #include <algorithm>
 #include <limits>
@@ -13,76 +14,31 @@ namespace
 {
 
 // The neighbours of lower ids of each site.
-class Neighbours
+using Neighbours = std::vector<std::vector<std::int64_t>>;
+
+void join(std::int64_t one, std::int64_t other, Neighbours& neighbours)
 {
-public:
-  explicit Neighbours(std::int64_t sites)
-    : Lower(static_cast<std::size_t>(sites))
+  const auto [low, high] = std::minmax(one, other);
+  if (low < 0)
   {
+    return;
   }
-
-  void Join(std::int64_t one, std::int64_t other)
+  auto& known = neighbours[static_cast<std::size_t>(high)];
+  // The pair before is often the same.
+  if (std::find(known.rbegin(), known.rend(), low) == known.rend())
   {
-    const auto [low, high] = std::minmax(one, other);
-    if (low < 0)
-    {
-      return;
-    }
-    auto& known = this->Lower[static_cast<std::size_t>(high)];
-    // The pair before is often the same.
-    if (std::find(known.rbegin(), known.rend(), low) == known.rend())
-    {
-      known.push_back(low);
-    }
-  }
-
-  const std::vector<std::int64_t>& Of(std::size_t site) const { return this->Lower[site]; }
-  std::size_t Count() const { return this->Lower.size(); }
-
-private:
-  std::vector<std::vector<std::int64_t>> Lower;
-};
-
-template <int Dimension>
-void joinRow(const GridSize<Dimension>& size, const std::int64_t* labels, std::int64_t row,
-  Neighbours& neighbours)
-{
-  const std::int64_t* first = labels + row * size[0];
-  for (std::int64_t i = 0; i + 1 < size[0]; ++i)
-  {
-    if (first[i] != first[i + 1])
-    {
-      neighbours.Join(first[i], first[i + 1]);
-    }
-  }
-  std::int64_t index = row;
-  std::int64_t stride = size[0];
-  for (std::size_t axis = 1; axis < Dimension; ++axis)
-  {
-    if (index % size[axis] + 1 < size[axis])
-    {
-      const std::int64_t* next = first + stride;
-      for (std::int64_t i = 0; i < size[0]; ++i)
-      {
-        if (first[i] != next[i])
-        {
-          neighbours.Join(first[i], next[i]);
-        }
-      }
-    }
-    index /= size[axis];
-    stride *= size[axis];
+    known.push_back(low);
   }
 }
 
 std::vector<std::uint8_t> colourInOrder(const Neighbours& neighbours)
 {
   constexpr std::size_t most = std::numeric_limits<std::uint8_t>::max();
-  std::vector<std::uint8_t> colours(neighbours.Count());
-  std::vector<std::size_t> usedBy(most, neighbours.Count()); // the last site with such a neighbour
+  std::vector<std::uint8_t> colours(neighbours.size());
+  std::vector<std::size_t> usedBy(most, neighbours.size()); // the last site with such a neighbour
   for (std::size_t site = 0; site < colours.size(); ++site)
   {
-    for (std::int64_t neighbour : neighbours.Of(site))
+    for (std::int64_t neighbour : neighbours[site])
     {
       const std::size_t colour = colours[static_cast<std::size_t>(neighbour)];
       if (colour < most)
@@ -104,20 +60,15 @@ std::vector<std::uint8_t> colourSiteCells(const GridSize<Dimension>& size,
   const std::int64_t* labels, std::int64_t sites, const Context& context)
 {
   Progress progress(context);
-  std::int64_t rows = 1;
-  for (std::size_t axis = 1; axis < Dimension; ++axis)
-  {
-    rows *= size[axis];
-  }
-  Neighbours neighbours(sites);
+  const PixelRows<Dimension> rows(size);
+  Neighbours neighbours(static_cast<std::size_t>(sites));
   constexpr std::int64_t pixels = std::int64_t{ 1 } << 20;
-  progress.ForInOrder(
-    rows, 1,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t row = first; row < last; ++row)
-      {
-        joinRow<Dimension>(size, labels, row, neighbours);
-      }
+  progress.ForEachInOrder(
+    rows.Count, 1,
+    [&](std::int64_t row) {
+      rows.VisitFaces(row, labels, [&](std::int64_t pixel, std::int64_t other) {
+        join(labels[pixel], labels[other], neighbours);
+      });
     },
     std::max<std::int64_t>(1, pixels / size[0]));
   return colourInOrder(neighbours);

@@ -18,13 +18,7 @@ SiteDensity<Dimension>::SiteDensity(
   std::vector<std::int64_t> pixels(static_cast<std::size_t>(count));
   for (std::int64_t i = 0; i < count; ++i)
   {
-    std::int64_t pixel = 0;
-    for (int axis = Dimension; axis-- > 0;)
-    {
-      const auto along = static_cast<std::int64_t>(sites[i][axis]);
-      pixel = pixel * size[axis] + std::min(along, size[axis] - 1);
-    }
-    pixels[i] = pixel;
+    pixels[i] = numberOfCellAt<Dimension>(sites[i], size);
   }
   std::iota(order.begin(), order.end(), std::int64_t{ 0 });
   std::stable_sort(order.begin(), order.end(),

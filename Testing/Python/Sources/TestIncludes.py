@@ -74,8 +74,7 @@ FILTERS = os.path.join(SOURCE, "Filters")
 def sources(*pattern):
     """Pairs of the path from Filters and the text of each source file."""
     for path in sorted(glob.glob(os.path.join(FILTERS, *pattern), recursive=True)):
-        # Generators are programs of their own.
-        if path.endswith((".h", ".txx", ".cxx")) and os.sep + "Generators" + os.sep not in path:
+        if path.endswith((".h", ".txx", ".cxx")):
             with open(path, encoding="utf-8") as file:
                 yield os.path.relpath(path, FILTERS), file.read()
 

@@ -87,13 +87,7 @@ void CellDensity<Dimension>::TakeIfSame(const CellDensity& other, Progress& prog
 template <int Dimension>
 std::int64_t CellDensity<Dimension>::CellOf(const double* point) const
 {
-  std::int64_t cell = 0;
-  for (int axis = Dimension; axis-- > 0;)
-  {
-    const double last = static_cast<double>(this->Cells[axis] - 1);
-    cell = cell * this->Cells[axis] + static_cast<std::int64_t>(std::clamp(point[axis], 0.0, last));
-  }
-  return cell;
+  return numberOfCellAt<Dimension>(point, this->Cells);
 }
 
 template <int Dimension>

@@ -58,13 +58,8 @@ MassCorrection<Dimension>::MassCorrection(const CellDensity<Dimension>& target,
       excess.data(), wanted.data(), leastWeight, iterations, q.data(), progress);
     this->Moves.emplace_back(grid, q.data(), progress);
     const NodeMoves<Dimension>& moves = this->Moves.back();
-    progress.For(
-      images.size(), std::int64_t{ 1 } << 11, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
-        {
-          this->Step(moves, images[i]);
-        }
-      });
+    progress.ForEach(images.size(), std::int64_t{ 1 } << 11,
+      [&](std::int64_t i) { this->Step(moves, images[i]); });
   }
 }
 

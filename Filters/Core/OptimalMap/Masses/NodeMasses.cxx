@@ -118,12 +118,8 @@ CellValues sharesOf(const CellDensity<Dimension>& density)
 void scale(NodeValues& values, double factor, Progress& progress)
 {
   double* all = values.data();
-  progress.For(values.size(), std::int64_t{ 1 } << 14, [=](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      all[i] *= factor;
-    }
-  });
+  progress.ForEach(
+    values.size(), std::int64_t{ 1 } << 14, [=](std::int64_t i) { all[i] *= factor; });
 }
 
 // The density summed over all axes but one, for each axis, one after the other. By a fixed number

@@ -161,15 +161,12 @@ void spreadInCells(
         progress.ShouldStop();
       });
     progress.Check();
-    progress.For(number, std::int64_t{ 1 } << 13, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        const double place = slabs.PlaceOf(particles[i]);
-        const int bin = binOf(place, bins);
-        const double* end = ends.data() + slabs.SlabOf(particles[i]) * (bins + 1) + bin;
-        const double to = end[0] + (place * bins - bin) * (end[1] - end[0]);
-        slabs.SetPlace(particles[i], std::clamp(to, inside, 1.0 - inside));
-      }
+    progress.ForEach(number, std::int64_t{ 1 } << 13, [&](std::int64_t i) {
+      const double place = slabs.PlaceOf(particles[i]);
+      const int bin = binOf(place, bins);
+      const double* end = ends.data() + slabs.SlabOf(particles[i]) * (bins + 1) + bin;
+      const double to = end[0] + (place * bins - bin) * (end[1] - end[0]);
+      slabs.SetPlace(particles[i], std::clamp(to, inside, 1.0 - inside));
     });
   }
 }

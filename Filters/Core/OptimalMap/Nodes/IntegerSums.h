@@ -74,17 +74,14 @@ public:
   void Finish(Progress& progress, const Visit& visit)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-    progress.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+    progress.ForEach(this->Count, grain, [&](std::int64_t i) {
+      std::int64_t sum = 0;
+      for (LargeBuffer<std::int64_t>& array : this->Arrays)
       {
-        std::int64_t sum = 0;
-        for (LargeBuffer<std::int64_t>& array : this->Arrays)
-        {
-          sum += array.data()[i];
-          array.data()[i] = 0;
-        }
-        visit(i, sum);
+        sum += array.data()[i];
+        array.data()[i] = 0;
       }
+      visit(i, sum);
     });
   }
   // The sums themselves, and no array any more.

@@ -130,13 +130,10 @@ void smoothMap(NodeMap<Dimension>& map, Progress& progress)
       const std::int64_t all = images.size() / (nodes * stride) * blocks;
       const std::int64_t grain =
         std::max<std::int64_t>(1, 4096 / (nodes * std::min(stride, mostLines)));
-      progress.For(all, grain, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
-        {
-          const std::int64_t begin = i % blocks * mostLines;
-          smoothLines(images.data() + i / blocks * nodes * stride + begin, nodes, stride,
-            std::min(mostLines, stride - begin));
-        }
+      progress.ForEach(all, grain, [&](std::int64_t i) {
+        const std::int64_t begin = i % blocks * mostLines;
+        smoothLines(images.data() + i / blocks * nodes * stride + begin, nodes, stride,
+          std::min(mostLines, stride - begin));
       });
     }
   }

@@ -3,6 +3,7 @@
 
 #include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/EqualMasses/BorderMaxFlow.h"
+#include "Core/SiteCells/PixelRows.h"
 
 #include <algorithm>
 #include <limits>
@@ -26,35 +27,22 @@ public:
   Balance(
     const SiteDensity<Dimension>& sites, const Point<Dimension>& spacing, std::int64_t* owners)
     : Sites(sites)
-    , Size(sites.Size())
+    , Rows(sites.Size())
     , Owners(owners)
     , Cells(sites.NumberOfPixels())
     , Excess(static_cast<std::size_t>(this->Cells), 0)
     , Count(static_cast<std::size_t>(this->Cells), 0)
+    , Weight(squaredSides<Dimension>(spacing))
     , Borders(this->Cells)
   {
-    // Relative to the longest side: squares of lengths may overflow.
-    const double longest = *std::max_element(spacing.begin(), spacing.end());
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const double side = spacing[axis] / longest;
-      this->Weight[axis] = side * side;
-      this->Stride[axis] = axis == 0 ? 1 : this->Stride[axis - 1] * this->Size[axis - 1];
-    }
-    this->Rows = this->Stride[Dimension - 1] * this->Size[Dimension - 1] / this->Size[0];
   }
 
   // Throws Cancelled.
   void Run(Progress& progress)
   {
     Stages stages(progress, { { "counts", 1 }, { "rounds", 4 } });
-    this->VisitRows(stages["counts"].Expect(this->Rows), [this](std::int64_t row) {
-      const std::int64_t* owner = this->Owners + row * this->Size[0];
-      for (std::int64_t i = 0; i < this->Size[0]; ++i)
-      {
-        ++this->Count[owner[i]];
-      }
-    });
+    stages["counts"].ForEachInOrder(this->Rows.Count * this->Rows.Size[0], std::int64_t{ 1 } << 16,
+      [this](std::int64_t pixel) { ++this->Count[this->Owners[pixel]]; });
     this->FillEmptyCells();
     this->SetTargets();
     if constexpr (Dimension == 1)
@@ -76,7 +64,7 @@ public:
         least = excess;
         idle = 0;
       }
-      Progress& work = rounds.Next().Expect(2 * this->Rows);
+      Progress& work = rounds.Next().Expect(2 * this->Rows.Count);
       this->Moved = 0;
       this->FindBorders(work);
       this->Borders.Plan(this->Excess, this->Count, work);
@@ -99,50 +87,15 @@ private:
     }
   };
 
-  template <class Visit>
-  void VisitRows(Progress& progress, const Visit& visit)
-  {
-    constexpr std::int64_t pixels = std::int64_t{ 1 } << 16;
-    const std::int64_t smallest = std::max<std::int64_t>(1, pixels / this->Size[0]);
-    for (std::int64_t row = 0; row < this->Rows;)
-    {
-      const std::int64_t slice = std::min(this->Rows - row, progress.NextSlice(smallest));
-      for (const std::int64_t end = row + slice; row < end; ++row)
-      {
-        visit(row);
-      }
-      progress.EndSlice(slice);
-    }
-  }
-
   // Calls visit(pixel, neighbour) for all faces between pixels of two site cells.
   template <class Visit>
   void VisitBorders(Progress& progress, const Visit& visit)
   {
-    this->VisitRows(progress, [&](std::int64_t row) {
-      std::int64_t position[Dimension] = {};
-      for (std::int64_t rest = row, axis = 1; axis < Dimension; ++axis)
-      {
-        position[axis] = rest % this->Size[axis];
-        rest /= this->Size[axis];
-      }
-      const std::int64_t first = row * this->Size[0];
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        const std::int64_t last = axis == 0 ? this->Size[0] - 1 : this->Size[0];
-        if (axis > 0 && position[axis] + 1 == this->Size[axis])
-        {
-          continue;
-        }
-        for (std::int64_t pixel = first; pixel < first + last; ++pixel)
-        {
-          if (this->Owners[pixel] != this->Owners[pixel + this->Stride[axis]])
-          {
-            visit(pixel, pixel + this->Stride[axis]);
-          }
-        }
-      }
-    });
+    constexpr std::int64_t pixels = std::int64_t{ 1 } << 16;
+    const std::int64_t grain = std::max<std::int64_t>(1, pixels / this->Rows.Size[0]);
+    progress.ForEachInOrder(
+      this->Rows.Count, grain,
+      [&](std::int64_t row) { this->Rows.VisitFaces(row, this->Owners, visit); }, grain);
   }
 
   // A site cell without pixels has no borders. It is given the pixel of its sites, and so is the
@@ -174,7 +127,7 @@ private:
   // The remainder of the division goes to the site cells that have most now.
   void SetTargets()
   {
-    const std::int64_t pixels = this->Rows * this->Size[0];
+    const std::int64_t pixels = this->Rows.Count * this->Rows.Size[0];
     const std::int64_t each = pixels / this->Sites.NumberOfSites();
     std::int64_t left = pixels % this->Sites.NumberOfSites();
     for (std::int64_t cell = 0; cell < this->Cells; ++cell)
@@ -229,7 +182,7 @@ private:
     std::int64_t b = this->Sites.Pixel(to);
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      const auto size = this->Size[axis];
+      const auto size = this->Rows.Size[axis];
       const auto old = static_cast<double>(x % size - a % size);
       const auto now = static_cast<double>(x % size - b % size);
       cost += this->Weight[axis] * (now * now - old * old);
@@ -320,14 +273,12 @@ private:
   }
 
   const SiteDensity<Dimension>& Sites;
-  const GridSize<Dimension> Size;
+  const PixelRows<Dimension> Rows;
   std::int64_t* Owners;
   const std::int64_t Cells;
   std::vector<std::int64_t> Excess; // pixels of a site cell less its target
   std::vector<std::int64_t> Count;
-  double Weight[Dimension];
-  std::int64_t Stride[Dimension];
-  std::int64_t Rows;
+  const Point<Dimension> Weight;
   std::int64_t Moved = 0;
   BorderMaxFlow Borders;
 };

@@ -4,6 +4,7 @@
 #include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/EqualMasses/BorderMaxFlow.h"
+#include "Core/SiteCells/PixelRows.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -32,26 +33,18 @@ public:
     ConstPointSpan<Dimension> places, const Point<Dimension>& spacing, std::int64_t* owners)
     : Groups(groups)
     , Masses(masses)
-    , Size(masses.Size())
+    , Rows(masses.Size())
     , Places(places)
     , Owners(owners)
     , Count(groups.NumberOfGroups())
     , Mass(static_cast<std::size_t>(this->Count), 0)
     , Excess(this->Mass)
     , Planned(this->Mass)
+    , Weight(squaredSides<Dimension>(spacing))
     , Borders(this->Count)
   {
-    // Relative to the longest side: squares of lengths may overflow.
-    const double longest = *std::max_element(spacing.begin(), spacing.end());
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const double side = spacing[axis] / longest;
-      this->Weight[axis] = side * side;
-      this->Stride[axis] = axis == 0 ? 1 : this->Stride[axis - 1] * this->Size[axis - 1];
-    }
-    this->Rows = masses.NumberOfPixels() / this->Size[0];
     this->MeanMass = std::max<std::int64_t>(1, masses.Total() / masses.NumberOfPixels());
-    this->FirstFace.resize(static_cast<std::size_t>(this->Rows) + 1);
+    this->FirstFace.resize(static_cast<std::size_t>(this->Rows.Count) + 1);
   }
 
   // Throws Cancelled.
@@ -86,7 +79,7 @@ public:
       {
         break;
       }
-      Progress& work = rounds.Next().Expect(2 * this->Rows);
+      Progress& work = rounds.Next().Expect(2 * this->Rows.Count);
       this->TakesLighter = isSettled;
       this->FindFaces(work);
       this->FindBorders();
@@ -122,27 +115,14 @@ private:
   void VisitRows(Progress& progress, const Visit& visit) const
   {
     constexpr std::int64_t pixels = std::int64_t{ 1 } << 14;
-    const std::int64_t grain = std::max<std::int64_t>(1, pixels / this->Size[0]);
-    progress.For(
-      this->Rows, grain,
-      [&visit](std::int64_t first, std::int64_t last) {
-        for (std::int64_t row = first; row < last; ++row)
-        {
-          visit(row);
-        }
-      },
-      grain);
+    const std::int64_t grain = std::max<std::int64_t>(1, pixels / this->Rows.Size[0]);
+    progress.ForEach(this->Rows.Count, grain, visit, grain);
   }
 
   void SumMasses(Progress& progress)
   {
-    progress.ForInOrder(this->Masses.NumberOfPixels(), std::int64_t{ 1 } << 16,
-      [this](std::int64_t first, std::int64_t last) {
-        for (std::int64_t pixel = first; pixel < last; ++pixel)
-        {
-          this->Mass[this->Owners[pixel]] += this->Masses[pixel];
-        }
-      });
+    progress.ForEachInOrder(this->Masses.NumberOfPixels(), std::int64_t{ 1 } << 16,
+      [this](std::int64_t pixel) { this->Mass[this->Owners[pixel]] += this->Masses[pixel]; });
     // In fractions that do not overflow; what rounding leaves is far below a pixel.
     const std::int64_t sites = this->Groups.NumberOfSites();
     const std::int64_t each = this->Masses.Total() / sites;
@@ -152,32 +132,6 @@ private:
       const std::int64_t more = std::min(left, this->Groups.SitesIn(group));
       left -= more;
       this->Excess[group] = this->Mass[group] - each * this->Groups.SitesIn(group) - more;
-    }
-  }
-
-  // Calls visit(pixel, neighbour) for the faces of a row's pixels to the next ones along each axis
-  // that lie between two groups.
-  template <class Visit>
-  void VisitFaces(std::int64_t row, const Visit& visit) const
-  {
-    const std::int64_t first = row * this->Size[0];
-    std::int64_t rest = row;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const std::int64_t position = axis == 0 ? 0 : rest % this->Size[axis];
-      rest /= axis == 0 ? 1 : this->Size[axis];
-      if (axis > 0 && position + 1 == this->Size[axis])
-      {
-        continue;
-      }
-      const std::int64_t last = first + this->Size[0] - (axis == 0 ? 1 : 0);
-      for (std::int64_t pixel = first; pixel < last; ++pixel)
-      {
-        if (this->Owners[pixel] != this->Owners[pixel + this->Stride[axis]])
-        {
-          visit(pixel, pixel + this->Stride[axis]);
-        }
-      }
     }
   }
 
@@ -200,14 +154,14 @@ private:
     this->FirstFace[0] = 0;
     this->VisitRows(progress, [this](std::int64_t row) {
       std::int64_t faces = 0;
-      this->VisitFaces(row, [&faces](std::int64_t, std::int64_t) { ++faces; });
+      this->Rows.VisitFaces(row, this->Owners, [&faces](std::int64_t, std::int64_t) { ++faces; });
       this->FirstFace[row + 1] = faces;
     });
     std::partial_sum(this->FirstFace.begin(), this->FirstFace.end(), this->FirstFace.begin());
     this->Faces.resize(static_cast<std::size_t>(this->FirstFace.back()));
     this->VisitRows(progress, [this](std::int64_t row) {
       Face* face = this->Faces.data() + this->FirstFace[row];
-      this->VisitFaces(row, [&face](std::int64_t pixel, std::int64_t other) {
+      this->Rows.VisitFaces(row, this->Owners, [&face](std::int64_t pixel, std::int64_t other) {
         *face++ = { pixel, other, -1 };
       });
     });
@@ -237,8 +191,8 @@ private:
     double cost = 0.0;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      const double x = static_cast<double>(pixel % this->Size[axis]) + 0.5;
-      pixel /= this->Size[axis];
+      const double x = static_cast<double>(pixel % this->Rows.Size[axis]) + 0.5;
+      pixel /= this->Rows.Size[axis];
       cost += this->Weight[axis] * (a[axis] - b[axis]) * (2.0 * x - a[axis] - b[axis]);
     }
     return cost;
@@ -355,12 +309,12 @@ private:
     std::int64_t rest = pixel;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      const std::int64_t position = rest % this->Size[axis];
-      rest /= this->Size[axis];
+      const std::int64_t position = rest % this->Rows.Size[axis];
+      rest /= this->Rows.Size[axis];
       for (const int step : { -1, 1 })
       {
-        const std::int64_t other = pixel + step * this->Stride[axis];
-        if (position + step >= 0 && position + step < this->Size[axis] &&
+        const std::int64_t other = pixel + step * this->Rows.Stride[axis];
+        if (position + step >= 0 && position + step < this->Rows.Size[axis] &&
           this->Owners[other] == from)
         {
           this->Heap.push_back({ this->CostOf(other, from, to), other });
@@ -372,16 +326,14 @@ private:
 
   const SiteGroups& Groups;
   const PixelMasses<Dimension>& Masses;
-  const GridSize<Dimension> Size;
+  const PixelRows<Dimension> Rows;
   const ConstPointSpan<Dimension> Places;
   std::int64_t* Owners;
   const std::int64_t Count;
   std::vector<std::int64_t> Mass;
   std::vector<std::int64_t> Excess; // mass of a group less its target
   std::vector<std::int64_t> Planned;
-  double Weight[Dimension];
-  std::int64_t Stride[Dimension];
-  std::int64_t Rows;
+  const Point<Dimension> Weight;
   bool TakesLighter = false;
   std::int64_t MeanMass;               // of a pixel
   std::vector<std::int64_t> FirstFace; // of each row

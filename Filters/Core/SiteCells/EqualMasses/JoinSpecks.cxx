@@ -119,12 +119,7 @@ private:
   void VisitPixels(const Visit& visit)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
-    this->Work.ForInOrder(this->Pixels, grain, [&visit](std::int64_t first, std::int64_t last) {
-      for (std::int64_t pixel = first; pixel < last; ++pixel)
-      {
-        visit(pixel);
-      }
-    });
+    this->Work.ForEachInOrder(this->Pixels, grain, visit);
   }
 
   // Calls visit(before) for the pixel before this one along each axis.

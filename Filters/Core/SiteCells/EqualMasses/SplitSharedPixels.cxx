@@ -53,41 +53,17 @@ private:
   std::int64_t RowEnd = 0;
 };
 
-// The pixels count equally.
-struct EqualPixels
-{
-  static constexpr bool IsCount = true;
-  std::int64_t operator()(std::int64_t) const { return 1; }
-};
-
-// The pixels that have mass count equally, the others not.
+// `masses` are those of the pixels; null: pixels count equally.
 template <int Dimension>
-struct PixelsWithMass
-{
-  static constexpr bool IsCount = true;
-  const PixelMasses<Dimension>& Masses;
-  std::int64_t operator()(std::int64_t pixel) const { return this->Masses[pixel] > 0 ? 1 : 0; }
-};
-
-template <int Dimension>
-struct PixelsByMass
-{
-  static constexpr bool IsCount = false;
-  const PixelMasses<Dimension>& Masses;
-  std::int64_t operator()(std::int64_t pixel) const { return this->Masses[pixel]; }
-  PixelsWithMass<Dimension> Count() const { return { this->Masses }; }
-};
-
-template <int Dimension, class Weight>
 class CellBisection
 {
 public:
   CellBisection(const GridSize<Dimension>& size, ConstPointSpan<Dimension> coordinates,
-    const Point<Dimension>& spacing, const Weight& weight, std::int64_t* labels, Progress& progress,
-    std::int64_t largestCell)
+    const Point<Dimension>& spacing, const PixelMasses<Dimension>* masses, std::int64_t* labels,
+    Progress& progress, std::int64_t largestCell)
     : Coordinates(coordinates)
     , Spacing(spacing)
-    , WeightOf(weight)
+    , Masses(masses)
     , Labels(labels)
     , Work(progress)
     , Place(size)
@@ -193,27 +169,32 @@ private:
     std::int64_t* pixels, std::int64_t count, std::int64_t siteCount, int axis, const Box& box)
   {
     const std::int64_t half = siteCount / 2;
-    const std::int64_t part = this->Divide(pixels, count, this->WeightOf, siteCount, axis, box);
-    if constexpr (!Weight::IsCount)
+    const std::int64_t part = this->Divide(pixels, count, siteCount, axis, box, false);
+    if (this->Masses)
     {
       // Heavy pixels may be too few for the sites of a half.
-      const auto number = this->WeightOf.Count();
       std::int64_t lower = 0;
       std::int64_t all = 0;
       for (std::int64_t i = 0; i < count; ++i)
       {
-        lower += i < part ? number(pixels[i]) : 0;
-        all += number(pixels[i]);
+        lower += i < part ? this->WeightOf(pixels[i], true) : 0;
+        all += this->WeightOf(pixels[i], true);
       }
       if (all >= siteCount && (lower < half || all - lower < siteCount - half))
       {
         std::sort(pixels, pixels + count);
-        return this->Divide(pixels, count, number, siteCount, axis, box);
+        return this->Divide(pixels, count, siteCount, axis, box, true);
       }
     }
     return part;
   }
 
+  // The mass of a pixel, or whether it has one.
+  std::int64_t WeightOf(std::int64_t pixel, bool isCounted) const
+  {
+    const std::int64_t mass = this->Masses ? (*this->Masses)[pixel] : 1;
+    return isCounted ? std::min<std::int64_t>(mass, 1) : mass;
+  }
   // What the lower half of the sites gets of a weight: of pixels every site gets as many as any
   // other, or one more.
   static std::int64_t LowerPart(std::int64_t weight, std::int64_t siteCount)
@@ -226,16 +207,16 @@ private:
 
   // Moves the lowest pixels along an axis to the front, as many as have, to half a pixel, the
   // weight of the lower half of the sites; those of a layer by their numbers.
-  template <class AnyWeight>
-  std::int64_t Divide(std::int64_t* pixels, std::int64_t count, const AnyWeight& weight,
-    std::int64_t siteCount, int axis, const Box& box)
+  std::int64_t Divide(std::int64_t* pixels, std::int64_t count, std::int64_t siteCount, int axis,
+    const Box& box, bool areCounted)
   {
     const std::int64_t low = box.Low[axis];
     this->Layers.assign(static_cast<std::size_t>(box.High[axis] - low + 1), 0);
     std::int64_t all = 0;
     this->ForPixels(pixels, count, [&](std::int64_t pixel, const GridSize<Dimension>& place) {
-      this->Layers[place[axis] - low] += weight(pixel);
-      all += weight(pixel);
+      const std::int64_t weight = this->WeightOf(pixel, areCounted);
+      this->Layers[place[axis] - low] += weight;
+      all += weight;
     });
     const std::int64_t last = box.High[axis] - low;
     std::int64_t border = 0; // the layer that the parts share
@@ -252,7 +233,7 @@ private:
       bool isLower = layer < border;
       if (layer == border)
       {
-        const std::int64_t own = weight(pixel);
+        const std::int64_t own = this->WeightOf(pixel, areCounted);
         isLower = left > 0 && 2 * left >= own;
         left -= isLower ? own : 0;
       }
@@ -266,7 +247,7 @@ private:
 
   ConstPointSpan<Dimension> Coordinates;
   const Point<Dimension> Spacing;
-  const Weight WeightOf;
+  const PixelMasses<Dimension>* Masses;
   std::int64_t* Labels;
   Progress& Work;
   PixelPlace<Dimension> Place;
@@ -275,26 +256,19 @@ private:
   LargeBuffer<std::int64_t> Upper; // of the size of the largest site cell
 };
 
-template <int Dimension, class Weight>
+template <int Dimension>
 void split(const SiteGroups& groups, const GridSize<Dimension>& size,
-  ConstPointSpan<Dimension> coordinates, const Point<Dimension>& spacing, const Weight& weight,
-  std::int64_t* owners, const Context& context)
+  ConstPointSpan<Dimension> coordinates, const Point<Dimension>& spacing,
+  const PixelMasses<Dimension>* masses, std::int64_t* owners, const Context& context)
 {
   Progress progress(context);
   Stages stages(progress, { { "counts", 1 }, { "pixels", 1 }, { "bisection", 8 } });
-  std::int64_t pixels = 1;
-  for (const std::int64_t cells : size)
-  {
-    pixels *= cells;
-  }
+  const auto pixels = static_cast<std::int64_t>(numberOfCells<Dimension>(size));
   // The pixels of each site cell of several sites.
   const std::int64_t cells = groups.NumberOfGroups();
   Numbers first(static_cast<std::size_t>(cells) + 1, 0);
-  stages["counts"].ForInOrder(pixels, sliceOfPixels, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t pixel = begin; pixel < end; ++pixel)
-    {
-      first[owners[pixel] + 1] += groups.SitesIn(owners[pixel]) > 1 ? 1 : 0;
-    }
+  stages["counts"].ForEachInOrder(pixels, sliceOfPixels, [&](std::int64_t pixel) {
+    first[owners[pixel] + 1] += groups.SitesIn(owners[pixel]) > 1 ? 1 : 0;
   });
   const std::int64_t largest = *std::max_element(first.begin(), first.end());
   for (std::int64_t cell = 0; cell < cells; ++cell)
@@ -303,19 +277,16 @@ void split(const SiteGroups& groups, const GridSize<Dimension>& size,
   }
   LargeBuffer<std::int64_t> members(first.back());
   Numbers next(first);
-  stages["pixels"].ForInOrder(pixels, sliceOfPixels, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t pixel = begin; pixel < end; ++pixel)
+  stages["pixels"].ForEachInOrder(pixels, sliceOfPixels, [&](std::int64_t pixel) {
+    const std::int64_t cell = owners[pixel];
+    if (groups.SitesIn(cell) > 1)
     {
-      const std::int64_t cell = owners[pixel];
-      if (groups.SitesIn(cell) > 1)
-      {
-        members.data()[next[cell]++] = pixel;
-      }
-      owners[pixel] = groups.Site(cell, 0);
+      members.data()[next[cell]++] = pixel;
     }
+    owners[pixel] = groups.Site(cell, 0);
   });
-  CellBisection<Dimension, Weight> bisection(
-    size, coordinates, spacing, weight, owners, stages["bisection"].Expect(first.back()), largest);
+  CellBisection<Dimension> bisection(
+    size, coordinates, spacing, masses, owners, stages["bisection"].Expect(first.back()), largest);
   Numbers group;
   for (std::int64_t cell = 0; cell < cells; ++cell)
   {
@@ -338,8 +309,7 @@ template <int Dimension>
 void splitSharedPixels(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimension> coordinates,
   const Point<Dimension>& spacing, std::int64_t* owners, const Context& context)
 {
-  split<Dimension>(
-    sites.Groups(), sites.Size(), coordinates, spacing, EqualPixels(), owners, context);
+  split<Dimension>(sites.Groups(), sites.Size(), coordinates, spacing, nullptr, owners, context);
 }
 
 template <int Dimension>
@@ -347,8 +317,7 @@ void splitGroupsByMass(const SiteGroups& groups, const PixelMasses<Dimension>& m
   ConstPointSpan<Dimension> coordinates, const Point<Dimension>& spacing, std::int64_t* owners,
   const Context& context)
 {
-  split<Dimension>(groups, masses.Size(), coordinates, spacing, PixelsByMass<Dimension>{ masses },
-    owners, context);
+  split<Dimension>(groups, masses.Size(), coordinates, spacing, &masses, owners, context);
 }
 
 template decltype(splitSharedPixels<1>) splitSharedPixels<1>;
