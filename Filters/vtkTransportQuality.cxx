@@ -5,10 +5,10 @@
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Quality/TransportQuality.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Samples/TransportQuality.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Parallel/Stages.h"
 

@@ -3,7 +3,7 @@
 
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Seeds/UniformSeedSource.h"
+#include "Bridge/Samples/UniformSeedSource.h"
 #include "Bridge/Settings/SeedSettings.h"
 
 #include "vtkInformation.h"

@@ -63,7 +63,7 @@ BRIDGE = {
     "Distance": WORKERS,
     "Temporal": WORKERS | {"Splat"},
     **{folder: WORKERS | {"Blocks"} for folder in ("Cartogram", "SiteCells")},
-    **{folder: WORKERS for folder in ("Flow", "Quality", "Relaxation", "Seeds", "Splat")},
+    **{folder: WORKERS for folder in ("Flow", "Samples", "Splat")},
     **{folder: WORKERS | {"Triangles"} for folder in ("Solid", "Surfaces")},
 }
 
