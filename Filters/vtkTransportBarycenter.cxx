@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportBarycenter.h"
 
-#include "Bridge/Blend/DensityBlend.h"
+#include "Bridge/Ensembles/DensityBlend.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Core/Device/DeviceUse.h"

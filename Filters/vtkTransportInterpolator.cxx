@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportInterpolator.h"
 
-#include "Bridge/Blend/DensityBlend.h"
+#include "Bridge/Ensembles/DensityBlend.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/SeparateInputs.h"
 #include "Bridge/Run/PropertyCheck.h"

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_DistanceTables_h
 #define RectifiedTransport_DistanceTables_h
 
-#include "Bridge/Distance/DensityDistances.h"
+#include "Bridge/Ensembles/DensityDistances.h"
 #include "Bridge/VTKCompatibility.h"
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Distance/DistanceTables.h"
+#include "Bridge/Ensembles/DistanceTables.h"
 
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"

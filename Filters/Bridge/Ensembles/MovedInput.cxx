@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Blend/MovedInput.h"
+#include "Bridge/Ensembles/MovedInput.h"
 
 #include "Bridge/Density/DensityOnGrid.h"
 #include "Bridge/Run/Memory.h"

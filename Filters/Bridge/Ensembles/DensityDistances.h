@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_DensityDistances_h
 #define RectifiedTransport_DensityDistances_h
 
-#include "Bridge/Distance/DistanceInput.h"
+#include "Bridge/Ensembles/DistanceInput.h"
 #include "Core/Distance/DistanceSet.h"
 
 #include <cstdint>

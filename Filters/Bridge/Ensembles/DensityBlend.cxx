@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Blend/DensityBlend.h"
+#include "Bridge/Ensembles/DensityBlend.h"
 
-#include "Bridge/Blend/MovedInput.h"
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/FlowCache.h"
+#include "Bridge/Ensembles/MovedInput.h"
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/ParticleCells.h"

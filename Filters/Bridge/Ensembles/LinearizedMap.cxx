@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Blend/LinearizedMap.h"
+#include "Bridge/Ensembles/LinearizedMap.h"
 
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Density/TableChoice.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Blend/BlendPositions.h"
+#include "Bridge/Ensembles/BlendPositions.h"
 
-#include "Bridge/Blend/DensityBlend.h"
 #include "Bridge/Density/DensityPlan.h"
+#include "Bridge/Ensembles/DensityBlend.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Blend/OptimalBlend.h"
 #include "Core/Geometry/Dispatch.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Distance/DensityDistances.h"
+#include "Bridge/Ensembles/DensityDistances.h"
 
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/GridText.h"

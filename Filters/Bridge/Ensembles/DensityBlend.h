@@ -5,9 +5,9 @@
 #ifndef RectifiedTransport_DensityBlend_h
 #define RectifiedTransport_DensityBlend_h
 
-#include "Bridge/Blend/BlendPositions.h"
-#include "Bridge/Blend/LinearizedMap.h"
 #include "Bridge/Density/InputDensity.h"
+#include "Bridge/Ensembles/BlendPositions.h"
+#include "Bridge/Ensembles/LinearizedMap.h"
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Settings/OptimalSettings.h"
 #include "Bridge/Settings/TableSettings.h"

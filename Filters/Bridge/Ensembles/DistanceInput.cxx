@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Distance/DistanceInput.h"
+#include "Bridge/Ensembles/DistanceInput.h"
 
 #include "Bridge/Density/DensityMass.h"
 #include "Bridge/Density/InputDensity.h"
