@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ensembles/DensityDistances.h"
 
+#include "Bridge/Density/DensityMass.h"
+#include "Bridge/Density/WholeValues.h"
 #include "Bridge/Image/CommonGrid.h"
-#include "Bridge/Image/GridText.h"
+#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/Stages.h"
-
-#include <cmath>
-#include <string>
 
 namespace RectifiedTransport::Bridge
 {
@@ -19,82 +16,55 @@ namespace
 {
 
 template <int D>
-std::string sizeText(const ImageGrid& grid)
+DistanceInput read(InputDensity& density, Progress& progress)
 {
-  return describeSize<D>(grid.Size<D>());
-}
-
-std::string gridText(const ImageGrid& grid)
-{
-  return dispatchDimension(grid.Dimension(), sizeText<1>, sizeText<2>, sizeText<3>)(grid);
-}
-
-std::vector<double> sidesOf(const ImageGrid& grid)
-{
-  const LengthScale scale(grid);
-  const Point<3> lengths = grid.Lengths<3>();
-  std::vector<double> sides;
-  for (int axis = 0; axis < grid.Dimension(); ++axis)
-  {
-    sides.push_back(scale.ToUnits(lengths[static_cast<std::size_t>(axis)]));
-  }
-  return sides;
-}
-
-// 1 beyond the axes.
-GridSize<3> cellsOf(const ImageGrid& grid)
-{
-  GridSize<3> cells = grid.Size<3>();
-  for (int axis = grid.Dimension(); axis < 3; ++axis)
-  {
-    cells[static_cast<std::size_t>(axis)] = 1;
-  }
-  return cells;
-}
-
-// Keeps the array.
-std::shared_ptr<const double> valuesOf(const vtkSmartPointer<vtkDoubleArray>& array)
-{
-  return { array->GetPointer(0), [array](const double*) {} };
+  DistanceInput input;
+  input.Reading = density.HowRead();
+  input.Grid = density.Grid();
+  input.Values = wholeValues<D>(density, "Density", progress);
+  density.ReleaseGathered();
+  const DensityArray<D, double> values(input.Values->GetPointer(0), input.Grid.Size<D>());
+  input.Mass = requireMass(density, values, progress);
+  input.Identity.AddArray(input.Values);
+  input.Identity.Hash(progress);
+  return input;
 }
 
 } // namespace
+
+DistanceInput readDistanceInput(InputDensity& density, Progress& progress)
+{
+  return dispatchDimension(density.Grid().Dimension(), read<1>, read<2>, read<3>)(
+    density, progress);
+}
 
 void DensityDistances::Begin(DistanceMethod method)
 {
   this->Method = method;
   this->Given.clear();
+  this->Distances.Begin(method);
 }
 
 void DensityDistances::Add(DistanceInput input, Progress& progress)
 {
-  if (this->Given.empty())
-  {
-    this->Sides = sidesOf(input.Grid);
-    this->Distances.Begin(this->Method, this->Sides);
-  }
-  else
+  if (!this->Given.empty())
   {
     const DistanceInput& first = this->Given.front();
     requireSameBox({ first.Grid, first.Title }, { input.Grid, input.Title });
-    if (this->Method == DistanceMethod::Certified && cellsOf(input.Grid) != cellsOf(first.Grid))
+    if (this->Method == DistanceMethod::Certified &&
+      input.Grid.NumberOfValues() != first.Grid.NumberOfValues())
     {
       fail("Method Certified needs densities with the same number of cells along each axis; ",
-        first.Title, " has ", gridText(first.Grid), ", ", input.Title, " ", gridText(input.Grid),
-        " (Linearized takes both)");
+        first.Title, " has ", describeValues(first.Grid), ", ", input.Title, " ",
+        describeValues(input.Grid), " (Linearized takes both)");
     }
   }
-  const GridSize<3> cells = cellsOf(input.Grid);
-  DataIdentity identity = input.Identity;
-  identity.AddNumbers(this->Sides.data(), static_cast<int>(this->Sides.size()));
-  for (const std::int64_t count : cells)
-  {
-    identity.AddNumber(static_cast<std::uint64_t>(count));
-  }
-  const auto values = valuesOf(input.Values);
+  const std::shared_ptr<const double> values(
+    input.Values->GetPointer(0), [kept = input.Values](const double*) {});
   input.Values = nullptr;
   this->Given.push_back(std::move(input));
-  if (this->Distances.Add(identity.Content(), cells, values, progress))
+  const DistanceInput& added = this->Given.back();
+  if (this->Distances.Add(added.Identity.Content(), added.Grid, values, progress))
   {
     this->MakeMaps(progress);
   }
@@ -118,18 +88,9 @@ std::vector<DistancePair> DensityDistances::Find(Progress& progress)
   {
     this->MakeMaps(stages["maps"]);
   }
-  const std::vector<SquaredBracket> squares = withRequiredMemory(
+  return withRequiredMemory(
     { "the bounds of a distance (Method Linearized takes less)", this->Distances.MemoryForPairs() },
     [&]() { return this->Distances.Find(stages["pairs"]); });
-  const LengthScale scale(this->Given.front().Grid);
-  std::vector<DistancePair> pairs;
-  for (const SquaredBracket& square : squares)
-  {
-    const double lower = scale.LengthFromUnits(std::sqrt(square.Lower));
-    const double upper = scale.LengthFromUnits(std::sqrt(square.Upper));
-    pairs.push_back({ this->Method == DistanceMethod::Certified ? lower : upper, lower, upper });
-  }
-  return pairs;
 }
 
 } // namespace RectifiedTransport::Bridge

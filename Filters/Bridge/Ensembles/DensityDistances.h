@@ -3,27 +3,37 @@
 #ifndef RectifiedTransport_DensityDistances_h
 #define RectifiedTransport_DensityDistances_h
 
-#include "Bridge/Ensembles/DistanceInput.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Core/Distance/DistanceSet.h"
 
-#include <cstdint>
-#include <vector>
+#include "vtkDoubleArray.h"
+#include "vtkSmartPointer.h"
 
-namespace RectifiedTransport
-{
-class Progress;
-} // namespace RectifiedTransport
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
 
 namespace RectifiedTransport::Bridge
 {
 
-// In physical lengths.
-struct DistancePair
+// A density as the distances to others need it: its values, read once, and what identifies them.
+struct DistanceInput
 {
-  double Distance = 0.0;
-  double Lower = 0.0;
-  double Upper = 0.0;
+  std::string Title; // in messages
+  std::string Name;  // of its column
+  double Time = std::numeric_limits<double>::quiet_NaN();
+  DensityReading Reading;
+  ImageGrid Grid;
+  double Mass = 0.0;     // density times cell measure
+  DataIdentity Identity; // identifies the values; hashed
+  // One value per cell, axis 0 of index space fastest; released when added to the distances.
+  vtkSmartPointer<vtkDoubleArray> Values;
 };
+
+// Reads a density, on ranks the whole one on each. Collective. Throws Failure, without the title,
+// and Cancelled.
+DistanceInput readDistanceInput(InputDensity& density, Progress& progress);
 
 // See DistanceSet.
 class DensityDistances
@@ -47,7 +57,6 @@ private:
 
   DistanceMethod Method = DistanceMethod::Linearized;
   std::vector<DistanceInput> Given; // without their values
-  std::vector<double> Sides;        // of the box, in the LengthScale of the first density
   DistanceSet Distances;
 };
 

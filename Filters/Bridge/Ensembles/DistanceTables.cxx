@@ -14,6 +14,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace RectifiedTransport::Bridge
 {
@@ -35,16 +36,19 @@ std::vector<double> matrixOf(std::size_t inputs, const std::vector<DistancePair>
   return matrix;
 }
 
-vtkSmartPointer<vtkDoubleArray> addColumn(
-  vtkTable* table, const std::string& name, std::size_t rows)
+// Adds a column with valueOf(row) in each row.
+template <class ArrayT = vtkDoubleArray, class ValueOf>
+void addColumn(vtkTable* table, const std::string& name, std::size_t rows, const ValueOf& valueOf)
 {
-  auto column = newArray<vtkDoubleArray>(name, 1, static_cast<vtkIdType>(rows));
+  const auto column = newArray<ArrayT>(name, 1, static_cast<vtkIdType>(rows));
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    column->SetValue(static_cast<vtkIdType>(row), valueOf(row));
+  }
   table->AddColumn(column);
-  return column;
 }
 
-} // namespace
-
+// The name of a column for each input; names that occur more than once get a number.
 std::vector<std::string> columnNames(const std::vector<DistanceInput>& inputs)
 {
   std::set<std::string> taken;
@@ -61,38 +65,36 @@ std::vector<std::string> columnNames(const std::vector<DistanceInput>& inputs)
   return names;
 }
 
+} // namespace
+
 void writeDistances(
   const std::vector<DistanceInput>& inputs, const std::vector<DistancePair>& pairs, vtkTable* table)
 {
+  const std::size_t count = inputs.size();
   const std::vector<std::string> names = columnNames(inputs);
-  const std::vector<double> matrix = matrixOf(inputs.size(), pairs);
-  for (std::size_t i = 0; i < inputs.size(); ++i)
+  const std::vector<double> matrix = matrixOf(count, pairs);
+  for (std::size_t i = 0; i < count; ++i)
   {
-    const auto column = addColumn(table, names[i], inputs.size());
-    std::copy_n(matrix.data() + i * inputs.size(), inputs.size(), column->GetPointer(0));
+    addColumn(table, names[i], count, [&](std::size_t row) { return matrix[i * count + row]; });
   }
 }
 
 void writeBounds(std::size_t inputs, const std::vector<DistancePair>& pairs, vtkTable* table)
 {
-  const auto rows = static_cast<vtkIdType>(pairs.size());
-  const auto first = newArray<vtkIdTypeArray>("First", 1, rows);
-  const auto second = newArray<vtkIdTypeArray>("Second", 1, rows);
-  table->AddColumn(first);
-  table->AddColumn(second);
-  const auto lower = addColumn(table, "LowerBound", pairs.size());
-  const auto upper = addColumn(table, "UpperBound", pairs.size());
-  vtkIdType row = 0;
+  std::vector<std::pair<vtkIdType, vtkIdType>> numbers;
   for (std::size_t i = 0; i < inputs; ++i)
   {
-    for (std::size_t j = i + 1; j < inputs; ++j, ++row)
+    for (std::size_t j = i + 1; j < inputs; ++j)
     {
-      first->SetValue(row, static_cast<vtkIdType>(i));
-      second->SetValue(row, static_cast<vtkIdType>(j));
-      lower->SetValue(row, pairs[static_cast<std::size_t>(row)].Lower);
-      upper->SetValue(row, pairs[static_cast<std::size_t>(row)].Upper);
+      numbers.emplace_back(i, j);
     }
   }
+  const std::size_t rows = pairs.size();
+  addColumn<vtkIdTypeArray>(table, "First", rows, [&](std::size_t i) { return numbers[i].first; });
+  addColumn<vtkIdTypeArray>(
+    table, "Second", rows, [&](std::size_t i) { return numbers[i].second; });
+  addColumn(table, "LowerBound", rows, [&](std::size_t i) { return pairs[i].Lower; });
+  addColumn(table, "UpperBound", rows, [&](std::size_t i) { return pairs[i].Upper; });
 }
 
 void writeCoordinates(const std::vector<DistanceInput>& inputs,
@@ -101,35 +103,24 @@ void writeCoordinates(const std::vector<DistanceInput>& inputs,
   const std::size_t count = inputs.size();
   const ScaledPoints points = scaleClassically(
     matrixOf(count, pairs), static_cast<std::int64_t>(count), dimensions, progress);
+  const auto axes = static_cast<std::size_t>(dimensions);
+  for (std::size_t k = 0; k < axes; ++k)
+  {
+    addColumn(table, "Coordinate" + std::to_string(k), count,
+      [&](std::size_t i) { return points.Coordinates[i * axes + k]; });
+  }
   vtkNew<vtkStringArray> names;
   names->SetName("Name");
   for (const std::string& name : columnNames(inputs))
   {
     names->InsertNextValue(name);
   }
-  const auto axes = static_cast<std::size_t>(dimensions);
-  for (std::size_t k = 0; k < axes; ++k)
-  {
-    const auto column = addColumn(table, "Coordinate" + std::to_string(k), count);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      column->SetValue(static_cast<vtkIdType>(i), points.Coordinates[i * axes + k]);
-    }
-  }
   table->AddColumn(names);
   if (!std::isnan(inputs.front().Time))
   {
-    const auto times = addColumn(table, "Time", count);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      times->SetValue(static_cast<vtkIdType>(i), inputs[i].Time);
-    }
+    addColumn(table, "Time", count, [&](std::size_t i) { return inputs[i].Time; });
   }
-  const auto masses = addColumn(table, "TotalMass", count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    masses->SetValue(static_cast<vtkIdType>(i), inputs[i].Mass);
-  }
+  addColumn(table, "TotalMass", count, [&](std::size_t i) { return inputs[i].Mass; });
   addFieldValue(table, "Stress", points.Stress);
   std::vector<DensityReading> readings;
   for (const DistanceInput& input : inputs)

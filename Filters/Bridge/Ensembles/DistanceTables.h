@@ -15,9 +15,6 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport::Bridge
 {
 
-// The name of a column for each input; names that occur more than once get a number.
-std::vector<std::string> columnNames(const std::vector<DistanceInput>& inputs);
-
 // A column and a row for each input.
 void writeDistances(const std::vector<DistanceInput>& inputs,
   const std::vector<DistancePair>& pairs, vtkTable* table);
