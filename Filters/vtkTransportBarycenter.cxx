@@ -166,8 +166,8 @@ int vtkTransportBarycenter::RequestData(
   {
     inputs[i].Weight = weights[i];
   }
-  const BlendReport report = this->Blend->Run(
-    inputs, settings, this->GetFlowCache(), stages["blend"], BlendOutput(outputVector));
+  const BlendReport report =
+    this->Blend->Run(inputs, settings, this->GetFlowCache(), stages["blend"], outputVector);
   this->EndDevice(device);
   this->WarnOfMaps(report);
   return 1;

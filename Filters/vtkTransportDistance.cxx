@@ -4,7 +4,6 @@
 #include "Bridge/Blocks/GivenInputs.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Ensembles/DensityDistances.h"
-#include "Bridge/Ensembles/DistanceTables.h"
 #include "Bridge/Ranks/FieldsOfFirst.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"

@@ -175,8 +175,8 @@ int vtkTransportInterpolator::RequestData(
   {
     inputs[0].Weight = 1.0 - parameter;
     inputs[1].Weight = parameter;
-    const BlendReport report = this->Blend->Run(
-      inputs, settings, this->GetFlowCache(), stages["blend"], BlendOutput(outputVector));
+    const BlendReport report =
+      this->Blend->Run(inputs, settings, this->GetFlowCache(), stages["blend"], outputVector);
     this->EndDevice(device);
     this->WarnOfMaps(report);
   }

@@ -384,7 +384,7 @@ OTHERS = [
     E(CORE + "Blend/OptimalBlend.cxx", "if («fall <= 0.0»)", "false"),
     E(CORE + "Plan/TransportPlan.cxx", "(*end)[axis] = part * «scale.ToUnits(lengths[axis])»;", "1.0"),
     E(CORE + "Plan/TransportPlan.cxx", "if («!(massError > most)»)", "true"),
-    S(BRIDGE + "Ensembles/DensityBlend.cxx", "identity.AddNumbers(&weight, 1);", ";"),
+    S(BRIDGE + "Ensembles/BlendPositions.cxx", "identity.AddNumbers(&weight, 1);", ";"),
     E(BRIDGE + "Density/DensityPlan.h", "std::sqrt(cost) <= «nothing * cell»;", "0.0"),
     # distances
     E(CORE + "Distance/ClassicalScaling.cxx", "return entry < 0.0 ? «-1.0» : 1.0;", "1.0"),
@@ -399,9 +399,9 @@ OTHERS = [
     E(CORE + "Distance/DistanceSet.cxx", "this->Known()[missing[«rank + i * all.size()»]]",
       "rank * theirs.size() + i"),
     S(CORE + "Distance/DistanceSet.cxx", "pair.Upper = std::max(pair.Upper, pair.Lower);", ";"),
-    E(BRIDGE + "Ensembles/DistanceTables.cxx", "matrix[i * inputs + j] = «matrix[j * inputs + i]» = pair->Distance",
+    E(BRIDGE + "Ensembles/DensityDistances.cxx", "matrix[i * inputs + j] = «matrix[j * inputs + i]» = pair->Distance",
       "matrix[i * inputs + j]"),
-    E(BRIDGE + "Ensembles/DistanceTables.cxx", "for (int number = 2; «!taken.insert(name).second»; ++number)",
+    E(BRIDGE + "Ensembles/DensityDistances.cxx", "for (int number = 2; «!taken.insert(name).second»; ++number)",
       "!taken.insert(name).second && number < 3"),
     # series
     E(CORE + "Series/CloudLengths.cxx", "return more < 2.0 * less ? 0.5 * (less + more) : «less»;", "more"),

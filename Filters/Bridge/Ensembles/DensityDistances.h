@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The distances between all pairs of densities of inputs.
+// The distances between all pairs of densities of inputs, and the tables of vtkTransportDistance.
 #ifndef RectifiedTransport_DensityDistances_h
 #define RectifiedTransport_DensityDistances_h
 
 #include "Bridge/Density/InputDensity.h"
+#include "Bridge/VTKCompatibility.h"
 #include "Core/Distance/DistanceSet.h"
 
 #include "vtkDoubleArray.h"
@@ -13,6 +14,10 @@
 #include <limits>
 #include <string>
 #include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkTable;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport::Bridge
 {
@@ -59,6 +64,18 @@ private:
   std::vector<DistanceInput> Given; // without their values
   DistanceSet Distances;
 };
+
+// A column and a row for each input.
+void writeDistances(const std::vector<DistanceInput>& inputs,
+  const std::vector<DistancePair>& pairs, vtkTable* table);
+
+// A row for each pair: First, Second (numbers of rows of the distances), LowerBound, UpperBound.
+void writeBounds(std::size_t inputs, const std::vector<DistancePair>& pairs, vtkTable* table);
+
+// A row for each input: Name, Time (if inputs have times), TotalMass, Coordinate0 ..., and the
+// field data Stress. Throws Cancelled.
+void writeCoordinates(const std::vector<DistanceInput>& inputs,
+  const std::vector<DistancePair>& pairs, int dimensions, Progress& progress, vtkTable* table);
 
 } // namespace RectifiedTransport::Bridge
 
