@@ -5,10 +5,10 @@
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Relaxation/BlueNoiseRelaxation.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Samples/BlueNoiseRelaxation.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Parallel/Stages.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportBarycenter.h"
 
-#include "Bridge/Blend/DensityBlend.h"
+#include "Bridge/Ensembles/DensityBlend.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Core/Device/DeviceUse.h"
@@ -166,8 +166,8 @@ int vtkTransportBarycenter::RequestData(
   {
     inputs[i].Weight = weights[i];
   }
-  const BlendReport report = this->Blend->Run(
-    inputs, settings, this->GetFlowCache(), stages["blend"], BlendOutput(outputVector));
+  const BlendReport report =
+    this->Blend->Run(inputs, settings, this->GetFlowCache(), stages["blend"], outputVector);
   this->EndDevice(device);
   this->WarnOfMaps(report);
   return 1;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportBlend.h"
 
-#include "Bridge/Blend/DensityBlend.h"
 #include "Bridge/Blocks/GivenInputs.h"
 #include "Bridge/Density/InputDensity.h"
+#include "Bridge/Ensembles/DensityBlend.h"
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"

@@ -3,8 +3,7 @@
 
 #include "Bridge/Blocks/GivenInputs.h"
 #include "Bridge/Density/InputDensity.h"
-#include "Bridge/Distance/DensityDistances.h"
-#include "Bridge/Distance/DistanceTables.h"
+#include "Bridge/Ensembles/DensityDistances.h"
 #include "Bridge/Ranks/FieldsOfFirst.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportInterpolator.h"
 
-#include "Bridge/Blend/DensityBlend.h"
+#include "Bridge/Ensembles/DensityBlend.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/SeparateInputs.h"
 #include "Bridge/Run/PropertyCheck.h"
@@ -175,8 +175,8 @@ int vtkTransportInterpolator::RequestData(
   {
     inputs[0].Weight = 1.0 - parameter;
     inputs[1].Weight = parameter;
-    const BlendReport report = this->Blend->Run(
-      inputs, settings, this->GetFlowCache(), stages["blend"], BlendOutput(outputVector));
+    const BlendReport report =
+      this->Blend->Run(inputs, settings, this->GetFlowCache(), stages["blend"], outputVector);
     this->EndDevice(device);
     this->WarnOfMaps(report);
   }

@@ -5,11 +5,11 @@
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Quality/TransportQuality.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/TableSettings.h"
+#include "Bridge/Samples/TransportQuality.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkDoubleArray.h"

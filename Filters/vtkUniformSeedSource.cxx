@@ -4,7 +4,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/SeedSettings.h"
-#include "Bridge/Seeds/UniformSeedSource.h"
+#include "Bridge/Samples/UniformSeedSource.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

@@ -7,6 +7,7 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Ranks.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -138,6 +139,23 @@ void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners
       std::move(parts), each, counts, kind.Make(particles, static_cast<vtkIdType>(all * each)));
   }
   setParticles(particles, made, points, progress);
+}
+
+void moveToOwners(vtkPolyData* particles, const ImageGrid& grid,
+  vtkSmartPointer<vtkCellArray>& vertices, Progress& progress)
+{
+  const Ranks& ranks = progress.Group();
+  if (ranks.AreSeveral())
+  {
+    moveToOwners(particles, 1, PlaceOwners(grid, nullptr, ranks), ranks, progress);
+    return;
+  }
+  const vtkIdType count = particles->GetNumberOfPoints();
+  if (!vertices || vertices->GetNumberOfCells() != count)
+  {
+    vertices = newParticleCells(count, 1, progress);
+  }
+  particles->SetVerts(vertices);
 }
 
 } // namespace RectifiedTransport::Bridge

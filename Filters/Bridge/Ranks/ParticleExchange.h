@@ -5,14 +5,18 @@
 
 #include "Bridge/VTKCompatibility.h"
 
+#include "vtkSmartPointer.h"
+
 #include <cstdint>
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkCellArray;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
+class ImageGrid;
 class Progress;
 class Ranks;
 } // namespace RectifiedTransport
@@ -27,6 +31,11 @@ class PlaceOwners;
 // their order. Runs as the current stage. Collective. Throws Failure, Cancelled and std::bad_alloc.
 void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners& owners,
   const Ranks& ranks, Progress& progress);
+
+// The same for particles of one point each in a grid's domain, without pieces. On a single rank
+// they get vertices: the given ones if there are as many.
+void moveToOwners(vtkPolyData* particles, const ImageGrid& grid,
+  vtkSmartPointer<vtkCellArray>& vertices, Progress& progress);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -5,7 +5,9 @@
 
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/LatticePart.h"
+#include "Core/Parallel/RankShare.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +15,18 @@ namespace RectifiedTransport
 {
 
 class Progress;
+
+// A part of the cells for each rank; no cell is in two of them.
+template <int D>
+LatticePart<D> shareOf(LatticePart<D> cells, const Ranks& ranks)
+{
+  const auto longest = std::max_element(cells.Cells.begin(), cells.Cells.end());
+  const auto axis = static_cast<std::size_t>(longest - cells.Cells.begin());
+  const RankShare share(cells.Cells[axis], ranks);
+  cells.Low[axis] += share.First;
+  cells.Cells[axis] = share.Count;
+  return cells;
+}
 
 // Cells of a grid with a density, and this rank's particles: where they are in that density, and
 // where they are now, physical.

@@ -2,10 +2,12 @@
 #include "Core/Distance/DistanceSet.h"
 
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <set>
@@ -29,12 +31,15 @@ GridSize<D> sizeOf(const GridSize<3>& cells)
   return size;
 }
 
+// The sides of a box, in its LengthScale.
 template <int D>
-Point<D> lengthsOf(const std::vector<double>& sides)
+Point<D> sidesOf(const ImageGrid& box)
 {
-  Point<D> lengths;
-  std::copy_n(sides.begin(), D, lengths.begin());
-  return lengths;
+  const LengthScale scale(box);
+  Point<D> sides = box.Lengths<D>();
+  std::transform(sides.begin(), sides.end(), sides.begin(),
+    [&](double length) { return scale.ToUnits(length); });
+  return sides;
 }
 
 // Each rank has made one of the maps first, first + 1 ...; gives all to all.
@@ -68,17 +73,17 @@ std::pair<Name, Name> ordered(const Name& a, const Name& b)
 }
 
 template <int D>
-DensityMoments momentsIn(const double* values, const GridSize<3>& cells,
-  const std::vector<double>& sides, const Context& context)
+DensityMoments momentsIn(
+  const double* values, const GridSize<3>& cells, const ImageGrid& box, const Context& context)
 {
   const GridSize<D> size = sizeOf<D>(cells);
-  return momentsOf<D>(DensityArray<D, double>(values, size), size, lengthsOf<D>(sides), context);
+  return momentsOf<D>(DensityArray<D, double>(values, size), size, sidesOf<D>(box), context);
 }
 
 template <int D>
-double memoryOfMap(const GridSize<3>& cells, const std::vector<double>& sides)
+double memoryOfMap(const GridSize<3>& cells, const ImageGrid& box)
 {
-  return memoryForReference<D>(sizeOf<D>(cells), lengthsOf<D>(sides));
+  return memoryForReference<D>(sizeOf<D>(cells), sidesOf<D>(box));
 }
 
 template <int D>
@@ -127,26 +132,33 @@ std::vector<std::int64_t> itemsOfRank(std::int64_t count, const Ranks& ranks)
 
 } // namespace
 
-void DistanceSet::Begin(DistanceMethod method, const std::vector<double>& sides)
+void DistanceSet::Begin(DistanceMethod method)
 {
   this->Method = method;
-  this->Sides = sides;
   this->Given.clear();
   this->Waiting.clear();
 }
 
-bool DistanceSet::Add(
-  const Name& name, const GridSize<3>& cells, Values values, const Context& context)
+bool DistanceSet::Add(Name name, const ImageGrid& grid, Values values, const Context& context)
 {
-  Density density{ name, cells, std::move(values), {} };
+  this->Box = this->Given.empty() ? grid : this->Box;
+  GridSize<3> cells = grid.Size<3>();
+  std::fill(cells.begin() + grid.Dimension(), cells.end(), 1);
+  name.insert(name.end(), cells.begin(), cells.end());
+  const Point<3> sides = sidesOf<3>(this->Box);
+  for (int axis = 0; axis < this->Dimension(); ++axis)
+  {
+    std::memcpy(&name.emplace_back(), &sides[axis], sizeof(double));
+  }
+  Density density{ std::move(name), cells, std::move(values), {} };
   const auto ranks = static_cast<std::size_t>(context.Group->Count());
   if (this->Method == DistanceMethod::Linearized)
   {
     density.Moments = dispatchDimension(this->Dimension(), momentsIn<1>, momentsIn<2>,
-      momentsIn<3>)(density.Cell.get(), cells, this->Sides, *context.Threads);
+      momentsIn<3>)(density.Cell.get(), cells, this->Box, *context.Threads);
     const bool waits = std::any_of(this->Waiting.begin(), this->Waiting.end(),
-      [&](std::size_t other) { return this->Given[other].Key == name; });
-    const bool isNew = !waits && this->Maps.count(name) == 0;
+      [&](std::size_t other) { return this->Given[other].Key == density.Key; });
+    const bool isNew = !waits && this->Maps.count(density.Key) == 0;
     const auto place = static_cast<int>(this->Waiting.size() % ranks);
     if (!isNew || place != context.Group->Own())
     {
@@ -178,7 +190,7 @@ double DistanceSet::MemoryForMaps() const
   {
     const auto memory =
       dispatchDimension(this->Dimension(), memoryOfMap<1>, memoryOfMap<2>, memoryOfMap<3>);
-    bytes = std::max(bytes, memory(this->Given[waiting].Cells, this->Sides));
+    bytes = std::max(bytes, memory(this->Given[waiting].Cells, this->Box));
   }
   return bytes;
 }
@@ -197,7 +209,7 @@ void DistanceSet::MakeMapsIn(Progress& progress)
   const Ranks& ranks = progress.Group();
   const auto count = static_cast<std::int64_t>(this->Waiting.size());
   const std::vector<std::int64_t> own = itemsOfRank(count, ranks);
-  const Point<D> sides = lengthsOf<D>(this->Sides);
+  const Point<D> sides = sidesOf<D>(this->Box);
   std::vector<std::shared_ptr<ReferenceImages>> made(this->Waiting.size());
   forItems(static_cast<std::int64_t>(own.size()), this->CellsOfMaps(), progress,
     [&](std::int64_t item, const Context& context) {
@@ -229,30 +241,36 @@ double DistanceSet::MemoryForPairs() const
     : 0.0;
 }
 
-std::vector<SquaredBracket> DistanceSet::Find(const Context& context)
+std::vector<DistancePair> DistanceSet::Find(const Context& context)
 {
   Progress progress(context);
   const auto find = dispatchDimension(this->Dimension(), &DistanceSet::FindMissing<1>,
     &DistanceSet::FindMissing<2>, &DistanceSet::FindMissing<3>);
   (this->*find)(progress);
   this->KeepOnlyGiven();
-  std::vector<SquaredBracket> all;
+  const LengthScale scale(this->Box);
+  const auto lengthOf = [&](double square) { return scale.LengthFromUnits(std::sqrt(square)); };
+  const bool isLinearized = this->Method == DistanceMethod::Linearized;
+  std::vector<DistancePair> all;
   for (std::size_t i = 0; i < this->Given.size(); ++i)
   {
     for (std::size_t j = i + 1; j < this->Given.size(); ++j)
     {
-      SquaredBracket& pair = all.emplace_back();
+      SquaredBracket pair;
       const auto found = this->Known().find(ordered(this->Given[i].Key, this->Given[j].Key));
       if (found != this->Known().end()) // else both are the same
       {
         pair = found->second;
       }
-      if (this->Method == DistanceMethod::Linearized)
+      if (isLinearized)
       {
         pair.Lower = leastSquaredDistance(this->Given[i].Moments, this->Given[j].Moments);
         // Where both meet, the errors of the maps may part them the wrong way.
         pair.Upper = std::max(pair.Upper, pair.Lower);
       }
+      const double lower = lengthOf(pair.Lower);
+      const double upper = lengthOf(pair.Upper);
+      all.push_back({ isLinearized ? upper : lower, lower, upper });
     }
   }
   return all;
@@ -289,7 +307,7 @@ SquaredBracket DistanceSet::FindPair(const NamePair& pair, const Context& contex
     return { density->Cell.get(), sizeOf<D>(density->Cells) };
   };
   return bracketDistance<D>(
-    valuesOf(pair.first), valuesOf(pair.second), lengthsOf<D>(this->Sides), context);
+    valuesOf(pair.first), valuesOf(pair.second), sidesOf<D>(this->Box), context);
 }
 
 template <int D>

@@ -4,8 +4,7 @@
 #ifndef RectifiedTransport_DistanceSet_h
 #define RectifiedTransport_DistanceSet_h
 
-#include "../Geometry/GridSize.h"
-#include "../Geometry/Points.h"
+#include "../Geometry/ImageGrid.h"
 #include "../Parallel/Context.h"
 #include "CertifiedDistance.h"
 #include "DensityMoments.h"
@@ -29,20 +28,28 @@ enum class DistanceMethod
   Certified   // CertifiedDistance.h: densities have the same number of cells
 };
 
+// A distance between two densities and its bounds, in physical lengths.
+struct DistancePair
+{
+  double Distance = 0.0;
+  double Lower = 0.0;
+  double Upper = 0.0;
+};
+
 // Densities are added one after the other, so that few need memory at a time, then Find. Ranks
 // divide maps and pairs among them: each has all densities. All that takes a context is collective,
 // and throws InvalidDensity, std::bad_alloc and Cancelled.
 class DistanceSet
 {
 public:
-  // The same numbers for equal values on a grid of as many cells in a box of the same sides alone.
-  using Name = std::vector<std::uint64_t>;
+  using Name = std::vector<std::uint64_t>;      // the same numbers for equal values alone
   using Values = std::shared_ptr<const double>; // one per cell, axis 0 fastest
 
-  // Forgets the densities, but not what is known. The box has one to three axes of these lengths.
-  void Begin(DistanceMethod method, const std::vector<double>& sides);
-  // Returns whether maps should be made before more densities are added.
-  bool Add(const Name& name, const GridSize<3>& cells, Values values, const Context& context);
+  // Forgets the densities, but not what is known.
+  void Begin(DistanceMethod method);
+  // The grids of all densities fill the same box. Returns whether maps should be made before more
+  // densities are added.
+  bool Add(Name name, const ImageGrid& grid, Values values, const Context& context);
 
   // Whether maps are missing, and what they need: maps that are made together need the most memory.
   bool LacksMaps() const { return !this->Waiting.empty(); }
@@ -50,11 +57,11 @@ public:
   double MemoryForMaps() const;
   void MakeMaps(const Context& context);
 
-  // The squared distances of the pairs (0, 1), (0, 2) ... (1, 2) ..., after MakeMaps. Linearized is
-  // above the distance, and the moments of the densities bound it from below. Keeps what is known
-  // of these densities alone.
+  // The pairs (0, 1), (0, 2) ... (1, 2) ..., after MakeMaps. The distance is the lower bound of
+  // Certified and the upper one of Linearized, which the moments of the densities bound from below.
+  // Keeps what is known of these densities alone.
   double MemoryForPairs() const;
-  std::vector<SquaredBracket> Find(const Context& context);
+  std::vector<DistancePair> Find(const Context& context);
 
   // The number of maps and pairs of Certified that have been found, on all ranks.
   std::int64_t NumberOfSolutions() const { return this->Solutions; }
@@ -63,13 +70,13 @@ private:
   using NamePair = std::pair<Name, Name>;
   struct Density
   {
-    Name Key;
+    Name Key; // its name, its cells and the sides of its box
     GridSize<3> Cells;
     Values Cell; // released as soon as nothing needs them
     DensityMoments Moments;
   };
 
-  int Dimension() const { return static_cast<int>(this->Sides.size()); }
+  int Dimension() const { return this->Box.Dimension(); }
   template <int D>
   void MakeMapsIn(Progress& progress);
   template <int D>
@@ -85,7 +92,7 @@ private:
 
   std::int64_t Solutions = 0;
   DistanceMethod Method = DistanceMethod::Linearized;
-  std::vector<double> Sides;
+  ImageGrid Box; // that of the first density
   std::vector<Density> Given;
   std::vector<std::size_t> Waiting; // densities that have no map yet
   std::map<Name, std::shared_ptr<const ReferenceImages>> Maps;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Series/TrackedParticles.h"
 
-#include "Core/Flow/PivotLattice.h"
-#include "Core/Flow/RectifiedFlow.h"
-#include "Core/Geometry/PhysicalPoints.h"
+#include "Core/Flow/PivotPositions.h"
 #include "Core/Parallel/RankShare.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Series/FadingParticles.h"
@@ -14,20 +12,6 @@
 namespace RectifiedTransport
 {
 
-namespace
-{
-
-template <int D>
-std::shared_ptr<const SeriesPositions> physicalOf(
-  const ImageGrid& grid, ConstPointSpan<D> points, Progress& progress)
-{
-  auto positions = std::make_shared<SeriesPositions>(points.size());
-  writePhysical<D>(grid, points, progress, positions->Span());
-  return positions;
-}
-
-} // namespace
-
 template <int D>
 void TrackedParticles::Begin(const SeriesStep& step, int perCell, Progress& progress)
 {
@@ -37,11 +21,9 @@ void TrackedParticles::Begin(const SeriesStep& step, int perCell, Progress& prog
   const DensityArray<D, double> density(step.Values, step.Grid.Size<D>());
   Stages stages(progress, { { "tables", 2 }, { "positions", 8 } });
   const RectifiedFlow<D> flow(density, stages["tables"]);
-  LargeBuffer<double> points(share.Count * D);
-  transportPivot<D>(
-    flow, pivot, share.First, { points.data(), share.Count }, {}, stages["positions"]);
-  this->Steps.assign(
-    1, { physicalOf<D>(step.Grid, { points.data(), share.Count }, stages["positions"]), {}, 0.0 });
+  auto positions = std::make_shared<SeriesPositions>(share.Count);
+  writePivot<D>(flow, step.Grid, pivot, share.First, positions->Span(), {}, stages["positions"]);
+  this->Steps.assign(1, { positions, {}, 0.0 });
 }
 
 template <int D>
@@ -60,7 +42,9 @@ void TrackedParticles::Follow(
   });
   Step step;
   step.Move = move({ points.data(), from.size() }, stages["move"]);
-  step.Positions = physicalOf<D>(grid, { points.data(), from.size() }, stages["images"]);
+  auto images = std::make_shared<SeriesPositions>(from.size());
+  writePhysical<D>(grid, { points.data(), from.size() }, stages["images"], images->Span());
+  step.Positions = images;
   step.Cost = meanSquareOfWays(before, from, step.Positions->Span(), nullptr,
     static_cast<double>(this->Particles), stages["images"]);
   this->Steps.push_back(std::move(step));

@@ -59,11 +59,10 @@ BRIDGE = {
     "Density": RUN | {"Image", "Points", "Ranks", "Store"},
     "Blocks": RUN | {"Image", "Points", "Ranks", "Store"},
     "Cells": RUN | {"Image", "Points", "Ranks", "Density", "Blocks", "Store"},
-    "Blend": WORKERS | {"Splat"},
-    "Distance": WORKERS,
+    "Ensembles": WORKERS | {"Splat"},
     "Temporal": WORKERS | {"Splat"},
     **{folder: WORKERS | {"Blocks"} for folder in ("Cartogram", "SiteCells")},
-    **{folder: WORKERS for folder in ("Flow", "Quality", "Relaxation", "Seeds", "Splat")},
+    **{folder: WORKERS for folder in ("Flow", "Samples", "Splat")},
     "Surfaces": WORKERS | {"Triangles"},
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Relaxation/BlueNoiseRelaxation.h"
+#include "Bridge/Samples/BlueNoiseRelaxation.h"
 
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityMass.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Quality/TransportQuality.h"
+#include "Bridge/Samples/TransportQuality.h"
 
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/FlowCache.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Seeds/UniformSeedSource.h"
+#include "Bridge/Samples/UniformSeedSource.h"
 
 #include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Run/Failure.h"

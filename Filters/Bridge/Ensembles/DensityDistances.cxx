@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Ensembles/DensityDistances.h"
+
+#include "Bridge/Density/DensityMass.h"
+#include "Bridge/Density/WholeValues.h"
+#include "Bridge/Image/CommonGrid.h"
+#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/FieldValue.h"
+#include "Core/Distance/ClassicalScaling.h"
+#include "Core/Geometry/Dispatch.h"
+#include "Core/Parallel/Stages.h"
+
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace RectifiedTransport::Bridge
+{
+
+namespace
+{
+
+template <int D>
+DistanceInput read(InputDensity& density, Progress& progress)
+{
+  DistanceInput input;
+  input.Reading = density.HowRead();
+  input.Grid = density.Grid();
+  input.Values = wholeValues<D>(density, "Density", progress);
+  density.ReleaseGathered();
+  const DensityArray<D, double> values(input.Values->GetPointer(0), input.Grid.Size<D>());
+  input.Mass = requireMass(density, values, progress);
+  input.Identity.AddArray(input.Values);
+  input.Identity.Hash(progress);
+  return input;
+}
+
+std::vector<double> matrixOf(std::size_t inputs, const std::vector<DistancePair>& pairs)
+{
+  std::vector<double> matrix(inputs * inputs, 0.0);
+  auto pair = pairs.begin();
+  for (std::size_t i = 0; i < inputs; ++i)
+  {
+    for (std::size_t j = i + 1; j < inputs; ++j, ++pair)
+    {
+      matrix[i * inputs + j] = matrix[j * inputs + i] = pair->Distance;
+    }
+  }
+  return matrix;
+}
+
+// Adds a column with valueOf(row) in each row.
+template <class ArrayT = vtkDoubleArray, class ValueOf>
+void addColumn(vtkTable* table, const std::string& name, std::size_t rows, const ValueOf& valueOf)
+{
+  const auto column = newArray<ArrayT>(name, 1, static_cast<vtkIdType>(rows));
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    column->SetValue(static_cast<vtkIdType>(row), valueOf(row));
+  }
+  table->AddColumn(column);
+}
+
+// The name of a column for each input; names that occur more than once get a number.
+std::vector<std::string> columnNames(const std::vector<DistanceInput>& inputs)
+{
+  std::set<std::string> taken;
+  std::vector<std::string> names;
+  for (const DistanceInput& input : inputs)
+  {
+    std::string name = input.Name;
+    for (int number = 2; !taken.insert(name).second; ++number)
+    {
+      name = input.Name + " (" + std::to_string(number) + ")";
+    }
+    names.push_back(name);
+  }
+  return names;
+}
+
+} // namespace
+
+DistanceInput readDistanceInput(InputDensity& density, Progress& progress)
+{
+  return dispatchDimension(density.Grid().Dimension(), read<1>, read<2>, read<3>)(
+    density, progress);
+}
+
+void DensityDistances::Begin(DistanceMethod method)
+{
+  this->Method = method;
+  this->Given.clear();
+  this->Distances.Begin(method);
+}
+
+void DensityDistances::Add(DistanceInput input, Progress& progress)
+{
+  if (!this->Given.empty())
+  {
+    const DistanceInput& first = this->Given.front();
+    requireSameBox({ first.Grid, first.Title }, { input.Grid, input.Title });
+    if (this->Method == DistanceMethod::Certified &&
+      input.Grid.NumberOfValues() != first.Grid.NumberOfValues())
+    {
+      fail("Method Certified needs densities with the same number of cells along each axis; ",
+        first.Title, " has ", describeValues(first.Grid), ", ", input.Title, " ",
+        describeValues(input.Grid), " (Linearized takes both)");
+    }
+  }
+  const std::shared_ptr<const double> values(
+    input.Values->GetPointer(0), [kept = input.Values](const double*) {});
+  input.Values = nullptr;
+  this->Given.push_back(std::move(input));
+  const DistanceInput& added = this->Given.back();
+  if (this->Distances.Add(added.Identity.Content(), added.Grid, values, progress))
+  {
+    this->MakeMaps(progress);
+  }
+}
+
+void DensityDistances::MakeMaps(Progress& progress)
+{
+  const std::string cells =
+    std::to_string(static_cast<std::int64_t>(this->Distances.CellsOfMaps()));
+  withRequiredMemory(
+    { "the optimal map to a density of " + cells + " cells (a coarser image takes less)",
+      this->Distances.MemoryForMaps() },
+    [&]() { this->Distances.MakeMaps(progress); });
+}
+
+std::vector<DistancePair> DensityDistances::Find(Progress& progress)
+{
+  const bool lacksMaps = this->Distances.LacksMaps();
+  Stages stages(progress, { { "maps", lacksMaps ? 9.0 : 0.0 }, { "pairs", 1 } });
+  if (lacksMaps)
+  {
+    this->MakeMaps(stages["maps"]);
+  }
+  return withRequiredMemory(
+    { "the bounds of a distance (Method Linearized takes less)", this->Distances.MemoryForPairs() },
+    [&]() { return this->Distances.Find(stages["pairs"]); });
+}
+
+void writeDistances(
+  const std::vector<DistanceInput>& inputs, const std::vector<DistancePair>& pairs, vtkTable* table)
+{
+  const std::size_t count = inputs.size();
+  const std::vector<std::string> names = columnNames(inputs);
+  const std::vector<double> matrix = matrixOf(count, pairs);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    addColumn(table, names[i], count, [&](std::size_t row) { return matrix[i * count + row]; });
+  }
+}
+
+void writeBounds(std::size_t inputs, const std::vector<DistancePair>& pairs, vtkTable* table)
+{
+  std::vector<std::pair<vtkIdType, vtkIdType>> numbers;
+  for (std::size_t i = 0; i < inputs; ++i)
+  {
+    for (std::size_t j = i + 1; j < inputs; ++j)
+    {
+      numbers.emplace_back(i, j);
+    }
+  }
+  const std::size_t rows = pairs.size();
+  addColumn<vtkIdTypeArray>(table, "First", rows, [&](std::size_t i) { return numbers[i].first; });
+  addColumn<vtkIdTypeArray>(
+    table, "Second", rows, [&](std::size_t i) { return numbers[i].second; });
+  addColumn(table, "LowerBound", rows, [&](std::size_t i) { return pairs[i].Lower; });
+  addColumn(table, "UpperBound", rows, [&](std::size_t i) { return pairs[i].Upper; });
+}
+
+void writeCoordinates(const std::vector<DistanceInput>& inputs,
+  const std::vector<DistancePair>& pairs, int dimensions, Progress& progress, vtkTable* table)
+{
+  const std::size_t count = inputs.size();
+  const ScaledPoints points = scaleClassically(
+    matrixOf(count, pairs), static_cast<std::int64_t>(count), dimensions, progress);
+  const auto axes = static_cast<std::size_t>(dimensions);
+  for (std::size_t k = 0; k < axes; ++k)
+  {
+    addColumn(table, "Coordinate" + std::to_string(k), count,
+      [&](std::size_t i) { return points.Coordinates[i * axes + k]; });
+  }
+  vtkNew<vtkStringArray> names;
+  names->SetName("Name");
+  for (const std::string& name : columnNames(inputs))
+  {
+    names->InsertNextValue(name);
+  }
+  table->AddColumn(names);
+  if (!std::isnan(inputs.front().Time))
+  {
+    addColumn(table, "Time", count, [&](std::size_t i) { return inputs[i].Time; });
+  }
+  addColumn(table, "TotalMass", count, [&](std::size_t i) { return inputs[i].Mass; });
+  addFieldValue(table, "Stress", points.Stress);
+  std::vector<DensityReading> readings;
+  for (const DistanceInput& input : inputs)
+  {
+    readings.push_back(input.Reading);
+  }
+  addReadings(table, readings);
+}
+
+} // namespace RectifiedTransport::Bridge
