@@ -15,6 +15,7 @@
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/Settings/TargetArray.h"
 #include "Core/Device/DeviceUse.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkImageData.h"

@@ -4,7 +4,6 @@
 #include "Bridge/Blend/MovedInput.h"
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/FlowCache.h"
-#include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Ranks/ParticleExchange.h"
@@ -15,6 +14,8 @@
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Flow/WeightedMean.h"
+#include "Core/Geometry/Boxes/CommonGrid.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 

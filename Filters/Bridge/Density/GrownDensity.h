@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_GrownDensity_h
 #define RectifiedTransport_GrownDensity_h
 
-#include "Bridge/Settings/MissingData.h"
+#include "Core/Tables/Reading/DensityRules.h"
 
 #include <memory>
 

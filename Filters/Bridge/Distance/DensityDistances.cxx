@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Distance/DensityDistances.h"
 
-#include "Bridge/Image/CommonGrid.h"
-#include "Bridge/Image/GridText.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Geometry/Boxes/CommonGrid.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/Stages.h"

@@ -3,13 +3,13 @@
 #ifndef RectifiedTransport_FilledCells_h
 #define RectifiedTransport_FilledCells_h
 
-#include "Bridge/Settings/MissingData.h"
 #include "Core/Parallel/ExactSum.h"
+#include "Core/Tables/Reading/DensityRules.h"
 
 #include <cstdint>
 #include <limits>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // The same bits however cells are divided among threads and ranks. Trivially copyable.
@@ -27,6 +27,6 @@ struct FilledCells
 // 0 if all cells are empty.
 double densityOfEmptyCells(const EmptyRule& rule, const FilledCells& filled);
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif
