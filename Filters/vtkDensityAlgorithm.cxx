@@ -9,6 +9,7 @@
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/MissingData.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 

@@ -16,6 +16,7 @@
 #include "Bridge/SiteCells/EqualMassCells.h"
 #include "Bridge/SiteCells/LabelGrid.h"
 #include "Bridge/SiteCells/SiteColorArray.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"

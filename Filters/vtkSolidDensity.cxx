@@ -2,7 +2,6 @@
 #include "vtkSolidDensity.h"
 
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Image/SolidGrid.h"
 #include "Bridge/Ranks/GatheredData.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"
@@ -10,6 +9,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/AssociationSettings.h"
 #include "Bridge/Triangles/SolidDensity.h"
+#include "Core/Geometry/Boxes/SolidGrid.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"

@@ -4,12 +4,12 @@
 #include "Bridge/Blocks/GivenInputs.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Ensembles/DensityBlend.h"
-#include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/SplatSettings.h"
 #include "Bridge/Run/Settings/TableSettings.h"
+#include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Parallel/Stages.h"
 

@@ -13,6 +13,7 @@
 #include "Bridge/Run/Settings/TargetArray.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Device/DeviceUse.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Parallel/Stages.h"
 

@@ -5,6 +5,7 @@
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/LatticeExtent.h"
 
 #include "vtkDataArray.h"

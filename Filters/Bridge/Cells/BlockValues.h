@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The densities of data sets, read from their arrays.
+// The cells of data sets and their densities, read from their arrays.
 #ifndef RectifiedTransport_BlockValues_h
 #define RectifiedTransport_BlockValues_h
 
 #include "Bridge/Blocks/DensityBlocks.h"
-#include "Bridge/Density/UnusualValues.h"
-#include "Core/Resampling/CellValues.h"
+#include "Core/Resampling/CellLattice.h"
+#include "Core/Resampling/Reading/SetReading.h"
 
-#include <limits>
-#include <string>
+#include <optional>
 #include <vector>
 
 namespace RectifiedTransport
@@ -21,22 +20,25 @@ namespace RectifiedTransport::Bridge
 
 struct BlockValues
 {
-  std::vector<CellValues> Cells; // one for each block
-  struct Source
-  {
-    vtkSmartPointer<vtkDataSet> Data;
-    std::string Block; // their names in messages
-    std::string Array;
-    UnusualValues Known;                                    // with the white of this block
-    double Least = std::numeric_limits<double>::infinity(); // value of counted cells
-  };
-  std::vector<Source> Sources;
+  // Each has one for each block.
+  std::vector<CellValues> Cells;
+  std::vector<SetFindings> Findings;
+  std::vector<vtkSmartPointer<vtkDataSet>> Data;
 };
+
+// Throws Failure for ghost arrays of a wrong length.
+CellSets cellSetsOf(const std::vector<DensityBlock>& blocks);
+
+// The image whose cells a filter such as Threshold turned into voxels, hexahedra, pixels,
+// quadrilaterals or lines; none if a cell is no box of it. `sets` are the cells of the blocks, of
+// this dimension. Throws Failure if memory is short, and Cancelled.
+std::optional<CellLattice> latticeOf(
+  const std::vector<DensityBlock>& blocks, const CellSets& sets, int dimension, Progress& progress);
 
 // What the property Component takes of blocks that all have an array: an index, Luminance or
 // Magnitude. Throws Failure if a block does not have it, or Auto takes different ones of several
 // components.
-int takenComponent(const std::vector<DensityBlock>& blocks, int component);
+int commonComponent(const std::vector<DensityBlock>& blocks, int component);
 
 // `sets` are the cells of the blocks, which all have an array. Throws Failure for values of counted
 // cells that are no density, and Cancelled.

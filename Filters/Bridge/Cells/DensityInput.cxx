@@ -3,7 +3,7 @@
 
 #include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Cells/MeshCells.h"
-#include "Bridge/Density/DensityFailure.h"
+#include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/PiecesDensity.h"
 #include "Bridge/Image/DefaultArray.h"

@@ -219,6 +219,7 @@ private:
 MeshCells::MeshCells(vtkDataSet* data, const std::string& name)
   : Data(data)
 {
+  this->Name = name;
   this->NumberOfPoints = data->GetNumberOfPoints();
   this->NumberOfCells = data->GetNumberOfCells();
   this->Rounding = roundingOf(data);

@@ -74,11 +74,7 @@ void sampleCells(const BlockValues& blocks, const std::optional<CellLattice>& la
   const ImageGrid& grid, ConstPointSpan<3> particles, Progress& progress, vtkPointData* output)
 {
   Stages stages(progress, { { "places", 1 }, { "arrays", 1 } });
-  ArraySource source{ {}, "input", false };
-  for (const BlockValues::Source& block : blocks.Sources)
-  {
-    source.Sets.push_back(block.Data);
-  }
+  const ArraySource source{ { blocks.Data.begin(), blocks.Data.end() }, "input", false };
   if (lattice)
   {
     const auto lookup =

@@ -2,18 +2,18 @@
 #include "Bridge/Cells/ResampledDensity.h"
 
 #include "Bridge/Blocks/JoinedImages.h"
-#include "Bridge/Cells/CellGrid.h"
-#include "Bridge/Cells/MeshCells.h"
 #include "Bridge/Cells/ParticlesInCells.h"
-#include "Bridge/Density/DensityFailure.h"
+#include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Density/DensityImage.h"
-#include "Bridge/Density/FilledCells.h"
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Parallel/ExactSum.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Resampling/CellSums.h"
+#include "Core/Resampling/Reading/CellGrid.h"
+#include "Core/Resampling/Reading/EmptyParts.h"
+#include "Core/Resampling/Reading/SetMessages.h"
 #include "Core/Resampling/RegionShapes.h"
 
 #include "vtkCellData.h"
@@ -69,52 +69,6 @@ DataIdentity contentOf(const DensityBlocks& blocks, int resolution, const Densit
   return content;
 }
 
-// Adds what is known about a block's values. `isBeyond`: its value replaces that of the blocks
-// before. Blocks number their values each from 0: the index stays that of the block of this name.
-template <class Found>
-void addBlock(const std::string& array, const Found& part, std::int64_t Found::*index,
-  bool isBeyond, Found& all, std::string& name)
-{
-  const std::int64_t first = all.*index;
-  merge(part, all);
-  if (name.empty() || isBeyond)
-  {
-    name = array;
-    return;
-  }
-  all.*index = first;
-}
-
-std::vector<std::string> describeBlocks(
-  const BlockValues& blocks, const ImageGrid& grid, const DensityRules& rules, Progress& progress)
-{
-  UnusualValues all;
-  ValuePlaces places{ {}, {}, {}, blocks.Cells.front().IsOnPoints() ? "points" : "cells", 0,
-    rules.Invert, isOfSeveral(rules), fillValuesOf(blocks.Sources.front().Data->GetFieldData()) };
-  for (const BlockValues::Source& block : blocks.Sources)
-  {
-    const UnusualValues& known = block.Known;
-    addBlock(block.Array, known.Found, &DensitySummary::FirstMaximum,
-      known.Found.Maximum > all.Found.Maximum, all.Found, places.Largest);
-    addBlock(block.Array, known.White, &LargestValue::First, known.White.Value > all.White.Value,
-      all.White, places.White);
-    addBlock(block.Array, known.Clamped, &LowestValue::First,
-      known.Clamped.Value < all.Clamped.Value, all.Clamped, places.Lowest);
-  }
-  for (const CellValues& cells : blocks.Cells)
-  {
-    places.All += cells.NumberOfValues();
-  }
-  return describeUnusual(all, places, [&]() {
-    std::vector<CellValues> only;
-    for (const CellValues& cells : blocks.Cells)
-    {
-      only.push_back(cells.Only(all.Found.Maximum));
-    }
-    return integralOf(only, grid, progress) / integralOf(blocks.Cells, grid, progress);
-  });
-}
-
 } // namespace
 
 // The image that data sets were resampled to. Its values are densities, with the rules applied.
@@ -168,7 +122,7 @@ std::unique_ptr<InputDensity> ResampledDensity::Read(
     for (std::size_t b = 0; b < read.size(); ++b)
     {
       this->Blocks.Cells[b].SetCells(sets[b]);
-      this->Blocks.Sources[b].Data = read[b].Data;
+      this->Blocks.Data[b] = read[b].Data;
     }
     return std::make_unique<Density>(*this);
   }
@@ -194,17 +148,17 @@ void ResampledDensity::Resample(
   {
     this->Lattice = latticeOf(blocks.All, sets, blocks.Dimension, progress);
   }
-  ImageGrid grid = !this->Lattice ? gridOfCells(blocks.All, sets, mass, resolution, progress)
+  ImageGrid grid = !this->Lattice ? gridOfCells(sets, mass, resolution, progress)
     : blocks.OnPoints             ? this->Lattice->DividedGrid(resolution)
                                   : this->Lattice->Grid();
   const std::vector<DensityBlock> read = withMass(blocks.All);
   DensityRules taken = rules;
-  taken.Component = takenComponent(read, rules.Component);
+  taken.Component = commonComponent(read, rules.Component);
   this->Blocks = readBlocks(read, cellSetsOf(read), blocks.OnPoints, mass, rules, progress);
   if (this->Lattice && !this->Lattice->HasEachOnce(this->Blocks.Cells, progress))
   {
     this->Lattice.reset();
-    grid = gridOfCells(blocks.All, sets, mass, resolution, progress);
+    grid = gridOfCells(sets, mass, resolution, progress);
   }
   if (!this->Lattice && mass.Dimension == 2)
   {
@@ -222,13 +176,16 @@ void ResampledDensity::Resample(
   const auto density = newArray<vtkDoubleArray>(
     name ? name : "Density", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
   const CellSize size = this->AddCells(grid, this->Blocks.Cells, progress, density->GetPointer(0));
-  this->Lost = describeLost(this->Blocks, size, grid.Dimension());
+  this->Lost = describeLost(this->Blocks.Cells, size, grid.Dimension());
   if (rules.Empty.Cells != EmptyCells::Zero)
   {
     this->FillEmpty(grid, rules.Empty, progress, density->GetPointer(0));
   }
   this->Image->GetCellData()->SetScalars(density);
-  this->Unusual = describeBlocks(this->Blocks, grid, taken, progress);
+  const ValuePlaces places{ {}, {}, {}, blocks.OnPoints ? "points" : "cells", 0, taken.Invert,
+    taken.IsOfSeveral(), fillValuesOf(read.front().Data->GetFieldData()) };
+  this->Unusual =
+    describeUnusual(this->Blocks.Cells, this->Blocks.Findings, places, grid, progress);
 }
 
 // Writes the mean of the cells' densities over each cell of the grid.
@@ -258,36 +215,12 @@ void ResampledDensity::FillEmpty(
   {
     ground.push_back(cells.Ground());
   }
-  FilledCells filled;
-  for (const BlockValues::Source& block : this->Blocks.Sources)
-  {
-    filled.Least = std::min(filled.Least, block.Least);
-  }
   LargeBuffer<double> covered;
   withMemory({ "what the input's cells cover", numberOfValues(grid) * sizeof(double) },
     [&]() { covered = LargeBuffer<double>(grid.NumberOfCells()); });
   this->AddCells(grid, ground, progress, covered.data());
-  constexpr double rounding = 1e-9;
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-  const auto shareOf = [&covered](std::int64_t cell) {
-    const double share = covered.data()[cell]; // more than 1 where cells overlap
-    return share > 1.0 - rounding ? 1.0 : share;
-  };
-  filled.Add(sumExactly<FilledCells>(progress, grid.NumberOfCells(), grain,
-    [&](std::int64_t first, std::int64_t last, FilledCells& part) {
-      for (std::int64_t cell = first; cell < last; ++cell)
-      {
-        part.Mass.Add(values[cell]);
-        part.Cells.Add(shareOf(cell));
-      }
-    }));
-  this->Empty = densityOfEmptyCells(rule, filled);
-  progress.For(grid.NumberOfCells(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t cell = first; cell < last; ++cell)
-    {
-      values[cell] += (1.0 - shareOf(cell)) * this->Empty;
-    }
-  });
+  this->Empty = fillEmptyParts(
+    covered.data(), grid.NumberOfCells(), this->Blocks.Findings, rule, progress, values);
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/DensityImage.h"
 
-#include "Bridge/Density/DensityFailure.h"
+#include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PlacesInImage.h"
 #include "Bridge/Run/Fingerprint.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Reduction.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -19,7 +19,6 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace RectifiedTransport::Bridge
 {
@@ -69,8 +68,6 @@ DensityImage::DensityImage(
   this->Reader = makeDensityReader(array, this->Rules);
   this->FindBlanks(image);
 }
-
-DensityImage::~DensityImage() = default;
 
 std::string DensityImage::NameOfArray() const
 {
@@ -144,33 +141,17 @@ void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
 LargestValue DensityImage::FindWhite(Progress& progress)
 {
   this->BlankCellsOfHiddenPoints(progress);
-  if (!this->NeedsWhite())
-  {
-    return {};
-  }
-  if (hasDisplayedWhite(this->Rules, this->Array->GetDataType()))
-  {
-    LargestValue displayed;
-    displayed.Value = std::numeric_limits<unsigned char>::max();
-    return displayed;
-  }
-  // Without a finite value the construction of the tables reports the error.
-  return reduceChunks(
-    progress, this->Geometry.NumberOfCells(), grain, LargestValue(),
-    [this](
-      std::int64_t first, std::int64_t last) { return this->Reader->Largest(first, last - first); },
-    [](LargestValue all, const LargestValue& part) {
-      merge(part, all);
-      return all;
-    });
+  return !this->NeedsWhite()
+    ? LargestValue()
+    : findWhite(*this->Reader, this->Array->GetDataType() == VTK_UNSIGNED_CHAR,
+        this->Geometry.NumberOfCells(), progress);
 }
 
 // Inverted, no value is negative but for those above white.
 LowestValue DensityImage::FindClamped(Progress& progress) const
 {
-  return this->Clamps()
-    ? findLowest(this->Array, *this->Reader, this->Geometry.NumberOfCells(), progress)
-    : LowestValue();
+  return this->Clamps() ? findLowest(*this->Reader, this->Geometry.NumberOfCells(), progress)
+                        : LowestValue();
 }
 
 TupleBox DensityImage::AllTuples() const

@@ -3,8 +3,9 @@
 #ifndef RectifiedTransport_DensityImage_h
 #define RectifiedTransport_DensityImage_h
 
-#include "Bridge/Density/FilledCells.h"
 #include "Bridge/Density/InputDensity.h"
+#include "Core/Tables/Reading/DensityReader.h"
+#include "Core/Tables/Reading/FilledCells.h"
 
 #include <memory>
 
@@ -21,11 +22,15 @@ public:
   // `array` is point or cell data of `image`. Throws Failure for errors that do not depend on its
   // values.
   DensityImage(vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules);
-  ~DensityImage() override;
 
   std::string NameOfArray() const override;
   void Prepare(FlowTables tables, Progress& progress) override;
   const DensityValues* Values() const override { return this->Reader.get(); }
+  std::shared_ptr<const DensityValues> Part(
+    const GridSize<3>& /*low*/, const GridSize<3>& /*high*/) const override
+  {
+    return { std::shared_ptr<void>(), this->Values() };
+  }
   vtkSmartPointer<vtkImageData> ImageIn(const Extent& extent) const override;
   void SampleArrays(const Extent& extent, ConstPointSpan<3> particles, Progress& progress,
     vtkPointData* output) const override;

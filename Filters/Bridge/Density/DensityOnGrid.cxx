@@ -2,8 +2,8 @@
 #include "Bridge/Density/DensityOnGrid.h"
 
 #include "Bridge/Density/InputDensity.h"
-#include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/CellMeans.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/FlowCache.h"
 
-#include "Bridge/Image/GridText.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"

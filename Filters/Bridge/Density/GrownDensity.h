@@ -4,6 +4,7 @@
 #define RectifiedTransport_GrownDensity_h
 
 #include "Bridge/Run/Settings/MissingData.h"
+#include "Core/Tables/Reading/DensityRules.h"
 
 #include <memory>
 

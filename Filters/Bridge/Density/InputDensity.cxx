@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/InputDensity.h"
 
-#include "Bridge/Density/DensityFailure.h"
 #include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/Settings/ComponentChoice.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Tables/Reading/DensityFailure.h"
 
 #include "vtkStringArray.h"
 
@@ -69,7 +70,7 @@ InputDensity::InputDensity(const std::string& name, const DensityRules& rules)
 }
 
 InputDensity::InputDensity(const InputDensity& inner, const ImageGrid& grown,
-  const std::array<std::int64_t, 3>& margin, const EmptyRule& rule)
+  const GridSize<3>& margin, const EmptyRule& rule)
   : Geometry(grown)
   , Rules(inner.Rules)
   , Read(inner.Read)
@@ -91,8 +92,8 @@ InputDensity::~InputDensity() = default;
 
 void InputDensity::SetForm(const ArrayForm& form)
 {
-  this->Rules.Component =
-    takenComponent(this->Name, this->Rules.Component, form.Type, form.Components);
+  this->Rules.Component = takenComponent(this->Name, this->Rules.Component,
+    automaticComponent(form.Type, form.Components), form.Components);
   this->Read = readingBy(this->Rules, this->NameOfArray(), form.Components);
   const GridSize<3> size = this->Geometry.Size<3>();
   this->MayBeEmpty = this->Rules.Missing.Are() || form.HasPointGhosts ||
@@ -131,14 +132,16 @@ const InputDensity::Content& InputDensity::GetContent(Progress& progress) const
   return this->Hashed;
 }
 
-bool InputDensity::NeedsWhite() const
-{
-  return needsWhite(this->Rules, this->Components());
-}
-
 double InputDensity::White() const
 {
   return std::isfinite(this->Known.White.Value) ? this->Known.White.Value : 0.0;
+}
+
+GridSize<3> InputDensity::CellsInSpace() const
+{
+  GridSize<3> cells = this->Geometry.Size<3>();
+  std::fill(cells.begin() + this->Geometry.Dimension(), cells.end(), 1);
+  return cells;
 }
 
 std::vector<std::string> InputDensity::Describe(const UnusualValues& values) const
@@ -150,7 +153,7 @@ std::vector<std::string> InputDensity::Describe(const UnusualValues& values) con
   }
   return describeUnusual(values,
     { this->Name, this->Name, this->Name, this->Geometry.IsOnPoints() ? "points" : "cells",
-      this->Geometry.NumberOfCells(), this->Rules.Invert, isOfSeveral(this->Rules),
+      this->Geometry.NumberOfCells(), this->Rules.Invert, this->Rules.IsOfSeveral(),
       this->FillValues });
 }
 

@@ -3,20 +3,22 @@
 #ifndef RectifiedTransport_InputDensity_h
 #define RectifiedTransport_InputDensity_h
 
-#include "Bridge/Density/DensityReader.h"
-#include "Bridge/Density/UnusualValues.h"
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Store/DataIdentity.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowTables.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/Points.h"
+#include "Core/Tables/Density.h"
+#include "Core/Tables/Reading/DensityRules.h"
+#include "Core/Tables/Reading/UnusualValues.h"
 
 #include "vtkSmartPointer.h"
 
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -67,6 +69,8 @@ public:
   InputDensity& operator=(const InputDensity&) = delete;
 
   const ImageGrid& Grid() const { return this->Geometry; }
+  // The grid cells along each axis, 1 along axes that the grid lacks.
+  GridSize<3> CellsInSpace() const;
   // Its name in messages.
   const std::string& GetName() const { return this->Name; }
   // The name of its array; empty if it has none.
@@ -88,8 +92,11 @@ public:
   {
     const GridSize<D> size = this->Geometry.Size<D>();
     return this->Values() ? DensitySource<D>(size, *this->Values())
-                          : DensitySource<D>(size, *std::get<D - 1>(this->Distributed()));
+                          : DensitySource<D>(size, std::get<Boxes<D>>(this->OnRanks));
   }
+  // As DistributedDensity::Gather; axes that the grid lacks have the cells from 0 up to 1.
+  virtual std::shared_ptr<const DensityValues> Part(
+    const GridSize<3>& low, const GridSize<3>& high) const = 0;
   // Releases what Prepare gathered, which Source needs.
   virtual void ReleaseGathered() {}
 
@@ -132,17 +139,14 @@ protected:
     bool HasPointGhosts;
     bool HasCellGhosts;
   };
-  using AnyDistributed = std::tuple<const DistributedDensity<1>*, const DistributedDensity<2>*,
-    const DistributedDensity<3>*>;
 
   InputDensity(const std::string& name, const DensityRules& rules);
   // For another density on its grid grown by `margin` cells, which this rule fills.
-  InputDensity(const InputDensity& inner, const ImageGrid& grown,
-    const std::array<std::int64_t, 3>& margin, const EmptyRule& rule);
+  InputDensity(const InputDensity& inner, const ImageGrid& grown, const GridSize<3>& margin,
+    const EmptyRule& rule);
   // Once, with the grid. Finds the component that is taken. Throws Failure without one.
   void SetForm(const ArrayForm& form);
-  int Components() const { return static_cast<int>(this->Reading[2]); }
-  bool NeedsWhite() const;
+  bool NeedsWhite() const { return this->Rules.NeedsWhite(this->Read.Components); }
   bool Clamps() const { return this->Rules.ClampNegative && !this->Rules.Invert; }
   bool FillsEmpty() const
   {
@@ -162,8 +166,26 @@ protected:
   std::vector<FillValue> FillValues; // of the input's field data
 
 private:
+  // The values on ranks, for the core.
+  template <int D>
+  class Boxes final : public DistributedDensity<D>
+  {
+  public:
+    explicit Boxes(const InputDensity& density)
+      : Density(density)
+    {
+    }
+    std::shared_ptr<const DensityValues> Gather(
+      const GridSize<D>& low, const GridSize<D>& high) const override
+    {
+      return this->Density.Part(inSpace<D>(low, 0), inSpace<D>(high, 1));
+    }
+
+  private:
+    const InputDensity& Density;
+  };
+
   virtual std::uint64_t Fingerprint(Progress& progress) const = 0;
-  virtual AnyDistributed Distributed() const { return {}; }
 
   const std::string Name;
   std::string InputName;
@@ -172,6 +194,7 @@ private:
   bool MustFindEmpty = false;
   Content Reading{};
   mutable Content Hashed{}; // all 0 before GetContent
+  const std::tuple<Boxes<1>, Boxes<2>, Boxes<3>> OnRanks{ *this, *this, *this };
 };
 
 } // namespace RectifiedTransport::Bridge

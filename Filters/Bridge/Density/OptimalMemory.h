@@ -3,9 +3,9 @@
 #ifndef RectifiedTransport_OptimalMemory_h
 #define RectifiedTransport_OptimalMemory_h
 
-#include "Bridge/Image/GridText.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Parallel/Ranks.h"
 #include "Core/Plan/TransportPlan.h"
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/PiecesDensity.h"
 
-#include "Bridge/Density/DensityFailure.h"
+#include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Fingerprint.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 
@@ -16,9 +17,11 @@
 #include "vtkImageData.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -61,12 +64,11 @@ std::int64_t indexIn(const ImageGrid& whole, const ImageGrid& part, std::int64_t
 }
 
 // The values of a box, by the numbers of the whole grid.
-template <int D>
 class BoxOfDensity final : public DensityValues
 {
 public:
   BoxOfDensity(
-    std::unique_ptr<DensityImage> box, const GridSize<D>& whole, const LatticePart<D>& part)
+    std::unique_ptr<DensityImage> box, const GridSize<3>& whole, const LatticePart<3>& part)
     : Box(std::move(box))
     , Whole{ {}, whole }
     , Part(part)
@@ -80,8 +82,8 @@ public:
 
 private:
   const std::unique_ptr<DensityImage> Box;
-  const LatticePart<D> Whole;
-  const LatticePart<D> Part;
+  const LatticePart<3> Whole;
+  const LatticePart<3> Part;
 };
 
 } // namespace
@@ -228,40 +230,38 @@ std::unique_ptr<DensityImage> PiecesDensity::Gather(const Extent& extent) const
   return std::make_unique<DensityImage>(image, array, onPoints, this->Rules);
 }
 
-template <int D>
-std::shared_ptr<const DensityValues> PiecesDensity::Boxes<D>::Gather(
-  const GridSize<D>& low, const GridSize<D>& high) const
+std::shared_ptr<const DensityValues> PiecesDensity::Part(
+  const GridSize<3>& low, const GridSize<3>& high) const
 {
-  const ImageGrid& grid = this->Density.Grid();
-  LatticePart<D> part{ low, {} };
+  const ImageGrid& grid = this->Geometry;
+  LatticePart<3> part{ low, {} };
+  std::transform(high.begin(), high.end(), low.begin(), part.Cells.begin(), std::minus<>());
   Extent extent = grid.Extent();
-  int axis = 0;
+  std::size_t axis = 0;
   for (std::size_t a = 0; a < 3; ++a)
   {
-    if (!grid.IsAxis(a))
+    if (grid.IsAxis(a))
     {
-      continue;
+      const int start = extent[2 * a];
+      extent[2 * a] = start + static_cast<int>(low[axis]);
+      extent[2 * a + 1] = start + static_cast<int>(high[axis]) - (grid.IsOnPoints() ? 1 : 0);
+      ++axis;
     }
-    const int start = extent[2 * a];
-    extent[2 * a] = start + static_cast<int>(low[axis]);
-    extent[2 * a + 1] = start + static_cast<int>(high[axis]) - (grid.IsOnPoints() ? 1 : 0);
-    part.Cells[axis] = high[axis] - low[axis];
-    ++axis;
   }
   if (part.IsEmpty())
   {
     extent = { 0, -1, 0, -1, 0, -1 };
   }
-  std::unique_ptr<DensityImage> box = this->Density.Gather(extent);
+  std::unique_ptr<DensityImage> box = this->Gather(extent);
   if (!box)
   {
-    return std::make_shared<DensityArray<D, double>>(nullptr, GridSize<D>{});
+    return std::make_shared<DensityArray<3, double>>(nullptr, GridSize<3>{});
   }
   const SerialExecutor serial;
   Progress progress{ Context(serial) };
-  box->SetWhite(this->Density.White(), progress);
-  box->SetEmpty(this->Density.Empty);
-  return std::make_shared<BoxOfDensity<D>>(std::move(box), grid.Size<D>(), part);
+  box->SetWhite(this->White(), progress);
+  box->SetEmpty(this->Empty);
+  return std::make_shared<BoxOfDensity>(std::move(box), this->CellsInSpace(), part);
 }
 
 vtkSmartPointer<vtkImageData> PiecesDensity::ImageIn(const Extent& extent) const

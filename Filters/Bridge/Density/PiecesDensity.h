@@ -24,6 +24,8 @@ public:
   std::string NameOfArray() const override { return this->ArrayName; }
   void Prepare(FlowTables tables, Progress& progress) override;
   const DensityValues* Values() const override;
+  std::shared_ptr<const DensityValues> Part(
+    const GridSize<3>& low, const GridSize<3>& high) const override;
   void ReleaseGathered() override { this->Gathered.reset(); }
 
   const ImagePieces* Pieces() const override { return this->Distribution.get(); }
@@ -32,27 +34,7 @@ public:
     vtkPointData* output) const override;
 
 private:
-  // Boxes of grid cells, for the core.
-  template <int D>
-  class Boxes final : public DistributedDensity<D>
-  {
-  public:
-    explicit Boxes(const PiecesDensity& density)
-      : Density(density)
-    {
-    }
-    std::shared_ptr<const DensityValues> Gather(
-      const GridSize<D>& low, const GridSize<D>& high) const override;
-
-  private:
-    const PiecesDensity& Density;
-  };
-
   std::uint64_t Fingerprint(Progress& progress) const override;
-  AnyDistributed Distributed() const override
-  {
-    return { &this->Line, &this->Plane, &this->Space };
-  }
   const Extent& OwnExtent() const;
   std::vector<TupleBox> OwnTuples() const;
   std::unique_ptr<DensityImage> Gather(const Extent& extent) const;
@@ -61,9 +43,6 @@ private:
   const std::unique_ptr<const ImagePieces> Distribution;
   const std::string ArrayName;
   std::unique_ptr<DensityImage> Gathered; // all of it, if needed
-  const Boxes<1> Line{ *this };
-  const Boxes<2> Plane{ *this };
-  const Boxes<3> Space{ *this };
 };
 
 } // namespace RectifiedTransport::Bridge

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/SharedFlow.h"
 
-#include "Bridge/Image/GridText.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Parallel/Stages.h"
 
 #include <cmath>

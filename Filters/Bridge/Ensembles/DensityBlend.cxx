@@ -3,7 +3,7 @@
 
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityOnGrid.h"
-#include "Bridge/Image/CommonGrid.h"
+#include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/SameOnRanks.h"

@@ -3,7 +3,7 @@
 
 #include "Bridge/Density/DensityMass.h"
 #include "Bridge/Density/WholeValues.h"
-#include "Bridge/Image/CommonGrid.h"
+#include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"

@@ -9,6 +9,7 @@
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkBoundingBox.h"

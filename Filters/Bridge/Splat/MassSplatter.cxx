@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Splat/MassSplatter.h"
 
-#include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Points/PointMasses.h"
@@ -12,6 +11,7 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/DistributedSplat.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankOrder.h"
 #include "Core/Parallel/Stages.h"

@@ -2,9 +2,9 @@
 #include "Bridge/Temporal/IntervalPlan.h"
 
 #include "Bridge/Density/OptimalMemory.h"
-#include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Temporal/StepDensity.h"
+#include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/Stages.h"
 

@@ -3,7 +3,6 @@
 
 #include "Bridge/Density/DensityPlan.h"
 #include "Bridge/Density/InputDensity.h"
-#include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Ranks/ParticleExchange.h"
@@ -14,6 +13,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Splat/DistributedSplat.h"
+#include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Triangles/SolidDensity.h"
 
-#include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Image/SolidGrid.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/ClosedSurface.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/SolidGrid.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Solid/SolidCoverage.h"

@@ -39,6 +39,16 @@ double numberOfCells(const GridSize<Dimension>& size)
   return count;
 }
 
+// The same in three axes, with `cells` along those that are added.
+template <int Dimension>
+GridSize<3> inSpace(const GridSize<Dimension>& size, std::int64_t cells)
+{
+  GridSize<3> all;
+  all.fill(cells);
+  std::copy(size.begin(), size.end(), all.begin());
+  return all;
+}
+
 // The corners of the cells: one more along each axis.
 template <int Dimension>
 double numberOfCorners(GridSize<Dimension> cells)

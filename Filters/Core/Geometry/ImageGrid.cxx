@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Geometry/ImageGrid.h"
 
+#include "Core/Geometry/InverseMatrix.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -37,18 +39,6 @@ double measure(const Matrix& rows, int count)
   }
   const Eigen::Vector3d cross = a.cross(Eigen::Vector3d(rows.row(1)));
   return count == 2 ? length(cross) : std::abs(dot(cross, rows.row(2)));
-}
-
-// The adjugate over the determinant, which is exact for the identity.
-Matrix inverseOf(const Matrix& matrix)
-{
-  Matrix adjugate;
-  for (int i = 0; i < 3; ++i)
-  {
-    const Eigen::Vector3d next = matrix.row((i + 1) % 3);
-    adjugate.col(i) = next.cross(Eigen::Vector3d(matrix.row((i + 2) % 3)));
-  }
-  return adjugate / dot(matrix.row(0), adjugate.col(0));
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace RectifiedTransport
@@ -65,6 +66,7 @@ public:
 
   virtual std::unique_ptr<CellReader> Read() const = 0;
 
+  std::string Name; // in messages
   std::int64_t NumberOfPoints = 0;
   std::int64_t NumberOfCells = 0;
   double Rounding = 0.0; // what coordinates may be off by, relative to them

@@ -3,20 +3,12 @@
 #ifndef RectifiedTransport_ComponentChoice_h
 #define RectifiedTransport_ComponentChoice_h
 
+#include "Core/Tables/Reading/DensityRules.h"
+
 #include "vtkType.h"
 
 namespace RectifiedTransport::Bridge
 {
-
-// What the property Component may be besides an index. Auto is one of the others, by the array.
-enum ComponentChoice : int
-{
-  AutoComponent = -1,
-  Luminance = -2,
-  Magnitude = -3
-};
-
-constexpr int MostColorComponents = 4;
 
 // What Auto takes of an array of a VTK type: an index, Luminance, Magnitude, or AutoComponent
 // where it has no choice.

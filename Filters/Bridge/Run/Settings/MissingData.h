@@ -4,9 +4,9 @@
 #define RectifiedTransport_MissingData_h
 
 #include "Bridge/Run/PropertyCheck.h"
+#include "Core/Tables/Reading/DensityRules.h"
 
 #include <cmath>
-#include <limits>
 
 namespace RectifiedTransport::Bridge
 {
@@ -14,28 +14,6 @@ namespace RectifiedTransport::Bridge
 // Indexed by the enumerations of vtkDensityAlgorithm.
 constexpr const char* NaNValuesTexts[] = { "Error", "Empty" };
 constexpr const char* EmptyCellsTexts[] = { "Zero", "Mean", "Minimum", "Value" };
-
-// Which values of an array mark empty cells.
-struct MissingValues
-{
-  bool AreNaN = false; // otherwise NaN is an error
-  // Values outside are missing. An infinite end is no bound; infinite values are then errors.
-  double Low = -std::numeric_limits<double>::infinity();
-  double High = std::numeric_limits<double>::infinity();
-
-  bool Are() const
-  {
-    constexpr double all = std::numeric_limits<double>::infinity();
-    return this->AreNaN || this->Low > -all || this->High < all;
-  }
-  bool Has(double value) const
-  {
-    return value < this->Low || value > this->High || (this->AreNaN && std::isnan(value));
-  }
-};
-
-// An end of ValidRange of this size or more is no bound.
-constexpr double Unbounded = 1e299;
 
 // Throws Failure for values out of range.
 inline MissingValues missingValues(int nanValues, const double (&validRange)[2])
@@ -52,21 +30,6 @@ inline MissingValues missingValues(int nanValues, const double (&validRange)[2])
   missing.High = validRange[1] < Unbounded ? validRange[1] : missing.High;
   return missing;
 }
-
-// The density of empty cells: none, the mean or the least of the other cells, or a value.
-enum class EmptyCells
-{
-  Zero,
-  Mean,
-  Minimum,
-  Value
-};
-
-struct EmptyRule
-{
-  EmptyCells Cells = EmptyCells::Zero;
-  double Value = 0.0; // of EmptyCells::Value, else 0
-};
 
 // Throws Failure for values out of range.
 inline EmptyRule emptyRule(int cells, double value)

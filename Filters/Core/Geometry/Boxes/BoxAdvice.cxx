@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Image/BoxAdvice.h"
+#include "Core/Geometry/Boxes/BoxAdvice.h"
 
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Parallel/Errors/PropertyCheck.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 namespace
@@ -76,4 +76,4 @@ std::string samePlaneAdvice(const ImageGrid& first, const ImageGrid& other, std:
     translateOf(other, a);
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

@@ -7,7 +7,7 @@
 
 #include <array>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // Throws Failure for properties that are out of range for any surface.
@@ -18,6 +18,6 @@ void requireSolidGrid(int resolution, double padding);
 // property.
 ImageGrid solidGrid(const std::array<double, 6>& bounds, int resolution, double padding);
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

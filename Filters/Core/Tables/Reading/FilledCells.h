@@ -5,11 +5,12 @@
 
 #include "Bridge/Run/Settings/MissingData.h"
 #include "Core/Parallel/ExactSum.h"
+#include "Core/Tables/Reading/DensityRules.h"
 
 #include <cstdint>
 #include <limits>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // The same bits however cells are divided among threads and ranks. Trivially copyable.
@@ -27,6 +28,6 @@ struct FilledCells
 // 0 if all cells are empty.
 double densityOfEmptyCells(const EmptyRule& rule, const FilledCells& filled);
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

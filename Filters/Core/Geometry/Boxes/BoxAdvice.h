@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <string>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // How Resample To Image puts both on one box: its properties, for the smallest box that holds both,
@@ -18,6 +18,6 @@ std::string sameBoxAdvice(const ImageGrid& first, const ImageGrid& other);
 // How Transform puts both into one plane across an axis along which they are flat.
 std::string samePlaneAdvice(const ImageGrid& first, const ImageGrid& other, std::size_t axis);
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Image/SolidGrid.h"
+#include "Core/Geometry/Boxes/SolidGrid.h"
 
-#include "Bridge/Run/Failure.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Parallel/Errors/PropertyCheck.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 void requireSolidGrid(int resolution, double padding)
@@ -61,4 +61,4 @@ ImageGrid solidGrid(const std::array<double, 6>& bounds, int resolution, double 
   return { extent, corner, Eigen::Vector3d::Constant(width), ImageGrid::Matrix::Identity(), false };
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 struct NamedGrid
@@ -40,6 +40,6 @@ bool haveSameCells(const ImageGrid& a, const ImageGrid& b);
 // precision, along the same axes in the same directions. Their numbers of cells may differ.
 void requireSameBox(const NamedGrid& first, const NamedGrid& other);
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

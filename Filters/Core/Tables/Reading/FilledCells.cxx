@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Density/FilledCells.h"
+#include "Core/Tables/Reading/FilledCells.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 void FilledCells::Add(const double* values, const unsigned char* empty, std::int64_t count)
@@ -48,4 +48,4 @@ double densityOfEmptyCells(const EmptyRule& rule, const FilledCells& filled)
   return std::isfinite(mean) ? mean : 0.0; // too much mass is an error of the tables
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

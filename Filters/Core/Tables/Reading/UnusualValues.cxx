@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Density/UnusualValues.h"
+#include "Core/Tables/Reading/UnusualValues.h"
 
-#include "Bridge/Run/PropertyCheck.h"
-#include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Reduction.h"
-
-#include "vtkDataArray.h"
-#include "vtkFieldData.h"
+#include "Core/Parallel/Errors/PropertyCheck.h"
+#include "Core/Tables/Reading/DensityRules.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <vector>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 namespace
@@ -211,55 +206,6 @@ void merge(const LowestValue& part, LowestValue& all)
   all.Largest = largest;
 }
 
-LowestValue findLowest(
-  vtkDataArray* array, const DensityReader& reader, std::int64_t count, Progress& progress)
-{
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-  const std::unique_ptr<DensityReader> unclamped = reader.MakeUnclamped(array);
-  const auto ofChunk = [&](std::int64_t first, std::int64_t last) {
-    std::vector<double> values(static_cast<std::size_t>(last - first));
-    unclamped->Read(first, last - first, values.data());
-    LowestValue found;
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-      const double value = values[i];
-      found.Largest = std::isfinite(value) ? std::max(found.Largest, value) : found.Largest;
-      if (!(value < 0.0) || !std::isfinite(value))
-      {
-        continue;
-      }
-      found.Negative += value;
-      if (value < found.Value)
-      {
-        found.Value = value;
-        found.Count = 0;
-        found.First = first + static_cast<std::int64_t>(i);
-      }
-      found.Count += value == found.Value ? 1 : 0;
-    }
-    return found;
-  };
-  const auto join = [](LowestValue all, const LowestValue& part) {
-    merge(part, all);
-    return all;
-  };
-  return reduceChunks(progress, count, grain, LowestValue(), ofChunk, join);
-}
-
-std::vector<FillValue> fillValuesOf(vtkFieldData* fields)
-{
-  std::vector<FillValue> found;
-  for (const char* name : { "_FillValue", "missing_value", "NO_DATA_VALUE" })
-  {
-    vtkDataArray* array = fields ? fields->GetArray(name) : nullptr;
-    for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
-    {
-      found.push_back({ name, array->GetComponent(i, 0) });
-    }
-  }
-  return found;
-}
-
 std::vector<std::string> describeUnusual(const UnusualValues& values, const ValuePlaces& places,
   const std::function<double()>& shareOfLargest)
 {
@@ -284,4 +230,4 @@ std::vector<std::string> describeUnusual(const UnusualValues& values, const Valu
   return lines;
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

@@ -4,27 +4,25 @@
 #ifndef RectifiedTransport_UnusualValues_h
 #define RectifiedTransport_UnusualValues_h
 
-#include "Bridge/Density/DensityReader.h"
-#include "Bridge/VTKCompatibility.h"
 #include "Core/Tables/Density.h"
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
-VTK_ABI_NAMESPACE_BEGIN
-class vtkDataArray;
-class vtkFieldData;
-VTK_ABI_NAMESPACE_END
-
 namespace RectifiedTransport
 {
-class Progress;
-} // namespace RectifiedTransport
 
-namespace RectifiedTransport::Bridge
+// The largest finite value, the number of tuples that have it, and the next value below it.
+struct LargestValue
 {
+  double Value = -std::numeric_limits<double>::infinity(); // of none
+  std::int64_t Count = 0;
+  std::int64_t First = -1;
+  double Next = -std::numeric_limits<double>::infinity();
+};
 
 // The lowest of the values that NegativeValues = Clamp takes as 0.
 struct LowestValue
@@ -48,19 +46,12 @@ struct UnusualValues
 void merge(const LargestValue& part, LargestValue& all);
 void merge(const LowestValue& part, LowestValue& all);
 
-// The values that `rules` clamp, in `count` tuples that `reader` reads by these rules. Throws
-// Cancelled.
-LowestValue findLowest(
-  vtkDataArray* array, const DensityReader& reader, std::int64_t count, Progress& progress);
-
 // A number that marks missing data, as the field data of the input say.
 struct FillValue
 {
   std::string Name;
   double Value;
 };
-// Of netCDF and GDAL: _FillValue, missing_value, NO_DATA_VALUE. `fields` may be nullptr.
-std::vector<FillValue> fillValuesOf(vtkFieldData* fields);
 
 // How messages name the values of a density.
 struct ValuePlaces
@@ -81,6 +72,6 @@ struct ValuePlaces
 std::vector<std::string> describeUnusual(const UnusualValues& values, const ValuePlaces& places,
   const std::function<double()>& shareOfLargest = nullptr);
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

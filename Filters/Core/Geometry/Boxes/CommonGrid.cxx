@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Image/CommonGrid.h"
+#include "Core/Geometry/Boxes/CommonGrid.h"
 
-#include "Bridge/Image/BoxAdvice.h"
-#include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Run/Failure.h"
-#include "Bridge/Run/PropertyCheck.h"
-
-#include "vtkMatrix3x3.h"
+#include "Core/Geometry/Boxes/BoxAdvice.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/InverseMatrix.h"
+#include "Core/Parallel/Errors/PropertyCheck.h"
 
 #include <Eigen/LU>
 
@@ -15,7 +13,7 @@
 #include <iterator>
 #include <numeric>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 namespace
@@ -50,10 +48,7 @@ Eigen::Vector3d product(const ImageGrid::Matrix& matrix, const Eigen::Vector3d& 
 // from the origin both have the same coordinates.
 Sides sidesOf(const ImageGrid& grid, const ImageGrid::Matrix& directions)
 {
-  // VTK's, as Eigen's inverse rounds otherwise; remains zero for a singular matrix.
-  ImageGrid::Matrix inverse = ImageGrid::Matrix::Zero();
-  vtkMatrix3x3::Invert(directions.data(), inverse.data());
-  const Eigen::Vector3d origin = product(inverse, grid.Origin());
+  const Eigen::Vector3d origin = product(inverseOf(directions), grid.Origin());
   Sides sides;
   for (std::size_t i = 0; i < 3; ++i)
   {
@@ -375,4 +370,4 @@ void requireSameBox(const NamedGrid& first, const NamedGrid& other)
   }
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

@@ -1,36 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Density/DensityFailure.h"
+#include "Core/Tables/Reading/DensityFailure.h"
 
-#include "Bridge/Density/DensityReader.h"
-#include "Bridge/Run/Failure.h"
-
-#include "vtkDataArray.h"
-#include "vtkDataSet.h"
+#include "Core/Parallel/Errors/Failure.h"
 
 #include <cmath>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
-std::string describeArray(vtkDataArray* array)
+int takenComponent(const std::string& name, int component, int automatic, int count)
 {
-  return array->GetName() ? std::string("density array '") + array->GetName() + "'"
-                          : std::string("density array (which has no name)");
-}
-
-void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const std::string& what)
-{
-  const vtkIdType expected = onPoints ? data->GetNumberOfPoints() : data->GetNumberOfCells();
-  if (array->GetNumberOfTuples() != expected)
-  {
-    fail("The ", describeArray(array), " has ", array->GetNumberOfTuples(), " tuples, but the ",
-      what, " has ", expected, onPoints ? " points" : " cells", "; there must be one for each");
-  }
-}
-
-int takenComponent(const std::string& name, int component, int type, int count)
-{
-  const int automatic = automaticComponent(type, count);
   const int wanted = component == AutoComponent ? automatic : component;
   const bool mayBeColour = count <= MostColorComponents;
   if ((wanted >= 0 && wanted < count) || wanted == Magnitude ||
@@ -43,22 +22,6 @@ int takenComponent(const std::string& name, int component, int type, int count)
     count == 1 ? " component" : " components", "; it must be ",
     automatic == AutoComponent ? "" : "-1 (Auto), ", mayBeColour ? "-2 (luminance), " : "",
     "-3 (magnitude) or ", indices);
-}
-
-bool isOfSeveral(const DensityRules& rules)
-{
-  return rules.Component < 0;
-}
-
-bool needsWhite(const DensityRules& rules, int components)
-{
-  const bool alpha = rules.Component == Luminance && (components == 2 || components == 4);
-  return rules.Invert || alpha;
-}
-
-bool hasDisplayedWhite(const DensityRules& rules, int type)
-{
-  return type == VTK_UNSIGNED_CHAR && rules.Component != Magnitude;
 }
 
 void throwInvalidDensity(const std::string& name, const DensitySummary& summary,
@@ -87,4 +50,4 @@ void throwInvalidDensity(const std::string& name, const DensitySummary& summary,
     "; at least one value must be positive");
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

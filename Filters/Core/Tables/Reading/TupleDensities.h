@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The arithmetic from the tuples of an array to densities; begin(i, c) is component c of tuple i.
+#ifndef RectifiedTransport_TupleDensities_h
+#define RectifiedTransport_TupleDensities_h
+
+#include "Core/Tables/Reading/DensityRules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+namespace RectifiedTransport
+{
+
+// Rec. 709. Whole ten-thousandths, so that a grey of an integer type has exactly its own value: the
+// double 1e-4 is near enough to it (5e-17, relatively) for the product to round to the integer.
+template <class T>
+double luminance(T red, T green, T blue)
+{
+  constexpr double unit = 1e-4;
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+  }
+  else if constexpr (sizeof(T) <= 2)
+  {
+    const std::int32_t sum =
+      2126 * std::int32_t{ red } + 7152 * std::int32_t{ green } + 722 * std::int32_t{ blue };
+    return unit * sum;
+  }
+  else
+  {
+    return unit *
+      (2126.0 * static_cast<double>(red) + 7152.0 * static_cast<double>(green) +
+        722.0 * static_cast<double>(blue));
+  }
+}
+
+// Rounding of a luminance may exceed white; a comparison keeps NaN.
+inline double positivePart(double value)
+{
+  return value < 0.0 ? 0.0 : value;
+}
+
+// The Euclidean norm of tuple i.
+template <class Tuples>
+double magnitude(const Tuples& begin, int components, std::int64_t i)
+{
+  double sum = 0.0;
+  for (int c = 0; c < components; ++c)
+  {
+    const double value = static_cast<double>(begin(i, c));
+    sum += value * value;
+  }
+  // Squares that neither overflow nor lose digits near 0. NaN and zeros go the other way.
+  constexpr double least = 1e-280;
+  if (sum >= least && sum <= std::numeric_limits<double>::max())
+  {
+    return std::sqrt(sum);
+  }
+  double largest = 0.0;
+  for (int c = 0; c < components; ++c)
+  {
+    largest = std::max(largest, std::abs(static_cast<double>(begin(i, c))));
+  }
+  if (std::isnan(sum) || std::isinf(largest) || largest == 0.0)
+  {
+    return sum;
+  }
+  double scaled = 0.0;
+  for (int c = 0; c < components; ++c)
+  {
+    const double value = static_cast<double>(begin(i, c)) / largest;
+    scaled += value * value;
+  }
+  return largest * std::sqrt(scaled);
+}
+
+// The loops over tuples; begin(i, c) is component c of tuple i.
+template <class Tuples>
+void readTuples(const Tuples& begin, int components, std::int64_t count, const DensityRules& rules,
+  double white, double* __restrict values)
+{
+  if (rules.Component != Luminance)
+  {
+    const int c = rules.Component;
+    if (c == Magnitude)
+    {
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        values[i] = magnitude(begin, components, i);
+      }
+    }
+    else
+    {
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        values[i] = static_cast<double>(begin(i, c));
+      }
+    }
+    if (rules.Invert)
+    {
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        values[i] = white - values[i];
+      }
+    }
+    return;
+  }
+  if (components >= 3)
+  {
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      values[i] = luminance(begin(i, 0), begin(i, 1), begin(i, 2));
+    }
+  }
+  else
+  {
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      values[i] = static_cast<double>(begin(i, 0));
+    }
+  }
+  if (components == 3)
+  {
+    if (rules.Invert)
+    {
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        values[i] = positivePart(white - values[i]);
+      }
+    }
+    return;
+  }
+  const int alpha = components - 1;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const double opacity = white > 0.0 ? static_cast<double>(begin(i, alpha)) / white : 1.0;
+    const double ink = (white - values[i]) * opacity;
+    values[i] = rules.Invert ? positivePart(ink) : white - ink;
+  }
+}
+
+// Whether a tuple has no valid value of the component, of a colour's components or of any of the
+// magnitude's. Alpha is no value, but NaN would make the density NaN.
+template <class Tuples>
+bool isMissing(
+  const Tuples& begin, int components, std::int64_t i, int component, const MissingValues& missing)
+{
+  if (component >= 0)
+  {
+    return missing.Has(static_cast<double>(begin(i, component)));
+  }
+  const int valued = component == Magnitude ? components : components >= 3 ? 3 : 1;
+  bool is = false;
+  for (int c = 0; c < valued; ++c)
+  {
+    is = is || missing.Has(static_cast<double>(begin(i, c)));
+  }
+  const bool hasAlpha = components == valued + 1;
+  return is || (hasAlpha && missing.AreNaN && std::isnan(static_cast<double>(begin(i, valued))));
+}
+
+} // namespace RectifiedTransport
+
+#endif
