@@ -44,6 +44,20 @@ public:
   void ForInOrder(
     std::int64_t count, std::int64_t grain, RangeKernel kernel, std::int64_t units = usualUnits);
 
+  // The same with a call visit(i) for each number of the ranges.
+  template <class Visit>
+  void ForEach(
+    std::int64_t count, std::int64_t grain, const Visit& visit, std::int64_t units = usualUnits)
+  {
+    this->For(count, grain, rangeOf(visit), units);
+  }
+  template <class Visit>
+  void ForEachInOrder(
+    std::int64_t count, std::int64_t grain, const Visit& visit, std::int64_t units = usualUnits)
+  {
+    this->ForInOrder(count, grain, rangeOf(visit), units);
+  }
+
   // The number of units of the caller's next slice, a multiple of `smallest`.
   std::int64_t NextSlice(std::int64_t smallest);
   // Reports units as done. Throws Cancelled.
@@ -66,6 +80,16 @@ private:
   using Clock = std::chrono::steady_clock;
   static constexpr std::int64_t usualUnits = std::int64_t{ 1 } << 18;
 
+  template <class Visit>
+  static auto rangeOf(const Visit& visit)
+  {
+    return [&visit](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        visit(i);
+      }
+    };
+  }
   void Run(const Executor& executor, std::int64_t count, std::int64_t grain,
     const RangeKernel& kernel, std::int64_t units);
   void Report(double fraction);
