@@ -49,17 +49,14 @@ void visitEdges(
   constexpr std::int64_t units = std::int64_t{ 1 } << 16;
   Stages stages(progress, { { "counts", 2 }, { "lists", 3 }, { "edges", 5 } });
   const auto forSides = [&](Progress& stage, const auto& visitSide) {
-    stage.ForInOrder(
+    stage.ForEachInOrder(
       corners.NumberOfTriangles, grain,
-      [&](std::int64_t from, std::int64_t to) {
-        for (std::int64_t triangle = from; triangle < to; ++triangle)
+      [&](std::int64_t triangle) {
+        if (!corners.LeftOut(triangle))
         {
-          if (!corners.LeftOut(triangle))
-          {
-            visitSide(3 * triangle);
-            visitSide(3 * triangle + 1);
-            visitSide(3 * triangle + 2);
-          }
+          visitSide(3 * triangle);
+          visitSide(3 * triangle + 1);
+          visitSide(3 * triangle + 2);
         }
       },
       units);
@@ -79,28 +76,25 @@ void visitEdges(
   }
   forSides(
     stages["lists"], [&](std::int64_t side) { sides[first[corners.Low(side) + 1]++] = side; });
-  stages["edges"].For(
+  stages["edges"].ForEach(
     points, 2 * grain,
-    [&](std::int64_t from, std::int64_t to) {
-      for (std::int64_t point = from; point < to; ++point)
+    [&](std::int64_t point) {
+      std::int64_t* next = sides + first[point];
+      std::int64_t* const last = sides + first[point + 1];
+      std::sort(next, last, [&](std::int64_t a, std::int64_t b) {
+        const std::int64_t highA = corners.High(a);
+        const std::int64_t highB = corners.High(b);
+        return highA != highB ? highA < highB : a < b;
+      });
+      while (next < last)
       {
-        std::int64_t* next = sides + first[point];
-        std::int64_t* const last = sides + first[point + 1];
-        std::sort(next, last, [&](std::int64_t a, std::int64_t b) {
-          const std::int64_t highA = corners.High(a);
-          const std::int64_t highB = corners.High(b);
-          return highA != highB ? highA < highB : a < b;
-        });
-        while (next < last)
+        const std::int64_t* edge = next;
+        const std::int64_t other = corners.High(*edge);
+        while (next < last && corners.High(*next) == other)
         {
-          const std::int64_t* edge = next;
-          const std::int64_t other = corners.High(*edge);
-          while (next < last && corners.High(*next) == other)
-          {
-            ++next;
-          }
-          visit(edge, next - edge);
+          ++next;
         }
+        visit(edge, next - edge);
       }
     },
     4 * grain);

@@ -237,19 +237,16 @@ void repairFlips(
     addRing(parts, isIn, points);
   }
   const std::vector<Patch> patches = separate(parts, isIn, points);
-  progress.For(
+  progress.ForEach(
     static_cast<std::int64_t>(patches.size()), 1,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+    [&](std::int64_t i) {
+      const Patch& patch = patches[static_cast<std::size_t>(i)];
+      if (patch.size() <= largestPatch)
       {
-        const Patch& patch = patches[static_cast<std::size_t>(i)];
-        if (patch.size() <= largestPatch)
+        LocalMap map(parts, patch, positions);
+        if (PatchRepair(parts, map).Run(progress))
         {
-          LocalMap map(parts, patch, positions);
-          if (PatchRepair(parts, map).Run(progress))
-          {
-            map.Store(positions);
-          }
+          map.Store(positions);
         }
       }
     },

@@ -45,12 +45,9 @@ public:
   void Run(Progress& progress)
   {
     Stages stages(progress, { { "means", 1 }, { "parts", 2 }, { "roots", 1 }, { "levels", 6 } });
-    stages["means"].For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t t = first; t < last; ++t)
-      {
-        this->Levels[t] = this->Density.MeanOf(t);
-        this->PartOf.data()[t] = t;
-      }
+    stages["means"].ForEach(this->Count, grain, [&](std::int64_t t) {
+      this->Levels[t] = this->Density.MeanOf(t);
+      this->PartOf.data()[t] = t;
     });
     bool hasJumps = false;
     this->ForSides(stages["parts"], [&](std::int64_t side, std::int64_t other) {
@@ -82,12 +79,7 @@ private:
   template <class Visit>
   void ForTriangles(Progress& progress, const Visit& visit)
   {
-    progress.ForInOrder(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t t = first; t < last; ++t)
-      {
-        visit(t);
-      }
-    });
+    progress.ForEachInOrder(this->Count, grain, [&](std::int64_t t) { visit(t); });
   }
   // Pairs of sides, once each.
   template <class Visit>

@@ -92,14 +92,11 @@ WalkedSurface::WalkedSurface(const TriangleSurface& surface, double rounding, Pr
     std::ldexp(1.0, -exponent - -exponent / 2 - 1) };
   const std::int64_t points = surface.Points.size();
   this->Positions = LargeBuffer<double>(3 * points);
-  stages["positions"].For(points, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t point = first; point < last; ++point)
+  stages["positions"].ForEach(points, grain, [&](std::int64_t point) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        this->Positions.data()[3 * point + static_cast<std::int64_t>(axis)] =
-          (surface.Points[point][axis] - centre[axis]) * scales[0] * scales[1];
-      }
+      this->Positions.data()[3 * point + static_cast<std::int64_t>(axis)] =
+        (surface.Points[point][axis] - centre[axis]) * scales[0] * scales[1];
     }
   });
   LargeBuffer<std::int64_t> welded(points);

@@ -140,15 +140,12 @@ bool mergeNearPoints(
   }
   Clusters clusters(points, distance, firsts);
   const auto forDistinct = [&](Progress& stage, void (Clusters::*step)(std::int64_t)) {
-    stage.ForInOrder(
+    stage.ForEachInOrder(
       count, grain,
-      [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
+      [&](std::int64_t i) {
+        if (isDistinct.data()[i])
         {
-          if (isDistinct.data()[i])
-          {
-            (clusters.*step)(i);
-          }
+          (clusters.*step)(i);
         }
       },
       grain);
@@ -156,14 +153,11 @@ bool mergeNearPoints(
   forDistinct(stages["clusters"], &Clusters::Enter);
   forDistinct(stages["neighbours"], &Clusters::JoinBeside);
   bool isMerged = false;
-  stages["firsts"].ForInOrder(
+  stages["firsts"].ForEachInOrder(
     count, grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        firsts[i] = rootOf(firsts, i);
-        isMerged = isMerged || !std::equal(points[i], points[i] + 3, points[firsts[i]]);
-      }
+    [&](std::int64_t i) {
+      firsts[i] = rootOf(firsts, i);
+      isMerged = isMerged || !std::equal(points[i], points[i] + 3, points[firsts[i]]);
     },
     grain);
   return isMerged;

@@ -101,16 +101,13 @@ private:
     {
       this->MergePlaces(progress);
     }
-    progress.ForInOrder(
+    progress.ForEachInOrder(
       this->Given.NumberOfTriangles, grain,
-      [this](std::int64_t first, std::int64_t last) {
-        for (std::int64_t triangle = first; triangle < last; ++triangle)
+      [this](std::int64_t triangle) {
+        const std::int64_t* ids = this->Given.Triangles + 3 * triangle;
+        for (int i = 0; i < 3; ++i)
         {
-          const std::int64_t* ids = this->Given.Triangles + 3 * triangle;
-          for (int i = 0; i < 3; ++i)
-          {
-            this->MergeEnds(ids[i], ids[(i + 1) % 3]);
-          }
+          this->MergeEnds(ids[i], ids[(i + 1) % 3]);
         }
       },
       randomAccess);
@@ -149,20 +146,17 @@ private:
     this->Triangles = LargeBuffer<std::int64_t>(3 * count);
     this->Corners = LargeBuffer<std::int64_t>(3 * count);
     this->Origins = LargeBuffer<std::int64_t>(count);
-    progress.ForInOrder(
+    progress.ForEachInOrder(
       count, grain,
-      [this](std::int64_t first, std::int64_t last) {
-        for (std::int64_t triangle = first; triangle < last; ++triangle)
+      [this](std::int64_t triangle) {
+        const std::int64_t* ids = this->Given.Triangles + 3 * triangle;
+        const std::array<std::int64_t, 3> roots{ this->RootOf(ids[0]), this->RootOf(ids[1]),
+          this->RootOf(ids[2]) };
+        if (roots[0] != roots[1] && roots[1] != roots[2] && roots[2] != roots[0])
         {
-          const std::int64_t* ids = this->Given.Triangles + 3 * triangle;
-          const std::array<std::int64_t, 3> roots{ this->RootOf(ids[0]), this->RootOf(ids[1]),
-            this->RootOf(ids[2]) };
-          if (roots[0] != roots[1] && roots[1] != roots[2] && roots[2] != roots[0])
-          {
-            std::copy(roots.begin(), roots.end(), this->Triangles.data() + 3 * this->Count);
-            std::copy_n(ids, 3, this->Corners.data() + 3 * this->Count);
-            this->Origins.data()[this->Count++] = triangle;
-          }
+          std::copy(roots.begin(), roots.end(), this->Triangles.data() + 3 * this->Count);
+          std::copy_n(ids, 3, this->Corners.data() + 3 * this->Count);
+          this->Origins.data()[this->Count++] = triangle;
         }
       },
       randomAccess);
