@@ -44,6 +44,24 @@ Part reduceChunks(Progress& progress, std::int64_t count, std::int64_t grain, co
   return all;
 }
 
+// The same where visit(i, part) adds number i to the part of its chunk, which begins as `nothing`.
+template <class Part, class Visit, class Combine>
+Part reduceEach(Progress& progress, std::int64_t count, std::int64_t grain, const Part& nothing,
+  const Visit& visit, const Combine& combine)
+{
+  return reduceChunks(
+    progress, count, grain, nothing,
+    [&](std::int64_t first, std::int64_t last) {
+      Part part = nothing;
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        visit(i, part);
+      }
+      return part;
+    },
+    combine);
+}
+
 } // namespace RectifiedTransport
 
 #endif
