@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/DiskMesh.h"
 
-#include "Core/Mesh/CornerPoint.h"
 #include "Core/Mesh/SurfaceOrientation.h"
 #include "Core/Mesh/UnitScale.h"
 #include "Core/Parallel/Stages.h"
@@ -110,10 +109,6 @@ DiskMesh::DiskMesh(const TriangleSurface& surface, const Context& context)
   this->Orient(stages["orientation"]);
   this->FindBoundary(stages["boundary"]);
 }
-
-DiskMesh::~DiskMesh() = default;
-DiskMesh::DiskMesh(DiskMesh&&) noexcept = default;
-DiskMesh& DiskMesh::operator=(DiskMesh&&) noexcept = default;
 
 TriangleSurface DiskMesh::Surface() const
 {

@@ -116,20 +116,15 @@ void WholeTriangles::FindAreas(Progress& progress)
   const std::int64_t triangles = this->NumberOfTriangles();
   this->Shares = LargeBuffer<double>(triangles);
   double* areas = this->Shares.data();
-  this->Area = reduceChunks(
+  this->Area = reduceEach(
     progress, triangles, grain, 0.0,
-    [&](std::int64_t first, std::int64_t last) {
-      double sum = 0.0;
-      for (std::int64_t triangle = first; triangle < last; ++triangle)
-      {
-        const auto corner = [&](int i) {
-          return Eigen::Map<const Eigen::Vector3d>(
-            this->Coordinates.data() + 3 * this->Corners.data()[3 * triangle + i]);
-        };
-        areas[triangle] = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
-        sum += areas[triangle];
-      }
-      return sum;
+    [&](std::int64_t triangle, double& sum) {
+      const auto corner = [&](int i) {
+        return Eigen::Map<const Eigen::Vector3d>(
+          this->Coordinates.data() + 3 * this->Corners.data()[3 * triangle + i]);
+      };
+      areas[triangle] = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+      sum += areas[triangle];
     },
     std::plus<>());
   if (!(this->Area > 0.0))

@@ -36,10 +36,7 @@ void OpenedSurface::NumberPoints(Progress& progress)
   const std::int64_t corners = 3 * this->GivenTriangles.NumberOfTriangles;
   this->CutPoints.assign(static_cast<std::size_t>(given), -1);
   this->Origins.resize(static_cast<std::size_t>(given));
-  for (std::int64_t point = 0; point < given; ++point)
-  {
-    this->Origins[static_cast<std::size_t>(point)] = point;
-  }
+  std::iota(this->Origins.begin(), this->Origins.end(), std::int64_t{ 0 });
   this->NextCopy.assign(static_cast<std::size_t>(given), -1);
   this->Corners = LargeBuffer<std::int64_t>(corners);
   progress.ForEachInOrder(

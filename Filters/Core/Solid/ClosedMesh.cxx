@@ -3,7 +3,6 @@
 
 #include "Core/Geometry/EqualPoints.h"
 #include "Core/Geometry/ImageGrid.h"
-#include "Core/Mesh/CornerPoint.h"
 #include "Core/Mesh/Repair/MergePoints.h"
 #include "Core/Mesh/Repair/SplitSurface.h"
 #include "Core/Mesh/Repair/TJunctions.h"

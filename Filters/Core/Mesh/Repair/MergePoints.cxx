@@ -40,9 +40,8 @@ public:
     : Points(points)
     , Width(2.0 * distance)
     , Parents(parents)
-    , Table(hashTableSize(points.size()))
+    , Table(hashTableSize(points.size()), -1)
   {
-    std::fill_n(this->Table.data(), this->Table.size(), std::int64_t{ -1 });
   }
 
   // Joins a point with those in its box.
