@@ -43,23 +43,20 @@ void mergePoints(ConstPointSpan<Dimension> points, std::int64_t* firsts, const C
   stages["table"].ForInOrder(memory.size(), grain, [table](std::int64_t first, std::int64_t last) {
     std::fill(table + first, table + last, std::int64_t{ -1 });
   });
-  stages["points"].ForInOrder(
+  stages["points"].ForEachInOrder(
     points.size(), grain,
-    [=](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+    [=](std::int64_t i) {
+      const double* point = points[i];
+      std::uint64_t place = hash<Dimension>(point) & mask;
+      while (table[place] >= 0 && !std::equal(point, point + Dimension, points[table[place]]))
       {
-        const double* point = points[i];
-        std::uint64_t place = hash<Dimension>(point) & mask;
-        while (table[place] >= 0 && !std::equal(point, point + Dimension, points[table[place]]))
-        {
-          place = (place + 1) & mask;
-        }
-        if (table[place] < 0)
-        {
-          table[place] = i;
-        }
-        firsts[i] = table[place];
+        place = (place + 1) & mask;
       }
+      if (table[place] < 0)
+      {
+        table[place] = i;
+      }
+      firsts[i] = table[place];
     },
     grain);
 }

@@ -19,13 +19,10 @@ template <int D>
 void writePhysical(
   const ImageGrid& grid, ConstPointSpan<D> positions, Progress& progress, PointSpan<3> physical)
 {
-  progress.For(positions.size(), grainOfPositions, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      double index[D];
-      std::copy_n(positions[i], D, index);
-      grid.ToPhysical<D>(index, physical[i]);
-    }
+  progress.ForEach(positions.size(), grainOfPositions, [&](std::int64_t i) {
+    double index[D];
+    std::copy_n(positions[i], D, index);
+    grid.ToPhysical<D>(index, physical[i]);
   });
 }
 

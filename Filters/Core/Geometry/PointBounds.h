@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bounds of points in space, and boxes of items for a tree (see BoxTree.h).
+// How far points in space lie apart and from the origin.
 #ifndef RectifiedTransport_PointBounds_h
 #define RectifiedTransport_PointBounds_h
 
-#include "Core/Geometry/BoxTree.h"
 #include "Core/Geometry/Points.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
+#include <numeric>
 
 namespace RectifiedTransport
 {
-
-class Progress;
 
 struct PointBounds
 {
@@ -46,28 +44,19 @@ struct PointBounds
   Point<3> High{ -most, -most, -most };
 };
 
-struct ItemBox : PointBounds
+// The largest coordinate of points, without its sign; 0 if there are none.
+inline double largestCoordinate(ConstPointSpan<3> points)
 {
-  std::int64_t First;
-  std::int64_t Last;
-  std::int64_t Second; // of the children, after the next one; -1 in a leaf
-};
+  return std::accumulate(points.data(), points.data() + 3 * points.size(), 0.0,
+    [](double largest, double x) { return std::max(largest, std::abs(x)); });
+}
 
-// Puts the items of a box in two parts across its longest side, by value(item, axis), unless they
-// are few enough for a leaf. Returns where the second part begins, the first item for a leaf.
-template <class Value>
-std::int64_t divideItems(std::int64_t* items, const ItemBox& box, std::int64_t itemsOfLeaf,
-  const Value& value, Progress& progress)
+// A power of two that brings a length near 1, so that squares neither overflow nor underflow; 1 for
+// the length 0.
+inline double scaleToUnit(double length)
 {
-  if (box.Last - box.First <= itemsOfLeaf)
-  {
-    return box.First;
-  }
-  const std::size_t longest = box.Longest();
-  const std::int64_t middle = partitionAboutMedian(
-    items, box.First, box.Last, [&](std::int64_t item) { return value(item, longest); }, progress);
-  // Where all values are the same, any halves do.
-  return middle < box.Last ? middle : (box.First + box.Last) / 2;
+  constexpr int most = 1000; // the scale is finite
+  return length > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(length), -most, most)) : 1.0;
 }
 
 } // namespace RectifiedTransport

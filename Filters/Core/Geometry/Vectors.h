@@ -5,6 +5,8 @@
 
 #include "Core/Geometry/Points.h"
 
+#include <cstdint>
+
 namespace RectifiedTransport
 {
 
@@ -23,6 +25,10 @@ inline Point<3> operator*(double factor, const Point<3>& a)
   return { factor * a[0], factor * a[1], factor * a[2] };
 }
 
+inline Point<3> operator/(const Point<3>& a, double divisor)
+{
+  return { a[0] / divisor, a[1] / divisor, a[2] / divisor };
+}
 inline double dot(const Point<3>& a, const Point<3>& b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -31,6 +37,14 @@ inline double dot(const Point<3>& a, const Point<3>& b)
 inline Point<3> cross(const Point<3>& a, const Point<3>& b)
 {
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+inline double squaredDistance(const Point<3>& a, const Point<3>& b)
+{
+  return dot(a - b, a - b);
+}
+inline Point<3> pointAt(ConstPointSpan<3> points, std::int64_t i)
+{
+  return { points[i][0], points[i][1], points[i][2] };
 }
 
 } // namespace RectifiedTransport

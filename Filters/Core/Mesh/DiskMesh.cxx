@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/DiskMesh.h"
 
-#include "Core/Mesh/CornerPoint.h"
 #include "Core/Mesh/SurfaceOrientation.h"
 #include "Core/Mesh/UnitScale.h"
 #include "Core/Parallel/Stages.h"
@@ -111,10 +110,6 @@ DiskMesh::DiskMesh(const TriangleSurface& surface, const Context& context)
   this->FindBoundary(stages["boundary"]);
 }
 
-DiskMesh::~DiskMesh() = default;
-DiskMesh::DiskMesh(DiskMesh&&) noexcept = default;
-DiskMesh& DiskMesh::operator=(DiskMesh&&) noexcept = default;
-
 TriangleSurface DiskMesh::Surface() const
 {
   return { { this->Coordinates.data(), this->NumberOfPoints() }, this->Triangles.data(),
@@ -127,16 +122,13 @@ void DiskMesh::CopyPoints(ConstPointSpan<3> points, Progress& progress)
   std::int64_t wrong = 0;
   std::int64_t first = -1;
   Eigen::AlignedBox3d bounds;
-  progress.ForInOrder(count, grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i)
+  progress.ForEachInOrder(count, grain, [&](std::int64_t i) {
+    const Eigen::Map<const Eigen::Vector3d> point(points[i]);
+    if (!point.allFinite())
     {
-      const Eigen::Map<const Eigen::Vector3d> point(points[i]);
-      if (!point.allFinite())
-      {
-        first = wrong++ == 0 ? i : first;
-      }
-      bounds.extend(point);
+      first = wrong++ == 0 ? i : first;
     }
+    bounds.extend(point);
   });
   if (wrong > 0)
   {
@@ -144,12 +136,9 @@ void DiskMesh::CopyPoints(ConstPointSpan<3> points, Progress& progress)
   }
   const UnitScale scale(bounds);
   this->Length = scale.Unit();
-  progress.For(count, grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i)
-    {
-      Eigen::Map<Eigen::Vector3d>(this->Coordinates.data() + 3 * i) =
-        scale(Eigen::Map<const Eigen::Vector3d>(points[i]));
-    }
+  progress.ForEach(count, grain, [&](std::int64_t i) {
+    Eigen::Map<Eigen::Vector3d>(this->Coordinates.data() + 3 * i) =
+      scale(Eigen::Map<const Eigen::Vector3d>(points[i]));
   });
 }
 
@@ -159,35 +148,27 @@ void DiskMesh::CopyTriangles(const TriangleSurface& surface, Progress& progress)
   {
     throw NotADisk(DiskDefect::NoTriangles, 0);
   }
-  progress.ForInOrder(
-    3 * surface.NumberOfTriangles, grain, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t corner = begin; corner < end; ++corner)
-      {
-        this->Triangles.data()[corner] = cornerPoint(surface, corner);
-      }
-    });
+  progress.ForEachInOrder(3 * surface.NumberOfTriangles, grain,
+    [&](std::int64_t corner) { this->Triangles.data()[corner] = cornerPoint(surface, corner); });
 }
 
 void DiskMesh::FindAreas(Progress& progress)
 {
   std::int64_t wrong = 0;
   std::int64_t first = -1;
-  progress.ForInOrder(
+  progress.ForEachInOrder(
     this->NumberOfTriangles(), grain,
-    [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t t = begin; t < end; ++t)
+    [&](std::int64_t t) {
+      const auto corner = [this, t](int i) {
+        return Eigen::Map<const Eigen::Vector3d>(
+          this->Coordinates.data() + 3 * this->Triangle(t)[i]);
+      };
+      const double area = areaOf(corner(0), corner(1), corner(2));
+      this->Shares.data()[t] = area;
+      this->TotalArea += area;
+      if (!(area > 0.0))
       {
-        const auto corner = [this, t](int i) {
-          return Eigen::Map<const Eigen::Vector3d>(
-            this->Coordinates.data() + 3 * this->Triangle(t)[i]);
-        };
-        const double area = areaOf(corner(0), corner(1), corner(2));
-        this->Shares.data()[t] = area;
-        this->TotalArea += area;
-        if (!(area > 0.0))
-        {
-          first = wrong++ == 0 ? t : first;
-        }
+        first = wrong++ == 0 ? t : first;
       }
     },
     randomAccess);
@@ -195,26 +176,17 @@ void DiskMesh::FindAreas(Progress& progress)
   {
     throw NotADisk(DiskDefect::TrianglesWithoutArea, wrong, first);
   }
-  progress.For(this->NumberOfTriangles(), grain, [this](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t < end; ++t)
-    {
-      this->Shares.data()[t] /= this->TotalArea;
-    }
-  });
+  progress.ForEach(this->NumberOfTriangles(), grain,
+    [this](std::int64_t t) { this->Shares.data()[t] /= this->TotalArea; });
 }
 
 void DiskMesh::RequireUsedPoints(Progress& progress) const
 {
   std::vector<unsigned char> used(static_cast<std::size_t>(this->NumberOfPoints()), 0);
-  progress.ForInOrder(
+  const std::int64_t* corners = this->Triangles.data();
+  progress.ForEachInOrder(
     this->Triangles.size(), grain,
-    [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t corner = begin; corner < end; ++corner)
-      {
-        used[static_cast<std::size_t>(this->Triangles.data()[corner])] = 1;
-      }
-    },
-    randomAccess);
+    [&](std::int64_t i) { used[static_cast<std::size_t>(corners[i])] = 1; }, randomAccess);
   const auto unused = std::count(used.begin(), used.end(), 0);
   if (unused > 0)
   {
@@ -264,17 +236,14 @@ void DiskMesh::FindBoundary(Progress& progress)
   std::vector<std::int64_t> start(static_cast<std::size_t>(points), -1);
   std::vector<std::int64_t> valence(static_cast<std::size_t>(points), 0);
   Stages stages(progress, { { "starts", 1 }, { "pinched points", 2 }, { "loops", 1 } });
-  stages["starts"].ForInOrder(
+  stages["starts"].ForEachInOrder(
     sides, grain,
-    [&](std::int64_t begin, std::int64_t last) {
-      for (std::int64_t side = begin; side < last; ++side)
+    [&](std::int64_t side) {
+      const auto point = static_cast<std::size_t>(from[side]);
+      ++valence[point];
+      if (start[point] < 0 || this->Sides->Other(side) < 0)
       {
-        const auto point = static_cast<std::size_t>(from[side]);
-        ++valence[point];
-        if (start[point] < 0 || this->Sides->Other(side) < 0)
-        {
-          start[point] = side;
-        }
+        start[point] = side;
       }
     },
     randomAccess);

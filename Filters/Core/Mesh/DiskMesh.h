@@ -66,9 +66,6 @@ public:
   // Throws NotADisk, std::invalid_argument for triangles with points that do not exist,
   // std::bad_alloc and Cancelled.
   explicit DiskMesh(const TriangleSurface& surface, const Context& context = Context());
-  ~DiskMesh();
-  DiskMesh(DiskMesh&&) noexcept;
-  DiskMesh& operator=(DiskMesh&&) noexcept;
 
   // The triangles in their order, all with the orientation that most of the area has. The points
   // are in units of Unit(), from the centre of their bounds.

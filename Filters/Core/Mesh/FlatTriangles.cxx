@@ -50,13 +50,13 @@ public:
 
 private:
   std::int64_t& PointAt(std::int64_t side) { return this->Edited.Points[side]; }
+  Point<3> At(std::int64_t point) const { return pointAt(this->Edited.Positions, point); }
   bool IsRemoved(std::int64_t triangle) { return this->Edited.Points[3 * triangle] < 0; }
 
   FlatShape ShapeOf(std::int64_t triangle) const
   {
     const std::int64_t* points = this->Edited.Points + 3 * triangle;
-    return { this->Edited.Positions[points[0]], this->Edited.Positions[points[1]],
-      this->Edited.Positions[points[2]] };
+    return { this->At(points[0]), this->At(points[1]), this->At(points[2]) };
   }
 
   bool IsFlat(std::int64_t triangle) const
@@ -119,13 +119,11 @@ private:
       {
         this->Others.data()[other] = -1;
       }
-      const double* at = this->Edited.Positions[this->PointAt(side)];
+      const Point<3> at = this->At(this->PointAt(side));
       const std::int64_t one = this->PointAt(nextSide(side));
       const std::int64_t two = this->PointAt(lastSide(side));
-      this->Nearest[this->PointAt(side)] = squaredDistance(at, this->Edited.Positions[one]) <=
-          squaredDistance(at, this->Edited.Positions[two])
-        ? one
-        : two;
+      const bool isOne = squaredDistance(at, this->At(one)) <= squaredDistance(at, this->At(two));
+      this->Nearest[this->PointAt(side)] = isOne ? one : two;
     }
     std::fill_n(this->Edited.Points + 3 * triangle, 3, std::int64_t{ -1 });
   }
@@ -174,8 +172,7 @@ private:
     return false;
   }
 
-  // The side from a to b, of the triangles a b c and b a d, becomes the one from c to d: their
-  // triangles become c a d and d b c.
+  // As flipEdge does.
   void Flip(std::int64_t side, std::int64_t other)
   {
     const std::int64_t f = side / 3;
@@ -191,42 +188,12 @@ private:
     const auto cornersF = at(corners, far);
     const auto cornersG = at(corners, near);
 
-    const std::int64_t alongCA = this->Renamed(lastSide(side), side, other);
-    const std::int64_t alongAD = this->Renamed(nextSide(other), side, other);
-    const std::int64_t alongDB = this->Renamed(lastSide(other), side, other);
-    const std::int64_t alongBC = this->Renamed(nextSide(side), side, other);
+    flipEdge(this->Others.data(), side, other);
     std::copy(pointsF.begin(), pointsF.end(), this->Edited.Points + 3 * f);
     std::copy(pointsG.begin(), pointsG.end(), this->Edited.Points + 3 * g);
     std::copy(cornersF.begin(), cornersF.end(), corners + 3 * f);
     std::copy(cornersG.begin(), cornersG.end(), corners + 3 * g);
     this->Edited.Origins[f] = this->Edited.Origins[g];
-    this->Join(3 * f, alongCA);
-    this->Join(3 * f + 1, alongAD);
-    this->Join(3 * f + 2, 3 * g + 2);
-    this->Join(3 * g, alongDB);
-    this->Join(3 * g + 1, alongBC);
-  }
-
-  // What a side meets before a flip, by its number after it.
-  std::int64_t Renamed(std::int64_t outer, std::int64_t side, std::int64_t other) const
-  {
-    const std::int64_t f = side / 3;
-    const std::int64_t g = other / 3;
-    const std::int64_t met = this->Others.data()[outer];
-    return met == nextSide(side) ? 3 * g + 1
-      : met == lastSide(side)    ? 3 * f
-      : met == nextSide(other)   ? 3 * f + 1
-      : met == lastSide(other)   ? 3 * g
-                                 : met;
-  }
-
-  void Join(std::int64_t one, std::int64_t two)
-  {
-    this->Others.data()[one] = two;
-    if (two >= 0)
-    {
-      this->Others.data()[two] = one;
-    }
   }
 
   const EditedTriangles Edited;

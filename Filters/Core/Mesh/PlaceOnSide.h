@@ -30,9 +30,7 @@ public:
     const double longest = std::max(0.0, bounds.Length(bounds.Longest()));
     this->Distance = std::max(
       { rounding, units * std::numeric_limits<double>::epsilon() * farthest, relative * longest });
-    constexpr int most = 1000; // the scale is finite
-    this->Scale =
-      longest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(longest), -most, most)) : 1.0;
+    this->Scale = scaleToUnit(longest);
   }
 
   // How far points may be off.

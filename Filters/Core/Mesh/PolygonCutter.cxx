@@ -16,12 +16,6 @@ namespace RectifiedTransport
 namespace
 {
 
-double squaredDistance(const Point<3>& a, const Point<3>& b)
-{
-  const Point<3> way = a - b;
-  return dot(way, way);
-}
-
 Point<3> normalOf(const Point<3>& a, const Point<3>& b, const Point<3>& c)
 {
   return cross(b - a, c - a);

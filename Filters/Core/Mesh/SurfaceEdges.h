@@ -53,6 +53,11 @@ private:
   std::atomic<std::int64_t> NumberReversed{ 0 };
 };
 
+// Updates the other sides of all sides, -1 where there is none, for the flip of an edge: the side
+// from a to b, of the triangles a b c and b a d, becomes the one from c to d. The triangles become
+// c a d and d b c.
+void flipEdge(std::int64_t* others, std::int64_t side, std::int64_t other);
+
 } // namespace RectifiedTransport
 
 #endif

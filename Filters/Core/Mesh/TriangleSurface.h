@@ -6,6 +6,8 @@
 #include "../Geometry/Points.h"
 
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 
 namespace RectifiedTransport
 {
@@ -17,6 +19,20 @@ struct TriangleSurface
   const std::int64_t* Triangles;
   std::int64_t NumberOfTriangles;
 };
+
+// The point at a corner of a triangle, where nobody has checked that there is one: corner 3t+i is
+// corner i of triangle t. Throws std::invalid_argument.
+inline std::int64_t cornerPoint(const TriangleSurface& surface, std::int64_t corner)
+{
+  const std::int64_t point = surface.Triangles[corner];
+  if (point < 0 || point >= surface.Points.size())
+  {
+    throw std::invalid_argument("triangle " + std::to_string(corner / 3) + " has the point " +
+      std::to_string(point) + ", but there are " + std::to_string(surface.Points.size()) +
+      " points");
+  }
+  return point;
+}
 
 // A triangle of the same three points as one before, in any order, and the first of these.
 struct RepeatedTriangle

@@ -57,20 +57,13 @@ void WholeTriangles::ScalePoints(Progress& progress)
   const std::int64_t count = this->Coordinates.size() / 3;
   double* coordinates = this->Coordinates.data();
   Eigen::AlignedBox3d bounds;
-  progress.ForInOrder(count, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      bounds.extend(Eigen::Map<const Eigen::Vector3d>(coordinates + 3 * i));
-    }
-  });
+  progress.ForEachInOrder(count, grain,
+    [&](std::int64_t i) { bounds.extend(Eigen::Map<const Eigen::Vector3d>(coordinates + 3 * i)); });
   const UnitScale scale(bounds);
   this->Unit = scale.Unit();
-  progress.For(count, grain, [=](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      Eigen::Map<Eigen::Vector3d> point(coordinates + 3 * i);
-      point = scale(point);
-    }
+  progress.ForEach(count, grain, [=](std::int64_t i) {
+    Eigen::Map<Eigen::Vector3d> point(coordinates + 3 * i);
+    point = scale(point);
   });
 }
 
@@ -82,14 +75,11 @@ void WholeTriangles::LeaveOut(const IsLeftOut& isLeftOut, Progress& progress)
     std::iota(this->Kept.data(), this->Kept.data() + this->Count, std::int64_t{ 0 });
   }
   std::int64_t next = 0;
-  progress.ForInOrder(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t triangle = first; triangle < last; ++triangle)
+  progress.ForEachInOrder(this->Count, grain, [&](std::int64_t triangle) {
+    if (!isLeftOut(triangle))
     {
-      if (!isLeftOut(triangle))
-      {
-        this->Kept.data()[next] = this->Kept.data()[triangle];
-        std::copy_n(this->Corners.data() + 3 * triangle, 3, this->Corners.data() + 3 * next++);
-      }
+      this->Kept.data()[next] = this->Kept.data()[triangle];
+      std::copy_n(this->Corners.data() + 3 * triangle, 3, this->Corners.data() + 3 * next++);
     }
   });
   this->Count = next;
@@ -126,20 +116,15 @@ void WholeTriangles::FindAreas(Progress& progress)
   const std::int64_t triangles = this->NumberOfTriangles();
   this->Shares = LargeBuffer<double>(triangles);
   double* areas = this->Shares.data();
-  this->Area = reduceChunks(
+  this->Area = reduceEach(
     progress, triangles, grain, 0.0,
-    [&](std::int64_t first, std::int64_t last) {
-      double sum = 0.0;
-      for (std::int64_t triangle = first; triangle < last; ++triangle)
-      {
-        const auto corner = [&](int i) {
-          return Eigen::Map<const Eigen::Vector3d>(
-            this->Coordinates.data() + 3 * this->Corners.data()[3 * triangle + i]);
-        };
-        areas[triangle] = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
-        sum += areas[triangle];
-      }
-      return sum;
+    [&](std::int64_t triangle, double& sum) {
+      const auto corner = [&](int i) {
+        return Eigen::Map<const Eigen::Vector3d>(
+          this->Coordinates.data() + 3 * this->Corners.data()[3 * triangle + i]);
+      };
+      areas[triangle] = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+      sum += areas[triangle];
     },
     std::plus<>());
   if (!(this->Area > 0.0))
@@ -148,12 +133,7 @@ void WholeTriangles::FindAreas(Progress& progress)
       " triangles has corners at one place or on one line");
   }
   const double area = this->Area;
-  progress.For(triangles, grain, [=](std::int64_t first, std::int64_t last) {
-    for (std::int64_t triangle = first; triangle < last; ++triangle)
-    {
-      areas[triangle] /= area;
-    }
-  });
+  progress.ForEach(triangles, grain, [=](std::int64_t triangle) { areas[triangle] /= area; });
 }
 
 } // namespace RectifiedTransport

@@ -5,6 +5,7 @@
 #ifndef RectifiedTransport_LargeBuffer_h
 #define RectifiedTransport_LargeBuffer_h
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -90,6 +91,11 @@ public:
       throw std::bad_alloc();
     }
     this->Memory.reset(static_cast<T*>(memory));
+  }
+  LargeBuffer(std::int64_t count, const T& value)
+    : LargeBuffer(count)
+  {
+    std::fill_n(this->data(), count, value);
   }
 
   // The memory, for an owner that frees it with freeLarge.

@@ -45,22 +45,32 @@ Part reduceChunks(Progress& progress, std::int64_t count, std::int64_t grain, co
   return all;
 }
 
+// The same where visit(i, part) adds number i to the part of its chunk, which begins as `nothing`.
+template <class Part, class Visit, class Combine>
+Part reduceEach(Progress& progress, std::int64_t count, std::int64_t grain, const Part& nothing,
+  const Visit& visit, const Combine& combine)
+{
+  return reduceChunks(
+    progress, count, grain, nothing,
+    [&](std::int64_t first, std::int64_t last) {
+      Part part = nothing;
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        visit(i, part);
+      }
+      return part;
+    },
+    combine);
+}
+
 // The sum of term(i) of [0, count), which are added one after another in each chunk. As
 // reduceChunks.
 template <class Term>
 double sumTerms(Progress& progress, std::int64_t count, std::int64_t grain, const Term& term)
 {
-  return reduceChunks(
+  return reduceEach(
     progress, count, grain, 0.0,
-    [&term](std::int64_t first, std::int64_t last) {
-      double sum = 0.0;
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        sum += term(i);
-      }
-      return sum;
-    },
-    std::plus<>());
+    [&term](std::int64_t i, double& sum) { sum += term(i); }, std::plus<>());
 }
 
 } // namespace RectifiedTransport

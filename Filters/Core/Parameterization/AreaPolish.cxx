@@ -258,15 +258,12 @@ void polishAreas(
   {
     const auto regions = static_cast<std::int64_t>(group.size());
     Progress& stage = stages[number++];
-    stage.For(
+    stage.ForEach(
       regions, 1,
-      [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t region = first; region < last; ++region)
-        {
-          LocalMap map(parts, group[static_cast<std::size_t>(region)], positions);
-          TilePolish(parts, map, sweep == 0).Run(stage);
-          map.Store(positions);
-        }
+      [&](std::int64_t region) {
+        LocalMap map(parts, group[static_cast<std::size_t>(region)], positions);
+        TilePolish(parts, map, sweep == 0).Run(stage);
+        map.Store(positions);
       },
       1);
   }

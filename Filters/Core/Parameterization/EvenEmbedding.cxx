@@ -19,14 +19,6 @@ namespace
 
 constexpr std::int64_t manyPoints = std::int64_t{ 1 } << 17;
 
-double imageArea(
-  const DiskMesh& disk, const std::vector<Point<2>>& positions, std::int64_t triangle)
-{
-  const std::int64_t* ids = disk.Triangle(triangle);
-  const auto at = [&](int i) { return positions[static_cast<std::size_t>(ids[i])]; };
-  return 0.5 * crossProduct(at(0), at(1), at(2));
-}
-
 // The boundary points of each side, at equal speed on the surface.
 void placeByLength(const DiskMesh& disk, const SquareMap& square, std::vector<Point<2>>& positions)
 {

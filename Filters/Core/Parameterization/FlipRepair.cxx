@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -34,19 +35,12 @@ void addRing(const MapParts& parts, std::vector<unsigned char>& isIn, Patch& poi
   const std::size_t count = points.size();
   for (std::size_t i = 0; i < count; ++i)
   {
-    const std::int64_t point = points[i];
-    for (const std::int64_t* t = parts.Triangles.begin(point); t < parts.Triangles.end(point); ++t)
-    {
-      for (int corner = 0; corner < 3; ++corner)
+    parts.Triangles.VisitCorners(points[i], [&](std::int64_t other) {
+      if (std::exchange(isIn[static_cast<std::size_t>(other)], 1) == 0)
       {
-        const std::int64_t other = parts.Disk.Triangle(*t)[corner];
-        if (!isIn[static_cast<std::size_t>(other)])
-        {
-          isIn[static_cast<std::size_t>(other)] = 1;
-          points.push_back(other);
-        }
+        points.push_back(other);
       }
-    }
+    });
   }
 }
 
@@ -65,20 +59,12 @@ std::vector<Patch> separate(
     isIn[static_cast<std::size_t>(start)] = 0;
     for (std::size_t next = 0; next < patch.size(); ++next)
     {
-      const std::int64_t point = patch[next];
-      for (const std::int64_t* t = parts.Triangles.begin(point); t < parts.Triangles.end(point);
-           ++t)
-      {
-        for (int corner = 0; corner < 3; ++corner)
+      parts.Triangles.VisitCorners(patch[next], [&](std::int64_t other) {
+        if (std::exchange(isIn[static_cast<std::size_t>(other)], 0) != 0)
         {
-          const std::int64_t other = parts.Disk.Triangle(*t)[corner];
-          if (isIn[static_cast<std::size_t>(other)])
-          {
-            isIn[static_cast<std::size_t>(other)] = 0;
-            patch.push_back(other);
-          }
+          patch.push_back(other);
         }
-      }
+      });
     }
     std::sort(patch.begin(), patch.end());
     patches.push_back(std::move(patch));
@@ -225,9 +211,8 @@ void repairFlips(
     for (int corner = 0; corner < 3; ++corner)
     {
       const std::int64_t point = parts.Disk.Triangle(t)[corner];
-      if (!isIn[static_cast<std::size_t>(point)])
+      if (std::exchange(isIn[static_cast<std::size_t>(point)], 1) == 0)
       {
-        isIn[static_cast<std::size_t>(point)] = 1;
         points.push_back(point);
       }
     }
@@ -237,19 +222,16 @@ void repairFlips(
     addRing(parts, isIn, points);
   }
   const std::vector<Patch> patches = separate(parts, isIn, points);
-  progress.For(
+  progress.ForEach(
     static_cast<std::int64_t>(patches.size()), 1,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+    [&](std::int64_t i) {
+      const Patch& patch = patches[static_cast<std::size_t>(i)];
+      if (patch.size() <= largestPatch)
       {
-        const Patch& patch = patches[static_cast<std::size_t>(i)];
-        if (patch.size() <= largestPatch)
+        LocalMap map(parts, patch, positions);
+        if (PatchRepair(parts, map).Run(progress))
         {
-          LocalMap map(parts, patch, positions);
-          if (PatchRepair(parts, map).Run(progress))
-          {
-            map.Store(positions);
-          }
+          map.Store(positions);
         }
       }
     },

@@ -49,25 +49,14 @@ CollapsedTriangles findCollapsed(const DiskMesh& disk, const SquareMap& square)
 }
 
 PointTriangles::PointTriangles(const DiskMesh& disk)
-  : First(static_cast<std::size_t>(disk.NumberOfPoints()) + 1, 0)
-  , Triangles(static_cast<std::size_t>(3 * disk.NumberOfTriangles()))
+  : Disk(disk)
 {
-  const std::int64_t* corners = disk.Triangle(0);
-  const std::int64_t count = 3 * disk.NumberOfTriangles();
-  for (std::int64_t corner = 0; corner < count; ++corner)
-  {
-    ++this->First[static_cast<std::size_t>(corners[corner]) + 1];
-  }
-  for (std::size_t point = 1; point < this->First.size(); ++point)
-  {
-    this->First[point] += this->First[point - 1];
-  }
-  std::vector<std::int64_t> next(this->First.begin(), this->First.end() - 1);
-  for (std::int64_t corner = 0; corner < count; ++corner)
-  {
-    this->Triangles[static_cast<std::size_t>(next[static_cast<std::size_t>(corners[corner])]++)] =
-      corner / 3;
-  }
+  this->Triangles.Fill(static_cast<std::size_t>(disk.NumberOfPoints()), [&](const auto& add) {
+    for (std::int64_t corner = 0; corner < 3 * disk.NumberOfTriangles(); ++corner)
+    {
+      add(static_cast<std::size_t>(disk.Triangle(0)[corner]), corner / 3);
+    }
+  });
 }
 
 LocalMap::LocalMap(const MapParts& parts, const std::vector<std::int64_t>& points,
@@ -75,7 +64,8 @@ LocalMap::LocalMap(const MapParts& parts, const std::vector<std::int64_t>& point
 {
   for (const std::int64_t point : points)
   {
-    this->Ids.insert(this->Ids.end(), parts.Triangles.begin(point), parts.Triangles.end(point));
+    const auto about = parts.Triangles[point];
+    this->Ids.insert(this->Ids.end(), about.begin(), about.end());
   }
   sortOnce(this->Ids);
   this->Points.reserve(3 * this->Ids.size());

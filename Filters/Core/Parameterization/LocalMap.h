@@ -3,9 +3,11 @@
 #ifndef RectifiedTransport_LocalMap_h
 #define RectifiedTransport_LocalMap_h
 
+#include "Core/Geometry/Bins.h"
 #include "Core/Parameterization/ConformalMap.h"
 #include "Core/Parameterization/LocalSystem.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -19,17 +21,23 @@ class PointTriangles
 public:
   explicit PointTriangles(const DiskMesh& disk);
 
-  const std::int64_t* begin(std::int64_t point) const { return this->At(point); }
-  const std::int64_t* end(std::int64_t point) const { return this->At(point + 1); }
-
-private:
-  const std::int64_t* At(std::int64_t point) const
+  Bins<std::int64_t>::Range operator[](std::int64_t point) const
   {
-    return this->Triangles.data() + this->First[static_cast<std::size_t>(point)];
+    return this->Triangles[static_cast<std::size_t>(point)];
+  }
+  // Calls visit(other) for the corners of these triangles.
+  template <class Visit>
+  void VisitCorners(std::int64_t point, const Visit& visit) const
+  {
+    for (const std::int64_t triangle : (*this)[point])
+    {
+      std::for_each_n(this->Disk.Triangle(triangle), 3, visit);
+    }
   }
 
-  std::vector<std::int64_t> First;
-  std::vector<std::int64_t> Triangles;
+private:
+  const DiskMesh& Disk;
+  Bins<std::int64_t> Triangles;
 };
 
 // What all parts of a map share.
@@ -62,6 +70,15 @@ CollapsedTriangles findCollapsed(const DiskMesh& disk, const SquareMap& square);
 inline double crossProduct(const Point<2>& a, const Point<2>& b, const Point<2>& c)
 {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+// The area of a triangle in a map.
+inline double imageArea(
+  const DiskMesh& disk, const std::vector<Point<2>>& positions, std::int64_t triangle)
+{
+  const std::int64_t* ids = disk.Triangle(triangle);
+  const auto at = [&](int i) { return positions[static_cast<std::size_t>(ids[i])]; };
+  return 0.5 * crossProduct(at(0), at(1), at(2));
 }
 
 // The triangles about some points, with local numbers for their corners.

@@ -30,8 +30,8 @@ struct Sums
 bool isNeedle(const TriangleSurface& surface, std::int64_t triangle)
 {
   const std::int64_t* corners = surface.Triangles + 3 * triangle;
-  const FlatShape shape(
-    surface.Points[corners[0]], surface.Points[corners[1]], surface.Points[corners[2]]);
+  const auto at = [&](int i) { return pointAt(surface.Points, corners[i]); };
+  const FlatShape shape(at(0), at(1), at(2));
   return shape.Height < MapDistortion::NeedleHeight * shape.Length;
 }
 

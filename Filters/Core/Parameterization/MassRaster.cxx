@@ -106,15 +106,8 @@ public:
     Stages stages(progress, { { "lists", 3 }, { "bands", 7 } });
     this->ListTriangles();
     stages["lists"].Check();
-    stages["bands"].For(
-      this->Bands, 1,
-      [this](std::int64_t first, std::int64_t last) {
-        for (std::int64_t band = first; band < last; ++band)
-        {
-          this->FillBand(band);
-        }
-      },
-      4);
+    stages["bands"].ForEach(
+      this->Bands, 1, [this](std::int64_t band) { this->FillBand(band); }, 4);
   }
 
 private:

@@ -44,10 +44,7 @@ void openSphere(SeamMesh& mesh, SeamSearch& search)
       }
     });
   }
-  for (const std::int64_t side : path)
-  {
-    mesh.SetSeam(side, true);
-  }
+  mesh.SetSeams(path, true);
 }
 
 struct KeyedSide
@@ -170,7 +167,7 @@ private:
         return;
       }
       this->Mesh.SetSeam(side, true);
-      point = this->Mesh.From(side) == point ? this->Mesh.To(side) : this->Mesh.From(side);
+      point = this->Mesh.OtherEnd(side, point);
     }
   }
 
@@ -183,7 +180,7 @@ private:
       this->Mesh.VisitEdges(point,
         [&](std::int64_t side, std::int64_t) { seam = this->Mesh.IsSeam(side) ? side : seam; });
       this->Mesh.SetSeam(seam, false);
-      point = this->Mesh.From(seam) == point ? this->Mesh.To(seam) : this->Mesh.From(seam);
+      point = this->Mesh.OtherEnd(seam, point);
     }
   }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Seams/CutSurface.h"
 
-#include "Core/Mesh/CornerPoint.h"
+#include "Core/Geometry/PointBounds.h"
+#include "Core/Geometry/Vectors.h"
 #include "Core/Mesh/FlatShape.h"
 #include "Core/Mesh/Repair/SurfaceRepair.h"
 #include "Core/Parallel/Stages.h"
@@ -36,12 +37,12 @@ void poll(std::int64_t triangle, Progress& progress)
 
 void requireTriangles(const TriangleSurface& surface)
 {
-  for (std::int64_t i = 0; i < 3 * surface.Points.size(); ++i)
+  const double* const begin = surface.Points.data();
+  const double* const end = begin + 3 * surface.Points.size();
+  const double* wrong = std::find_if(begin, end, [](double x) { return !std::isfinite(x); });
+  if (wrong < end)
   {
-    if (!std::isfinite(surface.Points.data()[i]))
-    {
-      throw NotADisk(DiskDefect::PointsNotFinite, 1, i / 3);
-    }
+    throw NotADisk(DiskDefect::PointsNotFinite, 1, (wrong - begin) / 3);
   }
   if (surface.NumberOfTriangles == 0)
   {
@@ -139,23 +140,13 @@ private:
   void KeepTriangles(const RepairedSurface& repair, Progress& progress)
   {
     const TriangleSurface surface = repair.Surface();
-    for (std::int64_t i = 0; i < 3 * surface.Points.size(); ++i)
-    {
-      this->Unit = std::max(this->Unit, std::abs(surface.Points.data()[i]));
-    }
+    this->Unit = largestCoordinate(surface.Points);
     for (std::int64_t triangle = 0; triangle < surface.NumberOfTriangles; ++triangle)
     {
       poll(triangle, progress);
       const std::int64_t* ids = surface.Triangles + 3 * triangle;
-      std::array<Point<3>, 3> corners;
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          corners[i][axis] = surface.Points[ids[i]][axis] / this->Unit;
-        }
-      }
-      if (FlatShape(corners[0].data(), corners[1].data(), corners[2].data()).Height > 0.0)
+      const auto at = [&](int i) { return pointAt(surface.Points, ids[i]) / this->Unit; };
+      if (FlatShape(at(0), at(1), at(2)).Height > 0.0)
       {
         this->Repaired.push_back(triangle);
         this->Triangles.insert(this->Triangles.end(), ids, ids + 3);
@@ -166,15 +157,11 @@ private:
   void Prepare(const RepairedSurface& repair)
   {
     const std::int64_t triangles = this->Surface.NumberOfTriangles;
-    this->Made.DisksOf = LargeBuffer<std::int64_t>(triangles);
-    this->Made.Corners = LargeBuffer<std::int64_t>(3 * triangles);
+    this->Made.DisksOf = { triangles, -1 };
+    this->Made.Corners = { 3 * triangles, -1 };
     this->Made.PointsOf = LargeBuffer<std::int64_t>(this->Surface.Points.size());
-    this->Made.Turned = LargeBuffer<unsigned char>(triangles);
-    std::fill_n(this->Made.Turned.data(), triangles, static_cast<unsigned char>(0));
-    std::fill_n(this->Made.DisksOf.data(), triangles, std::int64_t{ -1 });
-    std::fill_n(this->Made.Corners.data(), 3 * triangles, std::int64_t{ -1 });
-    this->FirstCopies = LargeBuffer<std::int64_t>(repair.Surface().Points.size());
-    std::fill_n(this->FirstCopies.data(), this->FirstCopies.size(), std::int64_t{ -1 });
+    this->Made.Turned = { triangles, 0 };
+    this->FirstCopies = { repair.Surface().Points.size(), -1 };
   }
 
   struct Component
@@ -275,8 +262,7 @@ private:
   {
     if (this->Locals.size() == 0)
     {
-      this->Locals = LargeBuffer<std::int64_t>(component.Parts.NumberOfPoints());
-      std::fill_n(this->Locals.data(), this->Locals.size(), std::int64_t{ -1 });
+      this->Locals = { component.Parts.NumberOfPoints(), -1 };
     }
     std::vector<Point<3>> points;
     std::vector<std::int64_t> triangles;
@@ -292,8 +278,8 @@ private:
         if (local < 0)
         {
           local = static_cast<std::int64_t>(points.size());
-          const double* place = component.Kept.Points[component.Kept.Triangles[corner]];
-          points.push_back({ place[0] / this->Unit, place[1] / this->Unit, place[2] / this->Unit });
+          const std::int64_t point = component.Kept.Triangles[corner];
+          points.push_back(pointAt(component.Kept.Points, point) / this->Unit);
         }
         triangles.push_back(local);
       }

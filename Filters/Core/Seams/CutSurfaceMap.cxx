@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Seams/CutSurfaceMap.h"
 
+#include "Core/Geometry/PointBounds.h"
+#include "Core/Geometry/Vectors.h"
 #include "Core/Mesh/FlatShape.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/EvenEmbedding.h"
@@ -32,9 +34,7 @@ double coveredBy(const CutDisk& disk, const std::vector<Point<2>>& positions)
   const std::int64_t end = disk.Mesh->NumberOfTriangles();
   for (std::int64_t triangle = end - disk.TrianglesOfHoles; triangle < end; ++triangle)
   {
-    const std::int64_t* ids = disk.Mesh->Triangle(triangle);
-    const auto at = [&](int i) { return positions[static_cast<std::size_t>(ids[i])]; };
-    holes += 0.5 * crossProduct(at(0), at(1), at(2));
+    holes += imageArea(*disk.Mesh, positions, triangle);
   }
   return 1.0 - holes;
 }
@@ -177,11 +177,7 @@ CutTriangles::CutTriangles(const CutSurface& cut, const TriangleSurface& given)
   : Points(static_cast<std::size_t>(cut.NumberOfPoints()))
 {
   double total = 0.0;
-  double largest = 0.0;
-  for (std::int64_t i = 0; i < 3 * given.Points.size(); ++i)
-  {
-    largest = std::max(largest, std::abs(given.Points.data()[i]));
-  }
+  const double largest = largestCoordinate(given.Points);
   auto repeated = cut.Repeated().begin();
   for (std::int64_t triangle = 0; triangle < given.NumberOfTriangles; ++triangle)
   {
@@ -198,10 +194,10 @@ CutTriangles::CutTriangles(const CutSurface& cut, const TriangleSurface& given)
     std::array<Point<3>, 3> places;
     for (std::size_t i = 0; i < 3; ++i)
     {
-      const double* place = given.Points[given.Triangles[3 * triangle + static_cast<int>(i)]];
-      places[i] = { place[0] / largest, place[1] / largest, place[2] / largest };
+      const std::int64_t point = given.Triangles[3 * triangle + static_cast<int>(i)];
+      places[i] = pointAt(given.Points, point) / largest;
     }
-    const FlatShape shape(places[0].data(), places[1].data(), places[2].data());
+    const FlatShape shape(places[0], places[1], places[2]);
     const double area = 0.5 * shape.Length * shape.Height;
     if (!(area > 0.0))
     {

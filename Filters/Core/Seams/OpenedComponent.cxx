@@ -82,7 +82,7 @@ private:
       return this->Make(progress);
     }
     SeamMesh::Cut cut = this->Mesh.MakeCut(progress);
-    const auto at = [&](std::size_t i) { return this->Mesh.Position(cut.Origins[i]).data(); };
+    const auto at = [&](std::size_t i) { return this->Mesh.Position(cut.Origins[i]); };
     const FlatShape shape(at(0), at(1), at(2));
     return { { {}, {}, 0, 3, 0.5 * shape.Length * shape.Height }, std::move(cut), 0.0 };
   }

@@ -36,23 +36,17 @@ void OpenedSurface::NumberPoints(Progress& progress)
   const std::int64_t corners = 3 * this->GivenTriangles.NumberOfTriangles;
   this->CutPoints.assign(static_cast<std::size_t>(given), -1);
   this->Origins.resize(static_cast<std::size_t>(given));
-  for (std::int64_t point = 0; point < given; ++point)
-  {
-    this->Origins[static_cast<std::size_t>(point)] = point;
-  }
+  std::iota(this->Origins.begin(), this->Origins.end(), std::int64_t{ 0 });
   this->NextCopy.assign(static_cast<std::size_t>(given), -1);
   this->Corners = LargeBuffer<std::int64_t>(corners);
-  progress.ForInOrder(
+  progress.ForEachInOrder(
     corners, grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t corner = first; corner < last; ++corner)
-      {
-        const std::int64_t point = this->GivenTriangles.Triangles[corner];
-        const std::int64_t wanted = this->Disks->CornersOf(corner / 3)[corner % 3];
-        std::int64_t& own = this->CutPoints[static_cast<std::size_t>(point)];
-        own = own < 0 ? wanted : own;
-        this->Corners.data()[corner] = wanted < 0 ? point : this->CopyAt(point, wanted);
-      }
+    [&](std::int64_t corner) {
+      const std::int64_t point = this->GivenTriangles.Triangles[corner];
+      const std::int64_t wanted = this->Disks->CornersOf(corner / 3)[corner % 3];
+      std::int64_t& own = this->CutPoints[static_cast<std::size_t>(point)];
+      own = own < 0 ? wanted : own;
+      this->Corners.data()[corner] = wanted < 0 ? point : this->CopyAt(point, wanted);
     },
     randomAccess);
   for (std::int64_t point = 0; point < given; ++point)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Seams/SeamMesh.h"
 
-#include "Core/Mesh/FlatShape.h"
+#include "Core/Geometry/Vectors.h"
 #include "Core/Mesh/Trees.h"
 #include "Core/Parallel/Stages.h"
 
@@ -24,8 +24,6 @@ SeamMesh::SeamMesh(std::vector<Point<3>> points, std::vector<std::int64_t> trian
   : Points(std::move(points))
   , Triangles(std::move(triangles))
   , Origins(std::move(origins))
-  , FirstCorner(this->Points.size() + 1, 0)
-  , Corners(this->Triangles.size())
   , Seams(this->Triangles.size(), 0)
   , Degrees(this->Points.size(), 0)
 {
@@ -35,22 +33,19 @@ SeamMesh::SeamMesh(std::vector<Point<3>> points, std::vector<std::int64_t> trian
     TriangleSurface{ this->Points, this->Triangles.data(), this->NumberOfTriangles() },
     stages["edges"]);
   Progress& corners = stages["corners"].Expect(2 * this->NumberOfSides());
-  for (const std::int64_t point : this->Triangles)
-  {
-    ++this->FirstCorner[static_cast<std::size_t>(point) + 1];
-    corners.Add(1);
-  }
-  std::partial_sum(this->FirstCorner.begin(), this->FirstCorner.end(), this->FirstCorner.begin());
-  std::vector<std::int64_t> next(this->FirstCorner.begin(), this->FirstCorner.end() - 1);
+  this->Corners.Fill(this->Points.size(), [&](const auto& add) {
+    for (std::int64_t side = 0; side < this->NumberOfSides(); ++side)
+    {
+      add(static_cast<std::size_t>(this->From(side)), side);
+      corners.Add(1);
+    }
+  });
   for (std::int64_t side = 0; side < this->NumberOfSides(); ++side)
   {
-    this->Corners[static_cast<std::size_t>(next[static_cast<std::size_t>(this->From(side))]++)] =
-      side;
     if (this->Other(side) < 0)
     {
       this->SetSeam(side, true);
     }
-    corners.Add(1);
   }
 }
 
@@ -68,8 +63,14 @@ SeamMesh SeamMesh::With(const std::vector<Point<3>>& points,
 
 double SeamMesh::Length(std::int64_t side) const
 {
-  return std::sqrt(squaredDistance(
-    this->Position(this->From(side)).data(), this->Position(this->To(side)).data()));
+  return std::sqrt(
+    squaredDistance(this->Position(this->From(side)), this->Position(this->To(side))));
+}
+
+double SeamMesh::LengthOf(const std::vector<std::int64_t>& sides) const
+{
+  return std::accumulate(sides.begin(), sides.end(), 0.0,
+    [this](double length, std::int64_t side) { return length + this->Length(side); });
 }
 
 void SeamMesh::SetSeam(std::int64_t side, bool isSeam)
@@ -86,6 +87,14 @@ void SeamMesh::SetSeam(std::int64_t side, bool isSeam)
   }
   this->Degrees[static_cast<std::size_t>(this->From(side))] += isSeam ? 1 : -1;
   this->Degrees[static_cast<std::size_t>(this->To(side))] += isSeam ? 1 : -1;
+}
+
+void SeamMesh::SetSeams(const std::vector<std::int64_t>& sides, bool isSeam)
+{
+  for (const std::int64_t side : sides)
+  {
+    this->SetSeam(side, isSeam);
+  }
 }
 
 SeamMesh::Cut SeamMesh::MakeCut(Progress& progress) const

@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_SeamMesh_h
 #define RectifiedTransport_SeamMesh_h
 
+#include "Core/Geometry/Bins.h"
 #include "Core/Geometry/Points.h"
 #include "Core/Mesh/SurfaceEdges.h"
 #include "Core/Parallel/Context.h"
@@ -52,7 +53,13 @@ public:
   std::int64_t To(std::int64_t side) const { return this->From(nextSide(side)); }
   // -1 on the boundary.
   std::int64_t Other(std::int64_t side) const { return this->Edges->Other(side); }
+  // The end of an edge that is not the given one.
+  std::int64_t OtherEnd(std::int64_t side, std::int64_t end) const
+  {
+    return this->From(side) == end ? this->To(side) : this->From(side);
+  }
   double Length(std::int64_t side) const;
+  double LengthOf(const std::vector<std::int64_t>& sides) const;
   // Of the two sides of an edge, the one that stands for it.
   bool IsFirst(std::int64_t side) const
   {
@@ -83,16 +90,16 @@ public:
   template <class Visit>
   void VisitCorners(std::int64_t point, const Visit& visit) const
   {
-    const auto p = static_cast<std::size_t>(point);
-    for (std::int64_t i = this->FirstCorner[p]; i < this->FirstCorner[p + 1]; ++i)
+    for (const std::int64_t side : this->Corners[static_cast<std::size_t>(point)])
     {
-      visit(this->Corners[static_cast<std::size_t>(i)]);
+      visit(side);
     }
   }
 
   // The boundary, too, is a seam; it does not change.
   bool IsSeam(std::int64_t side) const { return this->Seams[static_cast<std::size_t>(side)] != 0; }
   void SetSeam(std::int64_t side, bool isSeam);
+  void SetSeams(const std::vector<std::int64_t>& sides, bool isSeam);
   // The number of seams at a point.
   int SeamsAt(std::int64_t point) const { return this->Degrees[static_cast<std::size_t>(point)]; }
   bool IsOnSeam(std::int64_t point) const { return this->SeamsAt(point) > 0; }
@@ -117,8 +124,7 @@ private:
   std::vector<std::int64_t> Triangles;
   std::vector<std::int64_t> Origins;
   std::unique_ptr<SurfaceEdges> Edges;
-  std::vector<std::int64_t> FirstCorner; // by points
-  std::vector<std::int64_t> Corners;
+  Bins<std::int64_t> Corners;       // by points
   std::vector<unsigned char> Seams; // by sides
   std::vector<int> Degrees;         // by points
 };

@@ -81,7 +81,7 @@ std::vector<std::int64_t> SeamSearch::PathTo(std::int64_t point) const
   for (std::int64_t side = this->SideTo(point); side >= 0; side = this->SideTo(point))
   {
     path.push_back(side);
-    point = this->Mesh.From(side) == point ? this->Mesh.To(side) : this->Mesh.From(side);
+    point = this->Mesh.OtherEnd(side, point);
     if (this->Mesh.IsOnSeam(point))
     {
       break;
@@ -130,16 +130,8 @@ bool joinToSeams(SeamMesh& mesh, SeamSearch& search, std::int64_t point, double 
     }
     search.EnterNeighbours(next);
   }
-  double length = 0.0;
-  for (const std::int64_t side : path)
-  {
-    length += mesh.Length(side);
-  }
-  const bool isLong = !path.empty() && length >= least;
-  for (const std::int64_t side : path)
-  {
-    mesh.SetSeam(side, isLong);
-  }
+  const bool isLong = !path.empty() && mesh.LengthOf(path) >= least;
+  mesh.SetSeams(path, isLong);
   return isLong;
 }
 

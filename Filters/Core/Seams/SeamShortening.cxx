@@ -52,16 +52,11 @@ public:
   }
 
 private:
-  std::int64_t EndOf(std::int64_t side, std::int64_t from) const
-  {
-    return this->Mesh.From(side) == from ? this->Mesh.To(side) : this->Mesh.From(side);
-  }
-
   // From a point along an edge, up to where the seam ends or meets others.
   void Follow(std::int64_t from, std::int64_t side, Seam& seam) const
   {
     const std::int64_t first = side;
-    std::int64_t point = this->EndOf(side, from);
+    std::int64_t point = this->Mesh.OtherEnd(side, from);
     seam.push_back(side);
     while (this->Mesh.SeamsAt(point) == 2)
     {
@@ -75,7 +70,7 @@ private:
       }
       side = next;
       seam.push_back(side);
-      point = this->EndOf(side, point);
+      point = this->Mesh.OtherEnd(side, point);
     }
   }
 
@@ -98,16 +93,6 @@ private:
     return isBack ? this->Mesh.To(seam[0]) : from;
   }
 
-  double LengthOf(const Seam& seam) const
-  {
-    double length = 0.0;
-    for (const std::int64_t side : seam)
-    {
-      length += this->Mesh.Length(side);
-    }
-    return length;
-  }
-
   // The length and a side of each.
   std::vector<std::pair<double, std::int64_t>> FindSeams() const
   {
@@ -123,7 +108,7 @@ private:
         {
           isKnown[static_cast<std::size_t>(one)] = 1;
         }
-        seams.emplace_back(this->LengthOf(seam), side);
+        seams.emplace_back(this->Mesh.LengthOf(seam), side);
       }
     }
     return seams;
@@ -245,7 +230,7 @@ private:
     {
       const bool joins = i + 1 == path.size();
       cost += (i == 0 ? 1.0 : this->Search.FactorAt(start, joins)) * this->Mesh.Length(path[i]);
-      start = this->EndOf(path[i], start);
+      start = this->Mesh.OtherEnd(path[i], start);
       this->Search.Enter(start, cost, path[i]);
     }
     return cost;
@@ -253,13 +238,7 @@ private:
 
   bool Shorten(const Seam& seam)
   {
-    const auto set = [this](const Seam& sides, bool isSeam) {
-      for (const std::int64_t side : sides)
-      {
-        this->Mesh.SetSeam(side, isSeam);
-      }
-    };
-    set(seam, false);
+    this->Mesh.SetSeams(seam, false);
     const std::vector<std::int64_t> loops = this->FindLoops();
     if (loops.size() == 2)
     {
@@ -268,11 +247,11 @@ private:
       const Join join = this->FindJoin(loops[0], loops[1], cost);
       if (!join.Sides.empty())
       {
-        set(join.Sides, true);
+        this->Mesh.SetSeams(join.Sides, true);
         return true;
       }
     }
-    set(seam, true);
+    this->Mesh.SetSeams(seam, true);
     return false;
   }
 

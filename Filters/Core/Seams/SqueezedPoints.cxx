@@ -36,8 +36,7 @@ public:
     for (std::int64_t t = 0; t < disk.NumberOfTriangles(); ++t)
     {
       const std::int64_t* ids = disk.Triangle(t);
-      const auto at = [&](int i) { return positions[static_cast<std::size_t>(ids[i])]; };
-      const double image = std::max(0.0, 0.5 * crossProduct(at(0), at(1), at(2)));
+      const double image = std::max(0.0, imageArea(disk, positions, t));
       for (int i = 0; i < 3; ++i)
       {
         images[static_cast<std::size_t>(ids[i])] += image / 3.0;
@@ -96,34 +95,29 @@ private:
   {
     std::int64_t* regions = this->Regions.data();
     regions[point] = point;
-    for (const std::int64_t* t = this->Triangles.begin(point); t != this->Triangles.end(point); ++t)
-    {
-      for (int i = 0; i < 3; ++i)
+    this->Triangles.VisitCorners(point, [&](std::int64_t neighbour) {
+      if (regions[neighbour] < 0)
       {
-        const std::int64_t neighbour = this->Disk.Triangle(*t)[i];
-        if (regions[neighbour] < 0)
-        {
-          continue;
-        }
-        std::int64_t high = rootOf(regions, neighbour);
-        std::int64_t low = rootOf(regions, point);
-        if (high == low)
-        {
-          continue;
-        }
-        if (this->DensityAt(high) < this->DensityAt(low) ||
-          (this->DensityAt(high) == this->DensityAt(low) && low < high))
-        {
-          std::swap(high, low);
-        }
-        if (low != point)
-        {
-          this->End(low, this->DensityAt(point), limits, found);
-        }
-        regions[low] = high;
-        this->AreaOf(high) += this->AreaOf(low);
+        return;
       }
-    }
+      std::int64_t high = rootOf(regions, neighbour);
+      std::int64_t low = rootOf(regions, point);
+      if (high == low)
+      {
+        return;
+      }
+      if (this->DensityAt(high) < this->DensityAt(low) ||
+        (this->DensityAt(high) == this->DensityAt(low) && low < high))
+      {
+        std::swap(high, low);
+      }
+      if (low != point)
+      {
+        this->End(low, this->DensityAt(point), limits, found);
+      }
+      regions[low] = high;
+      this->AreaOf(high) += this->AreaOf(low);
+    });
   }
 
   void End(

@@ -3,7 +3,6 @@
 
 #include "Core/Geometry/EqualPoints.h"
 #include "Core/Geometry/ImageGrid.h"
-#include "Core/Mesh/CornerPoint.h"
 #include "Core/Mesh/Repair/MergePoints.h"
 #include "Core/Mesh/Repair/SplitSurface.h"
 #include "Core/Mesh/Repair/TJunctions.h"
@@ -33,16 +32,13 @@ constexpr std::int64_t slow = std::int64_t{ 1 } << 16;
 
 void copyPoints(ConstPointSpan<3> points, double* copy, Progress& progress)
 {
-  progress.ForInOrder(points.size(), grain, [=](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
+  progress.ForEachInOrder(points.size(), grain, [=](std::int64_t i) {
+    const double* point = points[i];
+    if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
     {
-      const double* point = points[i];
-      if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
-      {
-        throw std::invalid_argument("point " + std::to_string(i) + " is not finite");
-      }
-      std::copy_n(point, 3, copy + 3 * i);
+      throw std::invalid_argument("point " + std::to_string(i) + " is not finite");
     }
+    std::copy_n(point, 3, copy + 3 * i);
   });
 }
 

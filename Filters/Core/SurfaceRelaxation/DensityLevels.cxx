@@ -45,12 +45,9 @@ public:
   void Run(Progress& progress)
   {
     Stages stages(progress, { { "means", 1 }, { "parts", 2 }, { "roots", 1 }, { "levels", 6 } });
-    stages["means"].For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t t = first; t < last; ++t)
-      {
-        this->Levels[t] = this->Density.MeanOf(t);
-        this->PartOf.data()[t] = t;
-      }
+    stages["means"].ForEach(this->Count, grain, [&](std::int64_t t) {
+      this->Levels[t] = this->Density.MeanOf(t);
+      this->PartOf.data()[t] = t;
     });
     bool hasJumps = false;
     this->ForSides(stages["parts"], [&](std::int64_t side, std::int64_t other) {
@@ -82,12 +79,7 @@ private:
   template <class Visit>
   void ForTriangles(Progress& progress, const Visit& visit)
   {
-    progress.ForInOrder(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t t = first; t < last; ++t)
-      {
-        visit(t);
-      }
-    });
+    progress.ForEachInOrder(this->Count, grain, [&](std::int64_t t) { visit(t); });
   }
   // Pairs of sides, once each.
   template <class Visit>
@@ -131,15 +123,13 @@ private:
 
   double LengthOf(std::int64_t side) const
   {
-    const Point<3> edge = this->Surface.Corner(side / 3, (side + 1) % 3 == 0 ? 0 : side % 3 + 1) -
-      this->Surface.Corner(side / 3, side % 3);
+    const Point<3> edge = this->Surface.Edge(side);
     return std::sqrt(dot(edge, edge));
   }
 
   void Measure(Progress& progress)
   {
-    this->Parts = LargeBuffer<Part>(this->Count);
-    std::fill_n(this->Parts.data(), this->Count, Part{});
+    this->Parts = { this->Count, Part{} };
     this->ForTriangles(progress, [&](std::int64_t t) {
       Part& part = this->Parts.data()[this->PartOf.data()[t]];
       const double area = this->Surface.Area(t);
@@ -187,8 +177,7 @@ private:
 
   void CloseJumps(Progress& progress)
   {
-    this->SeenBy = LargeBuffer<std::int64_t>(this->Count);
-    std::fill_n(this->SeenBy.data(), this->Count, std::int64_t{ -1 });
+    this->SeenBy = { this->Count, -1 };
     this->ForSides(progress, [&](std::int64_t side, std::int64_t other) {
       const std::int64_t a = side / 3;
       const std::int64_t b = other / 3;
@@ -262,9 +251,8 @@ private:
   // The mean of the triangles around each that has noise; all of these get the same.
   void SmoothNoise(Progress& progress)
   {
-    LargeBuffer<double> smooth(this->Count);
+    LargeBuffer<double> smooth(this->Count, DensityLevels::Given);
     std::fill_n(this->SeenBy.data(), this->Count, std::int64_t{ -1 });
-    std::fill_n(smooth.data(), this->Count, DensityLevels::Given);
     this->ForTriangles(progress, [&](std::int64_t start) {
       if (this->InWide(start) || smooth.data()[start] >= 0.0)
       {

@@ -50,12 +50,9 @@ double DotTree::MemoryFor(std::int64_t dots)
 void DotTree::Update(const ScaledDot* dots, Progress& progress)
 {
   constexpr std::int64_t grain = 256;
-  progress.For(this->Blocks(), grain, [&](std::int64_t from, std::int64_t to) {
-    for (std::int64_t block = from; block < to; ++block)
-    {
-      this->Tree[block] =
-        boundsOf(dots + block * dotBlock, dots + std::min((block + 1) * dotBlock, this->Dots));
-    }
+  progress.ForEach(this->Blocks(), grain, [&](std::int64_t block) {
+    this->Tree[block] =
+      boundsOf(dots + block * dotBlock, dots + std::min((block + 1) * dotBlock, this->Dots));
   });
   progress.Check();
   this->Tree.Update();

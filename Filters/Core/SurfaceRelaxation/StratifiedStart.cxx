@@ -51,14 +51,11 @@ public:
     const std::int64_t count = this->Order.size();
     LargeBuffer<std::uint32_t> keys(count);
     Stages stages(progress, { { "keys", 3 }, { "low bits", 3 }, { "high bits", 4 } });
-    stages["keys"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t t = first; t < last; ++t)
-      {
-        const Point<3> centre =
-          (1.0 / 3.0) * (surface.Corner(t, 0) + surface.Corner(t, 1) + surface.Corner(t, 2));
-        keys.data()[t] =
-          spreadBits(centre[0]) | spreadBits(centre[1]) << 1 | spreadBits(centre[2]) << 2;
-      }
+    stages["keys"].ForEach(count, grain, [&](std::int64_t t) {
+      const Point<3> centre =
+        (1.0 / 3.0) * (surface.Corner(t, 0) + surface.Corner(t, 1) + surface.Corner(t, 2));
+      keys.data()[t] =
+        spreadBits(centre[0]) | spreadBits(centre[1]) << 1 | spreadBits(centre[2]) << 2;
     });
     LargeBuffer<std::int64_t> other(count);
     this->Pass(keys, nullptr, other.data(), 0, stages["low bits"]);
@@ -77,22 +74,14 @@ private:
     std::vector<std::int64_t> next(buckets + 1, 0);
     const std::int64_t count = keys.size();
     progress.Expect(2 * count);
-    progress.ForInOrder(count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t t = first; t < last; ++t)
-      {
-        ++next[bucketOf(t) + 1];
-      }
-    });
+    progress.ForEachInOrder(count, grain, [&](std::int64_t t) { ++next[bucketOf(t) + 1]; });
     for (std::size_t bucket = 1; bucket <= buckets; ++bucket)
     {
       next[bucket] += next[bucket - 1];
     }
-    progress.ForInOrder(count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        const std::int64_t t = from ? from[i] : i;
-        to[next[bucketOf(t)]++] = t;
-      }
+    progress.ForEachInOrder(count, grain, [&](std::int64_t i) {
+      const std::int64_t t = from ? from[i] : i;
+      to[next[bucketOf(t)]++] = t;
     });
   }
 
@@ -188,13 +177,10 @@ LargeBuffer<SurfacePlace> makeSamples(const WalkedSurface& surface, const Surfac
   const double offset = unitReal(randomWord(seed + 2, 0));
   double mass = 0.0;
   firsts.data()[0] = 0;
-  stages["counts"].ForInOrder(triangles, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      mass += density.MassOf(order[i]);
-      const double before = mass / total * static_cast<double>(count) + offset;
-      firsts.data()[i + 1] = std::clamp(static_cast<std::int64_t>(before), firsts.data()[i], count);
-    }
+  stages["counts"].ForEachInOrder(triangles, grain, [&](std::int64_t i) {
+    mass += density.MassOf(order[i]);
+    const double before = mass / total * static_cast<double>(count) + offset;
+    firsts.data()[i + 1] = std::clamp(static_cast<std::int64_t>(before), firsts.data()[i], count);
   });
   // Rounding may leave some to the last triangle that has any.
   std::int64_t used = triangles;
@@ -205,26 +191,23 @@ LargeBuffer<SurfacePlace> makeSamples(const WalkedSurface& surface, const Surfac
   std::fill(firsts.data() + used, firsts.data() + triangles + 1, count);
   LargeBuffer<SurfacePlace> samples(count);
   constexpr std::int64_t triangleGrain = 256;
-  stages["samples"].For(
+  stages["samples"].ForEach(
     triangles, triangleGrain,
-    [&](std::int64_t from, std::int64_t to) {
-      for (std::int64_t i = from; i < to; ++i)
+    [&](std::int64_t i) {
+      SurfacePlace* first = samples.data() + firsts.data()[i];
+      SurfacePlace* last = samples.data() + firsts.data()[i + 1];
+      if (first == last)
       {
-        SurfacePlace* first = samples.data() + firsts.data()[i];
-        SurfacePlace* last = samples.data() + firsts.data()[i + 1];
-        if (first == last)
-        {
-          continue;
-        }
-        const TriangleSamples triangle(surface, order[i]);
-        if (density.IsLinear())
-        {
-          triangle.Make(seed, density.AtCorners(order[i]), first, last);
-        }
-        else
-        {
-          triangle.Make(seed, first, last);
-        }
+        return;
+      }
+      const TriangleSamples triangle(surface, order[i]);
+      if (density.IsLinear())
+      {
+        triangle.Make(seed, density.AtCorners(order[i]), first, last);
+      }
+      else
+      {
+        triangle.Make(seed, first, last);
       }
     },
     triangleGrain);
@@ -287,40 +270,36 @@ public:
     double owed = 0.5; // to the sparse side
     std::vector<std::pair<double, std::int64_t>> byDensity(static_cast<std::size_t>(this->OfDot));
     std::vector<SurfacePlace> side;
-    progress.ForInOrder(dots, grain, [&](std::int64_t from, std::int64_t to) {
-      for (std::int64_t dot = from; dot < to; ++dot)
+    progress.ForEachInOrder(dots, grain, [&](std::int64_t dot) {
+      SurfacePlace* const first = this->At(dot);
+      for (std::int64_t i = 0; i < this->OfDot; ++i)
       {
-        SurfacePlace* const first = this->At(dot);
-        for (std::int64_t i = 0; i < this->OfDot; ++i)
-        {
-          byDensity[static_cast<std::size_t>(i)] = { this->Density.MeanOf(first[i].Triangle), i };
-        }
-        std::sort(byDensity.begin(), byDensity.end());
-        std::size_t jump = 0;
-        double largest = largestStep;
-        for (std::size_t i = 1; i < byDensity.size(); ++i)
-        {
-          if (byDensity[i].first > largest * byDensity[i - 1].first)
-          {
-            largest = byDensity[i].first / byDensity[i - 1].first;
-            jump = i;
-          }
-        }
-        if (jump == 0)
-        {
-          continue;
-        }
-        owed += static_cast<double>(jump) / static_cast<double>(this->OfDot);
-        const bool takesSparse = owed >= 1.0;
-        owed -= takesSparse ? 1.0 : 0.0;
-        side.clear();
-        for (std::size_t i = takesSparse ? 0 : jump; i < (takesSparse ? jump : byDensity.size());
-             ++i)
-        {
-          side.push_back(first[byDensity[i].second]);
-        }
-        *first = *Middle(side.data(), side.data() + side.size());
+        byDensity[static_cast<std::size_t>(i)] = { this->Density.MeanOf(first[i].Triangle), i };
       }
+      std::sort(byDensity.begin(), byDensity.end());
+      std::size_t jump = 0;
+      double largest = largestStep;
+      for (std::size_t i = 1; i < byDensity.size(); ++i)
+      {
+        if (byDensity[i].first > largest * byDensity[i - 1].first)
+        {
+          largest = byDensity[i].first / byDensity[i - 1].first;
+          jump = i;
+        }
+      }
+      if (jump == 0)
+      {
+        return;
+      }
+      owed += static_cast<double>(jump) / static_cast<double>(this->OfDot);
+      const bool takesSparse = owed >= 1.0;
+      owed -= takesSparse ? 1.0 : 0.0;
+      side.clear();
+      for (std::size_t i = takesSparse ? 0 : jump; i < (takesSparse ? jump : byDensity.size()); ++i)
+      {
+        side.push_back(first[byDensity[i].second]);
+      }
+      *first = *Middle(side.data(), side.data() + side.size());
     });
   }
 
@@ -328,15 +307,8 @@ private:
   template <class Visit>
   void For(Progress& progress, const std::vector<DotRange>& ranges, const Visit& visit)
   {
-    progress.For(
-      static_cast<std::int64_t>(ranges.size()), 1,
-      [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
-        {
-          visit(i);
-        }
-      },
-      1);
+    progress.ForEach(
+      static_cast<std::int64_t>(ranges.size()), 1, [&](std::int64_t i) { visit(i); }, 1);
   }
 
   SurfacePlace* At(std::int64_t dot) const { return this->Samples + dot * this->OfDot; }
@@ -451,12 +423,8 @@ LargeBuffer<SurfacePlace> startDots(const WalkedSurface& surface, const SurfaceD
     cuts.ShareJumps(dots, stages["jumps"]);
   }
   LargeBuffer<SurfacePlace> chosen(dots);
-  stages["dots"].For(dots, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t dot = first; dot < last; ++dot)
-    {
-      chosen.data()[dot] = samples.data()[dot * ofDot];
-    }
-  });
+  stages["dots"].ForEach(
+    dots, grain, [&](std::int64_t dot) { chosen.data()[dot] = samples.data()[dot * ofDot]; });
   return chosen;
 }
 

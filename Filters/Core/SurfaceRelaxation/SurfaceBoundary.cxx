@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SurfaceRelaxation/SurfaceBoundary.h"
 
-#include "Core/Geometry/BoxTree.h"
 #include "Core/Mesh/SurfaceEdges.h"
 #include "Core/Parallel/Progress.h"
 
@@ -37,81 +36,43 @@ SurfaceBoundary::SurfaceBoundary(const WalkedSurface& surface, Progress& progres
   };
   std::size_t count = 0;
   forSides([&](std::int64_t) { ++count; });
-  this->Sides.reserve(count);
-  forSides([&](std::int64_t side) { this->Sides.push_back(side); });
-  if (this->Sides.empty())
-  {
-    return;
-  }
-  this->Boxes = makeBoxTree<ItemBox>(
-    static_cast<std::int64_t>(this->Sides.size()),
-    [&](std::int64_t first, std::int64_t last) {
-      ItemBox box{ {}, first, last, -1 };
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        std::int64_t side = this->Sides[static_cast<std::size_t>(i)];
-        for (int end = 0; end < 2; ++end, side = nextSide(side))
-        {
-          box.Add(surface.Corner(side / 3, side % 3).data());
-        }
-      }
-      progress.Add(last - first);
-      return box;
+  std::vector<std::int64_t> sides;
+  sides.reserve(count);
+  forSides([&](std::int64_t side) { sides.push_back(side); });
+  this->Sides.emplace(
+    std::move(sides), sidesOfLeaf,
+    [&surface](std::int64_t side, PointBounds& box) {
+      box.Add(surface.Start(side).data());
+      box.Add(surface.Start(nextSide(side)).data());
     },
-    [&](const ItemBox& box) {
-      return divideItems(
-        this->Sides.data(), box, sidesOfLeaf,
-        [this](std::int64_t side, std::size_t axis) { return this->Middle(side, axis); }, progress);
-    });
+    [&surface](std::int64_t side, std::size_t axis) {
+      return 0.5 * (surface.Start(side)[axis] + surface.Start(nextSide(side))[axis]);
+    },
+    progress);
 }
 
 double SurfaceBoundary::MemoryFor(double sides)
 {
   // Leaves are half full or more, about; the vector of boxes doubles as it grows.
-  return sides * (sizeof(std::int64_t) + 3.0 * 2.0 * sizeof(ItemBox) / (0.5 * sidesOfLeaf));
-}
-
-double SurfaceBoundary::Middle(std::int64_t side, std::size_t axis) const
-{
-  return 0.5 *
-    (this->Surface.Corner(side / 3, side % 3)[axis] +
-      this->Surface.Corner(side / 3, nextSide(side) % 3)[axis]);
+  return sides * (sizeof(std::int64_t) + 3.0 * 2.0 * sizeof(ItemTree::Box) / (0.5 * sidesOfLeaf));
 }
 
 void SurfaceBoundary::FindNear(
   const DotBox& box, double distance, std::vector<std::int64_t>& found) const
 {
   found.clear();
-  if (this->Boxes.empty())
-  {
-    return;
-  }
-  std::vector<std::int64_t> stack{ 0 };
-  while (!stack.empty())
-  {
-    const std::int64_t at = stack.back();
-    stack.pop_back();
-    const ItemBox& part = this->Boxes[static_cast<std::size_t>(at)];
-    double squared = 0.0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const double gap =
-        std::max({ part.Low[axis] - box.High[axis], box.Low[axis] - part.High[axis], 0.0 });
-      squared += gap * gap;
-    }
-    if (!(squared < distance * distance))
-    {
-      continue;
-    }
-    if (part.Second >= 0)
-    {
-      stack.push_back(part.Second);
-      stack.push_back(at + 1);
-      continue;
-    }
-    found.insert(found.end(), this->Sides.begin() + static_cast<std::ptrdiff_t>(part.First),
-      this->Sides.begin() + static_cast<std::ptrdiff_t>(part.Last));
-  }
+  this->Sides->VisitNear(
+    [&](const PointBounds& part) {
+      double squared = 0.0;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const double gap =
+          std::max({ part.Low[axis] - box.High[axis], box.Low[axis] - part.High[axis], 0.0 });
+        squared += gap * gap;
+      }
+      return squared < distance * distance;
+    },
+    [&found](std::int64_t side) { found.push_back(side); });
 }
 
 Point<3> SurfaceBoundary::FromNearest(
@@ -121,9 +82,8 @@ Point<3> SurfaceBoundary::FromNearest(
   Point<3> nearest{ least, least, least };
   for (const std::int64_t side : sides)
   {
-    const Point<3> from = x - this->Surface.Corner(side / 3, side % 3);
-    const Point<3> edge =
-      this->Surface.Corner(side / 3, nextSide(side) % 3) - this->Surface.Corner(side / 3, side % 3);
+    const Point<3> from = x - this->Surface.Start(side);
+    const Point<3> edge = this->Surface.Edge(side);
     const double place = std::clamp(dot(from, edge) / dot(edge, edge), 0.0, 1.0);
     const Point<3> gap = from - place * edge;
     if (dot(gap, gap) < least)

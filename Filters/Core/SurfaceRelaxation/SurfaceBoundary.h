@@ -3,12 +3,13 @@
 #ifndef RectifiedTransport_SurfaceBoundary_h
 #define RectifiedTransport_SurfaceBoundary_h
 
-#include "Core/Geometry/PointBounds.h"
+#include "Core/Geometry/ItemTree.h"
 #include "Core/SurfaceRelaxation/DotTree.h"
 #include "Core/SurfaceRelaxation/WalkedSurface.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace RectifiedTransport
@@ -31,11 +32,8 @@ public:
   Point<3> FromNearest(const std::vector<std::int64_t>& sides, const Point<3>& x) const;
 
 private:
-  double Middle(std::int64_t side, std::size_t axis) const;
-
   const WalkedSurface& Surface;
-  std::vector<std::int64_t> Sides;
-  std::vector<ItemBox> Boxes;
+  std::optional<ItemTree> Sides;
 };
 
 } // namespace RectifiedTransport

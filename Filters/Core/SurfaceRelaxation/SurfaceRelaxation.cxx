@@ -90,21 +90,18 @@ public:
     this->Step = firstStep + part * (lastStep - firstStep);
     const bool isFirst = !this->HasSquares;
     this->HasSquares = true;
-    progress.For(this->Dots.size(), grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+    progress.ForEach(this->Dots.size(), grain, [&](std::int64_t i) {
+      const SurfacePlace& place = this->Places.data()[i];
+      const double square = this->SquaredSpacing(place);
+      if (isFirst)
       {
-        const SurfacePlace& place = this->Places.data()[i];
-        const double square = this->SquaredSpacing(place);
-        if (isFirst)
-        {
-          this->Squares.data()[i] = square;
-          this->Shares.data()[i] = 1.0;
-        }
-        const double used = this->Shares.data()[i] * this->Squares.data()[i];
-        const double inverse = 1.0 / std::sqrt(used);
-        this->Dots.data()[i] = { { place.X[0], place.X[1], place.X[2] }, inverse,
-          std::sqrt(inverse), square };
+        this->Squares.data()[i] = square;
+        this->Shares.data()[i] = 1.0;
       }
+      const double used = this->Shares.data()[i] * this->Squares.data()[i];
+      const double inverse = 1.0 / std::sqrt(used);
+      this->Dots.data()[i] = { { place.X[0], place.X[1], place.X[2] }, inverse, std::sqrt(inverse),
+        square };
     });
     this->Tree.Update(this->Dots.data(), progress);
     constexpr std::int64_t blocksOfGroup = 8;
@@ -129,12 +126,8 @@ public:
   LargeBuffer<PlaceOnTriangle> Result(Progress& progress) const
   {
     LargeBuffer<PlaceOnTriangle> places(this->Places.size());
-    progress.For(places.size(), grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        places.data()[i] =
-          this->Surface.GivenPlace(this->Surface.WeightsOf(this->Places.data()[i]));
-      }
+    progress.ForEach(places.size(), grain, [&](std::int64_t i) {
+      places.data()[i] = this->Surface.GivenPlace(this->Surface.WeightsOf(this->Places.data()[i]));
     });
     return places;
   }

@@ -3,7 +3,6 @@
 
 #include "Core/Geometry/EqualPoints.h"
 #include "Core/Geometry/PointBounds.h"
-#include "Core/Mesh/CornerPoint.h"
 #include "Core/Mesh/EdgeSides.h"
 #include "Core/Mesh/Repair/TJunctions.h"
 #include "Core/Parallel/Reduction.h"
@@ -36,27 +35,6 @@ bool isFlat(double squaredNormal, double squaredSides)
     squaredNormal < leastSquaredNormal;
 }
 
-std::int64_t cornerOpposite(std::int64_t side)
-{
-  return (side % 3 + 2) % 3;
-}
-
-PointBounds boundsOfTriangles(const TriangleSurface& surface, std::int64_t first, std::int64_t last)
-{
-  PointBounds bounds;
-  for (std::int64_t corner = 3 * first; corner < 3 * last; ++corner)
-  {
-    const std::int64_t point = cornerPoint(surface, corner);
-    const double* x = surface.Points[point];
-    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
-    {
-      throw std::invalid_argument("point " + std::to_string(point) + " is not finite");
-    }
-    bounds.Add(x);
-  }
-  return bounds;
-}
-
 } // namespace
 
 WalkedSurface::WalkedSurface(const TriangleSurface& surface, double rounding, Progress& progress)
@@ -71,9 +49,20 @@ WalkedSurface::WalkedSurface(const TriangleSurface& surface, double rounding, Pr
   Stages stages(progress,
     { { "bounds", 10 }, { "positions", 10 }, { "equal points", 30 }, { "sides", 40 },
       { "T-junctions", 5 }, { "sides of parts", 5 } });
-  const PointBounds bounds = reduceChunks(
+  const PointBounds bounds = reduceEach(
     stages["bounds"], this->Count, grain, PointBounds(),
-    [&](std::int64_t first, std::int64_t last) { return boundsOfTriangles(surface, first, last); },
+    [&](std::int64_t triangle, PointBounds& part) {
+      for (std::int64_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
+      {
+        const std::int64_t point = cornerPoint(surface, corner);
+        const double* x = surface.Points[point];
+        if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+        {
+          throw std::invalid_argument("point " + std::to_string(point) + " is not finite");
+        }
+        part.Add(x);
+      }
+    },
     [](PointBounds all, const PointBounds& more) {
       all.Add(more);
       return all;
@@ -92,15 +81,9 @@ WalkedSurface::WalkedSurface(const TriangleSurface& surface, double rounding, Pr
     std::ldexp(1.0, -exponent - -exponent / 2 - 1) };
   const std::int64_t points = surface.Points.size();
   this->Positions = LargeBuffer<double>(3 * points);
-  stages["positions"].For(points, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t point = first; point < last; ++point)
-    {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        this->Positions.data()[3 * point + static_cast<std::int64_t>(axis)] =
-          (surface.Points[point][axis] - centre[axis]) * scales[0] * scales[1];
-      }
-    }
+  stages["positions"].ForEach(points, grain, [&](std::int64_t point) {
+    const Point<3> x = scales[1] * (scales[0] * (pointAt(surface.Points, point) - centre));
+    std::copy(x.begin(), x.end(), this->Positions.data() + 3 * point);
   });
   LargeBuffer<std::int64_t> welded(points);
   mergePoints<3>(surface.Points, welded.data(), stages["equal points"]);
@@ -136,14 +119,13 @@ double WalkedSurface::Area(std::int64_t triangle) const
 
 void WalkedSurface::PairSides(const std::int64_t* welded, std::int64_t points, Progress& progress)
 {
-  this->Sides = LargeBuffer<std::int64_t>(3 * this->Count);
-  std::fill_n(this->Sides.data(), 3 * this->Count, Boundary);
+  this->Sides = { 3 * this->Count, Boundary };
   std::atomic<std::int64_t> open{ 0 };
   std::atomic<std::int64_t> nonManifold{ 0 };
-  visitEdges(SideCorners{ this->Count, points,
-               [=](std::int64_t corner) { return welded[this->Triangles[corner]]; },
-               [=](std::int64_t triangle) { return this->IsLine(triangle, welded); } },
-    progress, [&](const std::int64_t* sides, std::int64_t count) {
+  visitEdges(
+    this->Count, points, [=](std::int64_t corner) { return welded[this->Triangles[corner]]; },
+    [=](std::int64_t triangle) { return this->IsLine(triangle, welded); }, progress,
+    [&](const std::int64_t* sides, std::int64_t count) {
       open += count == 1 ? 1 : 0;
       nonManifold += count > 2 ? 1 : 0;
       this->PairEdge(sides, count);
@@ -247,10 +229,8 @@ void WalkedSurface::PairEdge(const std::int64_t* sides, std::int64_t count)
 // The unit vector from a side into its triangle, 0 of flat ones.
 Point<3> WalkedSurface::Inwards(std::int64_t side) const
 {
-  const std::int64_t triangle = side / 3;
-  const Point<3> a = this->Corner(triangle, side % 3);
-  const Point<3> edge = this->Corner(triangle, nextSide(side) % 3) - a;
-  const Point<3> to = this->Corner(triangle, cornerOpposite(side)) - a;
+  const Point<3> edge = this->Edge(side);
+  const Point<3> to = this->Start(lastSide(side)) - this->Start(side);
   const Point<3> inwards = to - (dot(to, edge) / dot(edge, edge)) * edge;
   const double squared = dot(inwards, inwards);
   return squared > 0.0 ? (1.0 / std::sqrt(squared)) * inwards : Point<3>{ 0.0, 0.0, 0.0 };
@@ -259,8 +239,7 @@ Point<3> WalkedSurface::Inwards(std::int64_t side) const
 // The unit vector along a side.
 Point<3> WalkedSurface::Along(std::int64_t side) const
 {
-  const Point<3> edge =
-    this->Corner(side / 3, nextSide(side) % 3) - this->Corner(side / 3, side % 3);
+  const Point<3> edge = this->Edge(side);
   return (1.0 / std::sqrt(dot(edge, edge))) * edge;
 }
 
@@ -277,8 +256,8 @@ std::int64_t WalkedSurface::Beyond(std::int64_t side, const Point<3>& x) const
     std::int64_t through = at;
     for (const std::int64_t other : { nextSide(at), lastSide(at) })
     {
-      const Point<3> a = this->Corner(other / 3, other % 3);
-      const Point<3> edge = this->Corner(other / 3, nextSide(other) % 3) - a;
+      const Point<3> a = this->Start(other);
+      const Point<3> edge = this->Edge(other);
       const double squared = dot(edge, edge);
       const double place = squared > 0.0 ? std::clamp(dot(x - a, edge) / squared, 0.0, 1.0) : 0.0;
       const Point<3> gap = x - a - place * edge;
@@ -389,12 +368,11 @@ void WalkedSurface::Walk(SurfacePlace& place, const Point<3>& by, const double* 
     }
     place.Triangle = beyond / 3;
     frame = Frame(*this, place.Triangle);
-    from = static_cast<std::size_t>(cornerOpposite(beyond));
+    from = static_cast<std::size_t>(lastSide(beyond) % 3);
     // Through flat triangles, the side may have another direction.
     const Point<3> next = this->Along(beyond);
     edge = dot(next, edge) < 0.0 ? -1.0 * next : next;
-    Point<3> inwards = this->Corner(place.Triangle, cornerOpposite(beyond)) -
-      this->Corner(place.Triangle, beyond % 3);
+    Point<3> inwards = this->Start(lastSide(beyond)) - this->Start(beyond);
     inwards = inwards - dot(inwards, edge) * edge;
     inwards = (1.0 / std::sqrt(dot(inwards, inwards))) * inwards;
     left = along * edge + across * inwards;

@@ -6,6 +6,7 @@
 #include "Core/Geometry/Vectors.h"
 #include "Core/Mesh/PlaceOnTriangle.h"
 #include "Core/Mesh/Repair/SplitSurface.h"
+#include "Core/Mesh/SurfaceEdges.h"
 #include "Core/Mesh/TriangleSurface.h"
 #include "Core/Parallel/LargeBuffer.h"
 
@@ -61,13 +62,18 @@ public:
   // In a frame in which the surface is in the box [-1/2, 1/2]^3.
   Point<3> Corner(std::int64_t triangle, std::int64_t corner) const
   {
-    const double* x = this->Positions.data() + 3 * this->Triangles[3 * triangle + corner];
-    return { x[0], x[1], x[2] };
+    return this->Start(3 * triangle + corner);
   }
   // 0 of flat triangles, which have no height beyond rounding.
   double Area(std::int64_t triangle) const;
 
-  // Side 3t+i of triangle t goes from its corner i to the next.
+  // Side 3t+i of triangle t goes from its corner i to the next: where it begins, and its vector.
+  Point<3> Start(std::int64_t side) const
+  {
+    const double* x = this->Positions.data() + 3 * this->Triangles[side];
+    return { x[0], x[1], x[2] };
+  }
+  Point<3> Edge(std::int64_t side) const { return this->Start(nextSide(side)) - this->Start(side); }
   std::int64_t Across(std::int64_t side) const { return this->Sides.data()[side]; }
   void Close(std::int64_t side, std::int64_t with) { this->Sides.data()[side] = with; }
 

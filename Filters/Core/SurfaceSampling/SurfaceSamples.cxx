@@ -73,12 +73,9 @@ SurfaceSamples sampleMap(const DiskMesh& disk, const FlatMap& map, const double*
   }
   const FlatLocator locator(flat, stages["locator"]);
   PlaceOnTriangle* places = samples.Places.data();
-  stages["places"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      places[i] = locator.Locate({ points[i][0] / static_cast<double>(size[0]),
-        points[i][1] / static_cast<double>(size[1]) });
-    }
+  stages["places"].ForEach(count, grain, [&](std::int64_t i) {
+    places[i] = locator.Locate(
+      { points[i][0] / static_cast<double>(size[0]), points[i][1] / static_cast<double>(size[1]) });
   });
   samples.PatchError = patchError(disk, masses, samples.Places, stages["error"]);
   return samples;

@@ -5,7 +5,7 @@
 #include "DiskSurfaces.h"
 #include "RecordingContext.h"
 
-#include "Core/Mesh/FlatShape.h"
+#include "Core/Geometry/Vectors.h"
 #include "Core/Parameterization/MapDistortion.h"
 
 #include <gtest/gtest.h>
@@ -72,8 +72,8 @@ TEST(EvenEmbedding, BoundaryPointsAreAtTheirLengths)
   std::vector<double> lengths{ 0.0 };
   for (std::size_t i = 0; i < 12; ++i)
   {
-    lengths.push_back(lengths.back() +
-      std::sqrt(squaredDistance(mesh.Points[i].data(), mesh.Points[i + 1].data())));
+    lengths.push_back(
+      lengths.back() + std::sqrt(squaredDistance(mesh.Points[i], mesh.Points[i + 1])));
   }
   for (std::size_t i = 0; i <= 12; ++i)
   {

@@ -22,7 +22,8 @@ TEST(LocalMap, TrianglesOfPoints)
   std::int64_t count = 0;
   for (std::int64_t point = 0; point < disk.NumberOfPoints(); ++point)
   {
-    std::set<std::int64_t> found(triangles.begin(point), triangles.end(point));
+    const auto about = triangles[point];
+    std::set<std::int64_t> found(about.begin(), about.end());
     count += static_cast<std::int64_t>(found.size());
     for (const std::int64_t t : found)
     {

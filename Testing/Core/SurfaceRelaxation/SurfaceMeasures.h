@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_SurfaceMeasures_h
 #define RectifiedTransport_SurfaceMeasures_h
 
+#include "Core/Geometry/Vectors.h"
 #include "Core/Mesh/PlaceOnTriangle.h"
 #include "Core/Mesh/TriangleSurface.h"
 #include "Core/Parallel/LargeBuffer.h"
@@ -30,16 +31,6 @@ inline Point<3> cornerOf(const TriangleSurface& surface, std::int64_t triangle, 
 {
   const double* x = surface.Points[surface.Triangles[3 * triangle + i]];
   return { x[0], x[1], x[2] };
-}
-
-inline double squaredDistance(const Point<3>& a, const Point<3>& b)
-{
-  double squared = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    squared += (a[axis] - b[axis]) * (a[axis] - b[axis]);
-  }
-  return squared;
 }
 
 inline double areaOf(const TriangleSurface& surface, std::int64_t triangle)

@@ -40,9 +40,8 @@ public:
     : Points(points)
     , Width(2.0 * distance)
     , Parents(parents)
-    , Table(hashTableSize(points.size()))
+    , Table(hashTableSize(points.size()), -1)
   {
-    std::fill_n(this->Table.data(), this->Table.size(), std::int64_t{ -1 });
   }
 
   // Joins a point with those in its box.
@@ -140,15 +139,12 @@ bool mergeNearPoints(
   }
   Clusters clusters(points, distance, firsts);
   const auto forDistinct = [&](Progress& stage, void (Clusters::*step)(std::int64_t)) {
-    stage.ForInOrder(
+    stage.ForEachInOrder(
       count, grain,
-      [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
+      [&](std::int64_t i) {
+        if (isDistinct.data()[i])
         {
-          if (isDistinct.data()[i])
-          {
-            (clusters.*step)(i);
-          }
+          (clusters.*step)(i);
         }
       },
       grain);
@@ -156,14 +152,11 @@ bool mergeNearPoints(
   forDistinct(stages["clusters"], &Clusters::Enter);
   forDistinct(stages["neighbours"], &Clusters::JoinBeside);
   bool isMerged = false;
-  stages["firsts"].ForInOrder(
+  stages["firsts"].ForEachInOrder(
     count, grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        firsts[i] = rootOf(firsts, i);
-        isMerged = isMerged || !std::equal(points[i], points[i] + 3, points[firsts[i]]);
-      }
+    [&](std::int64_t i) {
+      firsts[i] = rootOf(firsts, i);
+      isMerged = isMerged || !std::equal(points[i], points[i] + 3, points[firsts[i]]);
     },
     grain);
   return isMerged;

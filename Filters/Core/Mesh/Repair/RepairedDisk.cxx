@@ -140,12 +140,8 @@ bool RepairedDisk::TryAs(
 
 std::array<std::int64_t, 3> RepairedDisk::GivenCorners(std::int64_t triangle) const
 {
-  const std::int64_t* points = this->Disk->Triangle(triangle);
-  if (!this->Repaired)
-  {
-    return { points[0], points[1], points[2] };
-  }
-  const std::int64_t* corners = this->Repaired->Corners(triangle);
+  const std::int64_t* corners =
+    this->Repaired ? this->Repaired->Corners(triangle) : this->Disk->Triangle(triangle);
   return { corners[0], corners[1], corners[2] };
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/Repair/SplitTriangle.h"
 
-#include "Core/Mesh/FlatShape.h"
+#include "Core/Geometry/Vectors.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -107,7 +107,7 @@ void SplitTriangle::Fill(std::int64_t left, std::int64_t right, const Side& base
 
 double SplitTriangle::Squared(std::int64_t a, std::int64_t b) const
 {
-  return squaredDistance(this->Points[a], this->Points[b]);
+  return squaredDistance(pointAt(this->Points, a), pointAt(this->Points, b));
 }
 
 } // namespace RectifiedTransport

@@ -2,6 +2,7 @@
 #include "Core/Mesh/Repair/SurfaceRepair.h"
 
 #include "Core/Geometry/EqualPoints.h"
+#include "Core/Geometry/PointBounds.h"
 #include "Core/Mesh/FlatShape.h"
 #include "Core/Mesh/FlatTriangles.h"
 #include "Core/Mesh/Repair/MergePoints.h"
@@ -13,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace RectifiedTransport
@@ -30,30 +32,12 @@ bool isSamePlace(const double* a, const double* b, double rounding)
     std::abs(a[2] - b[2]) <= rounding;
 }
 
-// A power of two that areas of the surface neither overflow nor underflow by.
-double scaleOf(ConstPointSpan<3> points)
-{
-  double largest = 0.0;
-  for (std::int64_t i = 0; i < 3 * points.size(); ++i)
-  {
-    largest = std::max(largest, std::abs(points.data()[i]));
-  }
-  constexpr int most = 1000; // the scale is finite
-  return largest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -most, most)) : 1.0;
-}
-
 FlatShape shapeOf(const TriangleSurface& surface, double scale, std::int64_t triangle)
 {
-  std::array<std::array<double, 3>, 3> corners;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const std::int64_t point = surface.Triangles[3 * triangle + static_cast<std::int64_t>(i)];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      corners[i][axis] = scale * surface.Points[point][axis];
-    }
-  }
-  return { corners[0].data(), corners[1].data(), corners[2].data() };
+  const auto corner = [&](int i) {
+    return scale * pointAt(surface.Points, surface.Triangles[3 * triangle + i]);
+  };
+  return { corner(0), corner(1), corner(2) };
 }
 
 } // namespace
@@ -64,7 +48,7 @@ public:
   SurfaceRepairRun(const TriangleSurface& surface, const SurfaceRepairOptions& options)
     : Given(surface)
     , Options(options)
-    , Scale(scaleOf(surface.Points))
+    , Scale(scaleToUnit(largestCoordinate(surface.Points)))
     , Roots(surface.Points.size())
   {
   }
@@ -93,24 +77,18 @@ private:
   void FindRoots(Progress& progress)
   {
     const std::int64_t points = this->Given.Points.size();
-    for (std::int64_t i = 0; i < points; ++i)
-    {
-      this->Roots.data()[i] = i;
-    }
+    std::iota(this->Roots.data(), this->Roots.data() + points, std::int64_t{ 0 });
     if (this->Options.MergesEqualPoints)
     {
       this->MergePlaces(progress);
     }
-    progress.ForInOrder(
+    progress.ForEachInOrder(
       this->Given.NumberOfTriangles, grain,
-      [this](std::int64_t first, std::int64_t last) {
-        for (std::int64_t triangle = first; triangle < last; ++triangle)
+      [this](std::int64_t triangle) {
+        const std::int64_t* ids = this->Given.Triangles + 3 * triangle;
+        for (int i = 0; i < 3; ++i)
         {
-          const std::int64_t* ids = this->Given.Triangles + 3 * triangle;
-          for (int i = 0; i < 3; ++i)
-          {
-            this->MergeEnds(ids[i], ids[(i + 1) % 3]);
-          }
+          this->MergeEnds(ids[i], ids[(i + 1) % 3]);
         }
       },
       randomAccess);
@@ -149,20 +127,17 @@ private:
     this->Triangles = LargeBuffer<std::int64_t>(3 * count);
     this->Corners = LargeBuffer<std::int64_t>(3 * count);
     this->Origins = LargeBuffer<std::int64_t>(count);
-    progress.ForInOrder(
+    progress.ForEachInOrder(
       count, grain,
-      [this](std::int64_t first, std::int64_t last) {
-        for (std::int64_t triangle = first; triangle < last; ++triangle)
+      [this](std::int64_t triangle) {
+        const std::int64_t* ids = this->Given.Triangles + 3 * triangle;
+        const std::array<std::int64_t, 3> roots{ this->RootOf(ids[0]), this->RootOf(ids[1]),
+          this->RootOf(ids[2]) };
+        if (roots[0] != roots[1] && roots[1] != roots[2] && roots[2] != roots[0])
         {
-          const std::int64_t* ids = this->Given.Triangles + 3 * triangle;
-          const std::array<std::int64_t, 3> roots{ this->RootOf(ids[0]), this->RootOf(ids[1]),
-            this->RootOf(ids[2]) };
-          if (roots[0] != roots[1] && roots[1] != roots[2] && roots[2] != roots[0])
-          {
-            std::copy(roots.begin(), roots.end(), this->Triangles.data() + 3 * this->Count);
-            std::copy_n(ids, 3, this->Corners.data() + 3 * this->Count);
-            this->Origins.data()[this->Count++] = triangle;
-          }
+          std::copy(roots.begin(), roots.end(), this->Triangles.data() + 3 * this->Count);
+          std::copy_n(ids, 3, this->Corners.data() + 3 * this->Count);
+          this->Origins.data()[this->Count++] = triangle;
         }
       },
       randomAccess);
@@ -185,11 +160,17 @@ private:
         ++next;
         continue;
       }
-      std::copy_n(this->Triangles.data() + 3 * triangle, 3, this->Triangles.data() + 3 * count);
-      std::copy_n(this->Corners.data() + 3 * triangle, 3, this->Corners.data() + 3 * count);
-      this->Origins.data()[count++] = this->Origins.data()[triangle];
+      this->Move(triangle, count++);
     }
     this->Count = count;
+  }
+
+  // To a place before it, or its own.
+  void Move(std::int64_t triangle, std::int64_t place)
+  {
+    std::copy_n(this->Triangles.data() + 3 * triangle, 3, this->Triangles.data() + 3 * place);
+    std::copy_n(this->Corners.data() + 3 * triangle, 3, this->Corners.data() + 3 * place);
+    this->Origins.data()[place] = this->Origins.data()[triangle];
   }
 
   TriangleSurface Kept() const
@@ -223,8 +204,7 @@ private:
   void RemoveFlat(const Context& context)
   {
     const std::int64_t points = this->Given.Points.size();
-    this->Nearest = LargeBuffer<std::int64_t>(points);
-    std::fill_n(this->Nearest.data(), points, std::int64_t{ -1 });
+    this->Nearest = { points, -1 };
     LargeBuffer<double> scaled(3 * points);
     for (std::int64_t i = 0; i < 3 * points; ++i)
     {
@@ -239,8 +219,7 @@ private:
   void NumberPoints(Progress& progress)
   {
     const std::int64_t points = this->Given.Points.size();
-    LargeBuffer<std::int64_t> numbers(points); // by roots
-    std::fill_n(numbers.data(), points, std::int64_t{ -1 });
+    LargeBuffer<std::int64_t> numbers(points, -1); // by roots
     std::int64_t triangles = 0;
     for (std::int64_t triangle = 0; triangle < this->Count; ++triangle)
     {
@@ -251,9 +230,7 @@ private:
         {
           numbers.data()[ids[i]] = 0;
         }
-        std::copy_n(ids, 3, this->Triangles.data() + 3 * triangles);
-        std::copy_n(this->Corners.data() + 3 * triangle, 3, this->Corners.data() + 3 * triangles);
-        this->Origins.data()[triangles++] = this->Origins.data()[triangle];
+        this->Move(triangle, triangles++);
       }
     }
     this->Count = triangles;
@@ -304,8 +281,7 @@ private:
   {
     const std::int64_t points = this->Given.Points.size();
     const std::int64_t triangles = this->Given.NumberOfTriangles;
-    LargeBuffer<unsigned char> isUsed(std::max(points, triangles));
-    std::fill_n(isUsed.data(), points, static_cast<unsigned char>(0));
+    LargeBuffer<unsigned char> isUsed(std::max(points, triangles), 0);
     for (std::int64_t corner = 0; corner < 3 * triangles; ++corner)
     {
       isUsed.data()[this->Given.Triangles[corner]] = 1;
@@ -350,21 +326,15 @@ TriangleSurface RepairedSurface::Surface() const
 
 double roundingOfDoubles(ConstPointSpan<3> points)
 {
-  double largest = 0.0;
-  for (std::int64_t i = 0; i < 3 * points.size(); ++i)
-  {
-    largest = std::max(largest, std::abs(points.data()[i]));
-  }
   constexpr double units = 4.0;
-  return units * std::numeric_limits<double>::epsilon() * largest;
+  return units * std::numeric_limits<double>::epsilon() * largestCoordinate(points);
 }
 
 bool needsRepair(const TriangleSurface& surface, double rounding, const Context& context)
 {
   Progress progress(context);
-  const double scale = scaleOf(surface.Points);
-  LargeBuffer<unsigned char> isUsed(surface.Points.size());
-  std::fill_n(isUsed.data(), isUsed.size(), static_cast<unsigned char>(0));
+  const double scale = scaleToUnit(largestCoordinate(surface.Points));
+  LargeBuffer<unsigned char> isUsed(surface.Points.size(), 0);
   bool isFlat = false;
   progress.ForInOrder(
     surface.NumberOfTriangles, grain,

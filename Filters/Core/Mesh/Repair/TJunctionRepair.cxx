@@ -69,19 +69,13 @@ private:
     constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
     const std::int64_t count = this->Surface.NumberOfTriangles;
     PointBounds bounds;
-    progress.ForInOrder(3 * count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t corner = first; corner < last; ++corner)
-      {
-        bounds.Add(this->Surface.Points[this->Surface.Triangles[corner]]);
-      }
+    progress.ForEachInOrder(3 * count, grain, [&](std::int64_t corner) {
+      bounds.Add(this->Surface.Points[this->Surface.Triangles[corner]]);
     });
     const PlaceOnSide place(bounds, this->Rounding);
     this->IsFlat = LargeBuffer<unsigned char>(count);
-    progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t triangle = first; triangle < last; ++triangle)
-      {
-        this->IsFlat.data()[triangle] = this->IsLine(triangle, place) ? 1 : 0;
-      }
+    progress.ForEach(count, grain, [&](std::int64_t triangle) {
+      this->IsFlat.data()[triangle] = this->IsLine(triangle, place) ? 1 : 0;
     });
     return std::count(this->IsFlat.data(), this->IsFlat.data() + count, 1);
   }

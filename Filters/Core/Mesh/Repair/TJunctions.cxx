@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/Repair/TJunctions.h"
 
-#include "Core/Geometry/BoxTree.h"
+#include "Core/Geometry/ItemTree.h"
 #include "Core/Geometry/PointBounds.h"
 #include "Core/Mesh/EdgeSides.h"
 #include "Core/Mesh/PlaceOnSide.h"
@@ -22,95 +22,29 @@ namespace
 
 constexpr std::int64_t pointsOfLeaf = 8;
 
-// A tree of the bounding boxes of points.
-class PointTree
+// Whether a segment passes through a box with a margin.
+bool passes(const PointBounds& box, const double* from, const double* to, double margin)
 {
-public:
-  PointTree(ConstPointSpan<3> points, std::vector<std::int64_t> numbers, Progress& progress)
-    : Points(points)
-    , Numbers(std::move(numbers))
+  double enters = 0.0;
+  double leaves = 1.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    this->Boxes = makeBoxTree<ItemBox>(
-      static_cast<std::int64_t>(this->Numbers.size()),
-      [&](std::int64_t first, std::int64_t last) {
-        progress.Add(last - first);
-        return this->BoxOf(first, last);
-      },
-      [&](const ItemBox& box) {
-        return divideItems(
-          this->Numbers.data(), box, pointsOfLeaf,
-          [this](std::int64_t point, std::size_t axis) { return this->Points[point][axis]; },
-          progress);
-      });
-  }
-
-  // Calls visit(point) for those that may be nearer to a segment than a distance.
-  template <class Visit>
-  void VisitNear(const double* from, const double* to, double distance, const Visit& visit)
-  {
-    this->Stack.assign(1, 0);
-    while (!this->Stack.empty())
+    const double low = box.Low[axis] - margin - from[axis];
+    const double high = box.High[axis] + margin - from[axis];
+    const double by = to[axis] - from[axis];
+    if (by == 0.0)
     {
-      const std::int64_t at = this->Stack.back();
-      this->Stack.pop_back();
-      const ItemBox& box = this->Boxes[static_cast<std::size_t>(at)];
-      if (!isNear(box, from, to, distance))
+      if (low > 0.0 || high < 0.0)
       {
-        continue;
+        return false;
       }
-      if (box.Second >= 0)
-      {
-        this->Stack.push_back(box.Second);
-        this->Stack.push_back(at + 1);
-        continue;
-      }
-      for (std::int64_t i = box.First; i < box.Last; ++i)
-      {
-        visit(this->Numbers[static_cast<std::size_t>(i)]);
-      }
+      continue;
     }
+    enters = std::max(enters, std::min(low / by, high / by));
+    leaves = std::min(leaves, std::max(low / by, high / by));
   }
-
-private:
-  // Whether the segment passes through the box with a margin.
-  static bool isNear(const PointBounds& box, const double* from, const double* to, double margin)
-  {
-    double enters = 0.0;
-    double leaves = 1.0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const double low = box.Low[axis] - margin - from[axis];
-      const double high = box.High[axis] + margin - from[axis];
-      const double by = to[axis] - from[axis];
-      if (by == 0.0)
-      {
-        if (low > 0.0 || high < 0.0)
-        {
-          return false;
-        }
-        continue;
-      }
-      enters = std::max(enters, std::min(low / by, high / by));
-      leaves = std::min(leaves, std::max(low / by, high / by));
-    }
-    return enters <= leaves;
-  }
-
-  ItemBox BoxOf(std::int64_t first, std::int64_t last) const
-  {
-    ItemBox box{ {}, first, last, -1 };
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      box.Add(this->Points[this->Numbers[static_cast<std::size_t>(i)]]);
-    }
-    return box;
-  }
-
-  ConstPointSpan<3> Points;
-  std::vector<std::int64_t> Numbers;
-  std::vector<ItemBox> Boxes;
-  std::vector<std::int64_t> Stack;
-};
+  return enters <= leaves;
+}
 
 struct Found
 {
@@ -162,7 +96,10 @@ public:
       bounds.Add(this->Points[end]);
     }
     const PlaceOnSide placeOnSide(bounds, rounding);
-    PointTree tree(this->Points, std::move(ends), progress);
+    const ItemTree tree(
+      std::move(ends), pointsOfLeaf,
+      [this](std::int64_t end, PointBounds& box) { box.Add(this->Points[end]); },
+      [this](std::int64_t end, std::size_t axis) { return this->Points[end][axis]; }, progress);
     for (std::size_t i = 0; i < this->OpenSides.size(); ++i)
     {
       this->Search(i, placeOnSide, tree, progress);
@@ -174,14 +111,17 @@ public:
 private:
   // Appends the points on a side.
   void Search(
-    std::size_t number, const PlaceOnSide& placeOnSide, PointTree& tree, Progress& progress)
+    std::size_t number, const PlaceOnSide& placeOnSide, const ItemTree& tree, Progress& progress)
   {
     const OpenSide& side = this->OpenSides[number];
     const double* from = this->Points[side.From];
     const double* to = this->Points[side.To];
     const std::size_t first = this->All.size();
     std::int64_t visited = 1;
-    tree.VisitNear(from, to, placeOnSide.Tolerance(), [&](std::int64_t point) {
+    const auto isNear = [&](const PointBounds& box) {
+      return passes(box, from, to, placeOnSide.Tolerance());
+    };
+    tree.VisitNear(isNear, [&](std::int64_t point) {
       ++visited;
       const bool isOwn = point == side.From || point == side.To || point == side.Opposite;
       const double place = isOwn ? 0.0 : placeOnSide.Of(from, to, this->Points[point]);
@@ -276,8 +216,6 @@ private:
 
   ConstPointSpan<3> Points;
   const std::vector<OpenSide>& OpenSides;
-  double Tolerance = 0.0;
-  double Scale = 1.0;     // so that squares neither overflow nor underflow
   std::vector<Found> All; // by sides and places
 };
 
@@ -315,15 +253,13 @@ struct CoordinateRange
 double roundingOfCorners(const TriangleSurface& surface, Progress& progress)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  const CoordinateRange all = reduceChunks(
+  const CoordinateRange all = reduceEach(
     progress, surface.NumberOfTriangles, grain, CoordinateRange(),
-    [&](std::int64_t first, std::int64_t last) {
-      CoordinateRange found;
-      for (std::int64_t corner = 3 * first; corner < 3 * last; ++corner)
+    [&](std::int64_t triangle, CoordinateRange& found) {
+      for (std::int64_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
       {
         found.Add(surface.Points[surface.Triangles[corner]]);
       }
-      return found;
     },
     CoordinateRange::Union);
   return all.Rounding();
@@ -353,10 +289,9 @@ std::vector<OpenSide> openSidesOf(
     return a == b || b == c || c == a || (options.IsLeftOut && options.IsLeftOut[triangle] != 0);
   };
   const std::int64_t count = 3 * surface.NumberOfTriangles;
-  LargeBuffer<unsigned char> isOpen(count);
-  std::fill_n(isOpen.data(), count, static_cast<unsigned char>(0));
-  visitEdges(SideCorners{ surface.NumberOfTriangles, surface.Points.size(), pointOf, isLeftOut },
-    progress, [&isOpen](const std::int64_t* sides, std::int64_t number) {
+  LargeBuffer<unsigned char> isOpen(count, 0);
+  visitEdges(surface.NumberOfTriangles, surface.Points.size(), pointOf, isLeftOut, progress,
+    [&isOpen](const std::int64_t* sides, std::int64_t number) {
       isOpen.data()[sides[0]] = number == 1 ? 1 : 0;
     });
   std::vector<OpenSide> open;
