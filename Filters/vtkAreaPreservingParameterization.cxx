@@ -20,15 +20,9 @@ using namespace RectifiedTransport::Bridge;
 
 //------------------------------------------------------------------------------
 vtkAreaPreservingParameterization::vtkAreaPreservingParameterization()
-  : Resolution(512)
-  , Polish(true)
-  , Seams(SEAMS_AUTO)
 {
-  this->SetNumberOfOutputPorts(2);
+  this->AddOutputPort("vtkPolyData"); // Flat
 }
-
-//------------------------------------------------------------------------------
-vtkAreaPreservingParameterization::~vtkAreaPreservingParameterization() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkAreaPreservingParameterization::GetSeamsAsString()

@@ -139,14 +139,14 @@ public:
 
 protected:
   vtkAreaPreservingParameterization();
-  ~vtkAreaPreservingParameterization() override;
+  ~vtkAreaPreservingParameterization() override = default;
 
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Resolution;
-  vtkTypeBool Polish;
-  int Seams;
+  int Resolution = 512;
+  vtkTypeBool Polish = true;
+  int Seams = SEAMS_AUTO;
 
 private:
   vtkAreaPreservingParameterization(const vtkAreaPreservingParameterization&) = delete;

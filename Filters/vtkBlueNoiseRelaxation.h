@@ -143,18 +143,14 @@ public:
 
 protected:
   vtkBlueNoiseRelaxation();
-  ~vtkBlueNoiseRelaxation() override;
+  ~vtkBlueNoiseRelaxation() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Method;
-  int MaximumIterations;
-  double Tolerance;
+  int Method = GAUSSIAN_BLUE_NOISE;
+  int MaximumIterations = 50;
+  double Tolerance = 0.0;
 
 private:
   vtkBlueNoiseRelaxation(const vtkBlueNoiseRelaxation&) = delete;

@@ -177,22 +177,20 @@ protected:
   vtkCartogram();
   ~vtkCartogram() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Resolution;
-  double Margin;
-  int Projection;
-  int EmptyCells;
-  double EmptyValue;
-  double Tolerance;
-  int MaximumIterations;
-  double MinimumShare;
-  double Blend;
+  int Resolution = 1024;
+  double Margin = 0.1;
+  int Projection = PROJECTION_NONE;
+  int EmptyCells = EMPTY_CELLS_MEAN;
+  double EmptyValue = 0.0;
+  double Tolerance = 0.01;
+  int MaximumIterations = 10;
+  double MinimumShare = 0.0;
+  double Blend = 1.0;
 
 private:
   struct vtkInternals;

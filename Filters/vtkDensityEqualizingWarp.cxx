@@ -35,19 +35,13 @@ using namespace RectifiedTransport::Bridge;
 //------------------------------------------------------------------------------
 vtkDensityEqualizingWarp::vtkDensityEqualizingWarp()
   : vtkTransportAlgorithm(1)
-  , Blend(1.0)
-  , Margin(0.0)
-  , EqualizeAreas(false)
 {
+  // Each point is moved independently of the others.
+  this->AddInputPort(PORT_PIECES, { "vtkPointSet" });
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY);
+  this->AddOutputPort("vtkPointSet");
   this->EmptyCells = EMPTY_CELLS_MEAN;
-  this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_PIECES); // each point is moved independently of the others
-  this->SetPortPolicy(1, PORT_PARTITIONED_DENSITY);
 }
-
-//------------------------------------------------------------------------------
-vtkDensityEqualizingWarp::~vtkDensityEqualizingWarp() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkDensityEqualizingWarp::GetEmptyCellsAsString()
@@ -59,33 +53,6 @@ const char* vtkDensityEqualizingWarp::GetEmptyCellsAsString()
 vtkPointSet* vtkDensityEqualizingWarp::GetOutput()
 {
   return vtkPointSet::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkDensityEqualizingWarp::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 1)
-  {
-    vtkDensityAlgorithm::FillDensityPortInformation(info);
-    return 1;
-  }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkDensityEqualizingWarp::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkDensityEqualizingWarp::RequestDataObject(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  vtkCollectiveAlgorithm::MakeOutputLike(inputVector[0], outputVector, 0);
-  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -145,18 +145,14 @@ public:
 
 protected:
   vtkDensityEqualizingWarp();
-  ~vtkDensityEqualizingWarp() override;
+  ~vtkDensityEqualizingWarp() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  double Blend;
-  double Margin;
-  vtkTypeBool EqualizeAreas;
+  double Blend = 1.0;
+  double Margin = 0.0;
+  vtkTypeBool EqualizeAreas = false;
 
 private:
   vtkDensityEqualizingWarp(const vtkDensityEqualizingWarp&) = delete;

@@ -3,10 +3,7 @@
 
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Settings/CornerSettings.h"
-#include "Bridge/Triangles/SurfaceInput.h"
 
-#include "vtkDataObject.h"
-#include "vtkInformation.h"
 #include "vtkPolyData.h"
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -38,9 +35,9 @@ void changeCorners(vtkObject* object, const Change& change)
 vtkDiskAlgorithm::vtkDiskAlgorithm()
   : Corners(std::make_unique<CornerSettings>())
 {
-  this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_GATHERED_SURFACE);
+  this->AddInputPort(
+    PORT_GATHERED_SURFACE, { "vtkPolyData", "vtkUnstructuredGrid", "vtkStructuredGrid" });
+  this->AddOutputPort("vtkPolyData");
 }
 
 //------------------------------------------------------------------------------
@@ -74,20 +71,6 @@ vtkIdType vtkDiskAlgorithm::GetCorner(int index)
 vtkPolyData* vtkDiskAlgorithm::GetOutput()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkDiskAlgorithm::FillInputPortInformation(int, vtkInformation* info)
-{
-  SurfaceInput::Require(info);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkDiskAlgorithm::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
-  return 1;
 }
 
 //------------------------------------------------------------------------------

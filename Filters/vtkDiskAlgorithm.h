@@ -64,9 +64,6 @@ protected:
   vtkDiskAlgorithm();
   ~vtkDiskAlgorithm() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-
   /**
    * The corners, not checked.
    */

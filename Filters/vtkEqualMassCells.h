@@ -217,10 +217,6 @@ protected:
   vtkEqualMassCells();
   ~vtkEqualMassCells() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   void ShareOutputs(
@@ -228,11 +224,11 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Resolution;
-  double NormExponent;
-  double CostExponent;
-  int Shape;
-  int Measure;
+  int Resolution = 512;
+  double NormExponent = 2.0;
+  double CostExponent = 2.0;
+  int Shape = SHAPE_FLOW;
+  int Measure = UNIFORM;
 
 private:
   struct vtkInternals;

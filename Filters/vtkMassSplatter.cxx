@@ -12,7 +12,6 @@
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Splat/MassSplatter.h"
 
-#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -61,22 +60,12 @@ vtkSmartPointer<vtkDataArray> chosenMasses(vtkInformation* choice, vtkPointSet* 
 
 //------------------------------------------------------------------------------
 vtkMassSplatter::vtkMassSplatter()
-  : Dimensions{ 128, 128, 128 }
-  , Association(POINTS)
-  , Kernel(CLOUD_IN_CELL)
-  , Radius(1.0)
-  , Boundary(RENORMALIZE)
-  , DivideByVolume(true)
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(1);
+  this->AddInputPort(PORT_PARTITIONED_POINTS, { "vtkPointSet" });
+  this->AddInputPort(PORT_PARTITIONED_DENSITY, { "vtkImageData" }, PORT_OPTIONAL_INPUT);
+  this->AddOutputPort("vtkImageData");
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "");
-  this->SetPortPolicy(0, PORT_PARTITIONED_POINTS);
-  this->SetPortPolicy(1, PORT_PARTITIONED_DENSITY);
 }
-
-//------------------------------------------------------------------------------
-vtkMassSplatter::~vtkMassSplatter() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkMassSplatter::GetAssociationAsString()
@@ -100,26 +89,6 @@ const char* vtkMassSplatter::GetBoundaryAsString()
 vtkImageData* vtkMassSplatter::GetOutput()
 {
   return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkMassSplatter::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 0)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-    return 1;
-  }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkMassSplatter::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkImageData");
-  return 1;
 }
 
 //------------------------------------------------------------------------------

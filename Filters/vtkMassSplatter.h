@@ -184,21 +184,19 @@ public:
 
 protected:
   vtkMassSplatter();
-  ~vtkMassSplatter() override;
+  ~vtkMassSplatter() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Dimensions[3];
-  int Association;
-  int Kernel;
-  double Radius;
-  int Boundary;
-  vtkTypeBool DivideByVolume;
+  int Dimensions[3] = { 128, 128, 128 };
+  int Association = POINTS;
+  int Kernel = CLOUD_IN_CELL;
+  double Radius = 1.0;
+  int Boundary = RENORMALIZE;
+  vtkTypeBool DivideByVolume = true;
 
 private:
   RectifiedTransport::Bridge::MassSplatter GetSplatter();

@@ -30,18 +30,10 @@ constexpr int MaximumSupersampling = 16;
 
 //------------------------------------------------------------------------------
 vtkSolidDensity::vtkSolidDensity()
-  : Resolution(64)
-  , Supersampling(2)
-  , Padding(0.05)
-  , Association(POINTS)
 {
-  this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_PARTITIONED_POINTS);
+  this->AddInputPort(PORT_PARTITIONED_POINTS, { "vtkPolyData" });
+  this->AddOutputPort("vtkImageData");
 }
-
-//------------------------------------------------------------------------------
-vtkSolidDensity::~vtkSolidDensity() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkSolidDensity::GetAssociationAsString()
@@ -64,20 +56,6 @@ SolidDensity vtkSolidDensity::GetSolid()
 vtkImageData* vtkSolidDensity::GetOutput()
 {
   return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkSolidDensity::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkSolidDensity::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkImageData");
-  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -122,19 +122,17 @@ public:
 
 protected:
   vtkSolidDensity();
-  ~vtkSolidDensity() override;
+  ~vtkSolidDensity() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Resolution;
-  int Supersampling;
-  double Padding;
-  int Association;
+  int Resolution = 64;
+  int Supersampling = 2;
+  double Padding = 0.05;
+  int Association = POINTS;
 
 private:
   RectifiedTransport::Bridge::SolidDensity GetSolid();

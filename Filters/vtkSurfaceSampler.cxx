@@ -27,24 +27,9 @@ using namespace RectifiedTransport::Bridge;
 
 //------------------------------------------------------------------------------
 vtkSurfaceSampler::vtkSurfaceSampler()
-  : NumberOfParticles(8192)
-  , Method(RELAXATION)
-  , RelaxationIterations(20)
-  , Resolution(1024)
-  , SeedPattern(BLUE_NOISE)
-  , RandomSeed(1)
-  , Integrator(MULTISTEP)
-  , NumberOfSteps(0)
-  , AreaTolerance(0.02)
-  , Tolerance(0.01)
-  , TableLookup(INTERPOLATED)
-  , FlowMaps(FLOW_MAPS_AUTO)
 {
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
 }
-
-//------------------------------------------------------------------------------
-vtkSurfaceSampler::~vtkSurfaceSampler() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkSurfaceSampler::GetMethodAsString()

@@ -266,17 +266,17 @@ protected:
    */
   void WarnOfAreas();
 
-  int Method;
-  double OptimalityTolerance;
-  vtkTypeBool Certify;
-  int Tables;
-  int Integrator;
-  int NumberOfSteps;
-  double AreaTolerance;
-  double Tolerance;
-  int TableLookup;
-  int FlowMaps;
-  int Device;
+  int Method = RECTIFIED_FLOW;
+  double OptimalityTolerance = 0.001;
+  vtkTypeBool Certify = false;
+  int Tables = TABLES_AUTO;
+  int Integrator = MULTISTEP;
+  int NumberOfSteps = 0;
+  double AreaTolerance = 0.02;
+  double Tolerance = 0.01;
+  int TableLookup = INTERPOLATED;
+  int FlowMaps = FLOW_MAPS_AUTO;
+  int Device = DEVICE_CPU;
 
 private:
   struct vtkDevice;

@@ -84,8 +84,7 @@ vtkTransportBarycenter::vtkTransportBarycenter()
   , Weights(new vtkWeights)
   , Blend(new DensityBlend)
 {
-  this->SetNumberOfInputPorts(1);
-  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY, PORT_SEVERAL_INPUTS);
 }
 
 //------------------------------------------------------------------------------
@@ -137,14 +136,6 @@ double vtkTransportBarycenter::GetWeight(int index)
   return index >= 0 && index < this->GetNumberOfWeights()
     ? this->Weights->List[static_cast<std::size_t>(index)]
     : 0.0;
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportBarycenter::FillInputPortInformation(int, vtkInformation* info)
-{
-  vtkDensityAlgorithm::FillDensityPortInformation(info);
-  info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  return 1;
 }
 
 //------------------------------------------------------------------------------

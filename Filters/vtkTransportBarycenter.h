@@ -63,7 +63,6 @@ protected:
   vtkTransportBarycenter();
   ~vtkTransportBarycenter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 

@@ -14,7 +14,6 @@
 #include "Core/Parallel/Stages.h"
 
 #include "vtkDataObject.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -36,18 +35,11 @@ const char* const MassModeTexts[] = { "Linear", "Geometric", "Source", "Normaliz
 
 //------------------------------------------------------------------------------
 vtkTransportBlend::vtkTransportBlend(bool blocksAreInputs)
-  : Dimensions{ 0, 0, 0 }
-  , ParticlesPerCell(0)
-  , MassMode(MASS_LINEAR)
-  , Kernel(TRIANGULAR_SHAPED_CLOUD)
-  , Radius(1.0)
-  , BlocksAreInputs(blocksAreInputs)
+  : BlocksAreInputs(blocksAreInputs)
 {
-  this->SetNumberOfOutputPorts(2);
+  this->AddOutputPort("vtkImageData");
+  this->AddOutputPort("vtkPolyData");
 }
-
-//------------------------------------------------------------------------------
-vtkTransportBlend::~vtkTransportBlend() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkTransportBlend::GetMassModeAsString()
@@ -71,13 +63,6 @@ vtkImageData* vtkTransportBlend::GetDensity()
 vtkPolyData* vtkTransportBlend::GetParticles()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportBlend::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkImageData" : "vtkPolyData");
-  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -161,7 +161,7 @@ protected:
    * density.
    */
   explicit vtkTransportBlend(bool blocksAreInputs);
-  ~vtkTransportBlend() override;
+  ~vtkTransportBlend() override = default;
 
   /**
    * Read the densities of all inputs. `names` are used in messages and, with "Position" appended,
@@ -177,7 +177,6 @@ protected:
    */
   void WarnOfMaps(const RectifiedTransport::Bridge::BlendReport& report);
 
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -186,11 +185,11 @@ protected:
    */
   RectifiedTransport::Bridge::BlendSettings GetBlendSettings();
 
-  int Dimensions[3];
-  int ParticlesPerCell;
-  int MassMode;
-  int Kernel;
-  double Radius;
+  int Dimensions[3] = { 0, 0, 0 };
+  int ParticlesPerCell = 0;
+  int MassMode = MASS_LINEAR;
+  int Kernel = TRIANGULAR_SHAPED_CLOUD;
+  double Radius = 1.0;
 
 private:
   const bool BlocksAreInputs;

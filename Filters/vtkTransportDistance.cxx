@@ -59,15 +59,12 @@ struct vtkTransportDistance::vtkInternals
 
 //------------------------------------------------------------------------------
 vtkTransportDistance::vtkTransportDistance()
-  : Method(LINEARIZED)
-  , MassDifference(MASS_DIFFERENCE_NORMALIZE)
-  , OverTime(false)
-  , NumberOfCoordinates(2)
-  , Internals(new vtkInternals)
+  : Internals(new vtkInternals)
 {
-  this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(3);
-  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY, PORT_SEVERAL_INPUTS);
+  this->AddOutputPort("vtkTable");
+  this->AddOutputPort("vtkTable");
+  this->AddOutputPort("vtkTable");
 }
 
 //------------------------------------------------------------------------------
@@ -156,21 +153,6 @@ vtkTable* vtkTransportDistance::GetBounds()
 vtkTable* vtkTransportDistance::GetCoordinates()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(2));
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportDistance::FillInputPortInformation(int, vtkInformation* info)
-{
-  vtkDensityAlgorithm::FillDensityPortInformation(info);
-  info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportDistance::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
-  return 1;
 }
 
 //------------------------------------------------------------------------------

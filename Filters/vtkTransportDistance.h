@@ -169,8 +169,6 @@ protected:
   vtkTransportDistance();
   ~vtkTransportDistance() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
@@ -179,10 +177,10 @@ protected:
     vtkInformationVector* outputVector) override;
   void EndPasses() override;
 
-  int Method;
-  int MassDifference;
-  vtkTypeBool OverTime;
-  int NumberOfCoordinates;
+  int Method = LINEARIZED;
+  int MassDifference = MASS_DIFFERENCE_NORMALIZE;
+  vtkTypeBool OverTime = false;
+  int NumberOfCoordinates = 2;
 
 private:
   struct vtkInternals;

@@ -55,32 +55,14 @@ std::vector<double> placesOf(const DistributedPoints& points, Progress& progress
 //------------------------------------------------------------------------------
 vtkTransportDotRadius::vtkTransportDotRadius()
 {
-  this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_PARTITIONED_POINTS);
+  this->AddInputPort(PORT_PARTITIONED_POINTS, { "vtkPointSet" });
+  this->AddOutputPort("vtkTable");
 }
-
-//------------------------------------------------------------------------------
-vtkTransportDotRadius::~vtkTransportDotRadius() = default;
 
 //------------------------------------------------------------------------------
 vtkTable* vtkTransportDotRadius::GetOutput()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportDotRadius::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportDotRadius::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
-  return 1;
 }
 
 //------------------------------------------------------------------------------

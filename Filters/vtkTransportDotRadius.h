@@ -38,10 +38,8 @@ public:
 
 protected:
   vtkTransportDotRadius();
-  ~vtkTransportDotRadius() override;
+  ~vtkTransportDotRadius() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 

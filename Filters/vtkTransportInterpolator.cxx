@@ -40,14 +40,10 @@ bool isNumberOfTimeSteps(int count)
 //------------------------------------------------------------------------------
 vtkTransportInterpolator::vtkTransportInterpolator()
   : vtkTransportBlend(false)
-  , Parameter(0.5)
-  , PublishTime(false)
-  , NumberOfTimeSteps(11)
   , Blend(new DensityBlend)
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
-  this->SetPortPolicy(1, PORT_PARTITIONED_DENSITY);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY);
   vtkTransportInterpolator::SetInputArrayToProcess(
     1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
 }
@@ -61,13 +57,6 @@ void vtkTransportInterpolator::SetInputArrayToProcess(
 {
   const auto [index, arrayPort] = targetArray(idx, port);
   this->Superclass::SetInputArrayToProcess(index, arrayPort, connection, fieldAssociation, name);
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportInterpolator::FillInputPortInformation(int, vtkInformation* info)
-{
-  vtkDensityAlgorithm::FillDensityPortInformation(info);
-  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -102,7 +102,6 @@ protected:
   vtkTransportInterpolator();
   ~vtkTransportInterpolator() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestUpdateTime(vtkInformation* request, vtkInformationVector** inputVector,
@@ -112,9 +111,9 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  double Parameter;
-  vtkTypeBool PublishTime;
-  int NumberOfTimeSteps;
+  double Parameter = 0.5;
+  vtkTypeBool PublishTime = false;
+  int NumberOfTimeSteps = 11;
 
 private:
   void RequestFirstTime(vtkInformationVector** inputVector);

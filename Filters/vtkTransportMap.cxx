@@ -26,7 +26,6 @@
 #include <array>
 #include <memory>
 #include <string>
-#include <utility>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportMap);
@@ -49,14 +48,10 @@ bool hasTarget(vtkInformationVector** inputVector)
 
 //------------------------------------------------------------------------------
 vtkTransportMap::vtkTransportMap()
-  : Direction(UNIFORM_TO_DENSITY)
-  , SampleDimensions{ 0, 0, 0 }
-  , EqualizeAreas(false)
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
-  this->SetPortPolicy(1, PORT_PARTITIONED_DENSITY);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY, PORT_OPTIONAL_INPUT);
+  this->AddOutputPort("vtkImageData");
   vtkTransportMap::SetInputArrayToProcess(
     1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
 }
@@ -88,24 +83,6 @@ void vtkTransportMap::SetInputArrayToProcess(
 {
   const auto [index, arrayPort] = targetArray(idx, port);
   this->Superclass::SetInputArrayToProcess(index, arrayPort, connection, fieldAssociation, name);
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportMap::FillInputPortInformation(int port, vtkInformation* info)
-{
-  vtkDensityAlgorithm::FillDensityPortInformation(info);
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportMap::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkImageData");
-  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -223,16 +223,14 @@ protected:
   vtkTransportMap();
   ~vtkTransportMap() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Direction;
-  int SampleDimensions[3];
-  vtkTypeBool EqualizeAreas;
+  int Direction = UNIFORM_TO_DENSITY;
+  int SampleDimensions[3] = { 0, 0, 0 };
+  vtkTypeBool EqualizeAreas = false;
 
 private:
   bool ReadPair(vtkInformationVector** inputVector, RectifiedTransport::Progress& progress,

@@ -9,12 +9,6 @@ VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportPDFWriter);
 
 //------------------------------------------------------------------------------
-vtkTransportPDFWriter::vtkTransportPDFWriter() = default;
-
-//------------------------------------------------------------------------------
-vtkTransportPDFWriter::~vtkTransportPDFWriter() = default;
-
-//------------------------------------------------------------------------------
 std::unique_ptr<RectifiedTransport::Bridge::Drawing> vtkTransportPDFWriter::NewDrawing(
   RectifiedTransport::Bridge::OutputFile& file) const
 {

@@ -121,15 +121,13 @@ public:
 
 protected:
   vtkTransportQuality();
-  ~vtkTransportQuality() override;
+  ~vtkTransportQuality() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int BlockSize;
-  int Tables;
+  int BlockSize = 0;
+  int Tables = TABLES_AUTO;
 
 private:
   vtkTransportQuality(const vtkTransportQuality&) = delete;

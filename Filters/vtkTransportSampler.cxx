@@ -31,22 +31,11 @@ using namespace RectifiedTransport::Bridge;
 
 //------------------------------------------------------------------------------
 vtkTransportSampler::vtkTransportSampler()
-  : NumberOfParticles(8192)
-  , SeedPattern(BLUE_NOISE)
-  , RandomSeed(1)
-  , SamplesPerCell(0)
-  , FlowTime(1.0)
-  , OutputPaths(false)
-  , SampleArrays(true)
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
-  this->SetPortPolicy(1, PORT_PARTITIONED_POINTS);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY);
+  this->AddInputPort(PORT_PARTITIONED_POINTS, { "vtkPointSet" }, PORT_OPTIONAL_INPUT);
+  this->AddOutputPort("vtkPolyData");
 }
-
-//------------------------------------------------------------------------------
-vtkTransportSampler::~vtkTransportSampler() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkTransportSampler::GetSeedPatternAsString()
@@ -58,26 +47,6 @@ const char* vtkTransportSampler::GetSeedPatternAsString()
 vtkPolyData* vtkTransportSampler::GetOutput()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportSampler::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 0)
-  {
-    vtkDensityAlgorithm::FillDensityPortInformation(info);
-    return 1;
-  }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportSampler::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
-  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -174,8 +174,6 @@ protected:
   vtkTransportTemporalInterpolator();
   ~vtkTransportTemporalInterpolator() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestUpdateTime(vtkInformation* request, vtkInformationVector** inputVector,
@@ -186,13 +184,13 @@ protected:
     vtkInformationVector* outputVector) override;
   void EndPasses() override;
 
-  int Method;
-  int ResampleFactor;
-  vtkTypeBool TrackParticles;
-  vtkTypeBool AdvectArrays;
-  int ParticlesPerCell;
-  int Kernel;
-  double Radius;
+  int Method = OPTIMAL;
+  int ResampleFactor = 0;
+  vtkTypeBool TrackParticles = false;
+  vtkTypeBool AdvectArrays = true;
+  int ParticlesPerCell = 1;
+  int Kernel = CLOUD_IN_CELL;
+  double Radius = 1.0;
 
 private:
   struct vtkInternals;

@@ -104,19 +104,18 @@ public:
 
 protected:
   vtkUniformSeedSource();
-  ~vtkUniformSeedSource() override;
+  ~vtkUniformSeedSource() override = default;
 
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  double Bounds[6];
-  int Dimension;
-  vtkIdType NumberOfPoints;
-  int Pattern;
-  int RandomSeed;
+  double Bounds[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
+  int Dimension = 2;
+  vtkIdType NumberOfPoints = 8192;
+  int Pattern = BLUE_NOISE;
+  int RandomSeed = 1;
 
 private:
   vtkUniformSeedSource(const vtkUniformSeedSource&) = delete;
