@@ -1,35 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDiskAlgorithm.h"
 
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Settings/CornerSettings.h"
 
 #include "vtkPolyData.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 
-namespace
-{
-using namespace RectifiedTransport;
 using namespace RectifiedTransport::Bridge;
-
-// change() returns whether anything changed.
-template <class Change>
-void changeCorners(vtkObject* object, const Change& change)
-{
-  try
-  {
-    if (change())
-    {
-      object->Modified();
-    }
-  }
-  catch (const Failure& failure)
-  {
-    vtkErrorWithObjectMacro(object, << failure.what());
-  }
-}
-} // namespace
 
 //------------------------------------------------------------------------------
 vtkDiskAlgorithm::vtkDiskAlgorithm()
@@ -46,7 +24,7 @@ vtkDiskAlgorithm::~vtkDiskAlgorithm() = default;
 //------------------------------------------------------------------------------
 void vtkDiskAlgorithm::SetNumberOfCorners(int count)
 {
-  changeCorners(this, [=]() { return this->Corners->Resize(count); });
+  this->Corners->Resize(this, count);
 }
 
 //------------------------------------------------------------------------------
@@ -58,7 +36,7 @@ int vtkDiskAlgorithm::GetNumberOfCorners()
 //------------------------------------------------------------------------------
 void vtkDiskAlgorithm::SetCorner(int index, vtkIdType point)
 {
-  changeCorners(this, [=]() { return this->Corners->Set(index, point); });
+  this->Corners->Set(this, index, point);
 }
 
 //------------------------------------------------------------------------------
@@ -77,6 +55,7 @@ vtkPolyData* vtkDiskAlgorithm::GetOutput()
 void vtkDiskAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  this->Corners->Print(os, indent);
+  os << indent << "Corners:";
+  this->Corners->Print(os, " automatic");
 }
 VTK_ABI_NAMESPACE_END

@@ -4,6 +4,7 @@
 #include "Bridge/Blend/DensityBlend.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Settings/IndexedList.h"
 #include "Core/Device/DeviceUse.h"
 #include "Core/Parallel/Stages.h"
 
@@ -24,9 +25,6 @@ namespace
 {
 using namespace RectifiedTransport;
 using namespace RectifiedTransport::Bridge;
-
-// Far above numbers of inputs; bounds the memory that SetWeight allocates.
-constexpr int MaximumNumberOfWeights = 1000000;
 
 // One weight an input, with the sum 1; equal ones for an empty list. Throws Failure for a list of
 // another length, weights that are negative or not finite, and weights that are all 0.
@@ -75,7 +73,7 @@ std::vector<double> normalizedWeights(const std::vector<double>& list, std::size
 
 struct vtkTransportBarycenter::vtkWeights
 {
-  std::vector<double> List;
+  IndexedList<double> List{ "weights", "index of a weight", 0.0 };
 };
 
 //------------------------------------------------------------------------------
@@ -93,49 +91,25 @@ vtkTransportBarycenter::~vtkTransportBarycenter() = default;
 //------------------------------------------------------------------------------
 void vtkTransportBarycenter::SetNumberOfWeights(int count)
 {
-  if (count < 0 || count > MaximumNumberOfWeights)
-  {
-    vtkErrorMacro(<< "The number of weights is " << count << "; it must be from 0 to "
-                  << MaximumNumberOfWeights);
-    return;
-  }
-  if (count != this->GetNumberOfWeights())
-  {
-    this->Weights->List.resize(static_cast<std::size_t>(count));
-    this->Modified();
-  }
+  this->Weights->List.Resize(this, count);
 }
 
 //------------------------------------------------------------------------------
 int vtkTransportBarycenter::GetNumberOfWeights()
 {
-  return static_cast<int>(this->Weights->List.size());
+  return this->Weights->List.Number();
 }
 
 //------------------------------------------------------------------------------
 void vtkTransportBarycenter::SetWeight(int index, double weight)
 {
-  if (index < 0 || index >= MaximumNumberOfWeights)
-  {
-    vtkErrorMacro(<< "The index of a weight is " << index << "; it must be from 0 to "
-                  << MaximumNumberOfWeights - 1);
-    return;
-  }
-  this->SetNumberOfWeights(std::max(index + 1, this->GetNumberOfWeights()));
-  double& known = this->Weights->List[static_cast<std::size_t>(index)];
-  if (known != weight)
-  {
-    known = weight;
-    this->Modified();
-  }
+  this->Weights->List.Set(this, index, weight);
 }
 
 //------------------------------------------------------------------------------
 double vtkTransportBarycenter::GetWeight(int index)
 {
-  return index >= 0 && index < this->GetNumberOfWeights()
-    ? this->Weights->List[static_cast<std::size_t>(index)]
-    : 0.0;
+  return this->Weights->List.At(index);
 }
 
 //------------------------------------------------------------------------------
@@ -152,7 +126,7 @@ int vtkTransportBarycenter::RequestData(
   {
     return 1;
   }
-  const std::vector<double> weights = normalizedWeights(this->Weights->List, inputs.size());
+  const std::vector<double> weights = normalizedWeights(this->Weights->List.All, inputs.size());
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
     inputs[i].Weight = weights[i];
@@ -169,10 +143,6 @@ void vtkTransportBarycenter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Weights:";
-  for (const double weight : this->Weights->List)
-  {
-    os << " " << weight;
-  }
-  os << (this->Weights->List.empty() ? " equal\n" : "\n");
+  this->Weights->List.Print(os, " equal");
 }
 VTK_ABI_NAMESPACE_END

@@ -3,62 +3,29 @@
 
 #include "Bridge/Run/Failure.h"
 
-#include <algorithm>
-#include <ostream>
 #include <stdexcept>
 #include <string>
 
 namespace RectifiedTransport::Bridge
 {
 
-std::int64_t CornerSettings::At(int index) const
-{
-  return index >= 0 && index < this->Number() ? this->Points[static_cast<std::size_t>(index)] : -1;
-}
-
-bool CornerSettings::Resize(int count)
-{
-  if (count < 0 || count > MaximumNumber)
-  {
-    throw Failure("The number of corners is " + std::to_string(count) + "; it must be from 0 to " +
-      std::to_string(MaximumNumber));
-  }
-  const bool changes = count != this->Number();
-  this->Points.resize(static_cast<std::size_t>(count), -1);
-  return changes;
-}
-
-bool CornerSettings::Set(int index, std::int64_t point)
-{
-  if (index < 0 || index >= MaximumNumber)
-  {
-    throw Failure("The index of a corner is " + std::to_string(index) + "; it must be from 0 to " +
-      std::to_string(MaximumNumber - 1));
-  }
-  const bool grows = this->Resize(std::max(index + 1, this->Number()));
-  std::int64_t& known = this->Points[static_cast<std::size_t>(index)];
-  const bool changes = known != point;
-  known = point;
-  return grows || changes;
-}
-
 void CornerSettings::Check() const
 {
-  if (!this->Points.empty() && this->Points.size() != 4)
+  if (!this->All.empty() && this->All.size() != 4)
   {
-    throw Failure("Corners are " + std::to_string(this->Points.size()) +
+    throw Failure("Corners are " + std::to_string(this->All.size()) +
       " points; they must be 4 of the boundary, or none");
   }
 }
 
 SquareCorners CornerSettings::Of(const RepairedDisk& disk) const
 {
-  if (this->Points.empty())
+  if (this->All.empty())
   {
     return chooseCorners(disk.Mesh());
   }
   std::vector<std::int64_t> corners;
-  for (const std::int64_t point : this->Points)
+  for (const std::int64_t point : this->All)
   {
     const std::string have = "Corners have the point " + std::to_string(point);
     if (point < 0 || point >= disk.NumberOfGivenPoints())
@@ -76,22 +43,12 @@ SquareCorners CornerSettings::Of(const RepairedDisk& disk) const
   }
   try
   {
-    return orderCorners(disk.Mesh(), corners, this->Points);
+    return orderCorners(disk.Mesh(), corners, this->All);
   }
   catch (const std::invalid_argument& error)
   {
     throw Failure(std::string("Corners ") + error.what());
   }
-}
-
-void CornerSettings::Print(std::ostream& os, vtkIndent indent) const
-{
-  os << indent << "Corners:";
-  for (const std::int64_t point : this->Points)
-  {
-    os << " " << point;
-  }
-  os << (this->Points.empty() ? " automatic\n" : "\n");
 }
 
 } // namespace RectifiedTransport::Bridge

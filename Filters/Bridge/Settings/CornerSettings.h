@@ -3,38 +3,28 @@
 #ifndef RectifiedTransport_CornerSettings_h
 #define RectifiedTransport_CornerSettings_h
 
+#include "Bridge/Settings/IndexedList.h"
 #include "Core/Mesh/Repair/RepairedDisk.h"
 #include "Core/Parameterization/SquareCorners.h"
 
-#include "vtkIndent.h"
-
 #include <cstdint>
-#include <iosfwd>
-#include <vector>
 
 namespace RectifiedTransport::Bridge
 {
 
-struct CornerSettings
+// Without values the corners are automatic.
+struct CornerSettings : IndexedList<std::int64_t>
 {
-  // Far above 4; bounds the memory that SetCorner allocates.
-  static constexpr int MaximumNumber = 1000000;
-
-  std::vector<std::int64_t> Points; // empty: automatic
-
-  int Number() const { return static_cast<int>(this->Points.size()); }
-  // -1 if there is none.
-  std::int64_t At(int index) const;
-  // Return whether anything changed. Throw Failure for arguments out of range.
-  bool Resize(int count);
-  bool Set(int index, std::int64_t point);
+  CornerSettings()
+    : IndexedList("corners", "index of a corner", -1)
+  {
+  }
 
   // Throws Failure unless there are none or four.
   void Check() const;
   // The corners of a disk, from the given points of it; chosen automatically if there are none.
   // Throws Failure unless they are four different points of its boundary.
   SquareCorners Of(const RepairedDisk& disk) const;
-  void Print(std::ostream& os, vtkIndent indent) const;
 };
 
 } // namespace RectifiedTransport::Bridge
