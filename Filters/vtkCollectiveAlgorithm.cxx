@@ -419,7 +419,7 @@ const RectifiedTransport::Ranks& vtkCollectiveAlgorithm::GetRanks() const
 //------------------------------------------------------------------------------
 void vtkCollectiveAlgorithm::WarnOnFirstRank(const std::string& text)
 {
-  if (this->GetRanks().IsFirst())
+  if (!text.empty() && this->GetRanks().IsFirst())
   {
     vtkWarningMacro(<< RectifiedTransport::Bridge::messageText(text));
   }

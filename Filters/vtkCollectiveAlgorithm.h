@@ -179,7 +179,8 @@ protected:
 
   ///@{
   /**
-   * Warn, of several ranks on the first one only. Each text is a warning of its own.
+   * Warn, of several ranks on the first one only. Each text is a warning of its own; an empty one
+   * is none.
    */
   void WarnOnFirstRank(const std::string& text);
   void WarnOnFirstRank(const std::vector<std::string>& texts);

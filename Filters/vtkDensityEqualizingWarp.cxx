@@ -108,8 +108,8 @@ int vtkDensityEqualizingWarp::RequestData(
         "; more NumberOfSteps turn most of them back, an input of smaller cells does not") +
       " (where there is no mass, add a small part of the mean to the density)");
   }
-  this->WarnOfMap(report.Transport);
-  this->WarnOfSteps(stepWarning(report.Flow, warp.Flow, FlowDirection::Backward));
+  this->WarnOnFirstRank(report.Transport.Warning);
+  this->WarnOnFirstRank(stepWarning(report.Flow, warp.Flow, FlowDirection::Backward));
   if (report.IsUncorrected)
   {
     this->WarnOfAreas();

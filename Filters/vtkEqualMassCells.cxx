@@ -236,7 +236,7 @@ int vtkEqualMassCells::RequestData(
   }
   FlowOptions taken = cells.Flow;
   taken.LeastSteps = leastStepsOfSiteCells;
-  this->WarnOfSteps(stepWarning(report.Flow, taken, FlowDirection::Backward));
+  this->WarnOnFirstRank(stepWarning(report.Flow, taken, FlowDirection::Backward));
   if (isWorthWarning(report.Outside, sites))
   {
     const bool isOne = report.Outside == 1;

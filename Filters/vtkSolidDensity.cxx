@@ -93,10 +93,7 @@ int vtkSolidDensity::RequestData(
   const SolidDensityReport report = solid.Run(
     surface, [&](const ImageGrid& all) { return extentToGive(all.Extent(), information, ranks); },
     progress, vtkImageData::GetData(outputVector, 0));
-  if (!report.Repair.empty())
-  {
-    this->WarnOnFirstRank(report.Repair);
-  }
+  this->WarnOnFirstRank(report.Repair);
   // The extent may change with time.
   announceGrid(report.Grid, information);
   return 1;

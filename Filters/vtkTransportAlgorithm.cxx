@@ -162,24 +162,6 @@ OptimalSetting vtkTransportAlgorithm::GetOptimalSetting()
 }
 
 //------------------------------------------------------------------------------
-void vtkTransportAlgorithm::WarnOfMap(const TransportReport& transport)
-{
-  if (!transport.Warning.empty())
-  {
-    this->WarnOnFirstRank(transport.Warning);
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkTransportAlgorithm::WarnOfSteps(const std::string& warning, const std::string& name)
-{
-  if (!warning.empty())
-  {
-    this->WarnOnFirstRank(name.empty() ? warning : name + ": " + warning);
-  }
-}
-
-//------------------------------------------------------------------------------
 void vtkTransportAlgorithm::WarnOfAreas()
 {
   this->WarnOnFirstRank(

@@ -39,7 +39,6 @@ struct FlowOptions;
 namespace Bridge
 {
 struct OptimalSetting;
-struct TransportReport;
 } // namespace Bridge
 } // namespace RectifiedTransport
 
@@ -250,16 +249,6 @@ protected:
    * Call it after the run. Warns once for all ranks if the device of one did not serve. Collective.
    */
   void EndDevice(const RectifiedTransport::DeviceUse& device);
-
-  /**
-   * Warns on the first rank, if there is a text (StepReport.h). `name` precedes it.
-   */
-  void WarnOfSteps(const std::string& warning, const std::string& name = "");
-
-  /**
-   * Warns on the first rank if the flow took the place of the optimal map.
-   */
-  void WarnOfMap(const RectifiedTransport::Bridge::TransportReport& transport);
 
   /**
    * Warns on the first rank that EqualizeAreas has changed nothing.

@@ -24,14 +24,6 @@
 
 #include "vtkTransportBlend.h"
 
-namespace RectifiedTransport
-{
-namespace Bridge
-{
-class DensityBlend;
-} // namespace Bridge
-} // namespace RectifiedTransport
-
 VTK_ABI_NAMESPACE_BEGIN
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportBarycenter : public vtkTransportBlend
@@ -69,7 +61,6 @@ protected:
 private:
   struct vtkWeights;
   std::unique_ptr<vtkWeights> Weights;
-  std::unique_ptr<RectifiedTransport::Bridge::DensityBlend> Blend;
 
   vtkTransportBarycenter(const vtkTransportBarycenter&) = delete;
   void operator=(const vtkTransportBarycenter&) = delete;

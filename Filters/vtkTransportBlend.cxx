@@ -6,11 +6,13 @@
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Settings/TableSettings.h"
+#include "Core/Device/DeviceUse.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkDataObject.h"
@@ -20,6 +22,9 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -31,15 +36,64 @@ using namespace RectifiedTransport;
 using namespace RectifiedTransport::Bridge;
 
 const char* const MassModeTexts[] = { "Linear", "Geometric", "Source", "Normalize" };
+
+// The property Weights: one weight an input, with the sum 1; equal ones for an empty list. Throws
+// Failure for a list of another length, weights that are negative or not finite, and weights that
+// are all 0.
+std::vector<double> normalizedWeights(const std::vector<double>& list, std::size_t inputs)
+{
+  if (list.empty())
+  {
+    return std::vector<double>(inputs, 1.0 / static_cast<double>(inputs));
+  }
+  std::ostringstream message;
+  if (list.size() != inputs)
+  {
+    message << "The number of Weights is " << list.size() << " and that of inputs " << inputs
+            << "; there must be one for each, or none for equal weights";
+    throw Failure(message.str());
+  }
+  for (std::size_t i = 0; i < list.size(); ++i)
+  {
+    if (!(list[i] >= 0.0) || std::isinf(list[i]))
+    {
+      message << "Weight " << i << " of the Weights is " << list[i]
+              << "; weights must be finite and at least 0";
+      throw Failure(message.str());
+    }
+  }
+  const double largest = *std::max_element(list.begin(), list.end());
+  if (largest == 0.0)
+  {
+    throw Failure("All Weights are 0; at least one must be above 0");
+  }
+  // Divided by the largest first only where the sum overflows: weights of sum 1 remain unchanged.
+  const bool fits = std::isfinite(std::accumulate(list.begin(), list.end(), 0.0));
+  std::vector<double> weights;
+  for (const double weight : list)
+  {
+    weights.push_back(fits ? weight : weight / largest);
+  }
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (double& weight : weights)
+  {
+    weight /= sum;
+  }
+  return weights;
+}
 } // namespace
 
 //------------------------------------------------------------------------------
 vtkTransportBlend::vtkTransportBlend(bool blocksAreInputs)
   : BlocksAreInputs(blocksAreInputs)
+  , Blend(new DensityBlend)
 {
   this->AddOutputPort("vtkImageData");
   this->AddOutputPort("vtkPolyData");
 }
+
+//------------------------------------------------------------------------------
+vtkTransportBlend::~vtkTransportBlend() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkTransportBlend::GetMassModeAsString()
@@ -128,11 +182,7 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
   const GivenInputs given =
     gatherInputs(inputVector, this->GetNumberOfInputPorts(), this->BlocksAreInputs);
   requireSameNumber(given.All.size(), this->GetRanks());
-  const std::string others = describeOthers(given);
-  if (!others.empty())
-  {
-    this->WarnOnFirstRank(others);
-  }
+  this->WarnOnFirstRank(describeOthers(given));
   std::vector<BlendInput> inputs;
   Parts parts(progress, static_cast<std::int64_t>(given.All.size()));
   for (const GivenInput& one : given.All)
@@ -163,8 +213,26 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
 }
 
 //------------------------------------------------------------------------------
-void vtkTransportBlend::WarnOfMaps(const BlendReport& report)
+void vtkTransportBlend::BlendInputs(vtkInformationVector** inputVector,
+  vtkInformationVector* outputVector, const BlendSettings& settings, const char* const* names,
+  const std::vector<double>& weights)
 {
+  DeviceUse device = this->BeginDevice();
+  AlgorithmProgress progress(this, this->Threading, this->GetRanks(), &device);
+  Stages stages(progress, { { "reading", 5 }, { "blend", 95 } });
+  std::vector<BlendInput> inputs = this->ReadInputs(inputVector, names, stages["reading"]);
+  if (inputs.empty())
+  {
+    return;
+  }
+  const std::vector<double> normalized = normalizedWeights(weights, inputs.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    inputs[i].Weight = normalized[i];
+  }
+  const BlendReport report = this->Blend->Run(
+    inputs, settings, this->GetFlowCache(), stages["blend"], BlendOutput(outputVector));
+  this->EndDevice(device);
   this->WarnOnFirstRank(report.Steps);
   if (isWorthWarning(report.Moved, report.Particles))
   {

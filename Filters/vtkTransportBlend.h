@@ -58,8 +58,8 @@ namespace RectifiedTransport
 namespace Bridge
 {
 struct BlendInput;
-struct BlendReport;
 struct BlendSettings;
+class DensityBlend;
 } // namespace Bridge
 } // namespace RectifiedTransport
 
@@ -161,21 +161,17 @@ protected:
    * density.
    */
   explicit vtkTransportBlend(bool blocksAreInputs);
-  ~vtkTransportBlend() override = default;
+  ~vtkTransportBlend() override;
 
   /**
-   * Read the densities of all inputs. `names` are used in messages and, with "Position" appended,
-   * for arrays of the particles; if nullptr, messages number the inputs. Returns no inputs if one
-   * of them has no points. Throws what RequestData may throw.
+   * Blend the inputs. `names` are used in messages and, with "Position" appended, for arrays of the
+   * particles; if nullptr, messages number the inputs. `weights` are one for each input; without
+   * any, all inputs weigh the same. They are divided by their sum. Throws what RequestData may
+   * throw.
    */
-  std::vector<RectifiedTransport::Bridge::BlendInput> ReadInputs(vtkInformationVector** inputVector,
-    const char* const* names, RectifiedTransport::Progress& progress);
-
-  /**
-   * Warn of new maps that do not keep AreaTolerance, and of particles that ended in empty cells, if
-   * they are at least one in a thousand.
-   */
-  void WarnOfMaps(const RectifiedTransport::Bridge::BlendReport& report);
+  void BlendInputs(vtkInformationVector** inputVector, vtkInformationVector* outputVector,
+    const RectifiedTransport::Bridge::BlendSettings& settings, const char* const* names,
+    const std::vector<double>& weights);
 
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
@@ -192,7 +188,11 @@ protected:
   double Radius = 1.0;
 
 private:
+  std::vector<RectifiedTransport::Bridge::BlendInput> ReadInputs(vtkInformationVector** inputVector,
+    const char* const* names, RectifiedTransport::Progress& progress);
+
   const bool BlocksAreInputs;
+  std::unique_ptr<RectifiedTransport::Bridge::DensityBlend> Blend;
 
   vtkTransportBlend(const vtkTransportBlend&) = delete;
   void operator=(const vtkTransportBlend&) = delete;

@@ -224,11 +224,7 @@ bool vtkTransportDistance::AddInputs(
 {
   const GivenInputs given = gatherInputs(inputVector, 1, true);
   requireSameNumber(given.All.size(), this->GetRanks());
-  const std::string others = describeOthers(given);
-  if (!others.empty())
-  {
-    this->WarnOnFirstRank(others);
-  }
+  this->WarnOnFirstRank(describeOthers(given));
   const std::string all = std::to_string(given.All.size());
   Parts parts(progress, static_cast<std::int64_t>(given.All.size()));
   for (std::size_t i = 0; i < given.All.size() && this->Internals->HasAll; ++i)

@@ -34,14 +34,6 @@
 
 #include "vtkTransportBlend.h"
 
-namespace RectifiedTransport
-{
-namespace Bridge
-{
-class DensityBlend;
-} // namespace Bridge
-} // namespace RectifiedTransport
-
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
 
@@ -100,7 +92,7 @@ public:
 
 protected:
   vtkTransportInterpolator();
-  ~vtkTransportInterpolator() override;
+  ~vtkTransportInterpolator() override = default;
 
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
@@ -118,7 +110,6 @@ protected:
 private:
   void RequestFirstTime(vtkInformationVector** inputVector);
   double FindParameter(vtkInformation* request, vtkInformationVector* outputVector);
-  std::unique_ptr<RectifiedTransport::Bridge::DensityBlend> Blend;
 
   vtkTransportInterpolator(const vtkTransportInterpolator&) = delete;
   void operator=(const vtkTransportInterpolator&) = delete;

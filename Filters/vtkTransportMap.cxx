@@ -208,18 +208,17 @@ int vtkTransportMap::RequestData(
   this->EndDevice(device);
   // The association of the density may not be known before the data.
   announceGrid(result.Grid, outputInformation);
-  this->WarnOfMap(result.Transport);
-  if (isToTarget)
+  this->WarnOnFirstRank(result.Transport.Warning);
+  for (std::size_t i = 0; i < result.Flows.size(); ++i)
   {
-    this->WarnOfSteps(
-      stepWarning(result.Flows[0], map.Flow, FlowDirection::Backward), InputNames[first]);
-    this->WarnOfSteps(
-      stepWarning(result.Flows[1], map.Flow, FlowDirection::Forward), InputNames[1 - first]);
-  }
-  else
-  {
-    this->WarnOfSteps(stepWarning(
-      result.Flows[0], map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward));
+    const bool isBack = isToTarget ? i == 0 : map.Backward;
+    std::string warning = stepWarning(
+      result.Flows[i], map.Flow, isBack ? FlowDirection::Backward : FlowDirection::Forward);
+    if (isToTarget && !warning.empty())
+    {
+      warning.insert(0, std::string(InputNames[isBack ? first : 1 - first]) + ": ");
+    }
+    this->WarnOnFirstRank(warning);
   }
   if (result.IsUncorrected)
   {

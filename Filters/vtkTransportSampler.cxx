@@ -92,8 +92,8 @@ int vtkTransportSampler::RequestData(
     sampler.Run(*density, seeds, this->GetFlowCache(), stages["particles"], output);
   addReadings(output, { density->HowRead() });
   this->EndDevice(device);
-  this->WarnOfMap(report.Transport);
-  this->WarnOfSteps(stepWarning(report.Flow, sampler.Flow, FlowDirection::Forward, true));
+  this->WarnOnFirstRank(report.Transport.Warning);
+  this->WarnOnFirstRank(stepWarning(report.Flow, sampler.Flow, FlowDirection::Forward, true));
   const std::string ofAll = " of " + std::to_string(report.Particles);
   if (report.SeedsMoved > 0)
   {
