@@ -10,7 +10,6 @@
 
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkAreaPreservingParameterization);
@@ -28,12 +27,6 @@ vtkAreaPreservingParameterization::vtkAreaPreservingParameterization()
 const char* vtkAreaPreservingParameterization::GetSeamsAsString()
 {
   return choiceText(SeamsTexts, this->Seams);
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkAreaPreservingParameterization::GetFlat()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
 }
 
 //------------------------------------------------------------------------------

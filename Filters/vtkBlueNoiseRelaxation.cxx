@@ -17,7 +17,6 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPointSet.h"
 
 #include <memory>
 
@@ -45,12 +44,6 @@ vtkBlueNoiseRelaxation::vtkBlueNoiseRelaxation()
 const char* vtkBlueNoiseRelaxation::GetMethodAsString()
 {
   return choiceText(MethodTexts, this->Method);
-}
-
-//------------------------------------------------------------------------------
-vtkPointSet* vtkBlueNoiseRelaxation::GetOutput()
-{
-  return vtkPointSet::SafeDownCast(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------

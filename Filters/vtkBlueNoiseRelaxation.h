@@ -74,10 +74,10 @@
 #define vtkBlueNoiseRelaxation_h
 
 #include "vtkDensityAlgorithm.h"
+#include "vtkPointSet.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkPointSet;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkBlueNoiseRelaxation : public vtkDensityAlgorithm
 {
@@ -139,7 +139,7 @@ public:
   /**
    * The moved points, with the vtkCells and attribute data of the input.
    */
-  vtkPointSet* GetOutput();
+  vtkPointSet* GetOutput() { return vtkPointSet::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkBlueNoiseRelaxation();

@@ -14,8 +14,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointSet.h"
-#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -77,24 +75,6 @@ const char* vtkCartogram::GetProjectionAsString()
 const char* vtkCartogram::GetEmptyCellsAsString()
 {
   return choiceText(EmptyCellsTexts, this->EmptyCells);
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkCartogram::GetRegions()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkCartogram::GetGraticule()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-vtkPointSet* vtkCartogram::GetOverlay()
-{
-  return vtkPointSet::SafeDownCast(this->GetOutputDataObject(2));
 }
 
 //------------------------------------------------------------------------------

@@ -42,13 +42,13 @@
 #define vtkCartogram_h
 
 #include "vtkCollectiveAlgorithm.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
 
 #include <memory> // for std::unique_ptr
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkPointSet;
-class vtkPolyData;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkCartogram : public vtkCollectiveAlgorithm
 {
@@ -168,9 +168,9 @@ public:
   /**
    * The outputs; the overlay's is nullptr if it is a composite: GetOutputDataObject(2).
    */
-  vtkPolyData* GetRegions();
-  vtkPolyData* GetGraticule();
-  vtkPointSet* GetOverlay();
+  vtkPolyData* GetRegions() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0)); }
+  vtkPolyData* GetGraticule() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1)); }
+  vtkPointSet* GetOverlay() { return vtkPointSet::SafeDownCast(this->GetOutputDataObject(2)); }
   ///@}
 
 protected:

@@ -22,7 +22,6 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPointSet.h"
 
 #include <memory>
 
@@ -47,12 +46,6 @@ vtkDensityEqualizingWarp::vtkDensityEqualizingWarp()
 const char* vtkDensityEqualizingWarp::GetEmptyCellsAsString()
 {
   return choiceText(EmptyCellsTexts, this->EmptyCells);
-}
-
-//------------------------------------------------------------------------------
-vtkPointSet* vtkDensityEqualizingWarp::GetOutput()
-{
-  return vtkPointSet::SafeDownCast(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------

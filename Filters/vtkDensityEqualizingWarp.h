@@ -56,11 +56,11 @@
 #ifndef vtkDensityEqualizingWarp_h
 #define vtkDensityEqualizingWarp_h
 
+#include "vtkPointSet.h"
 #include "vtkTransportAlgorithm.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkPointSet;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkDensityEqualizingWarp : public vtkTransportAlgorithm
 {
@@ -141,7 +141,7 @@ public:
   /**
    * The moved points, with the vtkCells and attribute data of the input.
    */
-  vtkPointSet* GetOutput();
+  vtkPointSet* GetOutput() { return vtkPointSet::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkDensityEqualizingWarp();

@@ -3,8 +3,6 @@
 
 #include "Bridge/Settings/CornerSettings.h"
 
-#include "vtkPolyData.h"
-
 VTK_ABI_NAMESPACE_BEGIN
 
 using namespace RectifiedTransport::Bridge;
@@ -43,12 +41,6 @@ void vtkDiskAlgorithm::SetCorner(int index, vtkIdType point)
 vtkIdType vtkDiskAlgorithm::GetCorner(int index)
 {
   return static_cast<vtkIdType>(this->Corners->At(index));
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkDiskAlgorithm::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------

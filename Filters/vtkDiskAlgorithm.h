@@ -15,6 +15,7 @@
 #define vtkDiskAlgorithm_h
 
 #include "vtkCollectiveAlgorithm.h"
+#include "vtkPolyData.h"
 
 #include <memory> // for std::unique_ptr
 
@@ -27,8 +28,6 @@ struct CornerSettings;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkPolyData;
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkDiskAlgorithm : public vtkCollectiveAlgorithm
 {
 public:
@@ -58,7 +57,7 @@ public:
   /**
    * The output.
    */
-  vtkPolyData* GetOutput();
+  vtkPolyData* GetOutput() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkDiskAlgorithm();

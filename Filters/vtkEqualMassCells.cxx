@@ -21,12 +21,9 @@
 #include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/DensitySiteCells.h"
 
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointSet.h"
-#include "vtkPolyData.h"
 
 #include <cmath>
 #include <memory>
@@ -74,30 +71,6 @@ const char* vtkEqualMassCells::GetShapeAsString()
 const char* vtkEqualMassCells::GetMeasureAsString()
 {
   return choiceText(MeasureTexts, this->Measure);
-}
-
-//------------------------------------------------------------------------------
-vtkImageData* vtkEqualMassCells::GetLabels()
-{
-  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-vtkPointSet* vtkEqualMassCells::GetSites()
-{
-  return vtkPointSet::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkEqualMassCells::GetOutlines()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(2));
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkEqualMassCells::GetPolygons()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(3));
 }
 
 //------------------------------------------------------------------------------

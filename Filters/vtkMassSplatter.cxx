@@ -12,7 +12,6 @@
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Splat/MassSplatter.h"
 
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -83,12 +82,6 @@ const char* vtkMassSplatter::GetKernelAsString()
 const char* vtkMassSplatter::GetBoundaryAsString()
 {
   return choiceText(BoundaryTexts, this->Boundary);
-}
-
-//------------------------------------------------------------------------------
-vtkImageData* vtkMassSplatter::GetOutput()
-{
-  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------

@@ -65,6 +65,7 @@
 #define vtkMassSplatter_h
 
 #include "vtkCollectiveAlgorithm.h"
+#include "vtkImageData.h"
 
 namespace RectifiedTransport
 {
@@ -76,7 +77,6 @@ struct MassSplatter;
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkImageData;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkMassSplatter : public vtkCollectiveAlgorithm
 {
@@ -180,7 +180,7 @@ public:
   /**
    * The density.
    */
-  vtkImageData* GetOutput();
+  vtkImageData* GetOutput() { return vtkImageData::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkMassSplatter();

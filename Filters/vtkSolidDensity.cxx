@@ -11,7 +11,6 @@
 #include "Bridge/Settings/AssociationSettings.h"
 #include "Bridge/Solid/SolidDensity.h"
 
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -50,12 +49,6 @@ SolidDensity vtkSolidDensity::GetSolid()
   solid.Padding = this->Padding;
   solid.OnPoints = isOnPoints(this->Association);
   return solid;
-}
-
-//------------------------------------------------------------------------------
-vtkImageData* vtkSolidDensity::GetOutput()
-{
-  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------

@@ -56,6 +56,7 @@
 #define vtkSolidDensity_h
 
 #include "vtkCollectiveAlgorithm.h"
+#include "vtkImageData.h"
 
 namespace RectifiedTransport
 {
@@ -66,8 +67,6 @@ struct SolidDensity;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkImageData;
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkSolidDensity : public vtkCollectiveAlgorithm
 {
 public:
@@ -118,7 +117,7 @@ public:
   /**
    * The image with the array Density.
    */
-  vtkImageData* GetOutput();
+  vtkImageData* GetOutput() { return vtkImageData::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkSolidDensity();

@@ -25,7 +25,6 @@
 #include "vtkTransportBlend.h"
 
 VTK_ABI_NAMESPACE_BEGIN
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportBarycenter : public vtkTransportBlend
 {
 public:

@@ -16,10 +16,8 @@
 #include "Core/Parallel/Stages.h"
 
 #include "vtkDataObject.h"
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkPolyData.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,18 +103,6 @@ const char* vtkTransportBlend::GetMassModeAsString()
 const char* vtkTransportBlend::GetKernelAsString()
 {
   return choiceText(KernelTexts, this->Kernel);
-}
-
-//------------------------------------------------------------------------------
-vtkImageData* vtkTransportBlend::GetDensity()
-{
-  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkTransportBlend::GetParticles()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
 }
 
 //------------------------------------------------------------------------------

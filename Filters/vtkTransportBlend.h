@@ -49,6 +49,8 @@
 #ifndef vtkTransportBlend_h
 #define vtkTransportBlend_h
 
+#include "vtkImageData.h"
+#include "vtkPolyData.h"
 #include "vtkTransportAlgorithm.h"
 
 #include <vector> // for the inputs
@@ -64,9 +66,6 @@ class DensityBlend;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkImageData;
-class vtkPolyData;
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportBlend : public vtkTransportAlgorithm
 {
 public:
@@ -148,12 +147,12 @@ public:
   /**
    * The interpolated density, output port 0.
    */
-  vtkImageData* GetDensity();
+  vtkImageData* GetDensity() { return vtkImageData::SafeDownCast(this->GetOutputDataObject(0)); }
 
   /**
    * The particles, output port 1.
    */
-  vtkPolyData* GetParticles();
+  vtkPolyData* GetParticles() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1)); }
 
 protected:
   /**

@@ -15,7 +15,6 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkTable.h"
 
 #include <algorithm>
 #include <limits>
@@ -110,24 +109,6 @@ const char* vtkTransportDistance::GetInputName(int connection)
 vtkIdType vtkTransportDistance::GetNumberOfSolutions()
 {
   return static_cast<vtkIdType>(this->Internals->Distances.NumberOfSolutions());
-}
-
-//------------------------------------------------------------------------------
-vtkTable* vtkTransportDistance::GetDistances()
-{
-  return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-vtkTable* vtkTransportDistance::GetBounds()
-{
-  return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-vtkTable* vtkTransportDistance::GetCoordinates()
-{
-  return vtkTable::SafeDownCast(this->GetOutputDataObject(2));
 }
 
 //------------------------------------------------------------------------------

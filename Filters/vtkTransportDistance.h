@@ -50,13 +50,12 @@
 #define vtkTransportDistance_h
 
 #include "vtkDensityAlgorithm.h"
+#include "vtkTable.h"
 
 #include <memory> // for std::unique_ptr
 #include <string> // for texts
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkTable;
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportDistance : public vtkDensityAlgorithm
 {
 public:
@@ -153,17 +152,17 @@ public:
   /**
    * The matrix of distances, output port 0.
    */
-  vtkTable* GetDistances();
+  vtkTable* GetDistances() { return vtkTable::SafeDownCast(this->GetOutputDataObject(0)); }
 
   /**
    * The bounds of all pairs, output port 1.
    */
-  vtkTable* GetBounds();
+  vtkTable* GetBounds() { return vtkTable::SafeDownCast(this->GetOutputDataObject(1)); }
 
   /**
    * The points, output port 2.
    */
-  vtkTable* GetCoordinates();
+  vtkTable* GetCoordinates() { return vtkTable::SafeDownCast(this->GetOutputDataObject(2)); }
 
 protected:
   vtkTransportDistance();

@@ -15,7 +15,6 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
-#include "vtkTable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,12 +56,6 @@ vtkTransportDotRadius::vtkTransportDotRadius()
 {
   this->AddInputPort(PORT_PARTITIONED_POINTS, { "vtkPointSet" });
   this->AddOutputPort("vtkTable");
-}
-
-//------------------------------------------------------------------------------
-vtkTable* vtkTransportDotRadius::GetOutput()
-{
-  return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------

@@ -17,7 +17,6 @@
 #include "Core/Device/DeviceUse.h"
 #include "Core/Parallel/Stages.h"
 
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -69,12 +68,6 @@ const char* vtkTransportMap::GetDirectionAsString()
 const char* vtkTransportMap::GetEmptyCellsAsString()
 {
   return choiceText(EmptyCellsTexts, this->EmptyCells);
-}
-
-//------------------------------------------------------------------------------
-vtkImageData* vtkTransportMap::GetOutput()
-{
-  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------

@@ -104,6 +104,7 @@
 #ifndef vtkTransportMap_h
 #define vtkTransportMap_h
 
+#include "vtkImageData.h"
 #include "vtkTransportAlgorithm.h"
 
 namespace RectifiedTransport
@@ -116,7 +117,6 @@ struct TargetCache;
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkImageData;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportMap : public vtkTransportAlgorithm
 {
@@ -217,7 +217,7 @@ public:
   /**
    * The image with the map's fields.
    */
-  vtkImageData* GetOutput();
+  vtkImageData* GetOutput() { return vtkImageData::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkTransportMap();

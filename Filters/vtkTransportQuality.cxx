@@ -18,7 +18,6 @@
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkTable.h"
 
 #include <memory>
 
@@ -53,12 +52,6 @@ vtkTransportQuality::vtkTransportQuality()
 const char* vtkTransportQuality::GetTablesAsString()
 {
   return choiceText(TablesTexts, this->Tables);
-}
-
-//------------------------------------------------------------------------------
-vtkTable* vtkTransportQuality::GetOutput()
-{
-  return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------

@@ -65,10 +65,10 @@
 #define vtkTransportQuality_h
 
 #include "vtkDensityAlgorithm.h"
+#include "vtkTable.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkTable;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportQuality : public vtkDensityAlgorithm
 {
@@ -117,7 +117,7 @@ public:
   /**
    * The table of one row.
    */
-  vtkTable* GetOutput();
+  vtkTable* GetOutput() { return vtkTable::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkTransportQuality();

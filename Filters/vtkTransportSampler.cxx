@@ -18,7 +18,6 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
-#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <memory>
@@ -41,12 +40,6 @@ vtkTransportSampler::vtkTransportSampler()
 const char* vtkTransportSampler::GetSeedPatternAsString()
 {
   return choiceText(SeedPatternTexts, this->SeedPattern);
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkTransportSampler::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------

@@ -61,11 +61,11 @@
 #ifndef vtkTransportSampler_h
 #define vtkTransportSampler_h
 
+#include "vtkPolyData.h"
 #include "vtkTransportAlgorithm.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkPolyData;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportSampler : public vtkTransportAlgorithm
 {
@@ -164,7 +164,7 @@ public:
   /**
    * The particles or their paths.
    */
-  vtkPolyData* GetOutput();
+  vtkPolyData* GetOutput() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkTransportSampler();

@@ -14,11 +14,9 @@
 #include "Core/Parallel/Stages.h"
 #include "Core/Series/StepTimes.h"
 
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -119,18 +117,6 @@ const char* vtkTransportTemporalInterpolator::GetKernelAsString()
 vtkIdType vtkTransportTemporalInterpolator::GetNumberOfMaps()
 {
   return static_cast<vtkIdType>(this->Internals->Interpolation.NumberOfMaps());
-}
-
-//------------------------------------------------------------------------------
-vtkImageData* vtkTransportTemporalInterpolator::GetDensity()
-{
-  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkTransportTemporalInterpolator::GetParticles()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
 }
 
 //------------------------------------------------------------------------------

@@ -51,6 +51,8 @@
 #define vtkTransportTemporalInterpolator_h
 
 #include "vtkDensityAlgorithm.h"
+#include "vtkImageData.h"
+#include "vtkPolyData.h"
 
 #include <memory> // for std::unique_ptr
 
@@ -65,9 +67,6 @@ struct TemporalStep;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkImageData;
-class vtkPolyData;
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportTemporalInterpolator : public vtkDensityAlgorithm
 {
 public:
@@ -163,12 +162,12 @@ public:
   /**
    * The interpolated density, output port 0.
    */
-  vtkImageData* GetDensity();
+  vtkImageData* GetDensity() { return vtkImageData::SafeDownCast(this->GetOutputDataObject(0)); }
 
   /**
    * The particles, output port 1.
    */
-  vtkPolyData* GetParticles();
+  vtkPolyData* GetParticles() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1)); }
 
 protected:
   vtkTransportTemporalInterpolator();

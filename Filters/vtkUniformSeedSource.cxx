@@ -9,7 +9,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -30,12 +29,6 @@ vtkUniformSeedSource::vtkUniformSeedSource()
 const char* vtkUniformSeedSource::GetPatternAsString()
 {
   return choiceText(SeedPatternTexts, this->Pattern);
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkUniformSeedSource::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------

@@ -34,10 +34,9 @@
 #define vtkUniformSeedSource_h
 
 #include "vtkCollectiveAlgorithm.h"
+#include "vtkPolyData.h"
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkPolyData;
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkUniformSeedSource : public vtkCollectiveAlgorithm
 {
 public:
@@ -100,7 +99,7 @@ public:
   /**
    * The points, each a vertex.
    */
-  vtkPolyData* GetOutput();
+  vtkPolyData* GetOutput() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkUniformSeedSource();
