@@ -40,6 +40,16 @@ void requireDimensions(const int dimensions[3])
   }
 }
 
+// Kernel and Boundary are not set.
+MassSplatter splatterOf(vtkMassSplatter& filter)
+{
+  MassSplatter splatter{};
+  std::copy_n(filter.GetDimensions(), 3, splatter.Dimensions.begin());
+  splatter.OnPoints = isOnPoints(filter.GetAssociation());
+  splatter.DivideByVolume = filter.GetDivideByVolume() != 0;
+  return splatter;
+}
+
 vtkSmartPointer<vtkDataArray> chosenMasses(vtkInformation* choice, vtkPointSet* points)
 {
   const int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
@@ -85,20 +95,10 @@ const char* vtkMassSplatter::GetBoundaryAsString()
 }
 
 //------------------------------------------------------------------------------
-MassSplatter vtkMassSplatter::GetSplatter()
-{
-  MassSplatter splatter{};
-  std::copy_n(this->Dimensions, 3, splatter.Dimensions.begin());
-  splatter.OnPoints = isOnPoints(this->Association);
-  splatter.DivideByVolume = this->DivideByVolume != 0;
-  return splatter;
-}
-
-//------------------------------------------------------------------------------
 int vtkMassSplatter::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const MassSplatter splatter = this->GetSplatter();
+  const MassSplatter splatter = splatterOf(*this);
   ImageGrid grid = ImageGrid().WithValuesOn(splatter.OnPoints);
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
@@ -125,7 +125,7 @@ int vtkMassSplatter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireDimensions(this->Dimensions);
-  MassSplatter splatter = this->GetSplatter();
+  MassSplatter splatter = splatterOf(*this);
   requireChoice("Boundary", this->Boundary, BoundaryTexts);
   splatter.Splat = splatOptions(this->Kernel, this->Radius);
   splatter.Splat.Boundary = static_cast<SplatBoundary>(this->Boundary);

@@ -67,14 +67,6 @@
 #include "vtkCollectiveAlgorithm.h"
 #include "vtkImageData.h"
 
-namespace RectifiedTransport
-{
-namespace Bridge
-{
-struct MassSplatter;
-} // namespace Bridge
-} // namespace RectifiedTransport
-
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
 
@@ -199,8 +191,6 @@ protected:
   vtkTypeBool DivideByVolume = true;
 
 private:
-  RectifiedTransport::Bridge::MassSplatter GetSplatter();
-
   vtkMassSplatter(const vtkMassSplatter&) = delete;
   void operator=(const vtkMassSplatter&) = delete;
 };

@@ -25,6 +25,16 @@ using namespace RectifiedTransport;
 using namespace RectifiedTransport::Bridge;
 
 constexpr int MaximumSupersampling = 16;
+
+SolidDensity solidOf(vtkSolidDensity& filter)
+{
+  SolidDensity solid{};
+  solid.Resolution = filter.GetResolution();
+  solid.Supersampling = filter.GetSupersampling();
+  solid.Padding = filter.GetPadding();
+  solid.OnPoints = isOnPoints(filter.GetAssociation());
+  return solid;
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -41,22 +51,11 @@ const char* vtkSolidDensity::GetAssociationAsString()
 }
 
 //------------------------------------------------------------------------------
-SolidDensity vtkSolidDensity::GetSolid()
-{
-  SolidDensity solid{};
-  solid.Resolution = this->Resolution;
-  solid.Supersampling = this->Supersampling;
-  solid.Padding = this->Padding;
-  solid.OnPoints = isOnPoints(this->Association);
-  return solid;
-}
-
-//------------------------------------------------------------------------------
 int vtkSolidDensity::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const Ranks& ranks = this->UpdateInputOnRanks(0, inputVector, outputVector);
-  const ImageGrid grid = this->GetSolid().GridAround(vtkPolyData::GetData(inputVector[0]), ranks);
+  const ImageGrid grid = solidOf(*this).GridAround(vtkPolyData::GetData(inputVector[0]), ranks);
   announceSubExtents(outputVector->GetInformationObject(0));
   announceDensity(grid, outputVector->GetInformationObject(0));
   return 1;
@@ -68,7 +67,7 @@ int vtkSolidDensity::RequestData(
 {
   requireThat(this->Supersampling >= 1 && this->Supersampling <= MaximumSupersampling,
     "Supersampling", this->Supersampling, "from 1 to 16");
-  const SolidDensity solid = this->GetSolid();
+  const SolidDensity solid = solidOf(*this);
   requireSolidGrid(this->Resolution, this->Padding);
   const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);

@@ -58,14 +58,6 @@
 #include "vtkCollectiveAlgorithm.h"
 #include "vtkImageData.h"
 
-namespace RectifiedTransport
-{
-namespace Bridge
-{
-struct SolidDensity;
-} // namespace Bridge
-} // namespace RectifiedTransport
-
 VTK_ABI_NAMESPACE_BEGIN
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkSolidDensity : public vtkCollectiveAlgorithm
 {
@@ -134,8 +126,6 @@ protected:
   int Association = POINTS;
 
 private:
-  RectifiedTransport::Bridge::SolidDensity GetSolid();
-
   vtkSolidDensity(const vtkSolidDensity&) = delete;
   void operator=(const vtkSolidDensity&) = delete;
 };

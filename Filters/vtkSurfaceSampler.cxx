@@ -62,18 +62,6 @@ const char* vtkSurfaceSampler::GetFlowMapsAsString()
 }
 
 //------------------------------------------------------------------------------
-SurfaceDensityArray vtkSurfaceSampler::FindDensity(vtkPolyData* surface)
-{
-  const OptionalArray density =
-    findOptionalArray(this->GetInputArrayInformation(0), surface, "density array");
-  if (!density.IsChosen)
-  {
-    return {};
-  }
-  return { surface, density.Array, density.OnPoints, density.Name };
-}
-
-//------------------------------------------------------------------------------
 int vtkSurfaceSampler::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -96,9 +84,13 @@ int vtkSurfaceSampler::RequestData(
   {
     return 1;
   }
-  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  const OptionalArray chosen =
+    findOptionalArray(this->GetInputArrayInformation(0), input.Get(), "density array");
+  const SurfaceDensityArray density = chosen.IsChosen
+    ? SurfaceDensityArray(input.Get(), chosen.Array, chosen.OnPoints, chosen.Name)
+    : SurfaceDensityArray();
   const SurfaceSamplingReport report =
-    sampler.Run(input, this->FindDensity(input.Get()), stages["particles"], output);
+    sampler.Run(input, density, stages["particles"], vtkPolyData::GetData(outputVector));
   this->WarnOnFirstRank(report.Warnings());
   return 1;
 }

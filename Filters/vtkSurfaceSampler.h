@@ -81,14 +81,6 @@
 
 #include "vtkDiskAlgorithm.h"
 
-namespace RectifiedTransport
-{
-namespace Bridge
-{
-class SurfaceDensityArray;
-} // namespace Bridge
-} // namespace RectifiedTransport
-
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
 
@@ -271,8 +263,6 @@ protected:
   int FlowMaps = FLOW_MAPS_AUTO;
 
 private:
-  RectifiedTransport::Bridge::SurfaceDensityArray FindDensity(vtkPolyData* surface);
-
   vtkSurfaceSampler(const vtkSurfaceSampler&) = delete;
   void operator=(const vtkSurfaceSampler&) = delete;
 };
