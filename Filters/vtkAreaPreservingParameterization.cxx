@@ -10,7 +10,6 @@
 
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkAreaPreservingParameterization);
@@ -20,26 +19,14 @@ using namespace RectifiedTransport::Bridge;
 
 //------------------------------------------------------------------------------
 vtkAreaPreservingParameterization::vtkAreaPreservingParameterization()
-  : Resolution(512)
-  , Polish(true)
-  , Seams(SEAMS_AUTO)
 {
-  this->SetNumberOfOutputPorts(2);
+  this->AddOutputPort("vtkPolyData"); // Flat
 }
-
-//------------------------------------------------------------------------------
-vtkAreaPreservingParameterization::~vtkAreaPreservingParameterization() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkAreaPreservingParameterization::GetSeamsAsString()
 {
   return choiceText(SeamsTexts, this->Seams);
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkAreaPreservingParameterization::GetFlat()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
 }
 
 //------------------------------------------------------------------------------

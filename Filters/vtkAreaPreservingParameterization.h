@@ -84,6 +84,7 @@
 #define vtkAreaPreservingParameterization_h
 
 #include "vtkDiskAlgorithm.h"
+#include "vtkPolyData.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkAreaPreservingParameterization : public vtkDiskAlgorithm
@@ -135,18 +136,18 @@ public:
   /**
    * Output 1: the surface in the unit square. Output 0 is GetOutput.
    */
-  vtkPolyData* GetFlat();
+  vtkPolyData* GetFlat() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1)); }
 
 protected:
   vtkAreaPreservingParameterization();
-  ~vtkAreaPreservingParameterization() override;
+  ~vtkAreaPreservingParameterization() override = default;
 
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Resolution;
-  vtkTypeBool Polish;
-  int Seams;
+  int Resolution = 512;
+  vtkTypeBool Polish = true;
+  int Seams = SEAMS_AUTO;
 
 private:
   vtkAreaPreservingParameterization(const vtkAreaPreservingParameterization&) = delete;

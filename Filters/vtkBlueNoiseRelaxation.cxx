@@ -17,7 +17,6 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPointSet.h"
 
 #include <memory>
 
@@ -35,56 +34,16 @@ using namespace RectifiedTransport::Bridge;
 //------------------------------------------------------------------------------
 vtkBlueNoiseRelaxation::vtkBlueNoiseRelaxation()
   : vtkDensityAlgorithm(1)
-  , Method(GAUSSIAN_BLUE_NOISE)
-  , MaximumIterations(50)
-  , Tolerance(0.0)
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_GATHERED_POINTS);
-  this->SetPortPolicy(1, PORT_GATHERED_DENSITY);
+  this->AddInputPort(PORT_GATHERED_POINTS, { "vtkPointSet" });
+  this->AddDensityPort(PORT_GATHERED_DENSITY);
+  this->AddOutputPort("vtkPointSet");
 }
-
-//------------------------------------------------------------------------------
-vtkBlueNoiseRelaxation::~vtkBlueNoiseRelaxation() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkBlueNoiseRelaxation::GetMethodAsString()
 {
   return choiceText(MethodTexts, this->Method);
-}
-
-//------------------------------------------------------------------------------
-vtkPointSet* vtkBlueNoiseRelaxation::GetOutput()
-{
-  return vtkPointSet::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkBlueNoiseRelaxation::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 1)
-  {
-    vtkDensityAlgorithm::FillDensityPortInformation(info);
-    return 1;
-  }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkBlueNoiseRelaxation::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkBlueNoiseRelaxation::RequestDataObject(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  vtkCollectiveAlgorithm::MakeOutputLike(inputVector[0], outputVector, 0);
-  return 1;
 }
 
 //------------------------------------------------------------------------------

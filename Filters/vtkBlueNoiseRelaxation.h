@@ -74,10 +74,10 @@
 #define vtkBlueNoiseRelaxation_h
 
 #include "vtkDensityAlgorithm.h"
+#include "vtkPointSet.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkPointSet;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkBlueNoiseRelaxation : public vtkDensityAlgorithm
 {
@@ -139,22 +139,18 @@ public:
   /**
    * The moved points, with the vtkCells and attribute data of the input.
    */
-  vtkPointSet* GetOutput();
+  vtkPointSet* GetOutput() { return vtkPointSet::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkBlueNoiseRelaxation();
-  ~vtkBlueNoiseRelaxation() override;
+  ~vtkBlueNoiseRelaxation() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Method;
-  int MaximumIterations;
-  double Tolerance;
+  int Method = GAUSSIAN_BLUE_NOISE;
+  int MaximumIterations = 50;
+  double Tolerance = 0.0;
 
 private:
   vtkBlueNoiseRelaxation(const vtkBlueNoiseRelaxation&) = delete;

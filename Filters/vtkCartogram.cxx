@@ -12,11 +12,8 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
-#include "vtkInformationStringKey.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointSet.h"
-#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -54,21 +51,15 @@ struct vtkCartogram::vtkInternals
 
 //------------------------------------------------------------------------------
 vtkCartogram::vtkCartogram()
-  : Resolution(1024)
-  , Margin(0.1)
-  , Projection(PROJECTION_NONE)
-  , EmptyCells(EMPTY_CELLS_MEAN)
-  , EmptyValue(0.0)
-  , Tolerance(0.01)
-  , MaximumIterations(10)
-  , MinimumShare(0.0)
-  , Blend(1.0)
-  , Internals(new vtkInternals)
+  : Internals(new vtkInternals)
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(3);
-  this->SetPortPolicy(0, PORT_GATHERED_DENSITY);
-  this->SetPortPolicy(1, PORT_GATHERED_POINTS);
+  this->AddInputPort(
+    PORT_GATHERED_DENSITY, { "vtkPolyData", "vtkUnstructuredGrid", "vtkCompositeDataSet" });
+  this->AddInputPort(
+    PORT_GATHERED_POINTS, { "vtkPointSet", "vtkCompositeDataSet" }, PORT_OPTIONAL_INPUT);
+  this->AddOutputPort("vtkPolyData");
+  this->AddOutputPort("vtkPolyData");
+  this->AddOutputPort("vtkDataObject");
 }
 
 //------------------------------------------------------------------------------
@@ -84,47 +75,6 @@ const char* vtkCartogram::GetProjectionAsString()
 const char* vtkCartogram::GetEmptyCellsAsString()
 {
   return choiceText(EmptyCellsTexts, this->EmptyCells);
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkCartogram::GetRegions()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkCartogram::GetGraticule()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-vtkPointSet* vtkCartogram::GetOverlay()
-{
-  return vtkPointSet::SafeDownCast(this->GetOutputDataObject(2));
-}
-
-//------------------------------------------------------------------------------
-int vtkCartogram::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 1)
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-    return 1;
-  }
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkCartogram::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkDataObject" : "vtkPolyData");
-  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -42,13 +42,13 @@
 #define vtkCartogram_h
 
 #include "vtkCollectiveAlgorithm.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
 
 #include <memory> // for std::unique_ptr
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkPointSet;
-class vtkPolyData;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkCartogram : public vtkCollectiveAlgorithm
 {
@@ -168,31 +168,29 @@ public:
   /**
    * The outputs; the overlay's is nullptr if it is a composite: GetOutputDataObject(2).
    */
-  vtkPolyData* GetRegions();
-  vtkPolyData* GetGraticule();
-  vtkPointSet* GetOverlay();
+  vtkPolyData* GetRegions() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0)); }
+  vtkPolyData* GetGraticule() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1)); }
+  vtkPointSet* GetOverlay() { return vtkPointSet::SafeDownCast(this->GetOutputDataObject(2)); }
   ///@}
 
 protected:
   vtkCartogram();
   ~vtkCartogram() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Resolution;
-  double Margin;
-  int Projection;
-  int EmptyCells;
-  double EmptyValue;
-  double Tolerance;
-  int MaximumIterations;
-  double MinimumShare;
-  double Blend;
+  int Resolution = 1024;
+  double Margin = 0.1;
+  int Projection = PROJECTION_NONE;
+  int EmptyCells = EMPTY_CELLS_MEAN;
+  double EmptyValue = 0.0;
+  double Tolerance = 0.01;
+  int MaximumIterations = 10;
+  double MinimumShare = 0.0;
+  double Blend = 1.0;
 
 private:
   struct vtkInternals;

@@ -34,10 +34,25 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 
+namespace
+{
+void makeOutputLike(vtkPointSet* input, vtkInformationVector* outputVector, int port)
+{
+  vtkPointSet* output = vtkPointSet::GetData(outputVector, port);
+  if (output && (!input || output->GetDataObjectType() == input->GetDataObjectType()))
+  {
+    return;
+  }
+  // Without an output data object the executive would not reach the check of the inputs' types.
+  const auto made = vtkSmartPointer<vtkPointSet>::Take(
+    input ? input->NewInstance() : static_cast<vtkPointSet*>(vtkPolyData::New()));
+  outputVector->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), made);
+}
+} // namespace
+
 //------------------------------------------------------------------------------
 vtkCollectiveAlgorithm::vtkCollectiveAlgorithm()
-  : Threading(THREADING_AUTO)
-  , Whole(new RectifiedTransport::Bridge::WholeInputs)
+  : Whole(new RectifiedTransport::Bridge::WholeInputs)
   , Early(new RectifiedTransport::Bridge::EarlyUpdate)
 {
 }
@@ -275,28 +290,17 @@ int vtkCollectiveAlgorithm::ProcessTimeDependentInformation(
 
 //------------------------------------------------------------------------------
 int vtkCollectiveAlgorithm::RequestDataObject(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return 1; // the executive makes outputs of the ports' DATA_TYPE_NAME
-}
-
-//------------------------------------------------------------------------------
-void vtkCollectiveAlgorithm::MakeOutputLike(
-  vtkInformationVector* input, vtkInformationVector* outputVector, int port)
-{
-  vtkPointSet* like = vtkPointSet::GetData(input);
-  vtkPointSet* output = vtkPointSet::GetData(outputVector, port);
-  if (like && (!output || output->GetDataObjectType() != like->GetDataObjectType()))
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
-    const auto made = vtkSmartPointer<vtkPointSet>::Take(like->NewInstance());
-    outputVector->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), made);
+    const char* type = this->GetOutputPortInformation(port)->Get(vtkDataObject::DATA_TYPE_NAME());
+    if (std::string(type) == "vtkPointSet")
+    {
+      makeOutputLike(vtkPointSet::GetData(inputVector[0]), outputVector, port);
+    }
   }
-  else if (!output)
-  {
-    // Without an output data object the executive would not reach the check of the inputs' types.
-    const auto made = vtkSmartPointer<vtkPolyData>::New();
-    outputVector->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), made);
-  }
+  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -351,8 +355,22 @@ int vtkCollectiveAlgorithm::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
-void vtkCollectiveAlgorithm::SetPortPolicy(int port, PortPolicyType policy)
+void vtkCollectiveAlgorithm::AddInputPort(
+  PortPolicyType policy, const std::vector<const char*>& types, PortInputsType inputs)
 {
+  const int port = this->GetNumberOfInputPorts();
+  this->SetNumberOfInputPorts(port + 1);
+  vtkInformation* info = this->GetInputPortInformation(port);
+  for (const char* type : types)
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
+  }
+  if (inputs != PORT_ONE_INPUT)
+  {
+    info->Set(inputs == PORT_OPTIONAL_INPUT ? vtkAlgorithm::INPUT_IS_OPTIONAL()
+                                            : vtkAlgorithm::INPUT_IS_REPEATABLE(),
+      1);
+  }
   switch (policy)
   {
     case PORT_WHOLE:
@@ -371,6 +389,26 @@ void vtkCollectiveAlgorithm::SetPortPolicy(int port, PortPolicyType policy)
 }
 
 //------------------------------------------------------------------------------
+void vtkCollectiveAlgorithm::AddOutputPort(const char* type)
+{
+  const int port = this->GetNumberOfOutputPorts();
+  this->SetNumberOfOutputPorts(port + 1);
+  this->GetOutputPortInformation(port)->Set(vtkDataObject::DATA_TYPE_NAME(), type);
+}
+
+//------------------------------------------------------------------------------
+int vtkCollectiveAlgorithm::FillInputPortInformation(int, vtkInformation*)
+{
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkCollectiveAlgorithm::FillOutputPortInformation(int, vtkInformation*)
+{
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 const RectifiedTransport::Ranks& vtkCollectiveAlgorithm::GetRanks() const
 {
   return this->IsAlone || !this->Run
@@ -381,7 +419,7 @@ const RectifiedTransport::Ranks& vtkCollectiveAlgorithm::GetRanks() const
 //------------------------------------------------------------------------------
 void vtkCollectiveAlgorithm::WarnOnFirstRank(const std::string& text)
 {
-  if (this->GetRanks().IsFirst())
+  if (!text.empty() && this->GetRanks().IsFirst())
   {
     vtkWarningMacro(<< RectifiedTransport::messageText(text));
   }

@@ -80,18 +80,12 @@ protected:
   ~vtkCollectiveAlgorithm() override;
 
   /**
-   * Make the output data objects. By default the executive makes them, of the types of
-   * FillOutputPortInformation.
+   * Make the output data objects. By default the executive makes them, of the types of the ports;
+   * an output of the type vtkPointSet is of the type of the first input, or a vtkPolyData while
+   * there is no input.
    */
   virtual int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
-
-  /**
-   * Make the output of a port a point set of the type of an input, where it is of another one; a
-   * vtkPolyData while there is no input.
-   */
-  static void MakeOutputLike(
-    vtkInformationVector* input, vtkInformationVector* outputVector, int port);
 
   /**
    * Set what is known of the outputs before the data; the times of all inputs are set already. By
@@ -136,10 +130,35 @@ protected:
   };
 
   /**
-   * For a constructor. If a port is gathered, all are that are not whole. The other ranks then have
-   * empty outputs with the field data of the first rank's, and what ShareOutputs gives them.
+   * How many data objects an input port takes.
    */
-  void SetPortPolicy(int port, PortPolicyType policy);
+  enum PortInputsType
+  {
+    PORT_ONE_INPUT,
+    PORT_OPTIONAL_INPUT,
+    PORT_SEVERAL_INPUTS
+  };
+
+  /**
+   * For a constructor: one more input port, and the types of data that it takes. If a port is
+   * gathered, all are that are not whole. The other ranks then have empty outputs with the field
+   * data of the first rank's, and what ShareOutputs gives them.
+   */
+  void AddInputPort(PortPolicyType policy, const std::vector<const char*>& types,
+    PortInputsType inputs = PORT_ONE_INPUT);
+
+  /**
+   * For a constructor: one more output port, and the type of its data.
+   */
+  void AddOutputPort(const char* type);
+
+  ///@{
+  /**
+   * The constructor has done so.
+   */
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  ///@}
 
   /**
    * Whether RequestData runs on the first rank alone, of data that are gathered.
@@ -160,7 +179,8 @@ protected:
 
   ///@{
   /**
-   * Warn, of several ranks on the first one only. Each text is a warning of its own.
+   * Warn, of several ranks on the first one only. Each text is a warning of its own; an empty one
+   * is none.
    */
   void WarnOnFirstRank(const std::string& text);
   void WarnOnFirstRank(const std::vector<std::string>& texts);
@@ -207,7 +227,7 @@ protected:
    */
   virtual void EndPasses();
 
-  int Threading;
+  int Threading = THREADING_AUTO;
 
 private:
   vtkTypeBool ProcessCaught(vtkInformation* request, vtkInformationVector** inputVector,

@@ -42,14 +42,7 @@ struct vtkDensityAlgorithm::vtkInternals
 
 //------------------------------------------------------------------------------
 vtkDensityAlgorithm::vtkDensityAlgorithm(int densityPort)
-  : Component(COMPONENT_AUTO)
-  , InvertDensity(false)
-  , NegativeValues(NEGATIVE_VALUES_ERROR)
-  , NaNValues(NAN_VALUES_ERROR)
-  , ValidRange{ -Unbounded, Unbounded }
-  , DensityResolution(256)
-  , EmptyCells(EMPTY_CELLS_ZERO)
-  , EmptyValue(0.0)
+  : ValidRange{ -Unbounded, Unbounded }
   , DensityPort(densityPort)
   , Internals(new vtkInternals)
 {
@@ -85,12 +78,10 @@ FlowCache& vtkDensityAlgorithm::GetFlowCache()
 }
 
 //------------------------------------------------------------------------------
-void vtkDensityAlgorithm::FillDensityPortInformation(vtkInformation* info)
+void vtkDensityAlgorithm::AddDensityPort(PortPolicyType policy, PortInputsType inputs)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
-  // Without this the executive would execute the filter once for each block.
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkHyperTreeGrid");
+  // Without the composite the executive would execute the filter once for each block.
+  this->AddInputPort(policy, { "vtkDataSet", "vtkCompositeDataSet", "vtkHyperTreeGrid" }, inputs);
 }
 
 //------------------------------------------------------------------------------

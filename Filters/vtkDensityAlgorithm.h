@@ -197,9 +197,10 @@ protected:
   ~vtkDensityAlgorithm() override;
 
   /**
-   * For FillInputPortInformation: the port takes any data set, and a composite as one data set.
+   * For a constructor: one more input port, which takes any data set, and a composite as one data
+   * set.
    */
-  static void FillDensityPortInformation(vtkInformation* info);
+  void AddDensityPort(PortPolicyType policy, PortInputsType inputs = PORT_ONE_INPUT);
 
   /**
    * The grid of the density of an input, as its information object announces it before the data. If
@@ -235,19 +236,19 @@ protected:
    */
   RectifiedTransport::Bridge::FlowCache& GetFlowCache();
 
-  int Component;
-  vtkTypeBool InvertDensity;
-  int NegativeValues;
-  int NaNValues;
+  int Component = COMPONENT_AUTO;
+  vtkTypeBool InvertDensity = false;
+  int NegativeValues = NEGATIVE_VALUES_ERROR;
+  int NaNValues = NAN_VALUES_ERROR;
   double ValidRange[2];
-  int DensityResolution;
+  int DensityResolution = 256;
 
   /**
    * What cells that hold no data count as: blanked cells, missing values, what data other than
    * images do not cover. Of filters that have these properties; others leave them Zero.
    */
-  int EmptyCells;
-  double EmptyValue;
+  int EmptyCells = EMPTY_CELLS_ZERO;
+  double EmptyValue = 0.0;
 
 private:
   vtkAbstractArray* FindDensityArray(vtkDataSet* data, int arrayIndex, int& association);

@@ -21,7 +21,6 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPointSet.h"
 
 #include <memory>
 
@@ -34,57 +33,18 @@ using namespace RectifiedTransport::Bridge;
 //------------------------------------------------------------------------------
 vtkDensityEqualizingWarp::vtkDensityEqualizingWarp()
   : vtkTransportAlgorithm(1)
-  , Blend(1.0)
-  , Margin(0.0)
-  , EqualizeAreas(false)
 {
+  // Each point is moved independently of the others.
+  this->AddInputPort(PORT_PIECES, { "vtkPointSet" });
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY);
+  this->AddOutputPort("vtkPointSet");
   this->EmptyCells = EMPTY_CELLS_MEAN;
-  this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_PIECES); // each point is moved independently of the others
-  this->SetPortPolicy(1, PORT_PARTITIONED_DENSITY);
 }
-
-//------------------------------------------------------------------------------
-vtkDensityEqualizingWarp::~vtkDensityEqualizingWarp() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkDensityEqualizingWarp::GetEmptyCellsAsString()
 {
   return choiceText(EmptyCellsTexts, this->EmptyCells);
-}
-
-//------------------------------------------------------------------------------
-vtkPointSet* vtkDensityEqualizingWarp::GetOutput()
-{
-  return vtkPointSet::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkDensityEqualizingWarp::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 1)
-  {
-    vtkDensityAlgorithm::FillDensityPortInformation(info);
-    return 1;
-  }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkDensityEqualizingWarp::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkDensityEqualizingWarp::RequestDataObject(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  vtkCollectiveAlgorithm::MakeOutputLike(inputVector[0], outputVector, 0);
-  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -140,8 +100,8 @@ int vtkDensityEqualizingWarp::RequestData(
         "; more NumberOfSteps turn most of them back, an input of smaller cells does not") +
       " (where there is no mass, add a small part of the mean to the density)");
   }
-  this->WarnOfMap(report.Transport);
-  this->WarnOfSteps(stepWarning(report.Flow, warp.Flow, FlowDirection::Backward));
+  this->WarnOnFirstRank(report.Transport.Warning);
+  this->WarnOnFirstRank(stepWarning(report.Flow, warp.Flow, FlowDirection::Backward));
   if (report.IsUncorrected)
   {
     this->WarnOfAreas();

@@ -56,11 +56,11 @@
 #ifndef vtkDensityEqualizingWarp_h
 #define vtkDensityEqualizingWarp_h
 
+#include "vtkPointSet.h"
 #include "vtkTransportAlgorithm.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkPointSet;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkDensityEqualizingWarp : public vtkTransportAlgorithm
 {
@@ -141,22 +141,18 @@ public:
   /**
    * The moved points, with the vtkCells and attribute data of the input.
    */
-  vtkPointSet* GetOutput();
+  vtkPointSet* GetOutput() { return vtkPointSet::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkDensityEqualizingWarp();
-  ~vtkDensityEqualizingWarp() override;
+  ~vtkDensityEqualizingWarp() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  double Blend;
-  double Margin;
-  vtkTypeBool EqualizeAreas;
+  double Blend = 1.0;
+  double Margin = 0.0;
+  vtkTypeBool EqualizeAreas = false;
 
 private:
   vtkDensityEqualizingWarp(const vtkDensityEqualizingWarp&) = delete;

@@ -1,47 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDiskAlgorithm.h"
 
-#include "Bridge/Triangles/SurfaceInput.h"
+#include "Bridge/Run/Settings/IndexedList.h"
 #include "Core/Parameterization/CornerSettings.h"
-
-#include "vtkDataObject.h"
-#include "vtkInformation.h"
-#include "vtkPolyData.h"
-
-#include <stdexcept>
 
 VTK_ABI_NAMESPACE_BEGIN
 
-namespace
-{
-using namespace RectifiedTransport;
 using namespace RectifiedTransport::Bridge;
 
-// change() returns whether anything changed.
-template <class Change>
-void changeCorners(vtkObject* object, const Change& change)
+struct vtkDiskAlgorithm::vtkCorners
 {
-  try
-  {
-    if (change())
-    {
-      object->Modified();
-    }
-  }
-  catch (const std::invalid_argument& error)
-  {
-    vtkErrorWithObjectMacro(object, << error.what());
-  }
-}
-} // namespace
+  IndexedList<std::int64_t> List{ "corners", "index of a corner", -1 };
+};
 
 //------------------------------------------------------------------------------
 vtkDiskAlgorithm::vtkDiskAlgorithm()
-  : Corners(std::make_unique<CornerSettings>())
+  : Corners(std::make_unique<vtkCorners>())
 {
-  this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_GATHERED_SURFACE);
+  this->AddInputPort(
+    PORT_GATHERED_SURFACE, { "vtkPolyData", "vtkUnstructuredGrid", "vtkStructuredGrid" });
+  this->AddOutputPort("vtkPolyData");
 }
 
 //------------------------------------------------------------------------------
@@ -50,51 +28,38 @@ vtkDiskAlgorithm::~vtkDiskAlgorithm() = default;
 //------------------------------------------------------------------------------
 void vtkDiskAlgorithm::SetNumberOfCorners(int count)
 {
-  changeCorners(this, [=]() { return this->Corners->Resize(count); });
+  this->Corners->List.Resize(this, count);
 }
 
 //------------------------------------------------------------------------------
 int vtkDiskAlgorithm::GetNumberOfCorners()
 {
-  return this->Corners->Number();
+  return this->Corners->List.Number();
 }
 
 //------------------------------------------------------------------------------
 void vtkDiskAlgorithm::SetCorner(int index, vtkIdType point)
 {
-  changeCorners(this, [=]() { return this->Corners->Set(index, point); });
+  this->Corners->List.Set(this, index, point);
 }
 
 //------------------------------------------------------------------------------
 vtkIdType vtkDiskAlgorithm::GetCorner(int index)
 {
-  return static_cast<vtkIdType>(this->Corners->At(index));
+  return static_cast<vtkIdType>(this->Corners->List.At(index));
 }
 
 //------------------------------------------------------------------------------
-vtkPolyData* vtkDiskAlgorithm::GetOutput()
+RectifiedTransport::CornerSettings vtkDiskAlgorithm::GetCorners() const
 {
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkDiskAlgorithm::FillInputPortInformation(int, vtkInformation* info)
-{
-  SurfaceInput::Require(info);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkDiskAlgorithm::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
-  return 1;
+  return { this->Corners->List.All };
 }
 
 //------------------------------------------------------------------------------
 void vtkDiskAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Corners:" << this->Corners->Text() << "\n";
+  os << indent << "Corners:";
+  this->Corners->List.Print(os, " automatic");
 }
 VTK_ABI_NAMESPACE_END

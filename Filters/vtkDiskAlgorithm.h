@@ -15,6 +15,7 @@
 #define vtkDiskAlgorithm_h
 
 #include "vtkCollectiveAlgorithm.h"
+#include "vtkPolyData.h"
 
 #include <memory> // for std::unique_ptr
 
@@ -24,8 +25,6 @@ struct CornerSettings;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkPolyData;
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkDiskAlgorithm : public vtkCollectiveAlgorithm
 {
 public:
@@ -55,22 +54,20 @@ public:
   /**
    * The output.
    */
-  vtkPolyData* GetOutput();
+  vtkPolyData* GetOutput() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkDiskAlgorithm();
   ~vtkDiskAlgorithm() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-
   /**
    * The corners, not checked.
    */
-  const RectifiedTransport::CornerSettings& GetCorners() const { return *this->Corners; }
+  RectifiedTransport::CornerSettings GetCorners() const;
 
 private:
-  std::unique_ptr<RectifiedTransport::CornerSettings> Corners;
+  struct vtkCorners;
+  std::unique_ptr<vtkCorners> Corners;
 
   vtkDiskAlgorithm(const vtkDiskAlgorithm&) = delete;
   void operator=(const vtkDiskAlgorithm&) = delete;

@@ -22,12 +22,9 @@
 #include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/DensitySiteCells.h"
 
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointSet.h"
-#include "vtkPolyData.h"
 
 #include <cmath>
 #include <memory>
@@ -52,17 +49,14 @@ struct vtkEqualMassCells::vtkInternals
 //------------------------------------------------------------------------------
 vtkEqualMassCells::vtkEqualMassCells()
   : vtkTransportAlgorithm(1)
-  , Resolution(512)
-  , NormExponent(2.0)
-  , CostExponent(2.0)
-  , Shape(SHAPE_FLOW)
-  , Measure(UNIFORM)
   , Internals(new vtkInternals)
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(4);
-  this->SetPortPolicy(0, PORT_GATHERED_POINTS);
-  this->SetPortPolicy(1, PORT_GATHERED_DENSITY);
+  this->AddInputPort(PORT_GATHERED_POINTS, { "vtkPointSet" });
+  this->AddDensityPort(PORT_GATHERED_DENSITY, PORT_OPTIONAL_INPUT);
+  this->AddOutputPort("vtkImageData");
+  this->AddOutputPort("vtkPointSet");
+  this->AddOutputPort("vtkPolyData");
+  this->AddOutputPort("vtkPolyData");
 }
 
 //------------------------------------------------------------------------------
@@ -78,59 +72,6 @@ const char* vtkEqualMassCells::GetShapeAsString()
 const char* vtkEqualMassCells::GetMeasureAsString()
 {
   return choiceText(MeasureTexts, this->Measure);
-}
-
-//------------------------------------------------------------------------------
-vtkImageData* vtkEqualMassCells::GetLabels()
-{
-  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-vtkPointSet* vtkEqualMassCells::GetSites()
-{
-  return vtkPointSet::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkEqualMassCells::GetOutlines()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(2));
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkEqualMassCells::GetPolygons()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(3));
-}
-
-//------------------------------------------------------------------------------
-int vtkEqualMassCells::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 0)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-    return 1;
-  }
-  vtkDensityAlgorithm::FillDensityPortInformation(info);
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkEqualMassCells::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  const char* const types[] = { "vtkImageData", "vtkPointSet", "vtkPolyData", "vtkPolyData" };
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkEqualMassCells::RequestDataObject(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  vtkCollectiveAlgorithm::MakeOutputLike(inputVector[0], outputVector, 1);
-  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -269,7 +210,7 @@ int vtkEqualMassCells::RequestData(
   }
   FlowOptions taken = cells.Flow;
   taken.LeastSteps = leastStepsOfSiteCells;
-  this->WarnOfSteps(stepWarning(report.Flow, taken, FlowDirection::Backward));
+  this->WarnOnFirstRank(stepWarning(report.Flow, taken, FlowDirection::Backward));
   if (isWorthWarning(report.Outside, sites))
   {
     const bool isOne = report.Outside == 1;

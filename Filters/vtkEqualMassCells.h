@@ -104,15 +104,15 @@
 #ifndef vtkEqualMassCells_h
 #define vtkEqualMassCells_h
 
+#include "vtkImageData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
 #include "vtkTransportAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkImageData;
-class vtkPointSet;
-class vtkPolyData;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkEqualMassCells : public vtkTransportAlgorithm
 {
@@ -207,20 +207,16 @@ public:
    * The outputs: the site of each pixel, the sites with the statistics of their cells, the borders
    * of these cells, and in 2D the cells as polygons.
    */
-  vtkImageData* GetLabels();
-  vtkPointSet* GetSites();
-  vtkPolyData* GetOutlines();
-  vtkPolyData* GetPolygons();
+  vtkImageData* GetLabels() { return vtkImageData::SafeDownCast(this->GetOutputDataObject(0)); }
+  vtkPointSet* GetSites() { return vtkPointSet::SafeDownCast(this->GetOutputDataObject(1)); }
+  vtkPolyData* GetOutlines() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(2)); }
+  vtkPolyData* GetPolygons() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(3)); }
   ///@}
 
 protected:
   vtkEqualMassCells();
   ~vtkEqualMassCells() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   void ShareOutputs(
@@ -228,11 +224,11 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Resolution;
-  double NormExponent;
-  double CostExponent;
-  int Shape;
-  int Measure;
+  int Resolution = 512;
+  double NormExponent = 2.0;
+  double CostExponent = 2.0;
+  int Shape = SHAPE_FLOW;
+  int Measure = UNIFORM;
 
 private:
   struct vtkInternals;

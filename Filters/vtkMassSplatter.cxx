@@ -12,8 +12,6 @@
 #include "Bridge/Splat/MassSplatter.h"
 #include "Core/Messages/PartText.h"
 
-#include "vtkDataSetAttributes.h"
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -42,6 +40,16 @@ void requireDimensions(const int dimensions[3])
   }
 }
 
+// Kernel and Boundary are not set.
+MassSplatter splatterOf(vtkMassSplatter& filter)
+{
+  MassSplatter splatter{};
+  std::copy_n(filter.GetDimensions(), 3, splatter.Dimensions.begin());
+  splatter.OnPoints = isOnPoints(filter.GetAssociation());
+  splatter.DivideByVolume = filter.GetDivideByVolume() != 0;
+  return splatter;
+}
+
 vtkSmartPointer<vtkDataArray> chosenMasses(vtkInformation* choice, vtkPointSet* points)
 {
   const int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
@@ -61,22 +69,12 @@ vtkSmartPointer<vtkDataArray> chosenMasses(vtkInformation* choice, vtkPointSet* 
 
 //------------------------------------------------------------------------------
 vtkMassSplatter::vtkMassSplatter()
-  : Dimensions{ 128, 128, 128 }
-  , Association(POINTS)
-  , Kernel(CLOUD_IN_CELL)
-  , Radius(1.0)
-  , Boundary(RENORMALIZE)
-  , DivideByVolume(true)
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(1);
+  this->AddInputPort(PORT_PARTITIONED_POINTS, { "vtkPointSet" });
+  this->AddInputPort(PORT_PARTITIONED_DENSITY, { "vtkImageData" }, PORT_OPTIONAL_INPUT);
+  this->AddOutputPort("vtkImageData");
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "");
-  this->SetPortPolicy(0, PORT_PARTITIONED_POINTS);
-  this->SetPortPolicy(1, PORT_PARTITIONED_DENSITY);
 }
-
-//------------------------------------------------------------------------------
-vtkMassSplatter::~vtkMassSplatter() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkMassSplatter::GetAssociationAsString()
@@ -97,46 +95,10 @@ const char* vtkMassSplatter::GetBoundaryAsString()
 }
 
 //------------------------------------------------------------------------------
-vtkImageData* vtkMassSplatter::GetOutput()
-{
-  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkMassSplatter::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 0)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-    return 1;
-  }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkMassSplatter::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkImageData");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-MassSplatter vtkMassSplatter::GetSplatter()
-{
-  MassSplatter splatter{};
-  std::copy_n(this->Dimensions, 3, splatter.Dimensions.begin());
-  splatter.OnPoints = isOnPoints(this->Association);
-  splatter.DivideByVolume = this->DivideByVolume != 0;
-  return splatter;
-}
-
-//------------------------------------------------------------------------------
 int vtkMassSplatter::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const MassSplatter splatter = this->GetSplatter();
+  const MassSplatter splatter = splatterOf(*this);
   ImageGrid grid = ImageGrid().WithValuesOn(splatter.OnPoints);
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
@@ -163,7 +125,7 @@ int vtkMassSplatter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireDimensions(this->Dimensions);
-  MassSplatter splatter = this->GetSplatter();
+  MassSplatter splatter = splatterOf(*this);
   requireChoice("Boundary", this->Boundary, BoundaryTexts);
   splatter.Splat = splatOptions(this->Kernel, this->Radius);
   splatter.Splat.Boundary = static_cast<SplatBoundary>(this->Boundary);

@@ -65,18 +65,10 @@
 #define vtkMassSplatter_h
 
 #include "vtkCollectiveAlgorithm.h"
-
-namespace RectifiedTransport
-{
-namespace Bridge
-{
-struct MassSplatter;
-} // namespace Bridge
-} // namespace RectifiedTransport
+#include "vtkImageData.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkImageData;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkMassSplatter : public vtkCollectiveAlgorithm
 {
@@ -180,29 +172,25 @@ public:
   /**
    * The density.
    */
-  vtkImageData* GetOutput();
+  vtkImageData* GetOutput() { return vtkImageData::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkMassSplatter();
-  ~vtkMassSplatter() override;
+  ~vtkMassSplatter() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Dimensions[3];
-  int Association;
-  int Kernel;
-  double Radius;
-  int Boundary;
-  vtkTypeBool DivideByVolume;
+  int Dimensions[3] = { 128, 128, 128 };
+  int Association = POINTS;
+  int Kernel = CLOUD_IN_CELL;
+  double Radius = 1.0;
+  int Boundary = RENORMALIZE;
+  vtkTypeBool DivideByVolume = true;
 
 private:
-  RectifiedTransport::Bridge::MassSplatter GetSplatter();
-
   vtkMassSplatter(const vtkMassSplatter&) = delete;
   void operator=(const vtkMassSplatter&) = delete;
 };

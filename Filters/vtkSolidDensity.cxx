@@ -11,7 +11,6 @@
 #include "Bridge/Triangles/SolidDensity.h"
 #include "Core/Geometry/Boxes/SolidGrid.h"
 
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -26,22 +25,24 @@ using namespace RectifiedTransport;
 using namespace RectifiedTransport::Bridge;
 
 constexpr int MaximumSupersampling = 16;
+
+SolidDensity solidOf(vtkSolidDensity& filter)
+{
+  SolidDensity solid{};
+  solid.Resolution = filter.GetResolution();
+  solid.Supersampling = filter.GetSupersampling();
+  solid.Padding = filter.GetPadding();
+  solid.OnPoints = isOnPoints(filter.GetAssociation());
+  return solid;
+}
 } // namespace
 
 //------------------------------------------------------------------------------
 vtkSolidDensity::vtkSolidDensity()
-  : Resolution(64)
-  , Supersampling(2)
-  , Padding(0.05)
-  , Association(POINTS)
 {
-  this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_PARTITIONED_POINTS);
+  this->AddInputPort(PORT_PARTITIONED_POINTS, { "vtkPolyData" });
+  this->AddOutputPort("vtkImageData");
 }
-
-//------------------------------------------------------------------------------
-vtkSolidDensity::~vtkSolidDensity() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkSolidDensity::GetAssociationAsString()
@@ -50,42 +51,11 @@ const char* vtkSolidDensity::GetAssociationAsString()
 }
 
 //------------------------------------------------------------------------------
-SolidDensity vtkSolidDensity::GetSolid()
-{
-  SolidDensity solid{};
-  solid.Resolution = this->Resolution;
-  solid.Supersampling = this->Supersampling;
-  solid.Padding = this->Padding;
-  solid.OnPoints = isOnPoints(this->Association);
-  return solid;
-}
-
-//------------------------------------------------------------------------------
-vtkImageData* vtkSolidDensity::GetOutput()
-{
-  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkSolidDensity::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkSolidDensity::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkImageData");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
 int vtkSolidDensity::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const Ranks& ranks = this->UpdateInputOnRanks(0, inputVector, outputVector);
-  const ImageGrid grid = this->GetSolid().GridAround(vtkPolyData::GetData(inputVector[0]), ranks);
+  const ImageGrid grid = solidOf(*this).GridAround(vtkPolyData::GetData(inputVector[0]), ranks);
   announceSubExtents(outputVector->GetInformationObject(0));
   announceDensity(grid, outputVector->GetInformationObject(0));
   return 1;
@@ -97,7 +67,7 @@ int vtkSolidDensity::RequestData(
 {
   requireThat(this->Supersampling >= 1 && this->Supersampling <= MaximumSupersampling,
     "Supersampling", this->Supersampling, "from 1 to 16");
-  const SolidDensity solid = this->GetSolid();
+  const SolidDensity solid = solidOf(*this);
   requireSolidGrid(this->Resolution, this->Padding);
   const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
@@ -115,10 +85,7 @@ int vtkSolidDensity::RequestData(
   const SolidDensityReport report = solid.Run(
     surface, [&](const ImageGrid& all) { return extentToGive(all.Extent(), information, ranks); },
     progress, vtkImageData::GetData(outputVector, 0));
-  if (!report.Repair.empty())
-  {
-    this->WarnOnFirstRank(report.Repair);
-  }
+  this->WarnOnFirstRank(report.Repair);
   // The extent may change with time.
   announceGrid(report.Grid, information);
   return 1;

@@ -56,18 +56,9 @@
 #define vtkSolidDensity_h
 
 #include "vtkCollectiveAlgorithm.h"
-
-namespace RectifiedTransport
-{
-namespace Bridge
-{
-struct SolidDensity;
-} // namespace Bridge
-} // namespace RectifiedTransport
+#include "vtkImageData.h"
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkImageData;
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkSolidDensity : public vtkCollectiveAlgorithm
 {
 public:
@@ -118,27 +109,23 @@ public:
   /**
    * The image with the array Density.
    */
-  vtkImageData* GetOutput();
+  vtkImageData* GetOutput() { return vtkImageData::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkSolidDensity();
-  ~vtkSolidDensity() override;
+  ~vtkSolidDensity() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Resolution;
-  int Supersampling;
-  double Padding;
-  int Association;
+  int Resolution = 64;
+  int Supersampling = 2;
+  double Padding = 0.05;
+  int Association = POINTS;
 
 private:
-  RectifiedTransport::Bridge::SolidDensity GetSolid();
-
   vtkSolidDensity(const vtkSolidDensity&) = delete;
   void operator=(const vtkSolidDensity&) = delete;
 };

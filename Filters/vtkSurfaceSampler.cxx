@@ -27,24 +27,9 @@ using namespace RectifiedTransport::Bridge;
 
 //------------------------------------------------------------------------------
 vtkSurfaceSampler::vtkSurfaceSampler()
-  : NumberOfParticles(8192)
-  , Method(RELAXATION)
-  , RelaxationIterations(20)
-  , Resolution(1024)
-  , SeedPattern(BLUE_NOISE)
-  , RandomSeed(1)
-  , Integrator(MULTISTEP)
-  , NumberOfSteps(0)
-  , AreaTolerance(0.02)
-  , Tolerance(0.01)
-  , TableLookup(INTERPOLATED)
-  , FlowMaps(FLOW_MAPS_AUTO)
 {
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
 }
-
-//------------------------------------------------------------------------------
-vtkSurfaceSampler::~vtkSurfaceSampler() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkSurfaceSampler::GetMethodAsString()
@@ -77,18 +62,6 @@ const char* vtkSurfaceSampler::GetFlowMapsAsString()
 }
 
 //------------------------------------------------------------------------------
-SurfaceDensityArray vtkSurfaceSampler::FindDensity(vtkPolyData* surface)
-{
-  const OptionalArray density =
-    findOptionalArray(this->GetInputArrayInformation(0), surface, "density array");
-  if (!density.IsChosen)
-  {
-    return {};
-  }
-  return { surface, density.Array, density.OnPoints, density.Name };
-}
-
-//------------------------------------------------------------------------------
 int vtkSurfaceSampler::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -111,9 +84,13 @@ int vtkSurfaceSampler::RequestData(
   {
     return 1;
   }
-  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  const OptionalArray chosen =
+    findOptionalArray(this->GetInputArrayInformation(0), input.Get(), "density array");
+  const SurfaceDensityArray density = chosen.IsChosen
+    ? SurfaceDensityArray(input.Get(), chosen.Array, chosen.OnPoints, chosen.Name)
+    : SurfaceDensityArray();
   const SurfaceSamplingReport report =
-    sampler.Run(input, this->FindDensity(input.Get()), stages["particles"], output);
+    sampler.Run(input, density, stages["particles"], vtkPolyData::GetData(outputVector));
   this->WarnOnFirstRank(report.Warnings());
   return 1;
 }

@@ -81,14 +81,6 @@
 
 #include "vtkDiskAlgorithm.h"
 
-namespace RectifiedTransport
-{
-namespace Bridge
-{
-class SurfaceDensityArray;
-} // namespace Bridge
-} // namespace RectifiedTransport
-
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
 
@@ -252,27 +244,25 @@ public:
 
 protected:
   vtkSurfaceSampler();
-  ~vtkSurfaceSampler() override;
+  ~vtkSurfaceSampler() override = default;
 
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  vtkIdType NumberOfParticles;
-  int Method;
-  int RelaxationIterations;
-  int Resolution;
-  int SeedPattern;
-  int RandomSeed;
-  int Integrator;
-  int NumberOfSteps;
-  double AreaTolerance;
-  double Tolerance;
-  int TableLookup;
-  int FlowMaps;
+  vtkIdType NumberOfParticles = 8192;
+  int Method = RELAXATION;
+  int RelaxationIterations = 20;
+  int Resolution = 1024;
+  int SeedPattern = BLUE_NOISE;
+  int RandomSeed = 1;
+  int Integrator = MULTISTEP;
+  int NumberOfSteps = 0;
+  double AreaTolerance = 0.02;
+  double Tolerance = 0.01;
+  int TableLookup = INTERPOLATED;
+  int FlowMaps = FLOW_MAPS_AUTO;
 
 private:
-  RectifiedTransport::Bridge::SurfaceDensityArray FindDensity(vtkPolyData* surface);
-
   vtkSurfaceSampler(const vtkSurfaceSampler&) = delete;
   void operator=(const vtkSurfaceSampler&) = delete;
 };

@@ -34,17 +34,6 @@ struct vtkTransportAlgorithm::vtkDevice
 //------------------------------------------------------------------------------
 vtkTransportAlgorithm::vtkTransportAlgorithm(int densityPort)
   : vtkDensityAlgorithm(densityPort)
-  , Method(RECTIFIED_FLOW)
-  , OptimalityTolerance(0.001)
-  , Certify(false)
-  , Tables(TABLES_AUTO)
-  , Integrator(MULTISTEP)
-  , NumberOfSteps(0)
-  , AreaTolerance(0.02)
-  , Tolerance(0.01)
-  , TableLookup(INTERPOLATED)
-  , FlowMaps(FLOW_MAPS_AUTO)
-  , Device(DEVICE_CPU)
   , OwnDevice(new vtkDevice)
 {
 }
@@ -169,24 +158,6 @@ FlowOptions vtkTransportAlgorithm::GetFlowOptions()
 OptimalSetting vtkTransportAlgorithm::GetOptimalSetting()
 {
   return optimalSettingOf(*this);
-}
-
-//------------------------------------------------------------------------------
-void vtkTransportAlgorithm::WarnOfMap(const TransportReport& transport)
-{
-  if (!transport.Warning.empty())
-  {
-    this->WarnOnFirstRank(transport.Warning);
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkTransportAlgorithm::WarnOfSteps(const std::string& warning, const std::string& name)
-{
-  if (!warning.empty())
-  {
-    this->WarnOnFirstRank(name.empty() ? warning : name + ": " + warning);
-  }
 }
 
 //------------------------------------------------------------------------------

@@ -39,7 +39,6 @@ struct FlowOptions;
 namespace Bridge
 {
 struct OptimalSetting;
-struct TransportReport;
 } // namespace Bridge
 } // namespace RectifiedTransport
 
@@ -252,31 +251,21 @@ protected:
   void EndDevice(const RectifiedTransport::DeviceUse& device);
 
   /**
-   * Warns on the first rank, if there is a text (StepReport.h). `name` precedes it.
-   */
-  void WarnOfSteps(const std::string& warning, const std::string& name = "");
-
-  /**
-   * Warns on the first rank if the flow took the place of the optimal map.
-   */
-  void WarnOfMap(const RectifiedTransport::Bridge::TransportReport& transport);
-
-  /**
    * Warns on the first rank that EqualizeAreas has changed nothing.
    */
   void WarnOfAreas();
 
-  int Method;
-  double OptimalityTolerance;
-  vtkTypeBool Certify;
-  int Tables;
-  int Integrator;
-  int NumberOfSteps;
-  double AreaTolerance;
-  double Tolerance;
-  int TableLookup;
-  int FlowMaps;
-  int Device;
+  int Method = RECTIFIED_FLOW;
+  double OptimalityTolerance = 0.001;
+  vtkTypeBool Certify = false;
+  int Tables = TABLES_AUTO;
+  int Integrator = MULTISTEP;
+  int NumberOfSteps = 0;
+  double AreaTolerance = 0.02;
+  double Tolerance = 0.01;
+  int TableLookup = INTERPOLATED;
+  int FlowMaps = FLOW_MAPS_AUTO;
+  int Device = DEVICE_CPU;
 
 private:
   struct vtkDevice;

@@ -2,90 +2,26 @@
 #include "vtkTransportBarycenter.h"
 
 #include "Bridge/Ensembles/DensityBlend.h"
-#include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/Failure.h"
-#include "Core/Device/DeviceUse.h"
-#include "Core/Parallel/Stages.h"
+#include "Bridge/Run/Settings/IndexedList.h"
 
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <sstream>
-#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportBarycenter);
 
-namespace
-{
-using namespace RectifiedTransport;
 using namespace RectifiedTransport::Bridge;
-
-// Far above numbers of inputs; bounds the memory that SetWeight allocates.
-constexpr int MaximumNumberOfWeights = 1000000;
-
-// One weight an input, with the sum 1; equal ones for an empty list. Throws Failure for a list of
-// another length, weights that are negative or not finite, and weights that are all 0.
-std::vector<double> normalizedWeights(const std::vector<double>& list, std::size_t inputs)
-{
-  if (list.empty())
-  {
-    return std::vector<double>(inputs, 1.0 / static_cast<double>(inputs));
-  }
-  std::ostringstream message;
-  if (list.size() != inputs)
-  {
-    message << "The number of Weights is " << list.size() << " and that of inputs " << inputs
-            << "; there must be one for each, or none for equal weights";
-    throw Failure(message.str());
-  }
-  for (std::size_t i = 0; i < list.size(); ++i)
-  {
-    if (!(list[i] >= 0.0) || std::isinf(list[i]))
-    {
-      message << "Weight " << i << " of the Weights is " << list[i]
-              << "; weights must be finite and at least 0";
-      throw Failure(message.str());
-    }
-  }
-  const double largest = *std::max_element(list.begin(), list.end());
-  if (largest == 0.0)
-  {
-    throw Failure("All Weights are 0; at least one must be above 0");
-  }
-  // Divided by the largest first only where the sum overflows: weights of sum 1 remain unchanged.
-  const bool fits = std::isfinite(std::accumulate(list.begin(), list.end(), 0.0));
-  std::vector<double> weights;
-  for (const double weight : list)
-  {
-    weights.push_back(fits ? weight : weight / largest);
-  }
-  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  for (double& weight : weights)
-  {
-    weight /= sum;
-  }
-  return weights;
-}
-} // namespace
 
 struct vtkTransportBarycenter::vtkWeights
 {
-  std::vector<double> List;
+  IndexedList<double> List{ "weights", "index of a weight", 0.0 };
 };
 
 //------------------------------------------------------------------------------
 vtkTransportBarycenter::vtkTransportBarycenter()
   : vtkTransportBlend(true)
   , Weights(new vtkWeights)
-  , Blend(new DensityBlend)
 {
-  this->SetNumberOfInputPorts(1);
-  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY, PORT_SEVERAL_INPUTS);
 }
 
 //------------------------------------------------------------------------------
@@ -94,82 +30,33 @@ vtkTransportBarycenter::~vtkTransportBarycenter() = default;
 //------------------------------------------------------------------------------
 void vtkTransportBarycenter::SetNumberOfWeights(int count)
 {
-  if (count < 0 || count > MaximumNumberOfWeights)
-  {
-    vtkErrorMacro(<< "The number of weights is " << count << "; it must be from 0 to "
-                  << MaximumNumberOfWeights);
-    return;
-  }
-  if (count != this->GetNumberOfWeights())
-  {
-    this->Weights->List.resize(static_cast<std::size_t>(count));
-    this->Modified();
-  }
+  this->Weights->List.Resize(this, count);
 }
 
 //------------------------------------------------------------------------------
 int vtkTransportBarycenter::GetNumberOfWeights()
 {
-  return static_cast<int>(this->Weights->List.size());
+  return this->Weights->List.Number();
 }
 
 //------------------------------------------------------------------------------
 void vtkTransportBarycenter::SetWeight(int index, double weight)
 {
-  if (index < 0 || index >= MaximumNumberOfWeights)
-  {
-    vtkErrorMacro(<< "The index of a weight is " << index << "; it must be from 0 to "
-                  << MaximumNumberOfWeights - 1);
-    return;
-  }
-  this->SetNumberOfWeights(std::max(index + 1, this->GetNumberOfWeights()));
-  double& known = this->Weights->List[static_cast<std::size_t>(index)];
-  if (known != weight)
-  {
-    known = weight;
-    this->Modified();
-  }
+  this->Weights->List.Set(this, index, weight);
 }
 
 //------------------------------------------------------------------------------
 double vtkTransportBarycenter::GetWeight(int index)
 {
-  return index >= 0 && index < this->GetNumberOfWeights()
-    ? this->Weights->List[static_cast<std::size_t>(index)]
-    : 0.0;
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportBarycenter::FillInputPortInformation(int, vtkInformation* info)
-{
-  vtkDensityAlgorithm::FillDensityPortInformation(info);
-  info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  return 1;
+  return this->Weights->List.At(index);
 }
 
 //------------------------------------------------------------------------------
 int vtkTransportBarycenter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const BlendSettings settings = this->GetBlendSettings();
-  DeviceUse device = this->BeginDevice();
-  AlgorithmProgress progress(this, this->Threading, this->GetRanks(), &device);
-  Stages stages(progress, { { "reading", 5 }, { "blend", 95 } });
-
-  std::vector<BlendInput> inputs = this->ReadInputs(inputVector, nullptr, stages["reading"]);
-  if (inputs.empty())
-  {
-    return 1;
-  }
-  const std::vector<double> weights = normalizedWeights(this->Weights->List, inputs.size());
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-  {
-    inputs[i].Weight = weights[i];
-  }
-  const BlendReport report =
-    this->Blend->Run(inputs, settings, this->GetFlowCache(), stages["blend"], outputVector);
-  this->EndDevice(device);
-  this->WarnOfMaps(report);
+  this->BlendInputs(
+    inputVector, outputVector, this->GetBlendSettings(), nullptr, this->Weights->List.All);
   return 1;
 }
 
@@ -178,10 +65,6 @@ void vtkTransportBarycenter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Weights:";
-  for (const double weight : this->Weights->List)
-  {
-    os << " " << weight;
-  }
-  os << (this->Weights->List.empty() ? " equal\n" : "\n");
+  this->Weights->List.Print(os, " equal");
 }
 VTK_ABI_NAMESPACE_END

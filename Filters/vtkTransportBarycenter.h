@@ -24,16 +24,7 @@
 
 #include "vtkTransportBlend.h"
 
-namespace RectifiedTransport
-{
-namespace Bridge
-{
-class DensityBlend;
-} // namespace Bridge
-} // namespace RectifiedTransport
-
 VTK_ABI_NAMESPACE_BEGIN
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportBarycenter : public vtkTransportBlend
 {
 public:
@@ -63,14 +54,12 @@ protected:
   vtkTransportBarycenter();
   ~vtkTransportBarycenter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
 private:
   struct vtkWeights;
   std::unique_ptr<vtkWeights> Weights;
-  std::unique_ptr<RectifiedTransport::Bridge::DensityBlend> Blend;
 
   vtkTransportBarycenter(const vtkTransportBarycenter&) = delete;
   void operator=(const vtkTransportBarycenter&) = delete;

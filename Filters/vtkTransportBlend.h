@@ -49,6 +49,8 @@
 #ifndef vtkTransportBlend_h
 #define vtkTransportBlend_h
 
+#include "vtkImageData.h"
+#include "vtkPolyData.h"
 #include "vtkTransportAlgorithm.h"
 
 #include <vector> // for the inputs
@@ -58,15 +60,12 @@ namespace RectifiedTransport
 namespace Bridge
 {
 struct BlendInput;
-struct BlendReport;
 struct BlendSettings;
+class DensityBlend;
 } // namespace Bridge
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkImageData;
-class vtkPolyData;
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportBlend : public vtkTransportAlgorithm
 {
 public:
@@ -148,12 +147,12 @@ public:
   /**
    * The interpolated density, output port 0.
    */
-  vtkImageData* GetDensity();
+  vtkImageData* GetDensity() { return vtkImageData::SafeDownCast(this->GetOutputDataObject(0)); }
 
   /**
    * The particles, output port 1.
    */
-  vtkPolyData* GetParticles();
+  vtkPolyData* GetParticles() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1)); }
 
 protected:
   /**
@@ -164,20 +163,15 @@ protected:
   ~vtkTransportBlend() override;
 
   /**
-   * Read the densities of all inputs. `names` are used in messages and, with "Position" appended,
-   * for arrays of the particles; if nullptr, messages number the inputs. Returns no inputs if one
-   * of them has no points. Throws what RequestData may throw.
+   * Blend the inputs. `names` are used in messages and, with "Position" appended, for arrays of the
+   * particles; if nullptr, messages number the inputs. `weights` are one for each input; without
+   * any, all inputs weigh the same. They are divided by their sum. Throws what RequestData may
+   * throw.
    */
-  std::vector<RectifiedTransport::Bridge::BlendInput> ReadInputs(vtkInformationVector** inputVector,
-    const char* const* names, RectifiedTransport::Progress& progress);
+  void BlendInputs(vtkInformationVector** inputVector, vtkInformationVector* outputVector,
+    const RectifiedTransport::Bridge::BlendSettings& settings, const char* const* names,
+    const std::vector<double>& weights);
 
-  /**
-   * Warn of new maps that do not keep AreaTolerance, and of particles that ended in empty cells, if
-   * they are at least one in a thousand.
-   */
-  void WarnOfMaps(const RectifiedTransport::Bridge::BlendReport& report);
-
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -186,14 +180,18 @@ protected:
    */
   RectifiedTransport::Bridge::BlendSettings GetBlendSettings();
 
-  int Dimensions[3];
-  int ParticlesPerCell;
-  int MassMode;
-  int Kernel;
-  double Radius;
+  int Dimensions[3] = { 0, 0, 0 };
+  int ParticlesPerCell = 0;
+  int MassMode = MASS_LINEAR;
+  int Kernel = TRIANGULAR_SHAPED_CLOUD;
+  double Radius = 1.0;
 
 private:
+  std::vector<RectifiedTransport::Bridge::BlendInput> ReadInputs(vtkInformationVector** inputVector,
+    const char* const* names, RectifiedTransport::Progress& progress);
+
   const bool BlocksAreInputs;
+  std::unique_ptr<RectifiedTransport::Bridge::DensityBlend> Blend;
 
   vtkTransportBlend(const vtkTransportBlend&) = delete;
   void operator=(const vtkTransportBlend&) = delete;

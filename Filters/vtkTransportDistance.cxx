@@ -7,13 +7,13 @@
 #include "Bridge/Ranks/FieldsOfFirst.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/Settings/IndexedList.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkTable.h"
 
 #include <algorithm>
 #include <limits>
@@ -35,7 +35,6 @@ const char* const MethodTexts[] = { "Linearized", "Certified" };
 const char* const MassDifferenceTexts[] = { "Normalize", "Error" };
 
 constexpr int MaximumNumberOfCoordinates = 100;
-constexpr int MaximumNumberOfNames = 1000000; // bounds the memory that SetInputName allocates
 constexpr double NoTime = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> stepsOf(vtkInformationVector* input)
@@ -50,23 +49,20 @@ std::vector<double> stepsOf(vtkInformationVector* input)
 struct vtkTransportDistance::vtkInternals
 {
   DensityDistances Distances;
-  std::vector<std::string> Names; // by connection
-  std::size_t Step = 0;           // of OverTime, the next one
-  bool HasAll = true;             // whether no input of this run is empty
-  std::vector<double> Told;       // the masses of the last warning
+  IndexedList<std::string> Names{ "input names", "number of a connection", "" };
+  std::size_t Step = 0;     // of OverTime, the next one
+  bool HasAll = true;       // whether no input of this run is empty
+  std::vector<double> Told; // the masses of the last warning
 };
 
 //------------------------------------------------------------------------------
 vtkTransportDistance::vtkTransportDistance()
-  : Method(LINEARIZED)
-  , MassDifference(MASS_DIFFERENCE_NORMALIZE)
-  , OverTime(false)
-  , NumberOfCoordinates(2)
-  , Internals(new vtkInternals)
+  : Internals(new vtkInternals)
 {
-  this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(3);
-  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY, PORT_SEVERAL_INPUTS);
+  this->AddOutputPort("vtkTable");
+  this->AddOutputPort("vtkTable");
+  this->AddOutputPort("vtkTable");
 }
 
 //------------------------------------------------------------------------------
@@ -87,89 +83,31 @@ const char* vtkTransportDistance::GetMassDifferenceAsString()
 //------------------------------------------------------------------------------
 void vtkTransportDistance::SetNumberOfInputNames(int count)
 {
-  if (count < 0 || count > MaximumNumberOfNames)
-  {
-    vtkErrorMacro(<< "The number of input names is " << count << "; it must be from 0 to "
-                  << MaximumNumberOfNames);
-    return;
-  }
-  if (count != this->GetNumberOfInputNames())
-  {
-    this->Internals->Names.resize(static_cast<std::size_t>(count));
-    this->Modified();
-  }
+  this->Internals->Names.Resize(this, count);
 }
 
 //------------------------------------------------------------------------------
 int vtkTransportDistance::GetNumberOfInputNames()
 {
-  return static_cast<int>(this->Internals->Names.size());
+  return this->Internals->Names.Number();
 }
 
 //------------------------------------------------------------------------------
 void vtkTransportDistance::SetInputName(int connection, const char* name)
 {
-  if (connection < 0 || connection >= MaximumNumberOfNames)
-  {
-    vtkErrorMacro(<< "The number of a connection is " << connection << "; it must be from 0 to "
-                  << MaximumNumberOfNames - 1);
-    return;
-  }
-  this->SetNumberOfInputNames(std::max(connection + 1, this->GetNumberOfInputNames()));
-  std::string& known = this->Internals->Names[static_cast<std::size_t>(connection)];
-  const std::string given = name ? name : "";
-  if (known != given)
-  {
-    known = given;
-    this->Modified();
-  }
+  this->Internals->Names.Set(this, connection, name ? name : "");
 }
 
 //------------------------------------------------------------------------------
 const char* vtkTransportDistance::GetInputName(int connection)
 {
-  return connection >= 0 && connection < this->GetNumberOfInputNames()
-    ? this->Internals->Names[static_cast<std::size_t>(connection)].c_str()
-    : "";
+  return this->Internals->Names.At(connection).c_str();
 }
 
 //------------------------------------------------------------------------------
 vtkIdType vtkTransportDistance::GetNumberOfSolutions()
 {
   return static_cast<vtkIdType>(this->Internals->Distances.NumberOfSolutions());
-}
-
-//------------------------------------------------------------------------------
-vtkTable* vtkTransportDistance::GetDistances()
-{
-  return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-vtkTable* vtkTransportDistance::GetBounds()
-{
-  return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-vtkTable* vtkTransportDistance::GetCoordinates()
-{
-  return vtkTable::SafeDownCast(this->GetOutputDataObject(2));
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportDistance::FillInputPortInformation(int, vtkInformation* info)
-{
-  vtkDensityAlgorithm::FillDensityPortInformation(info);
-  info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportDistance::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
-  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -266,11 +204,7 @@ bool vtkTransportDistance::AddInputs(
 {
   const GivenInputs given = gatherInputs(inputVector, 1, true);
   requireSameNumber(given.All.size(), this->GetRanks());
-  const std::string others = describeOthers(given);
-  if (!others.empty())
-  {
-    this->WarnOnFirstRank(others);
-  }
+  this->WarnOnFirstRank(describeOthers(given));
   const std::string all = std::to_string(given.All.size());
   Parts parts(progress, static_cast<std::int64_t>(given.All.size()));
   for (std::size_t i = 0; i < given.All.size() && this->Internals->HasAll; ++i)
@@ -384,10 +318,10 @@ void vtkTransportDistance::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfCoordinates: " << this->NumberOfCoordinates << "\n";
   os << indent << "NumberOfSolutions: " << this->GetNumberOfSolutions() << "\n";
   os << indent << "InputNames:";
-  for (const std::string& name : this->Internals->Names)
+  for (const std::string& name : this->Internals->Names.All)
   {
     os << " '" << name << "'";
   }
-  os << (this->Internals->Names.empty() ? " automatic\n" : "\n");
+  os << (this->Internals->Names.All.empty() ? " automatic\n" : "\n");
 }
 VTK_ABI_NAMESPACE_END

@@ -50,13 +50,12 @@
 #define vtkTransportDistance_h
 
 #include "vtkDensityAlgorithm.h"
+#include "vtkTable.h"
 
 #include <memory> // for std::unique_ptr
 #include <string> // for texts
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkTable;
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportDistance : public vtkDensityAlgorithm
 {
 public:
@@ -153,24 +152,22 @@ public:
   /**
    * The matrix of distances, output port 0.
    */
-  vtkTable* GetDistances();
+  vtkTable* GetDistances() { return vtkTable::SafeDownCast(this->GetOutputDataObject(0)); }
 
   /**
    * The bounds of all pairs, output port 1.
    */
-  vtkTable* GetBounds();
+  vtkTable* GetBounds() { return vtkTable::SafeDownCast(this->GetOutputDataObject(1)); }
 
   /**
    * The points, output port 2.
    */
-  vtkTable* GetCoordinates();
+  vtkTable* GetCoordinates() { return vtkTable::SafeDownCast(this->GetOutputDataObject(2)); }
 
 protected:
   vtkTransportDistance();
   ~vtkTransportDistance() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
@@ -179,10 +176,10 @@ protected:
     vtkInformationVector* outputVector) override;
   void EndPasses() override;
 
-  int Method;
-  int MassDifference;
-  vtkTypeBool OverTime;
-  int NumberOfCoordinates;
+  int Method = LINEARIZED;
+  int MassDifference = MASS_DIFFERENCE_NORMALIZE;
+  vtkTypeBool OverTime = false;
+  int NumberOfCoordinates = 2;
 
 private:
   struct vtkInternals;

@@ -15,7 +15,6 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
-#include "vtkTable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,32 +54,8 @@ std::vector<double> placesOf(const DistributedPoints& points, Progress& progress
 //------------------------------------------------------------------------------
 vtkTransportDotRadius::vtkTransportDotRadius()
 {
-  this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_PARTITIONED_POINTS);
-}
-
-//------------------------------------------------------------------------------
-vtkTransportDotRadius::~vtkTransportDotRadius() = default;
-
-//------------------------------------------------------------------------------
-vtkTable* vtkTransportDotRadius::GetOutput()
-{
-  return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportDotRadius::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportDotRadius::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
-  return 1;
+  this->AddInputPort(PORT_PARTITIONED_POINTS, { "vtkPointSet" });
+  this->AddOutputPort("vtkTable");
 }
 
 //------------------------------------------------------------------------------

@@ -20,10 +20,9 @@
 #define vtkTransportDotRadius_h
 
 #include "vtkCollectiveAlgorithm.h"
+#include "vtkTable.h"
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkTable;
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportDotRadius : public vtkCollectiveAlgorithm
 {
 public:
@@ -34,14 +33,12 @@ public:
   /**
    * The table of one row.
    */
-  vtkTable* GetOutput();
+  vtkTable* GetOutput() { return vtkTable::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkTransportDotRadius();
-  ~vtkTransportDotRadius() override;
+  ~vtkTransportDotRadius() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 

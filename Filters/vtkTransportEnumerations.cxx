@@ -3,12 +3,6 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 //------------------------------------------------------------------------------
-vtkTransportEnumerations::vtkTransportEnumerations() = default;
-
-//------------------------------------------------------------------------------
-vtkTransportEnumerations::~vtkTransportEnumerations() = default;
-
-//------------------------------------------------------------------------------
 void vtkTransportEnumerations::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

@@ -127,8 +127,8 @@ public:
   };
 
 protected:
-  vtkTransportEnumerations();
-  ~vtkTransportEnumerations() override;
+  vtkTransportEnumerations() = default;
+  ~vtkTransportEnumerations() override = default;
 
 private:
   vtkTransportEnumerations(const vtkTransportEnumerations&) = delete;

@@ -2,12 +2,9 @@
 #include "vtkTransportInterpolator.h"
 
 #include "Bridge/Ensembles/DensityBlend.h"
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/SeparateInputs.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/TargetArray.h"
-#include "Core/Device/DeviceUse.h"
-#include "Core/Parallel/Stages.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -40,20 +37,12 @@ bool isNumberOfTimeSteps(int count)
 //------------------------------------------------------------------------------
 vtkTransportInterpolator::vtkTransportInterpolator()
   : vtkTransportBlend(false)
-  , Parameter(0.5)
-  , PublishTime(false)
-  , NumberOfTimeSteps(11)
-  , Blend(new DensityBlend)
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
-  this->SetPortPolicy(1, PORT_PARTITIONED_DENSITY);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY);
   vtkTransportInterpolator::SetInputArrayToProcess(
     1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
 }
-
-//------------------------------------------------------------------------------
-vtkTransportInterpolator::~vtkTransportInterpolator() = default;
 
 //------------------------------------------------------------------------------
 void vtkTransportInterpolator::SetInputArrayToProcess(
@@ -61,13 +50,6 @@ void vtkTransportInterpolator::SetInputArrayToProcess(
 {
   const auto [index, arrayPort] = targetArray(idx, port);
   this->Superclass::SetInputArrayToProcess(index, arrayPort, connection, fieldAssociation, name);
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportInterpolator::FillInputPortInformation(int, vtkInformation* info)
-{
-  vtkDensityAlgorithm::FillDensityPortInformation(info);
-  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -166,20 +148,8 @@ int vtkTransportInterpolator::RequestData(
   const double parameter = this->FindParameter(request, outputVector);
   BlendSettings settings = this->GetBlendSettings();
   settings.ComparesEnds = true;
-  DeviceUse device = this->BeginDevice();
-  AlgorithmProgress progress(this, this->Threading, this->GetRanks(), &device);
-  Stages stages(progress, { { "reading", 5 }, { "blend", 95 } });
   static const char* const names[] = { "Source", "Target" };
-  std::vector<BlendInput> inputs = this->ReadInputs(inputVector, names, stages["reading"]);
-  if (!inputs.empty())
-  {
-    inputs[0].Weight = 1.0 - parameter;
-    inputs[1].Weight = parameter;
-    const BlendReport report =
-      this->Blend->Run(inputs, settings, this->GetFlowCache(), stages["blend"], outputVector);
-    this->EndDevice(device);
-    this->WarnOfMaps(report);
-  }
+  this->BlendInputs(inputVector, outputVector, settings, names, { 1.0 - parameter, parameter });
   for (int i = 0; this->PublishTime && i < outputVector->GetNumberOfInformationObjects(); ++i)
   {
     vtkDataObject::GetData(outputVector, i)

@@ -34,14 +34,6 @@
 
 #include "vtkTransportBlend.h"
 
-namespace RectifiedTransport
-{
-namespace Bridge
-{
-class DensityBlend;
-} // namespace Bridge
-} // namespace RectifiedTransport
-
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
 
@@ -100,9 +92,8 @@ public:
 
 protected:
   vtkTransportInterpolator();
-  ~vtkTransportInterpolator() override;
+  ~vtkTransportInterpolator() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestUpdateTime(vtkInformation* request, vtkInformationVector** inputVector,
@@ -112,14 +103,13 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  double Parameter;
-  vtkTypeBool PublishTime;
-  int NumberOfTimeSteps;
+  double Parameter = 0.5;
+  vtkTypeBool PublishTime = false;
+  int NumberOfTimeSteps = 11;
 
 private:
   void RequestFirstTime(vtkInformationVector** inputVector);
   double FindParameter(vtkInformation* request, vtkInformationVector* outputVector);
-  std::unique_ptr<RectifiedTransport::Bridge::DensityBlend> Blend;
 
   vtkTransportInterpolator(const vtkTransportInterpolator&) = delete;
   void operator=(const vtkTransportInterpolator&) = delete;

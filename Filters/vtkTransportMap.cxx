@@ -17,7 +17,6 @@
 #include "Core/Messages/PartText.h"
 #include "Core/Parallel/Stages.h"
 
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -26,7 +25,6 @@
 #include <array>
 #include <memory>
 #include <string>
-#include <utility>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportMap);
@@ -49,14 +47,10 @@ bool hasTarget(vtkInformationVector** inputVector)
 
 //------------------------------------------------------------------------------
 vtkTransportMap::vtkTransportMap()
-  : Direction(UNIFORM_TO_DENSITY)
-  , SampleDimensions{ 0, 0, 0 }
-  , EqualizeAreas(false)
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
-  this->SetPortPolicy(1, PORT_PARTITIONED_DENSITY);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY, PORT_OPTIONAL_INPUT);
+  this->AddOutputPort("vtkImageData");
   vtkTransportMap::SetInputArrayToProcess(
     1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
 }
@@ -77,35 +71,11 @@ const char* vtkTransportMap::GetEmptyCellsAsString()
 }
 
 //------------------------------------------------------------------------------
-vtkImageData* vtkTransportMap::GetOutput()
-{
-  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
 void vtkTransportMap::SetInputArrayToProcess(
   int idx, int port, int connection, int fieldAssociation, const char* name)
 {
   const auto [index, arrayPort] = targetArray(idx, port);
   this->Superclass::SetInputArrayToProcess(index, arrayPort, connection, fieldAssociation, name);
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportMap::FillInputPortInformation(int port, vtkInformation* info)
-{
-  vtkDensityAlgorithm::FillDensityPortInformation(info);
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportMap::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkImageData");
-  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -231,18 +201,17 @@ int vtkTransportMap::RequestData(
   this->EndDevice(device);
   // The association of the density may not be known before the data.
   announceGrid(result.Grid, outputInformation);
-  this->WarnOfMap(result.Transport);
-  if (isToTarget)
+  this->WarnOnFirstRank(result.Transport.Warning);
+  for (std::size_t i = 0; i < result.Flows.size(); ++i)
   {
-    this->WarnOfSteps(
-      stepWarning(result.Flows[0], map.Flow, FlowDirection::Backward), InputNames[first]);
-    this->WarnOfSteps(
-      stepWarning(result.Flows[1], map.Flow, FlowDirection::Forward), InputNames[1 - first]);
-  }
-  else
-  {
-    this->WarnOfSteps(stepWarning(
-      result.Flows[0], map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward));
+    const bool isBack = isToTarget ? i == 0 : map.Backward;
+    std::string warning = stepWarning(
+      result.Flows[i], map.Flow, isBack ? FlowDirection::Backward : FlowDirection::Forward);
+    if (isToTarget && !warning.empty())
+    {
+      warning.insert(0, std::string(InputNames[isBack ? first : 1 - first]) + ": ");
+    }
+    this->WarnOnFirstRank(warning);
   }
   if (result.IsUncorrected)
   {

@@ -104,6 +104,7 @@
 #ifndef vtkTransportMap_h
 #define vtkTransportMap_h
 
+#include "vtkImageData.h"
 #include "vtkTransportAlgorithm.h"
 
 namespace RectifiedTransport
@@ -116,7 +117,6 @@ struct TargetCache;
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkImageData;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportMap : public vtkTransportAlgorithm
 {
@@ -217,22 +217,20 @@ public:
   /**
    * The image with the map's fields.
    */
-  vtkImageData* GetOutput();
+  vtkImageData* GetOutput() { return vtkImageData::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkTransportMap();
   ~vtkTransportMap() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Direction;
-  int SampleDimensions[3];
-  vtkTypeBool EqualizeAreas;
+  int Direction = UNIFORM_TO_DENSITY;
+  int SampleDimensions[3] = { 0, 0, 0 };
+  vtkTypeBool EqualizeAreas = false;
 
 private:
   bool ReadPair(vtkInformationVector** inputVector, RectifiedTransport::Progress& progress,

@@ -26,12 +26,6 @@ std::string compress(std::string_view data)
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkTransportPDFWriter::vtkTransportPDFWriter() = default;
-
-//------------------------------------------------------------------------------
-vtkTransportPDFWriter::~vtkTransportPDFWriter() = default;
-
-//------------------------------------------------------------------------------
 std::unique_ptr<RectifiedTransport::Drawing> vtkTransportPDFWriter::NewDrawing(
   RectifiedTransport::OutputFile& file) const
 {

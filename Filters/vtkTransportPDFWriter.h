@@ -30,8 +30,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
 protected:
-  vtkTransportPDFWriter();
-  ~vtkTransportPDFWriter() override;
+  vtkTransportPDFWriter() = default;
+  ~vtkTransportPDFWriter() override = default;
 
   std::unique_ptr<RectifiedTransport::Drawing> NewDrawing(
     RectifiedTransport::OutputFile& file) const override;

@@ -18,7 +18,6 @@
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkTable.h"
 
 #include <memory>
 
@@ -43,47 +42,16 @@ void addColumn(vtkTable* table, const char* name, Value value)
 //------------------------------------------------------------------------------
 vtkTransportQuality::vtkTransportQuality()
   : vtkDensityAlgorithm(1)
-  , BlockSize(0)
-  , Tables(TABLES_AUTO)
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_PARTITIONED_POINTS);
-  this->SetPortPolicy(1, PORT_PARTITIONED_DENSITY);
+  this->AddInputPort(PORT_PARTITIONED_POINTS, { "vtkPointSet" });
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY);
+  this->AddOutputPort("vtkTable");
 }
-
-//------------------------------------------------------------------------------
-vtkTransportQuality::~vtkTransportQuality() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkTransportQuality::GetTablesAsString()
 {
   return choiceText(TablesTexts, this->Tables);
-}
-
-//------------------------------------------------------------------------------
-vtkTable* vtkTransportQuality::GetOutput()
-{
-  return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportQuality::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 1)
-  {
-    vtkDensityAlgorithm::FillDensityPortInformation(info);
-    return 1;
-  }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportQuality::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
-  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -65,10 +65,10 @@
 #define vtkTransportQuality_h
 
 #include "vtkDensityAlgorithm.h"
+#include "vtkTable.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkTable;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportQuality : public vtkDensityAlgorithm
 {
@@ -117,19 +117,17 @@ public:
   /**
    * The table of one row.
    */
-  vtkTable* GetOutput();
+  vtkTable* GetOutput() { return vtkTable::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkTransportQuality();
-  ~vtkTransportQuality() override;
+  ~vtkTransportQuality() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int BlockSize;
-  int Tables;
+  int BlockSize = 0;
+  int Tables = TABLES_AUTO;
 
 private:
   vtkTransportQuality(const vtkTransportQuality&) = delete;

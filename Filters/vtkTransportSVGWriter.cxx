@@ -9,12 +9,6 @@ VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportSVGWriter);
 
 //------------------------------------------------------------------------------
-vtkTransportSVGWriter::vtkTransportSVGWriter() = default;
-
-//------------------------------------------------------------------------------
-vtkTransportSVGWriter::~vtkTransportSVGWriter() = default;
-
-//------------------------------------------------------------------------------
 std::unique_ptr<RectifiedTransport::Drawing> vtkTransportSVGWriter::NewDrawing(
   RectifiedTransport::OutputFile& file) const
 {

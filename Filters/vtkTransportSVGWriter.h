@@ -29,8 +29,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
 protected:
-  vtkTransportSVGWriter();
-  ~vtkTransportSVGWriter() override;
+  vtkTransportSVGWriter() = default;
+  ~vtkTransportSVGWriter() override = default;
 
   std::unique_ptr<RectifiedTransport::Drawing> NewDrawing(
     RectifiedTransport::OutputFile& file) const override;

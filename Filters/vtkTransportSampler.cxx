@@ -18,7 +18,6 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
-#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <memory>
@@ -31,53 +30,16 @@ using namespace RectifiedTransport::Bridge;
 
 //------------------------------------------------------------------------------
 vtkTransportSampler::vtkTransportSampler()
-  : NumberOfParticles(8192)
-  , SeedPattern(BLUE_NOISE)
-  , RandomSeed(1)
-  , SamplesPerCell(0)
-  , FlowTime(1.0)
-  , OutputPaths(false)
-  , SampleArrays(true)
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
-  this->SetPortPolicy(1, PORT_PARTITIONED_POINTS);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY);
+  this->AddInputPort(PORT_PARTITIONED_POINTS, { "vtkPointSet" }, PORT_OPTIONAL_INPUT);
+  this->AddOutputPort("vtkPolyData");
 }
-
-//------------------------------------------------------------------------------
-vtkTransportSampler::~vtkTransportSampler() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkTransportSampler::GetSeedPatternAsString()
 {
   return choiceText(SeedPatternTexts, this->SeedPattern);
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkTransportSampler::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportSampler::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 0)
-  {
-    vtkDensityAlgorithm::FillDensityPortInformation(info);
-    return 1;
-  }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportSampler::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
-  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -123,8 +85,8 @@ int vtkTransportSampler::RequestData(
     sampler.Run(*density, seeds, this->GetFlowCache(), stages["particles"], output);
   addReadings(output, { density->HowRead() });
   this->EndDevice(device);
-  this->WarnOfMap(report.Transport);
-  this->WarnOfSteps(stepWarning(report.Flow, sampler.Flow, FlowDirection::Forward, true));
+  this->WarnOnFirstRank(report.Transport.Warning);
+  this->WarnOnFirstRank(stepWarning(report.Flow, sampler.Flow, FlowDirection::Forward, true));
   const std::string ofAll = " of " + std::to_string(report.Particles);
   if (report.SeedsMoved > 0)
   {

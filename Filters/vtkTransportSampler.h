@@ -61,11 +61,11 @@
 #ifndef vtkTransportSampler_h
 #define vtkTransportSampler_h
 
+#include "vtkPolyData.h"
 #include "vtkTransportAlgorithm.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
-class vtkPolyData;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportSampler : public vtkTransportAlgorithm
 {
@@ -164,24 +164,22 @@ public:
   /**
    * The particles or their paths.
    */
-  vtkPolyData* GetOutput();
+  vtkPolyData* GetOutput() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkTransportSampler();
-  ~vtkTransportSampler() override;
+  ~vtkTransportSampler() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  vtkIdType NumberOfParticles;
-  int SeedPattern;
-  int RandomSeed;
-  int SamplesPerCell;
-  double FlowTime;
-  vtkTypeBool OutputPaths;
-  vtkTypeBool SampleArrays;
+  vtkIdType NumberOfParticles = 8192;
+  int SeedPattern = BLUE_NOISE;
+  int RandomSeed = 1;
+  int SamplesPerCell = 0;
+  double FlowTime = 1.0;
+  vtkTypeBool OutputPaths = false;
+  vtkTypeBool SampleArrays = true;
 
 private:
   vtkTransportSampler(const vtkTransportSampler&) = delete;

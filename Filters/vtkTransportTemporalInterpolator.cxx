@@ -14,12 +14,9 @@
 #include "Core/Parallel/Stages.h"
 #include "Core/Series/StepTimes.h"
 
-#include "vtkFieldData.h"
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -94,18 +91,11 @@ struct vtkTransportTemporalInterpolator::vtkInternals
 
 //------------------------------------------------------------------------------
 vtkTransportTemporalInterpolator::vtkTransportTemporalInterpolator()
-  : Method(OPTIMAL)
-  , ResampleFactor(0)
-  , TrackParticles(false)
-  , AdvectArrays(true)
-  , ParticlesPerCell(1)
-  , Kernel(CLOUD_IN_CELL)
-  , Radius(1.0)
-  , Internals(new vtkInternals)
+  : Internals(new vtkInternals)
 {
-  this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(2);
-  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
+  this->AddDensityPort(PORT_PARTITIONED_DENSITY);
+  this->AddOutputPort("vtkImageData");
+  this->AddOutputPort("vtkPolyData");
 }
 
 //------------------------------------------------------------------------------
@@ -127,32 +117,6 @@ const char* vtkTransportTemporalInterpolator::GetKernelAsString()
 vtkIdType vtkTransportTemporalInterpolator::GetNumberOfMaps()
 {
   return static_cast<vtkIdType>(this->Internals->Interpolation.NumberOfMaps());
-}
-
-//------------------------------------------------------------------------------
-vtkImageData* vtkTransportTemporalInterpolator::GetDensity()
-{
-  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkTransportTemporalInterpolator::GetParticles()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportTemporalInterpolator::FillInputPortInformation(int, vtkInformation* info)
-{
-  vtkDensityAlgorithm::FillDensityPortInformation(info);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportTemporalInterpolator::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkImageData" : "vtkPolyData");
-  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -51,6 +51,8 @@
 #define vtkTransportTemporalInterpolator_h
 
 #include "vtkDensityAlgorithm.h"
+#include "vtkImageData.h"
+#include "vtkPolyData.h"
 
 #include <memory> // for std::unique_ptr
 
@@ -65,9 +67,6 @@ struct TemporalStep;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkImageData;
-class vtkPolyData;
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportTemporalInterpolator : public vtkDensityAlgorithm
 {
 public:
@@ -163,19 +162,17 @@ public:
   /**
    * The interpolated density, output port 0.
    */
-  vtkImageData* GetDensity();
+  vtkImageData* GetDensity() { return vtkImageData::SafeDownCast(this->GetOutputDataObject(0)); }
 
   /**
    * The particles, output port 1.
    */
-  vtkPolyData* GetParticles();
+  vtkPolyData* GetParticles() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1)); }
 
 protected:
   vtkTransportTemporalInterpolator();
   ~vtkTransportTemporalInterpolator() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestUpdateTime(vtkInformation* request, vtkInformationVector** inputVector,
@@ -186,13 +183,13 @@ protected:
     vtkInformationVector* outputVector) override;
   void EndPasses() override;
 
-  int Method;
-  int ResampleFactor;
-  vtkTypeBool TrackParticles;
-  vtkTypeBool AdvectArrays;
-  int ParticlesPerCell;
-  int Kernel;
-  double Radius;
+  int Method = OPTIMAL;
+  int ResampleFactor = 0;
+  vtkTypeBool TrackParticles = false;
+  vtkTypeBool AdvectArrays = true;
+  int ParticlesPerCell = 1;
+  int Kernel = CLOUD_IN_CELL;
+  double Radius = 1.0;
 
 private:
   struct vtkInternals;

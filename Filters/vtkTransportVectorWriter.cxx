@@ -51,18 +51,8 @@ void requireArray(int count, const char* property, const std::string& name, vtkP
 
 //------------------------------------------------------------------------------
 vtkTransportVectorWriter::vtkTransportVectorWriter()
-  : FileName(nullptr)
-  , Width(100.0)
-  , PageMargin(0.0)
-  , PageBounds{}
-  , PointRadius(0.0)
-  , LineWidth(0.25)
-  , FillOutlines(false)
-  , LookupTable(nullptr)
 {
-  this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(0);
-  this->SetPortPolicy(0, PORT_GATHERED_DENSITY);
+  this->AddInputPort(PORT_GATHERED_DENSITY, { "vtkPolyData", "vtkCompositeDataSet" });
 }
 
 //------------------------------------------------------------------------------
@@ -80,14 +70,6 @@ int vtkTransportVectorWriter::Write()
 {
   this->Modified(); // also without a change
   return this->GetExecutive()->Update();
-}
-
-//------------------------------------------------------------------------------
-int vtkTransportVectorWriter::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
-  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -135,7 +135,6 @@ protected:
   vtkTransportVectorWriter();
   ~vtkTransportVectorWriter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -145,14 +144,14 @@ protected:
   virtual std::unique_ptr<RectifiedTransport::Drawing> NewDrawing(
     RectifiedTransport::OutputFile& file) const = 0;
 
-  char* FileName;
-  double Width;
-  double PageMargin;
-  double PageBounds[6];
-  double PointRadius;
-  double LineWidth;
-  vtkTypeBool FillOutlines;
-  vtkScalarsToColors* LookupTable;
+  char* FileName = nullptr;
+  double Width = 100.0;
+  double PageMargin = 0.0;
+  double PageBounds[6] = {};
+  double PointRadius = 0.0;
+  double LineWidth = 0.25;
+  vtkTypeBool FillOutlines = false;
+  vtkScalarsToColors* LookupTable = nullptr;
 
 private:
   vtkTransportVectorWriter(const vtkTransportVectorWriter&) = delete;

@@ -9,7 +9,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -22,36 +21,14 @@ using namespace RectifiedTransport::Bridge;
 
 //------------------------------------------------------------------------------
 vtkUniformSeedSource::vtkUniformSeedSource()
-  : Bounds{ 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 }
-  , Dimension(2)
-  , NumberOfPoints(8192)
-  , Pattern(BLUE_NOISE)
-  , RandomSeed(1)
 {
-  this->SetNumberOfInputPorts(0);
-  this->SetNumberOfOutputPorts(1);
+  this->AddOutputPort("vtkPolyData");
 }
-
-//------------------------------------------------------------------------------
-vtkUniformSeedSource::~vtkUniformSeedSource() = default;
 
 //------------------------------------------------------------------------------
 const char* vtkUniformSeedSource::GetPatternAsString()
 {
   return choiceText(SeedPatternTexts, this->Pattern);
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkUniformSeedSource::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkUniformSeedSource::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
-  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -34,10 +34,9 @@
 #define vtkUniformSeedSource_h
 
 #include "vtkCollectiveAlgorithm.h"
+#include "vtkPolyData.h"
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkPolyData;
-
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkUniformSeedSource : public vtkCollectiveAlgorithm
 {
 public:
@@ -100,23 +99,22 @@ public:
   /**
    * The points, each a vertex.
    */
-  vtkPolyData* GetOutput();
+  vtkPolyData* GetOutput() { return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0)); }
 
 protected:
   vtkUniformSeedSource();
-  ~vtkUniformSeedSource() override;
+  ~vtkUniformSeedSource() override = default;
 
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  double Bounds[6];
-  int Dimension;
-  vtkIdType NumberOfPoints;
-  int Pattern;
-  int RandomSeed;
+  double Bounds[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
+  int Dimension = 2;
+  vtkIdType NumberOfPoints = 8192;
+  int Pattern = BLUE_NOISE;
+  int RandomSeed = 1;
 
 private:
   vtkUniformSeedSource(const vtkUniformSeedSource&) = delete;

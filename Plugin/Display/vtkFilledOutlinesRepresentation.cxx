@@ -18,7 +18,6 @@
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
-#include "vtkSmartPointer.h"
 
 #include <exception>
 

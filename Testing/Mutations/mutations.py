@@ -135,9 +135,9 @@ OTHERS = [
     E(BRIDGE + "Store/Store.cxx", "object.use_count() != 1", "false"),
     E(BRIDGE + "Density/InputDensity.cxx", "this->Hashed == Content{}", "true"),
     # the filters
-    S("Filters/vtkTransportBarycenter.cxx",
-      "this->Weights->List.resize(static_cast<std::size_t>(count));\n    this->Modified();",
-      "this->Weights->List.resize(static_cast<std::size_t>(count));"),
+    S(BRIDGE + "Run/Settings/IndexedList.h",
+      "this->All.resize(static_cast<std::size_t>(count), this->None);\n      filter->Modified();",
+      "this->All.resize(static_cast<std::size_t>(count), this->None);"),
     S(BRIDGE + "Flow/TransportMap.cxx",
       "output->GetCellData()->PassData(image->GetCellData());", ";"),
     E(BRIDGE + "Flow/DensityEqualizingWarp.cxx", "«blend * (this->Index[i * D + a] - move[a])»",

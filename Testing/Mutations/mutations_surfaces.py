@@ -61,7 +61,7 @@ SURFACES = [
       'data->SetTCoords(data->GetArray("AreaPreserving"));'),
     E(BRIDGE + "Surfaces/AreaPreservingParameterization.cxx",
       "«flipped > this->Collapsed» ||", "flipped > this->Collapsed + 1"),
-    S(CORE + "Parameterization/CornerSettings.cxx", "known = point;", ";"),
+    S(BRIDGE + "Run/Settings/IndexedList.h", "known = value;", ";"),
     # cartograms
     E(CORE + "Cartogram/RegionMap.cxx", "this->Holes[ring] = «around[i] % 2 == 1»;", "around[i] > 0"),
     E(CORE + "Cartogram/RegionMap.cxx", "first->second + («isUp ? k : parts - k») - 1", "k"),

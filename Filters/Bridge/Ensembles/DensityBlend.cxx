@@ -3,7 +3,6 @@
 
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityOnGrid.h"
-#include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/SameOnRanks.h"
@@ -11,6 +10,7 @@
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Blend/MovedCells.h"
 #include "Core/Flow/WeightedMean.h"
+#include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/Dispatch.h"
 
 #include "vtkCellArray.h"

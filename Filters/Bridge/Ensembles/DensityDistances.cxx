@@ -3,11 +3,11 @@
 
 #include "Bridge/Density/DensityMass.h"
 #include "Bridge/Density/WholeValues.h"
-#include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Core/Distance/ClassicalScaling.h"
+#include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Stages.h"
 

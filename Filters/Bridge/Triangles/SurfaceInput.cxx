@@ -9,7 +9,6 @@
 #include "Bridge/Triangles/PolygonInput.h"
 #include "Core/Parallel/Stages.h"
 
-#include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -17,8 +16,6 @@
 #include "vtkGeometryFilter.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
-#include "vtkInformation.h"
-#include "vtkInformationStringVectorKey.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -160,13 +157,6 @@ vtkSmartPointer<vtkPolyData> outerSurfaceOf(vtkPointSet* grid, std::vector<vtkId
 }
 
 } // namespace
-
-void SurfaceInput::Require(vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkStructuredGrid");
-}
 
 SurfaceInput::SurfaceInput(vtkDataObject* input, Progress& progress)
 {

@@ -13,9 +13,7 @@
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkAlgorithm;
 class vtkDataObject;
-class vtkInformation;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
@@ -34,9 +32,6 @@ public:
   // strips. Other grids give their outer surface. Polls for abort. Throws Failure for a block of
   // another type and for cells with points that do not exist, and Cancelled.
   SurfaceInput(vtkDataObject* input, Progress& progress);
-
-  // For FillInputPortInformation: what the constructor takes.
-  static void Require(vtkInformation* info);
 
   // nullptr without an input or without points.
   vtkPolyData* Get() const { return this->Surface; }

@@ -69,8 +69,8 @@ template <class Term>
 double sumTerms(Progress& progress, std::int64_t count, std::int64_t grain, const Term& term)
 {
   return reduceEach(
-    progress, count, grain, 0.0,
-    [&term](std::int64_t i, double& sum) { sum += term(i); }, std::plus<>());
+    progress, count, grain, 0.0, [&term](std::int64_t i, double& sum) { sum += term(i); },
+    std::plus<>());
 }
 
 } // namespace RectifiedTransport
