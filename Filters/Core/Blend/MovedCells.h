@@ -6,9 +6,6 @@
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/LatticePart.h"
 
-#include <cstdint>
-#include <vector>
-
 namespace RectifiedTransport
 {
 
