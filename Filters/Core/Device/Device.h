@@ -40,7 +40,7 @@ class Device;
 struct DeviceRelease
 {
   Device* Owner = nullptr;
-  std::size_t Bytes = 0; // of memory
+  std::size_t Bytes = 0; // if it is memory
 
   void operator()(cl_mem memory) const;
   void operator()(cl_event event) const; // waits until its end
