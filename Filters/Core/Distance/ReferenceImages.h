@@ -14,7 +14,6 @@
 #include "../Parallel/LargeBuffer.h"
 #include "../Tables/Density.h"
 
-
 namespace RectifiedTransport
 {
 
