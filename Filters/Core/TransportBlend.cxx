@@ -96,8 +96,10 @@ public:
     }
     const std::vector<Point<3>> mean = this->MeanOf(weights, stages["mean"]);
     MadeDensity<D> made{ this->Cells,
-      this->Splat(mean, nullptr, (1.0 - share) * mass / static_cast<double>(this->Count),
-        this->Options.Splat, 1.0 / this->Grid.CellMeasure(), stages["splat"]) };
+      std::vector<double>(static_cast<std::size_t>(this->Grid.NumberOfCells())) };
+    const double each = (1.0 - share) * mass / static_cast<double>(this->Count);
+    splatMass<D, double>({ mean, nullptr, each, this->Grid.ToIndexMap<D>() }, this->Cells,
+      this->Options.Splat, 1.0 / this->Grid.CellMeasure(), made.Values.data(), stages["splat"]);
     if (share > 0.0)
     {
       const std::vector<double> values = this->Resample(input, share * mass, stages["input"]);
@@ -175,15 +177,6 @@ private:
     std::vector<Point<3>> mean(static_cast<std::size_t>(this->Count));
     writeWeightedMean(parts, mean, progress);
     return mean;
-  }
-
-  std::vector<double> Splat(const std::vector<Point<3>>& points, const double* masses, double each,
-    const SplatOptions& options, double scale, Progress& progress) const
-  {
-    std::vector<double> values(static_cast<std::size_t>(this->Grid.NumberOfCells()));
-    splatMass<D, double>({ points, masses, each, this->Grid.ToIndexMap<D>() }, this->Cells, options,
-      scale, values.data(), progress);
-    return values;
   }
 
   // A density with another mass on the common grid.

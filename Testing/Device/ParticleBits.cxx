@@ -92,7 +92,7 @@ std::vector<int> lastPasses(
           }
           if (pass <= shared.LastPass())
           {
-            flowKernels().Advect<Dimension>()(
+            flowKernels<Dimension>().Advect(
               job, seeds, left.data() + begin, static_cast<int>(count), pass, marks);
           }
           for (std::size_t i = 0; i < count; ++i)

@@ -233,7 +233,7 @@ OTHERS = [
       "this->Plan.HandOver"),
     E(CORE + "Flow/Tiles/TiledAdvection.h", "«extra.Troubled[static_cast<std::size_t>(i)]» &&", "false"),
     S(CORE + "Flow/Tiles/TiledAdvection.h", "job.StopsAtMap = job.Backward;", ""),
-    E(CORE + "Tables/GradedTables.cxx", "moment += cells[i] * (static_cast<double>(i) + «0.5»)", "0.0"),
+    E(CORE + "Tables/GradedTables.h", "moment += cells[i] * (static_cast<double>(i) + «0.5»)", "0.0"),
     E(CORE + "Tables/DensityShare.h", "sum += values[cell] * («x.PartOf(i + cell)» * part)", "1.0"),
     E(BRIDGE + "Density/SharedFlow.cxx",
       "if («this->Kind == FlowTables::Tiled»)\n  {\n    density.Prepare", "false"),

@@ -8,9 +8,6 @@
 #include "Core/Parallel/RankShare.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <vector>
-
 namespace RectifiedTransport
 {
 

@@ -307,11 +307,8 @@ double meanSquare(ConstPointSpan<3> from, ConstPointSpan<3> to, double all,
   return scale.CostFromUnits(sumOverRanks(progress.Group(), own).Value() / all);
 }
 
-template OptimalPositions blendOptimally<1>(
-  const std::vector<BlendedDensity<1>>&, const OptimalBlendOptions&, const Context&);
-template OptimalPositions blendOptimally<2>(
-  const std::vector<BlendedDensity<2>>&, const OptimalBlendOptions&, const Context&);
-template OptimalPositions blendOptimally<3>(
-  const std::vector<BlendedDensity<3>>&, const OptimalBlendOptions&, const Context&);
+template decltype(blendOptimally<1>) blendOptimally<1>;
+template decltype(blendOptimally<2>) blendOptimally<2>;
+template decltype(blendOptimally<3>) blendOptimally<3>;
 
 } // namespace RectifiedTransport

@@ -10,7 +10,6 @@
 #include "../Parallel/LargeBuffer.h"
 #include "../Plan/TransportPlan.h"
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>

@@ -2,7 +2,6 @@
 #include "Core/Device/Device.h"
 
 #include "Core/Device/DeviceCheck.h"
-#include "Core/Device/InfoText.h"
 
 #include <algorithm>
 #include <cctype>
@@ -114,68 +113,61 @@ std::shared_ptr<Device> openDevice(
       : reason);
 }
 
-DeviceBuffer::~DeviceBuffer()
+void DeviceRelease::operator()(cl_mem memory) const
 {
-  if (this->Memory)
-  {
-    this->Owner->Release(this->Owner->Cl.clReleaseMemObject, this->Memory);
-    this->Owner->Taken -= this->Bytes;
-  }
+  this->Owner->Release(this->Owner->Cl.clReleaseMemObject, memory);
+  this->Owner->Taken -= this->Bytes;
 }
 
-DeviceTransfer::~DeviceTransfer()
+void DeviceRelease::operator()(cl_event event) const
 {
-  this->End();
+  this->Owner->Cl.clWaitForEvents(1, &event);
+  this->Owner->Cl.clReleaseEvent(event);
 }
 
-cl_int DeviceTransfer::End()
+void DeviceRelease::operator()(cl_kernel kernel) const
 {
-  cl_int code = CL_SUCCESS;
-  if (this->Event)
-  {
-    code = this->Owner->Cl.clWaitForEvents(1, &this->Event);
-    this->Owner->Cl.clReleaseEvent(this->Event);
-    this->Event = nullptr;
-  }
-  return code;
+  this->Owner->Release(this->Owner->Cl.clReleaseKernel, kernel);
+}
+
+void DeviceRelease::operator()(cl_program program) const
+{
+  this->Owner->Release(this->Owner->Cl.clReleaseProgram, program);
 }
 
 void DeviceTransfer::Wait()
 {
-  const cl_int code = this->End();
-  if (code != CL_SUCCESS)
+  if (const DeviceHandle<cl_event> event = std::move(this->Event))
   {
-    this->Owner->RequireWork(code, "did not finish a transfer");
+    const Device& owner = *event.get_deleter().Owner;
+    const cl_event waited = event.get();
+    owner.RequireWork(owner.Cl.clWaitForEvents(1, &waited), "did not finish a transfer");
   }
-}
-
-DeviceKernel::~DeviceKernel()
-{
-  this->Owner->Release(this->Owner->Cl.clReleaseKernel, this->Kernel);
 }
 
 void DeviceKernel::Set(cl_uint number, const DeviceBuffer& buffer)
 {
-  this->SetBytes(number, sizeof(cl_mem), &buffer.Memory);
+  const cl_mem memory = buffer.Memory.get();
+  this->SetBytes(number, sizeof(cl_mem), &memory);
 }
 
 void DeviceKernel::SetBytes(cl_uint number, std::size_t bytes, const void* value)
 {
-  this->Owner->Require(this->Owner->Cl.clSetKernelArg(this->Kernel, number, bytes, value),
+  const Device& owner = *this->Kernel.get_deleter().Owner;
+  owner.Require(owner.Cl.clSetKernelArg(this->Kernel.get(), number, bytes, value),
     "takes no argument " + std::to_string(number) + " of the kernel " + this->Name);
-}
-
-DeviceProgram::~DeviceProgram()
-{
-  this->Owner->Release(this->Owner->Cl.clReleaseProgram, this->Program);
 }
 
 DeviceKernel DeviceProgram::NewKernel(const std::string& name) const
 {
+  Device* const owner = this->Program.get_deleter().Owner;
   cl_int code = CL_SUCCESS;
-  cl_kernel kernel = this->Owner->Cl.clCreateKernel(this->Program, name.c_str(), &code);
-  this->Owner->Require(code, "does not make the kernel " + name);
-  return DeviceKernel(*this->Owner, kernel, name);
+  DeviceKernel kernel;
+  kernel.Kernel = DeviceHandle<cl_kernel>(
+    owner->Cl.clCreateKernel(this->Program.get(), name.c_str(), &code), { owner });
+  kernel.Name = name;
+  owner->Require(code, "does not make the kernel " + name);
+  return kernel;
 }
 
 Device::Device(const FoundDevice& found)
@@ -276,7 +268,8 @@ DeviceProgram Device::Build(const std::vector<std::string>& sources, const std::
   cl_program made = this->Cl.clCreateProgramWithSource(
     this->Context, static_cast<cl_uint>(texts.size()), texts.data(), nullptr, &code);
   this->Require(code, "takes no program");
-  DeviceProgram program(*this, made);
+  DeviceProgram program;
+  program.Program = DeviceHandle<cl_program>(made, { this });
   code = this->Cl.clBuildProgram(made, 1, &this->Found.Id, options.c_str(), nullptr, nullptr);
   if (code != CL_SUCCESS)
   {
@@ -311,11 +304,10 @@ DeviceBuffer Device::Allocate(std::size_t bytes, const std::string& what)
   }
   DeviceBuffer buffer;
   cl_int code = CL_SUCCESS;
-  buffer.Memory = this->Cl.clCreateBuffer(
+  const cl_mem memory = this->Cl.clCreateBuffer(
     this->Context, CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 1), nullptr, &code);
   this->Require(code, "has too little memory for " + what);
-  buffer.Owner = this;
-  buffer.Bytes = bytes;
+  buffer.Memory = DeviceHandle<cl_mem>(memory, { this, bytes });
   this->Taken += bytes;
   return buffer;
 }
@@ -324,8 +316,8 @@ void Device::Write(const DeviceBuffer& to, const void* from, std::size_t bytes, 
 {
   if (bytes > 0)
   {
-    this->RequireWork(this->Cl.clEnqueueWriteBuffer(
-                        this->Queue, to.Memory, CL_TRUE, offset, bytes, from, 0, nullptr, nullptr),
+    this->RequireWork(this->Cl.clEnqueueWriteBuffer(this->Queue, to.Memory.get(), CL_TRUE, offset,
+                        bytes, from, 0, nullptr, nullptr),
       "takes no data");
     this->Done.BytesTo += bytes;
   }
@@ -335,8 +327,8 @@ void Device::Read(const DeviceBuffer& from, void* to, std::size_t bytes, std::si
 {
   if (bytes > 0)
   {
-    this->RequireWork(this->Cl.clEnqueueReadBuffer(
-                        this->Queue, from.Memory, CL_TRUE, offset, bytes, to, 0, nullptr, nullptr),
+    this->RequireWork(this->Cl.clEnqueueReadBuffer(this->Queue, from.Memory.get(), CL_TRUE, offset,
+                        bytes, to, 0, nullptr, nullptr),
       "gives no data back");
     this->Done.BytesFrom += bytes;
   }
@@ -345,24 +337,28 @@ void Device::Read(const DeviceBuffer& from, void* to, std::size_t bytes, std::si
 DeviceTransfer Device::StartWrite(const DeviceBuffer& to, const void* from, std::size_t bytes)
 {
   cl_event event = nullptr;
-  this->RequireWork(this->Cl.clEnqueueWriteBuffer(
-                      this->Transfers, to.Memory, CL_FALSE, 0, bytes, from, 0, nullptr, &event),
+  this->RequireWork(this->Cl.clEnqueueWriteBuffer(this->Transfers, to.Memory.get(), CL_FALSE, 0,
+                      bytes, from, 0, nullptr, &event),
     "takes no data");
-  DeviceTransfer transfer(*this, event);
-  this->RequireWork(this->Cl.clFlush(this->Transfers), "starts no transfer");
   this->Done.BytesTo += bytes;
-  return transfer;
+  return this->Begun(event);
 }
 
 DeviceTransfer Device::StartRead(const DeviceBuffer& from, void* to, std::size_t bytes)
 {
   cl_event event = nullptr;
-  this->RequireWork(this->Cl.clEnqueueReadBuffer(
-                      this->Transfers, from.Memory, CL_FALSE, 0, bytes, to, 0, nullptr, &event),
+  this->RequireWork(this->Cl.clEnqueueReadBuffer(this->Transfers, from.Memory.get(), CL_FALSE, 0,
+                      bytes, to, 0, nullptr, &event),
     "gives no data back");
-  DeviceTransfer transfer(*this, event);
-  this->RequireWork(this->Cl.clFlush(this->Transfers), "starts no transfer");
   this->Done.BytesFrom += bytes;
+  return this->Begun(event);
+}
+
+DeviceTransfer Device::Begun(cl_event event)
+{
+  DeviceTransfer transfer;
+  transfer.Event = DeviceHandle<cl_event>(event, { this });
+  this->RequireWork(this->Cl.clFlush(this->Transfers), "starts no transfer");
   return transfer;
 }
 
@@ -391,7 +387,7 @@ void Device::RunGrid(
     this->Started.insert(kernel.Name);
   }
   const std::size_t groups[3] = { group, 1, 1 };
-  this->RequireWork(this->Cl.clEnqueueNDRangeKernel(this->Queue, kernel.Kernel, 3, nullptr,
+  this->RequireWork(this->Cl.clEnqueueNDRangeKernel(this->Queue, kernel.Kernel.get(), 3, nullptr,
                       items.data(), groups, 0, nullptr, nullptr),
     "does not start the kernel " + kernel.Name);
   ++this->Done.Kernels;

@@ -18,7 +18,7 @@
 #include <mutex>
 #include <set>
 #include <string>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
 namespace RectifiedTransport
@@ -36,86 +36,49 @@ std::vector<FoundDevice> findDevices();
 
 class Device;
 
-// Memory of a device, which must outlive it. Movable.
+// Gives back what the driver has made for a device, which must outlive it.
+struct DeviceRelease
+{
+  Device* Owner = nullptr;
+  std::size_t Bytes = 0; // if it is memory
+
+  void operator()(cl_mem memory) const;
+  void operator()(cl_event event) const; // waits until its end
+  void operator()(cl_kernel kernel) const;
+  void operator()(cl_program program) const;
+};
+template <class Handle>
+using DeviceHandle = std::unique_ptr<std::remove_pointer_t<Handle>, DeviceRelease>;
+
+// Memory of a device.
 class DeviceBuffer
 {
 public:
-  DeviceBuffer() = default;
-  DeviceBuffer(DeviceBuffer&& other) noexcept { this->Swap(other); }
-  DeviceBuffer& operator=(DeviceBuffer&& other) noexcept
-  {
-    DeviceBuffer old(std::move(*this));
-    this->Swap(other);
-    return *this;
-  }
-  ~DeviceBuffer();
-
-  std::size_t Size() const { return this->Bytes; }
+  std::size_t Size() const { return this->Memory.get_deleter().Bytes; }
 
 private:
   friend class Device;
   friend class DeviceKernel;
-  void Swap(DeviceBuffer& other) noexcept
-  {
-    std::swap(this->Owner, other.Owner);
-    std::swap(this->Memory, other.Memory);
-    std::swap(this->Bytes, other.Bytes);
-  }
-
-  Device* Owner = nullptr;
-  cl_mem Memory = nullptr;
-  std::size_t Bytes = 0;
+  DeviceHandle<cl_mem> Memory;
 };
 
 // A transfer that is under way, beside the kernels: the memory must not be used before its end. It
-// ends before this object does. Movable.
+// ends before this object does.
 class DeviceTransfer
 {
 public:
-  DeviceTransfer() = default; // none
-  DeviceTransfer(DeviceTransfer&& other) noexcept { this->Swap(other); }
-  DeviceTransfer& operator=(DeviceTransfer&& other) noexcept
-  {
-    DeviceTransfer old(std::move(*this));
-    this->Swap(other);
-    return *this;
-  }
-  ~DeviceTransfer();
-
   // Until its end. Throws DeviceError.
   void Wait();
 
 private:
   friend class Device;
-  DeviceTransfer(Device& owner, cl_event event)
-    : Owner(&owner)
-    , Event(event)
-  {
-  }
-  void Swap(DeviceTransfer& other) noexcept
-  {
-    std::swap(this->Owner, other.Owner);
-    std::swap(this->Event, other.Event);
-  }
-  cl_int End();
-
-  Device* Owner = nullptr;
-  cl_event Event = nullptr;
+  DeviceHandle<cl_event> Event; // null: none
 };
 
 // A kernel with its arguments, of one thread. The program may go before it.
 class DeviceKernel
 {
 public:
-  DeviceKernel(DeviceKernel&& other) noexcept
-    : Owner(other.Owner)
-    , Kernel(std::exchange(other.Kernel, nullptr))
-    , Name(std::move(other.Name))
-  {
-  }
-  DeviceKernel& operator=(DeviceKernel&&) = delete;
-  ~DeviceKernel();
-
   // Sets all arguments, in their order: buffers, and numbers by their values.
   template <class... Values>
   DeviceKernel& With(const Values&... values)
@@ -128,12 +91,6 @@ public:
 private:
   friend class Device;
   friend class DeviceProgram;
-  DeviceKernel(Device& owner, cl_kernel kernel, std::string name)
-    : Owner(&owner)
-    , Kernel(kernel)
-    , Name(std::move(name))
-  {
-  }
   void Set(cl_uint number, const DeviceBuffer& buffer);
   template <class T>
   void Set(cl_uint number, const T& value)
@@ -142,9 +99,18 @@ private:
   }
   void SetBytes(cl_uint number, std::size_t bytes, const void* value);
 
-  Device* Owner;
-  cl_kernel Kernel;
+  DeviceHandle<cl_kernel> Kernel;
   std::string Name;
+};
+
+class DeviceProgram
+{
+public:
+  DeviceKernel NewKernel(const std::string& name) const;
+
+private:
+  friend class Device;
+  DeviceHandle<cl_program> Program;
 };
 
 // What a device has done.
@@ -153,31 +119,6 @@ struct DeviceWork
   std::uint64_t Kernels = 0; // runs of them
   std::uint64_t BytesTo = 0; // transferred
   std::uint64_t BytesFrom = 0;
-};
-
-class DeviceProgram
-{
-public:
-  DeviceProgram(DeviceProgram&& other) noexcept
-    : Owner(other.Owner)
-    , Program(std::exchange(other.Program, nullptr))
-  {
-  }
-  DeviceProgram& operator=(DeviceProgram&&) = delete;
-  ~DeviceProgram();
-
-  DeviceKernel NewKernel(const std::string& name) const;
-
-private:
-  friend class Device;
-  DeviceProgram(Device& owner, cl_program program)
-    : Owner(&owner)
-    , Program(program)
-  {
-  }
-
-  Device* Owner;
-  cl_program Program;
 };
 
 // All functions throw DeviceError.
@@ -227,9 +168,9 @@ public:
   void Finish();
 
 private:
-  friend class DeviceBuffer;
   friend class DeviceKernel;
   friend class DeviceProgram;
+  friend struct DeviceRelease;
   friend class DeviceTransfer;
   void Require(cl_int code, const std::string& what) const;
   // Of its work: what fails there is lost, unless it is memory.
@@ -243,6 +184,7 @@ private:
       release(handle);
     }
   }
+  DeviceTransfer Begun(cl_event event);
   void Close();
   void RequireMemoryToCompile() const;
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Device/Device.h"
-#include "Core/Device/InfoText.h"
 
 namespace RectifiedTransport
 {

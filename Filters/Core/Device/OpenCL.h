@@ -7,6 +7,9 @@
 #define CL_USE_DEPRECATED_OPENCL_1_2_APIS
 #include <CL/cl.h>
 
+#include <cstddef>
+#include <string>
+
 namespace RectifiedTransport
 {
 
@@ -48,6 +51,20 @@ struct OpenCL
   // as its threads and its connection to the device are its parent's.
   static bool IsOfParent();
 };
+
+// A text that OpenCL gives by get(size, text, needed size).
+template <class Get>
+std::string infoText(const Get& get)
+{
+  std::size_t size = 0;
+  get(0, nullptr, &size);
+  std::string text(size, '\0');
+  if (size > 0)
+  {
+    get(size, text.data(), nullptr);
+  }
+  return text.substr(0, text.find('\0'));
+}
 
 } // namespace RectifiedTransport
 

@@ -51,12 +51,9 @@ double memoryForBracket(const GridSize<Dimension>& cells)
   return TransportPlan<Dimension>::MemoryFor(cells, cells, optionsOfBounds(), use);
 }
 
-template SquaredBracket bracketDistance<1>(
-  const DensitySource<1>&, const DensitySource<1>&, const Point<1>&, const Context&);
-template SquaredBracket bracketDistance<2>(
-  const DensitySource<2>&, const DensitySource<2>&, const Point<2>&, const Context&);
-template SquaredBracket bracketDistance<3>(
-  const DensitySource<3>&, const DensitySource<3>&, const Point<3>&, const Context&);
+template decltype(bracketDistance<1>) bracketDistance<1>;
+template decltype(bracketDistance<2>) bracketDistance<2>;
+template decltype(bracketDistance<3>) bracketDistance<3>;
 template double memoryForBracket<1>(const GridSize<1>&);
 template double memoryForBracket<2>(const GridSize<2>&);
 template double memoryForBracket<3>(const GridSize<3>&);

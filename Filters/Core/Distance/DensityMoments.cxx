@@ -7,7 +7,6 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -17,27 +16,21 @@ namespace RectifiedTransport
 namespace
 {
 
+using Matrix = Eigen::Matrix3d;
+
 struct RawMoments
 {
   double Mass = 0.0;
-  std::array<double, 3> First{};
-  std::array<std::array<double, 3>, 3> Second{};
+  Eigen::Vector3d First = Eigen::Vector3d::Zero();
+  Matrix Second = Matrix::Zero();
 
   void Add(const RawMoments& other)
   {
     this->Mass += other.Mass;
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      this->First[i] += other.First[i];
-      for (std::size_t j = 0; j < 3; ++j)
-      {
-        this->Second[i][j] += other.Second[i][j];
-      }
-    }
+    this->First += other.First;
+    this->Second += other.Second;
   }
 };
-
-using Matrix = Eigen::Matrix3d;
 
 Matrix rootOf(const Matrix& matrix)
 {
@@ -48,15 +41,7 @@ Matrix rootOf(const Matrix& matrix)
 
 Matrix matrixOf(const DensityMoments& moments)
 {
-  Matrix matrix;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    for (std::size_t j = 0; j < 3; ++j)
-    {
-      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = moments.Covariance[i][j];
-    }
-  }
-  return matrix;
+  return Eigen::Map<const Matrix>(moments.Covariance[0].data()); // symmetric
 }
 
 } // namespace
@@ -84,12 +69,12 @@ DensityMoments momentsOf(const DensityValues& density, const GridSize<Dimension>
         rest /= cells[axis];
       }
       sum.Mass += mass;
-      for (std::size_t a = 0; a < 3; ++a)
+      for (int a = 0; a < 3; ++a)
       {
         sum.First[a] += mass * x[a];
-        for (std::size_t b = 0; b <= a; ++b)
+        for (int b = 0; b <= a; ++b)
         {
-          sum.Second[a][b] += mass * x[a] * x[b];
+          sum.Second(a, b) += mass * x[a] * x[b];
         }
       }
     }
@@ -103,17 +88,15 @@ DensityMoments momentsOf(const DensityValues& density, const GridSize<Dimension>
     reduceChunks(progress, static_cast<std::int64_t>(numberOfCells<Dimension>(cells)), grain,
       RawMoments(), readChunk, join);
   DensityMoments moments;
-  std::array<double, 3> mean{};
-  for (std::size_t axis = 0; axis < Dimension; ++axis)
-  {
-    mean[axis] = raw.First[axis] / raw.Mass;
-    moments.Mean[axis] = mean[axis] + 0.5 * sides[axis];
-  }
+  const Eigen::Vector3d mean = raw.First / raw.Mass;
   for (std::size_t a = 0; a < Dimension; ++a)
   {
+    const auto row = static_cast<Eigen::Index>(a);
+    moments.Mean[a] = mean[row] + 0.5 * sides[a];
     for (std::size_t b = 0; b <= a; ++b)
     {
-      const double covariance = raw.Second[a][b] / raw.Mass - mean[a] * mean[b];
+      const auto column = static_cast<Eigen::Index>(b);
+      const double covariance = raw.Second(row, column) / raw.Mass - mean[row] * mean[column];
       moments.Covariance[a][b] = moments.Covariance[b][a] = covariance;
     }
     // Of the uniform measure on a cell.

@@ -14,8 +14,6 @@
 #include "../Parallel/LargeBuffer.h"
 #include "../Tables/Density.h"
 
-#include <cstdint>
-
 namespace RectifiedTransport
 {
 

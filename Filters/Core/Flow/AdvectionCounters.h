@@ -4,7 +4,6 @@
 #define RectifiedTransport_AdvectionCounters_h
 
 #include "Core/Flow/FlowOptions.h"
-#include "Core/Geometry/GridSize.h"
 #include "Core/Tables/NearestMass.h"
 #include "Core/Tables/TableView.h"
 

@@ -326,7 +326,7 @@ private:
 
   const AdvectionJob<Dimension>& Shared;
   FlowJob<Dimension> Job;
-  const AdvectBlock<Dimension> Kernel = flowKernels().Advect<Dimension>();
+  const AdvectBlock<Dimension> Kernel = flowKernels<Dimension>().Advect;
   std::shared_ptr<const FlowMap<Dimension>> Map;
   std::unique_ptr<DeviceAdvection<Dimension>> OnDevice; // null: the processor does it
   int First = 0;                                        // pass

@@ -7,7 +7,6 @@
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Geometry/GridSize.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace RectifiedTransport

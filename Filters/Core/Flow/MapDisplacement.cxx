@@ -51,33 +51,37 @@ void MapDisplacement<Dimension>::Write(std::int64_t first, std::int64_t last,
   Progress& progress) const
 {
   checkCount(displacements.size(), numberOfCells<Dimension>(this->Part.Cells));
-  sums.Add(sumExactly<DisplacementSums>(
-    progress, last - first, chunk, [&](std::int64_t b, std::int64_t e, DisplacementSums& found) {
-      for (std::int64_t i = first + b; i < first + e; ++i)
-      {
-        const GridSize<Dimension> cell = this->Part.CellOf(i);
-        this->Displace(cell, displacements[i]);
-        if (counted.Contains(cell))
-        {
-          this->AddTo(found, cell, displacements[i]);
-        }
-      }
-    }));
+  sums.Add(this->Sum(first, last, counted, displacements.data(), progress));
 }
 
 template <int Dimension>
 void MapDisplacement<Dimension>::Count(DisplacementSums& sums, Progress& progress) const
 {
-  sums.Add(sumExactly<DisplacementSums>(progress, this->Part.Count(), chunk,
-    [&](std::int64_t first, std::int64_t last, DisplacementSums& found) {
-      for (std::int64_t i = first; i < last; ++i)
+  sums.Add(this->Sum(0, this->Part.Count(), this->Part, nullptr, progress));
+}
+
+// Sums those of the part's cells [first, last), and writes the displacements where that is not
+// null.
+template <int Dimension>
+DisplacementSums MapDisplacement<Dimension>::Sum(std::int64_t first, std::int64_t last,
+  const LatticePart<Dimension>& counted, double* displacements, Progress& progress) const
+{
+  return sumExactly<DisplacementSums>(
+    progress, last - first, chunk, [&](std::int64_t b, std::int64_t e, DisplacementSums& found) {
+      for (std::int64_t i = first + b; i < first + e; ++i)
       {
-        double displacement[3];
+        double local[3];
+        double* displacement = displacements ? displacements + 3 * i : local;
         const GridSize<Dimension> cell = this->Part.CellOf(i);
         this->Displace(cell, displacement);
-        this->AddTo(found, cell, displacement);
+        if (counted.Contains(cell))
+        {
+          const double weight = this->WeightOf(cell);
+          found.Cost.Add(weight * this->Scale.SquareInUnits(displacement));
+          found.Weight.Add(weight);
+        }
       }
-    }));
+    });
 }
 
 template <int Dimension>
@@ -130,15 +134,6 @@ double MapDisplacement<Dimension>::WeightOf(const GridSize<Dimension>& cell) con
     high[a] = static_cast<double>(cell[a] + 1) * this->Step[a];
   }
   return this->Density->Share(low, high);
-}
-
-template <int Dimension>
-void MapDisplacement<Dimension>::AddTo(
-  DisplacementSums& sums, const GridSize<Dimension>& cell, const double* displacement) const
-{
-  const double weight = this->WeightOf(cell);
-  sums.Cost.Add(weight * this->Scale.SquareInUnits(displacement));
-  sums.Weight.Add(weight);
 }
 
 template <int Dimension>

@@ -60,10 +60,10 @@ public:
   double MeanSquare(const DisplacementSums& sums) const;
 
 private:
+  DisplacementSums Sum(std::int64_t first, std::int64_t last, const LatticePart<Dimension>& counted,
+    double* displacements, Progress& progress) const;
   void Displace(const GridSize<Dimension>& cell, double* displacement) const;
   double WeightOf(const GridSize<Dimension>& cell) const;
-  void AddTo(
-    DisplacementSums& sums, const GridSize<Dimension>& cell, const double* displacement) const;
 
   const ImageGrid& Grid;
   const LengthScale Scale;

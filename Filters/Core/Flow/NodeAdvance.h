@@ -90,7 +90,7 @@ private:
   std::int64_t RunFrom(
     int parent, std::vector<std::int64_t>& left, unsigned char* marks, const Fill& fill)
   {
-    const AdvanceNodes<Dimension> advance = flowKernels().Advance<Dimension>();
+    const AdvanceNodes<Dimension> advance = flowKernels<Dimension>().Advance;
     std::vector<unsigned char> deferred(left.size());
     const std::vector<StepWeights> weights =
       nodeWeights<Dimension>(*this->Job.Map, this->Job.Backward, this->Level.HandOver, parent);

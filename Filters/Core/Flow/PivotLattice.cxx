@@ -86,20 +86,6 @@ PivotLattice<Dimension> pivotLattice(const GridSize<Dimension>& grid, std::int64
 
 template <int Dimension>
 FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
-  const PivotLattice<Dimension>& pivot, PointSpan<Dimension> positions, const FlowOptions& options,
-  const Context& context)
-{
-  const std::int64_t particles = pivot.NumberOfParticles();
-  if (positions.size() != particles)
-  {
-    throw std::invalid_argument("there is memory for " + std::to_string(positions.size()) +
-      " positions, but the pivot has " + std::to_string(particles) + " particles");
-  }
-  return transportPivot(flow, pivot, 0, positions, options, context);
-}
-
-template <int Dimension>
-FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   const PivotLattice<Dimension>& pivot, std::int64_t first, PointSpan<Dimension> positions,
   const FlowOptions& options, const Context& context)
 {
@@ -156,16 +142,10 @@ template PivotLattice<1> pivotLattice<1>(const GridSize<1>&, std::int64_t);
 template PivotLattice<2> pivotLattice<2>(const GridSize<2>&, std::int64_t);
 template PivotLattice<3> pivotLattice<3>(const GridSize<3>&, std::int64_t);
 
-template FlowReport transportPivot<1>(const RectifiedFlow<1>&, const PivotLattice<1>&, PointSpan<1>,
-  const FlowOptions&, const Context&);
 template FlowReport transportPivot<1>(const RectifiedFlow<1>&, const PivotLattice<1>&, std::int64_t,
   PointSpan<1>, const FlowOptions&, const Context&);
-template FlowReport transportPivot<2>(const RectifiedFlow<2>&, const PivotLattice<2>&, PointSpan<2>,
-  const FlowOptions&, const Context&);
 template FlowReport transportPivot<2>(const RectifiedFlow<2>&, const PivotLattice<2>&, std::int64_t,
   PointSpan<2>, const FlowOptions&, const Context&);
-template FlowReport transportPivot<3>(const RectifiedFlow<3>&, const PivotLattice<3>&, PointSpan<3>,
-  const FlowOptions&, const Context&);
 template FlowReport transportPivot<3>(const RectifiedFlow<3>&, const PivotLattice<3>&, std::int64_t,
   PointSpan<3>, const FlowOptions&, const Context&);
 

@@ -10,6 +10,8 @@
 #include "FlowOptions.h"
 
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace RectifiedTransport
@@ -39,18 +41,28 @@ struct PivotLattice
 template <int Dimension>
 PivotLattice<Dimension> pivotLattice(const GridSize<Dimension>& grid, std::int64_t perCell);
 
-// Advects the particles of the pivot, on the box of a density, to the density; the positions are in
-// the order of the particles. Throws std::invalid_argument, std::bad_alloc and Cancelled.
-template <int Dimension>
-FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
-  const PivotLattice<Dimension>& pivot, PointSpan<Dimension> positions,
-  const FlowOptions& options = {}, const Context& context = Context());
-// Only those from number `first` on, as many as there are positions, with the results of a run of
-// all. Collective, each rank for its own.
+// Advects particles of the pivot, on the box of a density, to the density: those from number
+// `first` on, as many as there are positions, with the results of a run of all; the positions are
+// in the order of the particles. Collective, each rank for its own. Throws std::invalid_argument,
+// std::bad_alloc and Cancelled.
 template <int Dimension>
 FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   const PivotLattice<Dimension>& pivot, std::int64_t first, PointSpan<Dimension> positions,
   const FlowOptions& options = {}, const Context& context = Context());
+// All of them.
+template <int Dimension>
+FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
+  const PivotLattice<Dimension>& pivot, PointSpan<Dimension> positions,
+  const FlowOptions& options = {}, const Context& context = Context())
+{
+  const std::int64_t particles = pivot.NumberOfParticles();
+  if (positions.size() != particles)
+  {
+    throw std::invalid_argument("there is memory for " + std::to_string(positions.size()) +
+      " positions, but the pivot has " + std::to_string(particles) + " particles");
+  }
+  return transportPivot(flow, pivot, 0, positions, options, context);
+}
 
 } // namespace RectifiedTransport
 

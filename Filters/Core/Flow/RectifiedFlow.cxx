@@ -287,11 +287,8 @@ std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& de
 template class RectifiedFlow<1>;
 template class RectifiedFlow<2>;
 template class RectifiedFlow<3>;
-template std::vector<Point<1>> transportPoints<1>(
-  const DensitySource<1>&, const FlowSeeds<1>&, const FlowOptions&, const Context&);
-template std::vector<Point<2>> transportPoints<2>(
-  const DensitySource<2>&, const FlowSeeds<2>&, const FlowOptions&, const Context&);
-template std::vector<Point<3>> transportPoints<3>(
-  const DensitySource<3>&, const FlowSeeds<3>&, const FlowOptions&, const Context&);
+template decltype(transportPoints<1>) transportPoints<1>;
+template decltype(transportPoints<2>) transportPoints<2>;
+template decltype(transportPoints<3>) transportPoints<3>;
 
 } // namespace RectifiedTransport

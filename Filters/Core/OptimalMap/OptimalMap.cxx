@@ -420,23 +420,12 @@ template <int Dimension>
 FlowReport OptimalMap<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds,
   const std::vector<double>& times, PointSpan<Dimension> positions, const Context& context) const
 {
-  RectifiedTransport::check(times);
-  checkCount(positions.size(), seeds.Count() * static_cast<double>(times.size()));
-  const std::int64_t count = positions.size() / static_cast<std::int64_t>(times.size());
-  LargeBuffer<double> coordinates(count * Dimension);
-  const PointSpan<Dimension> images(coordinates.data(), count);
-  Progress progress(context);
-  Stages stages(progress, { { "images", 9 }, { "times", 1 } });
-  const FlowReport report = this->Self->Move(0, seeds, images, stages["images"]);
   const auto& target = this->Self->Solver.Side(1).Placement;
   const auto& from = this->Self->Solver.Side(0).Placement;
-  writeStraightPaths<Dimension>(
-    seeds, this->Size(),
-    [&](const Point<Dimension>& point) {
+  return moveOnStraightPaths<Dimension>(
+    *this, seeds, times, positions, context, [&](const Point<Dimension>& point) {
       return target.FromNodes(from.ToNodes(point.data()).data());
-    },
-    images, times, positions, stages["times"]);
-  return report;
+    });
 }
 
 template <int Dimension>

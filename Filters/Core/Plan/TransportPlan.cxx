@@ -348,18 +348,8 @@ FlowReport TransportPlan<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds
   {
     return this->FlowOf(1, context).ForwardAt(seeds, times, positions, this->Chosen.Flow, context);
   }
-  check(times);
-  checkCount(positions.size(), seeds.Count() * static_cast<double>(times.size()));
-  const std::int64_t count = positions.size() / static_cast<std::int64_t>(times.size());
-  LargeBuffer<double> coordinates(count * Dimension);
-  const PointSpan<Dimension> images(coordinates.data(), count);
-  Progress progress(context);
-  Stages stages(progress, { { "images", 9 }, { "times", 1 } });
-  const FlowReport report = this->Forward(seeds, images, stages["images"]);
-  writeStraightPaths<Dimension>(
-    seeds, this->Size(), [this](const Point<Dimension>& point) { return this->ToTarget(point); },
-    images, times, positions, stages["times"]);
-  return report;
+  return moveOnStraightPaths<Dimension>(*this, seeds, times, positions, context,
+    [this](const Point<Dimension>& point) { return this->ToTarget(point); });
 }
 
 template struct PlanEnd<1>;

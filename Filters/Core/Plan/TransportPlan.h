@@ -22,7 +22,6 @@
 #include "../Tables/Density.h"
 
 #include <array>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>

@@ -115,17 +115,11 @@ void addCloudsAtImages(const PivotLattice<D>& lattice, const ImageGrid& here,
   });
 }
 
-template void addCloudsInCells<1>(
-  const PivotLattice<1>&, const ImageGrid&, std::int64_t, std::vector<float>&);
-template void addCloudsInCells<2>(
-  const PivotLattice<2>&, const ImageGrid&, std::int64_t, std::vector<float>&);
-template void addCloudsInCells<3>(
-  const PivotLattice<3>&, const ImageGrid&, std::int64_t, std::vector<float>&);
-template void addCloudsAtImages<1>(const PivotLattice<1>&, const ImageGrid&, const ImageGrid&,
-  const std::vector<std::int64_t>&, ConstPointSpan<1>, Progress&, std::vector<float>&);
-template void addCloudsAtImages<2>(const PivotLattice<2>&, const ImageGrid&, const ImageGrid&,
-  const std::vector<std::int64_t>&, ConstPointSpan<2>, Progress&, std::vector<float>&);
-template void addCloudsAtImages<3>(const PivotLattice<3>&, const ImageGrid&, const ImageGrid&,
-  const std::vector<std::int64_t>&, ConstPointSpan<3>, Progress&, std::vector<float>&);
+template decltype(addCloudsInCells<1>) addCloudsInCells<1>;
+template decltype(addCloudsInCells<2>) addCloudsInCells<2>;
+template decltype(addCloudsInCells<3>) addCloudsInCells<3>;
+template decltype(addCloudsAtImages<1>) addCloudsAtImages<1>;
+template decltype(addCloudsAtImages<2>) addCloudsAtImages<2>;
+template decltype(addCloudsAtImages<3>) addCloudsAtImages<3>;
 
 } // namespace RectifiedTransport

@@ -186,11 +186,8 @@ double meanSquareOfWays(const ImageGrid& grid, ConstPointSpan<3> from, ConstPoin
   return scale.CostFromUnits(masses ? sum : sum / all);
 }
 
-template SeriesParticles makeFadingParticles<1>(
-  const SeriesStep&, const SeriesStep&, int, const MoveBetween<1>&, Progress&);
-template SeriesParticles makeFadingParticles<2>(
-  const SeriesStep&, const SeriesStep&, int, const MoveBetween<2>&, Progress&);
-template SeriesParticles makeFadingParticles<3>(
-  const SeriesStep&, const SeriesStep&, int, const MoveBetween<3>&, Progress&);
+template decltype(makeFadingParticles<1>) makeFadingParticles<1>;
+template decltype(makeFadingParticles<2>) makeFadingParticles<2>;
+template decltype(makeFadingParticles<3>) makeFadingParticles<3>;
 
 } // namespace RectifiedTransport

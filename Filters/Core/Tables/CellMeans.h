@@ -8,7 +8,6 @@
 #include "../Geometry/Points.h"
 #include "Density.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

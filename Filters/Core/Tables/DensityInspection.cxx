@@ -45,8 +45,7 @@ void markOccupied(const double* values, std::int64_t count, std::uint64_t* words
   }
 }
 
-} // namespace
-
+// Updates the smallest, the largest and the second largest value of `found` by those of a row.
 // Counts only where the largest value is that of all so far: elsewhere it is one below.
 void inspectLargest(const double* values, std::int64_t count, std::int64_t index, double least,
   double largest, DensitySummary& found)
@@ -69,8 +68,9 @@ void inspectLargest(const double* values, std::int64_t count, std::int64_t index
   found.BelowMaximum = std::max(found.BelowMaximum, row.Below);
 }
 
-RowInspection inspectCells(const double* values, std::int64_t count, std::int64_t index,
-  std::uint64_t* words, DensitySummary& found)
+// Inspects part of a row of grid cells, beginning at the index `index`.
+RowInspection inspect(
+  const double* values, std::int64_t count, std::int64_t index, DensitySummary& found)
 {
   const RowInspection row = tableKernels().Inspect(values, count);
   inspectLargest(values, count, index, row.Smallest, row.Largest, found);
@@ -78,6 +78,15 @@ RowInspection inspectCells(const double* values, std::int64_t count, std::int64_
   {
     findWrong(values, count, index, found);
   }
+  return row;
+}
+
+} // namespace
+
+RowInspection inspectCells(const double* values, std::int64_t count, std::int64_t index,
+  std::uint64_t* words, DensitySummary& found)
+{
+  const RowInspection row = inspect(values, count, index, found);
   if (row.Smallest > 0.0)
   {
     std::fill_n(words, (count + 63) / 64, ~std::uint64_t{ 0 });
@@ -95,12 +104,7 @@ DensitySummary summarize(const double* values, std::int64_t count, std::int64_t 
   if (count > 0)
   {
     found.Total = std::accumulate(values, values + count, 0.0);
-    const RowInspection row = tableKernels().Inspect(values, count);
-    inspectLargest(values, count, index, row.Smallest, row.Largest, found);
-    if (row.Wrong > 0)
-    {
-      findWrong(values, count, index, found);
-    }
+    inspect(values, count, index, found);
   }
   return found;
 }

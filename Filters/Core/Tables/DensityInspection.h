@@ -18,11 +18,6 @@ class Progress;
 RowInspection inspectCells(const double* values, std::int64_t count, std::int64_t index,
   std::uint64_t* words, DensitySummary& found);
 
-// Updates the smallest, the largest and the second largest value of `found` by part of a row, which
-// begins at the index `index` and has this smallest and largest value.
-void inspectLargest(const double* values, std::int64_t count, std::int64_t index, double least,
-  double largest, DensitySummary& found);
-
 // The summary of values of which the first has the index `index`. Adds them up in their order.
 DensitySummary summarize(const double* values, std::int64_t count, std::int64_t index);
 // The summary of the values of `count` cells. Throws std::bad_alloc and Cancelled.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <functional>
 #include <limits>
 
 namespace RectifiedTransport
@@ -164,31 +166,17 @@ Point<Dimension> nearestMass(
     {
       break;
     }
-    Cell<Dimension> at = centre;
-    if constexpr (Dimension == 1)
+    const std::int64_t planes = Dimension > 2 ? shell : 0; // on both sides
+    const std::int64_t rows = Dimension > 1 ? shell : 0;
+    for (std::int64_t k = -planes; k <= planes; ++k)
     {
-      tryRow(at);
-    }
-    else if constexpr (Dimension == 2)
-    {
-      for (const std::int64_t j : { -shell, shell })
+      const bool isCap = Dimension > 2 && std::abs(k) == shell;
+      for (std::int64_t j = -rows; j <= rows; j += isCap ? 1 : std::max<std::int64_t>(2 * shell, 1))
       {
-        at[1] = centre[1] + j;
+        const std::int64_t away[3] = { 0, j, k };
+        Cell<Dimension> at;
+        std::transform(centre.begin(), centre.end(), away, at.begin(), std::plus<>());
         tryRow(at);
-      }
-    }
-    else
-    {
-      for (std::int64_t k = -shell; k <= shell; ++k)
-      {
-        const bool cap = std::abs(k) == shell;
-        at[2] = centre[2] + k;
-        for (std::int64_t j = -shell; j <= shell;
-             j += cap ? 1 : std::max<std::int64_t>(2 * shell, 1))
-        {
-          at[1] = centre[1] + j;
-          tryRow(at);
-        }
       }
     }
   }

@@ -34,10 +34,10 @@ public:
   void Read(std::int64_t first, std::int64_t count, double* values) const override
   {
     this->Density.Read(first, count, values);
-    const double scale = std::ldexp(1.0, this->Exponent);
-    for (std::int64_t i = 0; i < count && this->Exponent != 0; ++i)
+    if (this->Exponent != 0)
     {
-      values[i] *= scale;
+      const double scale = std::ldexp(1.0, this->Exponent);
+      std::transform(values, values + count, values, [=](double value) { return value * scale; });
     }
   }
 

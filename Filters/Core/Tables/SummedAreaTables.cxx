@@ -64,8 +64,7 @@ SummedAreaTables<Dimension>::SummedAreaTables(
   std::int64_t node = 0;
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    node += tables.Cells[axis] *
-      (axis == 0 ? TableView<Dimension>::Record : tables.Levels[0].Stride[axis]);
+    node += tables.Cells[axis] * tables.Levels[0].Stride[axis];
   }
   setTotals(tables, nodes + node, occupied, this->Memory.Occupied.size());
 }

@@ -119,7 +119,7 @@ PassResult processorsPass(const KernelInputs& inputs, const Points<RT_D>& seeds,
   {
     const int count = static_cast<int>(std::min<std::size_t>(BlockSize, seeds.size() - first));
     bool unresolved[BlockSize] = {};
-    flowKernels().Advect<RT_D>()(
+    flowKernels<RT_D>().Advect(
       job, seeds[first].data(), index.data() + first, count, pass, unresolved);
     std::copy_n(unresolved, count, result.Unresolved.begin() + static_cast<std::ptrdiff_t>(first));
   }

@@ -112,8 +112,7 @@ std::shared_ptr<const DeviceBuffer> DeviceWeights::Of(
 template <int Dimension>
 std::shared_ptr<const DeviceBuffer> KernelRun<Dimension>::WeightsOf(std::int64_t steps)
 {
-  return this->OfSteps->Of(
-    this->Owner, steps, this->Job.Job.Backward ? FlowDirection::Backward : FlowDirection::Forward);
+  return this->OfSteps->Of(this->Owner, steps, directionOf(this->Job.Kind));
 }
 
 template <int Dimension>

@@ -111,10 +111,14 @@ StepWeights stretchedWeights(
   return weights;
 }
 
-const FlowKernels& flowKernels(InstructionSet set)
+template <int Dimension>
+FlowKernels<Dimension> flowKernels(InstructionSet set)
 {
-  return chooseKernels(
-    set, [](auto chosen) -> const FlowKernels& { return flowKernelsOf<chosen>(); });
+  return chooseKernels(set, [](auto chosen) { return flowKernelsOf<Dimension, chosen>(); });
 }
+
+template FlowKernels<1> flowKernels<1>(InstructionSet);
+template FlowKernels<2> flowKernels<2>(InstructionSet);
+template FlowKernels<3> flowKernels<3>(InstructionSet);
 
 } // namespace RectifiedTransport

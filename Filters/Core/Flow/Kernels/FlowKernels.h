@@ -119,60 +119,21 @@ template <int Dimension>
 using ReadMap = void (*)(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level,
   const double* seeds, int count, double* positions, bool* deferred);
 
-// The kernels of one instruction set.
+template <int Dimension>
 struct FlowKernels
 {
-  AdvectBlock<1> Advect1D;
-  AdvectBlock<2> Advect2D;
-  AdvectBlock<3> Advect3D;
-  AdvanceNodes<1> AdvanceNodes1D;
-  AdvanceNodes<2> AdvanceNodes2D;
-  AdvanceNodes<3> AdvanceNodes3D;
-  ReadMap<1> ReadMap1D;
-  ReadMap<2> ReadMap2D;
-  ReadMap<3> ReadMap3D;
-
-  template <int Dimension>
-  AdvectBlock<Dimension> Advect() const
-  {
-    return choose<Dimension>(this->Advect1D, this->Advect2D, this->Advect3D);
-  }
-  template <int Dimension>
-  AdvanceNodes<Dimension> Advance() const
-  {
-    return choose<Dimension>(this->AdvanceNodes1D, this->AdvanceNodes2D, this->AdvanceNodes3D);
-  }
-  template <int Dimension>
-  ReadMap<Dimension> Read() const
-  {
-    return choose<Dimension>(this->ReadMap1D, this->ReadMap2D, this->ReadMap3D);
-  }
-
-private:
-  template <int Dimension, class F1, class F2, class F3>
-  static auto choose(F1 one, F2 two, F3 three)
-  {
-    if constexpr (Dimension == 1)
-    {
-      return one;
-    }
-    else if constexpr (Dimension == 2)
-    {
-      return two;
-    }
-    else
-    {
-      return three;
-    }
-  }
+  AdvectBlock<Dimension> Advect;
+  AdvanceNodes<Dimension> Advance;
+  ReadMap<Dimension> Read;
 };
 
 // Compiled for each instruction set.
-template <InstructionSet Set>
-const FlowKernels& flowKernelsOf();
+template <int Dimension, InstructionSet Set>
+FlowKernels<Dimension> flowKernelsOf();
 
 // All compute the same bits.
-const FlowKernels& flowKernels(InstructionSet set = instructionSet());
+template <int Dimension>
+FlowKernels<Dimension> flowKernels(InstructionSet set = instructionSet());
 
 } // namespace RectifiedTransport
 

@@ -80,11 +80,21 @@ std::int64_t advectBlock(const FlowJob<Dimension>& job, const double* seeds,
 } // namespace
 
 template <>
-const FlowKernels& flowKernelsOf<RECTIFIEDTRANSPORT_SET>()
+FlowKernels<1> flowKernelsOf<1, RECTIFIEDTRANSPORT_SET>()
 {
-  static const FlowKernels kernels = { &advectBlock<1>, &advectBlock<2>, &advectBlock<3>,
-    &advanceNodes<1>, &advanceNodes<2>, &advanceNodes<3>, &readMap<1>, &readMap<2>, &readMap<3> };
-  return kernels;
+  return { &advectBlock<1>, &advanceNodes<1>, &readMap<1> };
+}
+
+template <>
+FlowKernels<2> flowKernelsOf<2, RECTIFIEDTRANSPORT_SET>()
+{
+  return { &advectBlock<2>, &advanceNodes<2>, &readMap<2> };
+}
+
+template <>
+FlowKernels<3> flowKernelsOf<3, RECTIFIEDTRANSPORT_SET>()
+{
+  return { &advectBlock<3>, &advanceNodes<3>, &readMap<3> };
 }
 
 } // namespace RectifiedTransport

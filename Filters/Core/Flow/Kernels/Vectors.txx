@@ -13,36 +13,10 @@ constexpr int widestRegister = 16;
 
 // A register of so many bytes of Values.
 template <class Value, int Bytes>
-struct RegisterOf;
-template <>
-struct RegisterOf<double, 16>
+struct RegisterOf
 {
-  using Type = double __attribute__((vector_size(16)));
-};
-template <>
-struct RegisterOf<double, 32>
-{
-  using Type = double __attribute__((vector_size(32)));
-};
-template <>
-struct RegisterOf<double, 64>
-{
-  using Type = double __attribute__((vector_size(64)));
-};
-template <>
-struct RegisterOf<float, 16>
-{
-  using Type = float __attribute__((vector_size(16)));
-};
-template <>
-struct RegisterOf<float, 32>
-{
-  using Type = float __attribute__((vector_size(32)));
-};
-template <>
-struct RegisterOf<float, 64>
-{
-  using Type = float __attribute__((vector_size(64)));
+  // GCC ignores the attribute where `using` names a type that depends on arguments.
+  typedef Value Type __attribute__((vector_size(Bytes)));
 };
 
 // N Values in as few registers as hold them. Arithmetic is element by element, so that how they are

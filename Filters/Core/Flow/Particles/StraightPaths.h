@@ -5,9 +5,12 @@
 
 #include "Core/Flow/FlowArguments.h"
 #include "Core/Flow/Particles/ParticleSource.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Flow/PointTransport.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Stages.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -43,17 +46,25 @@ void forParticles(ParticleSource<Dimension>& source, Progress& progress, const K
   }
 }
 
-// The positions of seeds on a box of `size` at several times, all times of a particle together.
-// Images are where particles are at time 1; toImages(seed) is a seed in the space of the images.
+// ForwardAt of a map whose particles move on straight lines from their seeds to where Forward takes
+// them. toImages(seed) is a seed in the space of the images.
 template <int Dimension, class ToImages>
-void writeStraightPaths(const FlowSeeds<Dimension>& seeds, const GridSize<Dimension>& size,
-  const ToImages& toImages, ConstPointSpan<Dimension> images, const std::vector<double>& times,
-  PointSpan<Dimension> positions, Progress& progress)
+FlowReport moveOnStraightPaths(const PointTransport<Dimension>& map,
+  const FlowSeeds<Dimension>& seeds, const std::vector<double>& times,
+  PointSpan<Dimension> positions, const Context& context, const ToImages& toImages)
 {
-  ParticleSource<Dimension> source(seeds, size, images.size());
+  check(times);
+  checkCount(positions.size(), seeds.Count() * static_cast<double>(times.size()));
   const auto several = static_cast<std::int64_t>(times.size());
+  const std::int64_t count = positions.size() / several;
+  LargeBuffer<double> coordinates(count * Dimension);
+  const PointSpan<Dimension> images(coordinates.data(), count);
+  Progress progress(context);
+  Stages stages(progress, { { "images", 9 }, { "times", 1 } });
+  const FlowReport report = map.Forward(seeds, images, stages["images"]);
+  ParticleSource<Dimension> source(seeds, map.Size(), count);
   forParticles(
-    source, progress.Expect(images.size()), [&](std::int64_t index, const Point<Dimension>& point) {
+    source, stages["times"].Expect(count), [&](std::int64_t index, const Point<Dimension>& point) {
       const Point<Dimension> begins = toImages(point);
       const double* image = images[index];
       for (std::int64_t t = 0; t < several; ++t)
@@ -66,6 +77,7 @@ void writeStraightPaths(const FlowSeeds<Dimension>& seeds, const GridSize<Dimens
         }
       }
     });
+  return report;
 }
 
 } // namespace RectifiedTransport

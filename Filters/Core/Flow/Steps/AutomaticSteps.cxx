@@ -6,7 +6,6 @@
 #include "Core/Flow/Steps/StepBudget.h"
 #include "Core/Flow/Steps/SweptMass.h"
 #include "Core/Geometry/EqualPoints.h"
-#include "Core/Geometry/ImageMeasure.h"
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankShare.h"

@@ -4,7 +4,6 @@
 #define RectifiedTransport_SweptMass_h
 
 #include "Core/Flow/Steps/BlockSurface.h"
-#include "Core/Geometry/GridSize.h"
 #include "Core/Geometry/ImageMeasure.h"
 #include "Core/Tables/BoxShare.h"
 

@@ -104,7 +104,7 @@ public:
     }
   }
 
-  // Of the tables of any tile.
+  // The most cells of a tile's tables along each axis.
   GridSize<Dimension> MostCells() const
   {
     GridSize<Dimension> most{};

@@ -34,7 +34,7 @@ public:
     , Positions(positions)
     , Left(left)
     , Evaluations(evaluations)
-    , Advect(flowKernels().Advect<Dimension>())
+    , Advect(flowKernels<Dimension>().Advect)
     , Size(valuesOf(job.FromStates))
   {
     this->Job.Output = this->Ends;

@@ -9,7 +9,6 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

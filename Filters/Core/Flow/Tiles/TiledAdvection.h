@@ -47,7 +47,7 @@ public:
     , Count(counters)
     , Work(progress)
     , Rounds(density, graded, plan.Tiles, progress.Group())
-    , Read(flowKernels().Read<Dimension>())
+    , Read(flowKernels<Dimension>().Read)
     , LastPass(shared.Job.Backward ? 0 : shared.LastPass())
     , Weights(multistepWeightsOf(plan.Shape.Steps, plan.Shape.Direction))
   {

@@ -14,26 +14,10 @@ RT_INLINE std::int32_t larger(std::int32_t a, std::int32_t b)
 
 // Vectors of GCC, as it does not vectorize loops over a period of coordinates.
 template <class Number>
-struct FourOf;
-template <>
-struct FourOf<double>
+struct FourOf
 {
-  using Type = double __attribute__((vector_size(32)));
-};
-template <>
-struct FourOf<float>
-{
-  using Type = float __attribute__((vector_size(16)));
-};
-template <>
-struct FourOf<std::int32_t>
-{
-  using Type = std::int32_t __attribute__((vector_size(16)));
-};
-template <>
-struct FourOf<std::uint32_t>
-{
-  using Type = std::uint32_t __attribute__((vector_size(16)));
+  // GCC ignores the attribute where `using` names a type that depends on arguments.
+  typedef Number Type __attribute__((vector_size(4 * sizeof(Number))));
 };
 using Four = FourOf<double>::Type;
 using FourCells = FourOf<std::int32_t>::Type;
