@@ -37,7 +37,7 @@ SURVIVED = [
       "all.First = range.First;"),
     E(CORE + "SiteCells/EqualMasses/SplitSharedPixels.cxx", "const double spread = «this->Spacing[axis] * (high - low)»",
       "high - low"),
-    E(CORE + "SiteCells/EqualMasses/EqualizeSiteCells.cxx", "this->Weight[axis] = «side * side»", "1.0"),
+    E(CORE + "SiteCells/PixelRows.h", "squares[axis] = «side * side»", "1.0"),
     E(BRIDGE + "Image/ImageGrids.cxx", "std::lround(resolution * (lengths[i] / longest))",
       "std::lround(std::floor(resolution * (lengths[i] / longest)))"),
     E(BRIDGE + "Image/SolidGrid.cxx", "std::ceil(part * resolution - rounding)",

@@ -323,8 +323,7 @@ bool StillCells<Dimension>::Stay(const CellPlacement<Dimension>& from,
   {
     return false;
   }
-  Point<Dimension> moved;
-  std::copy_n(point, Dimension, moved.begin());
+  auto moved = pointAt<Dimension>(point);
   if (from.Low != to.Low || from.Sides != to.Sides) // conversions would round
   {
     moved = to.FromNodes(from.ToNodes(point).data());
@@ -359,8 +358,7 @@ void StillCells<Dimension>::Return(const double* points, PointSpan<Dimension> im
 {
   for (std::int64_t i = 0; i < images.size(); ++i)
   {
-    Point<Dimension> point;
-    std::copy_n(points + i * Dimension, Dimension, point.begin());
+    auto point = pointAt<Dimension>(points + i * Dimension);
     if (this->Keep(point.data()))
     {
       std::copy(point.begin(), point.end(), images[i]);

@@ -363,8 +363,7 @@ private:
         Bounds found = none;
         for (std::int64_t i = first; i < last; ++i)
         {
-          Point<Dimension> x;
-          std::copy_n(this->Images.At(samples.CellOf(i)), Dimension, x.begin());
+          const Point<Dimension> x = pointAt<Dimension>(this->Images.At(samples.CellOf(i)));
           found = join(found, { x, x });
         }
         return found;

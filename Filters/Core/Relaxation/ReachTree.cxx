@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Relaxation/ReachTree.h"
 
+#include "Core/Parallel/Polls.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Relaxation/Polls.h"
 
 #include <algorithm>
 #include <limits>
