@@ -63,17 +63,10 @@ public:
     , Map(NodeMap<Dimension>::On(solver.Grid()))
     , Kinds(this->Nodes.Count())
   {
-    double shortest = this->Grid.Spacing[0];
-    double diagonal = 0.0;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const double spacing = this->Grid.Spacing[axis];
-      const double side = spacing * static_cast<double>(this->Grid.Cells[axis]);
-      shortest = std::min(shortest, spacing);
-      diagonal += side * side;
-    }
+    const Point<Dimension>& spacing = this->Grid.Spacing;
+    const double shortest = *std::min_element(spacing.begin(), spacing.end());
     constexpr double rounding = 1e-15;
-    this->Most = mostSlack * shortest * shortest + rounding * diagonal;
+    this->Most = mostSlack * shortest * shortest + rounding * squaredDiagonal(this->Grid);
   }
 
   void Find()
