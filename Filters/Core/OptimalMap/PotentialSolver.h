@@ -10,6 +10,7 @@
 #include "Core/OptimalMap/Masses/NodeMasses.h"
 #include "Core/OptimalMap/Nodes/NodeMap.h"
 #include "Core/OptimalMap/Nodes/NodeSums.h"
+#include "Core/OptimalMap/OptimalMap.h"
 
 #include <array>
 #include <cstdint>
@@ -28,16 +29,6 @@ struct BoxedDensity
   const CellDensity<Dimension>& Density;
   Point<Dimension> Low{};
   Point<Dimension> High{};
-};
-
-struct SolverOptions
-{
-  double Tolerance = 1e-3; // of an iteration's gain, relative to a quarter of the bound
-  int CoarseIterations = 3;
-  int LeastIterations = 0; // on the finest nodes
-  int MostIterations = 20;
-  double MostNodes = 0x1p24;
-  bool SpareSamples = false; // of light cells that the map stretches, of densities without voids
 };
 
 // One of the two densities on the nodes.
@@ -63,7 +54,7 @@ class PotentialSolver
 public:
   // Throws std::invalid_argument if a side is more than 1e120 times as long as another one.
   PotentialSolver(const BoxedDensity<Dimension>& source, const BoxedDensity<Dimension>& target,
-    const Point<Dimension>& sides, const SolverOptions& options);
+    const Point<Dimension>& sides, const OptimalMapOptions& options);
 
   // Throws std::bad_alloc and Cancelled.
   void Solve(Progress& progress);
@@ -99,7 +90,7 @@ private:
 
   const std::array<BoxedDensity<Dimension>, 2> Given;
   const Point<Dimension> Lengths;
-  const SolverOptions Options;
+  const OptimalMapOptions Options;
   const double Rounding;
   bool IsWeighted;
   std::array<std::vector<NodeValues>, 2> LevelCells; // of levels to come; none if uniform
