@@ -304,27 +304,6 @@ BorderBand::BorderBand(const Point<2>& lengths, std::int64_t count)
   }
 }
 
-void relaxBorder(const Point<2>& lengths, PointSpan<2> unitPoints, Progress& progress)
-{
-  WindowBorder border(lengths, unitPoints.size(), progress);
-  const BorderBand band(lengths, unitPoints.size());
-  constexpr std::int64_t slice = 1 << 12;
-  for (std::int64_t first = 0; first < unitPoints.size(); first += slice)
-  {
-    const std::int64_t end = std::min(first + slice, unitPoints.size());
-    for (std::int64_t i = first; i < end; ++i)
-    {
-      if (band.Holds(unitPoints[i]))
-      {
-        border.Add(i, unitPoints[i]);
-      }
-    }
-    progress.Add(end - first);
-  }
-  border.Relax();
-  border.Write(0, unitPoints);
-}
-
 void relaxBorder(const Point<2>& lengths, std::int64_t count, const std::vector<BorderSeed>& border,
   std::int64_t first, PointSpan<2> unitPoints, Progress& progress)
 {
