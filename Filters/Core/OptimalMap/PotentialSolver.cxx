@@ -327,19 +327,12 @@ void PotentialSolver<Dimension>::Begin(const std::vector<GridSize<Dimension>>& l
   {
     std::fill_n(this->Sides[0].Potential.data(), nodes, 0.0);
   }
-  this->Transform(progress);
-  this->BoundNow =
-    this->Dual(this->Sides[0].Potential.data(), this->Sides[1].Potential.data(), progress);
-}
-
-// Makes the potentials conjugate.
-template <int Dimension>
-void PotentialSolver<Dimension>::Transform(Progress& progress)
-{
+  // Makes the potentials conjugate.
   double* source = this->Sides[0].Potential.data();
   double* target = this->Sides[1].Potential.data();
   costTransform<Dimension>(this->Nodes, source, target, progress);
   costTransform<Dimension>(this->Nodes, target, source, progress);
+  this->BoundNow = this->Dual(source, target, progress);
 }
 
 // The bound that conjugate potentials give.
@@ -401,14 +394,6 @@ void PotentialSolver<Dimension>::FindDefect(Scratch& scratch, int side, Progress
     [=](std::int64_t node, double mass) { return hats[node] - share * mass; });
 }
 
-// The product of p and the defect's masses.
-template <int Dimension>
-double PotentialSolver<Dimension>::Product(const Scratch& scratch, Progress& progress) const
-{
-  return sumOfProducts(
-    scratch.P.data(), scratch.Defect.data(), this->Nodes.NumberOfNodes(), progress);
-}
-
 // Moves the potential of a side along the solution p of Poisson's equation for the defect, by a
 // step that raises the bound, and makes both potentials conjugate again.
 template <int Dimension>
@@ -434,7 +419,9 @@ void PotentialSolver<Dimension>::HalfStep(Scratch& scratch, int side, Progress& 
   {
     scratch.Poisson.Solve(scratch.Defect.data(), p, progress);
   }
-  const double slope = 2.0 * std::max(0.0, this->Product(scratch, progress));
+  const double product =
+    sumOfProducts(p, scratch.Defect.data(), this->Nodes.NumberOfNodes(), progress);
+  const double slope = 2.0 * std::max(0.0, product);
   double& step = this->Steps[Index(side)];
   for (int attempt = 0; attempt <= halvings; ++attempt)
   {

@@ -81,11 +81,9 @@ private:
   void MakeCells(const std::vector<GridSize<Dimension>>& levels, Progress& progress);
   void Begin(const std::vector<GridSize<Dimension>>& levels, std::size_t level,
     NodeValues potential, Progress& progress);
-  void Transform(Progress& progress);
   void Iterate(Scratch& scratch, bool isFinest, Progress& progress);
   void HalfStep(Scratch& scratch, int side, Progress& progress);
   void FindDefect(Scratch& scratch, int side, Progress& progress) const;
-  double Product(const Scratch& scratch, Progress& progress) const;
   double Dual(const double* source, const double* target, Progress& progress) const;
 
   const std::array<BoxedDensity<Dimension>, 2> Given;
