@@ -6,9 +6,7 @@
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <functional>
 #include <vector>
 

@@ -13,8 +13,6 @@
 #include "Core/OptimalMap/OptimalMap.h"
 
 #include <array>
-#include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace RectifiedTransport
