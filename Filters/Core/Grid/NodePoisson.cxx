@@ -310,20 +310,6 @@ void NodePoisson<Dimension>::SolveWeighted(const double* masses, const double* d
 }
 
 template <int Dimension>
-std::int64_t NodePoisson<Dimension>::UnitsOf(const NodeGrid<Dimension>& grid)
-{
-  constexpr int loops = Dimension == 1 ? 4 : 2 * Dimension;
-  return loops * grid.NumberOfNodes();
-}
-
-template <int Dimension>
-std::int64_t NodePoisson<Dimension>::UnitsOfWeighted(
-  const NodeGrid<Dimension>& grid, int iterations)
-{
-  return WeightedPoisson<Dimension>::UnitsOf(grid, iterations, UnitsOf(grid));
-}
-
-template <int Dimension>
 double NodePoisson<Dimension>::MemoryFor(const NodeGrid<Dimension>& grid, bool weighted)
 {
   const double nodes = numberOfCorners<Dimension>(grid.Cells);

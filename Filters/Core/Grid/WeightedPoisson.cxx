@@ -159,14 +159,6 @@ double WeightedPoisson<Dimension>::ApplyToRow(std::int64_t row, std::int64_t nod
 }
 
 template <int Dimension>
-std::int64_t WeightedPoisson<Dimension>::UnitsOf(
-  const NodeGrid<Dimension>& grid, int iterations, std::int64_t ofPreconditioner)
-{
-  constexpr int others = 4; // of an iteration: loops over the nodes
-  return grid.NumberOfNodes() + iterations * (ofPreconditioner + others * grid.NumberOfNodes());
-}
-
-template <int Dimension>
 double WeightedPoisson<Dimension>::MemoryFor(const NodeGrid<Dimension>& grid)
 {
   constexpr double arrays = 5.0;

@@ -29,8 +29,6 @@ public:
   void Solve(const double* masses, const double* density, double floor, int iterations,
     const Preconditioner& precondition, double* p, Progress& progress);
 
-  static std::int64_t UnitsOf(
-    const NodeGrid<Dimension>& grid, int iterations, std::int64_t ofPreconditioner);
   // Bytes.
   static double MemoryFor(const NodeGrid<Dimension>& grid);
 
