@@ -280,14 +280,11 @@ EqualMassPartition::Deviation EqualMassPartition::EvaluateRevived(
     {
       break;
     }
-    progress.For(
+    progress.ForEach(
       static_cast<std::int64_t>(sites.size()), 1,
-      [&](std::int64_t first, std::int64_t last) {
-        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-        {
-          double& weight = weights[sites[i]];
-          weight = this->RevivingWeight(static_cast<std::int64_t>(sites[i]), weight, least);
-        }
+      [&](std::int64_t i) {
+        const std::size_t site = sites[static_cast<std::size_t>(i)];
+        weights[site] = this->RevivingWeight(static_cast<std::int64_t>(site), weights[site], least);
       },
       firstPiece);
     found = this->Evaluate(weights, progress);

@@ -156,17 +156,13 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
     this->Constant = std::accumulate(parts.begin(), parts.end(), 0.0);
   }
   this->Fields.resize(attraction.size());
-  progress.For(
+  progress.ForEach(
     this->Tree.Nodes(), grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (auto node = static_cast<std::size_t>(first); node < static_cast<std::size_t>(last);
-           ++node)
+    [&](std::int64_t i) {
+      const auto node = static_cast<std::size_t>(i);
+      for (std::size_t entry = 0; entry < attraction[node].size(); ++entry)
       {
-        for (std::size_t entry = 0; entry < attraction[node].size(); ++entry)
-        {
-          this->Fields[node][entry] = { this->Tree.Spacing()[node][entry],
-            attraction[node][entry] };
-        }
+        this->Fields[node][entry] = { this->Tree.Spacing()[node][entry], attraction[node][entry] };
       }
     },
     firstSlice);
