@@ -299,12 +299,12 @@ int neighboursOf(const NodeLines& lines, std::int64_t line, std::int64_t last)
 template <class Copy>
 void forNodes(const NodeLines& lines, int count, const Copy& copy)
 {
-  const auto forCount = [&](auto some) {
-    for (std::int64_t j = 0; j < lines.Nodes; ++j)
+  const auto forCount = [&copy, nodes = lines.Nodes, stride = lines.Stride](auto some) {
+    for (std::int64_t j = 0; j < nodes; ++j)
     {
       for (int line = 0; line < some; ++line)
       {
-        copy(line * lines.Nodes + j, j * lines.Stride + line);
+        copy(line * nodes + j, j * stride + line);
       }
     }
   };
