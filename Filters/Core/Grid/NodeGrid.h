@@ -37,20 +37,18 @@ struct NodeGrid
     }
     return stride;
   }
-};
-
-// Of the box.
-template <int Dimension>
-double squaredDiagonal(const NodeGrid<Dimension>& grid)
-{
-  double sum = 0.0;
-  for (int axis = 0; axis < Dimension; ++axis)
+  // Of the box.
+  double SquaredDiagonal() const
   {
-    const double side = static_cast<double>(grid.Cells[axis]) * grid.Spacing[axis];
-    sum += side * side;
+    double sum = 0.0;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double side = static_cast<double>(this->Cells[axis]) * this->Spacing[axis];
+      sum += side * side;
+    }
+    return sum;
   }
-  return sum;
-}
+};
 
 // The lines of nodes along an axis, which are numbered like the nodes of the grid without the axis.
 struct NodeLines

@@ -44,7 +44,7 @@ public:
     this->Shares.Size = target.Size();
     this->Shares.Sides = grid.Spacing;
     this->Shares.Each = Each;
-    this->Shares.SquaredDiagonal = squaredDiagonal(grid);
+    this->Shares.SquaredDiagonal = grid.SquaredDiagonal();
     for (int axis = 0; axis < Dimension; ++axis)
     {
       const auto cells = static_cast<double>(this->Shares.Size[axis]);

@@ -66,7 +66,7 @@ public:
     const Point<Dimension>& spacing = this->Grid.Spacing;
     const double shortest = *std::min_element(spacing.begin(), spacing.end());
     constexpr double rounding = 1e-15;
-    this->Most = mostSlack * shortest * shortest + rounding * squaredDiagonal(this->Grid);
+    this->Most = mostSlack * shortest * shortest + rounding * this->Grid.SquaredDiagonal();
   }
 
   void Find()

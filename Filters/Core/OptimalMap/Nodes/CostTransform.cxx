@@ -330,7 +330,7 @@ template <int Dimension>
 void costTransform(
   const NodeGrid<Dimension>& grid, const double* from, double* to, Progress& progress)
 {
-  const double largest = squaredDiagonal(grid);
+  const double largest = grid.SquaredDiagonal();
   const NodeLines rows(grid, 0);
   const std::int64_t nodes = rows.Nodes;
   const AxisCosts rowCosts(nodes, grid.Spacing[0], largest);
@@ -375,7 +375,7 @@ template <int Dimension>
 void costMinimizers(
   const NodeGrid<Dimension>& grid, const double* from, std::int64_t* minimizers, Progress& progress)
 {
-  const double largest = squaredDiagonal(grid);
+  const double largest = grid.SquaredDiagonal();
   NodeValues values(grid.NumberOfNodes());
   for (int axis = 0; axis < Dimension; ++axis)
   {
