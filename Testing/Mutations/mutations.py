@@ -37,7 +37,7 @@ SURVIVED = [
       "all.First = range.First;"),
     E(CORE + "SiteCells/EqualMasses/SplitSharedPixels.cxx", "const double spread = «this->Spacing[axis] * (high - low)»",
       "high - low"),
-    E(CORE + "SiteCells/EqualMasses/EqualizeSiteCells.cxx", "this->Weight[axis] = «side * side»", "1.0"),
+    E(CORE + "SiteCells/PixelRows.h", "squares[axis] = «side * side»", "1.0"),
     E(CORE + "Geometry/Boxes/SizedGrids.cxx", "std::lround(resolution * (lengths[i] / longest))",
       "std::lround(std::floor(resolution * (lengths[i] / longest)))"),
     E(CORE + "Geometry/Boxes/SolidGrid.cxx", "std::ceil(part * resolution - rounding)",
@@ -225,7 +225,7 @@ OTHERS = [
       "if («mass > 0 && this->Planned[from] - this->Planned[to] <= mass»)", "false"),
     E(CORE + "SiteCells/EqualMasses/EqualizeSiteMasses.cxx",
       "this->Planned[to] -= «std::abs(border.Flow)»", "0"),
-    E(CORE + "SiteCells/SiteColors.cxx", "neighbours.Join(first[i], «next[i]»)", "first[i]"),
+    E(CORE + "SiteCells/SiteColors.cxx", "join(labels[pixel], «labels[other]», neighbours)", "labels[pixel]"),
     # tiles
     E(CORE + "Resampling/PlacesInCells.cxx", "found[i].Cell = «-1»", "0"),
     E(CORE + "Flow/Tiles/TilePlan.cxx", "isForward ? «0.5 * box + 2.0»", "0.2 * box"),

@@ -4,7 +4,6 @@
 #ifndef RectifiedTransport_LimitedMemoryBfgs_h
 #define RectifiedTransport_LimitedMemoryBfgs_h
 
-#include <cstdint>
 #include <vector>
 
 namespace RectifiedTransport

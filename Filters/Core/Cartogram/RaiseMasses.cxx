@@ -21,9 +21,8 @@ std::int32_t raiseMasses(std::vector<double>& masses, double leastShare)
   }
   std::vector<unsigned char> isRaised(masses.size(), 0);
   std::int32_t count = 0;
-  for (bool isDone = false; !isDone;)
+  for (;;)
   {
-    isDone = true;
     double others = 0.0;
     for (std::size_t i = 0; i < masses.size(); ++i)
     {
@@ -31,24 +30,22 @@ std::int32_t raiseMasses(std::vector<double>& masses, double leastShare)
     }
     // So that raised ones have their share of what all have then.
     const double least = leastShare * others / (1.0 - leastShare * count);
+    const std::int32_t before = count;
     for (std::size_t i = 0; i < masses.size(); ++i)
     {
-      if (isRaised[i] == 0 && masses[i] < least)
-      {
-        isRaised[i] = 1;
-        ++count;
-        isDone = false;
-      }
+      const bool isLess = isRaised[i] == 0 && masses[i] < least;
+      isRaised[i] = isRaised[i] != 0 || isLess;
+      count += isLess ? 1 : 0;
     }
-    if (isDone)
+    for (std::size_t i = 0; count == before && i < masses.size(); ++i)
     {
-      for (std::size_t i = 0; i < masses.size(); ++i)
-      {
-        masses[i] = isRaised[i] != 0 ? least : masses[i];
-      }
+      masses[i] = isRaised[i] != 0 ? least : masses[i];
+    }
+    if (count == before)
+    {
+      return count;
     }
   }
-  return count;
 }
 
 } // namespace RectifiedTransport

@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_Points_h
 #define RectifiedTransport_Points_h
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <type_traits>
@@ -13,6 +14,14 @@ namespace RectifiedTransport
 
 template <int Dimension>
 using Point = std::array<double, Dimension>;
+
+template <int Dimension>
+Point<Dimension> pointAt(const double* coordinates)
+{
+  Point<Dimension> point;
+  std::copy_n(coordinates, Dimension, point.begin());
+  return point;
+}
 
 // `size()` points of Dimension interleaved coordinates. Functions do not keep a span that they
 // take.

@@ -65,36 +65,23 @@ GridSize<Dimension> halfOf(const GridSize<Dimension>& size)
   return half;
 }
 
-// The rows of two levels: which rows of the fine grid are in a row of the coarse one.
-template <int Dimension>
-class RowsOfCoarse
+// Calls work(row of the fine grid, its place along axes 1 and 2) for the rows of a fine grid that
+// are in a row of the coarse one.
+template <int Dimension, class Work>
+void forFineRows(const GridSize<Dimension>& fine, const GridSize<Dimension>& coarse,
+  std::int64_t coarseRow, const Work& work)
 {
-public:
-  RowsOfCoarse(const GridSize<Dimension>& fine, const GridSize<Dimension>& coarse)
-    : Fine(fine)
-    , Coarse(coarse)
+  const std::int64_t low = 2 * (coarseRow % coarse[1]);
+  const std::int64_t slice = 2 * (coarseRow / coarse[1]);
+  const std::int64_t slices = Dimension == 3 ? fine[Dimension - 1] : 1;
+  for (std::int64_t k = slice; k < std::min(slice + 2, slices); ++k)
   {
-  }
-  // Calls work(row of the fine grid, its place along axes 1 and 2).
-  template <class Work>
-  void ForEach(std::int64_t coarseRow, const Work& work) const
-  {
-    std::array<std::int64_t, 3> place{ 0, coarseRow % this->Coarse[1],
-      coarseRow / this->Coarse[1] };
-    const std::int64_t slices = Dimension == 3 ? this->Fine[Dimension - 1] : 1;
-    for (std::int64_t k = 2 * place[2]; k < std::min(2 * place[2] + 2, slices); ++k)
+    for (std::int64_t j = low; j < std::min(low + 2, fine[1]); ++j)
     {
-      for (std::int64_t j = 2 * place[1]; j < std::min(2 * place[1] + 2, this->Fine[1]); ++j)
-      {
-        work(k * this->Fine[1] + j, std::array<std::int64_t, 3>{ 0, j, k });
-      }
+      work(k * fine[1] + j, std::array<std::int64_t, 3>{ 0, j, k });
     }
   }
-
-private:
-  GridSize<Dimension> Fine;
-  GridSize<Dimension> Coarse;
-};
+}
 
 } // namespace
 
@@ -216,7 +203,6 @@ void FaceSystem<Dimension>::Invert(Level& level, Progress& progress)
 template <int Dimension>
 void FaceSystem<Dimension>::Coarsen(const Level& fine, Level& coarse, Progress& progress)
 {
-  const RowsOfCoarse<Dimension> rows(fine.Size, coarse.Size);
   this->ForRows(
     coarse,
     [&](std::int64_t first, std::int64_t last) {
@@ -227,28 +213,29 @@ void FaceSystem<Dimension>::Coarsen(const Level& fine, Level& coarse, Progress& 
         {
           float* sum = coarse.Weights[axis].data() + to;
           std::fill_n(sum, coarse.Size[0], 0.0F);
-          rows.ForEach(row, [&](std::int64_t fineRow, const std::array<std::int64_t, 3>& place) {
-            const float* w = fine.Weights[axis].data() + fineRow * fine.Size[0];
-            if (axis == 0)
-            {
-              for (std::int64_t i = 1; i < fine.Size[0]; i += 2)
+          forFineRows<Dimension>(fine.Size, coarse.Size, row,
+            [&](std::int64_t fineRow, const std::array<std::int64_t, 3>& place) {
+              const float* w = fine.Weights[axis].data() + fineRow * fine.Size[0];
+              if (axis == 0)
               {
-                sum[i / 2] += 0.5F * w[i];
+                for (std::int64_t i = 1; i < fine.Size[0]; i += 2)
+                {
+                  sum[i / 2] += 0.5F * w[i];
+                }
               }
-            }
-            else if (place[axis] % 2 == 1)
-            {
-              const std::int64_t pairs = fine.Size[0] / 2;
-              for (std::int64_t i = 0; i < pairs; ++i)
+              else if (place[axis] % 2 == 1)
               {
-                sum[i] += 0.5F * (w[2 * i] + w[2 * i + 1]);
+                const std::int64_t pairs = fine.Size[0] / 2;
+                for (std::int64_t i = 0; i < pairs; ++i)
+                {
+                  sum[i] += 0.5F * (w[2 * i] + w[2 * i + 1]);
+                }
+                if (fine.Size[0] % 2 == 1)
+                {
+                  sum[pairs] += 0.5F * w[2 * pairs];
+                }
               }
-              if (fine.Size[0] % 2 == 1)
-              {
-                sum[pairs] += 0.5F * w[2 * pairs];
-              }
-            }
-          });
+            });
         }
       }
     },
@@ -269,7 +256,6 @@ void FaceSystem<Dimension>::Prepare(Progress& progress)
 template <int Dimension>
 void FaceSystem<Dimension>::Restrict(const Level& fine, Level& coarse, Progress& progress)
 {
-  const RowsOfCoarse<Dimension> rows(fine.Size, coarse.Size);
   const FaceWeights<Dimension> system = fine.View();
   const std::int64_t cells = fine.Size[0];
   const std::int64_t pairs = cells / 2;
@@ -281,19 +267,20 @@ void FaceSystem<Dimension>::Restrict(const Level& fine, Level& coarse, Progress&
       {
         float* sum = coarse.Right.data() + row * coarse.Size[0];
         std::fill_n(sum, coarse.Size[0], 0.0F);
-        rows.ForEach(row, [&](std::int64_t fineRow, const std::array<std::int64_t, 3>&) {
-          const float* r = values.data();
-          this->Kernels.Residual(system, fine.X.data(), fine.Right.data(), fineRow * cells,
-            (fineRow + 1) * cells, values.data());
-          for (std::int64_t i = 0; i < pairs; ++i)
-          {
-            sum[i] += r[2 * i] + r[2 * i + 1];
-          }
-          if (cells % 2 == 1)
-          {
-            sum[pairs] += r[cells - 1];
-          }
-        });
+        forFineRows<Dimension>(fine.Size, coarse.Size, row,
+          [&](std::int64_t fineRow, const std::array<std::int64_t, 3>&) {
+            const float* r = values.data();
+            this->Kernels.Residual(system, fine.X.data(), fine.Right.data(), fineRow * cells,
+              (fineRow + 1) * cells, values.data());
+            for (std::int64_t i = 0; i < pairs; ++i)
+            {
+              sum[i] += r[2 * i] + r[2 * i + 1];
+            }
+            if (cells % 2 == 1)
+            {
+              sum[pairs] += r[cells - 1];
+            }
+          });
       }
     },
     progress);
@@ -302,7 +289,6 @@ void FaceSystem<Dimension>::Restrict(const Level& fine, Level& coarse, Progress&
 template <int Dimension>
 void FaceSystem<Dimension>::Prolong(const Level& coarse, Level& fine, Progress& progress)
 {
-  const RowsOfCoarse<Dimension> rows(fine.Size, coarse.Size);
   const std::int64_t cells = fine.Size[0];
   const std::int64_t pairs = cells / 2;
   this->ForRows(
@@ -311,18 +297,19 @@ void FaceSystem<Dimension>::Prolong(const Level& coarse, Level& fine, Progress& 
       for (std::int64_t row = first; row < last; ++row)
       {
         const float* from = coarse.X.data() + row * coarse.Size[0];
-        rows.ForEach(row, [&](std::int64_t fineRow, const std::array<std::int64_t, 3>&) {
-          float* to = fine.X.data() + fineRow * cells;
-          for (std::int64_t i = 0; i < pairs; ++i)
-          {
-            to[2 * i] += from[i];
-            to[2 * i + 1] += from[i];
-          }
-          if (cells % 2 == 1)
-          {
-            to[cells - 1] += from[pairs];
-          }
-        });
+        forFineRows<Dimension>(fine.Size, coarse.Size, row,
+          [&](std::int64_t fineRow, const std::array<std::int64_t, 3>&) {
+            float* to = fine.X.data() + fineRow * cells;
+            for (std::int64_t i = 0; i < pairs; ++i)
+            {
+              to[2 * i] += from[i];
+              to[2 * i + 1] += from[i];
+            }
+            if (cells % 2 == 1)
+            {
+              to[cells - 1] += from[pairs];
+            }
+          });
       }
     },
     progress);

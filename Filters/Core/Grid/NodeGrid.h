@@ -24,12 +24,7 @@ struct NodeGrid
 
   std::int64_t NumberOfCells() const
   {
-    std::int64_t count = 1;
-    for (const std::int64_t cells : this->Cells)
-    {
-      count *= cells;
-    }
-    return count;
+    return static_cast<std::int64_t>(numberOfCells<Dimension>(this->Cells));
   }
   std::int64_t NumberOfNodes() const { return this->Stride(Dimension); }
   // The difference of the numbers of two neighbours along an axis.
@@ -42,6 +37,38 @@ struct NodeGrid
     }
     return stride;
   }
+  // Of the box.
+  double SquaredDiagonal() const
+  {
+    double sum = 0.0;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double side = static_cast<double>(this->Cells[axis]) * this->Spacing[axis];
+      sum += side * side;
+    }
+    return sum;
+  }
+};
+
+// The lines of nodes along an axis, which are numbered like the nodes of the grid without the axis.
+struct NodeLines
+{
+  template <int Dimension>
+  NodeLines(const NodeGrid<Dimension>& grid, int axis)
+    : Nodes(grid.Cells[axis] + 1)
+    , Stride(grid.Stride(axis))
+    , Count(grid.NumberOfNodes() / this->Nodes)
+  {
+  }
+  // The first node of a line.
+  std::int64_t Begin(std::int64_t line) const
+  {
+    return line / this->Stride * this->Stride * this->Nodes + line % this->Stride;
+  }
+
+  std::int64_t Nodes;  // of a line
+  std::int64_t Stride; // of neighbours on it
+  std::int64_t Count;
 };
 
 // The cell that holds a point, whose coordinates are in cells, and the place in it, from 0 to 1.

@@ -7,7 +7,6 @@
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 namespace RectifiedTransport

@@ -25,48 +25,27 @@ namespace
 constexpr int lanes = CosineLines::Count;
 constexpr std::int64_t firstSlice = std::int64_t{ 1 } << 19;
 
-// Lines of nodes along an axis, which are numbered like the nodes of the grid without the axis.
-struct PoissonLines
+// kernel(first) for all blocks of lines. Adds `transforms` units a node.
+template <class Kernel>
+void forBlocks(const NodeLines& lines, Progress& progress, int transforms, const Kernel& kernel)
 {
-  template <int Dimension>
-  PoissonLines(const NodeGrid<Dimension>& grid, int axis)
-    : Nodes(grid.Cells[axis] + 1)
-    , Stride(grid.Stride(axis))
-    , Count(grid.NumberOfNodes() / this->Nodes)
-  {
-  }
-
-  // kernel(first) for all blocks of lines. Adds `transforms` units a node.
-  template <class Kernel>
-  void ForBlocks(Progress& progress, int transforms, const Kernel& kernel) const
-  {
-    const std::int64_t line = this->Nodes * transforms;
-    const std::int64_t block = lanes * line;
-    progress.For(
-      this->Count * line, std::max<std::int64_t>(1, 8192 / block) * block,
-      [&](std::int64_t first, std::int64_t last) {
-        for (; first < last; first += block)
-        {
-          kernel(first / line);
-        }
-      },
-      firstSlice);
-  }
-
-  std::int64_t Begin(std::int64_t line) const
-  {
-    return line / this->Stride * this->Stride * this->Nodes + line % this->Stride;
-  }
-
-  std::int64_t Nodes; // of a line
-  std::int64_t Stride;
-  std::int64_t Count;
-};
+  const std::int64_t line = lines.Nodes * transforms;
+  const std::int64_t block = lanes * line;
+  progress.For(
+    lines.Count * line, std::max<std::int64_t>(1, 8192 / block) * block,
+    [&](std::int64_t first, std::int64_t last) {
+      for (; first < last; first += block)
+      {
+        kernel(first / line);
+      }
+    },
+    firstSlice);
+}
 
 // Where the lines of a block begin. In the last block the last line stands for those that lack.
 struct PoissonBlock
 {
-  PoissonBlock(const PoissonLines& lines, std::int64_t first)
+  PoissonBlock(const NodeLines& lines, std::int64_t first)
     : Nodes(lines.Nodes)
     , Stride(lines.Stride)
     , Count(static_cast<int>(std::min<std::int64_t>(lanes, lines.Count - first)))
@@ -239,8 +218,8 @@ struct NodePoisson<Dimension>::Implementation
   template <class Kernel>
   void Along(int axis, int transforms, Progress& progress, const Kernel& kernel)
   {
-    const PoissonLines all(this->Grid, axis);
-    all.ForBlocks(progress, transforms, [&](std::int64_t first) {
+    const NodeLines all(this->Grid, axis);
+    forBlocks(all, progress, transforms, [&](std::int64_t first) {
       const PoissonBlock block(all, first);
       this->Pools[axis]->With([&](CosineLines& lines) { kernel(first, block, lines); });
     });
@@ -328,20 +307,6 @@ void NodePoisson<Dimension>::SolveWeighted(const double* masses, const double* d
     this->Self->Solve(rest, solution, progress);
   };
   this->Self->Weighted.Solve(masses, density, floor, iterations, precondition, p, progress);
-}
-
-template <int Dimension>
-std::int64_t NodePoisson<Dimension>::UnitsOf(const NodeGrid<Dimension>& grid)
-{
-  constexpr int loops = Dimension == 1 ? 4 : 2 * Dimension;
-  return loops * grid.NumberOfNodes();
-}
-
-template <int Dimension>
-std::int64_t NodePoisson<Dimension>::UnitsOfWeighted(
-  const NodeGrid<Dimension>& grid, int iterations)
-{
-  return WeightedPoisson<Dimension>::UnitsOf(grid, iterations, UnitsOf(grid));
 }
 
 template <int Dimension>

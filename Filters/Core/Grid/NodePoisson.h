@@ -5,7 +5,6 @@
 
 #include "Core/Grid/NodeGrid.h"
 
-#include <cstdint>
 #include <memory>
 
 namespace RectifiedTransport
@@ -16,7 +15,8 @@ class Progress;
 // The mass of each node is that of its hat function; the whole box has volume 1. Nodes at the
 // border stand for a part of a cell: half of one for each side that they lie on. Reusable, but by
 // one caller at a time. All results have the same bits for every number of threads. Each solution
-// adds units of work (see UnitsOf). Throws Cancelled and std::bad_alloc.
+// adds units of work: the nodes, for each axis and transform, and for the other loops. Throws
+// Cancelled and std::bad_alloc.
 template <int Dimension>
 class NodePoisson
 {
@@ -32,9 +32,6 @@ public:
   void SolveWeighted(const double* masses, const double* density, double floor, int iterations,
     double* p, Progress& progress);
 
-  // The nodes, for each axis and transform, and for the other loops.
-  static std::int64_t UnitsOf(const NodeGrid<Dimension>& grid);
-  static std::int64_t UnitsOfWeighted(const NodeGrid<Dimension>& grid, int iterations);
   // Bytes that an object holds at most, with a thread a processor.
   static double MemoryFor(const NodeGrid<Dimension>& grid, bool weighted);
 

@@ -33,13 +33,26 @@ void WeightedPoisson<Dimension>::Solve(const double* masses, const double* densi
   }
   this->Begin(masses, density, floor, p, progress);
   ConjugateGradients method;
+  const double* z = this->Preconditioned.data();
+  const double* image = this->Image.data();
+  double* rest = this->Rest.data();
+  double* direction = this->Direction.data();
   const auto solve = [&]() {
     precondition(this->Rest.data(), this->Preconditioned.data());
-    return this->Product(progress);
+    return sumOverNodes(
+      this->Grid, progress, [=](std::int64_t node) { return z[node] * rest[node]; });
   };
-  const auto turn = [&](double beta) { this->Turn(beta, progress); };
+  const auto turn = [&](double beta) {
+    progress.ForEach(
+      this->Nodes, this->Chunk, [=](std::int64_t i) { direction[i] = z[i] + beta * direction[i]; });
+  };
   const auto apply = [&]() { return this->Apply(progress); };
-  const auto advance = [&](double alpha) { this->Advance(alpha, p, progress); };
+  const auto advance = [&](double alpha) {
+    progress.ForEach(this->Nodes, this->Chunk, [=](std::int64_t i) {
+      p[i] += alpha * direction[i];
+      rest[i] -= alpha * image[i];
+    });
+  };
   for (int iteration = 0; iteration < iterations && method.Iterate(solve, turn, apply, advance);
        ++iteration)
   {
@@ -82,23 +95,6 @@ void WeightedPoisson<Dimension>::Begin(
       weights[node + cells] = std::max(floor, 2.0 * factor * density[node + cells]);
     });
   });
-}
-
-template <int Dimension>
-double WeightedPoisson<Dimension>::Product(Progress& progress) const
-{
-  const double* z = this->Preconditioned.data();
-  const double* r = this->Rest.data();
-  return sumOverNodes(this->Grid, progress, [=](std::int64_t node) { return z[node] * r[node]; });
-}
-
-template <int Dimension>
-void WeightedPoisson<Dimension>::Turn(double beta, Progress& progress)
-{
-  const double* z = this->Preconditioned.data();
-  double* direction = this->Direction.data();
-  progress.ForEach(
-    this->Nodes, this->Chunk, [=](std::int64_t i) { direction[i] = z[i] + beta * direction[i]; });
 }
 
 // Image = -div(weight grad Direction), as masses. Returns its product with Direction.
@@ -160,26 +156,6 @@ double WeightedPoisson<Dimension>::ApplyToRow(std::int64_t row, std::int64_t nod
   }
   image[cells] += scale * (w[cells] + w[cells - 1]) * (d[cells] - d[cells - 1]);
   return sum + image[cells] * d[cells];
-}
-
-template <int Dimension>
-void WeightedPoisson<Dimension>::Advance(double alpha, double* p, Progress& progress)
-{
-  const double* direction = this->Direction.data();
-  const double* image = this->Image.data();
-  double* rest = this->Rest.data();
-  progress.ForEach(this->Nodes, this->Chunk, [=](std::int64_t i) {
-    p[i] += alpha * direction[i];
-    rest[i] -= alpha * image[i];
-  });
-}
-
-template <int Dimension>
-std::int64_t WeightedPoisson<Dimension>::UnitsOf(
-  const NodeGrid<Dimension>& grid, int iterations, std::int64_t ofPreconditioner)
-{
-  constexpr int others = 4; // of an iteration: loops over the nodes
-  return grid.NumberOfNodes() + iterations * (ofPreconditioner + others * grid.NumberOfNodes());
 }
 
 template <int Dimension>

@@ -29,8 +29,6 @@ public:
   void Solve(const double* masses, const double* density, double floor, int iterations,
     const Preconditioner& precondition, double* p, Progress& progress);
 
-  static std::int64_t UnitsOf(
-    const NodeGrid<Dimension>& grid, int iterations, std::int64_t ofPreconditioner);
   // Bytes.
   static double MemoryFor(const NodeGrid<Dimension>& grid);
 
@@ -39,11 +37,8 @@ private:
   void ForRows(std::int64_t first, std::int64_t last, const Kernel& kernel) const;
   void Begin(
     const double* masses, const double* density, double floor, double* p, Progress& progress);
-  double Product(Progress& progress) const;
-  void Turn(double beta, Progress& progress);
   double Apply(Progress& progress);
   double ApplyToRow(std::int64_t row, std::int64_t node);
-  void Advance(double alpha, double* p, Progress& progress);
 
   const NodeGrid<Dimension> Grid;
   const std::int64_t Nodes;

@@ -31,81 +31,39 @@ NodeGrid<Dimension> balancingNodes(const NodeGrid<Dimension>& corners)
   return nodesOver<Dimension>(corners.Cells, corners.Spacing, areFew ? 1 : 2);
 }
 
+// What the nodes' hats have of the masses that cells get too much.
 template <int Dimension>
-class Balancing
+NodeValues findExcess(const CellDensity<Dimension>& source, const CellDensity<Dimension>& target,
+  const NodeMap<Dimension>& corners, const NodeGrid<Dimension>& nodes, Progress& progress)
 {
-public:
-  Balancing(const CellDensity<Dimension>& source, const CellDensity<Dimension>& target,
-    NodeMap<Dimension>& corners, Progress& progress)
-    : Source(source)
-    , Target(target)
-    , Corners(corners)
-    , Nodes(balancingNodes(corners.Grid))
-    , Work(progress)
-  {
-  }
+  constexpr bool withCosts = false;
+  const auto shares = shareImages<Dimension>(source, target, corners, withCosts, progress);
+  NodeValues rest(target.NumberOfCells());
+  double* values = rest.data();
+  progress.ForEach(rest.size(), grain, [&](std::int64_t cell) {
+    values[cell] = static_cast<double>(shares.RestOf(cell, target)) / integerUnit;
+  });
+  return hatSums<Dimension>(values, target.Size(), nodes, progress);
+}
 
-  void Run()
-  {
-    const auto placement =
-      CellPlacement<Dimension>::Filling(this->Target.Size(), this->Nodes.Cells);
-    const NodeValues wanted =
-      hatMasses<Dimension>(this->Target, placement, this->Nodes, this->Work);
-    NodePoisson<Dimension> poisson(this->Nodes);
-    NodeValues q(this->Nodes.NumberOfNodes());
-    for (const int each : iterations)
+template <int Dimension>
+void moveCorners(const NodeMoves<Dimension>& moves, const CellPlacement<Dimension>& toNodes,
+  NodeMap<Dimension>& corners, Progress& progress)
+{
+  progress.ForEach(corners.Grid.NumberOfNodes(), grain, [&](std::int64_t corner) {
+    Point<Dimension> at;
+    for (std::size_t axis = 0; axis < at.size(); ++axis)
     {
-      const NodeValues excess = this->FindExcess();
-      poisson.SolveWeighted(excess.data(), wanted.data(), leastWeight, each, q.data(), this->Work);
-      this->Move(NodeMoves<Dimension>(this->Nodes, q.data(), this->Work));
+      at[axis] = corners.Images[axis].data()[corner];
     }
-  }
-
-private:
-  // What the nodes' hats have of the masses that cells get too much.
-  NodeValues FindExcess()
-  {
-    constexpr bool withCosts = false;
-    const auto shares =
-      shareImages<Dimension>(this->Source, this->Target, this->Corners, withCosts, this->Work);
-    NodeValues rest(this->Target.NumberOfCells());
-    double* values = rest.data();
-    this->Work.ForEach(rest.size(), grain, [&](std::int64_t cell) {
-      values[cell] = static_cast<double>(shares.RestOf(cell, this->Target)) / integerUnit;
-    });
-    return hatSums<Dimension>(values, this->Target.Size(), this->Nodes, this->Work);
-  }
-
-  void Move(const NodeMoves<Dimension>& moves)
-  {
-    const auto toNodes = CellPlacement<Dimension>::Filling(this->Target.Size(), this->Nodes.Cells);
-    std::array<double*, Dimension> images;
-    for (std::size_t axis = 0; axis < images.size(); ++axis)
+    const Point<Dimension> move = moves.At(toNodes.ToNodes(at.data()).data());
+    for (std::size_t axis = 0; axis < at.size(); ++axis)
     {
-      images[axis] = this->Corners.Images[axis].data();
+      corners.Images[axis].data()[corner] = std::clamp(at[axis] + move[axis] / toNodes.Sides[axis],
+        0.0, static_cast<double>(corners.Grid.Cells[axis]));
     }
-    const std::int64_t corners = this->Corners.Grid.NumberOfNodes();
-    this->Work.ForEach(corners, grain, [&](std::int64_t corner) {
-      Point<Dimension> at;
-      for (std::size_t axis = 0; axis < images.size(); ++axis)
-      {
-        at[axis] = images[axis][corner];
-      }
-      const Point<Dimension> move = moves.At(toNodes.ToNodes(at.data()).data());
-      for (std::size_t axis = 0; axis < images.size(); ++axis)
-      {
-        images[axis][corner] = std::clamp(at[axis] + move[axis] / toNodes.Sides[axis], 0.0,
-          static_cast<double>(this->Corners.Grid.Cells[axis]));
-      }
-    });
-  }
-
-  const CellDensity<Dimension>& Source;
-  const CellDensity<Dimension>& Target;
-  NodeMap<Dimension>& Corners;
-  const NodeGrid<Dimension> Nodes;
-  Progress& Work;
-};
+  });
+}
 
 } // namespace
 
@@ -113,7 +71,17 @@ template <int Dimension>
 void balanceMap(const CellDensity<Dimension>& source, const CellDensity<Dimension>& target,
   NodeMap<Dimension>& corners, Progress& progress)
 {
-  Balancing<Dimension>(source, target, corners, progress).Run();
+  const NodeGrid<Dimension> nodes = balancingNodes(corners.Grid);
+  const auto toNodes = CellPlacement<Dimension>::Filling(target.Size(), nodes.Cells);
+  const NodeValues wanted = hatMasses<Dimension>(target, toNodes, nodes, progress);
+  NodePoisson<Dimension> poisson(nodes);
+  NodeValues q(nodes.NumberOfNodes());
+  for (const int each : iterations)
+  {
+    const NodeValues excess = findExcess(source, target, corners, nodes, progress);
+    poisson.SolveWeighted(excess.data(), wanted.data(), leastWeight, each, q.data(), progress);
+    moveCorners(NodeMoves<Dimension>(nodes, q.data(), progress), toNodes, corners, progress);
+  }
 }
 
 template <int Dimension>

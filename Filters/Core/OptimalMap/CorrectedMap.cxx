@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/OptimalMap/CorrectedMap.h"
 
+#include "Core/Geometry/LatticePart.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
@@ -35,39 +36,36 @@ ImageCloud<Dimension> sampleImages(const PointMap<Dimension>& map,
   std::vector<std::int64_t> begins(static_cast<std::size_t>(rows + 1), 0);
   const std::int64_t grain = std::max<std::int64_t>(1, 256 / nodes.Grid.Cells[0]);
   const std::int64_t firstRows = std::max<std::int64_t>(1, (1 << 15) / nodes.Grid.Cells[0]);
-  progress.For(
-    rows, grain,
-    [&](std::int64_t first, std::int64_t last) {
-      ImageSamples<Dimension> samples(nodes, fineness);
-      for (std::int64_t row = first; row < last; ++row)
-      {
-        std::int64_t& count = begins[static_cast<std::size_t>(row + 1)];
-        samples.ForRow(row, source.CellsOrNull(),
-          [&](const CellSample<Dimension>&, const Point<Dimension>&) { ++count; });
-      }
-    },
-    firstRows);
+  // visit(row, i, sample, its image in cells of the nodes) of sample i of each row.
+  const auto forSamples = [&](std::int64_t units, const auto& visit) {
+    progress.For(
+      rows, grain,
+      [&](std::int64_t first, std::int64_t last) {
+        ImageSamples<Dimension> samples(nodes, fineness);
+        for (std::int64_t row = first; row < last; ++row)
+        {
+          std::int64_t i = 0;
+          samples.ForRow(row, source.CellsOrNull(),
+            [&](const auto& sample, const auto& image) { visit(row, i++, sample, image); });
+        }
+      },
+      units);
+  };
+  forSamples(firstRows, [&](std::int64_t row, std::int64_t i, const auto&, const auto&) {
+    begins[static_cast<std::size_t>(row + 1)] = i + 1;
+  });
   std::partial_sum(begins.begin(), begins.end(), begins.begin());
   ImageCloud<Dimension> cloud{ LargeBuffer<double>(begins.back() * Dimension),
     LargeBuffer<double>(begins.back()) };
   const double share = 1.0 / static_cast<double>(nodes.Grid.NumberOfCells());
-  progress.For(
-    rows, grain,
-    [&](std::int64_t first, std::int64_t last) {
-      ImageSamples<Dimension> samples(nodes, fineness);
-      for (std::int64_t row = first; row < last; ++row)
-      {
-        std::int64_t i = begins[static_cast<std::size_t>(row)];
-        samples.ForRow(row, source.CellsOrNull(),
-          [&](const CellSample<Dimension>& sample, const Point<Dimension>& atNodes) {
-            const Point<Dimension> image = map.AtSample(sample, atNodes);
-            std::copy(image.begin(), image.end(), cloud.Images.data() + i * Dimension);
-            cloud.Masses.data()[i] = share * sample.Mass;
-            ++i;
-          });
-      }
-    },
-    firstRows / 16 + 1);
+  forSamples(firstRows / 16 + 1,
+    [&](std::int64_t row, std::int64_t i, const CellSample<Dimension>& sample,
+      const Point<Dimension>& atNodes) {
+      const std::int64_t place = begins[static_cast<std::size_t>(row)] + i;
+      const Point<Dimension> image = map.AtSample(sample, atNodes);
+      std::copy(image.begin(), image.end(), cloud.Images.data() + place * Dimension);
+      cloud.Masses.data()[place] = share * sample.Mass;
+    });
   return cloud;
 }
 
@@ -97,27 +95,23 @@ void CorrectedMap<Dimension>::MeasureBlocks(const CellDensity<Dimension>& target
   ConstPointSpan<Dimension> images, const double* masses, Progress& progress)
 {
   const GridSize<Dimension>& cells = target.Size();
-  GridSize<Dimension> blocks;
-  std::int64_t count = 1;
-  for (int axis = 0; axis < Dimension; ++axis)
+  const auto lattice = LatticePart<Dimension>::WholeOf(cells);
+  auto blocks = lattice;
+  for (std::int64_t& count : blocks.Cells)
   {
-    blocks[axis] = (cells[axis] + blockSide - 1) / blockSide;
-    count *= blocks[axis];
+    count = (count + blockSide - 1) / blockSide;
   }
   const auto blockOf = [&](std::int64_t cell) {
-    std::int64_t block = 0;
-    std::int64_t stride = 1;
-    for (int axis = 0; axis < Dimension; ++axis)
+    GridSize<Dimension> block = lattice.CellOf(cell);
+    for (std::int64_t& place : block)
     {
-      block += cell % cells[axis] / blockSide * stride;
-      cell /= cells[axis];
-      stride *= blocks[axis];
+      place /= blockSide;
     }
-    return static_cast<std::size_t>(block);
+    return static_cast<std::size_t>(blocks.NumberOf(block));
   };
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  std::vector<double> wanted(static_cast<std::size_t>(count), 0.0);
-  std::vector<double> excess(static_cast<std::size_t>(count), 0.0);
+  std::vector<double> wanted(static_cast<std::size_t>(blocks.Count()), 0.0);
+  std::vector<double> excess(static_cast<std::size_t>(blocks.Count()), 0.0);
   progress.ForEachInOrder(target.NumberOfCells(), grain,
     [&](std::int64_t cell) { wanted[blockOf(cell)] += target.Share(cell); });
   progress.ForEachInOrder(images.size(), grain,

@@ -6,7 +6,6 @@
 #include "Core/OptimalMap/Masses/MassCorrection.h"
 #include "Core/OptimalMap/PointMap.h"
 
-#include <algorithm>
 #include <optional>
 
 namespace RectifiedTransport
@@ -33,8 +32,7 @@ public:
   // What At corrects is undone, near enough: the image as of PointMap, wherever there is mass.
   Point<Dimension> Uncorrected(const double* image) const
   {
-    Point<Dimension> before;
-    std::copy_n(image, Dimension, before.data());
+    auto before = pointAt<Dimension>(image);
     this->Correction->Undo(before.data());
     return before;
   }

@@ -8,7 +8,6 @@
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <stdexcept>
 #include <utility>

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstddef>
 #include <utility>
 
 namespace RectifiedTransport
@@ -45,18 +44,14 @@ public:
     this->Shares.Size = target.Size();
     this->Shares.Sides = grid.Spacing;
     this->Shares.Each = Each;
+    this->Shares.SquaredDiagonal = grid.SquaredDiagonal();
     for (int axis = 0; axis < Dimension; ++axis)
     {
       const auto cells = static_cast<double>(this->Shares.Size[axis]);
       const double length = this->Shares.Sides[axis] * cells;
-      this->Shares.SquaredDiagonal += length * length;
-      this->PartOfSquare[axis] = length * length;
+      this->PartOfSquare[axis] = length * length / this->Shares.SquaredDiagonal;
       this->Last[axis] = cells - 1.0;
       this->Part[axis] = 1.0 / cells;
-    }
-    for (std::size_t axis = 0; axis < this->Part.size(); ++axis)
-    {
-      this->PartOfSquare[axis] /= this->Shares.SquaredDiagonal;
       this->SquareOfCell[axis] = this->PartOfSquare[axis] * this->Part[axis] * this->Part[axis];
     }
   }

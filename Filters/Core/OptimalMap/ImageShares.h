@@ -4,6 +4,7 @@
 #ifndef RectifiedTransport_ImageShares_h
 #define RectifiedTransport_ImageShares_h
 
+#include "Core/Geometry/LatticePart.h"
 #include "Core/OptimalMap/Masses/CellDensity.h"
 #include "Core/OptimalMap/Nodes/IntegerSums.h"
 #include "Core/OptimalMap/Nodes/NodeMap.h"
@@ -27,13 +28,7 @@ struct CellShares
   }
   GridSize<Dimension> PlaceOf(std::int64_t cell) const
   {
-    GridSize<Dimension> place;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      place[axis] = cell % this->Size[axis];
-      cell /= this->Size[axis];
-    }
-    return place;
+    return LatticePart<Dimension>::WholeOf(this->Size).CellOf(cell);
   }
 
   GridSize<Dimension> Size;

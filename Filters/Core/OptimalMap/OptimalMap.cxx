@@ -3,7 +3,6 @@
 
 #include "Core/Flow/FlowArguments.h"
 #include "Core/Flow/Particles/StraightPaths.h"
-#include "Core/OptimalMap/BoxCheck.h"
 #include "Core/OptimalMap/CorrectedMap.h"
 #include "Core/OptimalMap/CouplingCost.h"
 #include "Core/OptimalMap/Masses/CellDensity.h"
@@ -15,6 +14,7 @@
 #include "Core/Parallel/Stages.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -49,6 +49,21 @@ void check(const OptimalMapOptions& options)
   }
 }
 
+// Throws unless all sides of a density's box are positive, with finite squares.
+template <int Dimension>
+void checkBox(const Point<Dimension>& low, const Point<Dimension>& high)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double side = high[axis] - low[axis];
+    if (!(side > 0.0 && std::isfinite(side * side)))
+    {
+      throw std::invalid_argument("the box of a density has a side of " + std::to_string(side) +
+        ", it must be positive, with a finite square");
+    }
+  }
+}
+
 template <int Dimension>
 Point<Dimension> pointOf(double coordinate)
 {
@@ -70,7 +85,7 @@ struct OptimalMap<Dimension>::Implementation
     , Sides(sides)
     , Parts(parts)
     , Options(options)
-    , Solver(this->Boxed(0), this->Boxed(1), sides, this->SolverOptionsOf(options))
+    , Solver(this->Boxed(0), this->Boxed(1), sides, options)
   {
   }
 
@@ -83,16 +98,6 @@ struct OptimalMap<Dimension>::Implementation
   BoxedDensity<Dimension> Boxed(std::size_t side) const
   {
     return { this->Densities[side], this->Parts[side][0], this->Parts[side][1] };
-  }
-  static SolverOptions SolverOptionsOf(const OptimalMapOptions& options)
-  {
-    SolverOptions solver;
-    solver.Tolerance = options.Tolerance;
-    solver.LeastIterations = options.LeastIterations;
-    solver.MostIterations = options.MostIterations;
-    solver.MostNodes = options.MostNodes;
-    solver.SpareSamples = options.ForBounds;
-    return solver;
   }
   Point<Dimension> CellSides(std::size_t side) const
   {

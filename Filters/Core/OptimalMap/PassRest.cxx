@@ -6,9 +6,7 @@
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -100,32 +98,27 @@ private:
     struct Offset
     {
       double Square;
-      std::array<std::int64_t, 3> Cells;
+      GridSize<Dimension> Cells;
     };
+    LatticePart<Dimension> about;
+    about.Low.fill(-reach);
+    about.Cells.fill(2 * reach + 1);
     std::vector<Offset> offsets;
-    const std::array<std::int64_t, 3> reaches = { reach, Dimension > 1 ? reach : 0,
-      Dimension > 2 ? reach : 0 };
-    for (std::int64_t z = 0; z <= reaches[2]; ++z)
+    // One of two opposite ones.
+    for (std::int64_t i = about.Count() / 2 + 1; i < about.Count(); ++i)
     {
-      for (std::int64_t y = -reaches[1]; y <= reaches[1]; ++y)
+      Offset offset{ 0.0, about.CellOf(i) };
+      std::int64_t cells = 0;
+      for (int axis = 0; axis < Dimension; ++axis)
       {
-        for (std::int64_t x = -reaches[0]; x <= reaches[0]; ++x)
-        {
-          // One of two opposite ones.
-          const bool isFirst = z > 0 || (z == 0 && (y > 0 || (y == 0 && x > 0)));
-          if (isFirst && x * x + y * y + z * z <= reach * reach)
-          {
-            const std::array<std::int64_t, 3> cells = { x, y, z };
-            double square = 0.0;
-            for (int axis = 0; axis < Dimension; ++axis)
-            {
-              const double way = static_cast<double>(cells[static_cast<std::size_t>(axis)]) *
-                this->Shares.Sides[axis];
-              square += way * way;
-            }
-            offsets.push_back({ square, cells });
-          }
-        }
+        const std::int64_t way = offset.Cells[axis];
+        const double length = static_cast<double>(way) * this->Shares.Sides[axis];
+        cells += way * way;
+        offset.Square += length * length;
+      }
+      if (cells <= reach * reach)
+      {
+        offsets.push_back(offset);
       }
     }
     std::stable_sort(offsets.begin(), offsets.end(),
@@ -135,29 +128,24 @@ private:
       this->PassBy(offset.Cells);
     }
   }
-
-  void PassBy(const std::array<std::int64_t, 3>& offset)
+  void PassBy(const GridSize<Dimension>& way)
   {
-    std::array<std::int64_t, 3> size = { 1, 1, 1 };
-    std::copy(this->Shares.Size.begin(), this->Shares.Size.end(), size.begin());
-    const std::int64_t step = offset[0] + size[0] * (offset[1] + size[1] * offset[2]);
-    const auto begin = [&](std::size_t axis) { return std::max<std::int64_t>(0, -offset[axis]); };
-    const auto end = [&](std::size_t axis) {
-      return size[axis] - std::max<std::int64_t>(0, offset[axis]);
-    };
-    GridSize<Dimension> way;
-    std::copy_n(offset.begin(), Dimension, way.begin());
-    for (std::int64_t z = begin(2); z < end(2); ++z)
+    const auto whole = LatticePart<Dimension>::WholeOf(this->Shares.Size);
+    auto reached = whole;
+    for (int axis = 0; axis < Dimension; ++axis)
     {
-      for (std::int64_t y = begin(1); y < end(1); ++y)
-      {
-        const std::int64_t row = size[0] * (y + size[1] * z);
-        this->PassInRow(row + begin(0), row + end(0), step, way);
-        this->Work.Add(size[0]);
-      }
+      reached.Low[axis] = -way[axis];
+    }
+    reached = reached.And(whole); // cells that have another one there
+    const std::int64_t row = reached.Cells[0];
+    const std::int64_t step = whole.NumberOf(way);
+    for (std::int64_t i = 0; !reached.IsEmpty() && i < reached.Count(); i += row)
+    {
+      const std::int64_t first = whole.NumberOf(reached.CellOf(i));
+      this->PassInRow(first, first + row, step, way);
+      this->Work.Add(this->Shares.Size[0]);
     }
   }
-
   void PassInRow(
     std::int64_t first, std::int64_t last, std::int64_t step, const GridSize<Dimension>& way)
   {

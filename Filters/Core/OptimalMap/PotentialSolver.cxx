@@ -3,10 +3,7 @@
 
 #include "Core/Grid/NodeLevels.h"
 #include "Core/Grid/Prolongation.h"
-#include "Core/OptimalMap/BoxCheck.h"
-#include "Core/OptimalMap/Masses/NodeIntegral.h"
 #include "Core/OptimalMap/Nodes/CostTransform.h"
-#include "Core/OptimalMap/Nodes/PushForward.h"
 #include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/SmallWork.h"
 #include "Core/Parallel/Stages.h"
@@ -14,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace RectifiedTransport
@@ -23,6 +22,7 @@ namespace
 {
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+constexpr int coarseIterations = 3; // on all but the finest nodes
 constexpr int weightedIterations = 4;
 constexpr double weightFloor = 1.0;
 
@@ -35,6 +35,23 @@ double squaredDiagonal(const Point<Dimension>& sides)
     sum += side * side;
   }
   return sum;
+}
+
+// Throws if a side of the domain is more than 1e120 times as long as another one: squared sides of
+// cells would vanish beside others.
+template <int Dimension>
+void checkSides(const Point<Dimension>& sides)
+{
+  constexpr double most = 1e120;
+  const auto [shortest, longest] = std::minmax_element(sides.begin(), sides.end());
+  if (!(*longest <= most * *shortest))
+  {
+    std::ostringstream text;
+    text << "The longest side of the domain is " << *longest / *shortest
+         << " times the shortest one; an optimal map needs one that is at most " << most
+         << " times as long";
+    throw std::invalid_argument(text.str());
+  }
 }
 
 template <int Dimension>
@@ -149,7 +166,7 @@ struct PotentialSolver<Dimension>::Scratch
 template <int Dimension>
 PotentialSolver<Dimension>::PotentialSolver(const BoxedDensity<Dimension>& source,
   const BoxedDensity<Dimension>& target, const Point<Dimension>& sides,
-  const SolverOptions& options)
+  const OptimalMapOptions& options)
   : Given{ source, target }
   , Lengths(sides)
   , Options(options)
@@ -207,8 +224,8 @@ void PotentialSolver<Dimension>::Solve(Progress& progress)
   std::vector<double> costs;
   for (std::size_t level = 0; level < levels.size(); ++level)
   {
-    const int iterations = level + 1 == levels.size() ? std::max(1, this->Options.LeastIterations)
-                                                      : this->Options.CoarseIterations;
+    const int iterations =
+      level + 1 == levels.size() ? std::max(1, this->Options.LeastIterations) : coarseIterations;
     costs.push_back(numberOfCells<Dimension>(levels[level]) * (iterations + 1));
   }
   Stages stages(progress, { { "cells", 3 }, { "potentials", 97 } });
@@ -310,19 +327,12 @@ void PotentialSolver<Dimension>::Begin(const std::vector<GridSize<Dimension>>& l
   {
     std::fill_n(this->Sides[0].Potential.data(), nodes, 0.0);
   }
-  this->Transform(progress);
-  this->BoundNow =
-    this->Dual(this->Sides[0].Potential.data(), this->Sides[1].Potential.data(), progress);
-}
-
-// Makes the potentials conjugate.
-template <int Dimension>
-void PotentialSolver<Dimension>::Transform(Progress& progress)
-{
+  // Makes the potentials conjugate.
   double* source = this->Sides[0].Potential.data();
   double* target = this->Sides[1].Potential.data();
   costTransform<Dimension>(this->Nodes, source, target, progress);
   costTransform<Dimension>(this->Nodes, target, source, progress);
+  this->BoundNow = this->Dual(source, target, progress);
 }
 
 // The bound that conjugate potentials give.
@@ -340,7 +350,7 @@ template <int Dimension>
 void PotentialSolver<Dimension>::Iterate(Scratch& scratch, bool isFinest, Progress& progress)
 {
   this->Steps = { 1.0, 1.0 };
-  const int most = isFinest ? this->Options.MostIterations : this->Options.CoarseIterations;
+  const int most = isFinest ? this->Options.MostIterations : coarseIterations;
   const int least = isFinest ? this->Options.LeastIterations : 0;
   const std::int64_t units =
     unitsOfIteration<Dimension>(this->Nodes.NumberOfNodes(), this->IsWeighted);
@@ -371,7 +381,7 @@ void PotentialSolver<Dimension>::FindDefect(Scratch& scratch, int side, Progress
   const SolverSide<Dimension>& other = this->Sides[Index(1 - side)];
   writeGradientMap<Dimension>(other.Potential.data(), scratch.Map, progress);
   SampleFineness fineness;
-  if (this->Options.SpareSamples && hasMassEverywhere(this->Given[Index(1 - side)]))
+  if (this->Options.ForBounds && hasMassEverywhere(this->Given[Index(1 - side)]))
   {
     fineness.OfLightCells = 0.5;
     fineness.LightMass = 1.0; // the mean
@@ -382,14 +392,6 @@ void PotentialSolver<Dimension>::FindDefect(Scratch& scratch, int side, Progress
   const double* hats = own.Hats.data();
   scratch.Sums.Write(scratch.Defect.data(), progress,
     [=](std::int64_t node, double mass) { return hats[node] - share * mass; });
-}
-
-// The product of p and the defect's masses.
-template <int Dimension>
-double PotentialSolver<Dimension>::Product(const Scratch& scratch, Progress& progress) const
-{
-  return sumOfProducts(
-    scratch.P.data(), scratch.Defect.data(), this->Nodes.NumberOfNodes(), progress);
 }
 
 // Moves the potential of a side along the solution p of Poisson's equation for the defect, by a
@@ -417,7 +419,9 @@ void PotentialSolver<Dimension>::HalfStep(Scratch& scratch, int side, Progress& 
   {
     scratch.Poisson.Solve(scratch.Defect.data(), p, progress);
   }
-  const double slope = 2.0 * std::max(0.0, this->Product(scratch, progress));
+  const double product =
+    sumOfProducts(p, scratch.Defect.data(), this->Nodes.NumberOfNodes(), progress);
+  const double slope = 2.0 * std::max(0.0, product);
   double& step = this->Steps[Index(side)];
   for (int attempt = 0; attempt <= halvings; ++attempt)
   {

@@ -10,10 +10,9 @@
 #include "Core/OptimalMap/Masses/NodeMasses.h"
 #include "Core/OptimalMap/Nodes/NodeMap.h"
 #include "Core/OptimalMap/Nodes/NodeSums.h"
+#include "Core/OptimalMap/OptimalMap.h"
 
 #include <array>
-#include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace RectifiedTransport
@@ -28,16 +27,6 @@ struct BoxedDensity
   const CellDensity<Dimension>& Density;
   Point<Dimension> Low{};
   Point<Dimension> High{};
-};
-
-struct SolverOptions
-{
-  double Tolerance = 1e-3; // of an iteration's gain, relative to a quarter of the bound
-  int CoarseIterations = 3;
-  int LeastIterations = 0; // on the finest nodes
-  int MostIterations = 20;
-  double MostNodes = 0x1p24;
-  bool SpareSamples = false; // of light cells that the map stretches, of densities without voids
 };
 
 // One of the two densities on the nodes.
@@ -63,7 +52,7 @@ class PotentialSolver
 public:
   // Throws std::invalid_argument if a side is more than 1e120 times as long as another one.
   PotentialSolver(const BoxedDensity<Dimension>& source, const BoxedDensity<Dimension>& target,
-    const Point<Dimension>& sides, const SolverOptions& options);
+    const Point<Dimension>& sides, const OptimalMapOptions& options);
 
   // Throws std::bad_alloc and Cancelled.
   void Solve(Progress& progress);
@@ -90,16 +79,14 @@ private:
   void MakeCells(const std::vector<GridSize<Dimension>>& levels, Progress& progress);
   void Begin(const std::vector<GridSize<Dimension>>& levels, std::size_t level,
     NodeValues potential, Progress& progress);
-  void Transform(Progress& progress);
   void Iterate(Scratch& scratch, bool isFinest, Progress& progress);
   void HalfStep(Scratch& scratch, int side, Progress& progress);
   void FindDefect(Scratch& scratch, int side, Progress& progress) const;
-  double Product(const Scratch& scratch, Progress& progress) const;
   double Dual(const double* source, const double* target, Progress& progress) const;
 
   const std::array<BoxedDensity<Dimension>, 2> Given;
   const Point<Dimension> Lengths;
-  const SolverOptions Options;
+  const OptimalMapOptions Options;
   const double Rounding;
   bool IsWeighted;
   std::array<std::vector<NodeValues>, 2> LevelCells; // of levels to come; none if uniform

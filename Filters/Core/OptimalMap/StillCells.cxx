@@ -63,17 +63,10 @@ public:
     , Map(NodeMap<Dimension>::On(solver.Grid()))
     , Kinds(this->Nodes.Count())
   {
-    double shortest = this->Grid.Spacing[0];
-    double diagonal = 0.0;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const double spacing = this->Grid.Spacing[axis];
-      const double side = spacing * static_cast<double>(this->Grid.Cells[axis]);
-      shortest = std::min(shortest, spacing);
-      diagonal += side * side;
-    }
+    const Point<Dimension>& spacing = this->Grid.Spacing;
+    const double shortest = *std::min_element(spacing.begin(), spacing.end());
     constexpr double rounding = 1e-15;
-    this->Most = mostSlack * shortest * shortest + rounding * diagonal;
+    this->Most = mostSlack * shortest * shortest + rounding * this->Grid.SquaredDiagonal();
   }
 
   void Find()
@@ -323,8 +316,7 @@ bool StillCells<Dimension>::Stay(const CellPlacement<Dimension>& from,
   {
     return false;
   }
-  Point<Dimension> moved;
-  std::copy_n(point, Dimension, moved.begin());
+  auto moved = pointAt<Dimension>(point);
   if (from.Low != to.Low || from.Sides != to.Sides) // conversions would round
   {
     moved = to.FromNodes(from.ToNodes(point).data());
@@ -359,8 +351,7 @@ void StillCells<Dimension>::Return(const double* points, PointSpan<Dimension> im
 {
   for (std::int64_t i = 0; i < images.size(); ++i)
   {
-    Point<Dimension> point;
-    std::copy_n(points + i * Dimension, Dimension, point.begin());
+    auto point = pointAt<Dimension>(points + i * Dimension);
     if (this->Keep(point.data()))
     {
       std::copy(point.begin(), point.end(), images[i]);

@@ -44,7 +44,11 @@ public:
   std::vector<Bytes> Gather(const Bytes& own) const override { return { own }; }
   std::vector<Bytes> Exchange(std::vector<Bytes> parts) const override { return parts; }
 
-  static const SoloRanks& Get();
+  static const SoloRanks& Get()
+  {
+    static const SoloRanks solo;
+    return solo;
+  }
 };
 
 } // namespace RectifiedTransport

@@ -51,7 +51,7 @@ bool EqualMassPartition::Solve(ConstPointSpan<2> sites, Progress& progress)
   {
     return false;
   }
-  this->SolvedSites = this->Sites;
+  this->SolvedSites = this->Cells.Sites();
   this->SolvedWeights = this->Weights;
   this->Rows.SetEvenShare(0.0); // what is left of it belongs to the way, not to the moments
   this->IntegrateCells(progress);
@@ -62,19 +62,14 @@ bool EqualMassPartition::Solve(ConstPointSpan<2> sites, Progress& progress)
 // centroids of the cells.
 void EqualMassPartition::SetSites(ConstPointSpan<2> sites, Progress& progress)
 {
-  this->Sites.resize(static_cast<std::size_t>(sites.size()));
-  for (std::int64_t i = 0; i < sites.size(); ++i)
-  {
-    this->Sites[static_cast<std::size_t>(i)] = { sites[i][0], sites[i][1] };
-  }
+  this->Cells.SetSites(sites, progress);
   this->Weights = this->SolvedWeights;
   for (std::size_t i = 0; i < this->SolvedSites.size(); ++i)
   {
     const Point<2>& centroid = this->Centroid(static_cast<std::int64_t>(i));
-    this->Weights[i] +=
-      squaredDistance(centroid, this->Sites[i]) - squaredDistance(centroid, this->SolvedSites[i]);
+    this->Weights[i] += squaredDistance(centroid, this->Cells.Sites()[i]) -
+      squaredDistance(centroid, this->SolvedSites[i]);
   }
-  this->Cells.SetSites(sites, progress);
 }
 
 // Weights with which each cell has a part of the domain: none where the domain has all sites. Else
@@ -83,13 +78,14 @@ void EqualMassPartition::SetSites(ConstPointSpan<2> sites, Progress& progress)
 void EqualMassPartition::FindFirstWeights()
 {
   const Point<2> lengths = this->Rows.Lengths();
-  const RectangleFit fit(this->Sites, lengths);
+  const RectangleFit fit(this->Cells.Sites(), lengths);
   std::fill(this->Weights.begin(), this->Weights.end(), 0.0);
-  for (std::size_t i = 0; i < this->Sites.size() && !fit.IsInside && std::isfinite(fit.Scale); ++i)
+  for (std::size_t i = 0;
+       i < this->Cells.Sites().size() && !fit.IsInside && std::isfinite(fit.Scale); ++i)
   {
     for (std::size_t a = 0; a < 2; ++a)
     {
-      const double from = this->Sites[i][a] - fit.Middle[a];
+      const double from = this->Cells.Sites()[i][a] - fit.Middle[a];
       this->Weights[i] +=
         from * ((1.0 - fit.Scale) * from + 2.0 * (fit.Middle[a] - lengths[a] / 2.0));
     }
@@ -118,7 +114,7 @@ bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
   constexpr double largestRatio = 64.0;
   constexpr int mostShortSteps = 500;
   // So little changes no cell's mass by more than a part of the tolerance.
-  const double smallest = 0.2 * massTolerance / static_cast<double>(this->Sites.size());
+  const double smallest = 0.2 * massTolerance / static_cast<double>(this->Cells.Sites().size());
   this->FindFirstWeights();
   Vector solved;
   double share = 1.0;
@@ -225,9 +221,9 @@ EqualMassPartition::Side EqualMassPartition::Integrate(std::int64_t site, std::i
   const std::int64_t j = cell[k].Neighbour;
   if (j >= 0)
   {
-    const Point<2>& x = this->Sites[static_cast<std::size_t>(site)];
-    side.Strength =
-      along / (2.0 * std::sqrt(squaredDistance(x, this->Sites[static_cast<std::size_t>(j)])));
+    const Point<2>& x = this->Cells.Sites()[static_cast<std::size_t>(site)];
+    side.Strength = along /
+      (2.0 * std::sqrt(squaredDistance(x, this->Cells.Sites()[static_cast<std::size_t>(j)])));
   }
   return side;
 }
@@ -284,14 +280,11 @@ EqualMassPartition::Deviation EqualMassPartition::EvaluateRevived(
     {
       break;
     }
-    progress.For(
+    progress.ForEach(
       static_cast<std::int64_t>(sites.size()), 1,
-      [&](std::int64_t first, std::int64_t last) {
-        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-        {
-          double& weight = weights[sites[i]];
-          weight = this->RevivingWeight(static_cast<std::int64_t>(sites[i]), weight, least);
-        }
+      [&](std::int64_t i) {
+        const std::size_t site = sites[static_cast<std::size_t>(i)];
+        weights[site] = this->RevivingWeight(static_cast<std::int64_t>(site), weights[site], least);
       },
       firstPiece);
     found = this->Evaluate(weights, progress);
@@ -452,7 +445,7 @@ bool EqualMassPartition::FindDirection()
 
 void EqualMassPartition::IntegrateCells(Progress& progress)
 {
-  this->Integrated.resize(this->Sites.size());
+  this->Integrated.resize(this->Cells.Sites().size());
   this->VisitCells(progress, firstSlice, [this](std::int64_t place) {
     this->PrefetchCell(place + 1);
     const std::int64_t site = this->Cells.SiteAt(place);
@@ -484,7 +477,7 @@ EqualMassPartition::CellIntegrals EqualMassPartition::IntegrateCell(std::int64_t
 double EqualMassPartition::Cost(std::int64_t site) const
 {
   const CellIntegrals& cell = this->Integrals(site);
-  const Point<2>& x = this->Sites[static_cast<std::size_t>(site)];
+  const Point<2>& x = this->Cells.Sites()[static_cast<std::size_t>(site)];
   return cell.Spread + squaredDistance(cell.Centroid, x) * cell.Mass;
 }
 

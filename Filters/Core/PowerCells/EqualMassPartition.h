@@ -102,7 +102,6 @@ private:
 
   RowMoments Rows;
   PowerDiagram Cells;
-  std::vector<Point<2>> Sites;
   Vector Weights;
   std::vector<Point<2>> SolvedSites; // of the last solution, with its integrals
   Vector SolvedWeights;

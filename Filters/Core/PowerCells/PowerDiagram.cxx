@@ -125,15 +125,15 @@ private:
 void PowerDiagram::SetSites(ConstPointSpan<2> sites, Progress& progress)
 {
   this->Tree.Build(sites, progress);
-  this->Sites.resize(static_cast<std::size_t>(sites.size()));
+  this->AllSites.resize(static_cast<std::size_t>(sites.size()));
   for (std::int64_t i = 0; i < sites.size(); ++i)
   {
-    this->Sites[static_cast<std::size_t>(i)] = { sites[i][0], sites[i][1] };
+    this->AllSites[static_cast<std::size_t>(i)] = { sites[i][0], sites[i][1] };
   }
-  if (this->States.size() != this->Sites.size())
+  if (this->States.size() != this->AllSites.size())
   {
     this->Now.Clear(sites.size(), 1);
-    this->States = std::vector<std::atomic<CutBy>>(this->Sites.size());
+    this->States = std::vector<std::atomic<CutBy>>(this->AllSites.size());
   }
 }
 

@@ -55,6 +55,7 @@ public:
   // Sets the sites, at least one. They may lie outside the rectangle, and may coincide. Throws
   // std::bad_alloc and Cancelled.
   void SetSites(ConstPointSpan<2> sites, Progress& progress);
+  const std::vector<Point<2>>& Sites() const { return this->AllSites; }
   // Computes the cells. After an exception, some of them are kept for the next update.
   void Update(const double* weights, Progress& progress);
 
@@ -107,7 +108,7 @@ private:
 
   const Point<2>& SiteOf(std::int64_t site) const
   {
-    return this->Sites[static_cast<std::size_t>(site)];
+    return this->AllSites[static_cast<std::size_t>(site)];
   }
   std::atomic<CutBy>& StateOf(std::int64_t site)
   {
@@ -125,7 +126,7 @@ private:
 
   const Point<2> Lengths;
   SiteTree Tree;
-  std::vector<Point<2>> Sites;
+  std::vector<Point<2>> AllSites;
   std::vector<std::atomic<CutBy>> States;
   Cells Now;
   Cells Last; // of the previous update, for their neighbours

@@ -5,7 +5,6 @@
 #include "Core/Parallel/RankExchange.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <utility>
 
 namespace RectifiedTransport

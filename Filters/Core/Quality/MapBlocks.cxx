@@ -335,52 +335,31 @@ private:
   // The grid cells that the images of the samples of this rank's blocks are in, or more.
   LatticePart<Dimension> CellsAround(Progress& progress)
   {
-    const auto whole = LatticePart<Dimension>::WholeOf(this->Size);
     if (this->Count == 0 || (!this->Distributed && this->Rows.LayersAtOnce() >= this->Size[Last]))
     {
-      return this->Count == 0 ? LatticePart<Dimension>{ {}, {} } : whole;
+      return this->Count == 0 ? LatticePart<Dimension>{ {}, {} }
+                              : LatticePart<Dimension>::WholeOf(this->Size);
     }
-    struct Bounds
-    {
-      Point<Dimension> Low;
-      Point<Dimension> High;
-    };
-    Bounds none;
-    none.Low.fill(std::numeric_limits<double>::infinity());
-    none.High.fill(-std::numeric_limits<double>::infinity());
     const LatticePart<Dimension> samples = MapBlocks<Dimension>::SamplesOf(this->Blocks);
-    const auto join = [](Bounds a, const Bounds& b) {
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        a.Low[axis] = std::min(a.Low[axis], b.Low[axis]);
-        a.High[axis] = std::max(a.High[axis], b.High[axis]);
-      }
-      return a;
-    };
-    const Bounds bounds = reduceChunks(
+    const LatticePart<Dimension> none{ {}, {} };
+    return reduceChunks(
       progress, samples.Count(), 4096, none,
       [&](std::int64_t first, std::int64_t last) {
-        Bounds found = none;
+        LatticePart<Dimension> found = none;
         for (std::int64_t i = first; i < last; ++i)
         {
-          Point<Dimension> x;
-          std::copy_n(this->Images.At(samples.CellOf(i)), Dimension, x.begin());
-          found = join(found, { x, x });
+          const double* x = this->Images.At(samples.CellOf(i));
+          LatticePart<Dimension> cell{ {}, oneBlock() };
+          for (int axis = 0; axis < Dimension; ++axis)
+          {
+            cell.Low[axis] =
+              std::clamp<std::int64_t>(static_cast<std::int64_t>(x[axis]), 0, this->Size[axis] - 1);
+          }
+          found = found.With(cell);
         }
         return found;
       },
-      join);
-    LatticePart<Dimension> cells = whole;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const std::int64_t end = this->Size[axis] - 1;
-      cells.Low[axis] =
-        std::clamp<std::int64_t>(static_cast<std::int64_t>(bounds.Low[axis]), 0, end);
-      cells.Cells[axis] =
-        std::clamp<std::int64_t>(static_cast<std::int64_t>(bounds.High[axis]), 0, end) + 1 -
-        cells.Low[axis];
-    }
-    return cells;
+      [](const LatticePart<Dimension>& a, const LatticePart<Dimension>& b) { return a.With(b); });
   }
 
   // Calls visit(batch, progress) with the rows of one batch after the other of the layers of the

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Quality/NearestNeighbours.h"
 
-#include "Core/Geometry/BoxTree.h"
+#include "Core/Geometry/PointBounds.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
@@ -26,17 +26,6 @@ struct TreePoint
   std::int64_t Id;
 };
 
-// A node of the tree: the bounding box of the points [First, Last). The first child is the next box
-// in memory, Second is the other, -1 in a leaf.
-struct TreeBox
-{
-  double Low[3];
-  double High[3];
-  std::int64_t First;
-  std::int64_t Last;
-  std::int64_t Second;
-};
-
 // Points between two polls for cancellation.
 constexpr std::int64_t mostAtOnce = std::int64_t{ 1 } << 15;
 
@@ -59,25 +48,29 @@ public:
       passes += 2;
     }
     progress.Expect(passes * count);
-    this->Read(points, progress);
-    this->Boxes = makeBoxTree<TreeBox>(
+    progress.ForEachInOrder(count, mostAtOnce, [&](std::int64_t i) {
+      TreePoint& point = this->Points.data()[i];
+      std::copy_n(points[i], 3, point.X);
+      point.Id = i;
+    });
+    this->Boxes = makeBoxTree<ItemBox>(
       count,
       [&](std::int64_t first, std::int64_t last) {
-        TreeBox made = EmptyBox(first, last);
+        ItemBox made{ {}, first, last, -1 };
         this->Bound(made, progress);
         return made;
       },
-      [&](const TreeBox& box) { return this->Divide(box, progress); });
+      [&](const ItemBox& box) { return this->Divide(box, progress); });
   }
 
   const TreePoint& At(std::int64_t place) const { return this->Points.data()[place]; }
   // Of all points.
-  const TreeBox& Bounds() const { return this->Boxes.front(); }
+  const ItemBox& Bounds() const { return this->Boxes.front(); }
 
   // The least squared distance of a point from another one, or `best` if that is less.
   double Search(const TreePoint& point, double best, std::int64_t box = 0) const
   {
-    const TreeBox& at = this->Boxes[static_cast<std::size_t>(box)];
+    const ItemBox& at = this->Boxes[static_cast<std::size_t>(box)];
     if (at.Second < 0)
     {
       for (std::int64_t i = at.First; i < at.Last && best > 0.0; ++i)
@@ -106,7 +99,7 @@ public:
   }
 
   // The squared distance of a point from a box; infinite or NaN from one without points.
-  static double GapTo(const TreePoint& point, const TreeBox& box)
+  static double GapTo(const TreePoint& point, const ItemBox& box)
   {
     double squared = 0.0;
     for (int r = 0; r < 3; ++r)
@@ -118,59 +111,24 @@ public:
   }
 
 private:
-  static TreeBox EmptyBox(std::int64_t first, std::int64_t last)
-  {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    return { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity }, first, last,
-      -1 };
-  }
-
-  void Read(ConstPointSpan<3> points, Progress& progress)
-  {
-    TreePoint* to = this->Points.data();
-    for (std::int64_t first = 0; first < this->Points.size(); first += mostAtOnce)
-    {
-      const std::int64_t last = std::min(first + mostAtOnce, this->Points.size());
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        std::copy_n(points[i], 3, to[i].X);
-        to[i].Id = i;
-      }
-      progress.Add(last - first);
-    }
-  }
-
-  void Bound(TreeBox& box, Progress& progress) const
+  void Bound(ItemBox& box, Progress& progress) const
   {
     for (std::int64_t first = box.First; first < box.Last; first += mostAtOnce)
     {
       const std::int64_t last = std::min(first + mostAtOnce, box.Last);
-      for (int r = 0; r < 3; ++r)
+      for (std::int64_t i = first; i < last; ++i)
       {
-        double low = box.Low[r];
-        double high = box.High[r];
-        for (std::int64_t i = first; i < last; ++i)
-        {
-          low = std::min(low, this->At(i).X[r]);
-          high = std::max(high, this->At(i).X[r]);
-        }
-        box.Low[r] = low;
-        box.High[r] = high;
+        box.Add(this->At(i).X);
       }
       progress.Add(last - first);
     }
   }
-
   // Partitions the points of a box along its widest axis. Returns where the second part begins, the
   // first point of the box if it is a leaf.
-  std::int64_t Divide(const TreeBox& box, Progress& progress)
+  std::int64_t Divide(const ItemBox& box, Progress& progress)
   {
-    int axis = 0;
-    for (int r = 1; r < 3; ++r)
-    {
-      axis = box.High[r] - box.Low[r] > box.High[axis] - box.Low[axis] ? r : axis;
-    }
-    if (box.Last - box.First <= leafPoints || !(box.High[axis] > box.Low[axis]))
+    const std::size_t axis = box.Longest();
+    if (box.Last - box.First <= leafPoints || !(box.Length(axis) > 0.0))
     {
       return box.First;
     }
@@ -178,14 +136,13 @@ private:
       this->Points.data(), box.First, box.Last,
       [axis](const TreePoint& point) { return point.X[axis]; }, progress);
   }
-
   double Gap(const TreePoint& point, std::int64_t box) const
   {
     return GapTo(point, this->Boxes[static_cast<std::size_t>(box)]);
   }
 
   LargeBuffer<TreePoint> Points;
-  std::vector<TreeBox> Boxes;
+  std::vector<ItemBox> Boxes;
 };
 
 constexpr std::int64_t grain = 512;
@@ -220,7 +177,7 @@ std::vector<double> answersTo(
 void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, const Ranks& ranks,
   Progress& progress)
 {
-  const std::vector<TreeBox> boxes = gatherValues(ranks, tree.Bounds());
+  const std::vector<ItemBox> boxes = gatherValues(ranks, tree.Bounds());
   Parts parts(progress, ranks.Count() - 1);
   for (int step = 1; step < ranks.Count(); ++step)
   {

@@ -6,8 +6,6 @@
 #include "../Geometry/Points.h"
 #include "../Parallel/Context.h"
 
-#include <cstdint>
-
 namespace RectifiedTransport
 {
 

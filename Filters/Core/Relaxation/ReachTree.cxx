@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Relaxation/ReachTree.h"
 
+#include "Core/Parallel/Polls.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Relaxation/Polls.h"
 
 #include <algorithm>
 #include <limits>
@@ -206,17 +206,6 @@ int ReachTree<Dimension>::Fill(std::int64_t block, RepulsionBlock<Dimension>& in
 }
 
 template <int Dimension>
-void ReachTree<Dimension>::FindBlocks(const ReachTree& targets, double reach, InReach& found) const
-{
-  const BlockBounds<Dimension> target = targets.Boxes.BoundsOf(found.First, found.Last);
-  this->Boxes.Find(
-    [&](const BlockBounds<Dimension>& box) {
-      return squaredGap<Dimension>(box, target) < reach * (box.Largest + target.Largest);
-    },
-    found.Blocks);
-}
-
-template <int Dimension>
 void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t block,
   std::int64_t last, double reach, InReach& found) const
 {
@@ -225,7 +214,12 @@ void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t bl
   {
     found.First = block;
     found.Last = std::min((block / together + 1) * together, last);
-    this->FindBlocks(targets, reach, found);
+    const BlockBounds<Dimension> target = targets.Boxes.BoundsOf(found.First, found.Last);
+    this->Boxes.Find(
+      [&](const BlockBounds<Dimension>& box) {
+        return squaredGap<Dimension>(box, target) < reach * (box.Largest + target.Largest);
+      },
+      found.Blocks);
   }
   if (found.Points.size() < found.Blocks.size() * repulsionBlock)
   {

@@ -70,8 +70,6 @@ public:
 private:
   void Begin(std::int64_t points);
   void End();
-  // For the blocks [found.First, found.Last) of the targets.
-  void FindBlocks(const ReachTree& targets, double reach, InReach& found) const;
   BlockBounds<Dimension> BoundsOf(std::int64_t block) const;
 
   RepulsionKernels<Dimension> Kernels = repulsionKernels<Dimension>();

@@ -39,8 +39,9 @@ RelaxationDescent<Dimension>::RelaxationDescent(RelaxationEnergy<Dimension>& ene
   , NextGradient(x.size())
   , NextSpacings(x.size() / Dimension)
 {
-  this->Function.Sort({ x.data(), static_cast<std::int64_t>(x.size()) / Dimension }, progress);
-  this->Value = this->Evaluate(this->X, this->Gradient, this->Spacings, progress);
+  this->Function.Sort(PointsOf(x), progress);
+  this->Value = this->Function.Evaluate(
+    PointsOf(this->X), PointsOf(this->Gradient), this->Spacings.data(), progress);
 }
 
 template <int Dimension>
@@ -66,15 +67,6 @@ RelaxationReport RelaxationDescent<Dimension>::Run(
 }
 
 template <int Dimension>
-double RelaxationDescent<Dimension>::Evaluate(
-  const Vector& x, Vector& gradient, Vector& spacings, Progress& progress)
-{
-  const auto count = static_cast<std::int64_t>(spacings.size());
-  return this->Function.Evaluate(
-    { x.data(), count }, { gradient.data(), count }, spacings.data(), progress);
-}
-
-template <int Dimension>
 bool RelaxationDescent<Dimension>::Step(Progress& progress)
 {
   const bool isFresh = this->Hessian.IsEmpty();
@@ -91,8 +83,7 @@ bool RelaxationDescent<Dimension>::Step(Progress& progress)
   }
   if (++this->Steps % stepsBetweenSorts == 0)
   {
-    this->Function.Sort(
-      { this->X.data(), static_cast<std::int64_t>(this->Spacings.size()) }, progress);
+    this->Function.Sort(PointsOf(this->X), progress);
   }
   return true;
 }
@@ -158,9 +149,7 @@ bool RelaxationDescent<Dimension>::Search(bool hasAims, Progress& progress)
   this->Aimed.clear();
   if (hasAims)
   {
-    const auto count = static_cast<std::int64_t>(this->Spacings.size());
-    this->Function.Aim(
-      { this->X.data(), count }, { this->Direction.data(), count }, this->Aimed, progress);
+    this->Function.Aim(PointsOf(this->X), PointsOf(this->Direction), this->Aimed, progress);
   }
   double part = 1.0;
   for (int tries = 0; tries < mostEvaluations; ++tries)
@@ -170,8 +159,8 @@ bool RelaxationDescent<Dimension>::Search(bool hasAims, Progress& progress)
     {
       return false;
     }
-    const double found =
-      this->Evaluate(this->Next, this->NextGradient, this->NextSpacings, progress);
+    const double found = this->Function.Evaluate(
+      PointsOf(this->Next), PointsOf(this->NextGradient), this->NextSpacings.data(), progress);
     if (found <= this->Value + sufficient * slope && found < this->Value)
     {
       this->Accept(found, progress);
@@ -197,8 +186,7 @@ double RelaxationDescent<Dimension>::Move(double part, Progress& progress)
     const double rest = isAimed ? 0.0 : usualRest;
     this->Next[i] = std::clamp(x + part * this->Direction[i], rest * x, side - rest * (side - x));
   }
-  const auto count = static_cast<std::int64_t>(this->Spacings.size());
-  this->Function.Constrain({ this->X.data(), count }, { this->Next.data(), count }, progress);
+  this->Function.Constrain(PointsOf(this->X), PointsOf(this->Next), progress);
   double slope = 0.0;
   for (std::size_t i = 0; i < this->X.size(); ++i)
   {

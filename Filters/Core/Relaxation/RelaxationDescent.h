@@ -9,6 +9,7 @@
 #include "Core/Relaxation/RelaxationFrame.h"
 
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace RectifiedTransport
@@ -40,7 +41,10 @@ private:
   // Moves all points at once. If that lowers the energy nowhere along the direction of descent,
   // returns false and leaves the points unchanged.
   bool Step(Progress& progress);
-  double Evaluate(const Vector& x, Vector& gradient, Vector& spacings, Progress& progress);
+  static PointSpan<Dimension> PointsOf(Vector& x)
+  {
+    return { x.data(), static_cast<std::int64_t>(x.size()) / Dimension };
+  }
   double Side(std::size_t i) const { return this->Frame.Sides[i % Dimension]; }
   // Whether a coordinate is at the border and descends outwards.
   bool IsHeld(std::size_t i) const;

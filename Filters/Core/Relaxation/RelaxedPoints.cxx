@@ -2,8 +2,8 @@
 #include "Core/Relaxation/RelaxedPoints.h"
 
 #include "Core/Geometry/ReproducibleMath.h"
+#include "Core/Parallel/Polls.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Relaxation/Polls.h"
 #include "Core/Relaxation/ReachTree.h"
 
 #include <algorithm>
@@ -51,9 +51,7 @@ RelaxedPoints<Dimension>::RelaxedPoints(
 template <int Dimension>
 Point<Dimension> RelaxedPoints<Dimension>::At(std::int64_t point) const
 {
-  Point<Dimension> x;
-  std::copy_n(this->X.data() + point * Dimension, Dimension, x.begin());
-  return x;
+  return pointAt<Dimension>(this->X.data() + point * Dimension);
 }
 
 template <int Dimension>

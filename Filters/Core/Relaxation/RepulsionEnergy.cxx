@@ -148,8 +148,7 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
       sources.Size(), grain,
       [&](std::int64_t i) {
         const ScaledPoint<Dimension> source = sources.Get(i);
-        Point<Dimension> x;
-        std::copy_n(source.X, Dimension, x.begin());
+        const Point<Dimension> x = pointAt<Dimension>(source.X);
         parts[static_cast<std::size_t>(i)] =
           source.Mass * this->Tree.Evaluate(attraction, this->Tree.Locate(x))[0];
       },
@@ -157,17 +156,13 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
     this->Constant = std::accumulate(parts.begin(), parts.end(), 0.0);
   }
   this->Fields.resize(attraction.size());
-  progress.For(
+  progress.ForEach(
     this->Tree.Nodes(), grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (auto node = static_cast<std::size_t>(first); node < static_cast<std::size_t>(last);
-           ++node)
+    [&](std::int64_t i) {
+      const auto node = static_cast<std::size_t>(i);
+      for (std::size_t entry = 0; entry < attraction[node].size(); ++entry)
       {
-        for (std::size_t entry = 0; entry < attraction[node].size(); ++entry)
-        {
-          this->Fields[node][entry] = { this->Tree.Spacing()[node][entry],
-            attraction[node][entry] };
-        }
+        this->Fields[node][entry] = { this->Tree.Spacing()[node][entry], attraction[node][entry] };
       }
     },
     firstSlice);
@@ -180,9 +175,8 @@ void RepulsionEnergy<Dimension>::Sort(ConstPointSpan<Dimension> points, Progress
   std::vector<ScaledPoint<Dimension>> particles(static_cast<std::size_t>(points.size()));
   for (std::int64_t i = 0; i < points.size(); ++i)
   {
-    Point<Dimension> x;
-    std::copy_n(points[i], Dimension, x.begin());
-    particles[static_cast<std::size_t>(i)] = scaledPoint<Dimension>(x, 1.0, 1.0);
+    particles[static_cast<std::size_t>(i)] =
+      scaledPoint<Dimension>(pointAt<Dimension>(points[i]), 1.0, 1.0);
   }
   this->Particles.Build(particles, progress);
   this->AtPoints.resize(static_cast<std::size_t>(points.size()));
@@ -207,8 +201,7 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
         const std::int64_t end = std::min(begin + most, last);
         for (std::int64_t i = begin; i < end; ++i)
         {
-          Point<Dimension> x;
-          std::copy_n(points[order[i]], Dimension, x.begin());
+          const Point<Dimension> x = pointAt<Dimension>(points[order[i]]);
           std::int64_t& leaf = this->Leaves[static_cast<std::size_t>(i)];
           auto& place = places[static_cast<std::size_t>(i - begin)];
           place = this->Tree.Locate(x, leaf);
@@ -223,8 +216,7 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
         {
           Data& data = this->AtPoints[static_cast<std::size_t>(i)];
           data = this->Tree.Evaluate(this->Fields, places[static_cast<std::size_t>(i - begin)]);
-          Point<Dimension> x;
-          std::copy_n(points[order[i]], Dimension, x.begin());
+          const Point<Dimension> x = pointAt<Dimension>(points[order[i]]);
           const double spacing = data[0].First();
           this->Particles.Set(i, scaledPoint<Dimension>(x, spacing, 1.0));
           spacings[order[i]] = spacing;

@@ -27,67 +27,7 @@ constexpr RepulsionWidth repulsionWidth = { Dimension == 2 ? 0.5 : 0.45, 13.8 };
 template <int Dimension>
 constexpr double finestLeaf = Dimension == 2 ? 0.6 : 0.75;
 
-constexpr DescentSettings descent = { 0.3, 0.1, 1.0 };
-
-template <int Dimension>
-class RepulsionRun
-{
-public:
-  RepulsionRun(const RectifiedFlow<Dimension>& flow, const Point<Dimension>& spacing,
-    PointSpan<Dimension> points)
-    : Flow(flow)
-    , Given(points)
-    , Frame(flow.Size(), spacing, points.size())
-    , Points(points, Frame)
-  {
-  }
-
-  RelaxationReport Relax(const RelaxationOptions& options, Progress& progress)
-  {
-    Stages stages(progress, { { "points", 5 }, { "energy", 15 }, { "descent", 80 } });
-    const RepulsionWidth& width = repulsionWidth<Dimension>;
-    this->Prepare(width, stages["points"]);
-    RepulsionEnergy<Dimension> energy(
-      this->Flow, this->Frame, *this->Tree, this->Points.Size(), width, stages["energy"]);
-    const RelaxationReport report = RelaxationDescent<Dimension>(
-      energy, this->Frame, descent, this->Points.Coordinates(), stages["energy"])
-                                      .Run(options, stages["descent"]);
-    this->Points.Write(this->Flow.Size(), this->Given);
-    progress.EndSlice(1);
-    return report;
-  }
-
-private:
-  void Prepare(const RepulsionWidth& width, Progress& progress)
-  {
-    this->MakeTree(std::numeric_limits<double>::infinity(), progress);
-    this->Points.Separate(
-      [this](const Point<Dimension>& x) {
-        return this->Tree->Evaluate(this->Tree->Spacing(), this->Tree->Locate(x))[0];
-      },
-      progress);
-    const double limit =
-      affordableSpacing<Dimension>(*this->Tree, this->Points.Get(), width.Reach(), progress);
-    if (!std::isinf(limit))
-    {
-      this->MakeTree(limit, progress);
-    }
-    this->Points.Arrange(progress);
-  }
-
-  void MakeTree(double largest, Progress& progress)
-  {
-    this->Tree.reset();
-    this->Tree = std::make_unique<SpacingTree<Dimension>>(
-      this->Flow, this->Frame, this->Points.Size(), finestLeaf<Dimension>, largest, progress);
-  }
-
-  const RectifiedFlow<Dimension>& Flow;
-  const PointSpan<Dimension> Given;
-  const RelaxationFrame<Dimension> Frame;
-  RelaxedPoints<Dimension> Points;
-  std::unique_ptr<SpacingTree<Dimension>> Tree;
-};
+constexpr DescentSettings settings = { 0.3, 0.1, 1.0 };
 
 } // namespace
 
@@ -106,7 +46,34 @@ RelaxationReport relaxByRepulsion(const DensitySource<Dimension>& density,
     return { { 0.0 } };
   }
   Progress progress(context);
-  return RepulsionRun<Dimension>(flow, spacing, points).Relax(options, progress);
+  Stages stages(progress, { { "points", 5 }, { "energy", 15 }, { "descent", 80 } });
+  const RepulsionWidth& width = repulsionWidth<Dimension>;
+  const RelaxationFrame<Dimension> frame(flow.Size(), spacing, points.size());
+  RelaxedPoints<Dimension> relaxed(points, frame);
+  std::unique_ptr<SpacingTree<Dimension>> tree;
+  const auto makeTree = [&](double largest) {
+    tree.reset();
+    tree = std::make_unique<SpacingTree<Dimension>>(
+      flow, frame, points.size(), finestLeaf<Dimension>, largest, stages["points"]);
+  };
+  makeTree(std::numeric_limits<double>::infinity());
+  relaxed.Separate(
+    [&](const Point<Dimension>& x) { return tree->Evaluate(tree->Spacing(), tree->Locate(x))[0]; },
+    stages["points"]);
+  const double limit =
+    affordableSpacing<Dimension>(*tree, relaxed.Get(), width.Reach(), stages["points"]);
+  if (!std::isinf(limit))
+  {
+    makeTree(limit);
+  }
+  relaxed.Arrange(stages["points"]);
+  RepulsionEnergy<Dimension> energy(flow, frame, *tree, points.size(), width, stages["energy"]);
+  RelaxationDescent<Dimension> descent(
+    energy, frame, settings, relaxed.Coordinates(), stages["energy"]);
+  const RelaxationReport report = descent.Run(options, stages["descent"]);
+  relaxed.Write(flow.Size(), points);
+  progress.EndSlice(1);
+  return report;
 }
 
 template decltype(relaxByRepulsion<2>) relaxByRepulsion<2>;

@@ -57,8 +57,7 @@ double affordableSpacing(const SpacingTree<Dimension>& tree, ConstPointSpan<Dime
   progress.ForEach(
     points.size(), grain,
     [&](std::int64_t i) {
-      Point<Dimension> x;
-      std::copy_n(points[i], Dimension, x.begin());
+      const Point<Dimension> x = pointAt<Dimension>(points[i]);
       const double spacing = tree.Evaluate(tree.Spacing(), tree.Locate(x))[0];
       scaled[static_cast<std::size_t>(i)] = scaledPoint<Dimension>(x, spacing, 1.0);
     },

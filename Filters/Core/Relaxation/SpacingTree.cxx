@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Relaxation/SpacingTree.h"
 
+#include "Core/Geometry/LatticePart.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Relaxation/NodeNumbers.h"
 
@@ -106,12 +107,10 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
   const auto roots = static_cast<std::int64_t>(numberOfCells<Dimension>(this->Roots));
   for (std::int64_t root = 0; root < roots; ++root)
   {
-    std::int64_t rest = root;
-    Box box{};
+    Box box{ LatticePart<Dimension>::WholeOf(this->Roots).CellOf(root), 0 };
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      box.Low[axis] = rest % this->Roots[axis] * this->Width(axis, 0);
-      rest /= this->Roots[axis];
+      box.Low[axis] *= this->Width(axis, 0);
     }
     this->Boxes.push_back(box);
   }
@@ -285,44 +284,23 @@ std::int64_t SpacingTree<Dimension>::WidestLeafAt(const Node& node) const
   std::int64_t widest = -1;
   for (int side = 0; side < hermiteCorners<Dimension>; ++side)
   {
+    // The finest leaf possible above or below the node along each axis.
+    Node fixed;
     std::int64_t root = 0;
     bool isInside = true;
     for (int axis = Dimension; axis-- > 0;)
     {
-      // The root above or below the node.
-      const std::int64_t at =
-        ((side >> axis & 1) ? node[axis] : node[axis] - 1) / this->Width(axis, 0);
-      isInside = isInside && at < this->Roots[axis] && (node[axis] > 0 || (side >> axis & 1));
-      root = root * this->Roots[axis] + at;
+      const std::int64_t width = this->Width(axis, 0);
+      const std::int64_t at = node[axis] - ((side >> axis & 1) ? 0 : 1);
+      isInside = isInside && at >= 0 && at < this->Roots[axis] * width;
+      fixed[axis] = at % width;
+      root = root * this->Roots[axis] + at / width;
     }
-    if (!isInside)
+    if (isInside)
     {
-      continue;
-    }
-    std::int64_t box = root;
-    std::int64_t first;
-    while ((first = this->Children[static_cast<std::size_t>(box)]) >= 0)
-    {
-      const auto& [low, depth] = this->Boxes[static_cast<std::size_t>(box)];
-      int child = 0;
-      int half = 1;
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        if (!this->IsHalved(axis, depth))
-        {
-          continue;
-        }
-        const std::int64_t middle = low[axis] + this->Width(axis, depth + 1);
-        const bool isUpper = node[axis] > middle || (node[axis] == middle && (side >> axis & 1));
-        child += isUpper ? half : 0;
-        half *= 2;
-      }
-      box = first + child;
-    }
-    const std::int64_t leaf = -1 - first;
-    if (widest < 0 || this->LeafBox(leaf).Depth < this->LeafBox(widest).Depth)
-    {
-      widest = leaf;
+      const std::int64_t leaf = this->LeafIn(root, fixed);
+      widest =
+        widest < 0 || this->LeafBox(leaf).Depth < this->LeafBox(widest).Depth ? leaf : widest;
     }
   }
   return widest;
@@ -357,7 +335,8 @@ template <int Dimension>
 typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
   const Point<Dimension>& x) const
 {
-  return this->Descend(this->LocateRoot(x));
+  const RootPlace in = this->LocateRoot(x);
+  return this->PlaceIn(in, this->LeafIn(in.Root, in.Fixed));
 }
 
 template <int Dimension>
@@ -372,7 +351,7 @@ typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
     const std::int64_t above = in.Low[axis] + in.Fixed[axis] - leaf.Low[axis];
     isInside = isInside && above >= 0 && above < this->Width(axis, leaf.Depth);
   }
-  return isInside ? this->PlaceIn(in, guess, leaf.Depth) : this->Descend(in);
+  return this->PlaceIn(in, isInside ? guess : this->LeafIn(in.Root, in.Fixed));
 }
 
 template <int Dimension>
@@ -395,11 +374,11 @@ typename SpacingTree<Dimension>::RootPlace SpacingTree<Dimension>::LocateRoot(
 }
 
 template <int Dimension>
-typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Descend(const RootPlace& in) const
+std::int64_t SpacingTree<Dimension>::LeafIn(std::int64_t root, const Node& fixed) const
 {
   std::int64_t first;
   int depth = 0;
-  for (std::int64_t box = in.Root; (first = this->Children[static_cast<std::size_t>(box)]) >= 0;
+  for (std::int64_t box = root; (first = this->Children[static_cast<std::size_t>(box)]) >= 0;
        ++depth)
   {
     int half = 0;
@@ -409,17 +388,18 @@ typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Descend(const Roo
       if (this->IsHalved(axis, depth))
       {
         const int shift = DeepestLevel - 1 - this->Halvings(axis, depth);
-        box += (in.Fixed[axis] >> shift & 1) << half++;
+        box += (fixed[axis] >> shift & 1) << half++;
       }
     }
   }
-  return this->PlaceIn(in, -1 - first, depth);
+  return -1 - first;
 }
 
 template <int Dimension>
 typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::PlaceIn(
-  const RootPlace& in, std::int64_t leaf, int depth) const
+  const RootPlace& in, std::int64_t leaf) const
 {
+  const int depth = this->LeafBox(leaf).Depth;
   Place place{ leaf, {}, &this->Sides(depth) };
   for (int axis = 0; axis < Dimension; ++axis)
   {

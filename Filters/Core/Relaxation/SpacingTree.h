@@ -141,8 +141,9 @@ private:
     return this->LeafBoxes[static_cast<std::size_t>(leaf)];
   }
   RootPlace LocateRoot(const Point<Dimension>& x) const;
-  Place Descend(const RootPlace& in) const;
-  Place PlaceIn(const RootPlace& in, std::int64_t leaf, int depth) const;
+  // The leaf that holds a place of a root, see RootPlace.
+  std::int64_t LeafIn(std::int64_t root, const Node& fixed) const;
+  Place PlaceIn(const RootPlace& in, std::int64_t leaf) const;
   template <class Data>
   static void prefetch(const Data& data)
   {

@@ -15,26 +15,9 @@ namespace RectifiedTransport
 namespace
 {
 
-template <int Dimension>
-void cutWindow(const Point<Dimension>& lengths, std::uint64_t randomSeed,
-  PointSpan<Dimension> unitPoints, Progress& progress)
-{
-  BlueNoiseWindow<Dimension> window(lengths, unitPoints.size(), randomSeed, progress);
-  window.FindSize();
-  double* output = unitPoints.data();
-  window.Emit([&output](const Point<Dimension>& point) {
-    std::copy(point.begin(), point.end(), output);
-    output += Dimension;
-  });
-  if constexpr (Dimension == 2)
-  {
-    relaxBorder(lengths, unitPoints, progress);
-  }
-}
-
 // The points from number `first` on, of `count`.
 template <int Dimension>
-void cutPartOfWindow(const Point<Dimension>& lengths, std::int64_t count, std::uint64_t randomSeed,
+void cutWindow(const Point<Dimension>& lengths, std::int64_t count, std::uint64_t randomSeed,
   std::int64_t first, PointSpan<Dimension> unitPoints, Progress& progress)
 {
   BlueNoiseWindow<Dimension> window(lengths, count, randomSeed, progress);
@@ -138,13 +121,9 @@ void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
     {
       generateFlat<Dimension>(lengths, thin, count, randomSeed, first, unitPoints, progress);
     }
-    else if (unitPoints.size() == count)
-    {
-      cutWindow<Dimension>(lengths, randomSeed, unitPoints, progress);
-    }
     else
     {
-      cutPartOfWindow<Dimension>(lengths, count, randomSeed, first, unitPoints, progress);
+      cutWindow<Dimension>(lengths, count, randomSeed, first, unitPoints, progress);
     }
   }
 }

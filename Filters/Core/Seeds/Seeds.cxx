@@ -294,6 +294,22 @@ void visitCells(const GridSize<Dimension>& size, std::int64_t first, std::int64_
   }
 }
 
+// A point in each cell of a grid from number `first` on, axis 0 fastest: at placeIn() along each
+// axis.
+template <int Dimension, class Place>
+void generateInCells(const GridSize<Dimension>& size, std::int64_t first,
+  PointSpan<Dimension> unitPoints, const Context& context, Place placeIn)
+{
+  double* point = unitPoints.data();
+  const auto write = [&](const GridSize<Dimension>& cell) {
+    for (int a = 0; a < Dimension; ++a)
+    {
+      *point++ = (static_cast<double>(cell[a]) + placeIn()) / static_cast<double>(size[a]);
+    }
+  };
+  visitCells<Dimension>(size, first, unitPoints.size(), context, write);
+}
+
 } // namespace
 
 template <int Dimension>
@@ -362,14 +378,7 @@ template <int Dimension>
 void generateLatticeFrom(const GridSize<Dimension>& size, std::int64_t first,
   PointSpan<Dimension> unitPoints, const Context& context)
 {
-  double* point = unitPoints.data();
-  const auto write = [&](const GridSize<Dimension>& cell) {
-    for (int a = 0; a < Dimension; ++a)
-    {
-      *point++ = (static_cast<double>(cell[a]) + 0.5) / static_cast<double>(size[a]);
-    }
-  };
-  visitCells<Dimension>(size, first, unitPoints.size(), context, write);
+  generateInCells<Dimension>(size, first, unitPoints, context, []() { return 0.5; });
 }
 
 template <int Dimension>
@@ -384,16 +393,10 @@ template <int Dimension>
 void generateJitteredLatticeFrom(const GridSize<Dimension>& size, std::uint64_t randomSeed,
   std::int64_t first, PointSpan<Dimension> unitPoints, const Context& context)
 {
-  double* point = unitPoints.data();
-  std::uint64_t counter = static_cast<std::uint64_t>(first) * Dimension;
-  const auto write = [&](const GridSize<Dimension>& cell) {
-    for (int a = 0; a < Dimension; ++a)
-    {
-      const double jitter = unitReal(randomWord(randomSeed, counter++));
-      *point++ = (static_cast<double>(cell[a]) + jitter) / static_cast<double>(size[a]);
-    }
+  const auto jitter = [&, counter = static_cast<std::uint64_t>(first) * Dimension]() mutable {
+    return unitReal(randomWord(randomSeed, counter++));
   };
-  visitCells<Dimension>(size, first, unitPoints.size(), context, write);
+  generateInCells<Dimension>(size, first, unitPoints, context, jitter);
 }
 
 template decltype(latticeSize<1>) latticeSize<1>;

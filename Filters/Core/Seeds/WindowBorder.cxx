@@ -139,11 +139,6 @@ private:
   {
     return this->Heads[static_cast<std::size_t>(this->IndexOf(bin))];
   }
-  std::int64_t Head(const Bin& bin) const
-  {
-    return this->Heads[static_cast<std::size_t>(this->IndexOf(bin))];
-  }
-
   Bin BinOf(const Point<2>& x) const
   {
     Bin bin;
@@ -186,7 +181,7 @@ private:
   }
 
   // The part of a step that leaves all other seeds their distance.
-  double FreePart(std::size_t seed, const Point<2>& step) const
+  double FreePart(std::size_t seed, const Point<2>& step)
   {
     const double square = step[0] * step[0] + step[1] * step[1];
     const double reach = std::sqrt(square) + smallestSpacing;
@@ -210,7 +205,7 @@ private:
   // Calls visit(other) for all other seeds, relative to that seed, whose distance is below the
   // reach, which may fall meanwhile, and for some more.
   template <class Reach, class Visit>
-  void VisitNear(std::size_t seed, const Reach& squaredReach, const Visit& visit) const
+  void VisitNear(std::size_t seed, const Reach& squaredReach, const Visit& visit)
   {
     const Bin centre = this->BinOf(this->Seeds[seed].X);
     const std::int64_t farthest = std::max(this->Bins[0], this->Bins[1]);
@@ -228,7 +223,7 @@ private:
 
   template <class Reach, class Visit>
   void VisitRing(std::size_t seed, const Bin& centre, std::int64_t ring, const Reach& squaredReach,
-    const Visit& visit) const
+    const Visit& visit)
   {
     const Point<2>& x = this->Seeds[seed].X;
     for (std::int64_t j = std::max(centre[1] - ring, std::int64_t{ 0 });
@@ -302,27 +297,6 @@ BorderBand::BorderBand(const Point<2>& lengths, std::int64_t count)
     this->Low[a] = static_cast<double>(knownBins) / static_cast<double>(bins[a]);
     this->High[a] = 1.0 - this->Low[a];
   }
-}
-
-void relaxBorder(const Point<2>& lengths, PointSpan<2> unitPoints, Progress& progress)
-{
-  WindowBorder border(lengths, unitPoints.size(), progress);
-  const BorderBand band(lengths, unitPoints.size());
-  constexpr std::int64_t slice = 1 << 12;
-  for (std::int64_t first = 0; first < unitPoints.size(); first += slice)
-  {
-    const std::int64_t end = std::min(first + slice, unitPoints.size());
-    for (std::int64_t i = first; i < end; ++i)
-    {
-      if (band.Holds(unitPoints[i]))
-      {
-        border.Add(i, unitPoints[i]);
-      }
-    }
-    progress.Add(end - first);
-  }
-  border.Relax();
-  border.Write(0, unitPoints);
 }
 
 void relaxBorder(const Point<2>& lengths, std::int64_t count, const std::vector<BorderSeed>& border,

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -218,10 +217,8 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimensio
     const RectifiedFlow<Dimension> toSites(sites, stages["flow"]);
     toSites.ForwardToCells(positions, labels, options, stages["labels"]);
   }
-  stages["groups"].For(pixels, grain, [&](std::int64_t first, std::int64_t last) {
-    std::transform(labels + first, labels + last, labels + first,
-      [&sites](std::int64_t pixel) { return sites.Find(pixel); });
-  });
+  stages["groups"].ForEach(
+    pixels, grain, [&](std::int64_t pixel) { labels[pixel] = sites.Find(labels[pixel]); });
   this->MergeGroups(flow, even, groups, labels, options, stages["merge"]);
   return groups;
 }
@@ -291,10 +288,8 @@ void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& fl
     }
   }
   groups = std::move(merged);
-  stages["labels"].For(masses.NumberOfPixels(), grain, [&](std::int64_t first, std::int64_t last) {
-    std::transform(labels + first, labels + last, labels + first,
-      [&](std::int64_t group) { return number[joined[group]]; });
-  });
+  stages["labels"].ForEach(masses.NumberOfPixels(), grain,
+    [&](std::int64_t pixel) { labels[pixel] = number[joined[labels[pixel]]]; });
 }
 
 template class DensitySiteCells<1>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SiteCells/LabelPolygons.h"
 
+#include "Core/Geometry/Bins.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
@@ -46,8 +47,8 @@ public:
 
   void Run(Progress& progress)
   {
-    this->FindBands(progress);
-    const std::int64_t bands = static_cast<std::int64_t>(this->FirstOfBand.size()) - 1;
+    const std::int64_t bands = (this->Size[1] + rowsOfBand - 1) / rowsOfBand;
+    this->FindBands(bands, progress);
     progress.ForEach(
       bands, 1, [this](std::int64_t band) { this->FillBand(band); },
       std::max<std::int64_t>(1, (1 << 16) / (rowsOfBand * this->Size[0])));
@@ -83,12 +84,10 @@ private:
   }
 
   // Lists the polygons that reach into each band, ascending.
-  void FindBands(Progress& progress)
+  void FindBands(std::int64_t bands, Progress& progress)
   {
-    const std::int64_t bands = (this->Size[1] + rowsOfBand - 1) / rowsOfBand;
     const auto polygons = static_cast<std::int64_t>(this->First.size()) - 1;
-    std::vector<std::int64_t> next(static_cast<std::size_t>(bands) + 1, 0);
-    const auto visit = [&](const auto& call) {
+    this->Bands.Fill(static_cast<std::size_t>(bands), [&](const auto& add) {
       progress.ForEachInOrder(polygons, 1 << 10, [&](std::int64_t polygon) {
         const Range columns = PixelsOf(this->ExtentOf(polygon, 0), this->Size[0]);
         const Range rows = PixelsOf(this->ExtentOf(polygon, 1), this->Size[1]);
@@ -97,19 +96,9 @@ private:
         for (std::int64_t band = rows.Begin / rowsOfBand;
              rows.Begin < end && band <= (end - 1) / rowsOfBand; ++band)
         {
-          call(static_cast<std::size_t>(band), polygon);
+          add(static_cast<std::size_t>(band), polygon);
         }
       });
-    };
-    visit([&next](std::size_t band, std::int64_t) { ++next[band + 1]; });
-    for (std::size_t band = 1; band < next.size(); ++band)
-    {
-      next[band] += next[band - 1];
-    }
-    this->FirstOfBand = next;
-    this->OfBands.resize(static_cast<std::size_t>(next.back()));
-    visit([&](std::size_t band, std::int64_t polygon) {
-      this->OfBands[static_cast<std::size_t>(next[band]++)] = polygon;
     });
   }
 
@@ -118,10 +107,8 @@ private:
     const std::int64_t begin = band * rowsOfBand;
     const std::int64_t end = std::min(begin + rowsOfBand, this->Size[1]);
     std::fill(this->Labels + begin * this->Size[0], this->Labels + end * this->Size[0], none);
-    for (std::int64_t k = this->FirstOfBand[static_cast<std::size_t>(band)];
-         k < this->FirstOfBand[static_cast<std::size_t>(band) + 1]; ++k)
+    for (const std::int64_t polygon : this->Bands[static_cast<std::size_t>(band)])
     {
-      const std::int64_t polygon = this->OfBands[static_cast<std::size_t>(k)];
       const Interval extent = this->ExtentOf(polygon, 1);
       const Range rows = PixelsOf(extent, this->Size[1]);
       for (std::int64_t row = std::max(rows.Begin, begin); row < std::min(rows.End, end); ++row)
@@ -179,8 +166,7 @@ private:
   const std::vector<std::int64_t>& First;
   const GridSize<2> Size;
   std::int64_t* const Labels;
-  std::vector<std::int64_t> FirstOfBand; // of OfBands
-  std::vector<std::int64_t> OfBands;     // the polygons
+  Bins<std::int64_t> Bands; // the polygons of each
 };
 
 } // namespace

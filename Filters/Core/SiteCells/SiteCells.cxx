@@ -63,10 +63,8 @@ FlowReport SiteCells<Dimension>::Label(
     const RectifiedFlow<Dimension> flow(sites, stages["flow"]);
     report =
       flow.ForwardToCells(FlowSeeds<Dimension>::Lattice(size), labels, options, stages["map"]);
-    stages["labels"].For(pixels, grain, [&](std::int64_t first, std::int64_t last) {
-      std::transform(labels + first, labels + last, labels + first,
-        [&sites](std::int64_t pixel) { return sites.Find(pixel); });
-    });
+    stages["labels"].ForEach(
+      pixels, grain, [&](std::int64_t pixel) { labels[pixel] = sites.Find(labels[pixel]); });
   }
   Point<Dimension> spacing = this->Place.template Lengths<Dimension>();
   for (int axis = 0; axis < Dimension; ++axis)

@@ -136,13 +136,20 @@ std::vector<double> randomExcess(std::size_t count)
   return masses;
 }
 
+// The units of work that a solution adds: there and back along each axis, or loops along a line.
+template <int Dimension>
+std::int64_t unitsOf(const NodeGrid<Dimension>& grid)
+{
+  return (Dimension == 1 ? 4 : 2 * Dimension) * grid.NumberOfNodes();
+}
+
 template <int Dimension>
 std::vector<double> solved(const NodeGrid<Dimension>& grid, const std::vector<double>& masses,
   const Context& context = Context(serial))
 {
   NodePoisson<Dimension> poisson(grid);
   Progress progress(context);
-  progress.Expect(NodePoisson<Dimension>::UnitsOf(grid));
+  progress.Expect(unitsOf(grid));
   std::vector<double> p(masses.size());
   poisson.Solve(masses.data(), p.data(), progress);
   return p;
@@ -155,7 +162,7 @@ std::vector<double> solvedWeighted(const NodeGrid<Dimension>& grid,
 {
   NodePoisson<Dimension> poisson(grid);
   Progress progress(context);
-  progress.Expect(NodePoisson<Dimension>::UnitsOfWeighted(grid, iterations));
+  progress.Expect(grid.NumberOfNodes() + iterations * (unitsOf(grid) + 4 * grid.NumberOfNodes()));
   std::vector<double> p(masses.size());
   poisson.SolveWeighted(masses.data(), density.data(), floor, iterations, p.data(), progress);
   return p;

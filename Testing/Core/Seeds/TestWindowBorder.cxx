@@ -17,7 +17,18 @@ namespace
 void relax(const Point<2>& lengths, Points<2>& unitPoints, const Context& context = Context())
 {
   Progress progress(context);
-  relaxBorder(lengths, unitPoints, progress);
+  const auto count = static_cast<std::int64_t>(unitPoints.size());
+  const BorderBand band(lengths, count);
+  std::vector<BorderSeed> border;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const Point<2>& point = unitPoints[static_cast<std::size_t>(i)];
+    if (band.Holds(point.data()))
+    {
+      border.push_back({ i, point });
+    }
+  }
+  relaxBorder(lengths, count, border, 0, unitPoints, progress);
 }
 
 // What a rectangle at a corner of the tile has of it, in the unit square.

@@ -48,10 +48,7 @@ CellDensity<Dimension>::CellDensity(const DensitySource<Dimension>& density, Pro
   requireDensity(found);
   this->Voids = !(found.Minimum > 0.0);
   const double total = found.Total;
-  progress.For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
-    std::transform(
-      shares + first, shares + last, shares + first, [=](double value) { return value / total; });
-  });
+  progress.ForEach(this->Count, grain, [=](std::int64_t cell) { shares[cell] /= total; });
   // Shares below the smallest double are voids.
   this->Voids = this->Voids || found.Minimum / total == 0.0;
 }

@@ -2,7 +2,7 @@
 #include "Core/OptimalMap/Masses/ExactCounts.h"
 
 #include "Core/OptimalMap/Masses/HalvingTree.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Polls.h"
 
 #include <algorithm>
 #include <array>
@@ -130,7 +130,7 @@ private:
       this->Particles[i] = this->Particles[middle];
       this->Particles[middle] = particle;
       middle += particle.At[axis] < plane ? 1 : 0;
-      this->Poll();
+      this->Work.Count();
     }
     return middle;
   }
@@ -152,7 +152,7 @@ private:
     {
       std::nth_element(this->Candidates.begin(), last, this->Candidates.end(),
         [&](const Candidate& a, const Candidate& b) {
-          this->Poll();
+          this->Work.Count();
           return a < b;
         });
     }
@@ -163,7 +163,7 @@ private:
       if (!this->Tree.Density().HasMass(particle.At.data()))
       {
         this->Tree.MoveToMass(particle.At, to);
-        this->Poll();
+        this->Work.Count();
       }
       this->Keep(particle);
     }
@@ -188,7 +188,7 @@ private:
         sure += distance < near ? 1 : 0;
         this->Candidates.push_back({ distance, particle.Number, i });
       }
-      this->Poll();
+      this->Work.Count();
     }
     return sure >= number;
   }
@@ -214,7 +214,7 @@ private:
         this->Tree.MoveToMass(particle.At, part.Box);
         this->Keep(particle);
       }
-      this->Poll();
+      this->Work.Count();
     }
   }
 
@@ -224,26 +224,12 @@ private:
     ++this->MovesMade;
   }
 
-  void Poll()
-  {
-    constexpr int interval = 1 << 16;
-    if (++this->SincePoll == interval)
-    {
-      this->SincePoll = 0;
-      if (this->Work.ShouldStop())
-      {
-        throw Cancelled();
-      }
-    }
-  }
-
   const HalvingTree<Dimension>& Tree;
   Particle<Dimension>* Particles;
   PointSpan<Dimension> Results;
-  Progress& Work;
+  Polls Work;
   std::vector<Candidate> Candidates;
   std::int64_t MovesMade = 0;
-  int SincePoll = 0;
 };
 
 } // namespace

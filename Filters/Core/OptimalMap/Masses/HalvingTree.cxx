@@ -4,7 +4,6 @@
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 

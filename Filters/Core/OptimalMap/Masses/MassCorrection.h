@@ -9,7 +9,6 @@
 #include "Core/OptimalMap/Masses/CellDensity.h"
 #include "Core/OptimalMap/Masses/NodeMasses.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace RectifiedTransport

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/Masses/NodeIntegral.h"
-
+// Integrals of functions that are given at nodes.
 #include "Core/OptimalMap/Masses/AxisShares.h"
+#include "Core/OptimalMap/Masses/NodeMasses.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 

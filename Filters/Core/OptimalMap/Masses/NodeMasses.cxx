@@ -6,7 +6,6 @@
 #include "Core/Parallel/Reduction.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <numeric>

@@ -86,6 +86,14 @@ template <int Dimension>
 double lumpingExcess(const CellDensity<Dimension>& density,
   const CellPlacement<Dimension>& placement, const NodeGrid<Dimension>& grid, Progress& progress);
 
+// The integral over a density of the multilinear interpolant of values at nodes: the sum of the
+// products of these and hatMasses, which needs no memory for the nodes. The same bits for every
+// number of threads. Throws std::bad_alloc and Cancelled.
+template <int Dimension>
+double integrateOver(const CellDensity<Dimension>& density,
+  const CellPlacement<Dimension>& placement, const NodeGrid<Dimension>& grid, const double* values,
+  Progress& progress);
+
 } // namespace RectifiedTransport
 
 #endif

@@ -4,12 +4,12 @@
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 #include <vector>
 
 #ifdef __SSE2__
@@ -272,103 +272,56 @@ private:
   LargeBuffer<std::int32_t> Marks;  // the node that serves from j on; 0 for the same as before
 };
 
-template <int Dimension>
-double squaredDiagonal(const NodeGrid<Dimension>& grid)
+// kernel(first, last) of lines, in ranges that are large enough to pay for their buffers, and
+// enough for some threads.
+template <class Kernel>
+void forLines(const NodeLines& lines, Progress& progress, const Kernel& kernel)
 {
-  double sum = 0.0;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    const double side = static_cast<double>(grid.Cells[axis]) * grid.Spacing[axis];
-    sum += side * side;
-  }
-  return sum;
+  const std::int64_t nodes = lines.Nodes;
+  const std::int64_t block = blockLines * nodes;
+  const std::int64_t all = lines.Count * nodes;
+  const std::int64_t blocks =
+    std::max<std::int64_t>(1, std::min<std::int64_t>(all / 16, 1 << 16) / block);
+  progress.For(
+    all, blocks * block,
+    [&](std::int64_t first, std::int64_t last) { kernel(first / nodes, last / nodes); },
+    firstSlice);
 }
 
-// Ranges of whole lines along an axis, in nodes.
-struct AxisLines
+// How many lines from one on are neighbours in memory.
+int neighboursOf(const NodeLines& lines, std::int64_t line, std::int64_t last)
 {
-  template <int Dimension>
-  AxisLines(const NodeGrid<Dimension>& grid, int axis)
-    : Nodes(grid.Cells[axis] + 1)
-    , Stride(grid.Stride(axis))
-    , All(grid.NumberOfNodes())
-  {
-  }
-
-  // kernel(first, last) of lines, which are numbered like the nodes of the grid without the axis.
-  template <class Kernel>
-  void For(Progress& progress, const Kernel& kernel) const
-  {
-    // Ranges that are large enough to pay for their buffers, and enough for some threads.
-    const std::int64_t block = blockLines * this->Nodes;
-    const std::int64_t range = std::min<std::int64_t>(this->All / 16, 1 << 16);
-    const std::int64_t blocks = std::max<std::int64_t>(1, range / block);
-    progress.For(
-      this->All, blocks * block,
-      [&](
-        std::int64_t first, std::int64_t last) { kernel(first / this->Nodes, last / this->Nodes); },
-      firstSlice);
-  }
-  std::int64_t Begin(std::int64_t line) const
-  {
-    return line / this->Stride * this->Stride * this->Nodes + line % this->Stride;
-  }
-  // From a line on, neighbours in memory.
-  int Together(std::int64_t line, std::int64_t last) const
-  {
-    const std::int64_t rest = this->Stride - line % this->Stride;
-    return static_cast<int>(std::min({ std::int64_t{ blockLines }, last - line, rest }));
-  }
-
-  std::int64_t Nodes; // of a line
-  std::int64_t Stride;
-  std::int64_t All;
-};
-
-// Of neighbouring lines, to and from lines one after the other.
-template <class T>
-void copyFromGrid(const T* grid, std::int64_t stride, int count, std::int64_t nodes, T* lines)
-{
-  if (count == blockLines)
-  {
-    for (std::int64_t j = 0; j < nodes; ++j)
-    {
-      for (int line = 0; line < blockLines; ++line)
-      {
-        lines[line * nodes + j] = grid[j * stride + line];
-      }
-    }
-    return;
-  }
-  for (std::int64_t j = 0; j < nodes; ++j)
-  {
-    for (int line = 0; line < count; ++line)
-    {
-      lines[line * nodes + j] = grid[j * stride + line];
-    }
-  }
+  const std::int64_t rest = lines.Stride - line % lines.Stride;
+  return static_cast<int>(std::min({ std::int64_t{ blockLines }, last - line, rest }));
 }
-template <class T>
-void copyToGrid(const T* lines, std::int64_t stride, int count, std::int64_t nodes, T* grid)
+
+// copy(place in lines one after the other, place in the grid) of all nodes of neighbouring lines.
+template <class Copy>
+void forNodes(const NodeLines& lines, int count, const Copy& copy)
 {
-  if (count == blockLines)
-  {
+  const auto forCount = [&copy, nodes = lines.Nodes, stride = lines.Stride](auto some) {
     for (std::int64_t j = 0; j < nodes; ++j)
     {
-      for (int line = 0; line < blockLines; ++line)
+      for (int line = 0; line < some; ++line)
       {
-        grid[j * stride + line] = lines[line * nodes + j];
+        copy(line * nodes + j, j * stride + line);
       }
     }
-    return;
-  }
-  for (std::int64_t j = 0; j < nodes; ++j)
-  {
-    for (int line = 0; line < count; ++line)
-    {
-      grid[j * stride + line] = lines[line * nodes + j];
-    }
-  }
+  };
+  // The compiler unrolls the usual number.
+  count == blockLines ? forCount(std::integral_constant<int, blockLines>()) : forCount(count);
+}
+
+template <class T>
+void copyFromGrid(const T* grid, const NodeLines& lines, int count, T* to)
+{
+  forNodes(lines, count, [=](std::int64_t at, std::int64_t node) { to[at] = grid[node]; });
+}
+
+template <class T>
+void copyToGrid(const T* from, const NodeLines& lines, int count, T* grid)
+{
+  forNodes(lines, count, [=](std::int64_t at, std::int64_t node) { grid[node] = from[at]; });
 }
 
 } // namespace
@@ -377,11 +330,11 @@ template <int Dimension>
 void costTransform(
   const NodeGrid<Dimension>& grid, const double* from, double* to, Progress& progress)
 {
-  const double largest = squaredDiagonal(grid);
-  const AxisLines rows(grid, 0);
+  const double largest = grid.SquaredDiagonal();
+  const NodeLines rows(grid, 0);
   const std::int64_t nodes = rows.Nodes;
   const AxisCosts rowCosts(nodes, grid.Spacing[0], largest);
-  rows.For(progress, [&](std::int64_t first, std::int64_t last) {
+  forLines(rows, progress, [&](std::int64_t first, std::int64_t last) {
     LineTransform transform(rowCosts);
     if (from != to)
     {
@@ -398,9 +351,9 @@ void costTransform(
   });
   for (int axis = 1; axis < Dimension; ++axis)
   {
-    const AxisLines lines(grid, axis);
+    const NodeLines lines(grid, axis);
     const AxisCosts costs(lines.Nodes, grid.Spacing[axis], largest);
-    lines.For(progress, [&](std::int64_t first, std::int64_t last) {
+    forLines(lines, progress, [&](std::int64_t first, std::int64_t last) {
       LineTransform transform(costs);
       LargeBuffer<double> scratch(2 * blockLines * lines.Nodes);
       double* in = scratch.data();
@@ -408,10 +361,10 @@ void costTransform(
       for (std::int64_t line = first; line < last;)
       {
         double* begin = to + lines.Begin(line);
-        const int count = lines.Together(line, last);
-        copyFromGrid(begin, lines.Stride, count, lines.Nodes, in);
+        const int count = neighboursOf(lines, line, last);
+        copyFromGrid(begin, lines, count, in);
         transform.Transform<1>(in, out, count);
-        copyToGrid(out, lines.Stride, count, lines.Nodes, begin);
+        copyToGrid(out, lines, count, begin);
         line += count;
       }
     });
@@ -422,14 +375,14 @@ template <int Dimension>
 void costMinimizers(
   const NodeGrid<Dimension>& grid, const double* from, std::int64_t* minimizers, Progress& progress)
 {
-  const double largest = squaredDiagonal(grid);
+  const double largest = grid.SquaredDiagonal();
   NodeValues values(grid.NumberOfNodes());
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    const AxisLines lines(grid, axis);
+    const NodeLines lines(grid, axis);
     const std::int64_t nodes = lines.Nodes;
     const AxisCosts costs(nodes, grid.Spacing[axis], largest);
-    lines.For(progress, [&](std::int64_t first, std::int64_t last) {
+    forLines(lines, progress, [&](std::int64_t first, std::int64_t last) {
       LineTransform transform(costs);
       const auto size = static_cast<std::size_t>(blockLines * nodes);
       std::vector<double> in(size);
@@ -440,7 +393,7 @@ void costMinimizers(
       for (std::int64_t line = first; line < last;)
       {
         const std::int64_t begin = lines.Begin(line);
-        const int count = lines.Together(line, last);
+        const int count = neighboursOf(lines, line, last);
         if (axis == 0)
         {
           std::transform(from + begin, from + begin + nodes, in.begin(), std::negate<>());
@@ -451,8 +404,8 @@ void costMinimizers(
         }
         else
         {
-          copyFromGrid(values.data() + begin, lines.Stride, count, nodes, in.data());
-          copyFromGrid(minimizers + begin, lines.Stride, count, nodes, before.data());
+          copyFromGrid(values.data() + begin, lines, count, in.data());
+          copyFromGrid(minimizers + begin, lines, count, before.data());
         }
         for (int i = 0; i < count; ++i)
         {
@@ -464,8 +417,8 @@ void costMinimizers(
               before[static_cast<std::size_t>(offset + found[static_cast<std::size_t>(j)])];
           }
         }
-        copyToGrid(out.data(), lines.Stride, count, nodes, values.data() + begin);
-        copyToGrid(after.data(), lines.Stride, count, nodes, minimizers + begin);
+        copyToGrid(out.data(), lines, count, values.data() + begin);
+        copyToGrid(after.data(), lines, count, minimizers + begin);
         line += count;
       }
     });

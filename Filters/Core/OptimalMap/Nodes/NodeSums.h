@@ -5,6 +5,7 @@
 
 #include "Core/Grid/NodeGrid.h"
 #include "Core/OptimalMap/Nodes/IntegerSums.h"
+#include "Core/OptimalMap/Nodes/NodeMap.h"
 
 #include <array>
 #include <cmath>
@@ -93,6 +94,13 @@ private:
   std::array<std::int64_t, Dimension> Strides{};
   double Scale; // a power of two
 };
+
+// Adds the masses of the nodes' hats in the image of a density, of which the cells between the
+// nodes have the masses `cells`, null if each has 1. Adds a unit of work a cell. Throws
+// std::bad_alloc and Cancelled.
+template <int Dimension>
+void pushForward(const NodeMap<Dimension>& map, const double* cells, const SampleFineness& fineness,
+  NodeSums<Dimension>& sums, Progress& progress);
 
 } // namespace RectifiedTransport
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/Nodes/PushForward.h"
+// What a map makes of a density, as masses of nodes.
+#include "Core/OptimalMap/Nodes/NodeSums.h"
 
 #include "Core/Parallel/Progress.h"
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SiteCells/EqualMasses/EqualizeSiteMasses.h"
 
-#include "Core/Parallel/Reduction.h"
+#include "Core/Geometry/Bins.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/EqualMasses/BorderMaxFlow.h"
 #include "Core/SiteCells/PixelRows.h"
 
 #include <algorithm>
 #include <cstdlib>
-#include <functional>
 #include <numeric>
 #include <vector>
 
@@ -201,24 +200,17 @@ private:
   // Returns whether a pixel with mass moved.
   bool Move(Progress& progress)
   {
-    this->FirstCandidate.assign(this->Borders.Size() + 1, 0);
-    for (const Face& face : this->Faces)
-    {
-      this->FirstCandidate[face.Border + 1] += this->Borders[face.Border].Flow != 0 ? 1 : 0;
-    }
-    std::partial_sum(
-      this->FirstCandidate.begin(), this->FirstCandidate.end(), this->FirstCandidate.begin());
-    this->Candidates.resize(static_cast<std::size_t>(this->FirstCandidate.back()));
-    this->Next = this->FirstCandidate;
-    for (const Face& face : this->Faces)
-    {
-      const SiteCellBorder& border = this->Borders[face.Border];
-      if (border.Flow != 0)
+    this->Candidates.Fill(this->Borders.Size(), [this](const auto& add) {
+      for (const Face& face : this->Faces)
       {
-        const bool isGiving = this->Owners[face.Pixel] == Giver(border);
-        this->Candidates[this->Next[face.Border]++] = isGiving ? face.Pixel : face.Other;
+        const SiteCellBorder& border = this->Borders[face.Border];
+        if (border.Flow != 0)
+        {
+          const bool isGiving = this->Owners[face.Pixel] == Giver(border);
+          add(static_cast<std::size_t>(face.Border), isGiving ? face.Pixel : face.Other);
+        }
       }
-    }
+    });
     // What each group is to have in excess when all flows are done.
     this->Planned = this->Excess;
     for (std::size_t i = 0; i < this->Borders.Size(); ++i)
@@ -232,9 +224,7 @@ private:
       if (this->Borders[i].Flow != 0)
       {
         progress.Check();
-        isMoved =
-          this->MoveOver(this->Borders[i], this->FirstCandidate[i], this->FirstCandidate[i + 1]) ||
-          isMoved;
+        isMoved = this->MoveOver(this->Borders[i], this->Candidates[i]) || isMoved;
       }
     }
     return isMoved;
@@ -247,16 +237,15 @@ private:
 
   // Pixels are no smaller than they are: one moves if that brings both groups nearer to each other,
   // with what the borders before left of their flows. So no group collects many such rests.
-  bool MoveOver(const SiteCellBorder& border, std::int64_t first, std::int64_t last)
+  bool MoveOver(const SiteCellBorder& border, const Bins<std::int64_t>::Range& candidates)
   {
     const std::int64_t from = Giver(border);
     const std::int64_t to = border.Flow > 0 ? border.High : border.Low;
     this->Planned[from] += std::abs(border.Flow);
     this->Planned[to] -= std::abs(border.Flow);
     this->Heap.clear();
-    for (std::int64_t i = first; i < last; ++i)
+    for (const std::int64_t pixel : candidates)
     {
-      const std::int64_t pixel = this->Candidates[i];
       this->Heap.push_back({ this->CostOf(pixel, from, to), pixel });
     }
     std::make_heap(this->Heap.begin(), this->Heap.end());
@@ -339,9 +328,7 @@ private:
   std::vector<std::int64_t> FirstFace; // of each row
   std::vector<Face> Faces;
   BorderMaxFlow Borders;
-  std::vector<std::int64_t> FirstCandidate; // of each border
-  std::vector<std::int64_t> Next;
-  std::vector<std::int64_t> Candidates;
+  Bins<std::int64_t> Candidates; // pixels, of each border
   std::vector<Candidate> Heap;
 };
 

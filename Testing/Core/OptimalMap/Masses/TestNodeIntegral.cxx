@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Integrals of functions at nodes against sums over their hats' masses.
-#include "Core/OptimalMap/Masses/NodeIntegral.h"
+#include "Core/OptimalMap/Masses/NodeMasses.h"
 
 #include "Core/Parallel/Progress.h"
 #include "OptimalMap/Masses/ParticleMasses.h"

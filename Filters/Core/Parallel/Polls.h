@@ -18,10 +18,10 @@ public:
   Polls(const Polls&) = delete;
   Polls& operator=(const Polls&) = delete;
 
-  // Polls every 2^18 calls. Throws Cancelled.
+  // Polls every 2^16 calls. Throws Cancelled.
   void Count()
   {
-    constexpr int interval = 1 << 18;
+    constexpr int interval = 1 << 16;
     if (++this->Calls == interval)
     {
       this->Calls = 0;
