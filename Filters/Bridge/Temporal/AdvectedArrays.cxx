@@ -61,8 +61,6 @@ vtkSmartPointer<vtkDoubleArray> doublesOf(vtkPointData* values, const std::strin
   return doubles;
 }
 
-} // namespace
-
 bool isAdvected(const AdvectedImage& image, int owner, vtkAbstractArray* array)
 {
   const bool isDensity = array && array->GetName() && image.Density == array->GetName() &&
@@ -70,6 +68,23 @@ bool isAdvected(const AdvectedImage& image, int owner, vtkAbstractArray* array)
   return array && array->GetName() && !isDensity &&
     array->GetName() != std::string(vtkDataSetAttributes::GhostArrayName()) &&
     array->GetNumberOfTuples() == image.Image->GetNumberOfElements(owner);
+}
+
+} // namespace
+
+void passAdvected(const AdvectedImage& image, vtkImageData* output)
+{
+  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    vtkDataSetAttributes* attributes = image.Image->GetAttributes(owner);
+    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+    {
+      if (isAdvected(image, owner, attributes->GetAbstractArray(i)))
+      {
+        output->GetAttributes(owner)->AddArray(attributes->GetAbstractArray(i));
+      }
+    }
+  }
 }
 
 void AdvectedArrays::Make(const AdvectedImage& first, const AdvectedImage& second,
