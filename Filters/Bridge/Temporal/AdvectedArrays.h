@@ -58,8 +58,8 @@ private:
   struct Advected
   {
     std::string Name;
-    int Owner;                          // vtkDataObject::POINT or CELL
-    vtkSmartPointer<vtkDataArray> Like; // for the type and the names of components
+    int Owner;                              // vtkDataObject::POINT or CELL
+    vtkSmartPointer<vtkAbstractArray> Like; // for the type and the names of components
     Ends OfParticles;
     Ends InPlace; // of the tuples of the whole geometry
   };

@@ -248,8 +248,8 @@ TEST(SeriesLabels, MoveAlong)
   const auto find = [&](double part) {
     const Placed placed(particles, part);
     std::vector<std::int64_t> found;
-    labels.Find<1>(placed.Moment, box.Grid, LatticePart<1>::WholeOf({ cells }), { &equal },
-      progress, [&](std::size_t, const std::vector<std::int64_t>& tuples) { found = tuples; });
+    labels.Find<1>(placed.Moment, box.Grid, LatticePart<1>::WholeOf({ cells }), { equal }, progress,
+      [&](std::size_t, const std::vector<std::int64_t>& tuples) { found = tuples; });
     return found;
   };
   const std::vector<std::int64_t> early = { 0, 1, 2, 1, 2, 3, 6, 7, 8, 9, 10, 11 };
