@@ -249,7 +249,7 @@ OTHERS = [
     E(CORE + "Flow/MapDisplacement.cxx", "«this->WeightOf(this->Part.CellOf(i)) / all»",
       "this->WeightOf(this->Part.CellOf(i))"),
     E(CORE + "Quality/MapBlocks.cxx", "if («!this->Wanted.empty()»)", "false"),
-    E(BRIDGE + "Flow/MapField.cxx", "if («target.Grid == this->Geometry»)", "true"),
+    E(CORE + "Quality/MapFigures.cxx", "if («target == map.Geometry»)", "true"),
     E(CORE + "Plan/TransportPlan.cxx", "std::min(size, «point[axis] * ratio»)", "point[axis]"),
     S(BRIDGE + "Flow/TransportMap.cxx", "identity.AddGrid(sourceGrid);", ";"),
     E("Filters/vtkTransportMap.cxx", "int first = «isToTarget && map.Backward ? 1 : 0»", "0"),

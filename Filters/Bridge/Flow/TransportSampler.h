@@ -3,32 +3,17 @@
 #ifndef RectifiedTransport_TransportSampler_h
 #define RectifiedTransport_TransportSampler_h
 
-#include "Bridge/Density/DensityPlan.h"
-#include "Bridge/Settings/OptimalSettings.h"
-#include "Bridge/Settings/TableSettings.h"
-#include "Bridge/VTKCompatibility.h"
-#include "Core/Flow/FlowOptions.h"
+#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Density/TableChoice.h"
 #include "Core/Seeds/Seeds.h"
-
-#include <cstdint>
-#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
-{
-class Progress;
-} // namespace RectifiedTransport
-
 namespace RectifiedTransport::Bridge
 {
-
-class BlockValues;
-class InputDensity;
-class FlowCache;
 
 // The members are the properties of that class.
 struct TransportSampler
