@@ -6,11 +6,10 @@
 #define RectifiedTransport_BlendPositions_h
 
 #include "Bridge/Density/FlowCache.h"
-#include "Bridge/Settings/OptimalSettings.h"
-#include "Bridge/Settings/TableSettings.h"
+#include "Bridge/Density/TableChoice.h"
+#include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Blend/BlendWeights.h"
-#include "Core/Parallel/RankShare.h"
-#include "Core/Splat/Splat.h"
+#include "Core/Flow/PivotPositions.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"

@@ -8,7 +8,6 @@
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/StepReport.h"
-#include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Blend/MovedCells.h"
 #include "Core/Flow/WeightedMean.h"
 #include "Core/Geometry/Dispatch.h"

@@ -9,7 +9,6 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Core/Distance/ClassicalScaling.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Parallel/Stages.h"
 
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"

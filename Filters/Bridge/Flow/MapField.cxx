@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/MapField.h"
 
-#include "Bridge/Run/Memory.h"
-
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 

@@ -5,9 +5,11 @@
 #define RectifiedTransport_MapField_h
 
 #include "Bridge/Ranks/TupleBoxes.h"
+#include "Bridge/Run/Memory.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Parallel/LargeBuffer.h"
 #include "Core/Quality/MapFigures.h"
+
+#include "vtkSmartPointer.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataSetAttributes;

@@ -4,7 +4,6 @@
 #include "Bridge/Density/DensityMass.h"
 #include "Bridge/Density/WholeValues.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Parallel/Stages.h"
 #include "Core/Tables/DensityInspection.h"
 
 #include "vtkAlgorithm.h"
