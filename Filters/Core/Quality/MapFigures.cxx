@@ -35,7 +35,7 @@ void prepareShares(
 // From the index space of the target to that of the samples, where images may be outside the
 // domain.
 template <int D>
-void takeFrom(const ImageGrid& target, const SampledMap<D>& map, Progress& progress)
+void takeFrom(const ImageGrid& target, const MapOnLattice<D>& map, Progress& progress)
 {
   if (target == map.Geometry)
   {
@@ -54,7 +54,7 @@ void takeFrom(const ImageGrid& target, const SampledMap<D>& map, Progress& progr
 
 // Writes all but costs. Derivatives depend on the positions of the layers before and after.
 template <int D>
-void writeSamples(const SampledMap<D>& map, const Point<D>& step, const MapDisplacement<D>& moves,
+void writeSamples(const MapOnLattice<D>& map, const Point<D>& step, const MapDisplacement<D>& moves,
   const MapValues& values, DisplacementSums& sums, Progress& progress)
 {
   const MapDerivatives<D> derivatives(map.Lattice, map.Wanted, map.Kept, step, map.Positions);
@@ -80,9 +80,9 @@ void writeSamples(const SampledMap<D>& map, const Point<D>& step, const MapDispl
 } // namespace
 
 template <int D>
-MapFigures writeMap(const SampledMap<D>& map, const RectifiedFlow<D>& flow, FlowDirection direction,
-  const DensitySource<D>& density, const MapTarget<D>* target, const MapValues& values,
-  Progress& progress)
+MapFigures writeMap(const MapOnLattice<D>& map, const RectifiedFlow<D>& flow,
+  FlowDirection direction, const DensitySource<D>& density, const MapTarget<D>* target,
+  const MapValues& values, Progress& progress)
 {
   const Ranks& ranks = progress.Group();
   const Point<D> step = latticeStep<D>(map.Lattice, map.Geometry.template Size<D>());
@@ -136,11 +136,11 @@ MapFigures writeMap(const SampledMap<D>& map, const RectifiedFlow<D>& flow, Flow
   return figures;
 }
 
-template MapFigures writeMap<1>(const SampledMap<1>&, const RectifiedFlow<1>&, FlowDirection,
+template MapFigures writeMap<1>(const MapOnLattice<1>&, const RectifiedFlow<1>&, FlowDirection,
   const DensitySource<1>&, const MapTarget<1>*, const MapValues&, Progress&);
-template MapFigures writeMap<2>(const SampledMap<2>&, const RectifiedFlow<2>&, FlowDirection,
+template MapFigures writeMap<2>(const MapOnLattice<2>&, const RectifiedFlow<2>&, FlowDirection,
   const DensitySource<2>&, const MapTarget<2>*, const MapValues&, Progress&);
-template MapFigures writeMap<3>(const SampledMap<3>&, const RectifiedFlow<3>&, FlowDirection,
+template MapFigures writeMap<3>(const MapOnLattice<3>&, const RectifiedFlow<3>&, FlowDirection,
   const DensitySource<3>&, const MapTarget<3>*, const MapValues&, Progress&);
 
 } // namespace RectifiedTransport

@@ -31,7 +31,7 @@ struct MapTarget
 
 // A lattice on the domain of a grid, and the images of its samples.
 template <int D>
-struct SampledMap
+struct MapOnLattice
 {
   const ImageGrid& Geometry;
   GridSize<D> Lattice;
@@ -56,9 +56,9 @@ struct MapValues
 // nullptr, is backward to the uniform measure. Collective. Throws std::overflow_error,
 // std::bad_alloc and Cancelled.
 template <int D>
-MapFigures writeMap(const SampledMap<D>& map, const RectifiedFlow<D>& flow, FlowDirection direction,
-  const DensitySource<D>& density, const MapTarget<D>* target, const MapValues& values,
-  Progress& progress);
+MapFigures writeMap(const MapOnLattice<D>& map, const RectifiedFlow<D>& flow,
+  FlowDirection direction, const DensitySource<D>& density, const MapTarget<D>* target,
+  const MapValues& values, Progress& progress);
 
 } // namespace RectifiedTransport
 
