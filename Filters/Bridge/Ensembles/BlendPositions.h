@@ -50,7 +50,7 @@ struct LinearizedMap
   FlowReport Flow;
 };
 
-// On all ranks.
+// Counts what happened on all ranks.
 struct BlendReport
 {
   std::int64_t Particles = 0;

@@ -22,7 +22,7 @@ struct StepDensity
   std::string ArrayName;
   ImageGrid Grid;
   DataIdentity Identity;
-  // Of all cells, axis 0 of index space fastest; on each rank.
+  // Each rank has the values of all cells, axis 0 of index space fastest.
   vtkSmartPointer<vtkDoubleArray> Values;
   double Mass = 0.0; // density times cell measure, summed; may be 0
 

@@ -45,7 +45,7 @@ ImageGrid gridBetween(const TemporalStep& first, const TemporalStep& second)
     MostCells::Any);
 }
 
-// What moves points between two steps with mass, `samples` together of all ranks.
+// Makes what moves points between two steps with mass; all ranks together move `samples`.
 template <int D>
 std::unique_ptr<const TransportPlan<D>> solve(const StepDensity& from, const StepDensity& to,
   const ImageGrid& box, bool isOptimal, double samples, Progress& progress)
@@ -58,7 +58,7 @@ std::unique_ptr<const TransportPlan<D>> solve(const StepDensity& from, const Ste
     memory, [&]() { return planInterval<D>(from.Step(), to.Step(), box, isOptimal, progress); });
 }
 
-// Particles of both steps that fade into each other.
+// Makes particles of both steps that fade into each other.
 template <int D>
 SeriesParticles fade(const StepDensity& from, const StepDensity& to, const ImageGrid& box,
   const MovingSettings& settings, Progress& progress)
@@ -404,7 +404,7 @@ TemporalInterpolation::Interval TemporalInterpolation::Make(
   return interval;
 }
 
-// All but their places and masses, which the output has; gives them to their ranks.
+// Adds what particles have besides places and masses, and gives them to their ranks.
 void TemporalInterpolation::WriteParticles(const Interval& interval, const ImageGrid& geometry,
   const SeriesMoment& moment, Progress& progress, const TemporalOutput& output)
 {

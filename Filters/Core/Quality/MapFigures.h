@@ -41,7 +41,7 @@ struct MapOnLattice
   PointSpan<D> Positions;
 };
 
-// Of the wanted samples, axis 0 fastest.
+// Each has a value or vector for each wanted sample, axis 0 fastest.
 struct MapValues
 {
   double* Displacements; // in 3D they may begin one layer or more before the positions

@@ -18,7 +18,7 @@ namespace RectifiedTransport
 // The seeds of a rank among those of all.
 struct SeedShare
 {
-  // Of a pattern of so many seeds, which may be more than any integer.
+  // Divides a pattern of so many seeds, which may be more than any integer.
   SeedShare(double pattern, int ranks, int rank)
     : All(static_cast<std::int64_t>(std::min(pattern, most)))
   {
@@ -26,7 +26,7 @@ struct SeedShare
     this->First = share.First;
     this->Count = pattern > most ? pattern / ranks : static_cast<double>(share.Count);
   }
-  // Where each rank has its own. Collective.
+  // Counts seeds that each rank has. Collective.
   SeedShare(std::int64_t own, const Ranks& ranks)
     : Count(static_cast<double>(own))
   {
