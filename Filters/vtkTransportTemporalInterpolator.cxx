@@ -359,8 +359,7 @@ bool vtkTransportTemporalInterpolator::ExtendTracks(
   int last, RectifiedTransport::Progress& progress)
 {
   vtkInternals& own = *this->Internals;
-  SeriesTracks& tracks = own.Interpolation.Tracks();
-  const int next = tracks.Count();
+  const int next = own.Interpolation.Tracks().Count();
   if (next > last)
   {
     return false;
@@ -379,17 +378,11 @@ bool vtkTransportTemporalInterpolator::ExtendTracks(
       " has no mass, and TrackParticles follows particles through all steps; "
       "TrackParticles Off lets mass appear and disappear");
   }
-  if (next > 0)
+  const std::string warning =
+    own.Interpolation.Track(next > 0 ? &before : nullptr, step, stages["track"]);
+  if (!warning.empty())
   {
-    requireOneSpace(before, step);
-  }
-  if (tracks.Extend(next > 0 ? before.Density.get() : nullptr, *step.Density, stages["track"]))
-  {
-    own.Interpolation.CountMap();
-  }
-  if (!tracks.Warning().empty())
-  {
-    this->WarnOnFirstRank(step.Title + ": " + tracks.Warning());
+    this->WarnOnFirstRank(step.Title + ": " + warning);
   }
   return true;
 }

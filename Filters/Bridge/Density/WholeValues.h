@@ -5,7 +5,7 @@
 
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ensembles/BlendPositions.h"
 
-#include "Bridge/Density/DensityPlan.h"
-#include "Bridge/Density/TableChoice.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Blend/OptimalBlend.h"
-#include "Core/Flow/PivotPositions.h"
 #include "Core/Geometry/Dispatch.h"
 
 #include <algorithm>
@@ -52,7 +49,7 @@ std::shared_ptr<const LinearizedMap> make(InputDensity& density,
   map->Positions = newArray<vtkDoubleArray>("Positions", 3, particles);
   const double bytes = D == 3 ? 0.0 : static_cast<double>(particles * D) * sizeof(double);
   map->Flow = withMemory({ "the particles", bytes }, [&]() {
-    return writePivot<D>(flow.Flow<D>(), density.Grid(), pivot, settings.Share.First,
+    return writePivot<D>(flow.Flow<D>(), density.Grid(), pivot, settings.Share,
       { map->Positions->GetPointer(0), particles }, settings.Options, stages["positions"]);
   });
   return map;

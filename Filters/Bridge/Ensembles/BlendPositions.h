@@ -6,11 +6,12 @@
 #define RectifiedTransport_BlendPositions_h
 
 #include "Bridge/Density/FlowCache.h"
+#include "Bridge/Density/TableChoice.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"
 #include "Bridge/Run/Settings/TableSettings.h"
+#include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Blend/BlendWeights.h"
-#include "Core/Parallel/RankShare.h"
-#include "Core/Splat/Splat.h"
+#include "Core/Flow/PivotPositions.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
@@ -51,7 +52,7 @@ struct LinearizedMap
   FlowReport Flow;
 };
 
-// On all ranks.
+// Counts what happened on all ranks.
 struct BlendReport
 {
   std::int64_t Particles = 0;

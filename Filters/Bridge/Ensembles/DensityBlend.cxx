@@ -7,7 +7,6 @@
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/StepReport.h"
-#include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Blend/MovedCells.h"
 #include "Core/Flow/WeightedMean.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
@@ -94,7 +93,7 @@ void addMoved(const MovedInput& input, const ImageGrid& grid, const TupleBox& wa
 {
   Stages stages(progress, { { "input", 1 }, { "cells", 9 } });
   const int owner = grid.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
-  const TupleBox own = shareOf(tuplesOf(grid.Extent(), owner, grid.Extent()), progress.Group());
+  const TupleBox own = partOfRank(tuplesOf(grid.Extent(), owner, grid.Extent()), progress.Group());
   LargeBuffer<double> given(own.Count());
   writeInput(input, grid, own, stages["input"], given.data());
   const auto spanOf = [](vtkDoubleArray* points) -> ConstPointSpan<3> {

@@ -9,7 +9,6 @@
 #include "Core/Distance/ClassicalScaling.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Parallel/Stages.h"
 
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"

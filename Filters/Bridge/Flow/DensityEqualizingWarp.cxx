@@ -2,17 +2,10 @@
 #include "Bridge/Flow/DensityEqualizingWarp.h"
 
 #include "Bridge/Density/CostModel.h"
-#include "Bridge/Density/InputDensity.h"
-#include "Bridge/Density/TableChoice.h"
-#include "Bridge/Flow/CorrectedImages.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Run/Memory.h"
 #include "Bridge/Run/StepReport.h"
-#include "Core/Flow/MapDisplacement.h"
+#include "Core/Equalize/CorrectedImages.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Parallel/RankExchange.h"
-#include "Core/Parallel/RankShare.h"
-#include "Core/Parallel/Stages.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
@@ -158,36 +151,6 @@ private:
   double* Index;
 };
 
-// The mean squared displacement of the mass of the density, by the centres of its cells, of which
-// each rank moves its share. Collective.
-template <int D>
-double costOfMap(const ImageGrid& grid, const RectifiedFlow<D>& flow, const TransportPlan<D>& plan,
-  const AreaCorrection<D>* correction, const std::string& purpose, Progress& progress)
-{
-  const GridSize<D>& size = flow.Size();
-  auto part = LatticePart<D>::WholeOf(size);
-  const RankShare layers(size[D - 1], progress.Group());
-  part.Low[D - 1] = layers.First;
-  part.Cells[D - 1] = layers.Count;
-  const MemoryPlan memory{ purpose, static_cast<double>(part.Count()) * D * sizeof(double) };
-  Stages stages(progress, { { "map", 9 }, { "cost", 1 } });
-  return withRequiredMemory(memory, [&]() {
-    LargeBuffer<double> buffer(part.Count() * D);
-    const PointSpan<D> images(buffer.data(), part.Count());
-    const LatticeParts<D> parts(part, part);
-    plan.Backward(FlowSeeds<D>::Lattice(size, parts), images, stages["map"]);
-    Progress& counting = stages["cost"].Expect((correction ? 2 : 1) * part.Count());
-    if (correction)
-    {
-      correctImages<D>(*correction, latticeStep<D>(size, size), part, parts, images, counting);
-    }
-    const MapDisplacement<D> moves(grid, size, part, part, images, &flow);
-    DisplacementSums sums;
-    moves.Count(sums, counting);
-    return moves.MeanSquare(sumOverRanks(progress.Group(), sums));
-  });
-}
-
 template <int D>
 DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputDensity& density,
   vtkPointSet* input, FlowCache& cache, Progress& progress, vtkPointSet* output)
@@ -237,8 +200,12 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
     {
       const std::string purpose = "the images of " +
         std::to_string(density.Grid().NumberOfCells()) + " cells (" + optimal.Advice() + ")";
-      const double cost = costOfMap<D>(
-        density.Grid(), shared.Flow<D>(), plan, correction.get(), purpose, stages["cost"]);
+      const auto images = layersOf<D>(plan.Size(), progress.Group()).Count();
+      const MemoryPlan memory{ purpose, static_cast<double>(images) * D * sizeof(double) };
+      const double cost = withRequiredMemory(memory, [&]() {
+        return costBackward<D>(
+          density.Grid(), shared.Flow<D>(), plan, correction.get(), stages["cost"]);
+      });
       addFieldValue(output, "TransportCost", cost);
       addBound<D>(plan, density.Grid(), cost, density.Grid(), output);
     }

@@ -3,29 +3,12 @@
 #ifndef RectifiedTransport_DensityEqualizingWarp_h
 #define RectifiedTransport_DensityEqualizingWarp_h
 
-#include "Bridge/Density/DensityPlan.h"
+#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Density/TableChoice.h"
 #include "Bridge/Flow/MeshInversion.h"
-#include "Bridge/Run/Settings/OptimalSettings.h"
-#include "Bridge/Run/Settings/TableSettings.h"
-#include "Bridge/VTKCompatibility.h"
-#include "Core/Flow/FlowOptions.h"
-
-#include <cstdint>
-
-VTK_ABI_NAMESPACE_BEGIN
-class vtkPointSet;
-VTK_ABI_NAMESPACE_END
-
-namespace RectifiedTransport
-{
-class Progress;
-} // namespace RectifiedTransport
 
 namespace RectifiedTransport::Bridge
 {
-
-class InputDensity;
-class FlowCache;
 
 // The members are the properties of that class.
 struct DensityEqualizingWarp

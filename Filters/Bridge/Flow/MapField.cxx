@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/MapField.h"
 
-#include "Bridge/Run/Memory.h"
-#include "Core/Flow/RectifiedFlow.h"
 #include "Core/Messages/PartText.h"
-#include "Core/Parallel/RankExchange.h"
-#include "Core/Parallel/Stages.h"
-#include "Core/Quality/MapFolds.h"
-
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 
@@ -137,27 +131,6 @@ void MapField<D>::Complete()
   }
 }
 
-// From the index space of the target to that of the samples, where images may be outside the
-// domain.
-template <int D>
-void MapField<D>::TakeFrom(const MapTarget<D>& target, Progress& progress)
-{
-  if (target.Grid == this->Geometry)
-  {
-    return;
-  }
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  const PointSpan<D> positions = this->Positions();
-  progress.For(positions.size(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      double x[3];
-      target.Grid.template ToPhysical<D>(positions[i], x);
-      this->Geometry.template ToIndex<D>(x, positions[i]);
-    }
-  });
-}
-
 template <int D>
 MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direction,
   const DensitySource<D>& density, Progress& progress, vtkDataSetAttributes* output,
@@ -170,92 +143,22 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
   const std::int64_t count = this->Wanted.Count();
   auto divergences = newArray<vtkDoubleArray>("Divergence", 1, count);
   auto determinants = newArray<vtkDoubleArray>("JacobianDeterminant", 1, count);
-  const Point<D> step = latticeStep<D>(this->Lattice, this->Geometry.template Size<D>());
-  const RectifiedFlow<D>* begins = direction == FlowDirection::Backward ? &flow : nullptr;
-  MapFigures figures;
-  const bool hasOwn = this->Wanted.Contains(this->OwnPart);
-  Stages stages(progress,
-    { { "blocks", 20 }, { "target", target ? 8.0 : 0.0 }, { "own part", hasOwn ? 0.0 : 35.0 },
-      { "samples", hasOwn ? 70.0 : 35.0 }, { "figures", target ? 8.0 : 0.0 } });
-  const MapSamples<D> samples{ this->Lattice, this->OwnPart, this->Kept, this->Positions() };
-  figures.Blocks = target
-    ? measureBlocksBetween<D>(samples, { density, flow.Total() }, target->Density, stages["blocks"])
-    : measureBlocks<D>(samples, density, flow.Total(), direction, stages["blocks"]);
+  auto costs = newArray<vtkDoubleArray>("CostDensity", 1, target ? count : 0);
+  const MapFigures figures = writeMap<D>(
+    { this->Geometry, this->Lattice, this->OwnPart, this->Wanted, this->Kept, this->Positions() },
+    flow, direction, density, target,
+    { this->Displacement->GetPointer(0), divergences->GetPointer(0), determinants->GetPointer(0),
+      costs->GetPointer(0) },
+    progress);
   if (target)
   {
-    this->TakeFrom(*target, stages["target"]);
-  }
-  const MapDerivatives<D> derivatives(
-    this->Lattice, this->Wanted, this->Kept, step, this->Positions());
-  const MapDisplacement<D> moves(
-    this->Geometry, this->Lattice, this->Wanted, this->Kept, this->Positions(), begins);
-  const MapFolds<D> folds(this->Lattice, begins);
-  FoldCount folded;
-  DisplacementSums sums;
-  if (!hasOwn)
-  {
-    Progress& counting = stages["own part"];
-    MapDisplacement<D>(
-      this->Geometry, this->Lattice, this->OwnPart, this->Kept, this->Positions(), begins)
-      .Count(sums, counting);
-    folded = folds.Count(this->OwnPart, this->Kept, step, this->Positions(), counting);
-  }
-  this->WriteSamples(derivatives, moves, sums, stages["samples"], divergences->GetPointer(0),
-    determinants->GetPointer(0));
-  if (hasOwn)
-  {
-    folded =
-      folds.Count(this->OwnPart, this->Wanted, determinants->GetPointer(0), stages["samples"]);
-  }
-  const DisplacementSums all = sumOverRanks(this->Processes, sums);
-  figures.Cost = moves.MeanSquare(all);
-  if (target)
-  {
-    auto costs = newArray<vtkDoubleArray>("CostDensity", 1, count);
-    moves.WriteCosts(
-      this->Displacement->GetPointer(0), all, costs->GetPointer(0), stages["figures"]);
     output->AddArray(costs);
   }
+  this->Displacement->SetNumberOfTuples(static_cast<vtkIdType>(count));
   output->SetVectors(std::exchange(this->Displacement, nullptr));
   output->AddArray(divergences);
   output->AddArray(determinants);
-  folded = sumOverRanks(this->Processes, folded);
-  figures.Folded = folded.Samples;
-  if (folded.Samples > 0)
-  {
-    const std::int64_t withMass =
-      sumOverRanks(this->Processes, folds.CountWithMass(this->OwnPart, stages["figures"]));
-    figures.ShowsFolds = isWorthWarning(folded.Samples, withMass) ||
-      isWorthWarning(folded.Area.Value(), numberOfCells<D>(this->Lattice));
-  }
   return figures;
-}
-
-// Derivatives depend on the positions of the layers before and after.
-template <int D>
-void MapField<D>::WriteSamples(const MapDerivatives<D>& derivatives,
-  const MapDisplacement<D>& moves, DisplacementSums& sums, Progress& progress, double* divergence,
-  double* determinant)
-{
-  const std::int64_t count = this->Wanted.Count();
-  const bool isInPlace = D == 3 && this->Processes.AreSeveral();
-  const std::int64_t layers = isInPlace ? this->Wanted.Cells[D - 1] : 1;
-  const std::int64_t each = count / std::max<std::int64_t>(1, layers);
-  const LatticePart<D> counted =
-    this->Wanted.Contains(this->OwnPart) ? this->OwnPart : LatticePart<D>{ {}, {} };
-  const PointSpan<3> displacements(this->Displacement->GetPointer(0), count);
-  constexpr std::int64_t grain = 4096;
-  RectifiedTransport::Parts parts(progress, layers);
-  for (std::int64_t layer = 0; layer < layers; ++layer)
-  {
-    Stages stages(parts[layer], { { "derivatives", 4 }, { "displacements", 6 } });
-    stages["derivatives"].For(each, grain, [&](std::int64_t first, std::int64_t last) {
-      derivatives.Write(layer * each + first, layer * each + last, divergence, determinant);
-    });
-    moves.Write(
-      layer * each, (layer + 1) * each, counted, displacements, sums, stages["displacements"]);
-  }
-  this->Displacement->SetNumberOfTuples(static_cast<vtkIdType>(count));
 }
 
 template class MapField<1>;

@@ -5,24 +5,11 @@
 #define RectifiedTransport_MapField_h
 
 #include "Bridge/Ranks/TupleBoxes.h"
+#include "Bridge/Run/Memory.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Flow/FlowOptions.h"
-#include "Core/Flow/MapDerivatives.h"
-#include "Core/Flow/MapDisplacement.h"
-#include "Core/Geometry/ImageGrid.h"
-#include "Core/Geometry/LatticePart.h"
-#include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
-#include "Core/Quality/BlockErrors.h"
-#include "Core/Quality/MapBlocks.h"
-#include "Core/Tables/Density.h"
+#include "Core/Quality/MapFigures.h"
 
 #include "vtkSmartPointer.h"
-
-#include <array>
-#include <cstdint>
-#include <string>
-#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataSetAttributes;
@@ -31,25 +18,6 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport::Bridge
 {
-
-// What a map says about all of its samples.
-struct MapFigures
-{
-  double Cost = 0.0;       // the mean squared displacement
-  std::int64_t Folded = 0; // samples
-  bool ShowsFolds = false; // enough for a warning
-
-  BlockErrors Blocks;
-};
-
-// The density that a map leads to from another one, and its grid, in whose index space the images
-// are.
-template <int D>
-struct MapTarget
-{
-  const ImageGrid& Grid;
-  SummedDensity<D> Density;
-};
 
 // In 3D positions and displacements share memory.
 template <int D>
@@ -63,21 +31,16 @@ public:
   MapField(const ImageGrid& geometry, const ImageGrid& samples, const TupleBox& wanted,
     const std::string& purpose, const Ranks& ranks, bool hasTarget = false);
 
-  const GridSize<D>& Whole() const { return this->Lattice; }
   // The part that this rank computes.
   const LatticePart<D>& Part() const { return this->OwnPart; }
-  // The part that Write needs the masses of, too.
-  LatticePart<D> WeighedPart() const { return this->OwnPart.With(this->Wanted); }
   // The own part, with the numbers of its positions.
   LatticeParts<D> Parts() const { return { this->OwnPart, this->Kept }; }
   // The mapped samples, in index space.
   PointSpan<D> Positions();
 
-  // Computes Displacement, Divergence and JacobianDeterminant of the wanted samples; positions are
-  // undefined afterwards. The map begins at the uniform measure (forward) or at the density
-  // (backward), and so do the weights of samples in the cost. `density` has the values that `flow`
-  // moves points by. A map from the density to a target, which is backward to the uniform measure,
-  // also gives CostDensity. Collective. Throws Failure and Cancelled.
+  // Adds Displacement, Divergence and JacobianDeterminant of the wanted samples, with a target
+  // CostDensity, too; see writeMap. Positions are undefined afterwards. Collective. Throws Failure
+  // and Cancelled.
   MapFigures Write(const RectifiedFlow<D>& flow, FlowDirection direction,
     const DensitySource<D>& density, Progress& progress, vtkDataSetAttributes* output,
     const MapTarget<D>* target = nullptr);
@@ -86,9 +49,6 @@ private:
   void FindParts(const ImageGrid& samples, const TupleBox& wanted, const Ranks& ranks);
   TupleBox BoxOf(const LatticePart<D>& part) const;
   void Complete();
-  void TakeFrom(const MapTarget<D>& target, Progress& progress);
-  void WriteSamples(const MapDerivatives<D>& derivatives, const MapDisplacement<D>& moves,
-    DisplacementSums& sums, Progress& progress, double* divergence, double* determinant);
 
   const ImageGrid& Geometry;
   const Ranks& Processes;

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <iterator>
 #include <vector>
 
@@ -30,66 +31,49 @@ constexpr int triquadraticPyramid = 37; // VTK's name of it is newer than the ol
 constexpr int allCorners = 0;
 
 // The corners of a cell are the first of its points.
-struct ShapeOfType
+struct TypesOfShape
 {
-  int Type;
   OrientedShape Shape;
-  int Corners = allCorners;
+  int Corners;
+  std::initializer_list<int> Types;
 };
 
-constexpr ShapeOfType shapes[] = {
-  { VTK_LINE, OrientedShape::Line },
-  { VTK_QUADRATIC_EDGE, OrientedShape::Line },
-  { VTK_CUBIC_LINE, OrientedShape::Line },
-  { VTK_LAGRANGE_CURVE, OrientedShape::Line },
-  { VTK_BEZIER_CURVE, OrientedShape::Line },
-  { VTK_POLY_LINE, OrientedShape::PolyLine },
-  { VTK_TRIANGLE, OrientedShape::Polygon, 3 },
-  { VTK_QUADRATIC_TRIANGLE, OrientedShape::Polygon, 3 },
-  { VTK_BIQUADRATIC_TRIANGLE, OrientedShape::Polygon, 3 },
-  { VTK_LAGRANGE_TRIANGLE, OrientedShape::Polygon, 3 },
-  { VTK_BEZIER_TRIANGLE, OrientedShape::Polygon, 3 },
-  { VTK_QUAD, OrientedShape::Polygon, 4 },
-  { VTK_QUADRATIC_QUAD, OrientedShape::Polygon, 4 },
-  { VTK_QUADRATIC_LINEAR_QUAD, OrientedShape::Polygon, 4 },
-  { VTK_BIQUADRATIC_QUAD, OrientedShape::Polygon, 4 },
-  { VTK_LAGRANGE_QUADRILATERAL, OrientedShape::Polygon, 4 },
-  { VTK_BEZIER_QUADRILATERAL, OrientedShape::Polygon, 4 },
-  { VTK_PIXEL, OrientedShape::Pixel },
-  { VTK_POLYGON, OrientedShape::Polygon },
-  { VTK_QUADRATIC_POLYGON, OrientedShape::Polygon },
-  { VTK_TRIANGLE_STRIP, OrientedShape::TriangleStrip },
-  { VTK_TETRA, OrientedShape::Tetrahedron },
-  { VTK_QUADRATIC_TETRA, OrientedShape::Tetrahedron },
-  { VTK_LAGRANGE_TETRAHEDRON, OrientedShape::Tetrahedron },
-  { VTK_BEZIER_TETRAHEDRON, OrientedShape::Tetrahedron },
-  { VTK_VOXEL, OrientedShape::Voxel },
-  { VTK_HEXAHEDRON, OrientedShape::Hexahedron },
-  { VTK_QUADRATIC_HEXAHEDRON, OrientedShape::Hexahedron },
-  { VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, OrientedShape::Hexahedron },
-  { VTK_TRIQUADRATIC_HEXAHEDRON, OrientedShape::Hexahedron },
-  { VTK_LAGRANGE_HEXAHEDRON, OrientedShape::Hexahedron },
-  { VTK_BEZIER_HEXAHEDRON, OrientedShape::Hexahedron },
-  { VTK_WEDGE, OrientedShape::Wedge },
-  { VTK_QUADRATIC_WEDGE, OrientedShape::Wedge },
-  { VTK_QUADRATIC_LINEAR_WEDGE, OrientedShape::Wedge },
-  { VTK_BIQUADRATIC_QUADRATIC_WEDGE, OrientedShape::Wedge },
-  { VTK_LAGRANGE_WEDGE, OrientedShape::Wedge },
-  { VTK_BEZIER_WEDGE, OrientedShape::Wedge },
-  { VTK_PYRAMID, OrientedShape::Pyramid },
-  { VTK_QUADRATIC_PYRAMID, OrientedShape::Pyramid },
-  { triquadraticPyramid, OrientedShape::Pyramid },
-  { VTK_LAGRANGE_PYRAMID, OrientedShape::Pyramid },
-  { VTK_BEZIER_PYRAMID, OrientedShape::Pyramid },
-  { VTK_PENTAGONAL_PRISM, OrientedShape::PentagonalPrism },
-  { VTK_HEXAGONAL_PRISM, OrientedShape::HexagonalPrism },
+const TypesOfShape shapes[] = {
+  { OrientedShape::Line, allCorners,
+    { VTK_LINE, VTK_QUADRATIC_EDGE, VTK_CUBIC_LINE, VTK_LAGRANGE_CURVE, VTK_BEZIER_CURVE } },
+  { OrientedShape::PolyLine, allCorners, { VTK_POLY_LINE } },
+  { OrientedShape::Polygon, 3,
+    { VTK_TRIANGLE, VTK_QUADRATIC_TRIANGLE, VTK_BIQUADRATIC_TRIANGLE, VTK_LAGRANGE_TRIANGLE,
+      VTK_BEZIER_TRIANGLE } },
+  { OrientedShape::Polygon, 4,
+    { VTK_QUAD, VTK_QUADRATIC_QUAD, VTK_QUADRATIC_LINEAR_QUAD, VTK_BIQUADRATIC_QUAD,
+      VTK_LAGRANGE_QUADRILATERAL, VTK_BEZIER_QUADRILATERAL } },
+  { OrientedShape::Pixel, allCorners, { VTK_PIXEL } },
+  { OrientedShape::Polygon, allCorners, { VTK_POLYGON, VTK_QUADRATIC_POLYGON } },
+  { OrientedShape::TriangleStrip, allCorners, { VTK_TRIANGLE_STRIP } },
+  { OrientedShape::Tetrahedron, allCorners,
+    { VTK_TETRA, VTK_QUADRATIC_TETRA, VTK_LAGRANGE_TETRAHEDRON, VTK_BEZIER_TETRAHEDRON } },
+  { OrientedShape::Voxel, allCorners, { VTK_VOXEL } },
+  { OrientedShape::Hexahedron, allCorners,
+    { VTK_HEXAHEDRON, VTK_QUADRATIC_HEXAHEDRON, VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON,
+      VTK_TRIQUADRATIC_HEXAHEDRON, VTK_LAGRANGE_HEXAHEDRON, VTK_BEZIER_HEXAHEDRON } },
+  { OrientedShape::Wedge, allCorners,
+    { VTK_WEDGE, VTK_QUADRATIC_WEDGE, VTK_QUADRATIC_LINEAR_WEDGE, VTK_BIQUADRATIC_QUADRATIC_WEDGE,
+      VTK_LAGRANGE_WEDGE, VTK_BEZIER_WEDGE } },
+  { OrientedShape::Pyramid, allCorners,
+    { VTK_PYRAMID, VTK_QUADRATIC_PYRAMID, triquadraticPyramid, VTK_LAGRANGE_PYRAMID,
+      VTK_BEZIER_PYRAMID } },
+  { OrientedShape::PentagonalPrism, allCorners, { VTK_PENTAGONAL_PRISM } },
+  { OrientedShape::HexagonalPrism, allCorners, { VTK_HEXAGONAL_PRISM } },
 };
 
 template <int D>
 std::vector<OrientedPiece> piecesOfType(int type, vtkIdType points)
 {
-  const auto* found = std::find_if(std::begin(shapes), std::end(shapes),
-    [type](const ShapeOfType& shape) { return shape.Type == type; });
+  const auto* found =
+    std::find_if(std::begin(shapes), std::end(shapes), [type](const TypesOfShape& shape) {
+      return std::find(shape.Types.begin(), shape.Types.end(), type) != shape.Types.end();
+    });
   if (found == std::end(shapes))
   {
     return {};

@@ -2,20 +2,14 @@
 #include "Bridge/Flow/TransportMap.h"
 
 #include "Bridge/Density/CostModel.h"
-#include "Bridge/Density/InputDensity.h"
-#include "Bridge/Density/TableChoice.h"
-#include "Bridge/Flow/CorrectedImages.h"
 #include "Bridge/Flow/MapField.h"
-#include "Bridge/Flow/MapShares.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/Memory.h"
 #include "Bridge/Run/StepReport.h"
+#include "Core/Equalize/CorrectedImages.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Parallel/RankExchange.h"
-#include "Core/Parallel/Stages.h"
 
 #include "vtkCellData.h"
 #include "vtkDataObject.h"
@@ -123,10 +117,6 @@ public:
     const TransportPlan<D> plan = this->Plan(stages["optimal map"]);
     std::vector<FlowReport> reports = this->MoveSamples(plan, field, stages["samples"]);
     const int passes = this->Correct(plan, field, stages);
-    if (this->IsBackward)
-    {
-      prepareShares<D>(flow, this->Lattice, this->Goal ? field.WeighedPart() : field.Part());
-    }
     const MapFigures figures = this->Write(flow, field, stages, output->GetAttributes(owner));
     addFieldValue(output, "TotalMass", shared.TotalMass());
     addFieldValue(output, "TransportCost", figures.Cost);
@@ -135,13 +125,15 @@ public:
     const Ranks& ranks = this->Work.Group();
     const std::int64_t moved = sumOverRanks(ranks, reports.back().MovedToMass);
     addFieldValue(output, "MovedSamples", static_cast<double>(moved));
-    addFieldValue(output, "FoldedCells", static_cast<double>(figures.Folded));
+    addFieldValue(output, "FoldedCells", static_cast<double>(figures.Folds.Samples));
     addFieldTuple(output, "LargestBlockError", { figures.Blocks.Quantile, figures.Blocks.Largest });
     const bool isUncorrected =
       equalizes && addEqualAreas(output, ranks, passes, reports.front()) == 0;
     addSteps(output, reports);
-    return { this->Samples, this->All, reports, TransportReport(plan), moved, figures.Folded,
-      figures.ShowsFolds, isUncorrected };
+    const bool showsFolds = isWorthWarning(figures.Folds.Samples, figures.WithMass) ||
+      isWorthWarning(figures.Folds.Area.Value(), this->All);
+    return { this->Samples, this->All, reports, TransportReport(plan), moved, figures.Folds.Samples,
+      showsFolds, isUncorrected };
   }
 
 private:

@@ -4,32 +4,11 @@
 #ifndef RectifiedTransport_TransportMap_h
 #define RectifiedTransport_TransportMap_h
 
-#include "Bridge/Density/DensityPlan.h"
 #include "Bridge/Density/FlowCache.h"
-#include "Bridge/Run/Settings/OptimalSettings.h"
-#include "Bridge/Run/Settings/TableSettings.h"
-#include "Bridge/VTKCompatibility.h"
-#include "Core/Flow/FlowOptions.h"
-#include "Core/Geometry/ImageGrid.h"
-
-#include <array>
-#include <cstdint>
-#include <string>
-#include <vector>
-
-VTK_ABI_NAMESPACE_BEGIN
-class vtkImageData;
-VTK_ABI_NAMESPACE_END
-
-namespace RectifiedTransport
-{
-class Progress;
-} // namespace RectifiedTransport
+#include "Bridge/Density/TableChoice.h"
 
 namespace RectifiedTransport::Bridge
 {
-
-class InputDensity;
 
 // What a filter keeps of a map to another density: the flow of that one, and the optimal map.
 struct TargetCache

@@ -2,20 +2,14 @@
 #include "Bridge/Flow/TransportSampler.h"
 
 #include "Bridge/Density/CostModel.h"
-#include "Bridge/Density/InputDensity.h"
-#include "Bridge/Density/TableChoice.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/ParticleSet.h"
 #include "Bridge/Points/SeedInput.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/PlaceOwners.h"
-#include "Bridge/Run/Memory.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Parallel/RankExchange.h"
-#include "Core/Parallel/RankShare.h"
-#include "Core/Parallel/Stages.h"
-#include "Core/Seeds/UnitSeeds.h"
+#include "Core/Seeds/SeedShare.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -38,7 +32,6 @@ namespace
 {
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-constexpr double maximumCount = 9e18; // of particles, as integers
 
 // The times of the output positions: FlowTime, or those of a path's points.
 std::vector<double> timesOf(const TransportSampler& sampler)
@@ -79,25 +72,6 @@ std::string describeParticles(double count, bool paths)
     " particles (see NumberOfParticles, SamplesPerCell and Seeds)";
 }
 
-// Those from number `firstSeed` on.
-template <int D>
-void makeSeeds(const UnitSeeds<D>& pattern, const GridSize<D>& size, const std::string& purpose,
-  std::int64_t firstSeed, Progress& progress, PointSpan<D> seeds)
-{
-  Stages stages(progress, { { "pattern", 8 }, { "scale", 2 } });
-  withMemory({ purpose, pattern.Count() * D * sizeof(double) },
-    [&]() { pattern.GenerateFrom(firstSeed, seeds, stages["pattern"]); });
-  stages["scale"].For(seeds.size(), grain, [=](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      for (int a = 0; a < D; ++a)
-      {
-        seeds[i][a] *= static_cast<double>(size[a]);
-      }
-    }
-  });
-}
-
 // What values at this rank's places depend on: between its points and the next ones.
 Extent extentAround(const PlaceOwners& owners, const ImageGrid& grid)
 {
@@ -113,36 +87,6 @@ Extent extentAround(const PlaceOwners& owners, const ImageGrid& grid)
   return intersectionOf(extent, grid.Extent());
 }
 
-// The particles of this rank among those of all.
-struct Share
-{
-  std::int64_t First;
-  double Count;
-  std::int64_t All;
-};
-
-// A pattern may have more seeds than any integer. Collective.
-Share shareOf(const Ranks& ranks, vtkPointSet* given, double pattern)
-{
-  if (!given)
-  {
-    const auto all = static_cast<std::int64_t>(std::min(pattern, maximumCount));
-    const RankShare share(all, ranks);
-    const double count =
-      pattern > maximumCount ? pattern / ranks.Count() : static_cast<double>(share.Count);
-    return { share.First, count, all };
-  }
-  Share share{ 0, static_cast<double>(given->GetNumberOfPoints()), 0 };
-  const std::vector<std::int64_t> counts =
-    gatherValues<std::int64_t>(ranks, given->GetNumberOfPoints());
-  for (std::size_t rank = 0; rank < counts.size(); ++rank)
-  {
-    share.First += rank < static_cast<std::size_t>(ranks.Own()) ? counts[rank] : 0;
-    share.All += counts[rank];
-  }
-  return share;
-}
-
 template <int D>
 TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& density,
   vtkPointSet* given, FlowCache& cache, Progress& progress, vtkPolyData* output)
@@ -150,7 +94,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   const ImageGrid& grid = density.Grid();
   const UnitSeeds<D> pattern = patternOf<D>(sampler, grid);
   const Ranks& ranks = progress.Group();
-  const Share share = shareOf(ranks, given, pattern.Count());
+  const SeedShare share = given ? SeedShare(given->GetNumberOfPoints(), ranks)
+                                : SeedShare(pattern.Count(), ranks.Count(), ranks.Own());
   if (given && share.All == 0)
   {
     return {};
@@ -188,7 +133,9 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   }
   else
   {
-    makeSeeds<D>(pattern, grid.Size<D>(), purpose, share.First, stages["seeds"], particles.Seeds());
+    withMemory({ purpose, pattern.Count() * D * sizeof(double) }, [&]() {
+      writeSeeds<D>(pattern, grid.Size<D>(), share.First, stages["seeds"], particles.Seeds());
+    });
   }
   const TransportPlan<D> plan = cache.Plan<D>(needs, options, density, stages["optimal map"]);
   report.Transport = TransportReport(plan);
@@ -225,12 +172,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
 
   if (given)
   {
-    vtkDataSetAttributes* data = output->GetPointData();
-    if (sampler.OutputPaths)
-    {
-      data = output->GetCellData();
-    }
-    data->PassData(given->GetPointData());
+    output->GetAttributes(sampler.OutputPaths ? vtkDataObject::CELL : vtkDataObject::POINT)
+      ->PassData(given->GetPointData());
   }
   const double mass = flow.TotalMass();
   const double cost = sampler.OutputPaths

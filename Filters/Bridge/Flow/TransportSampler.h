@@ -3,32 +3,19 @@
 #ifndef RectifiedTransport_TransportSampler_h
 #define RectifiedTransport_TransportSampler_h
 
-#include "Bridge/Density/DensityPlan.h"
+#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Density/TableChoice.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"
 #include "Bridge/Run/Settings/TableSettings.h"
-#include "Bridge/VTKCompatibility.h"
-#include "Core/Flow/FlowOptions.h"
 #include "Core/Seeds/Seeds.h"
-
-#include <cstdint>
-#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
-{
-class Progress;
-} // namespace RectifiedTransport
-
 namespace RectifiedTransport::Bridge
 {
-
-class BlockValues;
-class InputDensity;
-class FlowCache;
 
 // The members are the properties of that class.
 struct TransportSampler

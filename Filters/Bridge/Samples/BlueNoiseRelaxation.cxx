@@ -3,13 +3,8 @@
 
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityMass.h"
-#include "Bridge/Density/FlowCache.h"
-#include "Bridge/Density/InputDensity.h"
-#include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/SeedInput.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/Memory.h"
-#include "Core/Parallel/Stages.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"

@@ -3,11 +3,8 @@
 #ifndef RectifiedTransport_BridgeBlueNoiseRelaxation_h
 #define RectifiedTransport_BridgeBlueNoiseRelaxation_h
 
-#include "Bridge/VTKCompatibility.h"
+#include "Bridge/Points/GhostFlags.h"
 #include "Core/Relaxation/BlueNoiseRelaxation.h"
-
-#include <cstdint>
-#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;
@@ -21,7 +18,6 @@ class Progress;
 namespace RectifiedTransport::Bridge
 {
 
-class CountedPoints;
 class InputDensity;
 class FlowCache;
 

@@ -3,16 +3,14 @@
 #ifndef RectifiedTransport_TransportQuality_h
 #define RectifiedTransport_TransportQuality_h
 
+#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Density/TableChoice.h"
+#include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/Settings/TableSettings.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Quality/ParticleQuality.h"
 
 namespace RectifiedTransport::Bridge
 {
-
-class InputDensity;
-class FlowCache;
-class DistributedPoints;
 
 // The members are the properties of that class.
 struct TransportQuality

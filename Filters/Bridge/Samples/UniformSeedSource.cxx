@@ -4,10 +4,7 @@
 #include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/RankShare.h"
-#include "Core/Parallel/Stages.h"
-#include "Core/Seeds/UnitSeeds.h"
+#include "Core/Seeds/SeedShare.h"
 
 #include "vtkDoubleArray.h"
 
@@ -54,10 +51,8 @@ void fillBox(
     source.Pattern, lengths, source.NumberOfPoints, static_cast<std::uint64_t>(source.RandomSeed));
   constexpr double bytesPerPoint = 3 * sizeof(double) + 2 * sizeof(vtkIdType);
   const std::string purpose = "the points (see NumberOfPoints)";
-  constexpr double maximumCount = 9e18;
-  const RankShare share(
-    static_cast<std::int64_t>(std::min(seeds.Count(), maximumCount)), pieces, piece);
-  requireMemory({ purpose, static_cast<double>(share.Count) * bytesPerPoint });
+  const SeedShare share(seeds.Count(), pieces, piece);
+  requireMemory({ purpose, share.Count * bytesPerPoint });
   const auto count = static_cast<vtkIdType>(share.Count);
 
   auto coordinates = newArray<vtkDoubleArray>("Points", 3, count);

@@ -4,7 +4,6 @@
 #include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/SiteCells/SiteLabels.h"
 #include "Core/Parallel/Progress.h"
 
 #include "vtkCellArray.h"

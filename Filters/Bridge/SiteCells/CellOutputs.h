@@ -8,8 +8,12 @@
 #include "Core/SiteCells/SiteCellPolygons.h"
 #include "Core/SiteCells/SiteCellStatistics.h"
 
+#include "vtkLongArray.h"
+#include "vtkLongLongArray.h"
+
 #include <array>
 #include <functional>
+#include <type_traits>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataObject;
@@ -25,6 +29,9 @@ class Progress;
 
 namespace RectifiedTransport::Bridge
 {
+
+using SiteIdArray =
+  std::conditional_t<std::is_same_v<std::int64_t, long>, vtkLongArray, vtkLongLongArray>;
 
 struct CellOutputs
 {

@@ -2,23 +2,15 @@
 #include "Bridge/SiteCells/EqualMassCells.h"
 
 #include "Bridge/Density/DensityMass.h"
-#include "Bridge/Density/FlowCache.h"
-#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/Memory.h"
 #include "Bridge/SiteCells/LabelGrid.h"
-#include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/DensitySiteCells.h"
-#include "Core/SiteCells/PixelMasses.h"
 #include "Core/SiteCells/PowerSiteCells.h"
-#include "Core/SiteCells/SiteCellOutlines.h"
-#include "Core/SiteCells/SiteCellPolygons.h"
 #include "Core/SiteCells/SiteCells.h"
 
 #include "vtkCellData.h"
@@ -36,6 +28,45 @@ namespace RectifiedTransport::Bridge
 
 namespace
 {
+
+// The site of each pixel of a domain and, with Shape Power, the polygons of the sites' cells, kept
+// between executions. The next one reuses them if only the cost's exponents change.
+struct SiteDivision
+{
+  vtkSmartPointer<SiteIdArray> Labels;
+  std::shared_ptr<const PowerSiteCells> Power; // only with Shape Power
+  FlowReport Flow;                             // only with Shape Flow
+};
+
+// What a division depends on. `flow`: nullptr with Shape Power; `density`: nullptr for none.
+DataIdentity identityOfDivision(vtkPointSet* sites, const ImageGrid& grid, const FlowOptions* flow,
+  const InputDensity* density = nullptr)
+{
+  DataIdentity identity;
+  // Programs that write into an array often call Modified() only on the data set, whose GetMTime()
+  // includes its points.
+  identity.AddTimeOf(sites->GetPoints());
+  identity.AddTime(static_cast<std::uint64_t>(sites->vtkObject::GetMTime()));
+  identity.AddArray(sites->GetPoints()->GetData());
+  identity.AddGrid(grid);
+  identity.AddNumber(flow ? 1 : 0);
+  if (flow)
+  {
+    identity.AddOptions(*flow);
+  }
+  if (density)
+  {
+    identity.Add(density->Identity());
+  }
+  return identity;
+}
+
+// The sites' coordinates. Throws Failure for any that is not finite.
+DoubleTuples placesOf(vtkPointSet* sites, Progress& progress)
+{
+  visitPoints(sites, "input point set", progress, [](std::int64_t, const double*) {});
+  return { sites->GetPoints()->GetData(), progress };
+}
 
 // The tables of the pixels are the peak.
 template <int D>
@@ -62,8 +93,7 @@ SiteCells<D> placeSites(vtkPointSet* sites, const ImageGrid& grid, Progress& pro
     throw Failure("The input has " + std::to_string(count) + " sites for " + describeSize<D>(size) +
       " pixels; raise Resolution until there is a pixel for each");
   }
-  visitPoints(sites, "input point set", progress, [](std::int64_t, const double*) {});
-  const DoubleTuples points(sites->GetPoints()->GetData(), progress);
+  const DoubleTuples points = placesOf(sites, progress);
   constexpr double eachSite = (D + 3 + 4) * sizeof(double);
   return withMemory(
     { "the " + std::to_string(count) + " sites", static_cast<double>(count) * eachSite }, [&]() {
@@ -151,8 +181,7 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
   const SharedFlow& flow = cache.Update(density, stages["tables"]);
   Progress& reading = stages["reading"];
   density.Prepare(FlowTables::Whole, reading);
-  visitPoints(sites, "input point set", reading, [](std::int64_t, const double*) {});
-  const DoubleTuples points(sites->GetPoints()->GetData(), reading);
+  const DoubleTuples points = placesOf(sites, reading);
   const double bytes = numberOfValues(grid) * sizeof(std::int64_t);
   const auto placed =
     withMemory({ "the masses of " + describeValues(grid) + " pixels", bytes }, [&]() {
@@ -186,36 +215,73 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
   return report;
 }
 
-// make(points, progress) returns the power cells of the sites.
-template <class Make>
-SiteDivision makePowerCells(
-  vtkPointSet* sites, const ImageGrid& grid, double moreBytes, Progress& progress, const Make& make)
+// The power cells of the sites by the mass of a density on the grid's domain, `mass` in all.
+PowerSiteCells powerCells(ConstPointSpan<3> points, const ImageGrid& grid, InputDensity& density,
+  double& mass, Progress& progress)
+{
+  Stages stages(progress, { { "density", 2 }, { "cells", 98 } });
+  density.Prepare(FlowTables::Whole, stages["density"]);
+  mass = massOf(density, stages["density"]);
+  try
+  {
+    return PowerSiteCells(points, grid, density.Source<2>(), mass, stages["cells"]);
+  }
+  catch (const InvalidDensity& invalid)
+  {
+    density.ThrowInvalid(invalid.Summary());
+  }
+}
+
+// `density` may be nullptr.
+SiteDivision divideByPower(
+  vtkPointSet* sites, const ImageGrid& grid, InputDensity* density, Progress& progress)
 {
   const std::int64_t count = sites->GetNumberOfPoints();
-  Stages stages(progress, { { "points", 1 }, { "cells", 87 }, { "labels", 5 } });
-  visitPoints(sites, "input point set", stages["points"], [](std::int64_t, const double*) {});
-  const DoubleTuples points(sites->GetPoints()->GetData(), stages["points"]);
+  Stages stages(progress,
+    { { "points", 1 }, { "cells", 87 }, { "labels", 5 }, { "empty pixels", density ? 1.0 : 0.0 } });
+  const DoubleTuples points = placesOf(sites, stages["points"]);
   SiteDivision division;
   // The factors of the linear systems are the peak.
   constexpr double eachSite = 1500.0;
+  constexpr double rowMoments = 18.0; // bytes a cell of the density
+  const double moments =
+    density ? rowMoments * static_cast<double>(density->Grid().NumberOfCells()) : 0.0;
+  double mass = 0.0;
   withMemory({ "the power cells of " + std::to_string(count) + " sites",
-               static_cast<double>(count) * eachSite + moreBytes },
+               static_cast<double>(count) * eachSite + moments },
     [&]() {
-      division.Power = std::make_shared<PowerSiteCells>(
-        make(ConstPointSpan<3>(points.data(), count), stages["cells"]));
+      const ConstPointSpan<3> places(points.data(), count);
+      division.Power = std::make_shared<PowerSiteCells>(density
+          ? powerCells(places, grid, *density, mass, stages["cells"])
+          : PowerSiteCells(places, grid, stages["cells"]));
     });
   division.Labels =
     newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
+  std::int64_t* labels = division.Labels->GetPointer(0);
   withMemory({ "the polygons in the rows of pixels", static_cast<double>(count) * sizeof(double) },
-    [&]() { division.Power->Label(division.Labels->GetPointer(0), stages["labels"]); });
+    [&]() { division.Power->Label(labels, stages["labels"]); });
+  if (density)
+  {
+    withMemory({ "the masses of " + describeValues(grid) + " pixels",
+                 numberOfValues(grid) * sizeof(std::int64_t) },
+      [&]() {
+        Progress& work = stages["empty pixels"];
+        PixelMasses<2>(
+          density->Source<2>(), mass / density->Grid().CellMeasure(), grid.Size<2>(), work)
+          .RemoveEmptyPixels(labels, work);
+      });
+  }
   return division;
 }
 
-std::int64_t writePowerCells(
-  const SiteDivision& division, Progress& progress, const CellOutputs& outputs)
+EqualMassCells::Report writePowerCells(vtkPointSet* sites, const ImageGrid& grid,
+  InputDensity* density, StoreSlot& kept, Progress& progress, const CellOutputs& outputs)
 {
-  const PowerSiteCells& power = *division.Power;
-  outputs.Labels->GetCellData()->SetScalars(division.Labels);
+  Stages stages(progress, { { "comparison", 2 }, { "cells", 93 }, { "output", 5 } });
+  const auto division = updateDivision(identityOfDivision(sites, grid, nullptr, density), kept,
+    stages["comparison"], [&]() { return divideByPower(sites, grid, density, stages["cells"]); });
+  const PowerSiteCells& power = *division->Power;
+  outputs.Labels->GetCellData()->SetScalars(division->Labels);
   addStatistics(
     outputs, [&power](const SiteCellStatistics& statistics) { return power.Measure(statistics); });
   const double bytes = 60.0 * 6.0 * static_cast<double>(power.NumberOfSites());
@@ -223,73 +289,25 @@ std::int64_t writePowerCells(
     { "the outlines", bytes }, [&]() { writeOutlines<2>(power.Outlines(), outputs.Outlines); });
   writePolygons(
     withMemory({ "the polygons of the cells", bytes }, [&]() { return power.Polygons(); }), outputs,
-    progress);
-  return power.NumberOutside();
+    stages["output"]);
+  return { power.NumberOutside(), 0, {} };
 }
 
-std::int64_t divideByPower(vtkPointSet* sites, const ImageGrid& grid, StoreSlot& kept,
-  Progress& progress, const CellOutputs& outputs)
+// Throws Failure unless the grid can be divided.
+void requireDivisible(const ImageGrid& grid, bool isPower)
 {
-  Stages stages(progress, { { "comparison", 2 }, { "cells", 93 }, { "output", 5 } });
-  const auto make = [&](ConstPointSpan<3> points, Progress& work) {
-    return PowerSiteCells(points, grid, work);
-  };
-  const auto division =
-    updateDivision(identityOfDivision(sites, grid, nullptr), kept, stages["comparison"],
-      [&]() { return makePowerCells(sites, grid, 0.0, stages["cells"], make); });
-  return writePowerCells(*division, stages["output"], outputs);
-}
-
-std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, InputDensity& density,
-  StoreSlot& kept, Progress& progress, const CellOutputs& outputs)
-{
-  constexpr double rowMoments = 18.0; // bytes a cell of the density
-  double mass = 0.0;
-  Stages stages(
-    progress, { { "comparison", 2 }, { "cells", 93 }, { "empty pixels", 1 }, { "output", 4 } });
-  const auto make = [&](ConstPointSpan<3> points, Progress& work) {
-    Stages parts(work, { { "density", 2 }, { "cells", 98 } });
-    density.Prepare(FlowTables::Whole, parts["density"]);
-    mass = massOf(density, parts["density"]);
-    try
-    {
-      return PowerSiteCells(points, grid, density.Source<2>(), mass, parts["cells"]);
-    }
-    catch (const InvalidDensity& invalid)
-    {
-      density.ThrowInvalid(invalid.Summary());
-    }
-  };
-  const double bytes = rowMoments * static_cast<double>(density.Grid().NumberOfCells());
-  const auto makeWithoutEmpty = [&]() {
-    SiteDivision division = makePowerCells(sites, grid, bytes, stages["cells"], make);
-    withMemory({ "the masses of " + describeValues(grid) + " pixels",
-                 numberOfValues(grid) * sizeof(std::int64_t) },
-      [&]() {
-        Progress& work = stages["empty pixels"];
-        const PixelMasses<2> masses(
-          density.Source<2>(), mass / density.Grid().CellMeasure(), grid.Size<2>(), work);
-        masses.RemoveEmptyPixels(division.Labels->GetPointer(0), work);
-      });
-    return division;
-  };
-  const auto division = updateDivision(identityOfDivision(sites, grid, nullptr, &density), kept,
-    stages["comparison"], makeWithoutEmpty);
-  return writePowerCells(*division, stages["output"], outputs);
-}
-
-void requirePlane(const ImageGrid& grid)
-{
-  if (grid.Dimension() != 2)
+  requireCells(grid);
+  if (isPower && grid.Dimension() != 2)
   {
     throw Failure("Shape Power needs a domain of two dimensions; this one has " +
       std::to_string(grid.Dimension()));
   }
 }
 
-std::string describeLabels(const ImageGrid& grid)
+void requireMemoryForLabels(const ImageGrid& grid, double eachPixel, double more)
 {
-  return "labels of " + describeValues(grid) + " pixels (see Resolution)";
+  requireMemory({ "labels of " + describeValues(grid) + " pixels (see Resolution)",
+    numberOfValues(grid) * eachPixel + more });
 }
 
 } // namespace
@@ -305,23 +323,18 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* do
   }
   const LabelGrid pixels{ this->Resolution };
   const ImageGrid grid = domain ? pixels.On(domain) : pixels.Around(sites);
-  requireCells(grid);
-  if (this->IsPower)
-  {
-    requirePlane(grid);
-  }
+  requireDivisible(grid, this->IsPower);
   if (!kept.Holds(identityOfDivision(sites, grid, this->IsPower ? nullptr : &this->Flow)))
   {
     const auto bytes = dispatchDimension(
       grid.Dimension(), bytesOfLabelling<1>, bytesOfLabelling<2>, bytesOfLabelling<3>);
-    requireMemory({ describeLabels(grid),
-      numberOfValues(grid) * sizeof(std::int64_t) + (this->IsPower ? 0.0 : bytes(grid)) });
+    requireMemoryForLabels(grid, sizeof(std::int64_t), this->IsPower ? 0.0 : bytes(grid));
   }
   applyGrid(grid, outputs.Labels);
   writeSites(sites, outputs.Sites);
   if (this->IsPower)
   {
-    return { divideByPower(sites, grid, kept, stages["cells"], outputs), 0, {} };
+    return writePowerCells(sites, grid, nullptr, kept, stages["cells"], outputs);
   }
   return dispatchDimension(grid.Dimension(), divide<1>, divide<2>, divide<3>)(
     *this, sites, grid, kept, stages["cells"], outputs);
@@ -331,22 +344,17 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, InputDensity& den
   FlowCache& cache, StoreSlot& kept, Progress& progress, const CellOutputs& outputs) const
 {
   const ImageGrid grid = LabelGrid{ this->Resolution }.On(density.Grid());
-  requireCells(grid);
-  if (this->IsPower)
-  {
-    requirePlane(grid);
-  }
+  requireDivisible(grid, this->IsPower);
   const auto bytes = dispatchDimension(grid.Dimension(), bytesOfLabellingByMass<1>,
     bytesOfLabellingByMass<2>, bytesOfLabellingByMass<3>);
-  requireMemory({ describeLabels(grid),
-    numberOfValues(grid) * sizeof(std::int64_t) * (this->IsPower ? 1.0 : 2.0) +
-      (this->IsPower ? 0.0 : bytes(grid)) });
+  requireMemoryForLabels(
+    grid, sizeof(std::int64_t) * (this->IsPower ? 1.0 : 2.0), this->IsPower ? 0.0 : bytes(grid));
   applyGrid(grid, outputs.Labels);
   writeSites(sites, outputs.Sites);
   if (this->IsPower)
   {
     cache.Release();
-    return { divideMassByPower(sites, grid, density, kept, progress, outputs), 0, {} };
+    return writePowerCells(sites, grid, &density, kept, progress, outputs);
   }
   return dispatchDimension(grid.Dimension(), divideMass<1>, divideMass<2>, divideMass<3>)(
     *this, sites, grid, density, cache, kept, progress, outputs);

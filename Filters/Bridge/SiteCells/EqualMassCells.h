@@ -3,30 +3,11 @@
 #ifndef RectifiedTransport_EqualMassCells_h
 #define RectifiedTransport_EqualMassCells_h
 
+#include "Bridge/Density/FlowCache.h"
 #include "Bridge/SiteCells/CellOutputs.h"
-#include "Bridge/SiteCells/SiteLabels.h"
-#include "Bridge/Store/Store.h"
-#include "Bridge/VTKCompatibility.h"
-#include "Core/Flow/FlowOptions.h"
-#include "Core/SiteCells/SiteCellStatistics.h"
-
-#include <cstdint>
-
-VTK_ABI_NAMESPACE_BEGIN
-class vtkDataObject;
-class vtkPointSet;
-VTK_ABI_NAMESPACE_END
-
-namespace RectifiedTransport
-{
-class Progress;
-} // namespace RectifiedTransport
 
 namespace RectifiedTransport::Bridge
 {
-
-class InputDensity;
-class FlowCache;
 
 // The members are the properties of that class.
 struct EqualMassCells

@@ -3,7 +3,7 @@
 
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/SiteCells/SiteLabels.h"
+#include "Bridge/SiteCells/CellOutputs.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/SiteCells/SiteColors.h"
@@ -25,8 +25,6 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-constexpr std::int64_t Grain = std::int64_t{ 1 } << 16;
-
 using Colors = std::vector<std::uint8_t>;
 
 template <int D>
@@ -36,32 +34,19 @@ Colors colorsOf(
   return colourSiteCells<D>(grid.Size<D>(), labels, sites, progress);
 }
 
-// 0 for elements of no site.
-void addColors(const Colors& ofSites, vtkCellData* data, Progress& progress)
+// Adds an array of byteOf(id) of each element.
+template <class ByteOf>
+void addBytes(const char* name, vtkCellData* data, Progress& progress, const ByteOf& byteOf)
 {
   auto* ids = SiteIdArray::SafeDownCast(data->GetScalars());
   const vtkIdType count = ids->GetNumberOfTuples();
-  auto colors = newArray<vtkUnsignedCharArray>("SiteColor", 1, count);
+  auto bytes = newArray<vtkUnsignedCharArray>(name, 1, count);
   const std::int64_t* labels = ids->GetPointer(0);
-  progress.For(count, Grain, [&](std::int64_t first, std::int64_t last) {
-    std::transform(labels + first, labels + last, colors->GetPointer(first), [&](std::int64_t id) {
-      return id < 0 ? std::uint8_t{ 0 } : ofSites[static_cast<std::size_t>(id)];
-    });
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
+  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+    std::transform(labels + first, labels + last, bytes->GetPointer(first), byteOf);
   });
-  data->AddArray(colors);
-}
-
-void hidePixelsOfNone(SiteIdArray* labels, vtkCellData* data, Progress& progress)
-{
-  const vtkIdType pixels = labels->GetNumberOfTuples();
-  auto flags = newArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), 1, pixels);
-  const std::int64_t* ids = labels->GetPointer(0);
-  progress.For(pixels, Grain, [&](std::int64_t first, std::int64_t last) {
-    std::transform(ids + first, ids + last, flags->GetPointer(first), [](std::int64_t id) {
-      return static_cast<unsigned char>(id < 0 ? vtkDataSetAttributes::HIDDENCELL : 0);
-    });
-  });
-  data->AddArray(flags);
+  data->AddArray(bytes);
 }
 
 } // namespace
@@ -78,16 +63,21 @@ void addSiteColors(vtkImageData* labels, vtkPolyData* polygons, vtkIdType sites,
       return dispatchDimension(grid.Dimension(), colorsOf<1>, colorsOf<2>, colorsOf<3>)(
         grid, ids->GetPointer(0), sites, progress);
     });
-  addColors(ofSites, data, progress);
+  const auto colorOf = [&](std::int64_t id) { // 0 for elements of no site
+    return id < 0 ? std::uint8_t{ 0 } : ofSites[static_cast<std::size_t>(id)];
+  };
+  addBytes("SiteColor", data, progress, colorOf);
   if (polygons->GetNumberOfCells() > 0)
   {
-    addColors(ofSites, polygons->GetCellData(), progress);
+    addBytes("SiteColor", polygons->GetCellData(), progress, colorOf);
   }
   const std::int64_t* const pixels = ids->GetPointer(0);
   if (std::any_of(
         pixels, pixels + ids->GetNumberOfTuples(), [](std::int64_t id) { return id < 0; }))
   {
-    hidePixelsOfNone(ids, data, progress);
+    addBytes(vtkDataSetAttributes::GhostArrayName(), data, progress, [](std::int64_t id) {
+      return static_cast<unsigned char>(id < 0 ? vtkDataSetAttributes::HIDDENCELL : 0);
+    });
   }
 }
 

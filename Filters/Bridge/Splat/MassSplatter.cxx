@@ -65,13 +65,6 @@ void requireMemoryFor(double values, const ImageGrid& cells)
     values * sizeof(double) });
 }
 
-void requireFinite(double sizes, const SplatTarget& target)
-{
-  requireFiniteDensity(sizes, target, "The points' masses",
-    target.DivideByVolume ? "the cells larger, or switch DivideByVolume off"
-                          : "so that the sum of their sizes is a double");
-}
-
 // The points that count, and the masses of all points of the set.
 struct SplatInput
 {
@@ -228,7 +221,10 @@ MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses
   requireCells(cells);
   const std::vector<double> sizes = gatherValues(ranks, given.TotalSize());
   const SplatTarget splatTarget{ cells, this->Splat, this->DivideByVolume };
-  requireFinite(std::accumulate(sizes.begin(), sizes.end(), 0.0), splatTarget);
+  requireFiniteDensity(std::accumulate(sizes.begin(), sizes.end(), 0.0), splatTarget,
+    "The points' masses",
+    this->DivideByVolume ? "the cells larger, or switch DivideByVolume off"
+                         : "so that the sum of their sizes is a double");
 
   const int owner = this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
   const TupleBox box = tuplesOf(wanted, owner, grid.Extent());

@@ -61,8 +61,6 @@ vtkSmartPointer<vtkDoubleArray> doublesOf(vtkPointData* values, const std::strin
   return doubles;
 }
 
-} // namespace
-
 bool isAdvected(const AdvectedImage& image, int owner, vtkAbstractArray* array)
 {
   const bool isDensity = array && array->GetName() && image.Density == array->GetName() &&
@@ -70,6 +68,23 @@ bool isAdvected(const AdvectedImage& image, int owner, vtkAbstractArray* array)
   return array && array->GetName() && !isDensity &&
     array->GetName() != std::string(vtkDataSetAttributes::GhostArrayName()) &&
     array->GetNumberOfTuples() == image.Image->GetNumberOfElements(owner);
+}
+
+} // namespace
+
+void passAdvected(const AdvectedImage& image, vtkImageData* output)
+{
+  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    vtkDataSetAttributes* attributes = image.Image->GetAttributes(owner);
+    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+    {
+      if (isAdvected(image, owner, attributes->GetAbstractArray(i)))
+      {
+        output->GetAttributes(owner)->AddArray(attributes->GetAbstractArray(i));
+      }
+    }
+  }
 }
 
 void AdvectedArrays::Make(const AdvectedImage& first, const AdvectedImage& second,
@@ -101,9 +116,8 @@ void AdvectedArrays::MakeOf(int owner, const AdvectedImage& first, const Advecte
       {
         continue;
       }
-      const vtkAbstractArray* there = find(*other, array->GetName());
-      const bool isSame = there &&
-        there->GetDataType() == const_cast<vtkAbstractArray*>(array)->GetDataType() &&
+      vtkAbstractArray* there = find(*other, array->GetName());
+      const bool isSame = there && there->GetDataType() == array->GetDataType() &&
         there->GetNumberOfComponents() == array->GetNumberOfComponents();
       std::vector<std::string>& list = isSame ? names : this->Lacking;
       if (std::find(list.begin(), list.end(), array->GetName()) == list.end())
@@ -128,11 +142,8 @@ void AdvectedArrays::MakeOf(int owner, const AdvectedImage& first, const Advecte
   const auto secondInPlace = sample(second, owner, names, places.Span(), progress);
   for (const std::string& name : names)
   {
-    vtkDataArray* from = atFrom->GetArray(name.c_str());
-    const auto like = vtkSmartPointer<vtkDataArray>::Take(from->NewInstance());
-    like->SetNumberOfComponents(from->GetNumberOfComponents());
-    like->CopyComponentNames(from);
-    this->Arrays.push_back({ name, owner, like, { doublesOf(atFrom, name), doublesOf(atTo, name) },
+    this->Arrays.push_back({ name, owner, newLike(atFrom->GetArray(name.c_str()), name, 0),
+      { doublesOf(atFrom, name), doublesOf(atTo, name) },
       { doublesOf(firstInPlace, name), doublesOf(secondInPlace, name) } });
   }
 }
@@ -171,13 +182,8 @@ void AdvectedArrays::WriteOne(const Advected& advected, const SeriesMoment& mome
 {
   const int components = advected.Like->GetNumberOfComponents();
   const Extent& whole = target.Geometry.Extent();
-  const auto made = vtkSmartPointer<vtkDataArray>::Take(advected.Like->NewInstance());
-  made->SetName(advected.Name.c_str());
-  made->SetNumberOfComponents(components);
-  made->CopyComponentNames(advected.Like);
-  withMemory(
-    { "the array " + advected.Name, 8.0 * static_cast<double>(wanted.Count()) * components },
-    [&]() { made->SetNumberOfTuples(wanted.Count()); });
+  const auto like = newLike(advected.Like, advected.Name, wanted.Count());
+  auto* made = vtkDataArray::SafeDownCast(like);
   const auto moments = newArray<vtkDoubleArray>("Moments", 1, moment.Count());
   const auto sums = newArray<vtkDoubleArray>("Sums", 1, wanted.Count());
   for (int c = 0; c < components; ++c)

@@ -33,8 +33,9 @@ struct AdvectedImage
   std::string Density;
 };
 
-// Whether an array of an image may be advected: with a name, and neither the density nor ghosts.
-bool isAdvected(const AdvectedImage& image, int owner, vtkAbstractArray* array);
+// Adds the arrays of an image that may be advected, as they are, to an output: those with a name,
+// but neither the density nor ghosts.
+void passAdvected(const AdvectedImage& image, vtkImageData* output);
 
 // A floating-point value is the mean, by mass, of those of the particles around a cell or point.
 // Each of them moves linearly in time from the value where the particle begins to that where it
@@ -57,8 +58,8 @@ private:
   struct Advected
   {
     std::string Name;
-    int Owner;                          // vtkDataObject::POINT or CELL
-    vtkSmartPointer<vtkDataArray> Like; // for the type and the names of components
+    int Owner;                              // vtkDataObject::POINT or CELL
+    vtkSmartPointer<vtkAbstractArray> Like; // for the type and the names of components
     Ends OfParticles;
     Ends InPlace; // of the tuples of the whole geometry
   };

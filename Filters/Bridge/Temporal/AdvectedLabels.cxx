@@ -12,8 +12,6 @@
 #include "vtkVariant.h"
 
 #include <cmath>
-#include <unordered_map>
-#include <utility>
 
 namespace RectifiedTransport::Bridge
 {
@@ -61,35 +59,27 @@ vtkSmartPointer<vtkAbstractArray> copyOf(vtkAbstractArray* array)
   return copy;
 }
 
-std::vector<std::int64_t> findEqual(const std::array<vtkSmartPointer<vtkAbstractArray>, 2>& arrays)
-{
-  std::vector<std::int64_t> equal;
-  std::unordered_map<std::string, std::int64_t> known;
-  for (vtkAbstractArray* array : arrays)
-  {
-    std::string before;
-    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
-    {
-      const auto number = static_cast<std::int64_t>(equal.size());
-      std::string key = keyOf(array, i);
-      // Neighbours are often equal.
-      equal.push_back(
-        i > 0 && key == before ? equal.back() : known.try_emplace(key, number).first->second);
-      before = std::move(key);
-    }
-  }
-  return equal;
-}
-
 template <int D>
 void find(const SeriesLabels& labels, const SeriesMoment& moment, const ImageGrid& grid,
-  const TupleBox& wanted, const std::vector<const std::vector<std::int64_t>*>& equal,
-  Progress& progress, const SeriesLabels::Take& take)
+  const TupleBox& wanted, const std::vector<std::vector<std::int64_t>>& equal, Progress& progress,
+  const SeriesLabels::Take& take)
 {
   labels.Find<D>(moment, grid, latticePartOf<D>(wanted, grid), equal, progress, take);
 }
 
 } // namespace
+
+vtkSmartPointer<vtkAbstractArray> newLike(
+  vtkAbstractArray* array, const std::string& name, vtkIdType tuples)
+{
+  const auto made = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
+  made->SetName(name.c_str());
+  made->SetNumberOfComponents(array->GetNumberOfComponents());
+  made->CopyComponentNames(array);
+  const double values = static_cast<double>(tuples) * array->GetNumberOfComponents();
+  withMemory({ "the array " + name, 8.0 * values }, [&]() { made->SetNumberOfTuples(tuples); });
+  return made;
+}
 
 bool isOfLabels(vtkAbstractArray* array)
 {
@@ -102,18 +92,22 @@ void AdvectedLabels::Make(int owner, const std::vector<std::string>& names,
 {
   this->Owner = owner;
   this->Arrays.clear();
+  this->Equal.clear();
   this->OfParticles = SeriesLabels();
   for (const std::string& name : names)
   {
     const auto arrayOf = [&](const AdvectedImage& image) {
       return copyOf(image.Image->GetAttributes(owner)->GetAbstractArray(name.c_str()));
     };
-    Labels labels{ name, { arrayOf(first), arrayOf(second) }, {} };
-    const double tuples = static_cast<double>(
-      labels.Arrays[0]->GetNumberOfTuples() + labels.Arrays[1]->GetNumberOfTuples());
-    withMemory({ "the labels of " + name, 48.0 * tuples },
-      [&]() { labels.Equal = findEqual(labels.Arrays); });
-    this->Arrays.push_back(std::move(labels));
+    const Labels& labels =
+      this->Arrays.emplace_back(Labels{ name, { arrayOf(first), arrayOf(second) } });
+    const std::array<std::int64_t, 2> tuples{ labels.Arrays[0]->GetNumberOfTuples(),
+      labels.Arrays[1]->GetNumberOfTuples() };
+    const double bytes = 48.0 * static_cast<double>(tuples[0] + tuples[1]);
+    this->Equal.push_back(withMemory({ "the labels of " + name, bytes }, [&]() {
+      return findEqual(tuples,
+        [&](std::size_t step, std::int64_t tuple) { return keyOf(labels.Arrays[step], tuple); });
+    }));
   }
   if (names.empty())
   {
@@ -142,13 +136,7 @@ void AdvectedLabels::Write(const SeriesMoment& moment, const ImageGrid& geometry
   const auto ofFirst = static_cast<vtkIdType>(this->OfParticles.TuplesOfFirst());
   const auto write = [&](std::size_t array, const std::vector<std::int64_t>& tuples) {
     const Labels& labels = this->Arrays[array];
-    const auto made = vtkSmartPointer<vtkAbstractArray>::Take(labels.Arrays[0]->NewInstance());
-    made->SetName(labels.Name.c_str());
-    made->SetNumberOfComponents(labels.Arrays[0]->GetNumberOfComponents());
-    made->CopyComponentNames(labels.Arrays[0]);
-    withMemory({ "the array " + labels.Name,
-                 8.0 * static_cast<double>(box.Count()) * made->GetNumberOfComponents() },
-      [&]() { made->SetNumberOfTuples(box.Count()); });
+    const auto made = newLike(labels.Arrays[0], labels.Name, box.Count());
     for (vtkIdType i = 0; i < box.Count(); ++i)
     {
       const vtkIdType tuple = tuples[static_cast<std::size_t>(i)];
@@ -157,16 +145,11 @@ void AdvectedLabels::Write(const SeriesMoment& moment, const ImageGrid& geometry
     }
     output->GetAttributes(this->Owner)->AddArray(made);
   };
-  std::vector<const std::vector<std::int64_t>*> equal;
-  for (const Labels& labels : this->Arrays)
-  {
-    equal.push_back(&labels.Equal);
-  }
   withMemory(
     { "the labels that move along", this->OfParticles.BytesOfVotes(moment.Count()) }, [&]() {
       const ImageGrid own = geometry.WithValuesOn(this->Owner == vtkDataObject::POINT);
       dispatchDimension(own.Dimension(), find<1>, find<2>, find<3>)(
-        this->OfParticles, moment, own, box, equal, progress, write);
+        this->OfParticles, moment, own, box, this->Equal, progress, write);
     });
 }
 

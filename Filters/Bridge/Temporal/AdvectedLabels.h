@@ -25,6 +25,10 @@ namespace RectifiedTransport::Bridge
 
 struct AdvectedImage;
 
+// An array of the type and the components of another one. Throws Failure.
+vtkSmartPointer<vtkAbstractArray> newLike(
+  vtkAbstractArray* array, const std::string& name, vtkIdType tuples);
+
 // Whether the values of an array are labels.
 bool isOfLabels(vtkAbstractArray* array);
 
@@ -45,12 +49,12 @@ private:
   {
     std::string Name;
     std::array<vtkSmartPointer<vtkAbstractArray>, 2> Arrays; // first and second image
-    std::vector<std::int64_t> Equal; // for each tuple the number of the first equal one
   };
 
   int Owner = 0; // vtkDataObject::POINT or CELL
   SeriesLabels OfParticles;
   std::vector<Labels> Arrays;
+  std::vector<std::vector<std::int64_t>> Equal; // of each of these, see findEqual
 };
 
 } // namespace RectifiedTransport::Bridge

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Temporal/KeptSteps.h"
 
+#include "Bridge/Density/DensityMass.h"
+#include "Bridge/Density/WholeValues.h"
+#include "Core/Geometry/Dispatch.h"
+#include "Core/Tables/DensityInspection.h"
+
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
 #include "vtkDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace RectifiedTransport::Bridge
 {
@@ -21,7 +27,50 @@ vtkMTimeType inputTime(vtkAlgorithm* filter)
   return pipeline ? pipeline->GetPipelineMTime() : 0;
 }
 
+// A density without mass is none for a map, but one of a series.
+void requireValues(InputDensity& density, const StepDensity& step)
+{
+  const DensitySummary found =
+    summarize(step.Values->GetPointer(0), step.Values->GetNumberOfTuples(), 0);
+  if (found.NotFinite > 0 || found.Negative > 0 || std::isinf(found.Total))
+  {
+    density.ThrowInvalid(found);
+  }
+}
+
+template <int D>
+void read(InputDensity& density, StepDensity& step, Progress& progress)
+{
+  step.Values = wholeValues<D>(density, step.ArrayName, progress);
+  requireValues(density, step);
+  step.Mass = massOf(density, progress);
+  density.ReleaseGathered();
+}
+
 } // namespace
+
+std::shared_ptr<const StepDensity> readStepDensity(
+  InputDensity& density, StoreSlot& kept, Progress& progress)
+{
+  Stages stages(progress, { { "hash", 1 }, { "values", 9 } });
+  DataIdentity identity = density.Identity();
+  identity.AddGrid(density.Grid());
+  for (const char letter : density.NameOfArray())
+  {
+    identity.AddNumber(static_cast<unsigned char>(letter));
+  }
+  return kept.Get<const StepDensity>(
+    identity, progress.Group(), stages["hash"], Sharing::None, [&]() {
+      auto step = std::make_shared<StepDensity>();
+      step->ArrayName = density.NameOfArray();
+      step->Grid = density.Grid();
+      step->Identity = identity;
+      step->Identity.Hash(stages["hash"]);
+      dispatchDimension(step->Grid.Dimension(), read<1>, read<2>, read<3>)(
+        density, *step, stages["values"]);
+      return step;
+    });
+}
 
 bool KeptSteps::ForgetOutdated(vtkAlgorithm* filter)
 {

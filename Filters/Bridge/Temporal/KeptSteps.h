@@ -1,24 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The data of the last steps of a series that a filter has received.
+// The data of the last steps of a series that a filter has received, and their densities.
 #ifndef RectifiedTransport_KeptSteps_h
 #define RectifiedTransport_KeptSteps_h
 
-#include "Bridge/Temporal/StepDensity.h"
-#include "Bridge/VTKCompatibility.h"
+#include "Bridge/Density/InputDensity.h"
+#include "Bridge/Store/Store.h"
+#include "Core/Series/SeriesParticles.h"
 
-#include "vtkSmartPointer.h"
-#include "vtkType.h"
-
-#include <array>
-#include <cstdint>
+#include "vtkDoubleArray.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithm;
-class vtkDataObject;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport::Bridge
 {
+
+// The density of a step, read once.
+struct StepDensity
+{
+  std::string ArrayName;
+  ImageGrid Grid;
+  DataIdentity Identity;
+  // Each rank has the values of all cells, axis 0 of index space fastest.
+  vtkSmartPointer<vtkDoubleArray> Values;
+  double Mass = 0.0; // density times cell measure, summed; may be 0
+
+  SeriesStep Step() const { return { this->Grid, this->Values->GetPointer(0), this->Mass }; }
+  // Whether a map to or from the other density serves this one.
+  bool IsSameAs(const StepDensity& other) const
+  {
+    return this->Identity.IsByContent(other.Identity);
+  }
+};
+
+// Returns what is kept, if it is of the same density; else reads it. Collective. Throws Failure for
+// values that are no density, and Cancelled.
+std::shared_ptr<const StepDensity> readStepDensity(
+  InputDensity& density, StoreSlot& kept, Progress& progress);
 
 struct KeptStep
 {

@@ -2,23 +2,17 @@
 #include "Bridge/Temporal/TemporalInterpolation.h"
 
 #include "Bridge/Density/DensityPlan.h"
-#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Ranks/ParticleExchange.h"
-#include "Bridge/Ranks/PlaceOwners.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/FieldValue.h"
-#include "Bridge/Run/Memory.h"
-#include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Parallel/RankExchange.h"
-#include "Core/Parallel/Stages.h"
+#include "Core/Series/FadingParticles.h"
+#include "Core/Series/IntervalPlan.h"
 
 #include "vtkCellArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
@@ -27,6 +21,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 namespace RectifiedTransport::Bridge
@@ -36,11 +31,6 @@ namespace
 {
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-
-std::string densityName(const StepDensity& density)
-{
-  return density.ArrayName.empty() ? "Density" : density.ArrayName;
-}
 
 int ownerOf(const ImageGrid& grid)
 {
@@ -55,6 +45,80 @@ ImageGrid gridBetween(const TemporalStep& first, const TemporalStep& second)
     MostCells::Any);
 }
 
+// Makes what moves points between two steps with mass; all ranks together move `samples`.
+template <int D>
+std::unique_ptr<const TransportPlan<D>> solve(const StepDensity& from, const StepDensity& to,
+  const ImageGrid& box, bool isOptimal, double samples, Progress& progress)
+{
+  const OptimalNeeds needs{ { isOptimal }, samples };
+  const MemoryPlan memory = isOptimal
+    ? memoryOfOptimalMap<D>(from.Grid.Size<D>(), to.Grid.Size<D>(), needs, progress.Group())
+    : MemoryPlan{ "the tables of a density", bytesOfIntervalFlows(from.Step(), to.Step()) };
+  return withRequiredMemory(
+    memory, [&]() { return planInterval<D>(from.Step(), to.Step(), box, isOptimal, progress); });
+}
+
+// Makes particles of both steps that fade into each other.
+template <int D>
+SeriesParticles fade(const StepDensity& from, const StepDensity& to, const ImageGrid& box,
+  const MovingSettings& settings, Progress& progress)
+{
+  double bound = 0.0;
+  std::string warning;
+  const auto move = [&](PointSpan<D> first, PointSpan<D> second, Progress& moving) {
+    Stages stages(moving, { { "map", 8 }, { "forward", 1 }, { "backward", 1 } });
+    const auto plan = solve<D>(from, to, box, settings.IsOptimal, 0.0, stages["map"]);
+    bound = LengthScale(box).CostFromUnits(plan->LowerBound());
+    plan->Forward(ConstPointSpan<D>(first), first, stages["forward"]);
+    plan->Backward(ConstPointSpan<D>(second), second, stages["backward"]);
+    warning = plan->Warning();
+  };
+  SeriesParticles particles =
+    makeFadingParticles<D>(from.Step(), to.Step(), settings.ParticlesPerCell, move, progress);
+  particles.Bound = bound;
+  particles.HasBound = settings.IsOptimal && from.Mass > 0.0 && to.Mass > 0.0;
+  particles.Warning = warning;
+  return particles;
+}
+
+SeriesParticles makeParticles(const StepDensity& from, const StepDensity& to, const ImageGrid& box,
+  const MovingSettings& settings, Progress& progress)
+{
+  const double particles = settings.ParticlesPerCell *
+    (static_cast<double>(from.Grid.NumberOfCells()) + static_cast<double>(to.Grid.NumberOfCells()));
+  // Positions at both ends and between them, velocities, masses, numbers and vertices.
+  constexpr double each = 4.0 * 24.0 + 5.0 * 8.0;
+  std::ostringstream purpose;
+  purpose.precision(20);
+  purpose << particles << " particles (see ParticlesPerCell)";
+  return withRequiredMemory({ purpose.str(), each * particles / progress.Group().Count() }, [&]() {
+    return dispatchDimension(from.Grid.Dimension(), fade<1>, fade<2>, fade<3>)(
+      from, to, box, settings, progress);
+  });
+}
+
+// Returns the plan's warning.
+template <int D>
+std::string extend(SeriesTracks& tracks, const StepDensity* before, const StepDensity& next,
+  const ImageGrid& box, Progress& progress)
+{
+  std::string warning;
+  const auto move = [&](PointSpan<D> samples, Progress& moving) -> MoveReport {
+    Stages stages(moving, { { "map", 6 }, { "images", 4 } });
+    const bool isOptimal = tracks.Settings().IsOptimal;
+    const auto plan = solve<D>(
+      *before, next, box, isOptimal, static_cast<double>(tracks.Particles().All()), stages["map"]);
+    const double bound = LengthScale(box).CostFromUnits(plan->LowerBound());
+    const FlowSeeds<D> seeds{ ConstPointSpan<D>(samples) };
+    plan->Forward(seeds.AsSamples(), samples, stages["images"]);
+    warning = plan->Warning();
+    return { bound, isOptimal };
+  };
+  tracks.Extend<D>(
+    before ? &before->Grid : nullptr, next.Step(), next.Identity.Content(), move, progress);
+  return warning;
+}
+
 double massAt(const TemporalMoment& moment)
 {
   return (1.0 - moment.Part) * moment.First.Density->Mass +
@@ -65,16 +129,17 @@ double massAt(const TemporalMoment& moment)
 Extent extentOfRank(const Extent& whole, vtkInformation* announced, const Ranks& ranks)
 {
   const Extent wanted = extentToGive(whole, announced, ranks);
-  Extent all = wanted;
+  const auto pointsOf = [&](const Extent& extent) {
+    return tuplesOf(extent, vtkDataObject::POINT, whole);
+  };
+  TupleBox all = pointsOf(wanted);
   for (const Extent& other : gatherValues(ranks, wanted))
   {
-    for (std::size_t i = 0; i < all.size(); ++i)
-    {
-      all[i] = i % 2 == 0 ? std::min(all[i], other[i]) : std::max(all[i], other[i]);
-    }
+    all = all.With(pointsOf(other));
   }
-  return all == whole ? wanted
-                      : dividedExtent(whole, ranks.Count())[static_cast<std::size_t>(ranks.Own())];
+  return all.Contains(pointsOf(whole))
+    ? wanted
+    : dividedExtent(whole, ranks.Count())[static_cast<std::size_t>(ranks.Own())];
 }
 
 vtkSmartPointer<vtkDoubleArray> velocitiesOf(
@@ -109,20 +174,51 @@ vtkSmartPointer<vtkDoubleArray> partOf(
 }
 
 template <int D>
-void writeClouds(const SeriesMoment& moment, const ImageGrid& geometry, double most,
+void writeClouds(const SeriesMoment& moment, const SplatTarget& target, double most,
   const TupleBox& wanted, double* density, Progress& progress)
 {
-  const double bytes = 16.0 * static_cast<double>(geometry.NumberOfCells());
+  const ImageGrid& grid = target.Geometry;
+  const double bytes = 16.0 * static_cast<double>(grid.NumberOfCells());
   withMemory({ "the sums of the cells", bytes }, [&]() {
-    splatClouds<D>(moment.CloudsIn<D>(geometry), geometry, most, latticePartOf<D>(wanted, geometry),
-      density, progress);
+    splatClouds<D>(
+      moment.CloudsIn<D>(grid), grid, most, latticePartOf<D>(wanted, grid), density, progress);
   });
 }
 
-AdvectedImage advectedImage(const TemporalStep& step)
+// Writes the density of particles in the wanted cells; `most`: the largest mass of the interval.
+void writeDensity(const SeriesMoment& moment, const SplatTarget& target, double most,
+  const TupleBox& wanted, Progress& progress, vtkDoubleArray* density)
 {
-  const StepDensity& density = *step.Density;
-  return { step.Input->ImageIn(density.Grid.Extent()), density.Grid, density.ArrayName };
+  requireFiniteDensity(most, target, "The particles' masses", "or the cells larger");
+  if (target.Options.Kernel == SplatKernel::CloudInCell && !moment.All().Clouds[0].empty())
+  {
+    dispatchDimension(target.Geometry.Dimension(), writeClouds<1>, writeClouds<2>, writeClouds<3>)(
+      moment, target, most, wanted, density->GetPointer(0), progress);
+    return;
+  }
+  splatDistributed(
+    moment.Points(), moment.Masses(), moment.Numbers(), target, wanted, progress, density);
+}
+
+// Writes the density of a step itself.
+void copyDensity(
+  const StepDensity& step, const TupleBox& wanted, Progress& progress, vtkDoubleArray* density)
+{
+  const Extent& whole = step.Grid.Extent();
+  const TupleBox all = tuplesOf(whole, ownerOf(step.Grid), whole);
+  double* to = density->GetPointer(0);
+  const double* from = step.Values->GetPointer(0);
+  progress.For(wanted.Count(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      to[i] = from[all.NumberOf(wanted.CellOf(i))];
+    }
+  });
+}
+
+AdvectedImage advectedImage(const TemporalStep& step, const Extent& wanted)
+{
+  return { step.Input->ImageIn(wanted), step.Density->Grid, step.Density->ArrayName };
 }
 
 std::string describeMissing(const TemporalMoment& moment, const AdvectedArrays& arrays)
@@ -152,11 +248,6 @@ std::string describeEmpty(const TemporalMoment& moment)
 
 } // namespace
 
-void requireOneSpace(const TemporalStep& first, const TemporalStep& second)
-{
-  gridBetween(first, second);
-}
-
 std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment,
   const TemporalSettings& settings, Progress& progress, const TemporalOutput& output)
 {
@@ -164,22 +255,42 @@ std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment
   const ImageGrid between = gridBetween(moment.First, moment.Second);
   std::vector<std::string> warnings;
   Interval& interval = this->Find(moment, settings, stages["map"], warnings);
+  const SeriesParticles& particles = interval.Particles;
   const bool isStep = !settings.TracksParticles && (moment.Part <= 0.0 || moment.Part >= 1.0);
   const TemporalStep& nearest = moment.Part < 1.0 ? moment.First : moment.Second;
   const ImageGrid& geometry = isStep ? nearest.Density->Grid : between;
   applyGrid(geometry, output.Image);
-  SeriesMoment particlesNow(interval.Particles, moment.Part);
-  this->WriteParticles(interval, geometry, particlesNow, stages["particles"], output);
-  if (isStep)
+  // The particles before they go to their owners.
+  SeriesMoment now(particles, moment.Part);
+  const std::int64_t count = now.Count();
+  const auto points = newArray<vtkDoubleArray>("Points", 3, count);
+  const auto masses = newArray<vtkDoubleArray>("Mass", 1, count);
+  now.Write(
+    massAt(moment), { points->GetPointer(0), count }, masses->GetPointer(0), stages["particles"]);
+  vtkNew<vtkPoints> placed;
+  placed->SetData(points);
+  output.Particles->SetPoints(placed);
+  output.Particles->GetPointData()->AddArray(masses);
+  this->WriteParticles(interval, geometry, now, stages["particles"], output);
+
+  Extent wanted = extentOfRank(geometry.Extent(), output.Announced, progress.Group());
+  const TupleBox box = tuplesOf(wanted, ownerOf(geometry), geometry.Extent());
+  output.Image->SetExtent(wanted.data());
+  const StepDensity& named = isStep ? *nearest.Density : *interval.First;
+  const auto density =
+    newArray<vtkDoubleArray>(named.ArrayName.empty() ? "Density" : named.ArrayName, 1, box.Count());
+  const double most = std::max(interval.First->Mass, interval.Second->Mass);
+  isStep
+    ? copyDensity(*nearest.Density, box, stages["image"], density)
+    : writeDensity(now, { geometry, settings.Splat, true }, most, box, stages["image"], density);
+  output.Image->GetAttributes(ownerOf(geometry))->SetScalars(density);
+  if (settings.AdvectsArrays)
   {
-    WriteStep(nearest, settings.AdvectsArrays, stages["image"], output);
-  }
-  else
-  {
-    WriteImage(interval, settings, geometry, particlesNow, stages["image"], output);
+    isStep
+      ? passAdvected(advectedImage(nearest, wanted), output.Image)
+      : interval.Arrays.Write(now, geometry, settings.Splat, wanted, stages["image"], output.Image);
   }
   announceGrid(geometry, output.Announced); // which extents to give depends on that before
-  const SeriesParticles& particles = interval.Particles;
   for (vtkDataObject* part :
     { static_cast<vtkDataObject*>(output.Image), static_cast<vtkDataObject*>(output.Particles) })
   {
@@ -192,6 +303,28 @@ std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment
     }
   }
   return warnings;
+}
+
+std::string TemporalInterpolation::Track(
+  const TemporalStep* before, const TemporalStep& step, Progress& progress)
+{
+  const StepDensity& density = *step.Density;
+  const ImageGrid box = before ? gridBetween(*before, step) : density.Grid;
+  if (this->Tracked.Knows(density.Identity.Content(), progress.Group()))
+  {
+    return {};
+  }
+  const std::int64_t particles = before ? this->Tracked.Particles().All()
+                                        : density.Grid.NumberOfCells() *
+      static_cast<std::int64_t>(this->Tracked.Settings().ParticlesPerCell);
+  const MemoryPlan memory{ std::to_string(particles) + " particles (see ParticlesPerCell)",
+    160.0 * static_cast<double>(particles) / progress.Group().Count() };
+  const std::string warning = withRequiredMemory(memory, [&]() {
+    return dispatchDimension(box.Dimension(), extend<1>, extend<2>, extend<3>)(
+      this->Tracked, before ? before->Density.get() : nullptr, density, box, progress);
+  });
+  ++this->Made;
+  return warning;
 }
 
 TemporalInterpolation::Interval& TemporalInterpolation::Find(const TemporalMoment& moment,
@@ -223,16 +356,17 @@ TemporalInterpolation::Interval& TemporalInterpolation::Find(const TemporalMomen
     {
       this->Intervals.pop_back(); // before the memory of the next one
     }
-    Interval interval;
-    this->Make(moment, settings, stages["interval"], interval);
-    warnings = { interval.Particles.Warning, describeEmpty(moment) };
-    this->Intervals.push_front(std::move(interval));
+    this->Intervals.push_front(this->Make(moment, settings, stages["interval"]));
+    warnings = { this->Intervals.front().Particles.Warning, describeEmpty(moment) };
   }
   Interval& interval = this->Intervals.front();
   if (settings.AdvectsArrays && !interval.AdvectsArrays)
   {
-    interval.Arrays.Make(advectedImage(moment.First), advectedImage(moment.Second),
-      interval.Particles, gridBetween(moment.First, moment.Second), stages["arrays"]);
+    const auto whole = [](const TemporalStep& step) {
+      return advectedImage(step, step.Density->Grid.Extent());
+    };
+    interval.Arrays.Make(whole(moment.First), whole(moment.Second), interval.Particles,
+      gridBetween(moment.First, moment.Second), stages["arrays"]);
     warnings.push_back(describeMissing(moment, interval.Arrays));
   }
   interval.AdvectsArrays = settings.AdvectsArrays;
@@ -240,131 +374,49 @@ TemporalInterpolation::Interval& TemporalInterpolation::Find(const TemporalMomen
   return interval;
 }
 
-void TemporalInterpolation::Make(const TemporalMoment& moment, const TemporalSettings& settings,
-  Progress& progress, Interval& interval)
+TemporalInterpolation::Interval TemporalInterpolation::Make(
+  const TemporalMoment& moment, const TemporalSettings& settings, Progress& progress)
 {
   Stages stages(progress, { { "particles", 98 }, { "velocities", 2 } });
+  Interval interval;
   interval.First = moment.First.Density;
   interval.Second = moment.Second.Density;
   interval.Settings = settings.Moving;
   interval.Length = moment.Length;
   interval.Ranks = progress.Group().Count();
+  SeriesParticles& particles = interval.Particles;
   if (settings.TracksParticles)
   {
-    interval.Particles = this->Tracked.Particles().Between(
+    particles = this->Tracked.Particles().Between(
       moment.First.Number, moment.Second.Number, progress.Group());
   }
   else
   {
-    interval.Particles = makeParticles(
-      *moment.First.Density, *moment.Second.Density, settings.Moving, stages["particles"]);
-    this->CountMap();
-    if (!interval.Particles.Warning.empty())
+    particles = makeParticles(*interval.First, *interval.Second,
+      gridBetween(moment.First, moment.Second), settings.Moving, stages["particles"]);
+    ++this->Made;
+    if (!particles.Warning.empty())
     {
-      interval.Particles.Warning = moment.Second.Title + ": " + interval.Particles.Warning;
+      particles.Warning = moment.Second.Title + ": " + particles.Warning;
     }
   }
-  interval.Velocities = velocitiesOf(interval.Particles, moment, stages["velocities"]);
+  interval.Velocities = velocitiesOf(particles, moment, stages["velocities"]);
+  return interval;
 }
 
+// Adds what particles have besides places and masses, and gives them to their ranks.
 void TemporalInterpolation::WriteParticles(const Interval& interval, const ImageGrid& geometry,
-  SeriesMoment& moment, Progress& progress, const TemporalOutput& output)
+  const SeriesMoment& moment, Progress& progress, const TemporalOutput& output)
 {
-  const std::int64_t count = moment.Count();
-  const double part = moment.Part();
-  this->Points = newArray<vtkDoubleArray>("Points", 3, count);
-  this->Masses = newArray<vtkDoubleArray>("Mass", 1, count);
-  moment.Write((1.0 - part) * interval.First->Mass + part * interval.Second->Mass,
-    { this->Points->GetPointer(0), count }, this->Masses->GetPointer(0), progress);
-  vtkNew<vtkPoints> points;
-  points->SetData(this->Points);
-  output.Particles->SetPoints(points);
   vtkPointData* data = output.Particles->GetPointData();
-  data->AddArray(this->Masses);
-  data->SetVectors(partOf(interval.Velocities, moment.First(), count));
+  data->SetVectors(partOf(interval.Velocities, moment.First(), moment.Count()));
   if (interval.Particles.AreTracked)
   {
-    auto ids = newArray<vtkIdTypeArray>("SeedId", 1, count);
-    std::copy_n(interval.Particles.Numbers.begin(), count, ids->GetPointer(0));
+    auto ids = newArray<vtkIdTypeArray>("SeedId", 1, moment.Count());
+    std::copy_n(interval.Particles.Numbers.begin(), moment.Count(), ids->GetPointer(0));
     data->AddArray(ids);
   }
-  const Ranks& ranks = progress.Group();
-  if (ranks.AreSeveral())
-  {
-    moveToOwners(output.Particles, 1, PlaceOwners(geometry, nullptr, ranks), ranks, progress);
-    return;
-  }
-  if (!this->Vertices || this->Vertices->GetNumberOfCells() != count)
-  {
-    this->Vertices = newParticleCells(count, 1, progress);
-  }
-  output.Particles->SetVerts(this->Vertices);
-}
-
-void TemporalInterpolation::WriteImage(const Interval& interval, const TemporalSettings& settings,
-  const ImageGrid& geometry, const SeriesMoment& moment, Progress& progress,
-  const TemporalOutput& output)
-{
-  Extent wanted = extentOfRank(geometry.Extent(), output.Announced, progress.Group());
-  const TupleBox box = tuplesOf(wanted, ownerOf(geometry), geometry.Extent());
-  const SplatTarget target{ geometry, settings.Splat, true };
-  const double most = std::max(interval.First->Mass, interval.Second->Mass);
-  requireFiniteDensity(most, target, "The particles' masses", "or the cells larger");
-  output.Image->SetExtent(wanted.data());
-  auto density = newArray<vtkDoubleArray>(densityName(*interval.First), 1, box.Count());
-  if (settings.Splat.Kernel == SplatKernel::CloudInCell && !interval.Particles.Clouds[0].empty())
-  {
-    dispatchDimension(geometry.Dimension(), writeClouds<1>, writeClouds<2>, writeClouds<3>)(
-      moment, geometry, most, box, density->GetPointer(0), progress);
-  }
-  else
-  {
-    splatDistributed(
-      moment.Points(), moment.Masses(), moment.Numbers(), target, box, progress, density);
-  }
-  output.Image->GetAttributes(ownerOf(geometry))->SetScalars(density);
-  if (settings.AdvectsArrays)
-  {
-    interval.Arrays.Write(moment, geometry, settings.Splat, wanted, progress, output.Image);
-  }
-}
-
-void TemporalInterpolation::WriteStep(
-  const TemporalStep& step, bool advects, Progress& progress, const TemporalOutput& output)
-{
-  const StepDensity& density = *step.Density;
-  const Extent& whole = density.Grid.Extent();
-  Extent wanted = extentOfRank(whole, output.Announced, progress.Group());
-  const int owner = ownerOf(density.Grid);
-  const TupleBox box = tuplesOf(wanted, owner, whole);
-  const TupleBox all = tuplesOf(whole, owner, whole);
-  output.Image->SetExtent(wanted.data());
-  auto values = newArray<vtkDoubleArray>(densityName(density), 1, box.Count());
-  double* to = values->GetPointer(0);
-  const double* from = density.Values->GetPointer(0);
-  progress.For(box.Count(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      to[i] = from[all.NumberOf(box.CellOf(i))];
-    }
-  });
-  output.Image->GetAttributes(owner)->SetScalars(values);
-  if (!advects)
-  {
-    return;
-  }
-  const AdvectedImage image{ step.Input->ImageIn(wanted), density.Grid, density.ArrayName };
-  for (const int type : { vtkDataObject::POINT, vtkDataObject::CELL })
-  {
-    vtkDataSetAttributes* attributes = image.Image->GetAttributes(type);
-    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-    {
-      if (isAdvected(image, type, attributes->GetAbstractArray(i)))
-      {
-        output.Image->GetAttributes(type)->AddArray(attributes->GetAbstractArray(i));
-      }
-    }
-  }
+  moveToOwners(output.Particles, geometry, this->Vertices, progress);
 }
 
 } // namespace RectifiedTransport::Bridge

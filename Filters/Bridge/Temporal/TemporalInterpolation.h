@@ -5,35 +5,19 @@
 #define RectifiedTransport_TemporalInterpolation_h
 
 #include "Bridge/Temporal/AdvectedArrays.h"
-#include "Bridge/Temporal/MovingParticles.h"
-#include "Bridge/Temporal/StepDensity.h"
-#include "Bridge/VTKCompatibility.h"
-#include "Core/Splat/Splat.h"
-
-#include "vtkDoubleArray.h"
-#include "vtkSmartPointer.h"
+#include "Bridge/Temporal/KeptSteps.h"
+#include "Core/Series/SeriesTracks.h"
 
 #include <list>
-#include <memory>
-#include <string>
-#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkCellArray;
-class vtkImageData;
 class vtkInformation;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
-namespace RectifiedTransport
-{
-class Progress;
-} // namespace RectifiedTransport
-
 namespace RectifiedTransport::Bridge
 {
-
-class InputDensity;
 
 struct TemporalSettings
 {
@@ -67,21 +51,22 @@ struct TemporalOutput
   vtkPolyData* Particles;
 };
 
-// Throws Failure for steps of different axes, planes or directions.
-void requireOneSpace(const TemporalStep& first, const TemporalStep& second);
-
+// Collective. Throws Failure and Cancelled.
 class TemporalInterpolation
 {
 public:
   // With TracksParticles: its positions must reach the second step. Returns warnings of new
-  // intervals. Keeps the last two intervals. Collective. Throws Failure and Cancelled.
+  // intervals. Keeps the last two intervals.
   std::vector<std::string> Run(const TemporalMoment& moment, const TemporalSettings& settings,
     Progress& progress, const TemporalOutput& output);
 
   SeriesTracks& Tracks() { return this->Tracked; }
+  // Finds the tracked particles at the next step; `before` is the step before, nullptr at the first
+  // one. Both have mass. Returns why the flow took the place of the optimal map; else nothing.
+  std::string Track(const TemporalStep* before, const TemporalStep& step, Progress& progress);
+
   // How many intervals have been solved, of Run and of tracked particles.
   std::int64_t NumberOfMaps() const { return this->Made; }
-  void CountMap() { ++this->Made; }
 
 private:
   struct Interval
@@ -99,23 +84,14 @@ private:
 
   Interval& Find(const TemporalMoment& moment, const TemporalSettings& settings, Progress& progress,
     std::vector<std::string>& warnings);
-  void Make(const TemporalMoment& moment, const TemporalSettings& settings, Progress& progress,
-    Interval& interval);
-  void WriteParticles(const Interval& interval, const ImageGrid& geometry, SeriesMoment& moment,
-    Progress& progress, const TemporalOutput& output);
-  static void WriteImage(const Interval& interval, const TemporalSettings& settings,
-    const ImageGrid& geometry, const SeriesMoment& moment, Progress& progress,
-    const TemporalOutput& output);
-  static void WriteStep(
-    const TemporalStep& step, bool advects, Progress& progress, const TemporalOutput& output);
+  Interval Make(const TemporalMoment& moment, const TemporalSettings& settings, Progress& progress);
+  void WriteParticles(const Interval& interval, const ImageGrid& geometry,
+    const SeriesMoment& moment, Progress& progress, const TemporalOutput& output);
 
   std::list<Interval> Intervals; // the last one first
   SeriesTracks Tracked;
   std::int64_t Made = 0;
-  // Of the particles at the moment, before they go to their owners.
-  vtkSmartPointer<vtkDoubleArray> Points;
-  vtkSmartPointer<vtkDoubleArray> Masses;
-  vtkSmartPointer<vtkCellArray> Vertices;
+  vtkSmartPointer<vtkCellArray> Vertices; // of the particles, if they are as many again
 };
 
 } // namespace RectifiedTransport::Bridge

@@ -15,7 +15,7 @@ class Progress;
 
 // A part of the cells for each rank; no cell is in two of them.
 template <int D>
-LatticePart<D> shareOf(LatticePart<D> cells, const Ranks& ranks)
+LatticePart<D> partOfRank(LatticePart<D> cells, const Ranks& ranks)
 {
   const auto longest = std::max_element(cells.Cells.begin(), cells.Cells.end());
   const auto axis = static_cast<std::size_t>(longest - cells.Cells.begin());

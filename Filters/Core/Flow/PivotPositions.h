@@ -7,22 +7,23 @@
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/PhysicalPoints.h"
 #include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/RankShare.h"
 #include "Core/Parallel/Stages.h"
 
 namespace RectifiedTransport
 {
 
-// As transportPivot from number `first` on, to physical points. In 3D no other memory is used.
+// As transportPivot of a share of the particles, to physical points. In 3D no other memory is used.
 template <int D>
 FlowReport writePivot(const RectifiedFlow<D>& flow, const ImageGrid& grid,
-  const PivotLattice<D>& pivot, std::int64_t first, PointSpan<3> physical,
+  const PivotLattice<D>& pivot, const RankShare& share, PointSpan<3> physical,
   const FlowOptions& options, Progress& progress)
 {
   Stages stages(progress, { { "flow", 94 }, { "positions", 2 } });
   LargeBuffer<double> buffer(D == 3 ? 0 : physical.size() * D);
   const PointSpan<D> positions(D == 3 ? physical.data() : buffer.data(), physical.size());
   const FlowReport report =
-    transportPivot<D>(flow, pivot, first, positions, options, stages["flow"]);
+    transportPivot<D>(flow, pivot, share.First, positions, options, stages["flow"]);
   writePhysical<D>(grid, positions, stages["positions"], physical);
   return report;
 }

@@ -5,6 +5,8 @@
 #include "Core/Series/LabelVotes.h"
 
 #include <algorithm>
+#include <unordered_map>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -27,6 +29,27 @@ std::int64_t cellAt(const ImageGrid& grid, const double* index)
 }
 
 } // namespace
+
+std::vector<std::int64_t> findEqual(
+  const std::array<std::int64_t, 2>& tuples, const TupleKey& keyOf)
+{
+  std::vector<std::int64_t> equal;
+  std::unordered_map<std::string, std::int64_t> known;
+  for (std::size_t step = 0; step < 2; ++step)
+  {
+    std::string before;
+    for (std::int64_t i = 0; i < tuples[step]; ++i)
+    {
+      const auto number = static_cast<std::int64_t>(equal.size());
+      std::string key = keyOf(step, i);
+      // Neighbours are often equal.
+      equal.push_back(
+        i > 0 && key == before ? equal.back() : known.try_emplace(key, number).first->second);
+      before = std::move(key);
+    }
+  }
+  return equal;
+}
 
 SeriesLabels::SeriesLabels(
   const std::array<ImageGrid, 2>& grids, bool isAcross, const SeriesParticles& particles)
@@ -79,7 +102,7 @@ void SeriesLabels::AddTuples(
 
 template <int D>
 void SeriesLabels::Find(const SeriesMoment& moment, const ImageGrid& grid,
-  const LatticePart<D>& wanted, const std::vector<const std::vector<std::int64_t>*>& equal,
+  const LatticePart<D>& wanted, const std::vector<std::vector<std::int64_t>>& equal,
   Progress& progress, const Take& take) const
 {
   const SeriesParticles& particles = moment.All();
@@ -119,7 +142,7 @@ void SeriesLabels::Find(const SeriesMoment& moment, const ImageGrid& grid,
   const LabelVotes<D> votes(std::move(cast), grid.Size<D>(), wanted, progress.Group());
   for (std::size_t array = 0; array < equal.size(); ++array)
   {
-    std::vector<std::int64_t> tuples = votes.Count(*equal[array], progress);
+    std::vector<std::int64_t> tuples = votes.Count(equal[array], progress);
     for (std::size_t i = 0; i < tuples.size(); ++i)
     {
       tuples[i] = tuples[i] >= 0
@@ -151,10 +174,10 @@ std::int64_t SeriesLabels::InPlace(
 }
 
 template void SeriesLabels::Find<1>(const SeriesMoment&, const ImageGrid&, const LatticePart<1>&,
-  const std::vector<const std::vector<std::int64_t>*>&, Progress&, const Take&) const;
+  const std::vector<std::vector<std::int64_t>>&, Progress&, const Take&) const;
 template void SeriesLabels::Find<2>(const SeriesMoment&, const ImageGrid&, const LatticePart<2>&,
-  const std::vector<const std::vector<std::int64_t>*>&, Progress&, const Take&) const;
+  const std::vector<std::vector<std::int64_t>>&, Progress&, const Take&) const;
 template void SeriesLabels::Find<3>(const SeriesMoment&, const ImageGrid&, const LatticePart<3>&,
-  const std::vector<const std::vector<std::int64_t>*>&, Progress&, const Take&) const;
+  const std::vector<std::vector<std::int64_t>>&, Progress&, const Take&) const;
 
 } // namespace RectifiedTransport

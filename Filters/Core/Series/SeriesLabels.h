@@ -9,10 +9,17 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace RectifiedTransport
 {
+
+// For each tuple of both steps the number of the first equal one, those of the second step after
+// all of the first one. Equal tuples, and no others, have the same key. Throws std::bad_alloc.
+using TupleKey = std::function<std::string(std::size_t step, std::int64_t tuple)>;
+std::vector<std::int64_t> findEqual(
+  const std::array<std::int64_t, 2>& tuples, const TupleKey& keyOf);
 
 // The tuples of arrays of two steps, those of the second step numbered after all of the first one.
 // A particle brings the tuple of the cell, or nearest point, of its own step; a tracked one brings
@@ -35,11 +42,11 @@ public:
 
   // Numbers of tuples for the wanted cells of a grid.
   using Take = std::function<void(std::size_t array, const std::vector<std::int64_t>& tuples)>;
-  // Takes the tuples at a moment, for each of several arrays; equal[array] has for each tuple the
-  // number of the first equal one. Collective. Throws std::bad_alloc and Cancelled.
+  // Takes the tuples at a moment, for each of several arrays; equal[array] is that of findEqual.
+  // Collective. Throws std::bad_alloc and Cancelled.
   template <int D>
   void Find(const SeriesMoment& moment, const ImageGrid& grid, const LatticePart<D>& wanted,
-    const std::vector<const std::vector<std::int64_t>*>& equal, Progress& progress,
+    const std::vector<std::vector<std::int64_t>>& equal, Progress& progress,
     const Take& take) const;
 
 private:

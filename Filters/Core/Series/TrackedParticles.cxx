@@ -2,7 +2,6 @@
 #include "Core/Series/TrackedParticles.h"
 
 #include "Core/Flow/PivotPositions.h"
-#include "Core/Parallel/RankShare.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Series/FadingParticles.h"
 
@@ -22,7 +21,7 @@ void TrackedParticles::Begin(const SeriesStep& step, int perCell, Progress& prog
   Stages stages(progress, { { "tables", 2 }, { "positions", 8 } });
   const RectifiedFlow<D> flow(density, stages["tables"]);
   auto positions = std::make_shared<SeriesPositions>(share.Count);
-  writePivot<D>(flow, step.Grid, pivot, share.First, positions->Span(), {}, stages["positions"]);
+  writePivot<D>(flow, step.Grid, pivot, share, positions->Span(), {}, stages["positions"]);
   this->Steps.assign(1, { positions, {}, 0.0 });
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Each pattern by one class: the count, then the points of the pattern's own function.
+#include "Core/Seeds/SeedShare.h"
 #include "Core/Seeds/UnitSeeds.h"
 #include "TestRefusal.h"
 #include "TestSeeds.h"
+#include "ThreadRanks.h"
 
 namespace RectifiedTransport
 {
@@ -103,6 +105,35 @@ TEST(UnitSeeds, CountsPastIntegers)
 {
   const std::int64_t side = std::int64_t{ 1 } << 40;
   EXPECT_EQ(UnitSeeds<3>(SeedPattern::Jittered, { side, side, side }, 1).Count(), 0x1p120);
+}
+
+TEST(SeedShare, DividesAPatternOrCountsGivenSeeds)
+{
+  const SeedShare second(10.0, 3, 1);
+  EXPECT_EQ(second.First, 4);
+  EXPECT_EQ(second.Count, 3.0);
+  EXPECT_EQ(second.All, 10);
+  EXPECT_EQ(SeedShare(1e20, 2, 0).Count, 5e19); // no integer is as large
+  runOnRanks(3, [](const Ranks& ranks) {
+    const SeedShare given(std::int64_t{ 2 } + ranks.Own(), ranks);
+    EXPECT_EQ(given.First, ranks.Own() == 0 ? 0 : ranks.Own() == 1 ? 2 : 5);
+    EXPECT_EQ(given.Count, 2.0 + ranks.Own());
+    EXPECT_EQ(given.All, 9);
+  });
+}
+
+TEST(SeedShare, WritesSeedsInIndexSpace)
+{
+  const SerialExecutor serial;
+  Progress progress{ Context(serial) };
+  const UnitSeeds<2> pattern(SeedPattern::Random, { 1.0, 1.0 }, 10, 1);
+  const std::vector<double> unit = generate(pattern);
+  std::vector<double> points(6);
+  writeSeeds<2>(pattern, { 4, 8 }, 2, progress, { points.data(), 3 });
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    EXPECT_EQ(points[i], unit[4 + i] * (i % 2 == 0 ? 4.0 : 8.0));
+  }
 }
 
 TEST(UnitSeeds, Refused)

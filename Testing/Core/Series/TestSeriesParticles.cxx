@@ -6,12 +6,14 @@
 #include "Core/Series/CloudLengths.h"
 #include "Core/Series/FadingParticles.h"
 #include "Core/Series/SeriesLabels.h"
+#include "Core/Series/SeriesTracks.h"
 #include "Core/Series/TrackedParticles.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <vector>
 
 namespace RectifiedTransport
@@ -230,6 +232,43 @@ TEST(TrackedParticles, KeepTheirIdentity)
   EXPECT_EQ(tracked.Between(0, 0, SoloRanks::Get()).Cost, 0.0);
 }
 
+TEST(SeriesTracks, KnowStepsUntilOneChanges)
+{
+  const SerialExecutor serial;
+  Progress progress{ Context(serial) };
+  const Ranks& ranks = SoloRanks::Get();
+  const ImageGrid grid = lineGrid();
+  const std::vector<double> uniform(cells, 1.0);
+  const SeriesStep step{ grid, uniform.data(), massOf(uniform) };
+  const auto stay = [](PointSpan<1>, Progress&) { return MoveReport{}; };
+  SeriesTracks tracks;
+  tracks.SetSettings({ 1, true }, 1);
+  const std::vector<SeriesTracks::Name> names = { { 3 }, { 4 }, { 5 } };
+  for (const SeriesTracks::Name& name : names)
+  {
+    ASSERT_FALSE(tracks.Knows(name, ranks));
+    tracks.Extend<1>(tracks.Count() > 0 ? &grid : nullptr, step, name, stay, progress);
+  }
+  EXPECT_EQ(tracks.Count(), 3);
+  tracks.Recheck();
+  EXPECT_TRUE(tracks.Knows({ 3 }, ranks));
+  EXPECT_FALSE(tracks.Knows({ 7 }, ranks)); // forgets it and the step after it
+  EXPECT_EQ(tracks.Count(), 1);
+  EXPECT_EQ(tracks.Particles().Count(), 1);
+  tracks.SetSettings({ 2, true }, 1);
+  EXPECT_EQ(tracks.Count(), 0);
+  EXPECT_FALSE(tracks.Knows({ 3 }, ranks));
+}
+
+TEST(SeriesLabels, AreEqualByTheirKeys)
+{
+  const std::array<std::vector<std::string>, 2> keys = { { { "a", "a", "b", "a" }, { "b", "c" } } };
+  const auto equal = findEqual({ 4, 2 }, [&](std::size_t step, std::int64_t tuple) {
+    return keys[step][static_cast<std::size_t>(tuple)];
+  });
+  EXPECT_EQ(equal, (std::vector<std::int64_t>{ 0, 0, 2, 0, 2, 5 }));
+}
+
 // Each cell of the first step has a label of its own, each of the second that of the cell from
 // which its mass comes.
 TEST(SeriesLabels, MoveAlong)
@@ -248,8 +287,8 @@ TEST(SeriesLabels, MoveAlong)
   const auto find = [&](double part) {
     const Placed placed(particles, part);
     std::vector<std::int64_t> found;
-    labels.Find<1>(placed.Moment, box.Grid, LatticePart<1>::WholeOf({ cells }), { &equal },
-      progress, [&](std::size_t, const std::vector<std::int64_t>& tuples) { found = tuples; });
+    labels.Find<1>(placed.Moment, box.Grid, LatticePart<1>::WholeOf({ cells }), { equal }, progress,
+      [&](std::size_t, const std::vector<std::int64_t>& tuples) { found = tuples; });
     return found;
   };
   const std::vector<std::int64_t> early = { 0, 1, 2, 1, 2, 3, 6, 7, 8, 9, 10, 11 };

@@ -29,7 +29,7 @@ CORE = {
     "Blend": {"Parallel", "Geometry", "Flow", "Splat", "Plan"},
     "Distance": {"Parallel", "Geometry", "Tables", "Plan"},
     "Seeds": {"Parallel", "Geometry"},
-    "Series": {"Parallel", "Geometry", "Tables", "Flow", "Splat"},
+    "Series": {"Parallel", "Geometry", "Tables", "Flow", "Splat", "Plan"},
     "Splat": {"Parallel", "Geometry"},
     "Overlap": {"Parallel", "Geometry"},
     "Resampling": {"Parallel", "Geometry", "Tables", "Overlap"},

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tracked particles of a series whose steps may change.
+#ifndef RectifiedTransport_SeriesTracks_h
+#define RectifiedTransport_SeriesTracks_h
+
+#include "Core/Series/TrackedParticles.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+struct MovingSettings
+{
+  int ParticlesPerCell;
+  bool IsOptimal;
+
+  bool operator==(const MovingSettings& other) const
+  {
+    return this->ParticlesPerCell == other.ParticlesPerCell && this->IsOptimal == other.IsOptimal;
+  }
+};
+
+class SeriesTracks
+{
+public:
+  using Name = std::vector<std::uint64_t>; // the same numbers for equal densities alone
+
+  // Forgets positions that other settings made.
+  void SetSettings(const MovingSettings& settings, int ranks);
+  const MovingSettings& Settings() const { return this->Chosen; }
+  // At how many steps, from the first one on, positions are known.
+  int Count() const { return this->Checked; }
+  // The steps may have changed: each has to be given again to Knows, which keeps the positions up
+  // to the first one that has.
+  void Recheck() { this->Checked = 0; }
+  // Whether the positions at the next step, of this name, are known on all ranks; they then count.
+  // Else forgets those from this step on. Collective.
+  bool Knows(const Name& next, const Ranks& ranks);
+
+  // Finds the positions at the next step, which are not known; `before` is the grid of the step
+  // before, nullptr at the first one. Both have mass. Collective. Throws as TrackedParticles.
+  template <int D>
+  void Extend(const ImageGrid* before, const SeriesStep& step, const Name& name,
+    const MoveSamples<D>& move, Progress& progress)
+  {
+    before ? this->Tracked.Follow<D>(*before, step.Grid, move, progress)
+           : this->Tracked.Begin<D>(step, this->Chosen.ParticlesPerCell, progress);
+    this->Names.push_back(name);
+    ++this->Checked;
+  }
+
+  const TrackedParticles& Particles() const { return this->Tracked; }
+
+private:
+  MovingSettings Chosen{ 0, true };
+  int NumberOfRanks = 0;
+  TrackedParticles Tracked;
+  std::vector<Name> Names; // of the steps
+  int Checked = 0;         // of these
+};
+
+} // namespace RectifiedTransport
+
+#endif
