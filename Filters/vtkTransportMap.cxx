@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -166,6 +167,10 @@ int vtkTransportMap::RequestData(
   {
     return 1;
   }
+  else if (!this->ToTarget)
+  {
+    this->ToTarget = std::make_unique<TargetCache>();
+  }
   const int first = isToTarget && map.Backward ? 1 : 0;
   InputDensity* density = densities[first].get();
   if (!density)
@@ -174,21 +179,15 @@ int vtkTransportMap::RequestData(
   }
   vtkImageData* output = vtkImageData::GetData(outputVector);
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
-  const auto run = [&]() {
-    const Extent wanted = extentToGive(map.SampleGrid(*density).Extent(), outputInformation, ranks);
-    if (!isToTarget)
-    {
-      return map.Run(*density, nullptr, wanted, this->GetFlowCache(), stages["map"], output);
-    }
-    if (!this->ToTarget)
-    {
-      this->ToTarget.reset(new TargetCache);
-    }
-    const int last = 1 - first;
-    MapGoal goal(*density, InputNames[first], *densities[last], InputNames[last], *this->ToTarget);
-    return map.Run(*density, &goal, wanted, this->GetFlowCache(), stages["map"], output);
-  };
-  const TransportMap::Report result = run();
+  const Extent wanted = extentToGive(map.SampleGrid(*density).Extent(), outputInformation, ranks);
+  std::optional<MapGoal> goal;
+  if (isToTarget)
+  {
+    goal.emplace(
+      *density, InputNames[first], *densities[1 - first], InputNames[1 - first], *this->ToTarget);
+  }
+  const TransportMap::Report result =
+    map.Run(*density, goal ? &*goal : nullptr, wanted, this->GetFlowCache(), stages["map"], output);
   std::vector<DensityReading> readings;
   for (const auto& one : densities)
   {
