@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which file may include which, as Documentation/Contributing.md states it."""
+import collections
 import glob
 import os
 import re
@@ -45,7 +46,7 @@ OPTIMAL_MAP = {
 }
 RUN = {"Run"}
 WORKERS = RUN | {"Image", "Points", "Settings", "Density", "Ranks", "Store"}
-BRIDGE = {
+BRIDGE = collections.defaultdict(lambda: WORKERS, {  # rooms that are not named are workers
     "Pipeline": set(),
     "Device": set(),
     "Run": {"Pipeline"},
@@ -60,12 +61,10 @@ BRIDGE = {
     "Blocks": RUN | {"Image", "Points", "Ranks", "Store"},
     "Cells": RUN | {"Image", "Points", "Ranks", "Density", "Blocks", "Store"},
     "Blend": WORKERS | {"Splat"},
-    "Distance": WORKERS,
     "Temporal": WORKERS | {"Splat"},
     **{folder: WORKERS | {"Blocks"} for folder in ("Cartogram", "SiteCells")},
-    **{folder: WORKERS for folder in ("Flow", "Quality", "Relaxation", "Seeds", "Splat")},
     **{folder: WORKERS | {"Triangles"} for folder in ("Solid", "Surfaces")},
-}
+})
 
 
 FILTERS = os.path.join(SOURCE, "Filters")
