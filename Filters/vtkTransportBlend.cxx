@@ -180,15 +180,10 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
       ? names[number - 1]
       : "Input " + std::to_string(number) + " of " + std::to_string(given.All.size());
     input.PositionName = names ? input.Name + "Position" : "";
-    try
-    {
-      input.Density = this->ReadDensity(one.Data, parts[static_cast<std::int64_t>(number) - 1],
-        one.Port, static_cast<int>(number) - 1);
-    }
-    catch (const Failure& failure)
-    {
-      throw Failure(input.Name, failure);
-    }
+    input.Density = withName(input.Name, [&]() {
+      return this->ReadDensity(one.Data, parts[static_cast<std::int64_t>(number) - 1], one.Port,
+        static_cast<int>(number) - 1);
+    });
     if (!input.Density)
     {
       return {};

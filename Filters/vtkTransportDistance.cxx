@@ -5,6 +5,7 @@
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Distance/DensityDistances.h"
 #include "Bridge/Distance/DistanceTables.h"
+#include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Ranks/FieldsOfFirst.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
@@ -116,11 +117,9 @@ int vtkTransportDistance::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   this->Internals->Step = 0;
-  for (int port = 0; port < this->GetNumberOfOutputPorts() && this->OverTime; ++port)
+  if (this->OverTime)
   {
-    // The tables are of all times.
-    outputVector->GetInformationObject(port)->Remove(Pipeline::TIME_STEPS());
-    outputVector->GetInformationObject(port)->Remove(Pipeline::TIME_RANGE());
+    announceTimes(outputVector, {}, {}); // the tables are of all times
   }
   return 1;
 }
@@ -255,22 +254,15 @@ bool vtkTransportDistance::Add(vtkDataObject* data, const std::string& title,
   const std::string& name, int number, double time, RectifiedTransport::Progress& progress)
 {
   Stages stages(progress, { { "input", 1 }, { "values", 1 }, { "maps", 8 } });
-  DistanceInput input;
-  try
+  const std::unique_ptr<InputDensity> density =
+    withName(title, [&]() { return this->ReadDensity(data, stages["input"], 0, number); });
+  if (!density)
   {
-    const std::unique_ptr<InputDensity> density =
-      this->ReadDensity(data, stages["input"], 0, number);
-    if (!density)
-    {
-      return false;
-    }
-    density->SetInputName(title);
-    input = readDistanceInput(*density, stages["values"]);
+    return false;
   }
-  catch (const Failure& failure)
-  {
-    throw Failure(title, failure);
-  }
+  density->SetInputName(title);
+  DistanceInput input =
+    withName(title, [&]() { return readDistanceInput(*density, stages["values"]); });
   input.Title = title;
   input.Name = name;
   input.Time = time;

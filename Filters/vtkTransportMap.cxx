@@ -121,15 +121,9 @@ bool vtkTransportMap::ReadPair(vtkInformationVector** inputVector,
   bool haveBoth = true;
   for (int port = 0; port < 2; ++port)
   {
-    try
-    {
-      vtkDataObject* data = vtkDataObject::GetData(inputVector[port], 0);
-      densities[port] = this->ReadDensity(data, progress, port, port);
-    }
-    catch (const Failure& failure)
-    {
-      throw Failure(InputNames[port], failure);
-    }
+    vtkDataObject* data = vtkDataObject::GetData(inputVector[port], 0);
+    densities[port] =
+      withName(InputNames[port], [&]() { return this->ReadDensity(data, progress, port, port); });
     haveBoth = haveBoth && densities[port];
     if (haveBoth)
     {
