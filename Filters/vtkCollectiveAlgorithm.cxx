@@ -9,7 +9,6 @@
 #include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Pipeline/RequestedTimes.h"
 #include "Bridge/Points/IgnoredFlags.h"
-#include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/FieldsOfFirst.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/ExceptionBarrier.h"

@@ -3,7 +3,6 @@
 
 #include "Bridge/Blocks/OptionalArray.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/CornerSettings.h"
 #include "Bridge/Settings/FlowSettings.h"
