@@ -9,15 +9,14 @@
 #include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Pipeline/RequestedTimes.h"
 #include "Bridge/Points/IgnoredFlags.h"
-#include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/FieldsOfFirst.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/ExceptionBarrier.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/Inputs/WholeInputs.h"
 #include "Bridge/Run/RankRun.h"
 #include "Bridge/Run/SMPExecutor.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Messages/MessageText.h"
 
 #include "vtkExecutive.h"
@@ -33,6 +32,8 @@
 #include <utility>
 
 VTK_ABI_NAMESPACE_BEGIN
+using namespace RectifiedTransport;
+using namespace RectifiedTransport::Bridge;
 
 namespace
 {
@@ -52,8 +53,8 @@ void makeOutputLike(vtkPointSet* input, vtkInformationVector* outputVector, int 
 
 //------------------------------------------------------------------------------
 vtkCollectiveAlgorithm::vtkCollectiveAlgorithm()
-  : Whole(new RectifiedTransport::Bridge::WholeInputs)
-  , Early(new RectifiedTransport::Bridge::EarlyUpdate)
+  : Whole(new WholeInputs)
+  , Early(new EarlyUpdate)
 {
 }
 
@@ -63,7 +64,7 @@ vtkCollectiveAlgorithm::~vtkCollectiveAlgorithm() = default;
 //------------------------------------------------------------------------------
 const char* vtkCollectiveAlgorithm::GetThreadingAsString()
 {
-  return RectifiedTransport::Bridge::threadingText(this->Threading);
+  return threadingText(this->Threading);
 }
 
 //------------------------------------------------------------------------------
@@ -77,7 +78,7 @@ vtkTypeBool vtkCollectiveAlgorithm::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkTypeBool result = 0;
-  RectifiedTransport::Bridge::withThreadsOfThisProcess(
+  withThreadsOfThisProcess(
     [&]() { result = this->ProcessCaught(request, inputVector, outputVector); });
   return result;
 }
@@ -94,9 +95,8 @@ vtkTypeBool vtkCollectiveAlgorithm::ProcessCaught(
     }
     if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
     {
-      RectifiedTransport::Bridge::publishTimes(
-        inputVector, this->GetNumberOfInputPorts(), outputVector);
-      RectifiedTransport::Bridge::removeArrayInformation(outputVector);
+      publishTimes(inputVector, this->GetNumberOfInputPorts(), outputVector);
+      removeArrayInformation(outputVector);
       return this->ProcessInformation(request, inputVector, outputVector);
     }
     if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_TIME_DEPENDENT_INFORMATION()))
@@ -126,8 +126,8 @@ vtkTypeBool vtkCollectiveAlgorithm::ProcessCaught(
     this->HasNextPass = false;
     this->EndPasses();
     this->Whole->Separate().End();
-    const std::unique_ptr<RectifiedTransport::Bridge::RankRun> run = std::move(this->Run);
-    return RectifiedTransport::Bridge::handleException(this, outputVector, run.get());
+    const std::unique_ptr<RankRun> run = std::move(this->Run);
+    return handleException(this, outputVector, run.get());
   }
 }
 
@@ -137,25 +137,25 @@ int vtkCollectiveAlgorithm::ProcessInformation(
 {
   try
   {
-    const RectifiedTransport::Bridge::RequestedTimes kept(this);
+    const RequestedTimes kept(this);
     this->Whole->RequestFirstTimes(this, inputVector, outputVector);
     const int result = this->RequestInformation(request, inputVector, outputVector);
     this->EndRun();
     return result;
   }
   // RequestData reports it, once.
-  catch (const RectifiedTransport::FailedElsewhere&)
+  catch (const FailedElsewhere&)
   {
     this->Run = nullptr;
   }
-  catch (const RectifiedTransport::Bridge::Failure& failure)
+  catch (const Failure& failure)
   {
-    if (const std::unique_ptr<RectifiedTransport::Bridge::RankRun> run = std::move(this->Run))
+    if (const std::unique_ptr<RankRun> run = std::move(this->Run))
     {
       run->Fail(failure.what());
     }
   }
-  RectifiedTransport::Bridge::announceEmptyExtents(outputVector);
+  announceEmptyExtents(outputVector);
   return 1;
 }
 
@@ -163,35 +163,35 @@ int vtkCollectiveAlgorithm::ProcessInformation(
 int vtkCollectiveAlgorithm::ProcessData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  RectifiedTransport::Bridge::warnOfIgnoredFlags(this, inputVector);
+  warnOfIgnoredFlags(this, inputVector);
   int result = this->ProcessPass(request, inputVector, outputVector);
   while (std::exchange(this->HasNextPass, false))
   {
     this->RequestUpdateExtent(request, inputVector, outputVector);
-    if (!RectifiedTransport::Bridge::updateInput(this, 0, 0))
+    if (!updateInput(this, 0, 0))
     {
       const double time = inputVector[0]->GetInformationObject(0)->Get(
         vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
-      RectifiedTransport::Bridge::fail("The input could not be made at the time ", time,
+      fail("The input could not be made at the time ", time,
         "; mend the error of the filter or reader before this one");
     }
     result = this->ProcessPass(request, inputVector, outputVector);
   }
-  return RectifiedTransport::Bridge::clearUnmetRequests(outputVector) ? result : 0;
+  return clearUnmetRequests(outputVector) ? result : 0;
 }
 
 //------------------------------------------------------------------------------
 int vtkCollectiveAlgorithm::ProcessPass(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  RectifiedTransport::Bridge::clearImages(outputVector);
+  clearImages(outputVector);
   this->Run = this->Whole->BeginRun(this, inputVector);
   if (this->Run)
   {
-    RectifiedTransport::Bridge::requireSameProperties(this, *this->Run);
+    requireSameProperties(this, *this->Run);
   }
   vtkInformationVector** inputs = this->Whole->Separate().Inputs(this, inputVector);
-  RectifiedTransport::Bridge::requireExtents(this, inputs);
+  requireExtents(this, inputs);
   this->Whole->Require(this, inputs, this->Run.get());
   int result = 1;
   if (this->Run && !this->Gathered.empty())
@@ -212,9 +212,8 @@ int vtkCollectiveAlgorithm::MakeOutputs(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const int result = this->RequestData(request, inputVector, outputVector);
-  RectifiedTransport::Bridge::removeReplacedFields(
-    { this->GetExecutive()->GetInputInformation(), inputVector }, this->GetNumberOfInputPorts(),
-    outputVector);
+  removeReplacedFields({ this->GetExecutive()->GetInputInformation(), inputVector },
+    this->GetNumberOfInputPorts(), outputVector);
   return result;
 }
 
@@ -225,7 +224,6 @@ void vtkCollectiveAlgorithm::EndPasses() {}
 int vtkCollectiveAlgorithm::GatherAndRun(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  using RectifiedTransport::Bridge::GatheredKind;
   std::map<int, GatheredKind> kinds;
   for (const auto& [port, policy] : this->Gathered)
   {
@@ -233,7 +231,7 @@ int vtkCollectiveAlgorithm::GatherAndRun(
       : policy == PORT_GATHERED_SURFACE          ? GatheredKind::Surface
                                                  : GatheredKind::Density;
   }
-  RectifiedTransport::Bridge::GatheredInputs inputs(inputVector, kinds, *this->Run);
+  GatheredInputs inputs(inputVector, kinds, *this->Run);
   int result = 1;
   if (this->Run->Own() == 0)
   {
@@ -245,16 +243,13 @@ int vtkCollectiveAlgorithm::GatherAndRun(
   // The others have those of their inputs, which the executive passed on.
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
-    RectifiedTransport::Bridge::takeFieldsOfFirst(
-      vtkDataObject::GetData(outputVector, port)->GetFieldData(), *this->Run);
+    takeFieldsOfFirst(vtkDataObject::GetData(outputVector, port)->GetFieldData(), *this->Run);
   }
   return result;
 }
 
 //------------------------------------------------------------------------------
-void vtkCollectiveAlgorithm::ShareOutputs(const RectifiedTransport::Ranks&, vtkInformationVector*)
-{
-}
+void vtkCollectiveAlgorithm::ShareOutputs(const Ranks&, vtkInformationVector*) {}
 
 //------------------------------------------------------------------------------
 void vtkCollectiveAlgorithm::EndRun()
@@ -276,14 +271,13 @@ int vtkCollectiveAlgorithm::ProcessTimeDependentInformation(
     return 1;
   }
   vtkInformation* output = outputVector->GetInformationObject(0);
-  const RectifiedTransport::ImageGrid before =
-    RectifiedTransport::Bridge::announcedGrid(output, true);
+  const ImageGrid before = announcedGrid(output, true);
   this->Early->Clear();
   const int result = this->ProcessInformation(request, inputVector, outputVector);
-  if (result && !(RectifiedTransport::Bridge::announcedGrid(output, true) == before))
+  if (result && !(announcedGrid(output, true) == before))
   {
     this->Modified();
-    RectifiedTransport::Bridge::updateConsumerInformation(output);
+    updateConsumerInformation(output);
   }
   return result;
 }
@@ -315,11 +309,11 @@ void vtkCollectiveAlgorithm::UpdateInputBeforeData(
   int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector, int connection)
 {
   this->Early->Run(this, port, connection, inputVector[port]->GetInformationObject(connection),
-    outputVector->GetInformationObject(0), RectifiedTransport::SoloRanks::Get());
+    outputVector->GetInformationObject(0), SoloRanks::Get());
 }
 
 //------------------------------------------------------------------------------
-const RectifiedTransport::Ranks& vtkCollectiveAlgorithm::UpdateInputOnRanks(
+const Ranks& vtkCollectiveAlgorithm::UpdateInputOnRanks(
   int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   if (!this->Run)
@@ -409,11 +403,9 @@ int vtkCollectiveAlgorithm::FillOutputPortInformation(int, vtkInformation*)
 }
 
 //------------------------------------------------------------------------------
-const RectifiedTransport::Ranks& vtkCollectiveAlgorithm::GetRanks() const
+const Ranks& vtkCollectiveAlgorithm::GetRanks() const
 {
-  return this->IsAlone || !this->Run
-    ? static_cast<const RectifiedTransport::Ranks&>(RectifiedTransport::SoloRanks::Get())
-    : *this->Run;
+  return this->IsAlone || !this->Run ? static_cast<const Ranks&>(SoloRanks::Get()) : *this->Run;
 }
 
 //------------------------------------------------------------------------------
@@ -421,7 +413,7 @@ void vtkCollectiveAlgorithm::WarnOnFirstRank(const std::string& text)
 {
   if (!text.empty() && this->GetRanks().IsFirst())
   {
-    vtkWarningMacro(<< RectifiedTransport::messageText(text));
+    vtkWarningMacro(<< messageText(text));
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include "Bridge/Blocks/OptionalArray.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/FlowSettings.h"
 #include "Bridge/Run/Settings/SeedSettings.h"

@@ -6,12 +6,12 @@
 #include "Bridge/Ensembles/DensityBlend.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/SplatSettings.h"
 #include "Bridge/Run/Settings/TableSettings.h"
 #include "Core/Device/DeviceUse.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Parallel/Stages.h"
 
@@ -180,15 +180,10 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
       ? names[number - 1]
       : "Input " + std::to_string(number) + " of " + std::to_string(given.All.size());
     input.PositionName = names ? input.Name + "Position" : "";
-    try
-    {
-      input.Density = this->ReadDensity(one.Data, parts[static_cast<std::int64_t>(number) - 1],
-        one.Port, static_cast<int>(number) - 1);
-    }
-    catch (const Failure& failure)
-    {
-      throw Failure(input.Name, failure);
-    }
+    input.Density = withName(input.Name, [&]() {
+      return this->ReadDensity(one.Data, parts[static_cast<std::int64_t>(number) - 1], one.Port,
+        static_cast<int>(number) - 1);
+    });
     if (!input.Density)
     {
       return {};

@@ -4,6 +4,7 @@
 #include "Bridge/Blocks/GivenInputs.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Ensembles/DensityDistances.h"
+#include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Ranks/FieldsOfFirst.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
@@ -115,11 +116,9 @@ int vtkTransportDistance::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   this->Internals->Step = 0;
-  for (int port = 0; port < this->GetNumberOfOutputPorts() && this->OverTime; ++port)
+  if (this->OverTime)
   {
-    // The tables are of all times.
-    outputVector->GetInformationObject(port)->Remove(Pipeline::TIME_STEPS());
-    outputVector->GetInformationObject(port)->Remove(Pipeline::TIME_RANGE());
+    announceTimes(outputVector, {}, {}); // the tables are of all times
   }
   return 1;
 }
@@ -254,22 +253,15 @@ bool vtkTransportDistance::Add(vtkDataObject* data, const std::string& title,
   const std::string& name, int number, double time, RectifiedTransport::Progress& progress)
 {
   Stages stages(progress, { { "input", 1 }, { "values", 1 }, { "maps", 8 } });
-  DistanceInput input;
-  try
+  const std::unique_ptr<InputDensity> density =
+    withName(title, [&]() { return this->ReadDensity(data, stages["input"], 0, number); });
+  if (!density)
   {
-    const std::unique_ptr<InputDensity> density =
-      this->ReadDensity(data, stages["input"], 0, number);
-    if (!density)
-    {
-      return false;
-    }
-    density->SetInputName(title);
-    input = readDistanceInput(*density, stages["values"]);
+    return false;
   }
-  catch (const Failure& failure)
-  {
-    throw Failure(title, failure);
-  }
+  density->SetInputName(title);
+  DistanceInput input =
+    withName(title, [&]() { return readDistanceInput(*density, stages["values"]); });
   input.Title = title;
   input.Name = name;
   input.Time = time;

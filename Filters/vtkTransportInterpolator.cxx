@@ -2,6 +2,7 @@
 #include "vtkTransportInterpolator.h"
 
 #include "Bridge/Ensembles/DensityBlend.h"
+#include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Run/Inputs/SeparateInputs.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/TargetArray.h"
@@ -103,13 +104,7 @@ int vtkTransportInterpolator::RequestInformation(
     {
       steps.push_back(i / (this->NumberOfTimeSteps - 1.0));
     }
-    const double range[2] = { 0.0, 1.0 };
-    for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
-    {
-      vtkInformation* output = outputVector->GetInformationObject(i);
-      output->Set(Pipeline::TIME_STEPS(), steps.data(), this->NumberOfTimeSteps);
-      output->Set(Pipeline::TIME_RANGE(), range, 2);
-    }
+    announceTimes(outputVector, { 0.0, 1.0 }, steps);
   }
   return this->Superclass::RequestInformation(request, inputVector, outputVector);
 }
@@ -150,11 +145,9 @@ int vtkTransportInterpolator::RequestData(
   settings.ComparesEnds = true;
   static const char* const names[] = { "Source", "Target" };
   this->BlendInputs(inputVector, outputVector, settings, names, { 1.0 - parameter, parameter });
-  for (int i = 0; this->PublishTime && i < outputVector->GetNumberOfInformationObjects(); ++i)
+  if (this->PublishTime)
   {
-    vtkDataObject::GetData(outputVector, i)
-      ->GetInformation()
-      ->Set(vtkDataObject::DATA_TIME_STEP(), parameter);
+    stampTime(outputVector, parameter);
   }
   return 1;
 }

@@ -6,7 +6,6 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/MissingData.h"
 #include "Bridge/Run/Settings/TableSettings.h"
@@ -14,6 +13,7 @@
 #include "Bridge/Run/StepReport.h"
 #include "Core/Device/DeviceUse.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Parallel/Stages.h"
 
@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -120,15 +121,9 @@ bool vtkTransportMap::ReadPair(vtkInformationVector** inputVector,
   bool haveBoth = true;
   for (int port = 0; port < 2; ++port)
   {
-    try
-    {
-      vtkDataObject* data = vtkDataObject::GetData(inputVector[port], 0);
-      densities[port] = this->ReadDensity(data, progress, port, port);
-    }
-    catch (const Failure& failure)
-    {
-      throw Failure(InputNames[port], failure);
-    }
+    vtkDataObject* data = vtkDataObject::GetData(inputVector[port], 0);
+    densities[port] =
+      withName(InputNames[port], [&]() { return this->ReadDensity(data, progress, port, port); });
     haveBoth = haveBoth && densities[port];
     if (haveBoth)
     {
@@ -166,6 +161,10 @@ int vtkTransportMap::RequestData(
   {
     return 1;
   }
+  else if (!this->ToTarget)
+  {
+    this->ToTarget = std::make_unique<TargetCache>();
+  }
   const int first = isToTarget && map.Backward ? 1 : 0;
   InputDensity* density = densities[first].get();
   if (!density)
@@ -174,21 +173,15 @@ int vtkTransportMap::RequestData(
   }
   vtkImageData* output = vtkImageData::GetData(outputVector);
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
-  const auto run = [&]() {
-    const Extent wanted = extentToGive(map.SampleGrid(*density).Extent(), outputInformation, ranks);
-    if (!isToTarget)
-    {
-      return map.Run(*density, nullptr, wanted, this->GetFlowCache(), stages["map"], output);
-    }
-    if (!this->ToTarget)
-    {
-      this->ToTarget.reset(new TargetCache);
-    }
-    const int last = 1 - first;
-    MapGoal goal(*density, InputNames[first], *densities[last], InputNames[last], *this->ToTarget);
-    return map.Run(*density, &goal, wanted, this->GetFlowCache(), stages["map"], output);
-  };
-  const TransportMap::Report result = run();
+  const Extent wanted = extentToGive(map.SampleGrid(*density).Extent(), outputInformation, ranks);
+  std::optional<MapGoal> goal;
+  if (isToTarget)
+  {
+    goal.emplace(
+      *density, InputNames[first], *densities[1 - first], InputNames[1 - first], *this->ToTarget);
+  }
+  const TransportMap::Report result =
+    map.Run(*density, goal ? &*goal : nullptr, wanted, this->GetFlowCache(), stages["map"], output);
   std::vector<DensityReading> readings;
   for (const auto& one : densities)
   {

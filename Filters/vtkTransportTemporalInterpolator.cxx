@@ -4,6 +4,7 @@
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Pipeline/ConsumerExtents.h"
+#include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"
@@ -133,17 +134,10 @@ int vtkTransportTemporalInterpolator::RequestInformation(
   const bool resamples = this->ResampleFactor > 0 &&
     this->ResampleFactor <= MaximumResampleFactor &&
     static_cast<double>(this->ResampleFactor) * times.Count() <= MaximumTimeSteps;
-  for (int port = 0; port < this->GetNumberOfOutputPorts() && times.Count() > 0; ++port)
+  if (times.Count() > 0)
   {
-    vtkInformation* output = outputVector->GetInformationObject(port);
-    const double range[2] = { times[0], times[times.Count() - 1] };
-    output->Set(Pipeline::TIME_RANGE(), range, 2);
-    output->Remove(Pipeline::TIME_STEPS());
-    if (resamples)
-    {
-      const std::vector<double> steps = times.Resampled(this->ResampleFactor);
-      output->Set(Pipeline::TIME_STEPS(), steps.data(), static_cast<int>(steps.size()));
-    }
+    announceTimes(outputVector, { times[0], times[times.Count() - 1] },
+      resamples ? times.Resampled(this->ResampleFactor) : std::vector<double>());
   }
   announceSubExtents(outputVector->GetInformationObject(0));
   vtkDataObject* data = vtkDataObject::GetData(input);
@@ -336,8 +330,7 @@ bool vtkTransportTemporalInterpolator::ReadStep(
   read.Title = titleOf(step, own.Times);
   const int place = own.Steps.Use(own.Times[step]);
   KeptStep& kept = own.Steps[place];
-  try
-  {
+  return withName(read.Title, [&]() {
     read.Input = this->ReadDensity(kept.Data, progress, 0, place);
     if (!read.Input)
     {
@@ -345,12 +338,8 @@ bool vtkTransportTemporalInterpolator::ReadStep(
     }
     read.Input->SetInputName(read.Title);
     read.Density = readStepDensity(*read.Input, kept.Density, progress);
-  }
-  catch (const Failure& failure)
-  {
-    throw Failure(read.Title, failure);
-  }
-  return true;
+    return true;
+  });
 }
 
 //------------------------------------------------------------------------------
@@ -426,12 +415,7 @@ void vtkTransportTemporalInterpolator::Interpolate(
   {
     announceToViews(output.Announced, announced);
   }
-  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
-  {
-    vtkDataObject::GetData(outputVector, i)
-      ->GetInformation()
-      ->Set(vtkDataObject::DATA_TIME_STEP(), time);
-  }
+  stampTime(outputVector, time);
 }
 
 //------------------------------------------------------------------------------

@@ -6,10 +6,10 @@
 #include "Bridge/Drawing/TransportVectorWriter.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/ArrayList.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
 #include "Core/Drawing/Drawing.h"
 #include "Core/Drawing/OutputFile.h"
+#include "Core/Messages/Failure.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

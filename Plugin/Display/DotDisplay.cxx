@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Display/DotDisplay.h"
+#include "Display/ProxyTexts.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkNew.h"
@@ -30,12 +32,6 @@ int dimensionOf(const double bounds[6])
     dimension += bounds[2 * axis] < bounds[2 * axis + 1] ? 1 : 0;
   }
   return dimension;
-}
-
-std::string typeOf(vtkSMProxy* representation)
-{
-  const char* type = vtkSMPropertyHelper(representation, "Representation", true).GetAsString();
-  return type ? type : "";
 }
 
 namespace
@@ -127,12 +123,7 @@ struct Spread
 
   double LongestSide() const
   {
-    double longest = 0.0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      longest = std::max(longest, this->Bounds[2 * axis + 1] - this->Bounds[2 * axis]);
-    }
-    return longest;
+    return std::max(0.0, vtkBoundingBox(this->Bounds.data()).GetMaxLength());
   }
 
   vtkTypeInt64 Count;
@@ -199,8 +190,8 @@ private:
   {
     const Spread spread(this->Data());
     vtkSMPropertyHelper radius(this->Representation, "GaussianRadius");
-    if (typeOf(this->Representation) == typeOfDots && radius.GetAsDouble() == this->Radius &&
-      !spread.IsLike(this->Known))
+    if (textOf(this->Representation, "Representation") == typeOfDots &&
+      radius.GetAsDouble() == this->Radius && !spread.IsLike(this->Known))
     {
       this->UseRadius(spread);
       this->Representation->UpdateVTKObjects();

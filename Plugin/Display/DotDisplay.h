@@ -3,18 +3,13 @@
 #ifndef RectifiedTransport_DotDisplay_h
 #define RectifiedTransport_DotDisplay_h
 
-#include <string>
-
 class vtkSMPVRepresentationProxy;
-class vtkSMProxy;
 class vtkSMSourceProxy;
 
 namespace RectifiedTransport
 {
 
 constexpr const char* typeOfDots = "Point Gaussian";
-
-std::string typeOf(vtkSMProxy* representation);
 
 // The number of axes along which bounds have an extent.
 int dimensionOf(const double bounds[6]);

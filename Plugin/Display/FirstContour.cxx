@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Display/FirstContour.h"
 
-#include "Display/HintElements.h"
+#include "Display/ProxyTexts.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkPVArrayInformation.h"
@@ -16,6 +16,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -24,18 +25,6 @@ namespace
 {
 
 constexpr const char* isovalues = "ContourValues";
-
-vtkPVXMLElement* elementFor(vtkSMSourceProxy* producer, int port)
-{
-  for (vtkPVXMLElement* element : hintElements(producer, "FirstContour"))
-  {
-    if (isOfPort(element, port))
-    {
-      return element;
-    }
-  }
-  return nullptr;
-}
 
 // The array that a property names, or the active scalars if it names none.
 vtkPVArrayInformation* arrayOf(
@@ -80,9 +69,8 @@ std::optional<double> leastMaximum(
 // Whether the output has the scale of the inputs' arrays.
 bool keepsScale(vtkSMProxy* filter)
 {
-  const char* mode = vtkSMPropertyHelper(filter, "MassMode").GetAsString();
-  const std::string text = mode ? mode : "";
-  return (text == "Linear" || text == "Geometric") &&
+  const std::string mode = textOf(filter, "MassMode");
+  return (mode == "Linear" || mode == "Geometric") &&
     vtkSMPropertyHelper(filter, "InvertDensity").GetAsInt() == 0;
 }
 
@@ -131,16 +119,18 @@ void applyFirstContour(vtkSMProxy* contour)
   vtkSMPropertyHelper input(contour, "Input");
   auto* filter = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
   const unsigned int port = filter ? input.GetOutputPort() : 0;
-  vtkPVXMLElement* element = filter ? elementFor(filter, static_cast<int>(port)) : nullptr;
+  const std::vector<vtkPVXMLElement*> elements = filter
+    ? hintElements(filter, "FirstContour", static_cast<int>(port))
+    : std::vector<vtkPVXMLElement*>();
   vtkSMPropertyHelper contoured(contour, "SelectInputScalars");
   const char* name = contoured.GetInputArrayNameToProcess();
-  const char* expected = element ? element->GetAttribute("array") : nullptr;
+  const char* expected = elements.empty() ? nullptr : elements[0]->GetAttribute("array");
   if (!name || !expected || std::string(name) != expected)
   {
     return;
   }
   vtkPVArrayInformation* array = arrayOf(filter, port, contoured);
-  const std::optional<double> value = isovalueOf(element, filter);
+  const std::optional<double> value = isovalueOf(elements[0], filter);
   if (array && value && array->GetComponentRange(0)[0] < *value &&
     *value < array->GetComponentRange(0)[1])
   {

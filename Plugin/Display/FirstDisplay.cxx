@@ -2,7 +2,7 @@
 #include "Display/FirstDisplay.h"
 
 #include "Display/DotDisplay.h"
-#include "Display/HintElements.h"
+#include "Display/ProxyTexts.h"
 #include "Display/ScatterDisplay.h"
 
 #include "vtkCommand.h"
@@ -19,9 +19,11 @@
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
+#include <algorithm>
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -40,10 +42,6 @@ bool isGiven(vtkPVXMLElement* element, const char* attribute, int& value)
 bool applies(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port)
 {
   int value = 0;
-  if (!isOfPort(element, port))
-  {
-    return false;
-  }
   const char* property = element->GetAttribute("property");
   if (property && isGiven(element, "value", value) &&
     vtkSMPropertyHelper(producer, property).GetAsInt() != value)
@@ -57,7 +55,7 @@ bool applies(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port)
 
 vtkPVXMLElement* elementFor(vtkSMSourceProxy* producer, int port)
 {
-  for (vtkPVXMLElement* element : hintElements(producer, elementName))
+  for (vtkPVXMLElement* element : hintElements(producer, elementName, port))
   {
     if (applies(element, producer, port))
     {
@@ -69,14 +67,9 @@ vtkPVXMLElement* elementFor(vtkSMSourceProxy* producer, int port)
 
 bool followsProperties(vtkSMSourceProxy* producer, int port)
 {
-  for (vtkPVXMLElement* element : hintElements(producer, elementName))
-  {
-    if (isOfPort(element, port) && element->GetAttribute("property"))
-    {
-      return true;
-    }
-  }
-  return false;
+  const std::vector<vtkPVXMLElement*> elements = hintElements(producer, elementName, port);
+  return std::any_of(elements.begin(), elements.end(),
+    [](vtkPVXMLElement* element) { return element->GetAttribute("property") != nullptr; });
 }
 
 // A colour for each whole number from 0 to the highest, which a table of few colours repeats.
@@ -231,7 +224,8 @@ public:
       return;
     }
     vtkPVXMLElement* element = elementFor(producer, this->Port);
-    if (element && element != this->Applied && typeOf(this->Representation) == this->Type)
+    if (element && element != this->Applied &&
+      textOf(this->Representation, "Representation") == this->Type)
     {
       this->Change(element);
       this->Remember(element);
@@ -265,7 +259,7 @@ private:
   void Remember(vtkPVXMLElement* element)
   {
     this->Applied = element;
-    this->Type = typeOf(this->Representation);
+    this->Type = textOf(this->Representation, "Representation");
   }
 
   int Port = 0;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Display/vtkCheckeredSurfaceRepresentation.h"
 
-#include "Display/ClassByName.h"
-
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
 #include "vtkSmartPointer.h"
@@ -50,11 +48,3 @@ void vtkCheckeredSurfaceRepresentation::SetTexture(vtkTexture* texture)
 {
   this->Superclass::SetTexture(texture ? texture : this->Checkerboard);
 }
-
-namespace
-{
-
-const bool isRegistered = RectifiedTransport::registerClass<vtkCheckeredSurfaceRepresentation>(
-  "vtkCheckeredSurfaceRepresentation", "vtkGeometryRepresentationWithFaces");
-
-} // namespace

@@ -2,7 +2,6 @@
 #include "Display/vtkFilledOutlinesRepresentation.h"
 
 #include "Bridge/Drawing/FilledOutlines.h"
-#include "Display/ClassByName.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
@@ -76,7 +75,7 @@ vtkStandardNewMacro(LinesAlone);
 vtkStandardNewMacro(vtkFilledOutlinesRepresentation);
 
 vtkFilledOutlinesRepresentation::vtkFilledOutlinesRepresentation()
-  : LinesOfPieces(LinesAlone::New())
+  : LinesOfPieces(vtkSmartPointer<LinesAlone>::New())
 {
   vtkNew<FillOutlines> fill;
   fill->SetInputConnection(this->GeometryFilter->GetOutputPort());
@@ -89,10 +88,7 @@ vtkFilledOutlinesRepresentation::vtkFilledOutlinesRepresentation()
   this->Outlines->GetProperty()->LightingOff();
 }
 
-vtkFilledOutlinesRepresentation::~vtkFilledOutlinesRepresentation()
-{
-  this->LinesOfPieces->Delete();
-}
+vtkFilledOutlinesRepresentation::~vtkFilledOutlinesRepresentation() = default;
 
 bool vtkFilledOutlinesRepresentation::HasEdges() const
 {
@@ -158,11 +154,3 @@ void vtkFilledOutlinesRepresentation::UpdateColoringParameters()
   this->Superclass::UpdateColoringParameters();
   this->Property->SetEdgeVisibility(false);
 }
-
-namespace
-{
-
-const bool isRegistered = RectifiedTransport::registerClass<vtkFilledOutlinesRepresentation>(
-  "vtkFilledOutlinesRepresentation", "vtkGeometryRepresentationWithFaces");
-
-} // namespace

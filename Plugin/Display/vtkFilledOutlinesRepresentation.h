@@ -16,6 +16,7 @@
 
 #include "vtkGeometryRepresentationWithFaces.h"
 #include "vtkNew.h"
+#include "vtkSmartPointer.h"
 
 class vtkActor;
 class vtkCompositePolyDataMapper;
@@ -45,7 +46,7 @@ private:
 
   vtkNew<vtkActor> Outlines;
   vtkNew<vtkCompositePolyDataMapper> OutlineMapper;
-  vtkPolyDataAlgorithm* LinesOfPieces;
+  vtkSmartPointer<vtkPolyDataAlgorithm> LinesOfPieces;
 
   vtkFilledOutlinesRepresentation(const vtkFilledOutlinesRepresentation&) = delete;
   void operator=(const vtkFilledOutlinesRepresentation&) = delete;

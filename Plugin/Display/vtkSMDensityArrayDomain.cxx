@@ -2,7 +2,6 @@
 #include "Display/vtkSMDensityArrayDomain.h"
 
 #include "Bridge/Image/IdNames.h"
-#include "Display/ClassByName.h"
 
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
@@ -132,11 +131,3 @@ bool vtkSMDensityArrayDomain::IsFilteredArray(vtkPVDataInformation*, int, const 
 {
   return name && std::string(name) == vtkDataSetAttributes::GhostArrayName();
 }
-
-namespace
-{
-
-const bool isRegistered =
-  RectifiedTransport::registerClass<vtkSMDensityArrayDomain>("vtkSMDensityArrayDomain");
-
-} // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Display/vtkSMDeviceNameDomain.h"
 
-#include "Display/ClassByName.h"
-
 #include "vtkObjectFactory.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
@@ -25,11 +23,3 @@ void vtkSMDeviceNameDomain::SetStrings(const std::vector<std::string>& strings)
   }
   this->Superclass::SetStrings(all);
 }
-
-namespace
-{
-
-const bool isRegistered =
-  RectifiedTransport::registerClass<vtkSMDeviceNameDomain>("vtkSMDeviceNameDomain");
-
-} // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Display/vtkSMTransportMorphProxy.h"
 
-#include "Display/ClassByName.h"
-
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkSMParaViewPipelineController.h"
@@ -120,11 +118,3 @@ void vtkSMTransportMorphProxy::SetIgnored(const std::set<vtkSMProxy*>& sources)
   }
   times->UpdateVTKObjects();
 }
-
-namespace
-{
-
-const bool isRegistered =
-  RectifiedTransport::registerClass<vtkSMTransportMorphProxy>("vtkSMTransportMorphProxy");
-
-} // namespace

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Display/vtkSMTransportStateProxy.h"
 
-#include "Display/ClassByName.h"
+#include "Display/ProxyTexts.h"
 
 #include "vtkObjectFactory.h"
-#include "vtkPVXMLElement.h"
 #include "vtkSMPropertyHelper.h"
 
 #include <iterator>
@@ -63,14 +62,12 @@ void loadWithoutProperty(vtkSMProxy* proxy, vtkPVXMLElement* state, vtkPVXMLElem
 class RenamedProperties
 {
 public:
-  RenamedProperties(vtkPVXMLElement* state, vtkPVXMLElement* hints)
+  RenamedProperties(vtkPVXMLElement* state, vtkSMProxy* proxy)
   {
-    for (unsigned int i = 0; hints && i < hints->GetNumberOfNestedElements(); ++i)
+    for (vtkPVXMLElement* hint : RectifiedTransport::hintElements(proxy, "RenamedProperty"))
     {
-      vtkPVXMLElement* hint = hints->GetNestedElement(i);
       const std::string before = hint->GetAttributeOrEmpty("from");
-      vtkPVXMLElement* property = findProperty(state, before);
-      if (std::string(hint->GetName()) == "RenamedProperty" && property)
+      if (vtkPVXMLElement* property = findProperty(state, before))
       {
         property->SetAttribute("name", hint->GetAttributeOrEmpty("name"));
         this->Renamed.emplace_back(property, before);
@@ -112,32 +109,21 @@ void loadRenumbered(vtkSMProxy* proxy, vtkPVXMLElement* state, vtkPVXMLElement* 
 
 int vtkSMTransportStateProxy::LoadXMLState(vtkPVXMLElement* element, vtkSMProxyLocator* locator)
 {
-  vtkPVXMLElement* hints = this->GetHints();
   int isLoaded = 0;
   {
-    const RenamedProperties renamed(element, hints);
+    const RenamedProperties renamed(element, this);
     isLoaded = this->Superclass::LoadXMLState(element, locator);
   }
-  for (unsigned int i = 0; isLoaded && hints && i < hints->GetNumberOfNestedElements(); ++i)
+  if (isLoaded)
   {
-    vtkPVXMLElement* hint = hints->GetNestedElement(i);
-    const std::string name = hint->GetName();
-    if (name == "WithoutProperty")
+    for (vtkPVXMLElement* hint : RectifiedTransport::hintElements(this, "WithoutProperty"))
     {
       loadWithoutProperty(this, element, hint);
     }
-    else if (name == "RenumberedProperty")
+    for (vtkPVXMLElement* hint : RectifiedTransport::hintElements(this, "RenumberedProperty"))
     {
       loadRenumbered(this, element, hint);
     }
   }
   return isLoaded;
 }
-
-namespace
-{
-
-const bool isRegistered =
-  RectifiedTransport::registerClass<vtkSMTransportStateProxy>("vtkSMTransportStateProxy");
-
-} // namespace

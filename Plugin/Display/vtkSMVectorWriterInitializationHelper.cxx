@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Display/vtkSMVectorWriterInitializationHelper.h"
 
-#include "Display/ClassByName.h"
+#include "Display/DotDisplay.h"
+#include "Display/ProxyTexts.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkSMPVRepresentationProxy.h"
@@ -18,6 +19,8 @@ vtkStandardNewMacro(vtkSMVectorWriterInitializationHelper);
 
 namespace
 {
+
+using RectifiedTransport::textOf;
 
 // In the active view, where it is visible; else nullptr.
 vtkSMPVRepresentationProxy* representationOf(vtkSMProxy* writer)
@@ -38,18 +41,9 @@ vtkSMPVRepresentationProxy* representationOf(vtkSMProxy* writer)
 
 bool showsPlainCircles(vtkSMProxy* representation)
 {
-  const auto is = [representation](const char* property, const char* text) {
-    const char* value = vtkSMPropertyHelper(representation, property, true).GetAsString();
-    return value && std::string(value) == text;
-  };
-  return is("Representation", "Point Gaussian") && is("ShaderPreset", "Plain circle") &&
+  return textOf(representation, "Representation") == RectifiedTransport::typeOfDots &&
+    textOf(representation, "ShaderPreset") == "Plain circle" &&
     !vtkSMPropertyHelper(representation, "ScaleByArray", true).GetAsInt();
-}
-
-bool showsFilledOutlines(vtkSMProxy* representation)
-{
-  const char* type = vtkSMPropertyHelper(representation, "Representation", true).GetAsString();
-  return type && std::string(type).rfind("Filled Outlines", 0) == 0;
 }
 
 } // namespace
@@ -76,16 +70,9 @@ void vtkSMVectorWriterInitializationHelper::PostInitializeProxy(
     vtkSMPropertyHelper(writer, "PointRadius")
       .Set(vtkSMPropertyHelper(shown, "GaussianRadius").GetAsDouble());
   }
-  if (shown && isFree("FillOutlines") && showsFilledOutlines(shown))
+  if (shown && isFree("FillOutlines") &&
+    textOf(shown, "Representation").rfind("Filled Outlines", 0) == 0)
   {
     vtkSMPropertyHelper(writer, "FillOutlines").Set(1);
   }
 }
-
-namespace
-{
-
-const bool isRegistered = RectifiedTransport::registerClass<vtkSMVectorWriterInitializationHelper>(
-  "vtkSMVectorWriterInitializationHelper");
-
-} // namespace

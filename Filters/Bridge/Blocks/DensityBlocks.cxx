@@ -4,7 +4,7 @@
 #include "Bridge/Blocks/HyperTreeCells.h"
 #include "Bridge/Blocks/RefinedGrids.h"
 #include "Bridge/Points/CellTypes.h"
-#include "Bridge/Run/Failure.h"
+#include "Core/Messages/Failure.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellType.h"

@@ -5,7 +5,7 @@
 #include "Bridge/Ranks/GatheredData.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/SameOnRanks.h"
-#include "Bridge/Run/Failure.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkCompositeDataSet.h"

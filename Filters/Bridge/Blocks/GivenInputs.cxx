@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blocks/GivenInputs.h"
 
-#include "Bridge/Run/Failure.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkCompositeDataSet.h"

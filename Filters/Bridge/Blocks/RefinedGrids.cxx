@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blocks/RefinedGrids.h"
 
-#include "Bridge/Run/Failure.h"
 #include "Core/Geometry/CoveredParts.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkAMRBox.h"

@@ -6,10 +6,10 @@
 #include "Bridge/Cartogram/MapProjection.h"
 #include "Bridge/Cartogram/MapWarnings.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Cartogram/RegionRaster.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Parallel/Stages.h"
 

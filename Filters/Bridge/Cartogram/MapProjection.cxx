@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Cartogram/MapProjection.h"
 
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Core/Geometry/ReproducibleMath.h"
+#include "Core/Messages/Failure.h"
 
 #include <algorithm>
 #include <cmath>

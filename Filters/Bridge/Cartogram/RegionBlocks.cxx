@@ -4,7 +4,7 @@
 #include "Bridge/Cartogram/UnifiedTypes.h"
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/CopiedTuples.h"
-#include "Bridge/Run/Failure.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkAppendPolyData.h"

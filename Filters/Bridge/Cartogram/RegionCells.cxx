@@ -4,9 +4,9 @@
 #include "Bridge/Cartogram/RegionBlocks.h"
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Points/TupleValues.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/NumbersOfText.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkAbstractArray.h"

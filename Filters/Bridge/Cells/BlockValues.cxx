@@ -3,9 +3,9 @@
 
 #include "Bridge/Cells/MeshCells.h"
 #include "Bridge/Density/ArrayReader.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/Settings/ComponentChoice.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Tables/Reading/DensityFailure.h"
 
 #include "vtkDataArray.h"

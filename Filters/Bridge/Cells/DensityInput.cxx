@@ -11,8 +11,8 @@
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/ArrayList.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/NumbersOfText.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 

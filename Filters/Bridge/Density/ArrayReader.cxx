@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/ArrayReader.h"
 
-#include "Bridge/Run/Failure.h"
+#include "Core/Messages/Failure.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkArrayDispatch.h"

@@ -5,9 +5,9 @@
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/ImagePieces.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Fingerprint.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 

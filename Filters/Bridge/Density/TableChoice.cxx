@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/TableChoice.h"
 
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Flow/FlowMapShape.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Messages/Failure.h"
 
 namespace RectifiedTransport::Bridge
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ensembles/BlendPositions.h"
 
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Blend/OptimalBlend.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Messages/Failure.h"
 
 #include <algorithm>
 #include <functional>

@@ -4,11 +4,11 @@
 #include "Bridge/Density/DensityMass.h"
 #include "Bridge/Density/WholeValues.h"
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Core/Distance/ClassicalScaling.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Messages/Failure.h"
 
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"

@@ -4,12 +4,12 @@
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Flow/MapField.h"
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Equalize/CorrectedImages.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Messages/Failure.h"
 
 #include "vtkCellData.h"
 #include "vtkDataObject.h"

@@ -40,19 +40,39 @@ void publishTimes(
       }
     }
   }
-  const std::vector<double> times(steps.begin(), steps.end());
+  const std::vector<double> range =
+    ends.empty() ? std::vector<double>() : std::vector<double>{ *ends.begin(), *ends.rbegin() };
+  announceTimes(outputVector, range, { steps.begin(), steps.end() });
+}
+
+namespace
+{
+
+// No numbers remove the key.
+void setNumbers(
+  vtkInformation* info, vtkInformationDoubleVectorKey* key, const std::vector<double>& numbers)
+{
+  info->Set(key, numbers.empty() ? nullptr : numbers.data(), static_cast<int>(numbers.size()));
+}
+
+} // namespace
+
+void announceTimes(vtkInformationVector* outputVector, const std::vector<double>& range,
+  const std::vector<double>& steps)
+{
   for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
   {
-    vtkInformation* output = outputVector->GetInformationObject(i);
-    if (!times.empty())
-    {
-      output->Set(Pipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
-    }
-    if (!ends.empty())
-    {
-      const double range[2] = { *ends.begin(), *ends.rbegin() };
-      output->Set(Pipeline::TIME_RANGE(), range, 2);
-    }
+    setNumbers(outputVector->GetInformationObject(i), Pipeline::TIME_STEPS(), steps);
+    setNumbers(outputVector->GetInformationObject(i), Pipeline::TIME_RANGE(), range);
+  }
+}
+
+void stampTime(vtkInformationVector* outputVector, double time)
+{
+  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkDataObject* data = vtkDataObject::GetData(outputVector, i);
+    data->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
   }
 }
 

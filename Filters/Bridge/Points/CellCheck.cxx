@@ -4,7 +4,7 @@
 #include "Bridge/Points/CellTypes.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/IntegerArrays.h"
-#include "Bridge/Run/Failure.h"
+#include "Core/Messages/Failure.h"
 
 #include "vtkCell.h"
 #include "vtkCellArray.h"

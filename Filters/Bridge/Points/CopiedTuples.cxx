@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Points/CopiedTuples.h"
 
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Progress.h"
 
 #include "vtkAbstractArray.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Points/PointInput.h"
 
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Reduction.h"
 

@@ -3,9 +3,9 @@
 
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Run/ArrayList.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/NumbersOfText.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 

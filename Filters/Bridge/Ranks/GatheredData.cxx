@@ -5,8 +5,8 @@
 #include "Bridge/Ranks/DataSetBytes.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Ranks/ShortArrays.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/SampledFingerprint.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkAppendFilter.h"

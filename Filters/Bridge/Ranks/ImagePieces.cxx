@@ -3,7 +3,7 @@
 
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/SameOnRanks.h"
-#include "Bridge/Run/Failure.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkDataArray.h"

@@ -2,8 +2,8 @@
 #include "Bridge/Ranks/SameOnRanks.h"
 
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/SampledFingerprint.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkIndent.h"

@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_Memory_h
 #define RectifiedTransport_Memory_h
 
-#include "Bridge/Run/Failure.h"
 #include "Core/Flow/NoMemoryForFlowMap.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/MemoryPlan.h"
 

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_BridgePropertyCheck_h
 #define RectifiedTransport_BridgePropertyCheck_h
 
-#include "Bridge/Run/Failure.h"
-#include "Core/Parallel/Errors/PropertyCheck.h"
+#include "Core/Messages/Failure.h"
+#include "Core/Messages/PropertyCheck.h"
 
 #include <cstddef>
 #include <sstream>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/RankMeeting.h"
 
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/MpiController.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Ranks.h"
 
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI

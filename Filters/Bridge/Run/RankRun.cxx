@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/RankRun.h"
 
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/MpiController.h"
 #include "Bridge/Run/RankMeeting.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Context.h"
 
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI

@@ -4,7 +4,7 @@
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityMass.h"
 #include "Bridge/Points/SeedInput.h"
-#include "Bridge/Run/Failure.h"
+#include "Core/Messages/Failure.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"

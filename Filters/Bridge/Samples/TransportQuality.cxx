@@ -5,9 +5,9 @@
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/NumbersOfText.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Quality/GridBlocks.h"
 
 #include "vtkDataArray.h"

@@ -2,8 +2,8 @@
 #include "Bridge/Samples/UniformSeedSource.h"
 
 #include "Bridge/Points/ParticleCells.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Seeds/SeedShare.h"
 
 #include "vtkDoubleArray.h"

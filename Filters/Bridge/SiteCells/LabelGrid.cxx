@@ -7,9 +7,9 @@
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/ImagePieces.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkBoundingBox.h"

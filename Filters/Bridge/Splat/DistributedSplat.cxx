@@ -2,9 +2,9 @@
 #include "Bridge/Splat/DistributedSplat.h"
 
 #include "Bridge/Points/DoubleTuples.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Splat/RankSplat.h"

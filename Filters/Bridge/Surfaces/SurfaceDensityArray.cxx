@@ -4,10 +4,10 @@
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Run/ArrayList.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/NumbersOfText.h"
 #include "Bridge/Triangles/TriangleInput.h"
+#include "Core/Messages/Failure.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

@@ -2,7 +2,6 @@
 #include "Bridge/Surfaces/SurfaceSampler.h"
 
 #include "Bridge/Density/CostModel.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/StepReport.h"
@@ -10,6 +9,7 @@
 #include "Bridge/Surfaces/SurfaceParticles.h"
 #include "Bridge/Triangles/SurfaceInput.h"
 #include "Bridge/Triangles/TriangleInput.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/AreaPreservingMap.h"

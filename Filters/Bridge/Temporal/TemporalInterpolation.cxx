@@ -5,9 +5,9 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/SameOnRanks.h"
-#include "Bridge/Run/Failure.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Series/FadingParticles.h"
 #include "Core/Series/IntervalPlan.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Triangles/ClosedSurface.h"
 
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/PolygonInput.h"
 #include "Core/Mesh/Repair/RepairText.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Solid/SolidPolygons.h"

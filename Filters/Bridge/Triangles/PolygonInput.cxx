@@ -3,8 +3,8 @@
 
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Messages/Failure.h"
 
 #include "vtkIdList.h"
 #include "vtkNew.h"

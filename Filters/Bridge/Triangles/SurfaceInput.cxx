@@ -3,10 +3,10 @@
 
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/CopiedTuples.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/PolygonInput.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkCellArray.h"

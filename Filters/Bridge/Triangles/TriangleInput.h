@@ -4,12 +4,12 @@
 #ifndef RectifiedTransport_TriangleInput_h
 #define RectifiedTransport_TriangleInput_h
 
-#include "Bridge/Run/Failure.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Mesh/DiskTriangles.h"
 #include "Core/Mesh/Repair/RepairText.h"
 #include "Core/Mesh/SurfaceTriangles.h"
 #include "Core/Mesh/WholeTriangles.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parameterization/ConformalMap.h"

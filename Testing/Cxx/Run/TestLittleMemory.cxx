@@ -10,7 +10,7 @@
 #include "SurfaceSamplerTest.h"
 
 #include "Bridge/Density/OptimalMemory.h"
-#include "Bridge/Run/Failure.h"
+#include "Core/Messages/Failure.h"
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grids of polygons as surfaces, and polygons that vtkTriangleFilter drops.
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Triangles/SurfaceInput.h"
 #include "Bridge/Triangles/TriangleInput.h"
+#include "Core/Messages/Failure.h"
 #include "SurfaceTest.h"
 
 #include "vtkStructuredGrid.h"
@@ -13,7 +13,7 @@ namespace
 {
 
 using RectifiedTransport::DiskTriangles;
-using RectifiedTransport::Bridge::Failure;
+using RectifiedTransport::Failure;
 using RectifiedTransport::Bridge::SurfaceInput;
 using RectifiedTransport::Bridge::TriangleInput;
 

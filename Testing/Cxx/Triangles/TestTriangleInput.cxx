@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The polygons of a vtkPolyData as a disk: which cells the triangles are of, and what goes with
 // them.
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Triangles/TriangleInput.h"
+#include "Core/Messages/Failure.h"
 #include "SurfaceTest.h"
 
 #include "vtkIdTypeArray.h"
@@ -13,7 +13,7 @@ namespace
 {
 
 using RectifiedTransport::DiskTriangles;
-using RectifiedTransport::Bridge::Failure;
+using RectifiedTransport::Failure;
 using RectifiedTransport::Bridge::TriangleInput;
 
 class Run

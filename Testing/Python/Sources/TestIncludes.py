@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which file may include which, as Documentation/Contributing.md states it."""
+import collections
 import glob
 import os
 import re
@@ -47,7 +48,7 @@ OPTIMAL_MAP = {
 }
 RUN = {"Run"}
 WORKERS = RUN | {"Image", "Points", "Density", "Ranks", "Store"}
-BRIDGE = {
+BRIDGE = collections.defaultdict(lambda: WORKERS, {  # rooms that are not named are workers
     "Pipeline": set(),
     "Run": {"Pipeline"},
     "Image": RUN,
@@ -62,9 +63,8 @@ BRIDGE = {
     "Ensembles": WORKERS | {"Splat"},
     "Temporal": WORKERS | {"Splat"},
     **{folder: WORKERS | {"Blocks"} for folder in ("Cartogram", "SiteCells")},
-    **{folder: WORKERS for folder in ("Flow", "Samples", "Splat")},
     "Surfaces": WORKERS | {"Triangles"},
-}
+})
 
 
 FILTERS = os.path.join(SOURCE, "Filters")

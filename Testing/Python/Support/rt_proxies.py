@@ -62,7 +62,7 @@ class Proxy:
 def parse(path):
     """The root of one of the plugin's XML files, with its entities in it as in the built plugin."""
     texts = []
-    names = "Common", "Method", "Surface"
+    names = "Common", "Measure", "Method", "Surface"
     for name in (path, *(os.path.join(SOURCE, "Plugin", "Transport%s.ent" % name)
                          for name in names)):
         with open(name, encoding="utf-8") as file:

@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_InputBlock_h
 #define RectifiedTransport_InputBlock_h
 
-#include "Bridge/Run/Failure.h"
+#include "Core/Messages/Failure.h"
 
 #include "vtkDataObject.h"
 

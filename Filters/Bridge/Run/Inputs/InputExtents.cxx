@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/Inputs/InputExtents.h"
 
-#include "Bridge/Run/Failure.h"
+#include "Core/Messages/Failure.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCompositeDataIterator.h"

@@ -2,7 +2,7 @@
 #include "Bridge/Run/Inputs/SeparateInputs.h"
 
 #include "Bridge/Pipeline/RequestedTimes.h"
-#include "Bridge/Run/Failure.h"
+#include "Core/Messages/Failure.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/Inputs/WholeInputs.h"
 
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/MpiController.h"
 #include "Bridge/Run/RankRun.h"
 #include "Bridge/Run/SampledFingerprint.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkAlgorithm.h"

@@ -4,7 +4,7 @@
 #include "Core/Geometry/Boxes/BoxAdvice.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/InverseMatrix.h"
-#include "Core/Parallel/Errors/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 
 #include <Eigen/LU>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Geometry/Boxes/SizedGrids.h"
 
-#include "Core/Parallel/Errors/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "Core/Geometry/Boxes/SolidGrid.h"
 
 #include "Core/Geometry/Boxes/SizedGrids.h"
-#include "Core/Parallel/Errors/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 
 #include <algorithm>
 #include <cmath>

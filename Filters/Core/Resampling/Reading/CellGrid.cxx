@@ -2,7 +2,7 @@
 #include "Core/Resampling/Reading/CellGrid.h"
 
 #include "Core/Geometry/Boxes/SizedGrids.h"
-#include "Core/Parallel/Errors/Failure.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Resampling/CellFrame.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Tables/Reading/DensityFailure.h"
 
-#include "Core/Parallel/Errors/Failure.h"
+#include "Core/Messages/Failure.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Tables/Reading/UnusualValues.h"
 
-#include "Core/Parallel/Errors/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Tables/Reading/DensityRules.h"
 
 #include <algorithm>

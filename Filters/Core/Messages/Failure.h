@@ -22,6 +22,20 @@ public:
   }
 };
 
+// What a function returns; the name precedes the message of a Failure that it throws.
+template <class Function>
+auto withName(const std::string& name, const Function& function)
+{
+  try
+  {
+    return function();
+  }
+  catch (const Failure& failure)
+  {
+    throw Failure(name, failure);
+  }
+}
+
 // Throws a Failure with these values as text, one after the other.
 template <class... Values>
 [[noreturn]] void fail(const Values&... values)

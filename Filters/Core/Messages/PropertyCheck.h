@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_PropertyCheck_h
 #define RectifiedTransport_PropertyCheck_h
 
-#include "Core/Parallel/Errors/Failure.h"
+#include "Core/Messages/Failure.h"
 
 #include <cstdlib>
 #include <iomanip>
