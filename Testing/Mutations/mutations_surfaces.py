@@ -59,7 +59,7 @@ SURFACES = [
     S(BRIDGE + "Surfaces/AreaPreservingParameterization.cxx",
       'data->SetActiveTCoords("AreaPreserving");',
       'data->SetTCoords(data->GetArray("AreaPreserving"));'),
-    E(BRIDGE + "Surfaces/AreaPreservingParameterization.cxx",
+    E(CORE + "Parameterization/ParameterizationReport.cxx",
       "«flipped > this->Collapsed» ||", "flipped > this->Collapsed + 1"),
     S(CORE + "Parameterization/CornerSettings.cxx", "known = point;", ";"),
     # cartograms

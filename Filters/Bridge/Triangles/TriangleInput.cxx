@@ -262,12 +262,4 @@ ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progres
     [&]() { return mapConformally(disk, corners, progress); });
 }
 
-std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles, bool isCut)
-{
-  return std::to_string(collapsed) + " of " + std::to_string(triangles) +
-    " triangles have all points on one side of the square and so no area there; subdivide the "
-    "surface" +
-    (isCut ? "" : ", or give Corners between these points");
-}
-
 } // namespace RectifiedTransport::Bridge

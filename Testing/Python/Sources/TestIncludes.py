@@ -37,7 +37,7 @@ CORE = {
     "Parameterization": {"Parallel", "Algebra", "Geometry", "Mesh", "Tables", "Flow"},
     "SurfaceRelaxation": {"Parallel", "Geometry", "Mesh", "Tables"},
     "Seams": {"Parallel", "Geometry", "Mesh", "Parameterization"},
-    "SurfaceSampling": {"Parallel", "Geometry", "Mesh", "Tables", "Flow", "Seeds",
+    "SurfaceSampling": {"Parallel", "Messages", "Geometry", "Mesh", "Tables", "Flow", "Seeds",
                         "Parameterization"},
 }
 # Of the folders within OptimalMap: those there, and of Core.
