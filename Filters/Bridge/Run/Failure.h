@@ -1,35 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The exception for errors of input data and properties.
-#ifndef RectifiedTransport_Failure_h
-#define RectifiedTransport_Failure_h
+#ifndef RectifiedTransport_BridgeFailure_h
+#define RectifiedTransport_BridgeFailure_h
 
-#include <sstream>
-#include <stdexcept>
-#include <string>
+#include "Core/Parallel/Errors/Failure.h"
 
 namespace RectifiedTransport::Bridge
 {
 
-// An error that the user can correct; what() is its one-line message.
-class Failure : public std::runtime_error
-{
-public:
-  using std::runtime_error::runtime_error;
-  // For one of several inputs: its name precedes the message.
-  Failure(const std::string& name, const Failure& failure)
-    : std::runtime_error(name + ": " + failure.what())
-  {
-  }
-};
-
-// Throws a Failure with these values as text, one after the other.
-template <class... Values>
-[[noreturn]] void fail(const Values&... values)
-{
-  std::ostringstream message;
-  (message << ... << values);
-  throw Failure(message.str());
-}
+using RectifiedTransport::fail;
+using RectifiedTransport::Failure;
 
 } // namespace RectifiedTransport::Bridge
 

@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks of property values, for RequestData; a Failure's message is one sentence that names the
-// property, its value and the valid range.
-#ifndef RectifiedTransport_PropertyCheck_h
-#define RectifiedTransport_PropertyCheck_h
+// Checks of properties that are enumerations, for RequestData.
+#ifndef RectifiedTransport_BridgePropertyCheck_h
+#define RectifiedTransport_BridgePropertyCheck_h
 
 #include "Bridge/Run/Failure.h"
 #include "Core/Geometry/GridSize.h"
+#include "Core/Parallel/Errors/PropertyCheck.h"
 
 #include <cstddef>
-#include <cstdlib>
-#include <iomanip>
-#include <limits>
 #include <sstream>
-#include <string>
-#include <type_traits>
 
 namespace RectifiedTransport::Bridge
 {
+
+using RectifiedTransport::requireThat;
+using RectifiedTransport::textOf;
 
 // The text of a value of an enumeration.
 template <std::size_t Count>
@@ -39,34 +37,6 @@ void requireChoice(const char* property, int value, const char* const (&texts)[C
     message << (i == 0 ? "" : i + 1 < Count ? ", " : " or ") << i << " (" << texts[i] << ")";
   }
   throw Failure(message.str());
-}
-
-// All digits of a number if 6 digits round it to another one, possibly one in range.
-template <class T>
-std::string textOf(T value)
-{
-  std::ostringstream text;
-  text << value;
-  if constexpr (std::is_floating_point_v<T>)
-  {
-    if (static_cast<T>(std::strtod(text.str().c_str(), nullptr)) != value && value == value)
-    {
-      text.str("");
-      text << std::setprecision(std::numeric_limits<T>::max_digits10) << value;
-    }
-  }
-  return text.str();
-}
-
-// `rule` completes "it must be ...".
-template <class T>
-void requireThat(bool holds, const char* property, T value, const char* rule)
-{
-  if (holds)
-  {
-    return;
-  }
-  throw Failure(property + (" is " + textOf(value)) + "; it must be " + rule);
 }
 
 // A number of cells along an axis.
