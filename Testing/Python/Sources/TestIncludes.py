@@ -20,7 +20,7 @@ CORE = {
     "Grid": {"Parallel", "Geometry"},
     "Equalize": {"Parallel", "Geometry", "Grid", "Tables", "Flow"},
     "OptimalMap": {"Parallel", "Geometry", "Grid", "Tables", "Flow"},
-    "Cartogram": {"Parallel", "Geometry", "Overlap", "Tables", "Flow"},
+    "Cartogram": {"Parallel", "Messages", "Geometry", "Overlap", "Tables", "Flow"},
     "SiteCells": {"Parallel", "Algebra", "Geometry", "Tables", "Flow", "PowerCells"},
     "Quality": {"Parallel", "Geometry", "Tables", "Flow"},
     "PowerCells": {"Parallel", "Algebra", "Geometry", "Tables"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Cartogram/MapWarnings.h"
+#include "Core/Cartogram/MapWarnings.h"
 
 #include "Core/Messages/PartText.h"
 
@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <sstream>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 namespace
@@ -123,4 +123,4 @@ void addWarnings(const CartogramResult& result, const std::vector<std::string>& 
   MissedRegions(result, names, tolerance).Add(warnings);
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
