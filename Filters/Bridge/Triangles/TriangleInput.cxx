@@ -101,8 +101,8 @@ LargeBuffer<std::int64_t> TriangleInput::ReadCorners(
   }
   const PolygonSource polygons = polygonsOf(this->Surface);
   const std::int64_t count = polygons.NumberOfTriangles;
-  CutTriangles cut = withMemory({ std::to_string(count) + " triangles of the input surface",
-                                  static_cast<double>(count) * 4.0 * sizeof(std::int64_t) },
+  PolygonTriangles cut = withMemory({ std::to_string(count) + " triangles of the input surface",
+                                      static_cast<double>(count) * 4.0 * sizeof(std::int64_t) },
     [&]() { return cutPolygons(polygons, points, rounding, work); });
   vtkCellData* data = this->Surface->GetCellData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)

@@ -10,10 +10,10 @@
 namespace RectifiedTransport
 {
 
-CutTriangles cutPolygons(
+PolygonTriangles cutPolygons(
   const PolygonSource& source, ConstPointSpan<3> points, double rounding, Progress& progress)
 {
-  CutTriangles cut{ LargeBuffer<std::int64_t>(3 * source.NumberOfTriangles),
+  PolygonTriangles cut{ LargeBuffer<std::int64_t>(3 * source.NumberOfTriangles),
     LargeBuffer<std::int64_t>(source.NumberOfTriangles) };
   PolygonCutter cutter(points, rounding, source.CutRing);
   std::int64_t* corners = cut.Corners.data();

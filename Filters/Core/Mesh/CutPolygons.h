@@ -30,7 +30,7 @@ struct PolygonSource
   RingCutter CutRing;
 };
 
-struct CutTriangles
+struct PolygonTriangles
 {
   LargeBuffer<std::int64_t> Corners; // three points a triangle
   LargeBuffer<std::int64_t> Cells;   // which polygon each is of; strips are numbered on
@@ -38,7 +38,7 @@ struct CutTriangles
 
 // As PolygonCutter::Cut cuts. Throws std::runtime_error for polygons that cannot be cut,
 // std::bad_alloc and Cancelled.
-CutTriangles cutPolygons(
+PolygonTriangles cutPolygons(
   const PolygonSource& source, ConstPointSpan<3> points, double rounding, Progress& progress);
 
 } // namespace RectifiedTransport
