@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Cartogram/MapFellows.h"
 
+#include "Core/Cartogram/PlaneBounds.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,25 +25,17 @@ struct Reach
 
 std::array<Reach, 2> reachOf(const RegionMap& map, double side)
 {
-  Point<2> low{ HUGE_VAL, HUGE_VAL };
-  Point<2> high{ -HUGE_VAL, -HUGE_VAL };
-  for (const Point<2>& place : map.Points())
-  {
-    for (std::size_t axis = 0; axis < 2; ++axis)
-    {
-      low[axis] = std::min(low[axis], place[axis]);
-      high[axis] = std::max(high[axis], place[axis]);
-    }
-  }
-  const double margin = 0.5 * (side - std::max(high[0] - low[0], high[1] - low[1]));
+  const PlaneBounds bounds(map.Points());
+  const double margin = 0.5 * (side - bounds.LongestSide());
   constexpr double rounding = 1e-6;
   std::array<Reach, 2> reach;
   for (std::size_t axis = 0; axis < 2; ++axis)
   {
     reach[axis] = {
-      std::max(0, static_cast<int>(std::floor((low[axis] - margin) / side * squares + rounding))),
-      std::min(
-        squares, static_cast<int>(std::ceil((high[axis] + margin) / side * squares - rounding)))
+      std::max(
+        0, static_cast<int>(std::floor((bounds.Low[axis] - margin) / side * squares + rounding))),
+      std::min(squares,
+        static_cast<int>(std::ceil((bounds.High[axis] + margin) / side * squares - rounding)))
     };
   }
   return reach;
