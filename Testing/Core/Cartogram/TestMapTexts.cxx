@@ -3,6 +3,7 @@
 #include "Core/Cartogram/MapFellows.h"
 #include "Core/Cartogram/MapWarnings.h"
 #include "Core/Cartogram/RegionChecks.h"
+#include "Core/Cartogram/RegionList.h"
 #include "Core/Parallel/Errors/Failure.h"
 
 #include <gtest/gtest.h>
@@ -71,6 +72,26 @@ TEST(MapTexts, RegionsHaveAreasAndMasses)
     "of the mean density, as no area can be shown");
   EXPECT_EQ(completeMasses(masses, 0.1, { 1.0, 1.0, 1.0, 2.0 }, names, warnings), 1);
   EXPECT_EQ(warnings.back(), "1 of 4 regions (25 %) are enlarged to MinimumShare");
+}
+
+TEST(MapTexts, RegionsAreNumberedByKeys)
+{
+  RegionList regions("'mass'");
+  const auto add = [&](const std::string& key, double mass) {
+    return regions.Add(key, mass, [&]() { return "'" + key + "'"; });
+  };
+  EXPECT_EQ(failureOf([&]() { regions.RequireMass(); }),
+    "The masses in 'mass' sum to 0; they must sum to a number above 0");
+  EXPECT_EQ(add("b", 2.0), 0);
+  EXPECT_EQ(add("a", 0.1), 1);
+  EXPECT_EQ(add("b", 2.0), 0);
+  regions.RequireMass();
+  EXPECT_EQ(regions.Names, (std::vector<std::string>{ "'b'", "'a'" }));
+  EXPECT_EQ(failureOf([&]() { add("a", 0.25); }),
+    "The region 'a' has cells of mass 0.1 and 0.25 in 'mass'; all cells of a region must have its "
+    "mass, which counts once");
+  EXPECT_EQ(failureOf([&]() { add("c", -1.0); }),
+    "The mass of the region 'c' in 'mass' is -1; masses must be at least 0 and finite");
 }
 
 TEST(MapTexts, ProjectionKeepsAreas)
