@@ -36,7 +36,7 @@ struct PolygonTriangles
   LargeBuffer<std::int64_t> Cells;   // which polygon each is of; strips are numbered on
 };
 
-// As PolygonCutter::Cut cuts. Throws std::runtime_error for polygons that cannot be cut,
+// As PolygonCutter::Cut cuts. Throws Failure for polygons that cannot be cut,
 // std::bad_alloc and Cancelled.
 PolygonTriangles cutPolygons(
   const PolygonSource& source, ConstPointSpan<3> points, double rounding, Progress& progress);
