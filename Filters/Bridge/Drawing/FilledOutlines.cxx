@@ -3,7 +3,7 @@
 
 #include "Bridge/Drawing/OutlinedRegions.h"
 #include "Bridge/Points/CopiedTuples.h"
-#include "Core/Geometry/RingShape.h"
+#include "Core/Overlap/RingShape.h"
 #include "Core/Overlap/RingTriangles.h"
 #include "Core/Parallel/Progress.h"
 

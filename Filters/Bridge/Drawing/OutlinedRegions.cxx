@@ -5,7 +5,7 @@
 #include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/TupleValues.h"
-#include "Core/Geometry/RingShape.h"
+#include "Core/Overlap/RingShape.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
