@@ -2,7 +2,7 @@
 #include "vtkAreaPreservingParameterization.h"
 
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Surfaces/AreaPreservingParameterization.h"
 #include "Bridge/Triangles/SurfaceInput.h"
 #include "Core/Parallel/Stages.h"

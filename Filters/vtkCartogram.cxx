@@ -3,10 +3,10 @@
 
 #include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Cartogram/Cartogram.h"
-#include "Bridge/Cartogram/MapProjection.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/MissingData.h"
+#include "Core/Cartogram/MapProjection.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkCompositeDataSet.h"

@@ -7,7 +7,7 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/MissingData.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Parallel/RankExchange.h"

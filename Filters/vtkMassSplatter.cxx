@@ -6,7 +6,7 @@
 #include "Bridge/Points/PointMasses.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/AssociationSettings.h"
 #include "Bridge/Run/Settings/SplatSettings.h"
 #include "Bridge/Splat/MassSplatter.h"

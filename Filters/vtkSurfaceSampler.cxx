@@ -3,7 +3,7 @@
 
 #include "Bridge/Blocks/OptionalArray.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/FlowSettings.h"
 #include "Bridge/Run/Settings/SeedSettings.h"
 #include "Bridge/Surfaces/SurfaceDensityArray.h"

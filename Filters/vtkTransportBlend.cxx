@@ -6,7 +6,7 @@
 #include "Bridge/Ensembles/DensityBlend.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/SplatSettings.h"
 #include "Bridge/Run/Settings/TableSettings.h"
 #include "Core/Device/DeviceUse.h"

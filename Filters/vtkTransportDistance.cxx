@@ -7,7 +7,7 @@
 #include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Ranks/FieldsOfFirst.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/IndexedList.h"
 #include "Core/Parallel/Stages.h"
 

@@ -4,7 +4,7 @@
 #include "Bridge/Ensembles/DensityBlend.h"
 #include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Run/Inputs/SeparateInputs.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/TargetArray.h"
 
 #include "vtkDataObject.h"

@@ -6,7 +6,7 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/MissingData.h"
 #include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Run/Settings/TargetArray.h"

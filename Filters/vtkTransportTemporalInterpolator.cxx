@@ -6,7 +6,7 @@
 #include "Bridge/Pipeline/ConsumerExtents.h"
 #include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"
 #include "Bridge/Run/Settings/SplatSettings.h"
 #include "Bridge/Temporal/KeptSteps.h"

@@ -2,7 +2,7 @@
 #include "vtkUniformSeedSource.h"
 
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/SeedSettings.h"
 #include "Bridge/Samples/UniformSeedSource.h"
 

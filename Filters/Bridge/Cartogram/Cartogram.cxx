@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Cartogram/Cartogram.h"
 
-#include "Bridge/Cartogram/MapFellows.h"
-#include "Bridge/Cartogram/MapPlace.h"
-#include "Bridge/Cartogram/MapProjection.h"
-#include "Bridge/Cartogram/MapWarnings.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Cartogram/MapFellows.h"
+#include "Core/Cartogram/MapPlace.h"
+#include "Core/Cartogram/MapProjection.h"
+#include "Core/Cartogram/MapWarnings.h"
+#include "Core/Cartogram/RegionChecks.h"
 #include "Core/Cartogram/RegionRaster.h"
 #include "Core/Messages/Failure.h"
-#include "Core/Messages/PartText.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkAbstractArray.h"
@@ -18,6 +18,7 @@
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -29,7 +30,6 @@
 #include <new>
 #include <numeric>
 #include <optional>
-#include <sstream>
 
 namespace RectifiedTransport::Bridge
 {
@@ -58,6 +58,29 @@ void divideEdge(vtkPointData* data, vtkIdType point, const DividingPoint& added)
   }
 }
 
+void writeGraticule(const MapFellows& fellows, vtkPolyData* output)
+{
+  const std::vector<std::size_t>& ends = fellows.LineEnds();
+  const auto number = [](std::size_t i) { return static_cast<vtkIdType>(i); };
+  const vtkIdType count = number(ends.back());
+  const auto coordinates = newArray<vtkDoubleArray>("Points", 3, count);
+  const auto ids = newArray<vtkIdTypeArray>("Ids", 1, count);
+  const auto offsets = newArray<vtkIdTypeArray>("Offsets", 1, number(ends.size() + 1));
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    ids->SetValue(i, i);
+    coordinates->SetTypedTuple(i, fellows.GraticulePoint(static_cast<std::size_t>(i)).data());
+  }
+  offsets->SetValue(0, 0);
+  std::transform(ends.begin(), ends.end(), offsets->GetPointer(1), number);
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+  vtkNew<vtkCellArray> lines;
+  lines->SetData(offsets, ids);
+  output->SetPoints(points);
+  output->SetLines(lines);
+}
+
 class CartogramJob
 {
 public:
@@ -80,18 +103,22 @@ public:
     {
       this->Warnings.push_back(this->Cells.OpenLines);
     }
-    this->FindFrame();
+    this->Frame = planeOfRegions(this->Places, [this](const auto& visit) {
+      this->VisitRings([&](std::int32_t region, const std::vector<std::int64_t>& ring) {
+        region < 0 ? void() : visit(ring);
+      });
+    });
     progress.Check();
     this->MakeMap(stages["holes"]);
     this->MassesBefore = this->Cells.Masses;
-    this->CheckMasses();
+    this->Enlarged = completeMasses(this->Cells.Masses, this->Worker.MinimumShare, this->Before,
+      this->Cells.Names, this->Warnings);
     this->Box = boxAround(this->Map, this->Worker.Options);
     if (!this->Worker.IsInDegrees && looksLikeDegrees(this->Places))
     {
       this->Warnings.push_back(
         "The coordinates look like degrees of longitude and latitude, in which areas are wrong; "
-        "set "
-        "Projection to EqualArea, or project the map with the Calculator or QGIS");
+        "set Projection to EqualArea, or project the map with the Calculator or QGIS");
     }
     for (Point<2>& place : this->Map.Points())
     {
@@ -99,7 +126,8 @@ public:
     }
     progress.Check();
     const MapPlace place{ this->Projection, *this->Frame, this->Box, this->Worker.Blend };
-    MapFellows fellows(place, this->Map, this->Outputs.Overlay, stages["overlay"]);
+    MapFellows fellows(place, this->Map);
+    addOverlay(this->Outputs.Overlay, fellows, stages["overlay"]);
     CartogramStart start = this->FindStart(stages["comparison"]);
     this->RequireMemory();
     this->Result = runCartogram(this->Map, this->Cells.Masses, this->Box, this->Worker.Options,
@@ -113,8 +141,8 @@ public:
     addWarnings(this->Result, this->Cells.Names, this->Map.Rings(), this->Worker.Options.Tolerance,
       this->Warnings);
     this->WriteRegions(place, stages["regions"]);
-    fellows.WriteGraticule(this->Outputs.Graticule);
-    fellows.WriteOverlay(stages["moved overlay"]);
+    writeGraticule(fellows, this->Outputs.Graticule);
+    writeOverlay(fellows, this->Outputs.Overlay, stages["moved overlay"]);
     progress.Check();
     return std::move(this->Warnings);
   }
@@ -160,34 +188,15 @@ private:
     }
   }
 
-  void FindFrame()
+  // visit(region, points) of rings and of open lines, whose region is below 0.
+  template <class Visit>
+  void VisitRings(const Visit& visit) const
   {
-    RingPlane plane;
-    std::vector<Point<3>> ring;
+    std::vector<std::int64_t> ring;
     this->VisitCells([&](vtkIdType cell, vtkIdList* ids, vtkIdType count) {
-      ring.clear();
-      for (vtkIdType i = 0; !this->IsOpen(cell) && i < count; ++i)
-      {
-        ring.push_back(this->Places[Index(ids->GetId(i))]);
-      }
-      plane.Add(ring);
+      ring.assign(ids->begin(), ids->begin() + count);
+      visit(this->Cells.Regions[Index(cell)], ring);
     });
-    if (!plane.HasArea())
-    {
-      fail("The regions have no area; they must be polygons or closed lines in a plane");
-    }
-    this->Frame.emplace(plane.Frame());
-    constexpr double flat = 1e-4;
-    double farthest = 0.0;
-    for (const Point<3>& place : this->Places)
-    {
-      farthest = std::max(farthest, std::abs(this->Frame->Distance(place)));
-    }
-    if (farthest > flat * plane.Extent())
-    {
-      fail("The regions are not in a plane: points are up to ", farthest, " away from one, of ",
-        plane.Extent(), " in all; project them first");
-    }
   }
 
   void MakeMap(Progress& progress)
@@ -196,64 +205,12 @@ private:
     {
       this->Map.AddPoint(this->Frame->ToPlane(place));
     }
-    this->VisitCells([&](vtkIdType cell, vtkIdList* ids, vtkIdType count) {
-      std::vector<std::int64_t> ring(ids->begin(), ids->begin() + count);
-      this->IsOpen(cell) ? this->Map.AddLine(ring)
-                         : this->Map.AddRing(this->Cells.Regions[Index(cell)], ring);
+    this->VisitRings([&](std::int32_t region, const std::vector<std::int64_t>& ring) {
+      region < 0 ? this->Map.AddLine(ring) : this->Map.AddRing(region, ring);
     });
     this->Added = this->Map.FindHoles(progress);
     this->Before = this->Map.Areas(static_cast<std::int32_t>(this->Cells.Masses.size()));
-    this->Land = std::accumulate(this->Before.begin(), this->Before.end(), 0.0);
-    std::int64_t empty = 0;
-    std::string first;
-    for (std::size_t i = 0; i < this->Before.size(); ++i)
-    {
-      if (!(this->Before[i] > 1e-15 * this->Land))
-      {
-        first = empty++ == 0 ? this->Cells.Names[i] : first;
-      }
-    }
-    if (empty > 0)
-    {
-      fail(describePart(empty, static_cast<std::int64_t>(this->Before.size()), "regions"),
-        " have no area (the first is the region ", first, "); remove them, with Threshold");
-    }
-  }
-
-  void CheckMasses()
-  {
-    std::vector<double>& masses = this->Cells.Masses;
-    const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
-    constexpr double nothing = 1e-100; // of the mean density: less has errors that are no numbers
-    std::int64_t empty = 0;
-    std::string first;
-    for (std::size_t i = 0; i < masses.size(); ++i)
-    {
-      const double area = this->Before[i] / this->Land;
-      if (!(masses[i] / total > nothing * area))
-      {
-        first = empty++ == 0 ? this->Cells.Names[i] : first;
-        masses[i] = leastRegionDensity * total * area;
-      }
-    }
-    if (empty > 0)
-    {
-      this->Warnings.push_back(
-        describePart(empty, static_cast<std::int64_t>(masses.size()), "regions") +
-        " have no mass (the first is the region " + first +
-        "); they get a ten-thousandth of the mean density, as no area can be shown");
-    }
-    const double share = this->Worker.MinimumShare;
-    if (share > 0.0)
-    {
-      this->Enlarged = raiseMasses(masses, share);
-      if (this->Enlarged > 0)
-      {
-        this->Warnings.push_back(
-          describePart(this->Enlarged, static_cast<std::int64_t>(masses.size()), "regions") +
-          " are enlarged to MinimumShare");
-      }
-    }
+    this->Land = requireAreas(this->Before, this->Cells.Names);
   }
 
   void RequireMemory() const

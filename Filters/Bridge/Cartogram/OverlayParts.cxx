@@ -2,15 +2,24 @@
 #include "Bridge/Cartogram/OverlayParts.h"
 
 #include "Bridge/Points/CellCheck.h"
+#include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
+#include "Bridge/Run/Memory.h"
 
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkPoints.h"
 #include "vtkSmartPointer.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
 
 namespace RectifiedTransport::Bridge
 {
@@ -46,6 +55,40 @@ std::vector<OverlayPart> overlayParts(vtkDataObject* overlay, vtkDataObject* out
     add(leaf, vtkPointSet::SafeDownCast(made));
   }
   return parts;
+}
+
+void addOverlay(const std::vector<OverlayPart>& parts, MapFellows& fellows, Progress& progress)
+{
+  for (const OverlayPart& part : parts)
+  {
+    std::vector<Point<3>> points(static_cast<std::size_t>(part.Input->GetNumberOfPoints()));
+    visitPoints(part.Input, "Overlay", progress, [&](std::int64_t i, const double* x) {
+      points[static_cast<std::size_t>(i)] = { x[0], x[1], x[2] };
+    });
+    fellows.AddOverlay(std::move(points));
+  }
+}
+
+void writeOverlay(
+  const MapFellows& fellows, const std::vector<OverlayPart>& parts, Progress& progress)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+  std::int64_t before = 0;
+  for (const OverlayPart& part : parts)
+  {
+    const std::int64_t count = part.Input->GetNumberOfPoints();
+    const auto places = newArray<vtkDoubleArray>("Points", 3, count);
+    progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        places->SetTypedTuple(i, fellows.OverlayPoint(static_cast<std::size_t>(before + i)).data());
+      }
+    });
+    vtkNew<vtkPoints> points;
+    points->SetData(places);
+    part.Output->SetPoints(points);
+    before += count;
+  }
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -4,6 +4,8 @@
 #define RectifiedTransport_OverlayParts_h
 
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Cartogram/MapFellows.h"
+#include "Core/Parallel/Progress.h"
 
 #include <vector>
 
@@ -24,6 +26,12 @@ struct OverlayPart
 // Gives an output of the overlay's type its blocks, cells and arrays. Throws Failure for blocks of
 // other types and for cells that cannot be read.
 std::vector<OverlayPart> overlayParts(vtkDataObject* overlay, vtkDataObject* output);
+
+// Adds the points of all parts to what moves along with a map. Throws Failure and Cancelled.
+void addOverlay(const std::vector<OverlayPart>& parts, MapFellows& fellows, Progress& progress);
+// Sets the points of the outputs after the move. Throws Failure and Cancelled.
+void writeOverlay(
+  const MapFellows& fellows, const std::vector<OverlayPart>& parts, Progress& progress);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -5,7 +5,7 @@
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Points/TupleValues.h"
 #include "Bridge/Run/NumbersOfText.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Cartogram/RegionList.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/Stages.h"
 
@@ -22,10 +22,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstddef>
-#include <numeric>
-#include <unordered_map>
 #include <utility>
 
 namespace RectifiedTransport::Bridge
@@ -70,6 +67,9 @@ public:
     this->Joined = joinRegionBlocks(blocks, this->Work["blocks"]);
     this->Found.Data = this->Joined.Data;
     this->ByBlock = isComposite && blocks.size() > 1;
+    vtkCellData* cells = this->Found.Data->GetCellData();
+    this->Key = this->HasKey() ? cells->GetAbstractArray(arrays.Region.c_str()) : nullptr;
+    this->Name = this->Key ? this->Key : FindNames(cells);
   }
 
   RegionCells Read()
@@ -200,22 +200,17 @@ private:
 
   void FindRegions(Progress& progress)
   {
-    vtkPolyData* data = this->Found.Data;
-    vtkCellData* cells = data->GetCellData();
-    const bool isGiven = !this->Arrays.Region.empty() && this->Arrays.Region != "None";
-    vtkAbstractArray* key =
-      isGiven ? cells->GetAbstractArray(this->Arrays.Region.c_str()) : nullptr;
-    if (isGiven && !key)
+    if (this->HasKey() && !this->Key)
     {
       fail("RegionArray '", this->Arrays.Region, "' is no cell array ",
         this->OfInput(this->Arrays.Region));
     }
-    vtkAbstractArray* name = key ? key : this->NameArray();
-    std::unordered_map<std::string, std::int32_t> numbers;
+    RegionList regions(this->MassTitle);
+    vtkPolyData* data = this->Found.Data;
     const vtkIdType count = data->GetNumberOfCells();
     this->Found.Regions.assign(static_cast<std::size_t>(count), -1);
     constexpr std::int64_t work = 8; // units, of a value
-    std::string value;
+    std::string key;
     progress.Expect(work * count);
     for (vtkIdType cell = data->GetNumberOfVerts(); cell < count; ++cell)
     {
@@ -224,68 +219,36 @@ private:
       {
         continue;
       }
-      const std::size_t blockOfCell = this->Joined.Blocks[static_cast<std::size_t>(cell)];
-      value = key ? "" : std::to_string(this->ByBlock ? static_cast<vtkIdType>(blockOfCell) : cell);
-      if (key)
+      const std::size_t block = this->Joined.Blocks[static_cast<std::size_t>(cell)];
+      key.clear();
+      if (this->Key)
       {
-        appendTupleKey(key, cell, value);
-      }
-      const auto [found, isNew] =
-        numbers.insert({ value, static_cast<std::int32_t>(this->Found.Names.size()) });
-      this->Found.Regions[static_cast<std::size_t>(cell)] = found->second;
-      const double mass = this->Mass->GetComponent(cell, 0);
-      if (isNew)
-      {
-        this->Found.Names.push_back(name ? "'" + tupleText(name, cell) + "'"
-            : this->ByBlock              ? "of " + this->Blocks[blockOfCell].Name
-                                         : "of " + this->TitleOf(cell));
-        this->Found.Masses.push_back(mass);
-        this->Require(mass, this->Found.Names.back());
+        appendTupleKey(this->Key, cell, key);
       }
       else
       {
-        const double before = this->Found.Masses[static_cast<std::size_t>(found->second)];
-        if (!(mass == before))
-        {
-          fail("The region ", this->Found.Names[static_cast<std::size_t>(found->second)],
-            " has cells of mass ", textOf(before), " and ", textOf(mass), " in ", this->MassTitle,
-            "; all cells of a region must have its mass, which counts once");
-        }
+        key = std::to_string(this->ByBlock ? static_cast<vtkIdType>(block) : cell);
       }
+      this->Found.Regions[static_cast<std::size_t>(cell)] =
+        regions.Add(key, this->Mass->GetComponent(cell, 0), [&]() {
+          return this->ByBlock && !this->Name ? "of " + this->Blocks[block].Name
+                                              : this->NameOf(cell);
+        });
     }
-    double total = 0.0;
-    for (const double mass : this->Found.Masses)
-    {
-      total += mass;
-    }
-    if (!(total > 0.0) || !std::isfinite(total))
-    {
-      fail("The masses in ", this->MassTitle, " sum to ", total,
-        "; they must sum to a number above 0");
-    }
+    regions.RequireMass();
+    this->Found.Names = std::move(regions.Names);
+    this->Found.Masses = std::move(regions.Masses);
   }
 
-  void Require(double mass, const std::string& region)
+  bool HasKey() const { return !this->Arrays.Region.empty() && this->Arrays.Region != "None"; }
+
+  std::string NameOf(vtkIdType cell) const
   {
-    if (!(mass >= 0.0) || !std::isfinite(mass))
-    {
-      fail("The mass of the region ", region, " in ", this->MassTitle, " is ", mass,
-        "; masses must be at least 0 and finite");
-    }
+    return this->Name ? "'" + tupleText(this->Name, cell) + "'" : "of " + this->TitleOf(cell);
   }
 
-  std::string NameOf(vtkIdType cell)
+  static vtkAbstractArray* FindNames(vtkCellData* cells)
   {
-    vtkAbstractArray* key =
-      this->Found.Data->GetCellData()->GetAbstractArray(this->Arrays.Region.c_str());
-    vtkAbstractArray* name = key ? key : this->NameArray();
-    return name ? "'" + tupleText(name, cell) + "'" : "of " + this->TitleOf(cell);
-  }
-
-  // Names for messages.
-  vtkAbstractArray* NameArray()
-  {
-    vtkCellData* cells = this->Found.Data->GetCellData();
     for (int i = 0; i < cells->GetNumberOfArrays(); ++i)
     {
       auto* array = vtkStringArray::SafeDownCast(cells->GetAbstractArray(i));
@@ -302,6 +265,8 @@ private:
   Stages Work;
   bool ByBlock = false;
   RegionBlocks Joined;
+  vtkAbstractArray* Key = nullptr;   // whose values tell regions apart, if one is chosen
+  vtkAbstractArray* Name = nullptr;  // names for messages, if there are some
   std::vector<unsigned char> IsOpen; // of cells
   vtkSmartPointer<vtkDataArray> Mass;
   std::string MassTitle;

@@ -35,7 +35,7 @@ public:
   {
     return !this->Outlines.empty() && this->Outlines[static_cast<std::size_t>(cell)];
   }
-  // Throws std::runtime_error, if the drawing cannot be written, and Cancelled.
+  // Throws Failure, if the drawing cannot be written, and Cancelled.
   void Draw(const PageLayout& layout, Drawing& drawing, Progress& progress) const;
 
   const PolyDataShapes& Shapes;

@@ -3,20 +3,19 @@
 
 #include "Bridge/Drawing/OutlinedRegions.h"
 #include "Bridge/Points/CopiedTuples.h"
+#include "Core/Overlap/RingShape.h"
 #include "Core/Overlap/RingTriangles.h"
 #include "Core/Parallel/Progress.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkIdList.h"
-#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -117,29 +116,6 @@ private:
     this->FillRegion({ { cell, { polygon->begin(), polygon->end() } } }, plane.Frame());
   }
 
-  // A quick test for polygons with few corners, as most have; false for others.
-  static bool isConvex(const std::vector<Point<3>>& places)
-  {
-    constexpr std::size_t most = 4; // more may turn around twice
-    const std::size_t count = places.size();
-    Point<3> first{ 0.0, 0.0, 0.0 };
-    for (std::size_t i = 0; i < count && count <= most; ++i)
-    {
-      Point<3> in;
-      Point<3> out;
-      Point<3> turn;
-      vtkMath::Subtract(places[(i + 1) % count].data(), places[i].data(), in.data());
-      vtkMath::Subtract(places[(i + 2) % count].data(), places[(i + 1) % count].data(), out.data());
-      vtkMath::Cross(in.data(), out.data(), turn.data());
-      first = i == 0 ? turn : first;
-      if (vtkMath::Dot(first.data(), turn.data()) < 0.0)
-      {
-        return false;
-      }
-    }
-    return count <= most;
-  }
-
   void FillRegion(const std::vector<Outline>& region, const PlaneFrame& plane)
   {
     Rings rings;
@@ -176,11 +152,7 @@ private:
     Point<3> to;
     this->Data->GetPoint(first, from.data());
     this->Data->GetPoint(second, to.data());
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      from[axis] += part * (to[axis] - from[axis]);
-    }
-    this->Added.push_back({ from, first, second, part });
+    this->Added.push_back({ from + part * (to - from), first, second, part });
     return this->Data->GetNumberOfPoints() + static_cast<vtkIdType>(this->Added.size()) - 1;
   }
 

@@ -5,17 +5,15 @@
 #include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/TupleValues.h"
+#include "Core/Overlap/RingShape.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
-#include "vtkMath.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <unordered_map>
@@ -50,27 +48,6 @@ std::vector<vtkAbstractArray*> arraysOfRegions(vtkPolyData* data)
     }
   }
   return arrays;
-}
-
-// Whether the points of a ring, from the first one, are not all on a line.
-bool hasArea(const std::vector<Point<3>>& ring)
-{
-  Point<3> longest{ 0.0, 0.0, 0.0 };
-  for (const Point<3>& place : ring)
-  {
-    Point<3> offset;
-    vtkMath::Subtract(place.data(), ring.front().data(), offset.data());
-    longest = vtkMath::Norm(offset.data()) > vtkMath::Norm(longest.data()) ? offset : longest;
-  }
-  constexpr double rounding = 1e-14;
-  const double least = rounding * vtkMath::Dot(longest.data(), longest.data());
-  return std::any_of(ring.begin(), ring.end(), [&](const Point<3>& place) {
-    Point<3> offset;
-    Point<3> cross;
-    vtkMath::Subtract(place.data(), ring.front().data(), offset.data());
-    vtkMath::Cross(longest.data(), offset.data(), cross.data());
-    return vtkMath::Norm(cross.data()) > least;
-  });
 }
 
 class OutlineSearch
@@ -156,13 +133,6 @@ private:
 };
 
 } // namespace
-
-bool areFinite(const std::vector<Point<3>>& places)
-{
-  return std::all_of(places.begin(), places.end(), [](const Point<3>& place) {
-    return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
-  });
-}
 
 OutlinedRegions findOutlinedRegions(vtkPolyData* data)
 {

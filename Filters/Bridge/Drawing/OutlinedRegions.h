@@ -36,9 +36,6 @@ struct OutlinedRegions
 // do not exist.
 OutlinedRegions findOutlinedRegions(vtkPolyData* data);
 
-// Whether no coordinate is infinite or NaN.
-bool areFinite(const std::vector<Point<3>>& places);
-
 } // namespace RectifiedTransport::Bridge
 
 #endif

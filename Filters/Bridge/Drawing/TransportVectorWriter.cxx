@@ -5,7 +5,7 @@
 #include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Drawing/Drawing.h"
 #include "Core/Drawing/PageLayout.h"
 #include "Core/Parallel/Stages.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Points/TupleValues.h"
 
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkBitArray.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/SMPExecutor.h"
 
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Forks.h"
 
 #include "vtkSMPTools.h"

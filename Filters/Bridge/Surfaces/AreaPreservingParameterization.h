@@ -5,11 +5,7 @@
 
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parameterization/CornerSettings.h"
-#include "Core/Parameterization/MapDistortion.h"
-
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "Core/Parameterization/ParameterizationReport.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
@@ -25,20 +21,6 @@ namespace RectifiedTransport::Bridge
 {
 
 class TriangleInput;
-
-// How far the map is from its goal.
-struct ParameterizationReport
-{
-  std::int64_t Triangles;
-  std::int64_t Collapsed; // all points on one side of the square
-  MapDistortion Distortion;
-  bool Polish;
-  bool IsCut;         // along seams, or in several components
-  std::string Repair; // of the surface; empty if it needed none
-
-  // What a user should know; usually nothing.
-  std::vector<std::string> Warnings() const;
-};
 
 // The texts of Seams, in the order of its values.
 constexpr const char* SeamsTexts[] = { "Auto", "None" };

@@ -3,14 +3,13 @@
 
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/Surfaces/SurfaceDensityArray.h"
 #include "Bridge/Surfaces/SurfaceParticles.h"
 #include "Bridge/Triangles/SurfaceInput.h"
 #include "Bridge/Triangles/TriangleInput.h"
 #include "Core/Messages/Failure.h"
-#include "Core/Messages/PartText.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/AreaPreservingMap.h"
 #include "Core/SurfaceRelaxation/SurfaceRelaxation.h"
@@ -18,7 +17,6 @@
 #include "vtkPolyData.h"
 
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 namespace RectifiedTransport::Bridge
@@ -45,44 +43,6 @@ void SurfaceSampler::Check() const
   requireThat(resolution >= 1 && resolution <= AreaPreservingOptions::MaximumResolution,
     "Resolution", resolution, "from 1 to 16384");
   this->Corners.Check();
-}
-
-std::vector<std::string> SurfaceSamplingReport::Warnings() const
-{
-  std::vector<std::string> warnings;
-  if (!this->Repair.empty())
-  {
-    warnings.push_back(this->Repair);
-  }
-  if (isWorthWarning(this->Moved, this->Particles))
-  {
-    warnings.push_back(std::to_string(this->Moved) + " of " + std::to_string(this->Particles) +
-      " particles in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare "
-      "them that)");
-  }
-  if (!this->Steps.empty())
-  {
-    warnings.push_back(this->Steps);
-  }
-  if (this->IsAreaPreserving)
-  {
-    std::ostringstream text;
-    text.precision(2);
-    text
-      << "The conformal map squeezes much of the surface into few cells: the particles come from "
-         "the area-preserving map instead, which shears their pattern (a longer boundary helps)";
-    if (this->PatchError > SurfaceSamples::AcceptableError)
-    {
-      text << "; their numbers in patches of the surface are still wrong by "
-           << 100.0 * this->PatchError << " %";
-    }
-    warnings.push_back(text.str());
-  }
-  if (this->Collapsed > 0)
-  {
-    warnings.push_back(collapsedWarning(this->Collapsed, this->Triangles));
-  }
-  return warnings;
 }
 
 SurfaceSamplingReport SurfaceSampler::Run(const SurfaceInput& input,

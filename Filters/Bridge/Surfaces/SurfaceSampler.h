@@ -6,10 +6,7 @@
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parameterization/CornerSettings.h"
 #include "Core/SurfaceSampling/SurfaceSamples.h"
-
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "Core/SurfaceSampling/SurfaceSamplingReport.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
@@ -25,21 +22,6 @@ namespace RectifiedTransport::Bridge
 
 class SurfaceDensityArray;
 class SurfaceInput;
-
-// The numbers of one run, for warnings.
-struct SurfaceSamplingReport
-{
-  std::int64_t Particles = 0;
-  std::int64_t Moved = 0; // from empty cells of the grid to the nearest mass
-  std::string Steps;      // a warning; empty if there is none
-  std::int64_t Triangles = 0;
-  std::int64_t Collapsed = 0; // triangles without area in the map
-  double PatchError = 0.0;
-  bool IsAreaPreserving = false; // the map that the particles come from
-  std::string Repair;            // of the surface; empty if it needed none
-
-  std::vector<std::string> Warnings() const;
-};
 
 // Indexed by vtkSurfaceSampler::MethodType.
 constexpr const char* SurfaceMethodTexts[] = { "Relaxation", "Flow" };

@@ -43,8 +43,7 @@ vtkSmartPointer<vtkDoubleArray> cover(const SolidSurface& surface, const GridSiz
       });
   if (report.OpenLines > 0)
   {
-    throw Failure("The input surface leaves " + std::to_string(report.OpenLines) +
-      " lines open; it must be closed");
+    fail("The input surface leaves ", report.OpenLines, " lines open; it must be closed");
   }
   return density;
 }

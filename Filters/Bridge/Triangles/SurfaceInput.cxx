@@ -171,11 +171,9 @@ SurfaceInput::SurfaceInput(vtkDataObject* input, Progress& progress)
   {
     return;
   }
-  const auto cells = static_cast<double>(set->GetNumberOfCells());
-  const std::string purpose =
-    "the surface of " + std::to_string(set->GetNumberOfCells()) + " cells of the input";
-  constexpr double bytesOfCell = 16.0 * sizeof(vtkIdType);
-  requireMemory({ purpose, cells * bytesOfCell });
+  const vtkIdType cells = set->GetNumberOfCells();
+  requireMemory({ "the surface of " + std::to_string(cells) + " cells of the input",
+    16.0 * sizeof(vtkIdType) * static_cast<double>(cells) });
   requireReadableCells(set, "input surface");
   Stages stages(progress, { { "types", 1 }, { "cells", 9 } });
   if (isFlat(set, stages["types"]))

@@ -101,8 +101,8 @@ LargeBuffer<std::int64_t> TriangleInput::ReadCorners(
   }
   const PolygonSource polygons = polygonsOf(this->Surface);
   const std::int64_t count = polygons.NumberOfTriangles;
-  CutTriangles cut = withMemory({ std::to_string(count) + " triangles of the input surface",
-                                  static_cast<double>(count) * 4.0 * sizeof(std::int64_t) },
+  PolygonTriangles cut = withMemory({ std::to_string(count) + " triangles of the input surface",
+                                      static_cast<double>(count) * 4.0 * sizeof(std::int64_t) },
     [&]() { return cutPolygons(polygons, points, rounding, work); });
   vtkCellData* data = this->Surface->GetCellData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
@@ -260,14 +260,6 @@ ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progres
   return withSurface({ "the conformal map of " + std::to_string(points) + " points",
                        bytesOfMappedPoint * static_cast<double>(points) },
     [&]() { return mapConformally(disk, corners, progress); });
-}
-
-std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles, bool isCut)
-{
-  return std::to_string(collapsed) + " of " + std::to_string(triangles) +
-    " triangles have all points on one side of the square and so no area there; subdivide the "
-    "surface" +
-    (isCut ? "" : ", or give Corners between these points");
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -91,9 +91,6 @@ private:
 // The conformal map of a disk to a square, with the errors of a run. Throws Failure and Cancelled.
 ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progress& progress);
 
-// A warning about triangles that have no area in the map; Corners help if the surface is not cut.
-std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles, bool isCut = false);
-
 } // namespace RectifiedTransport::Bridge
 
 #endif

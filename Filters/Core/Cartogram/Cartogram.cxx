@@ -2,6 +2,7 @@
 #include "Core/Cartogram/Cartogram.h"
 
 #include "Core/Cartogram/EdgeLengths.h"
+#include "Core/Cartogram/PlaneBounds.h"
 #include "Core/Cartogram/RegionRaster.h"
 #include "Core/Cartogram/RegionValues.h"
 #include "Core/Cartogram/Sea.h"
@@ -438,18 +439,10 @@ private:
 
 CartogramBox boxAround(const RegionMap& map, const CartogramOptions& options)
 {
-  Point<2> low{ HUGE_VAL, HUGE_VAL };
-  Point<2> high{ -HUGE_VAL, -HUGE_VAL };
-  for (const Point<2>& place : map.Points())
-  {
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      low[axis] = std::min(low[axis], place[axis]);
-      high[axis] = std::max(high[axis], place[axis]);
-    }
-  }
-  const double side = std::max(high[0] - low[0], high[1] - low[1]) * (1.0 + 2.0 * options.Margin);
-  return { { 0.5 * (low[0] + high[0] - side), 0.5 * (low[1] + high[1] - side) },
+  const PlaneBounds bounds(map.Points());
+  const double side = bounds.LongestSide() * (1.0 + 2.0 * options.Margin);
+  return { { 0.5 * (bounds.Low[0] + bounds.High[0] - side),
+             0.5 * (bounds.Low[1] + bounds.High[1] - side) },
     side / static_cast<double>(options.Resolution), options.Resolution };
 }
 

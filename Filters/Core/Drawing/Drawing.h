@@ -46,7 +46,7 @@ enum class FillRule
 };
 
 // Call Begin first and End last. What is drawn later lies on top. Everything throws
-// std::runtime_error if the file cannot be written.
+// Failure if the file cannot be written.
 class Drawing
 {
 public:

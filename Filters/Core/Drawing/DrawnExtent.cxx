@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Drawing/DrawnExtent.h"
 
-#include "Core/Parallel/ThrowError.h"
+#include "Core/Messages/Failure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ void requireFinite(const double* point, std::int64_t number)
 {
   if (!std::all_of(point, point + 3, [](double x) { return std::isfinite(x); }))
   {
-    throwError("The input has a point that is NaN or infinite, at index ", number,
+    fail("The input has a point that is NaN or infinite, at index ", number,
       "; all coordinates must be finite");
   }
 }
@@ -63,7 +63,7 @@ void DrawnExtent::Include(const double* point, std::int64_t number, double radiu
   requireFinite(point, number);
   if (!(radius >= 0.0) || !std::isfinite(radius))
   {
-    throwError("RadiusArray has the value ", radius, " at index ", number,
+    fail("RadiusArray has the value ", radius, " at index ", number,
       "; every radius must be finite and not negative");
   }
   this->Points.Include(point);

@@ -34,7 +34,7 @@ private:
 struct DrawnExtent
 {
   // The point of this number, of a line, of a polygon or of a dot with a radius. Throws
-  // std::runtime_error unless all is finite and the radius is not negative.
+  // Failure unless all is finite and the radius is not negative.
   void Include(const double* point, std::int64_t number, double radius);
   // The point of a dot that has the radius of all such dots. Throws the same.
   void IncludeDot(const double* point, std::int64_t number);

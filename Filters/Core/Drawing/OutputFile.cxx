@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Drawing/OutputFile.h"
 
-#include "Core/Parallel/ThrowError.h"
+#include "Core/Messages/Failure.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -129,7 +129,7 @@ void OutputFile::WaitForReader() const
   pollfd file{ this->File.Get(), POLLOUT, 0 };
   if (poll(&file, 1, longest) == 0)
   {
-    throwError("FileName '", this->Target.Name, "' is a pipe whose reader has read nothing for ",
+    fail("FileName '", this->Target.Name, "' is a pipe whose reader has read nothing for ",
       longest / 1000, " s; a program must read it");
   }
 }

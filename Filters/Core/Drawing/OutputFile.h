@@ -17,17 +17,17 @@ namespace RectifiedTransport
 class OutputFile
 {
 public:
-  // `name` in UTF-8. Throws std::runtime_error if the file cannot be written.
+  // `name` in UTF-8. Throws Failure if the file cannot be written.
   explicit OutputFile(const std::string& name);
   // Removes what was written, unless Close has been called.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  // Throws std::runtime_error if the disk is full, for example.
+  // Throws Failure if the disk is full, for example.
   void Write(std::string_view bytes);
   std::int64_t Size() const { return this->Written; }
-  // Gives the file its name, in place of an earlier one. Throws std::runtime_error.
+  // Gives the file its name, in place of an earlier one. Throws Failure.
   void Close();
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Drawing/OutputTarget.h"
 
-#include "Core/Parallel/ThrowError.h"
+#include "Core/Messages/Failure.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -107,11 +107,11 @@ private:
     {
       if (errno == EISDIR)
       {
-        throwError("FileName '", name, "' is a folder; it must be a file");
+        fail("FileName '", name, "' is a folder; it must be a file");
       }
       if (errno == ENXIO)
       {
-        throwError("FileName '", name,
+        fail("FileName '", name,
           "' is a pipe that no program reads, or a socket; it must be a file, or a program must "
           "read the pipe before");
       }
@@ -124,7 +124,7 @@ private:
     this->Require(fstat(file.Get(), &status) == 0);
     if (S_ISBLK(status.st_mode))
     {
-      throwError("FileName '", name, "' is a block device, such as a disk; it must be a file");
+      fail("FileName '", name, "' is a block device, such as a disk; it must be a file");
     }
     (S_ISREG(status.st_mode) ? this->Found.Existing : this->Found.Direct) = std::move(file);
   }
@@ -151,7 +151,7 @@ private:
       fstatat(this->Found.Folder.Get(), this->Found.File.c_str(), &named, AT_SYMLINK_NOFOLLOW) == 0;
     if (!isThere || opened.st_dev != named.st_dev || opened.st_ino != named.st_ino)
     {
-      throwError("FileName '", this->Found.Name,
+      fail("FileName '", this->Found.Name,
         "' leads to a file without a name of its own; it must be a file in a folder");
     }
   }
@@ -165,7 +165,7 @@ private:
 void OutputTarget::Fail() const
 {
   const std::string reason = errno != 0 ? std::strerror(errno) : "unknown error";
-  throwError("FileName '", this->Name, "' cannot be written (", reason,
+  fail("FileName '", this->Name, "' cannot be written (", reason,
     "); its folder must exist and have room, and the folder and the file must be writable");
 }
 

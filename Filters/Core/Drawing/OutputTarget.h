@@ -52,7 +52,7 @@ struct OutputTarget
 };
 
 // Follows symbolic links, if the system would. A descriptor of this process, such as /dev/stdout,
-// is written on. Throws std::runtime_error for folders, block devices, sockets, pipes that no
+// is written on. Throws Failure for folders, block devices, sockets, pipes that no
 // program reads, files that may not be written and folders that do not exist.
 OutputTarget findOutputTarget(const std::string& name);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Drawing/PageLayout.h"
 
-#include "Core/Parallel/ThrowError.h"
+#include "Core/Messages/Failure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,15 +21,14 @@ PageLayout::PageLayout(const std::array<std::size_t, 2>& axes, const DrawnBounds
   const double height = bounds.Length(axes[1]);
   if (!std::isfinite(width) || !std::isfinite(height))
   {
-    throwError("The input has a length past the largest double; its coordinates must be smaller");
+    fail("The input has a length past the largest double; its coordinates must be smaller");
   }
   const bool isVertical = width <= rounding * height;
   const double length = isVertical ? height : width;
   this->Unit = length > 0.0 ? (pageWidth - 2.0 * margin) / length : 1.0;
   if (!std::isfinite(this->Unit))
   {
-    throwError(
-      "The input is ", length, " long, too little for a page; its coordinates must be larger");
+    fail("The input is ", length, " long, too little for a page; its coordinates must be larger");
   }
   this->Sides = { pageWidth, std::max(this->Unit * height + 2.0 * margin, shortestHeight) };
   this->Margins[0] = 0.5 * (pageWidth - this->Unit * width);
@@ -48,7 +47,7 @@ void PageSettings::CheckBounds() const
   }
   if (this->HasBounds() && (ascending < 2 || ascending + equal < 3))
   {
-    throwError("PageBounds are ", bounds[0], " ", bounds[1], " ", bounds[2], " ", bounds[3], " ",
+    fail("PageBounds are ", bounds[0], " ", bounds[1], " ", bounds[2], " ", bounds[3], " ",
       bounds[4], " ", bounds[5],
       "; they must be the lowest and highest x, y and z, and longer than 0 along two axes, or all "
       "0");
@@ -71,7 +70,7 @@ PageLayout PageSettings::LayoutInBounds(const DrawnBounds& drawn) const
     {
       if (!(std::abs(distance) <= farthest))
       {
-        throwError("PageBounds are so small that the input reaches ", std::abs(distance),
+        fail("PageBounds are so small that the input reaches ", std::abs(distance),
           " mm from the page; it may reach ", farthest, " mm: cut it with Clip or Threshold");
       }
     }
@@ -85,7 +84,7 @@ PageLayout PageSettings::Layout(const DrawnExtent& extent, double longestSide) c
   const double margin = this->Margin + (fitsStrokes ? 0.5 * this->LineWidth : 0.0);
   if (!(2.0 * margin < this->Width))
   {
-    throwError("Width is ", this->Width, "; it must be more than ", 2.0 * margin,
+    fail("Width is ", this->Width, "; it must be more than ", 2.0 * margin,
       fitsStrokes ? ", twice PageMargin and the LineWidth" : ", twice PageMargin");
   }
   const PageLayout layout = this->HasBounds()
@@ -95,7 +94,7 @@ PageLayout PageSettings::Layout(const DrawnExtent& extent, double longestSide) c
   const double longest = std::max(size[0], size[1]);
   if (longest > longestSide)
   {
-    throwError("The page is ", size[0], " x ", size[1], " mm with Width ", this->Width,
+    fail("The page is ", size[0], " x ", size[1], " mm with Width ", this->Width,
       "; no side may be longer than ", longestSide, " mm in this format: Width must be at most ",
       this->Width * longestSide / longest);
   }

@@ -17,7 +17,7 @@ namespace RectifiedTransport
 class PageLayout
 {
 public:
-  // `width` and `margin` in millimetres. Throws std::runtime_error if the lengths, or millimetres
+  // `width` and `margin` in millimetres. Throws Failure if the lengths, or millimetres
   // for a unit of them, are past the largest double.
   PageLayout(
     const std::array<std::size_t, 2>& axes, const DrawnBounds& bounds, double width, double margin);
@@ -48,9 +48,9 @@ struct PageSettings
   double LineWidth;
 
   bool HasBounds() const { return this->Bounds != std::array<double, 6>{}; }
-  // Throws std::runtime_error unless they are ascending along at least two axes.
+  // Throws Failure unless they are ascending along at least two axes.
   void CheckBounds() const;
-  // A page in a format whose sides are not longer than this. Throws std::runtime_error for margins
+  // A page in a format whose sides are not longer than this. Throws Failure for margins
   // past the width, bounds that are too small for what is drawn and pages that are too long.
   PageLayout Layout(const DrawnExtent& extent, double longestSide) const;
 

@@ -5,6 +5,7 @@
 #include "Core/Drawing/OutputFile.h"
 
 #include <cstddef>
+#include <cstdio>
 
 namespace RectifiedTransport
 {
@@ -14,13 +15,6 @@ namespace
 
 constexpr int Decimals = 4; // of millimetres
 constexpr std::size_t BufferSize = std::size_t{ 1 } << 16;
-
-void appendHexadecimal(std::string& text, std::uint8_t value)
-{
-  constexpr const char* digits = "0123456789abcdef";
-  text += digits[value / 16];
-  text += digits[value % 16];
-}
 
 void appendAttribute(std::string& text, const char* name, double value)
 {
@@ -49,21 +43,16 @@ void SvgDrawing::Begin(const DrawingPage& page)
   text += ' ';
   appendDecimal(text, size[1], Decimals);
   text += "\">\n";
-  if (page.ClippedMargin > 0.0)
+  this->IsClipped = page.ClippedMargin > 0.0;
+  if (this->IsClipped)
   {
-    this->BeginClip(page);
+    text += "<clipPath id=\"inside\"><rect";
+    appendAttribute(text, "x", page.ClippedMargin);
+    appendAttribute(text, "y", page.ClippedMargin);
+    appendAttribute(text, "width", size[0] - 2.0 * page.ClippedMargin);
+    appendAttribute(text, "height", size[1] - 2.0 * page.ClippedMargin);
+    text += "/></clipPath>\n<g clip-path=\"url(#inside)\">\n";
   }
-}
-
-void SvgDrawing::BeginClip(const DrawingPage& page)
-{
-  this->IsClipped = true;
-  this->Text += "<clipPath id=\"inside\"><rect";
-  appendAttribute(this->Text, "x", page.ClippedMargin);
-  appendAttribute(this->Text, "y", page.ClippedMargin);
-  appendAttribute(this->Text, "width", page.Size[0] - 2.0 * page.ClippedMargin);
-  appendAttribute(this->Text, "height", page.Size[1] - 2.0 * page.ClippedMargin);
-  this->Text += "/></clipPath>\n<g clip-path=\"url(#inside)\">\n";
 }
 
 void SvgDrawing::FillDisc(const PagePoint& centre, double radius, Colour colour)
@@ -148,12 +137,9 @@ void SvgDrawing::AppendColour(const std::string& paint, Colour colour)
 {
   if (colour.Red + colour.Green + colour.Blue > 0)
   {
-    this->Text += " " + paint + "=\"#";
-    for (const std::uint8_t value : { colour.Red, colour.Green, colour.Blue })
-    {
-      appendHexadecimal(this->Text, value);
-    }
-    this->Text += '"';
+    char value[8];
+    std::snprintf(value, sizeof(value), "#%02x%02x%02x", colour.Red, colour.Green, colour.Blue);
+    this->Text += " " + paint + "=\"" + value + "\"";
   }
   if (colour.Opacity < 255)
   {

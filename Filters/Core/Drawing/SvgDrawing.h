@@ -39,7 +39,6 @@ private:
   // What differs from the group's opaque black.
   void AppendColour(const std::string& paint, Colour colour);
   void AppendPoints(const PagePath& points);
-  void BeginClip(const DrawingPage& page);
   void Flush();
 
   OutputFile& File;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/CutPolygons.h"
 
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Stages.h"
-#include "Core/Parallel/ThrowError.h"
 
 #include <algorithm>
 #include <vector>
@@ -10,10 +10,10 @@
 namespace RectifiedTransport
 {
 
-CutTriangles cutPolygons(
+PolygonTriangles cutPolygons(
   const PolygonSource& source, ConstPointSpan<3> points, double rounding, Progress& progress)
 {
-  CutTriangles cut{ LargeBuffer<std::int64_t>(3 * source.NumberOfTriangles),
+  PolygonTriangles cut{ LargeBuffer<std::int64_t>(3 * source.NumberOfTriangles),
     LargeBuffer<std::int64_t>(source.NumberOfTriangles) };
   PolygonCutter cutter(points, rounding, source.CutRing);
   std::int64_t* corners = cut.Corners.data();
@@ -44,7 +44,7 @@ CutTriangles cutPolygons(
   });
   if (missing != 0)
   {
-    throwError("The input surface has polygons that cannot be cut into triangles: ", missing,
+    fail("The input surface has polygons that cannot be cut into triangles: ", missing,
       " triangles are missing (the first of polygon ", firstMissing,
       ", counted from 0); polygons must be simple: edges must not cross, and no corner be there "
       "twice");

@@ -30,15 +30,15 @@ struct PolygonSource
   RingCutter CutRing;
 };
 
-struct CutTriangles
+struct PolygonTriangles
 {
   LargeBuffer<std::int64_t> Corners; // three points a triangle
   LargeBuffer<std::int64_t> Cells;   // which polygon each is of; strips are numbered on
 };
 
-// As PolygonCutter::Cut cuts. Throws std::runtime_error for polygons that cannot be cut,
+// As PolygonCutter::Cut cuts. Throws Failure for polygons that cannot be cut,
 // std::bad_alloc and Cancelled.
-CutTriangles cutPolygons(
+PolygonTriangles cutPolygons(
   const PolygonSource& source, ConstPointSpan<3> points, double rounding, Progress& progress);
 
 } // namespace RectifiedTransport

@@ -6,6 +6,7 @@
 
 #include "Core/Messages/Failure.h"
 
+#include <cstddef>
 #include <cstdlib>
 #include <iomanip>
 #include <limits>
@@ -42,6 +43,29 @@ void requireThat(bool holds, const char* property, T value, const char* rule)
     return;
   }
   throw Failure(property + (" is " + textOf(value)) + "; it must be " + rule);
+}
+
+// The text of a value of an enumeration.
+template <std::size_t Count>
+const char* choiceText(const char* const (&texts)[Count], int value)
+{
+  return value >= 0 && static_cast<std::size_t>(value) < Count ? texts[value] : "Unknown";
+}
+
+template <std::size_t Count>
+void requireChoice(const char* property, int value, const char* const (&texts)[Count])
+{
+  if (value >= 0 && static_cast<std::size_t>(value) < Count)
+  {
+    return;
+  }
+  std::ostringstream message;
+  message << property << " is " << value << "; it must be ";
+  for (std::size_t i = 0; i < Count; ++i)
+  {
+    message << (i == 0 ? "" : i + 1 < Count ? ", " : " or ") << i << " (" << texts[i] << ")";
+  }
+  throw Failure(message.str());
 }
 
 } // namespace RectifiedTransport

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SurfaceRelaxation/SurfaceMasses.h"
 
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Reduction.h"
-#include "Core/Parallel/ThrowError.h"
 #include "Core/Tables/DensityInspection.h"
 
 #include <cmath>
@@ -54,7 +54,7 @@ void requireValid(const DensitySummary& found, const ReadDensity& density)
   const char* const what = isFinite
     ? (count == 1 ? " negative value" : " negative values")
     : (count == 1 ? " value that is NaN or infinite" : " values that are NaN or infinite");
-  throwError(density.Name, " has ", count, what, ", the first at index ", first, " (",
+  fail(density.Name, " has ", count, what, ", the first at index ", first, " (",
     density.Values[first], "); ",
     isFinite ? "a density must not be negative" : "every value must be finite");
 }
@@ -100,20 +100,19 @@ void SurfaceMasses::FindTotal(const SurfaceAreas& areas, const ReadDensity& dens
     isGiven ? density.Name + " has a total mass" : std::string("The input surface has an area");
   if (!(this->Masses.Sum > 0.0))
   {
-    throwError(title, " of zero",
-      density.IsGhost ? " (duplicate and blanked ghosts carry none)" : "",
+    fail(title, " of zero", density.IsGhost ? " (duplicate and blanked ghosts carry none)" : "",
       isGiven ? "; at least one value must be positive" : "");
   }
   this->Sum = this->Masses.Sum * areas.Total * areas.Unit * this->Largest * areas.Unit;
   if (!(this->Sum > 0.0))
   {
-    throwError(title, " below the least double; ",
+    fail(title, " below the least double; ",
       isGiven ? "its values, or the coordinates, must be larger"
               : "the coordinates must be larger");
   }
   if (!std::isfinite(this->Sum))
   {
-    throwError(title, " past the largest double; ",
+    fail(title, " past the largest double; ",
       isGiven ? "its values must be smaller" : "the coordinates must be smaller");
   }
 }

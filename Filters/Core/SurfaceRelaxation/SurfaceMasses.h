@@ -30,7 +30,7 @@ class SurfaceMasses
 public:
   // The mass of a triangle is its area times the mean of the density at its points, exact for
   // linear interpolation, or times the density of its cell. Ghost cells have no mass. Throws
-  // std::runtime_error for densities that are negative or not finite and for a total mass that is
+  // Failure for densities that are negative or not finite and for a total mass that is
   // zero or not finite, std::bad_alloc and Cancelled.
   SurfaceMasses(const PlacedTriangles& surface, const ReadDensity& density, Progress& progress);
 

@@ -77,7 +77,7 @@ TEST(CutPolygons, StripsAreNumberedBehindPolygons)
   const Cells polygons{ { 0, 1, 3, 2 }, { 4, 5, 6 } };
   const Cells strips{ { 0, 1, 4, 5 } };
   Progress progress{ Context() };
-  const CutTriangles cut = cutPolygons(sourceOf(polygons, strips), points, 0.0, progress);
+  const PolygonTriangles cut = cutPolygons(sourceOf(polygons, strips), points, 0.0, progress);
   EXPECT_EQ(copyOf(cut.Corners),
     (std::vector<std::int64_t>{ 0, 1, 3, 0, 3, 2, 4, 5, 6, 0, 1, 4, 4, 1, 5 }));
   EXPECT_EQ(copyOf(cut.Cells), (std::vector<std::int64_t>{ 0, 0, 1, 2, 2 }));

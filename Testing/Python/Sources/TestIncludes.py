@@ -21,7 +21,7 @@ CORE = {
     "Grid": {"Parallel", "Geometry"},
     "Equalize": {"Parallel", "Geometry", "Grid", "Tables", "Flow"},
     "OptimalMap": {"Parallel", "Geometry", "Grid", "Tables", "Flow"},
-    "Cartogram": {"Parallel", "Geometry", "Overlap", "Tables", "Flow"},
+    "Cartogram": {"Parallel", "Messages", "Geometry", "Overlap", "Tables", "Flow"},
     "SiteCells": {"Parallel", "Algebra", "Geometry", "Tables", "Flow", "PowerCells"},
     "Quality": {"Parallel", "Geometry", "Tables", "Flow"},
     "PowerCells": {"Parallel", "Algebra", "Geometry", "Tables"},
@@ -38,7 +38,7 @@ CORE = {
     "Parameterization": {"Parallel", "Algebra", "Geometry", "Mesh", "Tables", "Flow"},
     "SurfaceRelaxation": {"Parallel", "Geometry", "Mesh", "Tables"},
     "Seams": {"Parallel", "Geometry", "Mesh", "Parameterization"},
-    "SurfaceSampling": {"Parallel", "Geometry", "Mesh", "Tables", "Flow", "Seeds",
+    "SurfaceSampling": {"Parallel", "Messages", "Geometry", "Mesh", "Tables", "Flow", "Seeds",
                         "Parameterization"},
 }
 # Of the folders within OptimalMap: those there, and of Core.

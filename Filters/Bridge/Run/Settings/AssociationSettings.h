@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_AssociationSettings_h
 #define RectifiedTransport_AssociationSettings_h
 
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 
 namespace RectifiedTransport::Bridge
 {

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_FlowSettings_h
 #define RectifiedTransport_FlowSettings_h
 
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Flow/FlowOptions.h"
 
 #include "vtkIndent.h"

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_MissingData_h
 #define RectifiedTransport_MissingData_h
 
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Tables/Reading/DensityRules.h"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_OptimalSettings_h
 #define RectifiedTransport_OptimalSettings_h
 
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 
 #include "vtkIndent.h"
 

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_SeedSettings_h
 #define RectifiedTransport_SeedSettings_h
 
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Seeds/Seeds.h"
 
 namespace RectifiedTransport::Bridge

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_SplatSettings_h
 #define RectifiedTransport_SplatSettings_h
 
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Splat/Splat.h"
 
 namespace RectifiedTransport::Bridge

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_TableSettings_h
 #define RectifiedTransport_TableSettings_h
 
-#include "Bridge/Run/PropertyCheck.h"
+#include "Core/Messages/PropertyCheck.h"
 
 namespace RectifiedTransport::Bridge
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Cartogram/MapWarnings.h"
+#include "Core/Cartogram/MapWarnings.h"
 
+#include "Core/Cartogram/PlaneBounds.h"
 #include "Core/Messages/PartText.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 #include <cstddef>
 #include <sstream>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 namespace
@@ -88,19 +89,12 @@ private:
 bool looksLikeDegrees(const std::vector<Point<3>>& places)
 {
   constexpr double wide = 20.0;
-  Point<2> low{ HUGE_VAL, HUGE_VAL };
-  Point<2> high{ -HUGE_VAL, -HUGE_VAL };
-  for (const Point<3>& place : places)
-  {
-    for (std::size_t axis = 0; axis < 2; ++axis)
-    {
-      low[axis] = std::min(low[axis], place[axis]);
-      high[axis] = std::max(high[axis], place[axis]);
-    }
-  }
+  const PlaneBounds bounds(places);
+  const Point<2>& low = bounds.Low;
+  const Point<2>& high = bounds.High;
   const bool isOnEarth =
     low[0] >= -180.001 && high[0] <= 180.001 && low[1] >= -90.001 && high[1] <= 90.001;
-  const bool isWide = std::max(high[0] - low[0], high[1] - low[1]) > wide;
+  const bool isWide = bounds.LongestSide() > wide;
   const bool areLatitudes = low[1] > wide || high[1] < -wide;
   return isOnEarth && (isWide || areLatitudes);
 }
@@ -123,4 +117,4 @@ void addWarnings(const CartogramResult& result, const std::vector<std::string>& 
   MissedRegions(result, names, tolerance).Add(warnings);
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

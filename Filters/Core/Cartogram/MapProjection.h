@@ -5,10 +5,9 @@
 
 #include "Core/Geometry/Points.h"
 
-#include <cstddef>
 #include <vector>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // Indexed by the enumeration of vtkCartogram.
@@ -27,14 +26,14 @@ public:
 
   // Keeps the third coordinate.
   Point<3> Project(const Point<3>& place) const;
-  // Throws Failure, if there is a projection, for places of `what` from one on that are no
-  // longitudes and latitudes.
-  void Require(const std::vector<Point<3>>& places, std::size_t first, const char* what) const;
+  // Throws Failure, if there is a projection, for places of `what` that are no longitudes and
+  // latitudes.
+  void Require(const std::vector<Point<3>>& places, const char* what) const;
 
 private:
   double Cosine = 0.0; // of the latitude p; 0: none
 };
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

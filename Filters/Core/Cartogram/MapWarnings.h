@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // Whether places may be longitudes and latitudes in degrees: all are on the earth, and the map is
@@ -20,6 +20,6 @@ bool looksLikeDegrees(const std::vector<Point<3>>& places);
 void addWarnings(const CartogramResult& result, const std::vector<std::string>& names,
   std::int64_t rings, double tolerance, std::vector<std::string>& warnings);
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

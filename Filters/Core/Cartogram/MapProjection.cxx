@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Cartogram/MapProjection.h"
+#include "Core/Cartogram/MapProjection.h"
 
-#include "Bridge/Run/PropertyCheck.h"
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Messages/Failure.h"
+#include "Core/Messages/PropertyCheck.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 namespace
@@ -21,10 +21,10 @@ constexpr double farthestEast = 360.0;
 constexpr double farthestNorth = 90.0;
 
 // Rounds degrees to 2^-50, a ten-thousandth of a micrometre on the ground.
-CosineAndSine cosineAndSine(double degrees)
+CosineAndSine cosineAndSineOf(double degrees)
 {
   constexpr int bits = 50;
-  return RectifiedTransport::cosineAndSine(
+  return cosineAndSine(
     static_cast<std::int64_t>(std::round(std::ldexp(degrees, bits))), std::int64_t{ 360 } << bits);
 }
 
@@ -40,7 +40,7 @@ bool isOnEarth(const Point<3>& place)
 MapProjection::MapProjection(const std::vector<Point<3>>& places)
   : Cosine(1.0)
 {
-  this->Require(places, 0, "input");
+  this->Require(places, "input");
   double low = HUGE_VAL;
   double high = -HUGE_VAL;
   for (const Point<3>& place : places)
@@ -48,7 +48,7 @@ MapProjection::MapProjection(const std::vector<Point<3>>& places)
     low = std::min(low, place[1]);
     high = std::max(high, place[1]);
   }
-  this->Cosine = cosineAndSine(0.5 * (low + high)).Cosine;
+  this->Cosine = cosineAndSineOf(0.5 * (low + high)).Cosine;
 }
 
 Point<3> MapProjection::Project(const Point<3>& place) const
@@ -59,21 +59,18 @@ Point<3> MapProjection::Project(const Point<3>& place) const
   }
   const double latitude = std::clamp(place[1], -farthestNorth, farthestNorth);
   return { radius * this->Cosine * radian * place[0],
-    radius / this->Cosine * cosineAndSine(latitude).Sine, place[2] };
+    radius / this->Cosine * cosineAndSineOf(latitude).Sine, place[2] };
 }
 
-void MapProjection::Require(
-  const std::vector<Point<3>>& places, std::size_t first, const char* what) const
+void MapProjection::Require(const std::vector<Point<3>>& places, const char* what) const
 {
-  const auto wrong =
-    std::find_if_not(places.begin() + static_cast<std::ptrdiff_t>(first), places.end(), isOnEarth);
+  const auto wrong = std::find_if_not(places.begin(), places.end(), isOnEarth);
   if (this->Cosine != 0.0 && wrong != places.end())
   {
-    fail("Projection is EqualArea, and point ",
-      wrong - places.begin() - static_cast<std::ptrdiff_t>(first), " of the ", what, " is at (",
-      textOf((*wrong)[0]), ", ", textOf((*wrong)[1]),
+    fail("Projection is EqualArea, and point ", wrong - places.begin(), " of the ", what,
+      " is at (", textOf((*wrong)[0]), ", ", textOf((*wrong)[1]),
       "); points must be longitudes from -360 to 360 and latitudes from -90 to 90, in degrees");
   }
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

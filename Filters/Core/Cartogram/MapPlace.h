@@ -3,11 +3,11 @@
 #ifndef RectifiedTransport_MapPlace_h
 #define RectifiedTransport_MapPlace_h
 
-#include "Bridge/Cartogram/MapProjection.h"
 #include "Core/Cartogram/Cartogram.h"
+#include "Core/Cartogram/MapProjection.h"
 #include "Core/Geometry/PlaneFrame.h"
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 struct MapPlace
@@ -30,6 +30,6 @@ struct MapPlace
   }
 };
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Cartogram/MapFellows.h"
+
+#include "Core/Cartogram/PlaneBounds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr int squares = 16;   // along each side of the raster
+constexpr int mostParts = 16; // of a square's side
+
+// The squares that a map reaches along an axis, with the raster's margin around it.
+struct Reach
+{
+  int First;
+  int Last; // one beyond
+};
+
+std::array<Reach, 2> reachOf(const RegionMap& map, double side)
+{
+  const PlaneBounds bounds(map.Points());
+  const double margin = 0.5 * (side - bounds.LongestSide());
+  constexpr double rounding = 1e-6;
+  std::array<Reach, 2> reach;
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    reach[axis] = {
+      std::max(
+        0, static_cast<int>(std::floor((bounds.Low[axis] - margin) / side * squares + rounding))),
+      std::min(squares,
+        static_cast<int>(std::ceil((bounds.High[axis] + margin) / side * squares - rounding)))
+    };
+  }
+  return reach;
+}
+
+} // namespace
+
+MapFellows::MapFellows(const MapPlace& place, const RegionMap& map)
+  : Place(place)
+{
+  const auto side = static_cast<double>(place.Box.Side);
+  // Not shorter than cells.
+  const int parts = std::clamp(static_cast<int>(place.Box.Side / squares), 1, mostParts);
+  const std::array<Reach, 2> reach = reachOf(map, side);
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    const Reach across = reach[axis];
+    const Reach along = reach[1 - axis];
+    for (int line = across.First; line <= across.Last; ++line)
+    {
+      for (int i = parts * along.First; i <= parts * along.Last; ++i)
+      {
+        Point<2> point;
+        point[axis] = side * line / squares;
+        point[1 - axis] = side * i / (squares * parts);
+        this->Moved.push_back(point);
+      }
+      this->Ends.push_back(this->Moved.size());
+    }
+  }
+  this->Before = this->Moved;
+}
+
+void MapFellows::AddOverlay(std::vector<Point<3>> points)
+{
+  this->Place.Projection.Require(points, "Overlay");
+  for (Point<3>& point : points)
+  {
+    point = this->Place.Projection.Project(point);
+    this->Moved.push_back(this->Place.ToIndex(point));
+    this->Before.push_back(this->Moved.back());
+  }
+  this->OverlayBefore.insert(this->OverlayBefore.end(), points.begin(), points.end());
+}
+
+Point<3> MapFellows::OverlayPoint(std::size_t point) const
+{
+  const std::size_t at = this->Ends.back() + point;
+  const Point<3>& before = this->OverlayBefore[point];
+  const Point<3> place =
+    this->Place.Blended(this->Before[at], this->Moved[at], this->Place.Frame.Distance(before));
+  // So far away that its index is infinite, its way is less than rounding.
+  const bool isFinite = std::all_of(
+    place.begin(), place.end(), [](double coordinate) { return std::isfinite(coordinate); });
+  return isFinite ? place : before;
+}
+
+} // namespace RectifiedTransport
