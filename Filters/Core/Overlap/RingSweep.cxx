@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Overlap/RingSweep.h"
+#include "Core/Overlap/RingCrossings.h"
 
 #include "Core/Overlap/EdgeOrder.h"
 #include "Core/Parallel/Progress.h"

@@ -213,34 +213,27 @@ private:
     constexpr double harder = 4.0;
     constexpr double leastDamping = 1e-4;
     constexpr double fade = 0.3; // of the smoothing
-    const double before = this->Energy(this->Map.Positions());
-    double step = this->LargestStep(solution);
-    for (int i = 0; i < halvings; ++i)
+    const double step = this->Map.Descend(solution, this->LargestStep(solution), halvings,
+      [this](const std::vector<Point<2>>& positions) { return this->Energy(positions); });
+    if (step == 0.0)
     {
-      this->Map.Move(solution, step, this->Moved);
-      if (this->Energy(this->Moved) < before)
-      {
-        this->Map.Accept(this->Moved);
-        if (step < 0.24)
-        {
-          this->Damping *= harder;
-        }
-        else if (step > 0.99)
-        {
-          this->Damping = std::max(leastDamping, easier * this->Damping);
-        }
-        this->Smoothing *= fade;
-        return;
-      }
-      step *= 0.5;
+      this->Damping *= 10.0;
+      return;
     }
-    this->Damping *= 10.0;
+    if (step < 0.24)
+    {
+      this->Damping *= harder;
+    }
+    else if (step > 0.99)
+    {
+      this->Damping = std::max(leastDamping, easier * this->Damping);
+    }
+    this->Smoothing *= fade;
   }
 
   LocalMap& Map;
   std::vector<double> Shares;
   std::vector<Cotangents> Weights;
-  std::vector<Point<2>> Moved;
   double Damping;
   double Smoothing;
 };

@@ -174,24 +174,13 @@ private:
   bool Step(const std::vector<double>& solution)
   {
     constexpr int halvings = 8;
-    const double before = this->Energy(this->Map.Positions());
-    double step = 1.0;
-    for (int i = 0; i < halvings; ++i)
-    {
-      this->Map.Move(solution, step, this->Moved);
-      if (this->Energy(this->Moved) < before)
-      {
-        this->Map.Accept(this->Moved);
-        return true;
-      }
-      step *= 0.5;
-    }
-    return false;
+    return this->Map.Descend(solution, 1.0, halvings,
+             [this](const std::vector<Point<2>>& positions) { return this->Energy(positions); }) >
+      0.0;
   }
 
   LocalMap& Map;
   std::vector<double> Shares;
-  std::vector<Point<2>> Moved;
 };
 
 } // namespace

@@ -2,7 +2,7 @@
 #include "Core/SurfaceSampling/FlatLocator.h"
 
 #include "Core/Geometry/BoxTree.h"
-#include "Core/SurfaceSampling/Turn.h"
+#include "Core/Geometry/ExactOrientation.h"
 
 #include <algorithm>
 #include <limits>
