@@ -119,7 +119,7 @@ SURFACES = [
     # seams
     E(CORE + "Seams/SeamShortening.cxx", "if («loops.size() == 2»)", "false"),
     E(CORE + "Seams/SeamSearch.cxx", "«neighbours > (joins ? 1 : 0)» ? beside", "false"),
-    E(CORE + "Seams/SeamSearch.cxx", "!path.empty() && «length >= least»;", "true"),
+    E(CORE + "Seams/SeamSearch.cxx", "!path.empty() && «mesh.LengthOf(path) >= least»;", "true"),
     E(CORE + "Seams/SqueezedPoints.cxx", "if («density >= limits.Prominence * pass» &&", "true"),
     E(CORE + "Seams/OpenedComponent.cxx", "best = «last->Unevenness < best->Unevenness» ?", "false"),
     E(CORE + "Seams/OpenedComponent.cxx", "if («unevenness < opened.Unevenness»)", "true"),

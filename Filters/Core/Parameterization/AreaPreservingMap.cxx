@@ -12,7 +12,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace RectifiedTransport
 {

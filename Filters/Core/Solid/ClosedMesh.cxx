@@ -7,7 +7,6 @@
 #include "Core/Mesh/Repair/MergePoints.h"
 #include "Core/Mesh/Repair/SplitSurface.h"
 #include "Core/Mesh/Repair/TJunctions.h"
-#include "Core/Mesh/SurfaceEdges.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Solid/OrientedBodies.h"
 #include "Core/Solid/RepeatedTriangles.h"

@@ -4,7 +4,6 @@
 #include "Core/Geometry/Vectors.h"
 #include "Core/Mesh/SurfaceOrientation.h"
 #include "Core/Mesh/Trees.h"
-#include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"
 
 #include <algorithm>

@@ -12,7 +12,6 @@
 #include "Core/Solid/TriangleLayers.h"
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace RectifiedTransport
