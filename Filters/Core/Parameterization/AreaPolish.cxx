@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Parameterization/AreaPolish.h"
+#include "Core/Parameterization/MapPolish.h"
 
 #include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/MapRegions.h"
@@ -53,7 +53,6 @@ public:
   {
     for (std::size_t t = 0; t < map.NumberOfTriangles(); ++t)
     {
-      this->Shares.push_back(parts.Disk.AreaShare(map.IdOf(t)));
       this->Weights.push_back(cotangentsOf(parts.Disk, map.IdOf(t)));
     }
   }
@@ -100,8 +99,9 @@ private:
 
   double WeightOf(std::size_t triangle) const
   {
-    return this->Map.IsCollapsed(triangle) ? 0.0
-                                           : 1.0 / std::max(this->Shares[triangle], leastShare);
+    return this->Map.IsCollapsed(triangle)
+      ? 0.0
+      : 1.0 / std::max(this->Map.ShareOf(triangle), leastShare);
   }
 
   double Energy(const std::vector<Point<2>>& positions) const
@@ -109,7 +109,7 @@ private:
     double energy = 0.0;
     for (std::size_t t = 0; t < this->Map.NumberOfTriangles(); ++t)
     {
-      const double missing = this->Map.AreaOf(t, positions) - this->Shares[t];
+      const double missing = this->Map.AreaOf(t, positions) - this->Map.ShareOf(t);
       energy += this->WeightOf(t) * missing * missing;
       for (std::size_t i = 0; this->Smoothing > 0.0 && i < 3; ++i)
       {
@@ -132,7 +132,7 @@ private:
     {
       const TriangleVector gradient = this->Map.AreaGradient(t);
       const double weight = this->WeightOf(t);
-      const double missing = this->Map.AreaOf(t, positions) - this->Shares[t];
+      const double missing = this->Map.AreaOf(t, positions) - this->Map.ShareOf(t);
       TriangleMatrix matrix;
       TriangleVector right;
       for (std::size_t i = 0; i < 6; ++i)
@@ -178,7 +178,7 @@ private:
     for (std::size_t t = 0; t < this->Map.NumberOfTriangles(); ++t)
     {
       const double area = this->Map.AreaOf(t, positions);
-      if (area <= healthy * this->Shares[t])
+      if (area <= healthy * this->Map.ShareOf(t))
       {
         continue;
       }
@@ -231,7 +231,6 @@ private:
   }
 
   LocalMap& Map;
-  std::vector<double> Shares;
   std::vector<Cotangents> Weights;
   double Damping;
   double Smoothing;

@@ -92,6 +92,8 @@ public:
   std::size_t NumberOfTriangles() const { return this->Corners.size(); }
   // The triangle's number in the disk.
   std::int64_t IdOf(std::size_t triangle) const { return this->Ids[triangle]; }
+  // Its share of the surface's area.
+  double ShareOf(std::size_t triangle) const { return this->Shares[triangle]; }
   const std::array<int, 3>& CornersOf(std::size_t triangle) const
   {
     return this->Corners[triangle];
@@ -142,6 +144,7 @@ private:
   std::vector<std::int64_t> Points; // by corners
   std::vector<std::array<int, 2>> UnknownsOf;
   std::vector<std::int64_t> Ids;
+  std::vector<double> Shares;
   std::vector<std::array<int, 3>> Corners;
   std::vector<unsigned char> Collapsed;
   std::vector<unsigned char> IsFree;
