@@ -72,7 +72,7 @@ std::vector<Patch> separate(
   return patches;
 }
 
-// Of the quotient q = area / share of a triangle in the map.
+// What the energy squares, where q = area / share of a triangle in the map.
 double residualOf(double q)
 {
   return q < 1.0 ? q - 1.0 : std::log(q);

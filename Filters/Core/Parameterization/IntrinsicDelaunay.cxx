@@ -134,7 +134,7 @@ private:
     return a + b >= -rounding * (1.0 + std::abs(a) + std::abs(b));
   }
 
-  // As flipEdge does.
+  // Changes the two triangles as flipEdge changes their sides.
   void Flip(std::int64_t side, std::int64_t other)
   {
     const std::int64_t f = side / 3;
