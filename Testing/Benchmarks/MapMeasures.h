@@ -5,7 +5,7 @@
 
 #include "Core/Cartogram/RegionMap.h"
 #include "Core/Overlap/RegionOutlines.h"
-#include "Core/Overlap/RingSweep.h"
+#include "Core/Overlap/RingCrossings.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>

@@ -110,7 +110,7 @@ OTHERS = [
       "value(item) < pivot || &item == items + first"),
     E(CORE + "Flow/WeightedMean.cxx", "begin += «block»", "block + 1"),
     # the bridge
-    E(CORE + "Geometry/ImageGrid.cxx", "grid.SetAxis(i, this->PointExtent[2 * i] + «0.5»", "0.0"),
+    E(CORE + "Geometry/ImageGrid.cxx", "grid.SetAxis(i, this->PointExtent[2 * i] - «0.5 * more»", "0.0"),
     S(BRIDGE + "SiteCells/EqualMassCells.cxx",
       "identity.AddTime(static_cast<std::uint64_t>(sites->vtkObject::GetMTime()));", ";"),
     E(CORE + "SiteCells/SiteCellStatistics.cxx", "statistics.Cost[i] = sum.Cost / «pixels»", "sum.Weight"),

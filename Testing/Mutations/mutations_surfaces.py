@@ -17,12 +17,12 @@ SURFACES = [
     E(CORE + "Parameterization/LocalMap.cxx", "isFree && «(sides >> axis & 1) == 0»", "sides == 0"),
     E(CORE + "Parameterization/AreaPolish.cxx", "«right[m] -= this->Smoothing * value * (a[axis] - b[axis])»",
       "right[m] += this->Smoothing * value * (a[axis] - b[axis])"),
-    E(CORE + "Parameterization/AreaPolish.cxx", "«this->Energy(this->Moved) < before»", "true"),
+    E(CORE + "Parameterization/LocalMap.h", "if («energy(moved) < before»)", "true"),
     S(CORE + "Parameterization/FlipRepair.cxx", "addRing(parts, isIn, points);", ";"),
     E(CORE + "Parameterization/AreaPreservingMap.cxx", "std::clamp(position, «inside», 1.0", "0.0"),
     E(CORE + "Parameterization/AreaPreservingMap.cxx", "map.Distortion.Area95 > «distant»", "1e9"),
     # particles on surfaces
-    E(CORE + "SurfaceSampling/Turn.cxx", "«std::abs(turn) > bound * (std::abs(left) + std::abs(right))»",
+    E(CORE + "Geometry/ExactOrientation.cxx", "«std::abs(turn) > bound * (std::abs(left) + std::abs(right))»",
       "true"),
     E(CORE + "SurfaceSampling/FlatLocator.cxx",
       "return last >= 0.0 && «(first > 0.0 || next > 0.0 || last > 0.0)»", "true"),
@@ -119,7 +119,7 @@ SURFACES = [
     # seams
     E(CORE + "Seams/SeamShortening.cxx", "if («loops.size() == 2»)", "false"),
     E(CORE + "Seams/SeamSearch.cxx", "«neighbours > (joins ? 1 : 0)» ? beside", "false"),
-    E(CORE + "Seams/SeamSearch.cxx", "!path.empty() && «length >= least»;", "true"),
+    E(CORE + "Seams/SeamSearch.cxx", "!path.empty() && «mesh.LengthOf(path) >= least»;", "true"),
     E(CORE + "Seams/SqueezedPoints.cxx", "if («density >= limits.Prominence * pass» &&", "true"),
     E(CORE + "Seams/OpenedComponent.cxx", "best = «last->Unevenness < best->Unevenness» ?", "false"),
     E(CORE + "Seams/OpenedComponent.cxx", "if («unevenness < opened.Unevenness»)", "true"),

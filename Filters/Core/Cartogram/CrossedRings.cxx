@@ -3,7 +3,7 @@
 // between two crossings has the region on its left, on its right, or on neither side alone.
 #include "Core/Cartogram/RegionMap.h"
 #include "Core/Overlap/RegionOutlines.h"
-#include "Core/Overlap/RingSweep.h"
+#include "Core/Overlap/RingCrossings.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>

@@ -127,28 +127,23 @@ ImageGrid ImageGrid::Grown(const std::array<std::int64_t, 3>& cells) const
 
 ImageGrid ImageGrid::AtCellCentres() const
 {
-  ImageGrid grid = *this;
-  grid.OnPoints = true;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    if (this->IsAxis(i))
-    {
-      grid.SetAxis(i, this->PointExtent[2 * i] + 0.5, this->NumberOfPoints()[i] - 1);
-    }
-  }
-  grid.FindCells();
-  return grid;
+  return this->WithMorePoints(-1, true);
 }
 
 ImageGrid ImageGrid::WithDualCells() const
 {
+  return this->WithMorePoints(1, false);
+}
+
+ImageGrid ImageGrid::WithMorePoints(int more, bool onPoints) const
+{
   ImageGrid grid = *this;
-  grid.OnPoints = false;
+  grid.OnPoints = onPoints;
   for (std::size_t i = 0; i < 3; ++i)
   {
     if (this->IsAxis(i))
     {
-      grid.SetAxis(i, this->PointExtent[2 * i] - 0.5, this->NumberOfPoints()[i] + 1);
+      grid.SetAxis(i, this->PointExtent[2 * i] - 0.5 * more, this->NumberOfPoints()[i] + more);
     }
   }
   grid.FindCells();

@@ -188,6 +188,8 @@ public:
   }
 
 private:
+  // The image with half as many more points, or fewer, at each end of its axes.
+  ImageGrid WithMorePoints(int more, bool onPoints) const;
   // Gives an axis `points` points. The first is at an index that need not be an integer.
   void SetAxis(std::size_t axis, double first, int points);
   void FindCells();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far points in space lie apart and from the origin.
+// How far points lie apart and from the origin.
 #ifndef RectifiedTransport_PointBounds_h
 #define RectifiedTransport_PointBounds_h
 
@@ -14,13 +14,14 @@
 namespace RectifiedTransport
 {
 
-struct PointBounds
+template <int Dimension>
+struct Bounds
 {
   void Add(const double* x) { this->Add(x, x); }
-  void Add(const PointBounds& other) { this->Add(other.Low.data(), other.High.data()); }
+  void Add(const Bounds& other) { this->Add(other.Low.data(), other.High.data()); }
   void Add(const double* low, const double* high)
   {
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
     {
       this->Low[axis] = std::min(this->Low[axis], low[axis]);
       this->High[axis] = std::max(this->High[axis], high[axis]);
@@ -32,17 +33,23 @@ struct PointBounds
   std::size_t Longest() const
   {
     std::size_t longest = 0;
-    for (std::size_t axis = 1; axis < 3; ++axis)
+    for (std::size_t axis = 1; axis < Dimension; ++axis)
     {
       longest = this->Length(axis) > this->Length(longest) ? axis : longest;
     }
     return longest;
   }
 
-  static constexpr double most = std::numeric_limits<double>::infinity();
-  Point<3> Low{ most, most, most };
-  Point<3> High{ -most, -most, -most };
+  static Point<Dimension> filled(double value)
+  {
+    Point<Dimension> point;
+    point.fill(value);
+    return point;
+  }
+  Point<Dimension> Low = filled(std::numeric_limits<double>::infinity());
+  Point<Dimension> High = filled(-std::numeric_limits<double>::infinity());
 };
+using PointBounds = Bounds<3>;
 
 // The largest coordinate of points, without its sign; 0 if there are none.
 inline double largestCoordinate(ConstPointSpan<3> points)

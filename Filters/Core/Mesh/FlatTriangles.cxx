@@ -172,7 +172,7 @@ private:
     return false;
   }
 
-  // As flipEdge does.
+  // Changes the two triangles as flipEdge changes their sides.
   void Flip(std::int64_t side, std::int64_t other)
   {
     const std::int64_t f = side / 3;

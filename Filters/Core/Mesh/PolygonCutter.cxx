@@ -5,7 +5,6 @@
 #include "Core/Geometry/Vectors.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>

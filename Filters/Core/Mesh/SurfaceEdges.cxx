@@ -4,7 +4,6 @@
 #include "Core/Mesh/EdgeSides.h"
 #include "Core/Parallel/Progress.h"
 
-#include <algorithm>
 #include <array>
 
 namespace RectifiedTransport

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Overlap/EdgeCrossings.h"
 
-#include "Core/Overlap/RingSweep.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef RectifiedTransport_MonotoneStrips_h
 #define RectifiedTransport_MonotoneStrips_h
 
-#include "Core/Overlap/ExactOrientation.h"
+#include "Core/Geometry/ExactOrientation.h"
 
 #include <array>
 #include <cstdint>

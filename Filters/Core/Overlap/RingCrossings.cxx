@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Overlap/RingCrossings.h"
 
+#include "Core/Geometry/PointBounds.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
@@ -21,13 +22,7 @@ constexpr std::size_t dividedAgain = 384; // edges of a bin
 constexpr int mostDivisions = 4;
 constexpr double recordsPerEdge = 4.0; // about
 
-struct Box
-{
-  Point<2> Low;
-  Point<2> High;
-
-  double Length(int axis) const { return this->High[axis] - this->Low[axis]; }
-};
+using Box = Bounds<2>;
 
 class CrossingSearch
 {
@@ -210,17 +205,17 @@ private:
   // The bounds of what edges have within a box.
   Box BoxWithin(const Box& box, const std::int32_t* edges, std::size_t count) const
   {
-    Box within{ box.High, box.Low };
+    Box within;
     for (std::size_t i = 0; i < count; ++i)
     {
       for (const std::int64_t end : { std::int64_t{ edges[i] }, this->All.Next(edges[i]) })
       {
-        for (int a = 0; a < 2; ++a)
+        Point<2> x = this->All.At(end);
+        for (std::size_t a = 0; a < 2; ++a)
         {
-          const double x = std::clamp(this->All.At(end)[a], box.Low[a], box.High[a]);
-          within.Low[a] = std::min(within.Low[a], x);
-          within.High[a] = std::max(within.High[a], x);
+          x[a] = std::clamp(x[a], box.Low[a], box.High[a]);
         }
+        within.Add(x.data());
       }
     }
     return within;
@@ -285,12 +280,11 @@ private:
       this->GatherFans(edges, count);
       edges = this->Gathered.data();
     }
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     for (std::vector<double>& values : this->Ends)
     {
       values.resize((count + lanes - 1) / lanes * lanes);
     }
-    Box box{ { infinity, infinity }, { -infinity, -infinity } };
+    Box box;
     for (std::size_t i = 0; i < this->Ends[0].size(); ++i)
     {
       const std::int32_t edge = edges[std::min(i, count - 1)];
@@ -300,9 +294,9 @@ private:
       {
         this->Ends[static_cast<std::size_t>(axis)][i] = a[axis];
         this->Ends[static_cast<std::size_t>(2 + axis)][i] = b[axis];
-        box.Low[axis] = std::min({ box.Low[axis], a[axis], b[axis] });
-        box.High[axis] = std::max({ box.High[axis], a[axis], b[axis] });
       }
+      box.Add(a.data());
+      box.Add(b.data());
     }
     const double extent = std::max(box.Length(0), box.Length(1));
     for (std::size_t i = 0; i + 1 < count && !this->ShouldStop(); ++i)
@@ -423,17 +417,12 @@ std::vector<EdgePair> findCrossings(const Rings& rings, Progress& progress, bool
   {
     return {};
   }
-  Box box{ rings.At(0), rings.At(0) };
+  Box box;
   std::vector<std::int32_t> edges;
   edges.reserve(static_cast<std::size_t>(rings.Edges()));
   for (std::int64_t i = 0; i < rings.Edges(); ++i)
   {
-    const Point<2>& x = rings.At(i);
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      box.Low[axis] = std::min(box.Low[axis], x[axis]);
-      box.High[axis] = std::max(box.High[axis], x[axis]);
-    }
+    box.Add(rings.At(i).data());
     edges.push_back(static_cast<std::int32_t>(i));
   }
   CrossingSearch search(rings, progress, atEnds);

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_RingCrossings_h
 #define RectifiedTransport_RingCrossings_h
 
-#include "Core/Overlap/ExactOrientation.h"
+#include "Core/Geometry/ExactOrientation.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -52,6 +52,11 @@ struct EdgePair
 // lengths lie close together. Incomplete if `progress` is cancelled. `atEnds`: also of edges that
 // end in one place, which may be many.
 std::vector<EdgePair> findCrossings(const Rings& rings, Progress& progress, bool atEnds = true);
+
+// Whether edges cross at all; mostly they do not. In O(n log n) for any rings, by a line that
+// sweeps the plane upwards (Shamos and Hoey 1976). Touching edges are treated as in findCrossings.
+// Undefined if `progress` is cancelled.
+bool haveCrossings(const Rings& rings, Progress& progress);
 
 } // namespace RectifiedTransport
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Overlap/RingSweep.h"
+#include "Core/Overlap/RingCrossings.h"
 
 #include "Core/Overlap/EdgeOrder.h"
 #include "Core/Parallel/Progress.h"
@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <utility>
 #include <vector>
 

@@ -67,6 +67,14 @@ public:
 
   // Polls for cancellation. Throws Cancelled.
   void Check();
+  // The same before number i of a loop, once in so many numbers.
+  void CheckEvery(std::int64_t interval, std::int64_t i)
+  {
+    if (i % interval == 0)
+    {
+      this->Check();
+    }
+  }
 
   // For range kernels, on any thread: polls for cancellation, one thread at a time. EndSlice then
   // throws.

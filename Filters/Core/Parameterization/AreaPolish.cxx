@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Parameterization/AreaPolish.h"
+#include "Core/Parameterization/MapPolish.h"
 
 #include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/MapRegions.h"
@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace RectifiedTransport
 {
@@ -54,7 +53,6 @@ public:
   {
     for (std::size_t t = 0; t < map.NumberOfTriangles(); ++t)
     {
-      this->Shares.push_back(parts.Disk.AreaShare(map.IdOf(t)));
       this->Weights.push_back(cotangentsOf(parts.Disk, map.IdOf(t)));
     }
   }
@@ -101,8 +99,9 @@ private:
 
   double WeightOf(std::size_t triangle) const
   {
-    return this->Map.IsCollapsed(triangle) ? 0.0
-                                           : 1.0 / std::max(this->Shares[triangle], leastShare);
+    return this->Map.IsCollapsed(triangle)
+      ? 0.0
+      : 1.0 / std::max(this->Map.ShareOf(triangle), leastShare);
   }
 
   double Energy(const std::vector<Point<2>>& positions) const
@@ -110,7 +109,7 @@ private:
     double energy = 0.0;
     for (std::size_t t = 0; t < this->Map.NumberOfTriangles(); ++t)
     {
-      const double missing = this->Map.AreaOf(t, positions) - this->Shares[t];
+      const double missing = this->Map.AreaOf(t, positions) - this->Map.ShareOf(t);
       energy += this->WeightOf(t) * missing * missing;
       for (std::size_t i = 0; this->Smoothing > 0.0 && i < 3; ++i)
       {
@@ -133,7 +132,7 @@ private:
     {
       const TriangleVector gradient = this->Map.AreaGradient(t);
       const double weight = this->WeightOf(t);
-      const double missing = this->Map.AreaOf(t, positions) - this->Shares[t];
+      const double missing = this->Map.AreaOf(t, positions) - this->Map.ShareOf(t);
       TriangleMatrix matrix;
       TriangleVector right;
       for (std::size_t i = 0; i < 6; ++i)
@@ -179,7 +178,7 @@ private:
     for (std::size_t t = 0; t < this->Map.NumberOfTriangles(); ++t)
     {
       const double area = this->Map.AreaOf(t, positions);
-      if (area <= healthy * this->Shares[t])
+      if (area <= healthy * this->Map.ShareOf(t))
       {
         continue;
       }
@@ -213,34 +212,26 @@ private:
     constexpr double harder = 4.0;
     constexpr double leastDamping = 1e-4;
     constexpr double fade = 0.3; // of the smoothing
-    const double before = this->Energy(this->Map.Positions());
-    double step = this->LargestStep(solution);
-    for (int i = 0; i < halvings; ++i)
+    const double step = this->Map.Descend(solution, this->LargestStep(solution), halvings,
+      [this](const std::vector<Point<2>>& positions) { return this->Energy(positions); });
+    if (step == 0.0)
     {
-      this->Map.Move(solution, step, this->Moved);
-      if (this->Energy(this->Moved) < before)
-      {
-        this->Map.Accept(this->Moved);
-        if (step < 0.24)
-        {
-          this->Damping *= harder;
-        }
-        else if (step > 0.99)
-        {
-          this->Damping = std::max(leastDamping, easier * this->Damping);
-        }
-        this->Smoothing *= fade;
-        return;
-      }
-      step *= 0.5;
+      this->Damping *= 10.0;
+      return;
     }
-    this->Damping *= 10.0;
+    if (step < 0.24)
+    {
+      this->Damping *= harder;
+    }
+    else if (step > 0.99)
+    {
+      this->Damping = std::max(leastDamping, easier * this->Damping);
+    }
+    this->Smoothing *= fade;
   }
 
   LocalMap& Map;
-  std::vector<double> Shares;
   std::vector<Cotangents> Weights;
-  std::vector<Point<2>> Moved;
   double Damping;
   double Smoothing;
 };

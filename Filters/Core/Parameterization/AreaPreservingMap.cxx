@@ -4,15 +4,13 @@
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"
-#include "Core/Parameterization/AreaPolish.h"
-#include "Core/Parameterization/FlipRepair.h"
+#include "Core/Parameterization/MapPolish.h"
 #include "Core/Parameterization/MassRaster.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace RectifiedTransport
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Parameterization/FlipRepair.h"
+#include "Core/Parameterization/MapPolish.h"
 
 #include "Core/Parallel/Progress.h"
 
@@ -72,127 +72,92 @@ std::vector<Patch> separate(
   return patches;
 }
 
-class PatchRepair
+// What the energy squares, where q = area / share of a triangle in the map.
+double residualOf(double q)
 {
-public:
-  PatchRepair(const MapParts& parts, LocalMap& map)
-    : Map(map)
+  return q < 1.0 ? q - 1.0 : std::log(q);
+}
+
+std::int64_t countFlipped(const LocalMap& map)
+{
+  std::int64_t count = 0;
+  for (std::size_t t = 0; t < map.NumberOfTriangles(); ++t)
   {
-    for (std::size_t t = 0; t < map.NumberOfTriangles(); ++t)
+    count += map.IsCollapsed(t) || map.AreaOf(t, map.Positions()) > 0.0 ? 0 : 1;
+  }
+  return count;
+}
+
+double energyOf(const LocalMap& map, const std::vector<Point<2>>& positions)
+{
+  double energy = 0.0;
+  for (std::size_t t = 0; t < map.NumberOfTriangles(); ++t)
+  {
+    if (!map.IsCollapsed(t))
     {
-      this->Shares.push_back(parts.Disk.AreaShare(map.IdOf(t)));
+      const double residual = residualOf(map.AreaOf(t, positions) / map.ShareOf(t));
+      energy += residual * residual;
     }
   }
+  return energy;
+}
 
-  // Whether fewer triangles are flipped.
-  bool Run(Progress& progress)
+void assemble(const LocalMap& map, LocalSystem& system)
+{
+  system.Clear();
+  for (std::size_t t = 0; t < map.NumberOfTriangles(); ++t)
   {
-    if (this->Map.NumberOfUnknowns() == 0)
+    if (map.IsCollapsed(t))
     {
-      return false;
+      continue;
     }
-    const std::int64_t before = this->CountFlipped();
-    LocalSystem system = this->Map.MakeSystem();
-    std::vector<double> solution;
-    double damping = 1e-3;
-    constexpr double mostDamping = 1e6;
-    for (int i = 0; i < mostSteps && (damping < mostDamping) && (this->CountFlipped() > 0); ++i)
+    const double q = map.AreaOf(t, map.Positions()) / map.ShareOf(t);
+    const double slope = (q < 1.0 ? 1.0 : 1.0 / q) / map.ShareOf(t);
+    TriangleVector gradient = map.AreaGradient(t);
+    TriangleVector right;
+    for (std::size_t i = 0; i < 6; ++i)
     {
-      this->Assemble(system);
-      system.Damp(damping);
-      constexpr double less = 1.0 / 3.0;
-      constexpr double leastDamping = 1e-6;
-      damping = system.Solve(solution, progress) && this->Step(solution)
-        ? std::max(leastDamping, less * damping)
-        : 10.0 * damping;
+      gradient[i] *= slope;
+      right[i] = -residualOf(q) * gradient[i];
     }
-    return this->CountFlipped() < before;
-  }
-
-private:
-  double QuotientOf(std::size_t t, const std::vector<Point<2>>& positions) const
-  {
-    return this->Map.AreaOf(t, positions) / this->Shares[t];
-  }
-
-  std::int64_t CountFlipped() const
-  {
-    std::int64_t count = 0;
-    for (std::size_t t = 0; t < this->Shares.size(); ++t)
+    TriangleMatrix matrix;
+    for (std::size_t i = 0; i < 6; ++i)
     {
-      count += this->Map.IsCollapsed(t) || this->Map.AreaOf(t, this->Map.Positions()) > 0.0 ? 0 : 1;
-    }
-    return count;
-  }
-
-  double Energy(const std::vector<Point<2>>& positions) const
-  {
-    double energy = 0.0;
-    for (std::size_t t = 0; t < this->Shares.size(); ++t)
-    {
-      if (!this->Map.IsCollapsed(t))
+      for (std::size_t j = 0; j < 6; ++j)
       {
-        const double q = this->QuotientOf(t, positions);
-        const double residual = q < 1.0 ? q - 1.0 : std::log(q);
-        energy += residual * residual;
+        matrix[i][j] = gradient[i] * gradient[j];
       }
     }
-    return energy;
+    system.Add(t, matrix, right);
   }
+}
 
-  void Assemble(LocalSystem& system) const
+// Returns whether fewer triangles of a patch are flipped then.
+bool repairPatch(LocalMap& map, Progress& progress)
+{
+  constexpr double mostDamping = 1e6;
+  constexpr double leastDamping = 1e-6;
+  constexpr double less = 1.0 / 3.0;
+  constexpr int halvings = 8;
+  if (map.NumberOfUnknowns() == 0)
   {
-    system.Clear();
-    for (std::size_t t = 0; t < this->Shares.size(); ++t)
-    {
-      if (this->Map.IsCollapsed(t))
-      {
-        continue;
-      }
-      const double q = this->QuotientOf(t, this->Map.Positions());
-      const double residual = q < 1.0 ? q - 1.0 : std::log(q);
-      const double slope = (q < 1.0 ? 1.0 : 1.0 / q) / this->Shares[t];
-      TriangleVector gradient = this->Map.AreaGradient(t);
-      TriangleVector right;
-      for (std::size_t i = 0; i < 6; ++i)
-      {
-        gradient[i] *= slope;
-        right[i] = -residual * gradient[i];
-      }
-      TriangleMatrix matrix;
-      for (std::size_t i = 0; i < 6; ++i)
-      {
-        for (std::size_t j = 0; j < 6; ++j)
-        {
-          matrix[i][j] = gradient[i] * gradient[j];
-        }
-      }
-      system.Add(t, matrix, right);
-    }
-  }
-
-  bool Step(const std::vector<double>& solution)
-  {
-    constexpr int halvings = 8;
-    const double before = this->Energy(this->Map.Positions());
-    double step = 1.0;
-    for (int i = 0; i < halvings; ++i)
-    {
-      this->Map.Move(solution, step, this->Moved);
-      if (this->Energy(this->Moved) < before)
-      {
-        this->Map.Accept(this->Moved);
-        return true;
-      }
-      step *= 0.5;
-    }
     return false;
   }
-
-  LocalMap& Map;
-  std::vector<double> Shares;
-  std::vector<Point<2>> Moved;
-};
+  const std::int64_t before = countFlipped(map);
+  const auto energy = [&map](const std::vector<Point<2>>& moved) { return energyOf(map, moved); };
+  LocalSystem system = map.MakeSystem();
+  std::vector<double> solution;
+  double damping = 1e-3;
+  for (int i = 0; i < mostSteps && damping < mostDamping && countFlipped(map) > 0; ++i)
+  {
+    assemble(map, system);
+    system.Damp(damping);
+    const bool isBetter =
+      system.Solve(solution, progress) && map.Descend(solution, 1.0, halvings, energy) > 0.0;
+    damping = isBetter ? std::max(leastDamping, less * damping) : 10.0 * damping;
+  }
+  return countFlipped(map) < before;
+}
 
 } // namespace
 
@@ -229,7 +194,7 @@ void repairFlips(
       if (patch.size() <= largestPatch)
       {
         LocalMap map(parts, patch, positions);
-        if (PatchRepair(parts, map).Run(progress))
+        if (repairPatch(map, progress))
         {
           map.Store(positions);
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Parameterization/IntrinsicDelaunay.h"
 
+#include "Core/Mesh/SurfaceEdges.h"
 #include "Core/Parallel/Progress.h"
 
 #include <Eigen/Core>
@@ -133,8 +134,7 @@ private:
     return a + b >= -rounding * (1.0 + std::abs(a) + std::abs(b));
   }
 
-  // The edge from a to b, of the triangles a b c and b a d, becomes the one from c to d: their
-  // triangles become c a d and d b c.
+  // Changes the two triangles as flipEdge changes their sides.
   void Flip(std::int64_t side, std::int64_t other)
   {
     const std::int64_t f = side / 3;
@@ -157,38 +157,11 @@ private:
     const double dy = -areaTimesFour({ ab, ad, db }) / (2.0 * ab);
     const double cd = std::hypot(cx - dx, cy - dy);
 
-    const auto place = [](std::int64_t t, std::size_t k) {
-      return 3 * t + static_cast<std::int64_t>(k % 3);
-    };
-    // What the outer sides meet; a side of these two triangles has a new number.
-    const auto renamed = [&](std::int64_t met) {
-      return met == place(f, i + 1) ? place(g, 1)
-        : met == place(f, i + 2)    ? place(f, 0)
-        : met == place(g, j + 1)    ? place(f, 1)
-        : met == place(g, j + 2)    ? place(g, 0)
-                                    : met;
-    };
-    std::int64_t* others = this->Others.data();
-    const std::int64_t alongCA = renamed(others[place(f, i + 2)]);
-    const std::int64_t alongAD = renamed(others[place(g, j + 1)]);
-    const std::int64_t alongDB = renamed(others[place(g, j + 2)]);
-    const std::int64_t alongBC = renamed(others[place(f, i + 1)]);
+    flipEdge(this->Others.data(), side, other);
     this->Points(f) = { c, a, d };
     this->Lengths(f) = { ca, ad, cd };
     this->Points(g) = { d, b, c };
     this->Lengths(g) = { db, bc, cd };
-    const auto join = [others](std::int64_t one, std::int64_t two) {
-      others[one] = two;
-      if (two >= 0)
-      {
-        others[two] = one;
-      }
-    };
-    join(place(f, 0), alongCA);
-    join(place(f, 1), alongAD);
-    join(place(f, 2), place(g, 2));
-    join(place(g, 0), alongDB);
-    join(place(g, 1), alongBC);
   }
 
   IntrinsicTriangles& Triangles;

@@ -98,6 +98,7 @@ LocalMap::LocalMap(const MapParts& parts, const std::vector<std::int64_t>& point
       corners[i] = static_cast<int>(
         std::lower_bound(this->Points.begin(), this->Points.end(), point) - this->Points.begin());
     }
+    this->Shares.push_back(parts.Disk.AreaShare(id));
     this->Corners.push_back(corners);
     this->Collapsed.push_back(isCollapsed(parts.Disk, parts.Square, id));
   }

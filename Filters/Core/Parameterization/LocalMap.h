@@ -92,6 +92,8 @@ public:
   std::size_t NumberOfTriangles() const { return this->Corners.size(); }
   // The triangle's number in the disk.
   std::int64_t IdOf(std::size_t triangle) const { return this->Ids[triangle]; }
+  // Its share of the surface's area.
+  double ShareOf(std::size_t triangle) const { return this->Shares[triangle]; }
   const std::array<int, 3>& CornersOf(std::size_t triangle) const
   {
     return this->Corners[triangle];
@@ -111,18 +113,38 @@ public:
   }
   // The derivatives of a triangle's area by the coordinates of its corners.
   TriangleVector AreaGradient(std::size_t triangle) const;
-  // Positions moved by `step` times a solution, kept in the square.
-  void Move(const std::vector<double>& solution, double step, std::vector<Point<2>>& moved) const;
   // The displacement of a corner by a solution.
   Point<2> MoveOf(int corner, const std::vector<double>& solution) const;
-  void Accept(const std::vector<Point<2>>& positions) { this->Current = positions; }
+  // Moves by the first of a step and its halves at which energy(positions) is less. Returns the
+  // step; 0 if none of `halvings` steps is such.
+  template <class Energy>
+  double Descend(
+    const std::vector<double>& solution, double step, int halvings, const Energy& energy)
+  {
+    const double before = energy(this->Current);
+    std::vector<Point<2>> moved;
+    for (int i = 0; i < halvings; ++i, step *= 0.5)
+    {
+      this->Move(solution, step, moved);
+      if (energy(moved) < before)
+      {
+        this->Current = std::move(moved);
+        return step;
+      }
+    }
+    return 0.0;
+  }
   // Writes the positions of the points that may move.
   void Store(std::vector<Point<2>>& positions) const;
 
 private:
+  // Positions moved by `step` times a solution, kept in the square.
+  void Move(const std::vector<double>& solution, double step, std::vector<Point<2>>& moved) const;
+
   std::vector<std::int64_t> Points; // by corners
   std::vector<std::array<int, 2>> UnknownsOf;
   std::vector<std::int64_t> Ids;
+  std::vector<double> Shares;
   std::vector<std::array<int, 3>> Corners;
   std::vector<unsigned char> Collapsed;
   std::vector<unsigned char> IsFree;

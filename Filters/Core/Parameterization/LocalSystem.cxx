@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Parameterization/LocalSystem.h"
 
+#include "Core/Geometry/Bins.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -36,43 +38,29 @@ LocalSystem::LocalSystem(std::vector<TriangleUnknowns> triangles, int unknowns)
   , Matrix(unknowns, unknowns)
   , Right(unknowns)
 {
-  // The rows of each column: a counting sort, then without repetitions.
-  std::vector<int> first(static_cast<std::size_t>(unknowns) + 1, 0);
-  const auto visitAll = [this](const auto& visit) {
+  // The rows of each column, each once.
+  Bins<int> rows;
+  rows.Fill(static_cast<std::size_t>(unknowns), [this](const auto& add) {
     for (const TriangleUnknowns& triangle : this->Triangles)
     {
       visitPairs(triangle,
-        [&](int row, int column, auto...) { visit(row, static_cast<std::size_t>(column)); });
+        [&](int row, int column, auto...) { add(static_cast<std::size_t>(column), row); });
     }
-  };
-  visitAll([&](int, std::size_t column) { ++first[column + 1]; });
-  for (std::size_t column = 1; column < first.size(); ++column)
-  {
-    first[column] += first[column - 1];
-  }
-  std::vector<int> rows(static_cast<std::size_t>(first.back()));
-  std::vector<int> next(first.begin(), first.end() - 1);
-  visitAll(
-    [&](int row, std::size_t column) { rows[static_cast<std::size_t>(next[column]++)] = row; });
-  int count = 0;
+  });
+  std::vector<int> once;
   int* outer = this->Matrix.outerIndexPtr();
   outer[0] = 0;
-  for (std::size_t column = 0; column + 1 < first.size(); ++column)
+  for (int column = 0; column < unknowns; ++column)
   {
-    const auto begin = rows.begin() + first[column];
-    const auto end = rows.begin() + first[column + 1];
-    std::sort(begin, end);
-    for (auto row = begin; row < end; ++row)
-    {
-      if (row == begin || *row != row[-1])
-      {
-        rows[static_cast<std::size_t>(count++)] = *row; // not past the place that is read
-      }
-    }
-    outer[column + 1] = count;
+    const auto all = rows[static_cast<std::size_t>(column)];
+    const auto begin = once.insert(once.end(), all.begin(), all.end());
+    std::sort(begin, once.end());
+    once.erase(std::unique(begin, once.end()), once.end());
+    outer[column + 1] = static_cast<int>(once.size());
   }
+  const int count = outer[unknowns];
   this->Matrix.resizeNonZeros(count);
-  std::copy_n(rows.begin(), count, this->Matrix.innerIndexPtr());
+  std::copy_n(once.begin(), count, this->Matrix.innerIndexPtr());
   std::fill_n(this->Matrix.valuePtr(), count, InterruptibleReal(0.0));
 
   const int* inner = this->Matrix.innerIndexPtr();

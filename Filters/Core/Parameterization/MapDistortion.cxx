@@ -110,22 +110,17 @@ MapDistortion measureDistortion(
   Progress progress(context);
   std::vector<std::pair<double, double>> deviations(static_cast<std::size_t>(count));
   Stages stages(progress, { { "sums", 1 }, { "quantiles", 1 } });
-  const Sums sums = reduceChunks(
+  const Sums sums = reduceEach(
     stages["sums"], count, grain, Sums{ 0.0, 0.0, 0, 0 },
-    [&](std::int64_t first, std::int64_t last) {
-      Sums part{ 0.0, 0.0, 0, 0 };
-      for (std::int64_t t = first; t < last; ++t)
-      {
-        const TriangleDistortion distortion = distortionOf(triangles, positions, t);
-        const double weight = triangles.AreaShares[t];
-        const double deviation = std::abs(distortion.Area - 1.0);
-        deviations[static_cast<std::size_t>(t)] = { deviation, weight };
-        part.Square += weight * deviation * deviation;
-        part.Angle += weight * distortion.Angle;
-        part.Flipped += distortion.IsFlipped ? 1 : 0;
-        part.FlippedNeedles += distortion.IsFlipped && isNeedle(triangles.Surface, t) ? 1 : 0;
-      }
-      return part;
+    [&](std::int64_t t, Sums& part) {
+      const TriangleDistortion distortion = distortionOf(triangles, positions, t);
+      const double weight = triangles.AreaShares[t];
+      const double deviation = std::abs(distortion.Area - 1.0);
+      deviations[static_cast<std::size_t>(t)] = { deviation, weight };
+      part.Square += weight * deviation * deviation;
+      part.Angle += weight * distortion.Angle;
+      part.Flipped += distortion.IsFlipped ? 1 : 0;
+      part.FlippedNeedles += distortion.IsFlipped && isNeedle(triangles.Surface, t) ? 1 : 0;
     },
     [](const Sums& a, const Sums& b) {
       return Sums{ a.Square + b.Square, a.Angle + b.Angle, a.Flipped + b.Flipped,

@@ -13,62 +13,54 @@ namespace RectifiedTransport
 namespace
 {
 
-using Iterator = std::vector<std::int64_t>::iterator;
-
-class RegionTree
+// Points [First, Last) of an order, after so many cuts.
+struct Cell
 {
-public:
-  RegionTree(ConstPointSpan<2> positions, std::int64_t most, int variant)
-    : Positions(positions)
-    , Most(most)
-    , Variant(variant)
-  {
-  }
-
-  std::vector<MapRegion> Cut()
-  {
-    std::vector<std::int64_t> points(static_cast<std::size_t>(this->Positions.size()));
-    std::iota(points.begin(), points.end(), std::int64_t{ 0 });
-    this->Split(points.begin(), points.end(), 0);
-    return std::move(this->Regions);
-  }
-
-private:
-  void Split(Iterator begin, Iterator end, int depth)
-  {
-    if (end - begin <= this->Most)
-    {
-      this->Regions.emplace_back(begin, end);
-      std::sort(this->Regions.back().begin(), this->Regions.back().end());
-      return;
-    }
-    constexpr std::array<double, 4> parts{ 0.5, 0.38, 0.62, 0.44 };
-    constexpr int varied = 2; // levels
-    const double part =
-      depth < varied ? parts[static_cast<std::size_t>(this->Variant) % parts.size()] : 0.5;
-    const int axis = (depth + this->Variant) % 2;
-    const Iterator middle =
-      begin + static_cast<std::ptrdiff_t>(static_cast<double>(end - begin) * part);
-    std::nth_element(begin, middle, end, [this, axis](std::int64_t a, std::int64_t b) {
-      return std::make_pair(this->Positions[a][axis], a) <
-        std::make_pair(this->Positions[b][axis], b);
-    });
-    this->Split(begin, middle, depth + 1);
-    this->Split(middle, end, depth + 1);
-  }
-
-  const ConstPointSpan<2> Positions;
-  const std::int64_t Most;
-  const int Variant;
-  std::vector<MapRegion> Regions;
+  std::ptrdiff_t First;
+  std::ptrdiff_t Last;
+  int Depth;
 };
+
+std::vector<MapRegion> cutRegions(ConstPointSpan<2> positions, std::int64_t most, int variant)
+{
+  constexpr std::array<double, 4> parts{ 0.5, 0.38, 0.62, 0.44 };
+  constexpr int varied = 2; // levels
+  std::vector<std::int64_t> points(static_cast<std::size_t>(positions.size()));
+  std::iota(points.begin(), points.end(), std::int64_t{ 0 });
+  std::vector<MapRegion> regions;
+  std::vector<Cell> left{ { 0, static_cast<std::ptrdiff_t>(points.size()), 0 } };
+  while (!left.empty())
+  {
+    const Cell cell = left.back();
+    left.pop_back();
+    const auto begin = points.begin() + cell.First;
+    const auto end = points.begin() + cell.Last;
+    if (end - begin <= most)
+    {
+      regions.emplace_back(begin, end);
+      std::sort(regions.back().begin(), regions.back().end());
+      continue;
+    }
+    const double part =
+      cell.Depth < varied ? parts[static_cast<std::size_t>(variant) % parts.size()] : 0.5;
+    const int axis = (cell.Depth + variant) % 2;
+    const auto middle =
+      begin + static_cast<std::ptrdiff_t>(static_cast<double>(end - begin) * part);
+    std::nth_element(begin, middle, end, [&](std::int64_t a, std::int64_t b) {
+      return std::make_pair(positions[a][axis], a) < std::make_pair(positions[b][axis], b);
+    });
+    left.push_back({ middle - points.begin(), cell.Last, cell.Depth + 1 });
+    left.push_back({ cell.First, middle - points.begin(), cell.Depth + 1 });
+  }
+  return regions;
+}
 
 } // namespace
 
 std::vector<std::vector<MapRegion>> makeRegions(
   const DiskMesh& disk, ConstPointSpan<2> positions, std::int64_t most, int variant)
 {
-  std::vector<MapRegion> regions = RegionTree(positions, most, variant).Cut();
+  std::vector<MapRegion> regions = cutRegions(positions, most, variant);
   std::vector<std::size_t> regionOf(static_cast<std::size_t>(positions.size()));
   for (std::size_t region = 0; region < regions.size(); ++region)
   {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Parameterization/MassRaster.h"
 
+#include "Core/Geometry/Bins.h"
 #include "Core/Parallel/Stages.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 namespace RectifiedTransport
 {
@@ -160,13 +160,11 @@ private:
     return point;
   }
 
-  // A counting sort by bands: in each, triangles keep their order, so that the sums of a cell do.
+  // In each band triangles keep their order, so that the sums of a cell do.
   void ListTriangles()
   {
-    const std::int64_t count = this->Triangles.NumberOfTriangles;
-    this->First.assign(static_cast<std::size_t>(this->Bands) + 1, 0);
-    const auto visit = [&](const auto& add) {
-      for (std::int64_t triangle = 0; triangle < count; ++triangle)
+    this->Listed.Fill(static_cast<std::size_t>(this->Bands), [this](const auto& add) {
+      for (std::int64_t triangle = 0; triangle < this->Triangles.NumberOfTriangles; ++triangle)
       {
         const auto bands = this->BandsOf(triangle);
         for (std::int64_t band = bands[0]; band <= bands[1]; ++band)
@@ -174,16 +172,6 @@ private:
           add(static_cast<std::size_t>(band), triangle);
         }
       }
-    };
-    visit([this](std::size_t band, std::int64_t) { ++this->First[band + 1]; });
-    for (std::size_t band = 1; band < this->First.size(); ++band)
-    {
-      this->First[band] += this->First[band - 1];
-    }
-    this->Listed.resize(static_cast<std::size_t>(this->First.back()));
-    std::vector<std::int64_t> next(this->First.begin(), this->First.end() - 1);
-    visit([&](std::size_t band, std::int64_t triangle) {
-      this->Listed[static_cast<std::size_t>(next[band]++)] = triangle;
     });
   }
 
@@ -192,10 +180,9 @@ private:
     const std::int64_t firstRow = band * bandRows;
     const std::int64_t endRow = std::min(firstRow + bandRows, this->Size[1]);
     std::fill(this->Masses + firstRow * this->Size[0], this->Masses + endRow * this->Size[0], 0.0);
-    for (std::int64_t i = this->First[static_cast<std::size_t>(band)];
-         i < this->First[static_cast<std::size_t>(band) + 1]; ++i)
+    for (const std::int64_t triangle : this->Listed[static_cast<std::size_t>(band)])
     {
-      this->AddTriangle(this->Listed[static_cast<std::size_t>(i)], firstRow, endRow);
+      this->AddTriangle(triangle, firstRow, endRow);
     }
   }
 
@@ -262,8 +249,7 @@ private:
   const GridSize<2> Size;
   double* const Masses;
   const std::int64_t Bands;
-  std::vector<std::int64_t> First; // in Listed, by bands
-  std::vector<std::int64_t> Listed;
+  Bins<std::int64_t> Listed; // by bands
 };
 
 } // namespace

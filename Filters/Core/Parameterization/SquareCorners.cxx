@@ -151,6 +151,13 @@ bool hasCorner(const BoundaryPlaces& places, const BoundaryArc& arc, const Corne
     [&](std::int64_t corner) { return contains(places, arc, corner); });
 }
 
+std::ptrdiff_t countMissed(
+  const BoundaryPlaces& places, const std::vector<BoundaryArc>& arcs, const CornerPlaces& corners)
+{
+  return std::count_if(arcs.begin(), arcs.end(),
+    [&](const BoundaryArc& arc) { return !hasCorner(places, arc, corners); });
+}
+
 // Whether an arc would have no corner without corner `q`.
 bool isNeeded(const BoundaryPlaces& places, const std::vector<BoundaryArc>& arcs,
   const CornerPlaces& corners, std::size_t q)
@@ -287,17 +294,13 @@ SquareCorners chooseCorners(const DiskMesh& disk)
 {
   const BoundaryPlaces places(disk);
   const std::vector<BoundaryArc> arcs = smallestArcs(disk, places);
-  const auto missed = [&](const CornerPlaces& corners) {
-    return std::count_if(arcs.begin(), arcs.end(),
-      [&](const BoundaryArc& arc) { return !hasCorner(places, arc, corners); });
-  };
 
   const std::vector<std::int64_t> sharp = sharpPlaces(disk, places);
   if (sharp.size() == SquareCorners().size())
   {
     CornerPlaces corners;
     std::copy(sharp.begin(), sharp.end(), corners.begin());
-    if (missed(corners) == 0)
+    if (countMissed(places, arcs, corners) == 0)
     {
       return pointsAt(places, corners);
     }
@@ -307,13 +310,13 @@ SquareCorners chooseCorners(const DiskMesh& disk)
   const auto step =
     std::max<std::int64_t>(1, places.Count() / static_cast<std::int64_t>(rotations));
   CornerPlaces best{ 0, 1, 2, 3 };
-  auto fewest = missed(best);
+  auto fewest = countMissed(places, arcs, best);
   double least = unevenness(places, best);
   for (std::int64_t start = 0; start < places.Count(); start += step)
   {
     const CornerPlaces corners = cornersFrom(places, arcs, start);
     const double uneven = unevenness(places, corners);
-    const auto misses = missed(corners);
+    const auto misses = countMissed(places, arcs, corners);
     if (std::isfinite(uneven) &&
       (misses < fewest || (misses == fewest && uneven < least - rounding)))
     {
@@ -329,18 +332,14 @@ SquareCorners turnCorners(const DiskMesh& disk, const SquareCorners& corners, do
 {
   const BoundaryPlaces places(disk);
   const std::vector<BoundaryArc> arcs = smallestArcs(disk, places);
-  const auto missed = [&](const CornerPlaces& tried) {
-    return std::count_if(arcs.begin(), arcs.end(),
-      [&](const BoundaryArc& arc) { return !hasCorner(places, arc, tried); });
-  };
   CornerPlaces known;
   std::transform(corners.begin(), corners.end(), known.begin(),
     [&](std::int64_t point) { return places.PlaceOf(point); });
   const double start = places.LengthAt(known[0]) + part * places.Total();
   const CornerPlaces turned =
     cornersFrom(places, arcs, places.Nearest(std::fmod(start, places.Total())));
-  const bool isBetter =
-    std::isfinite(unevenness(places, turned)) && missed(turned) <= missed(known);
+  const bool isBetter = std::isfinite(unevenness(places, turned)) &&
+    countMissed(places, arcs, turned) <= countMissed(places, arcs, known);
   return isBetter ? pointsAt(places, turned) : corners;
 }
 

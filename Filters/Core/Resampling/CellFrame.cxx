@@ -41,10 +41,7 @@ std::int64_t visitCorners(
   const auto reader = set.Read();
   for (std::int64_t cell = 0; cell < set.NumberOfCells; ++cell)
   {
-    if (cell % cellsBetweenPolls == 0)
-    {
-      progress.Check();
-    }
+    progress.CheckEvery(cellsBetweenPolls, cell);
     const CellReader::Ids* points = cells.Find(*reader, cell);
     for (std::size_t i = 0; points && i < points->size(); ++i)
     {

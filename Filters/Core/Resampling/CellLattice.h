@@ -68,16 +68,13 @@ template <class Visit>
 void CellLattice::VisitCounted(
   const std::vector<CellValues>& sets, Progress& progress, const Visit& visit) const
 {
-  constexpr std::size_t cellsBetweenPolls = std::size_t{ 1 } << 16;
+  constexpr std::int64_t cellsBetweenPolls = std::int64_t{ 1 } << 16;
   for (std::size_t s = 0; s < sets.size(); ++s)
   {
     const std::vector<std::int64_t>& places = this->Places[s];
     for (std::size_t cell = 0; cell < places.size(); ++cell)
     {
-      if (cell % cellsBetweenPolls == 0)
-      {
-        progress.Check();
-      }
+      progress.CheckEvery(cellsBetweenPolls, static_cast<std::int64_t>(cell));
       if (places[cell] >= 0 && sets[s].IsCounted(static_cast<std::int64_t>(cell)))
       {
         visit(places[cell], s, cell);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Resampling/CellPieces.h"
 
+#include "Core/Geometry/PointBounds.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -88,26 +90,18 @@ void CellPieces<D>::AddBoxAround(std::int64_t cell, CellSize& size)
 {
   const CellReader::Ids& points = this->Reader->PointsOf(cell);
   const auto count = static_cast<double>(points.size());
-  Point<D> low;
-  Point<D> high;
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
+  Bounds<D> bounds;
   const bool onPoints = this->Density.IsOnPoints();
   double value = onPoints ? 0.0 : this->Density.At(cell);
   for (const std::int64_t point : points)
   {
-    const Point<D> index = this->At(point);
-    for (int a = 0; a < D; ++a)
-    {
-      low[a] = std::min(low[a], index[a]);
-      high[a] = std::max(high[a], index[a]);
-    }
+    bounds.Add(this->At(point).data());
     value += onPoints ? this->Density.At(point) / count : 0.0;
   }
   double measure = count > 0 ? 1.0 : 0.0;
   for (int a = 0; a < D && count > 0; ++a)
   {
-    measure *= high[a] - low[a];
+    measure *= bounds.Length(a);
   }
   size.LeftOutMeasure += measure;
   size.LeftOutIntegral += measure * value;

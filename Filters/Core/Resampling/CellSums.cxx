@@ -88,7 +88,7 @@ void addCells(const std::vector<CellValues>& sets, const ImageGrid& grid, const 
   Progress& progress, double* sums)
 {
   constexpr std::int64_t cellsBetweenPolls = 256;
-  const auto cells = cellsOfSlabs<D>(sets, grid, slabs, 0.0, progress);
+  const auto cells = slabs.CellsOf(sets, grid, 0.0, progress);
   slabs.ForEach(progress, [&](std::int64_t slab) {
     for (std::size_t s = 0; s < sets.size(); ++s)
     {

@@ -24,10 +24,7 @@ CellValues::CellValues(std::shared_ptr<const CellSet> cells, const MassCells& ma
   const auto reader = this->Set->Read();
   for (std::int64_t cell = 0; cell < this->Set->NumberOfCells; ++cell)
   {
-    if (cell % cellsBetweenPolls == 0)
-    {
-      progress.Check();
-    }
+    progress.CheckEvery(cellsBetweenPolls, cell);
     if (!mass.HasDimension(*reader, cell) || this->Set->HiddenCells.Has(cell) ||
       (!onPoints && isMissing(cell)))
     {

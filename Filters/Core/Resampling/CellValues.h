@@ -8,7 +8,6 @@
 #include "Core/Tables/DensityInspection.h"
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>

@@ -64,23 +64,20 @@ Bins<std::int64_t> cellsOfSlabs(const CellValues& values, const ImageGrid& grid,
 } // namespace
 
 template <int D>
-std::vector<Bins<std::int64_t>> cellsOfSlabs(const std::vector<CellValues>& sets,
-  const ImageGrid& grid, const GridSlabs<D>& slabs, double margin, Progress& progress)
+std::vector<Bins<std::int64_t>> GridSlabs<D>::CellsOf(const std::vector<CellValues>& sets,
+  const ImageGrid& grid, double margin, Progress& progress) const
 {
   std::vector<Bins<std::int64_t>> cells;
   cells.reserve(sets.size());
   for (const CellValues& values : sets)
   {
-    cells.push_back(cellsOfSlabs<D>(values, grid, slabs, margin, progress));
+    cells.push_back(cellsOfSlabs<D>(values, grid, *this, margin, progress));
   }
   return cells;
 }
 
-template std::vector<Bins<std::int64_t>> cellsOfSlabs<1>(
-  const std::vector<CellValues>&, const ImageGrid&, const GridSlabs<1>&, double, Progress&);
-template std::vector<Bins<std::int64_t>> cellsOfSlabs<2>(
-  const std::vector<CellValues>&, const ImageGrid&, const GridSlabs<2>&, double, Progress&);
-template std::vector<Bins<std::int64_t>> cellsOfSlabs<3>(
-  const std::vector<CellValues>&, const ImageGrid&, const GridSlabs<3>&, double, Progress&);
+template struct GridSlabs<1>;
+template struct GridSlabs<2>;
+template struct GridSlabs<3>;
 
 } // namespace RectifiedTransport

@@ -57,18 +57,17 @@ struct GridSlabs
       1);
   }
 
+  // For each set, the cells that are divided and nearer than `margin` grid cells to each slab, in
+  // their order. Throws Cancelled.
+  std::vector<Bins<std::int64_t>> CellsOf(const std::vector<CellValues>& sets,
+    const ImageGrid& grid, double margin, Progress& progress) const;
+
   static constexpr std::int64_t most = 64;
   static constexpr std::int64_t least = 4;
   GridSize<D> Size;
   std::int64_t Planes;
   std::int64_t Count;
 };
-
-// For each set, the cells that are divided and nearer than `margin` grid cells to each slab, in
-// their order. Throws Cancelled.
-template <int D>
-std::vector<Bins<std::int64_t>> cellsOfSlabs(const std::vector<CellValues>& sets,
-  const ImageGrid& grid, const GridSlabs<D>& slabs, double margin, Progress& progress);
 
 } // namespace RectifiedTransport
 

@@ -62,10 +62,7 @@ bool hasRegion(const CellSet& cells, Progress& progress)
   const auto reader = cells.Read();
   for (std::int64_t cell = 0; cell < cells.NumberOfCells; ++cell)
   {
-    if (cell % cellsBetweenPolls == 0)
-    {
-      progress.Check();
-    }
+    progress.CheckEvery(cellsBetweenPolls, cell);
     const CellReader::Ids* points = findClosedLine(*reader, cell);
     if (points && !isStraight(*reader, *points))
     {

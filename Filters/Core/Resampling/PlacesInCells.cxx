@@ -3,6 +3,7 @@
 
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Geometry/ImageGrid.h"
+#include "Core/Geometry/PointBounds.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Resampling/CellPieces.h"
 #include "Core/Resampling/GridSlabs.h"
@@ -30,28 +31,22 @@ public:
   PlaceBins(const std::vector<Point<D>>& places, const Bins<std::int64_t>::Range& numbers)
     : Places(places)
   {
-    this->Low.fill(std::numeric_limits<double>::infinity());
-    Point<D> high;
-    high.fill(-std::numeric_limits<double>::infinity());
+    Bounds<D> bounds;
     for (const std::int64_t number : numbers)
     {
-      const Point<D>& x = places[static_cast<std::size_t>(number)];
-      for (int a = 0; a < D; ++a)
-      {
-        this->Low[a] = std::min(this->Low[a], x[a]);
-        high[a] = std::max(high[a], x[a]);
-      }
+      bounds.Add(places[static_cast<std::size_t>(number)].data());
     }
+    this->Low = bounds.Low;
     double volume = 1.0;
     for (int a = 0; a < D; ++a)
     {
-      volume *= std::max(high[a] - this->Low[a], 1.0);
+      volume *= std::max(bounds.Length(a), 1.0);
     }
     this->Width = std::max(1.0, std::pow(volume / static_cast<double>(numbers.Size()), 1.0 / D));
     std::size_t bins = 1;
     for (int a = 0; a < D; ++a)
     {
-      this->Size[a] = static_cast<std::int64_t>((high[a] - this->Low[a]) / this->Width) + 1;
+      this->Size[a] = static_cast<std::int64_t>(bounds.Length(a) / this->Width) + 1;
       bins *= static_cast<std::size_t>(this->Size[a]);
     }
     this->Sorted.Fill(bins, [&](const auto& add) {
@@ -67,20 +62,20 @@ public:
     });
   }
 
-  // Calls visit(number, place) for all places of the box, and for others near it.
+  // Calls visit(number, place) for all places within reach of a box, and for others near it.
   template <class Visit>
-  void VisitBox(const Point<D>& low, const Point<D>& high, const Visit& visit) const
+  void VisitAround(const Bounds<D>& box, const Visit& visit) const
   {
     std::int64_t first[3] = { 0, 0, 0 };
     std::int64_t last[3] = { 0, 0, 0 };
     for (int a = 0; a < D; ++a)
     {
-      if (high[a] < this->Low[a])
+      if (box.High[a] + reach < this->Low[a])
       {
         return;
       }
-      first[a] = this->At(a, low[a]);
-      last[a] = this->At(a, high[a]);
+      first[a] = this->At(a, box.Low[a] - reach);
+      last[a] = this->At(a, box.High[a] + reach);
     }
     for (std::int64_t k = first[2]; k <= last[2]; ++k)
     {
@@ -121,21 +116,14 @@ void search(const CellPieces<D>& pieces, std::int64_t cell, int set, const Place
   {
     Point<D> vertices[D + 1];
     Eigen::Matrix<double, D, D> edges;
-    Point<D> low;
-    Point<D> high;
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
+    Bounds<D> bounds;
     for (int i = 0; i <= D; ++i)
     {
       vertices[i] = pieces.Vertex(s, i);
-      for (int a = 0; a < D; ++a)
+      bounds.Add(vertices[i].data());
+      for (int a = 0; a < D && i > 0; ++a)
       {
-        low[a] = std::min(low[a], vertices[i][a] - reach);
-        high[a] = std::max(high[a], vertices[i][a] + reach);
-        if (i > 0)
-        {
-          edges(a, i - 1) = vertices[i][a] - vertices[0][a];
-        }
+        edges(a, i - 1) = vertices[i][a] - vertices[0][a];
       }
     }
     const Eigen::Matrix<double, D, D> inverse = edges.inverse();
@@ -143,7 +131,7 @@ void search(const CellPieces<D>& pieces, std::int64_t cell, int set, const Place
     {
       continue; // without a measure
     }
-    bins.VisitBox(low, high, [&](std::int64_t number, const Point<D>& place) {
+    bins.VisitAround(bounds, [&](std::int64_t number, const Point<D>& place) {
       MeshPlace& best = found[number];
       if (best.Distance == 0.0)
       {
@@ -196,9 +184,7 @@ void search(const CellPieces<D>& pieces, std::int64_t cell, int set, const Place
 
 void searchRegion(const RegionRows& region, int set, const PlaceBins<2>& bins, MeshPlace* found)
 {
-  const Point<2> low{ region.Low()[0] - reach, region.Low()[1] - reach };
-  const Point<2> high{ region.High()[0] + reach, region.High()[1] + reach };
-  bins.VisitBox(low, high, [&](std::int64_t number, const Point<2>& x) {
+  bins.VisitAround(region.Extent(), [&](std::int64_t number, const Point<2>& x) {
     MeshPlace& best = found[number];
     const bool isFound = best.Distance == 0.0;
     if (isFound && best.Set <= set)
@@ -282,7 +268,7 @@ void find(const std::vector<CellValues>& sets, const ImageGrid& grid, ConstPoint
       use(PlaceBins<D>(index, own));
     }
   };
-  const auto cells = cellsOfSlabs<D>(sets, grid, slabs, reach, progress);
+  const auto cells = slabs.CellsOf(sets, grid, reach, progress);
   slabs.ForEach(progress, [&](std::int64_t slab) {
     withBins(slab, [&](const PlaceBins<D>& bins) {
       searchCells<D>(sets, grid, cells, slab, bins, progress, found);

@@ -34,22 +34,17 @@ double squaredDistance(const Point<2>& a, const Point<2>& b, double part, const 
 RegionRows::RegionRows(
   const RegionBatch& batch, const Edges& edges, std::int64_t low, std::int64_t high)
   : Batch(batch)
-  , Lower{ infinity, infinity }
-  , Upper{ -infinity, -infinity }
 {
   for (const RegionBatch::Edge& number : edges)
   {
     const OutlineEdge& edge = batch.At(number);
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      this->Lower[axis] = std::min({ this->Lower[axis], edge.From[axis], edge.To[axis] });
-      this->Upper[axis] = std::max({ this->Upper[axis], edge.From[axis], edge.To[axis] });
-    }
+    this->Box.Add(edge.From.data());
+    this->Box.Add(edge.To.data());
   }
   // Edges that are within a row of these.
-  this->FirstRow = std::max(low - 1, static_cast<std::int64_t>(std::floor(this->Lower[1])));
-  this->LastRow =
-    std::max(this->FirstRow, std::min(high, static_cast<std::int64_t>(std::floor(this->Upper[1]))));
+  this->FirstRow = std::max(low - 1, static_cast<std::int64_t>(std::floor(this->Box.Low[1])));
+  this->LastRow = std::max(
+    this->FirstRow, std::min(high, static_cast<std::int64_t>(std::floor(this->Box.High[1]))));
   const auto rows = static_cast<std::size_t>(this->LastRow - this->FirstRow) + 1;
   this->Rows.Fill(rows, [&](const auto& add) {
     for (const RegionBatch::Edge& number : edges)
@@ -93,7 +88,7 @@ void RegionRows::SetEnds(
 
 bool RegionRows::FindInside(const Point<2>& x, MeshPlace& found) const
 {
-  if (x[1] < this->Lower[1] || x[1] > this->Upper[1])
+  if (x[1] < this->Box.Low[1] || x[1] > this->Box.High[1])
   {
     return false;
   }

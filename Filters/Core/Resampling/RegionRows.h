@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_RegionRows_h
 #define RectifiedTransport_RegionRows_h
 
+#include "Core/Geometry/PointBounds.h"
 #include "Core/Resampling/RegionShapes.h"
 
 #include <cstdint>
@@ -29,8 +30,7 @@ public:
   // Places are in rows [low, high).
   RegionRows(const RegionBatch& batch, const Edges& edges, std::int64_t low, std::int64_t high);
 
-  Point<2> Low() const { return this->Lower; }
-  Point<2> High() const { return this->Upper; }
+  const Bounds<2>& Extent() const { return this->Box; }
 
   // A place in the region is between the outline to its left and to its right. Any other place is
   // at the nearest point of the outline; infinitely far if that is farther than the diagonal of a
@@ -45,8 +45,7 @@ private:
   void FindNearest(const Point<2>& x, MeshPlace& found) const;
 
   const RegionBatch& Batch;
-  Point<2> Lower;
-  Point<2> Upper;
+  Bounds<2> Box; // of the edges
   std::int64_t FirstRow;
   std::int64_t LastRow;
   Bins<RegionBatch::Edge> Rows;

@@ -16,8 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace RectifiedTransport
@@ -26,14 +24,7 @@ namespace RectifiedTransport
 namespace
 {
 
-void poll(std::int64_t triangle, Progress& progress)
-{
-  constexpr std::int64_t triangles = std::int64_t{ 1 } << 14;
-  if (triangle % triangles == 0)
-  {
-    progress.Check();
-  }
-}
+constexpr std::int64_t polled = std::int64_t{ 1 } << 14; // triangles between two polls
 
 void requireTriangles(const TriangleSurface& surface)
 {
@@ -143,7 +134,7 @@ private:
     this->Unit = largestCoordinate(surface.Points);
     for (std::int64_t triangle = 0; triangle < surface.NumberOfTriangles; ++triangle)
     {
-      poll(triangle, progress);
+      progress.CheckEvery(polled, triangle);
       const std::int64_t* ids = surface.Triangles + 3 * triangle;
       const auto at = [&](int i) { return pointAt(surface.Points, ids[i]) / this->Unit; };
       if (FlatShape(at(0), at(1), at(2)).Height > 0.0)
@@ -184,7 +175,7 @@ private:
     for (std::size_t t = 0; t < component.Triangles.size(); ++t)
     {
       const std::int64_t kept = component.Triangles[t];
-      poll(static_cast<std::int64_t>(t), progress);
+      progress.CheckEvery(polled, static_cast<std::int64_t>(t));
       const std::int64_t repaired = this->Repaired[static_cast<std::size_t>(kept)];
       const std::int64_t given = component.Repair.GivenTriangle(repaired);
       this->Made.DisksOf.data()[given] = number;
@@ -271,7 +262,7 @@ private:
     origins.reserve(component.Triangles.size());
     for (const std::int64_t triangle : component.Triangles)
     {
-      poll(triangle, progress);
+      progress.CheckEvery(polled, triangle);
       for (std::int64_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
       {
         std::int64_t& local = this->Locals.data()[component.Parts.Corners()[corner]];

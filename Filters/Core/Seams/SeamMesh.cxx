@@ -107,10 +107,7 @@ SeamMesh::Cut SeamMesh::MakeCut(Progress& progress) const
     for (std::int64_t side = 0; side < this->NumberOfSides(); ++side)
     {
       visit(side);
-      if (side % polled == 0)
-      {
-        progress.Check();
-      }
+      progress.CheckEvery(polled, side);
     }
   };
   forSides([&](std::int64_t side) {

@@ -7,8 +7,6 @@
 #include "Core/Parameterization/LocalMap.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 namespace RectifiedTransport
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Solid/BodyWeights.h"
 
+#include "Core/Geometry/Bins.h"
+#include "Core/Geometry/PointBounds.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Solid/SurfaceCuts.h"
 
@@ -26,10 +28,7 @@ public:
     , Given(surface.Bodies)
     , Parents(this->Given ? this->Surface.NumberOfTriangles : this->Surface.Points.size())
   {
-    for (Index i = 0; i < this->Parents.size(); ++i)
-    {
-      this->Parents.data()[i] = i;
-    }
+    std::iota(this->Parents.data(), this->Parents.data() + this->Parents.size(), Index{ 0 });
     Stages stages(progress, { { "trees", this->Given ? 0.0 : 3.0 }, { "numbers", 1 } });
     Progress& trees = stages["trees"].Expect(this->Surface.NumberOfTriangles);
     for (Index i = 0; !this->Given && i < this->Surface.NumberOfTriangles; ++i)
@@ -100,10 +99,7 @@ Place placeOf(const std::array<Corner, 3>& t)
   Place place;
   place.Area =
     0.5 * ((t[1][1] - t[0][1]) * (t[2][2] - t[0][2]) - (t[1][2] - t[0][2]) * (t[2][1] - t[0][1]));
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    place.Centre[a] = (t[0][a] + t[1][a] + t[2][a]) / 3.0;
-  }
+  place.Centre = (t[0] + t[1] + t[2]) / 3.0;
   return place;
 }
 
@@ -211,10 +207,9 @@ public:
     {
       const std::array<Corner, 3> triangle = cornersOf(this->Surface, i);
       this->ForBoxes(triangle, [&](Index box) {
-        for (Index at = this->First[static_cast<std::size_t>(box)];
-             at < this->First[static_cast<std::size_t>(box) + 1]; ++at)
+        for (const std::size_t number : this->InBoxes[static_cast<std::size_t>(box)])
         {
-          Probe& probe = this->Probes[static_cast<std::size_t>(at)];
+          Probe& probe = this->Probes[number];
           const double y = probe.At.Centre[1];
           passTriangle(triangle, y, probe.At.Centre[2], [&](const PlaneSegment& segment) {
             probe.Before += probe.IsBehind(segment.At(y), segment.Side(), i) ? segment.Side() : 0;
@@ -262,34 +257,27 @@ private:
   {
     this->Boxes =
       std::max<Index>(1, static_cast<Index>(std::sqrt(static_cast<double>(this->Probes.size()))));
-    for (std::size_t a = 1; a < 3; ++a)
-    {
-      double low = HUGE_VAL;
-      double high = -HUGE_VAL;
-      for (const Probe& probe : this->Probes)
-      {
-        low = std::min(low, probe.At.Centre[a]);
-        high = std::max(high, probe.At.Centre[a]);
-      }
-      this->Low[a] = low;
-      this->Scale[a] = high > low ? static_cast<double>(this->Boxes) / (high - low) : 0.0;
-    }
-    const auto boxOf = [this](const Probe& probe) {
-      return this->BoxOf(2, probe.At.Centre[2]) * this->Boxes + this->BoxOf(1, probe.At.Centre[1]);
-    };
-    std::stable_sort(this->Probes.begin(), this->Probes.end(),
-      [&boxOf](const Probe& a, const Probe& b) { return boxOf(a) < boxOf(b); });
-    this->First.assign(static_cast<std::size_t>(this->Boxes * this->Boxes + 1), 0);
+    PointBounds bounds;
     for (const Probe& probe : this->Probes)
     {
-      ++this->First[static_cast<std::size_t>(boxOf(probe)) + 1];
+      bounds.Add(probe.At.Centre.data());
     }
-    for (std::size_t box = 1; box < this->First.size(); ++box)
+    this->Low = bounds.Low;
+    for (std::size_t a = 1; a < 3; ++a)
     {
-      this->First[box] += this->First[box - 1];
+      const double length = bounds.Length(a);
+      this->Scale[a] = length > 0.0 ? static_cast<double>(this->Boxes) / length : 0.0;
     }
+    this->InBoxes.Fill(
+      static_cast<std::size_t>(this->Boxes * this->Boxes), [this](const auto& add) {
+        for (std::size_t number = 0; number < this->Probes.size(); ++number)
+        {
+          const Corner& at = this->Probes[number].At.Centre;
+          const Index box = this->BoxOf(2, at[2]) * this->Boxes + this->BoxOf(1, at[1]);
+          add(static_cast<std::size_t>(box), number);
+        }
+      });
   }
-
   Index BoxOf(std::size_t axis, double coordinate) const
   {
     const double box = (coordinate - this->Low[axis]) * this->Scale[axis];
@@ -353,7 +341,7 @@ private:
   Index Boxes = 1;
   std::array<double, 3> Low{};
   std::array<double, 3> Scale{};
-  std::vector<Index> First;
+  Bins<std::size_t> InBoxes; // the numbers of probes
 };
 
 // Of one body, which way it is turned.

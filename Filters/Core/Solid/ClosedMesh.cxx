@@ -3,10 +3,10 @@
 
 #include "Core/Geometry/EqualPoints.h"
 #include "Core/Geometry/ImageGrid.h"
+#include "Core/Geometry/PointBounds.h"
 #include "Core/Mesh/Repair/MergePoints.h"
 #include "Core/Mesh/Repair/SplitSurface.h"
 #include "Core/Mesh/Repair/TJunctions.h"
-#include "Core/Mesh/SurfaceEdges.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Solid/OrientedBodies.h"
 #include "Core/Solid/RepeatedTriangles.h"
@@ -126,10 +126,6 @@ ClosedMesh::ClosedMesh(LargeBuffer<double> coordinates, const Context& context)
 {
   this->Merge(context);
 }
-
-ClosedMesh::~ClosedMesh() = default;
-ClosedMesh::ClosedMesh(ClosedMesh&&) noexcept = default;
-ClosedMesh& ClosedMesh::operator=(ClosedMesh&&) noexcept = default;
 
 void ClosedMesh::Merge(const Context& context)
 {
@@ -262,20 +258,12 @@ bool ClosedMesh::MergeNear(double distance, const Context& context)
 // Of the bounds of the triangles.
 double ClosedMesh::LongestSide() const
 {
-  double longest = 0.0;
-  for (std::int64_t a = 0; a < 3; ++a)
+  PointBounds bounds;
+  for (std::int64_t i = 0; i < 3 * this->NumberOfTriangles; ++i)
   {
-    double low = HUGE_VAL;
-    double high = -HUGE_VAL;
-    for (std::int64_t i = 0; i < 3 * this->NumberOfTriangles; ++i)
-    {
-      const double x = this->Coordinates.data()[3 * this->Triangles.data()[i] + a];
-      low = std::min(low, x);
-      high = std::max(high, x);
-    }
-    longest = std::max(longest, high - low);
+    bounds.Add(this->Coordinates.data() + 3 * this->Triangles.data()[i]);
   }
-  return longest;
+  return std::max(0.0, bounds.Length(bounds.Longest()));
 }
 
 void ClosedMesh::Reserve(std::int64_t triangles)
@@ -321,8 +309,7 @@ void ClosedMesh::CountEdgesAlone(const Context& context)
 // In the first of the ways that leaves no edge open; in the first of all if none does.
 void ClosedMesh::DropRepeated(const Context& context)
 {
-  const std::array<std::vector<std::int64_t>, 3> ways =
-    findRepeated(this->Surface(), *this->Edges).Ways();
+  const std::array<std::vector<std::int64_t>, 3> ways = findRepeated(this->Surface(), *this->Edges);
   if (ways.back().empty())
   {
     return;

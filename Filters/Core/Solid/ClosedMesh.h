@@ -8,6 +8,7 @@
 #ifndef RectifiedTransport_ClosedMesh_h
 #define RectifiedTransport_ClosedMesh_h
 
+#include "../Mesh/SurfaceEdges.h"
 #include "../Mesh/TriangleSurface.h"
 #include "../Parallel/Context.h"
 #include "../Parallel/LargeBuffer.h"
@@ -25,7 +26,6 @@ namespace RectifiedTransport
 class ClosedMesh;
 class ImageGrid;
 class Progress;
-class SurfaceEdges;
 
 // How far points may be apart where a surface is closed.
 struct ClosingDistances
@@ -60,9 +60,6 @@ public:
   // for any distribution. Memory: 8 bytes a point, temporarily up to 32. Then call Close(), or
   // Reserve(), Add() and CountEdges().
   explicit ClosedMesh(LargeBuffer<double> coordinates, const Context& context = Context());
-  ~ClosedMesh();
-  ClosedMesh(ClosedMesh&&) noexcept;
-  ClosedMesh& operator=(ClosedMesh&&) noexcept;
 
   // Calls Reserve() and Add() for all faces, as triangles on the points that FirstOf() gives.
   using AddFaces = std::function<void(ClosedMesh& mesh, Progress& progress)>;

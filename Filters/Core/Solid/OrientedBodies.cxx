@@ -4,7 +4,6 @@
 #include "Core/Geometry/Vectors.h"
 #include "Core/Mesh/SurfaceOrientation.h"
 #include "Core/Mesh/Trees.h"
-#include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"
 
 #include <algorithm>
@@ -21,12 +20,6 @@ namespace
 {
 
 using Index = std::int64_t;
-using Vector = Point<3>;
-
-Vector between(const double* from, const double* to)
-{
-  return { to[0] - from[0], to[1] - from[1], to[2] - from[2] };
-}
 
 // A side of a triangle at an edge of more than two.
 struct FanSide
@@ -125,8 +118,7 @@ private:
       progress.Add(side % 3 == 2 ? 1 : 0);
     }
     std::sort(this->Fans.begin(), this->Fans.end(), [](const FanSide& a, const FanSide& b) {
-      return std::array<Index, 3>{ a.Low, a.High, a.Side } <
-        std::array<Index, 3>{ b.Low, b.High, b.Side };
+      return std::tie(a.Low, a.High, a.Side) < std::tie(b.Low, b.High, b.Side);
     });
   }
 
@@ -278,25 +270,21 @@ private:
   // By angles from the first side's triangle on, in [0, 2 pi).
   void SortByAngles(FanSide* begin, FanSide* end) const
   {
-    const double* low = this->Surface.Points[begin->Low];
-    const Vector along = between(low, this->Surface.Points[begin->High]);
+    const Point<3> low = pointAt(this->Surface.Points, begin->Low);
+    const Point<3> along = pointAt(this->Surface.Points, begin->High) - low;
     const double length = std::sqrt(dot(along, along));
-    Vector across{}; // of the first
-    Vector normal{};
+    Point<3> across{}; // of the first
+    Point<3> normal{};
     for (FanSide* side = begin; side < end; ++side)
     {
       const Index third = this->Surface.Triangles[lastSide(side->Side)];
-      const Vector out = between(low, this->Surface.Points[third]);
+      const Point<3> out = pointAt(this->Surface.Points, third) - low;
       if (side == begin)
       {
         normal = cross(along, out);
         across = cross(normal, along);
-        const double a = std::hypot(across[0], across[1], across[2]);
-        const double n = std::hypot(normal[0], normal[1], normal[2]);
-        std::transform(
-          across.begin(), across.end(), across.begin(), [a](double x) { return x / a; });
-        std::transform(
-          normal.begin(), normal.end(), normal.begin(), [n](double x) { return x / n; });
+        across = across / std::hypot(across[0], across[1], across[2]);
+        normal = normal / std::hypot(normal[0], normal[1], normal[2]);
       }
       side->Angle = length > 0.0 ? std::atan2(dot(out, normal), dot(out, across)) : 0.0;
       constexpr double rounding = 1e-9;

@@ -28,17 +28,19 @@ Candidate candidateOf(const TriangleSurface& surface, std::int64_t triangle)
 }
 
 // Of the triangles [begin, end) of the same points.
-void dropGroup(const Candidate* begin, const Candidate* end, RepeatedTriangles& repeated)
+void dropGroup(
+  const Candidate* begin, const Candidate* end, std::array<std::vector<std::int64_t>, 3>& repeated)
 {
+  auto& [byDirection, byNumber, allButOne] = repeated;
   const auto isEven = [](const Candidate& c) { return c.IsEven; };
   for (const Candidate* c = begin + 1; c < end; ++c)
   {
-    repeated.AllButOne.push_back(c->Triangle);
+    allButOne.push_back(c->Triangle);
   }
   const bool cancels = std::any_of(begin, end, isEven) && !std::all_of(begin, end, isEven);
   for (const Candidate* c = cancels ? begin : begin + 1; c < end; ++c)
   {
-    repeated.ByDirection.push_back(c->Triangle);
+    byDirection.push_back(c->Triangle);
   }
   // Of an odd number one stays, of the direction of most.
   const bool isOdd = (end - begin) % 2 == 1;
@@ -49,14 +51,15 @@ void dropGroup(const Candidate* begin, const Candidate* end, RepeatedTriangles& 
   {
     if (c != stays)
     {
-      repeated.ByNumber.push_back(c->Triangle);
+      byNumber.push_back(c->Triangle);
     }
   }
 }
 
 } // namespace
 
-RepeatedTriangles findRepeated(const TriangleSurface& surface, const SurfaceEdges& edges)
+std::array<std::vector<std::int64_t>, 3> findRepeated(
+  const TriangleSurface& surface, const SurfaceEdges& edges)
 {
   std::vector<Candidate> candidates;
   for (std::int64_t i = 0; i < surface.NumberOfTriangles; ++i)
@@ -69,7 +72,7 @@ RepeatedTriangles findRepeated(const TriangleSurface& surface, const SurfaceEdge
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.Points != b.Points ? a.Points < b.Points : a.Triangle < b.Triangle;
   });
-  RepeatedTriangles repeated;
+  std::array<std::vector<std::int64_t>, 3> repeated;
   const Candidate* end = candidates.data() + candidates.size();
   for (const Candidate* begin = candidates.data(); begin < end;)
   {
@@ -81,10 +84,9 @@ RepeatedTriangles findRepeated(const TriangleSurface& surface, const SurfaceEdge
     }
     begin = next;
   }
-  for (std::vector<std::int64_t>* way :
-    { &repeated.ByDirection, &repeated.ByNumber, &repeated.AllButOne })
+  for (std::vector<std::int64_t>& way : repeated)
   {
-    std::sort(way->begin(), way->end());
+    std::sort(way.begin(), way.end());
   }
   return repeated;
 }

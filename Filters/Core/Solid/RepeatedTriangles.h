@@ -13,26 +13,16 @@
 namespace RectifiedTransport
 {
 
-// Triangles of the same three points; each has three edges of more than two triangles. The
-// triangles to drop, for three rules, in ascending order.
-struct RepeatedTriangles
-{
-  // Triangles of one direction count once, and those of opposite directions cancel each other:
-  // faces that two solids share.
-  std::vector<std::int64_t> ByDirection;
-  // One of an odd number stays, none of an even number: the same with random directions.
-  std::vector<std::int64_t> ByNumber;
-  // One stays: duplicate polygons.
-  std::vector<std::int64_t> AllButOne;
-
-  std::array<std::vector<std::int64_t>, 3> Ways() const
-  {
-    return { this->ByDirection, this->ByNumber, this->AllButOne };
-  }
-};
-
+// Triangles of the same three points; each has three edges of more than two triangles. Returns the
+// triangles to drop, in ascending order, by three rules:
+// * Triangles of one direction count once, and those of opposite directions cancel each other:
+// faces
+//   that two solids share.
+// * One of an odd number stays, none of an even number: the same with random directions.
+// * One stays: duplicate polygons.
 // O(n log n) for n triangles with such edges.
-RepeatedTriangles findRepeated(const TriangleSurface& surface, const SurfaceEdges& edges);
+std::array<std::vector<std::int64_t>, 3> findRepeated(
+  const TriangleSurface& surface, const SurfaceEdges& edges);
 
 // Writes the triangles that stay, which may be to their own memory; returns their number.
 std::int64_t dropTriangles(

@@ -19,9 +19,9 @@ SolidLines::SolidLines(const TriangleSurface& surface, const TriangleLayers& lay
   , FirstLine(part.Low[1] * supersampling)
   , EndLine((part.Low[1] + part.Cells[1]) * supersampling)
   , Lines(cells[1] * supersampling)
+  , First(part.Cells[1] * this->LinesPerCell + 1)
   , OfRow(cells[0])
 {
-  this->First.Reserve(part.Cells[1] * this->LinesPerCell + 1);
 }
 
 void SolidLines::FindCrossings(std::int64_t layer, Progress& progress)
@@ -41,7 +41,10 @@ void SolidLines::FindCrossings(std::int64_t layer, Progress& progress)
   {
     first[line] += first[line - 1];
   }
-  this->Crossings.Reserve(first[lines]);
+  if (first[lines] > this->Crossings.size())
+  {
+    this->Crossings = LargeBuffer<Crossing>(first[lines]);
+  }
   Crossing* crossings = this->Crossings.data();
   this->ForSegments(layer, progress,
     [this, first, crossings](const PlaneSegment& segment, std::int64_t from, std::int64_t end,

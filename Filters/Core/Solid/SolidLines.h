@@ -6,37 +6,16 @@
 
 #include "Core/Geometry/GridSize.h"
 #include "Core/Geometry/LatticePart.h"
+#include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Solid/SurfaceCuts.h"
 #include "Core/Solid/TriangleLayers.h"
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace RectifiedTransport
 {
-
-// Uninitialised memory that is kept from layer to layer.
-template <class T>
-class Scratch
-{
-public:
-  void Reserve(std::int64_t count)
-  {
-    if (count > this->Count)
-    {
-      this->Memory.reset(new T[static_cast<std::size_t>(count)]);
-      this->Count = count;
-    }
-  }
-  T* data() { return this->Memory.get(); }
-  const T* data() const { return this->Memory.get(); }
-
-private:
-  std::unique_ptr<T[]> Memory;
-  std::int64_t Count = 0;
-};
 
 // The lengths that lines count and cover in the cells of a row.
 class RowLengths
@@ -118,8 +97,8 @@ private:
   std::int64_t EndLine;
   std::int64_t Lines; // of a row of the grid
   // Lines of a layer are numbered so that those of a row of cells are contiguous.
-  Scratch<std::int64_t> First; // of each line's crossings
-  Scratch<Crossing> Crossings;
+  LargeBuffer<std::int64_t> First; // of each line's crossings
+  LargeBuffer<Crossing> Crossings; // memory that is kept from layer to layer
   RowLengths OfRow;
 };
 

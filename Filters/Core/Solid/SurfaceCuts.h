@@ -6,6 +6,7 @@
 #define RectifiedTransport_SurfaceCuts_h
 
 #include "Core/Geometry/CutPolygon.h"
+#include "Core/Geometry/Vectors.h"
 #include "Core/Mesh/TriangleSurface.h"
 
 #include <algorithm>
@@ -17,13 +18,10 @@ namespace RectifiedTransport
 
 inline std::array<Corner, 3> cornersOf(const TriangleSurface& surface, std::int64_t triangle)
 {
-  std::array<Corner, 3> corners;
-  for (int i = 0; i < 3; ++i)
-  {
-    const double* point = surface.Points[surface.Triangles[3 * triangle + i]];
-    corners[static_cast<std::size_t>(i)] = { point[0], point[1], point[2] };
-  }
-  return corners;
+  const auto corner = [&](int i) {
+    return pointAt(surface.Points, surface.Triangles[3 * triangle + i]);
+  };
+  return { corner(0), corner(1), corner(2) };
 }
 
 // A corner of the polygon in which a plane across axis 2 intersects the surface.

@@ -14,10 +14,9 @@ TriangleLayers::TriangleLayers(const TriangleSurface& surface, std::int64_t laye
   : Surface(surface)
   , FirstLayer(firstLayer)
   , EndLayer(endLayer)
-  , First(layers + 2)
+  , First(layers + 2, 0)
 {
   // Counted as differences along the layers: O(1) for a triangle of any height.
-  std::fill_n(this->First.data(), layers + 2, std::int64_t{ 0 });
   Stages stages(progress, { { "counts", 1 }, { "lists", 1 } });
   this->ForTriangles(
     stages["counts"].Expect(surface.NumberOfTriangles), [this](std::int64_t, const Range& range) {

@@ -58,7 +58,7 @@ public:
         joinTrees(this->PartOf.data(), side / 3, other / 3);
       }
     });
-    this->ForTriangles(stages["roots"],
+    stages["roots"].ForEachInOrder(this->Count, grain,
       [&](std::int64_t t) { this->PartOf.data()[t] = rootOf(this->PartOf.data(), t); });
     if (hasJumps)
     {
@@ -71,21 +71,17 @@ public:
     }
     else
     {
-      this->ForTriangles(stages["levels"], [&](std::int64_t t) { this->SetLevel(t); });
+      stages["levels"].ForEachInOrder(
+        this->Count, grain, [&](std::int64_t t) { this->SetLevel(t); });
     }
   }
 
 private:
-  template <class Visit>
-  void ForTriangles(Progress& progress, const Visit& visit)
-  {
-    progress.ForEachInOrder(this->Count, grain, [&](std::int64_t t) { visit(t); });
-  }
   // Pairs of sides, once each.
   template <class Visit>
   void ForSides(Progress& progress, const Visit& visit)
   {
-    this->ForTriangles(progress, [&](std::int64_t t) {
+    progress.ForEachInOrder(this->Count, grain, [&](std::int64_t t) {
       for (std::int64_t side = 3 * t; side < 3 * t + 3; ++side)
       {
         const std::int64_t other = this->Surface.Across(side);
@@ -130,7 +126,7 @@ private:
   void Measure(Progress& progress)
   {
     this->Parts = { this->Count, Part{} };
-    this->ForTriangles(progress, [&](std::int64_t t) {
+    progress.ForEachInOrder(this->Count, grain, [&](std::int64_t t) {
       Part& part = this->Parts.data()[this->PartOf.data()[t]];
       const double area = this->Surface.Area(t);
       part.Area += area;
@@ -156,7 +152,7 @@ private:
   void FindWide(Progress& progress)
   {
     this->IsWide = LargeBuffer<char>(this->Count);
-    this->ForTriangles(progress, [&](std::int64_t t) {
+    progress.ForEachInOrder(this->Count, grain, [&](std::int64_t t) {
       if (this->PartOf.data()[t] != t)
       {
         return;
@@ -253,7 +249,7 @@ private:
   {
     LargeBuffer<double> smooth(this->Count, DensityLevels::Given);
     std::fill_n(this->SeenBy.data(), this->Count, std::int64_t{ -1 });
-    this->ForTriangles(progress, [&](std::int64_t start) {
+    progress.ForEachInOrder(this->Count, grain, [&](std::int64_t start) {
       if (this->InWide(start) || smooth.data()[start] >= 0.0)
       {
         return;
@@ -269,7 +265,7 @@ private:
         }
       }
     });
-    this->ForTriangles(progress, [&](std::int64_t t) {
+    progress.ForEachInOrder(this->Count, grain, [&](std::int64_t t) {
       if (this->Levels[t] > 0.0 && smooth.data()[t] > 0.0)
       {
         this->Levels[t] = smooth.data()[t];

@@ -7,7 +7,6 @@
 #include "Core/Geometry/BlockTree.h"
 #include "Core/SurfaceRelaxation/Kernels/DotKernels.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 

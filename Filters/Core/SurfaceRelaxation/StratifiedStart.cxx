@@ -2,6 +2,7 @@
 #include "Core/SurfaceRelaxation/StratifiedStart.h"
 
 #include "Core/Geometry/LowDiscrepancy.h"
+#include "Core/Geometry/PointBounds.h"
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/SurfaceRelaxation/DotTree.h"
@@ -328,21 +329,12 @@ private:
   {
     SurfacePlace* const first = this->At(range.First);
     SurfacePlace* const last = this->At(range.Last);
-    Point<3> low = first->X;
-    Point<3> high = low;
+    PointBounds bounds;
     for (const SurfacePlace* sample = first; sample < last; ++sample)
     {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        low[axis] = std::min(low[axis], sample->X[axis]);
-        high[axis] = std::max(high[axis], sample->X[axis]);
-      }
+      bounds.Add(sample->X.data());
     }
-    std::size_t longest = 0;
-    for (std::size_t axis = 1; axis < 3; ++axis)
-    {
-      longest = high[axis] - low[axis] > high[longest] - low[longest] ? axis : longest;
-    }
+    const std::size_t longest = bounds.Longest();
     const std::int64_t middle = range.First + dotsBeforeCut(range.Last - range.First);
     int comparisons = 0;
     std::nth_element(first, this->At(middle), last, [&](const auto& a, const auto& b) {

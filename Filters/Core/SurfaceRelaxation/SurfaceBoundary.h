@@ -7,7 +7,6 @@
 #include "Core/SurfaceRelaxation/DotTree.h"
 #include "Core/SurfaceRelaxation/WalkedSurface.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>

@@ -13,11 +13,10 @@ namespace RectifiedTransport
 namespace
 {
 
-// Of the values of a range of triangles, or at their points.
-DensitySummary summarize(const TriangleSurface& surface, const SurfaceDensityValues& values,
-  std::int64_t first, std::int64_t last)
+// Adds the value of a triangle, or those at its points.
+void summarize(const TriangleSurface& surface, const SurfaceDensityValues& values,
+  std::int64_t triangle, DensitySummary& summary)
 {
-  DensitySummary summary;
   const auto add = [&summary](double value, std::int64_t index) {
     if (!std::isfinite(value))
     {
@@ -32,19 +31,15 @@ DensitySummary summarize(const TriangleSurface& surface, const SurfaceDensityVal
       summary.Maximum = std::max(summary.Maximum, value);
     }
   };
-  for (std::int64_t triangle = first; triangle < last; ++triangle)
+  if (values.OfTriangles)
   {
-    if (values.OfTriangles)
-    {
-      add(values.OfTriangles[triangle], triangle);
-    }
-    for (std::int64_t i = 0; i < 3 && values.AtPoints; ++i)
-    {
-      const std::int64_t point = surface.Triangles[3 * triangle + i];
-      add(values.AtPoints[point], point);
-    }
+    add(values.OfTriangles[triangle], triangle);
   }
-  return summary;
+  for (std::int64_t i = 0; i < 3 && values.AtPoints; ++i)
+  {
+    const std::int64_t point = surface.Triangles[3 * triangle + i];
+    add(values.AtPoints[point], point);
+  }
 }
 
 } // namespace
@@ -59,10 +54,10 @@ SurfaceDensity::SurfaceDensity(
   {
     return;
   }
-  const DensitySummary summary = reduceChunks(
+  const DensitySummary summary = reduceEach(
     progress, surface.Given().NumberOfTriangles, grain, DensitySummary(),
-    [&](std::int64_t first, std::int64_t last) {
-      return summarize(surface.Given(), this->Values, first, last);
+    [&](std::int64_t triangle, DensitySummary& part) {
+      summarize(surface.Given(), this->Values, triangle, part);
     },
     [](DensitySummary all, const DensitySummary& more) {
       merge(more, all);

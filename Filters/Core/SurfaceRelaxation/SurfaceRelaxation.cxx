@@ -46,17 +46,12 @@ struct Sum
 
 Sum measure(const WalkedSurface& surface, const SurfaceDensity& density, Progress& progress)
 {
-  return reduceChunks(
+  return reduceEach(
     progress, surface.NumberOfTriangles(), grain, Sum(),
-    [&](std::int64_t first, std::int64_t last) {
-      Sum sum;
-      for (std::int64_t t = first; t < last; ++t)
-      {
-        const double area = surface.Area(t);
-        sum.Area += area;
-        sum.Mass += area * density.MeanOf(t);
-      }
-      return sum;
+    [&](std::int64_t t, Sum& sum) {
+      const double area = surface.Area(t);
+      sum.Area += area;
+      sum.Mass += area * density.MeanOf(t);
     },
     [](Sum all, const Sum& more) {
       all.Area += more.Area;

@@ -46,16 +46,11 @@ TriangleMasses massesOf(const PlacedTriangles& surface, const SurfaceDensityValu
   };
   TriangleMasses made{ LargeBuffer<double>(count), 0.0 };
   double* masses = made.Masses.data();
-  made.Sum = reduceChunks(
+  made.Sum = reduceEach(
     progress, count, grain, 0.0,
-    [&](std::int64_t first, std::int64_t last) {
-      double sum = 0.0;
-      for (std::int64_t triangle = first; triangle < last; ++triangle)
-      {
-        masses[triangle] = shares[triangle] * densityOf(triangle);
-        sum += masses[triangle];
-      }
-      return sum;
+    [&](std::int64_t triangle, double& sum) {
+      masses[triangle] = shares[triangle] * densityOf(triangle);
+      sum += masses[triangle];
     },
     std::plus<>());
   return made;

@@ -10,7 +10,6 @@
 #include "Core/Mesh/TriangleSurface.h"
 #include "Core/Parallel/LargeBuffer.h"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 

@@ -2,12 +2,11 @@
 #include "Core/SurfaceSampling/FlatLocator.h"
 
 #include "Core/Geometry/BoxTree.h"
-#include "Core/SurfaceSampling/Turn.h"
+#include "Core/Geometry/ExactOrientation.h"
 
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 namespace RectifiedTransport
 {

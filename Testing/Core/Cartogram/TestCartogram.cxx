@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cartograms: areas are masses, land keeps its area, outlines do not cross.
-#include "Core/Overlap/RingSweep.h"
+#include "Core/Overlap/RingCrossings.h"
 #include "Core/Parallel/Progress.h"
 #include "MapSamples.h"
 #include "TestDensities.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Regions between rings on grids: areas of each cell against an exact sum over trapezoids, rings
 // that cross, touch, are there twice or lie in each other; slabs; work that grows with the edges.
-#include "Core/Overlap/ExactOrientation.h"
+#include "Core/Geometry/ExactOrientation.h"
 #include "Core/Overlap/RegionCoverage.h"
 #include "Core/Overlap/RegionOutlines.h"
 #include "Core/Overlap/RingCrossings.h"
-#include "Core/Overlap/RingSweep.h"
 #include "Core/Parallel/Progress.h"
 
 #include "TestRings.h"

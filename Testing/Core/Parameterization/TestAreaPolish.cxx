@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sweeps that even areas out: the energy falls, sides and corners stay, threads do not matter.
-#include "Core/Parameterization/AreaPolish.h"
+#include "Core/Parameterization/MapPolish.h"
 #include "DiskSurfaces.h"
 #include "RecordingContext.h"
 #include "ThreadsExecutor.h"

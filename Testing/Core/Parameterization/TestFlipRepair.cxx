@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Flipped triangles that are turned over again, by moves of the points about them only.
-#include "Core/Parameterization/FlipRepair.h"
+#include "Core/Parameterization/MapPolish.h"
 #include "DiskSurfaces.h"
 #include "RecordingContext.h"
 #include "ThreadsExecutor.h"

@@ -86,10 +86,14 @@ TEST(LocalMap, MovesAndStores)
   LocalMap map(grid.Parts, { 0, 1, 7, 11 }, grid.Square.Positions);
   ASSERT_EQ(map.NumberOfUnknowns(), 4); // x of 1, x and y of 7, y of 11
   const std::vector<double> solution{ 0.2, -0.1, 4.0, 0.4 };
-  Positions moved;
-  map.Move(solution, 0.5, moved);
-  map.Accept(moved);
   Positions stored = grid.Square.Positions;
+  EXPECT_EQ(map.Descend(solution, 1.0, 2, [](const Positions&) { return 1.0; }), 0.0);
+  map.Store(stored);
+  EXPECT_EQ(stored, grid.Square.Positions);
+  // Only half the step has less energy than before.
+  const std::vector<double> energies{ 1.0, 2.0, 0.0 };
+  std::size_t next = 0;
+  EXPECT_EQ(map.Descend(solution, 1.0, 2, [&](const Positions&) { return energies[next++]; }), 0.5);
   map.Store(stored);
   Positions expected = grid.Square.Positions;
   expected[1][0] += 0.1;

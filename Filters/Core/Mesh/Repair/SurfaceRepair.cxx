@@ -165,7 +165,7 @@ private:
     this->Count = count;
   }
 
-  // To a place before it, or its own.
+  // Moves a triangle to a place before it, or leaves it where it is.
   void Move(std::int64_t triangle, std::int64_t place)
   {
     std::copy_n(this->Triangles.data() + 3 * triangle, 3, this->Triangles.data() + 3 * place);

@@ -27,6 +27,11 @@ bool turnsLeftExactly(const NumberedPoint& a, const NumberedPoint& b, const Numb
 // Twice the area of the triangle to rounding: 0 only if the points are collinear.
 double exactDoubleArea(const Point<2>& a, const Point<2>& b, const Point<2>& c);
 
+// Twice the area of the triangle a, b, c: above 0 if it turns left, below 0 if it turns right, 0 if
+// the points are collinear. The sign is exact if products of coordinates neither overflow nor
+// underflow.
+double turnOf(const double* a, const double* b, const double* c);
+
 // Twice the area of the triangle, and a bound of its error.
 inline double doubleArea(const Point<2>& a, const Point<2>& b, const Point<2>& c, double& error)
 {

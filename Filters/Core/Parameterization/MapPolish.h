@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves points of a map of a disk to the unit square until its triangles have their areas.
-#ifndef RectifiedTransport_AreaPolish_h
-#define RectifiedTransport_AreaPolish_h
+// Moves points of a map of a disk to the unit square, region by region, until its triangles have
+// their areas and none is flipped.
+#ifndef RectifiedTransport_MapPolish_h
+#define RectifiedTransport_MapPolish_h
 
 #include "Core/Parallel/Context.h"
 #include "Core/Parameterization/LocalMap.h"
@@ -16,6 +17,13 @@ namespace RectifiedTransport
 // 0, is damped more and smooths the map; borders of regions differ between sweeps. Throws
 // std::bad_alloc and Cancelled.
 void polishAreas(const MapParts& parts, int sweep, std::vector<Point<2>>& positions,
+  const Context& context = Context());
+
+// Moves the points of `rings` rings of triangles around the flipped ones. Each patch takes
+// Levenberg-Marquardt steps on the sum of squares of q - 1 if q = area / share is below 1, else of
+// log q. A patch changes only if it then has fewer flipped triangles. Throws std::bad_alloc and
+// Cancelled.
+void repairFlips(const MapParts& parts, int rings, std::vector<Point<2>>& positions,
   const Context& context = Context());
 
 } // namespace RectifiedTransport

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // On which side of a line a point is, against whole numbers.
-#include "Core/SurfaceSampling/Turn.h"
+#include "Core/Geometry/ExactOrientation.h"
 
 #include "Core/Geometry/Points.h"
 

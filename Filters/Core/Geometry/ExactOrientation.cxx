@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Overlap/ExactOrientation.h"
+#include "Core/Geometry/ExactOrientation.h"
 
 #include <array>
 #include <cstddef>
@@ -12,7 +12,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// A sum without rounding: of parts that do not overlap, the last the largest.
+// A sum without rounding: of parts that do not overlap, the last the largest (Shewchuk, "Adaptive
+// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997).
 class ExactParts
 {
 public:
@@ -71,6 +72,19 @@ double exactDoubleArea(const Point<2>& a, const Point<2>& b, const Point<2>& c)
     sum.AddProduct(-p[1], q[0]);
   }
   return sum.Sum();
+}
+
+double turnOf(const double* a, const double* b, const double* c)
+{
+  // Of the value, in units of the sum of its terms' sizes (Shewchuk's ccwerrboundA).
+  constexpr double half = 0.5 * std::numeric_limits<double>::epsilon();
+  constexpr double bound = (3.0 + 16.0 * half) * half;
+  const double left = (a[0] - c[0]) * (b[1] - c[1]);
+  const double right = (a[1] - c[1]) * (b[0] - c[0]);
+  const double turn = left - right;
+  return std::abs(turn) > bound * (std::abs(left) + std::abs(right))
+    ? turn
+    : exactDoubleArea({ a[0], a[1] }, { b[0], b[1] }, { c[0], c[1] });
 }
 
 bool turnsLeftExactly(const NumberedPoint& a, const NumberedPoint& b, const NumberedPoint& c)
