@@ -3,45 +3,15 @@
 
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Tables/CellMeans.h"
+#include "Core/Tables/PlacedCells.h"
 
 namespace RectifiedTransport::Bridge
 {
 
 namespace
 {
-
-template <int D>
-PlacedCells<D> placeCells(const ImageGrid& grid, const ImageGrid& own)
-{
-  PlacedCells<D> placed{ own.Size<D>(), {}, {} };
-  placed.Sides.fill(1.0);
-  if (haveSameCells(grid, own))
-  {
-    return placed;
-  }
-  double ends[2][D];
-  for (int end = 0; end < 2; ++end)
-  {
-    double index[D];
-    for (int axis = 0; axis < D; ++axis)
-    {
-      index[axis] = end == 0 ? 0.0 : static_cast<double>(placed.Size[axis]);
-    }
-    double x[3];
-    own.ToPhysical<D>(index, x);
-    grid.ToIndex<D>(x, ends[end]);
-  }
-  for (int axis = 0; axis < D; ++axis)
-  {
-    placed.Low[axis] = ends[0][axis];
-    placed.Sides[axis] = (ends[1][axis] - ends[0][axis]) / static_cast<double>(placed.Size[axis]);
-  }
-  return placed;
-}
 
 template <int D>
 void write(const ImageGrid& grid, InputDensity& density, const TupleBox& wanted, Progress& progress,

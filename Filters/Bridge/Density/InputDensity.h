@@ -7,6 +7,7 @@
 #include "Bridge/Store/DataIdentity.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowTables.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/Points.h"
 #include "Core/Tables/Density.h"

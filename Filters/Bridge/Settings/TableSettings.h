@@ -4,19 +4,13 @@
 #define RectifiedTransport_TableSettings_h
 
 #include "Bridge/Run/PropertyCheck.h"
+#include "Core/Flow/TableChoice.h"
 
 namespace RectifiedTransport::Bridge
 {
 
 // Indexed by vtkTransportAlgorithm::TablesType.
 constexpr const char* TablesTexts[] = { "Auto", "Whole", "Tiled" };
-
-enum class TableSetting
-{
-  Auto,
-  Whole,
-  Tiled
-};
 
 // Throws Failure for a value out of range.
 inline TableSetting tableSetting(int tables)
