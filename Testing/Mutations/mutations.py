@@ -197,7 +197,7 @@ OTHERS = [
     E(CORE + "Overlap/Overlap.cxx", "products + «length * (means[corner] + ...)»", "0.0"),
     E(BRIDGE + "Cells/MeshCells.cxx", "vtkDataObject::CELL, name.c_str()), «ghostCell» }", "0"),
     E(BRIDGE + "Cells/MeshCells.cxx", "«vtkDataSetAttributes::HIDDENPOINT» };", "0"),
-    E(BRIDGE + "Blocks/JoinedImages.cxx", "if («!(a == b)» &&", "false"),
+    E(BRIDGE + "Blocks/JoinedImages.cxx", "if («!(one == other)» &&", "false"),
     E(CORE + "Geometry/LatticeExtent.cxx", "«std::abs(along - steps) > rounding» ||", "false"),
     E(BRIDGE + "Blocks/JoinedImages.cxx", "owner < 0 ? «hidden» :",
       "static_cast<unsigned char>(0)"),

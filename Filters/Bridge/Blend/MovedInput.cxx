@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blend/MovedInput.h"
 
-#include "Bridge/Density/DensityOnGrid.h"
+#include "Bridge/Density/PlainDensity.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Blend/BlendWeights.h"
 #include "Core/Blend/MovedCells.h"

@@ -95,7 +95,8 @@ public:
     return this->Values() ? DensitySource<D>(size, *this->Values())
                           : DensitySource<D>(size, std::get<Boxes<D>>(this->OnRanks));
   }
-  // As DistributedDensity::Gather; axes that the grid lacks have the cells from 0 up to 1.
+  // As DistributedDensity::Gather; axes that the grid lacks have the cells from 0 up to 1. Without
+  // an owner where Values has all.
   virtual std::shared_ptr<const DensityValues> Part(
     const GridSize<3>& low, const GridSize<3>& high) const = 0;
   // Releases what Prepare gathered, which Source needs.

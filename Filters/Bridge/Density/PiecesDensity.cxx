@@ -10,6 +10,7 @@
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Tables/Reading/GrownValues.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -62,29 +63,6 @@ std::int64_t indexIn(const ImageGrid& whole, const ImageGrid& part, std::int64_t
   return tuplesOf(whole.Extent(), owner, whole.Extent())
     .NumberOf(tuplesOf(part.Extent(), owner, whole.Extent()).CellOf(index));
 }
-
-// The values of a box, by the numbers of the whole grid.
-class BoxOfDensity final : public DensityValues
-{
-public:
-  BoxOfDensity(
-    std::unique_ptr<DensityImage> box, const GridSize<3>& whole, const LatticePart<3>& part)
-    : Box(std::move(box))
-    , Whole{ {}, whole }
-    , Part(part)
-  {
-  }
-
-  void Read(std::int64_t first, std::int64_t count, double* values) const override
-  {
-    this->Box->Values()->Read(this->Part.NumberOf(this->Whole.CellOf(first)), count, values);
-  }
-
-private:
-  const std::unique_ptr<DensityImage> Box;
-  const LatticePart<3> Whole;
-  const LatticePart<3> Part;
-};
 
 } // namespace
 
@@ -233,6 +211,10 @@ std::unique_ptr<DensityImage> PiecesDensity::Gather(const Extent& extent) const
 std::shared_ptr<const DensityValues> PiecesDensity::Part(
   const GridSize<3>& low, const GridSize<3>& high) const
 {
+  if (this->Gathered)
+  {
+    return this->Gathered->Part(low, high);
+  }
   const ImageGrid& grid = this->Geometry;
   LatticePart<3> part{ low, {} };
   std::transform(high.begin(), high.end(), low.begin(), part.Cells.begin(), std::minus<>());
@@ -252,7 +234,7 @@ std::shared_ptr<const DensityValues> PiecesDensity::Part(
   {
     extent = { 0, -1, 0, -1, 0, -1 };
   }
-  std::unique_ptr<DensityImage> box = this->Gather(extent);
+  const std::shared_ptr<DensityImage> box = this->Gather(extent);
   if (!box)
   {
     return std::make_shared<DensityArray<3, double>>(nullptr, GridSize<3>{});
@@ -261,7 +243,8 @@ std::shared_ptr<const DensityValues> PiecesDensity::Part(
   Progress progress{ Context(serial) };
   box->SetWhite(this->White(), progress);
   box->SetEmpty(this->Empty);
-  return std::make_shared<BoxOfDensity>(std::move(box), this->CellsInSpace(), part);
+  return std::make_shared<GrownValues>(
+    std::shared_ptr<const DensityValues>(box, box->Values()), part, this->CellsInSpace(), 0.0);
 }
 
 vtkSmartPointer<vtkImageData> PiecesDensity::ImageIn(const Extent& extent) const

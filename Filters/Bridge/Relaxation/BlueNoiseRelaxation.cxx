@@ -2,9 +2,9 @@
 #include "Bridge/Relaxation/BlueNoiseRelaxation.h"
 
 #include "Bridge/Density/CostModel.h"
-#include "Bridge/Density/DensityMass.h"
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Density/InputDensity.h"
+#include "Bridge/Density/PlainDensity.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/SeedInput.h"
 #include "Bridge/Run/Failure.h"
