@@ -12,6 +12,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/Run/WarningLimit.h"
+#include "Bridge/Settings/MissingData.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Device/DeviceUse.h"
 #include "Core/Parallel/RankExchange.h"

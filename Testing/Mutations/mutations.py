@@ -306,7 +306,7 @@ OTHERS = [
     E(BRIDGE + "Density/InputDensity.cxx", "«bitsOf(this->Rules.Missing.Low)»", "std::uint64_t{ 0 }"),
     E(BRIDGE + "Density/InputDensity.cxx", "this->MayBeEmpty ? «this->Rules.Empty» : EmptyRule();",
       "EmptyRule()"),
-    S(BRIDGE + "Density/PiecesDensity.cxx", "subtract(tuplesOf(below, owner, whole), own);", ";"),
+    S(BRIDGE + "Density/PiecesDensity.cxx", "subtract(tuplesOf(below, this->Owner(), whole), own);", ";"),
     E(CORE + "Geometry/Boxes/SizedGrids.cxx", "margin * «(longest / lengths[axis])» * size", "1.0"),
     S(BRIDGE + "Density/GrownDensity.cxx", "this->Inner->FindEmptyDensity();", ";"),
     E(CORE + "Resampling/CellValues.cxx",

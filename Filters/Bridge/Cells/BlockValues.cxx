@@ -5,8 +5,6 @@
 #include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Settings/ComponentChoice.h"
-#include "Core/Tables/Reading/DensityFailure.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -28,11 +26,7 @@ std::string nameOf(const DensityBlock& block)
 
 DensityRules rulesOf(const DensityBlock& block, const DensityRules& rules)
 {
-  DensityRules taken = rules;
-  const int components = block.Array->GetNumberOfComponents();
-  taken.Component = takenComponent(nameOf(block), rules.Component,
-    automaticComponent(block.Array->GetDataType(), components), components);
-  return taken;
+  return takenRules(block.Array, nameOf(block), rules);
 }
 
 } // namespace

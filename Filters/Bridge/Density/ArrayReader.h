@@ -25,6 +25,10 @@ std::string describeArray(vtkDataArray* array);
 // Throws Failure unless an array has one tuple for each point or cell of its data set, `what`.
 void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const std::string& what);
 
+// The rules with the component that is taken of an array, which messages call `name`. Throws
+// Failure if the array does not have it.
+DensityRules takenRules(vtkDataArray* array, const std::string& name, const DensityRules& rules);
+
 // Of netCDF and GDAL: _FillValue, missing_value, NO_DATA_VALUE. `fields` may be nullptr.
 std::vector<FillValue> fillValuesOf(vtkFieldData* fields);
 

@@ -157,8 +157,7 @@ LowestValue DensityImage::FindClamped(Progress& progress) const
 TupleBox DensityImage::AllTuples() const
 {
   const Extent& extent = this->Geometry.Extent();
-  return tuplesOf(
-    extent, this->Geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL, extent);
+  return tuplesOf(extent, this->Owner(), extent);
 }
 
 FilledCells DensityImage::FindFilled(const std::vector<TupleBox>& boxes, Progress& progress) const

@@ -144,6 +144,11 @@ GridSize<3> InputDensity::CellsInSpace() const
   return cells;
 }
 
+int InputDensity::Owner() const
+{
+  return this->Geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
+}
+
 std::vector<std::string> InputDensity::Describe(const UnusualValues& values) const
 {
   // The largest density may be what empty cells count as.

@@ -72,6 +72,8 @@ public:
   const ImageGrid& Grid() const { return this->Geometry; }
   // The grid cells along each axis, 1 along axes that the grid lacks.
   GridSize<3> CellsInSpace() const;
+  // vtkDataObject::POINT or CELL, by the values.
+  int Owner() const;
   // Its name in messages.
   const std::string& GetName() const { return this->Name; }
   // The name of its array; empty if it has none.
