@@ -133,7 +133,7 @@ OTHERS = [
     # the tables that filters share
     E(BRIDGE + "Store/Store.cxx", "if («entry.Type == type» && of.IsByContent(entry.Of))", "false"),
     E(BRIDGE + "Store/Store.cxx", "object.use_count() != 1", "false"),
-    E(BRIDGE + "Density/InputDensity.cxx", "this->Hashed == Content{}", "true"),
+    E(BRIDGE + "Density/InputDensity.cxx", "if («!this->Hashed»)", "true"),
     # the filters
     S("Filters/vtkTransportBarycenter.cxx",
       "this->Weights->List.resize(static_cast<std::size_t>(count));\n    this->Modified();",
@@ -303,7 +303,7 @@ OTHERS = [
     E(CORE + "Tables/Reading/TupleDensities.h", "(«hasAlpha && missing.AreNaN» &&", "false"),
     E(CORE + "Tables/Reading/FilledCells.cxx", "this->Cells.Add(«static_cast<double>(filled)»);",
       "static_cast<double>(count)"),
-    E(BRIDGE + "Density/InputDensity.cxx", "«bitsOf(this->Rules.Missing.Low)»", "std::uint64_t{ 0 }"),
+    E(BRIDGE + "Store/DataIdentity.cxx", "{ «rules.Missing.Low», rules.Missing.High", "0.0"),
     E(BRIDGE + "Density/InputDensity.cxx", "this->MayBeEmpty ? «this->Rules.Empty» : EmptyRule();",
       "EmptyRule()"),
     S(BRIDGE + "Density/PiecesDensity.cxx", "subtract(tuplesOf(below, this->Owner(), whole), own);", ";"),

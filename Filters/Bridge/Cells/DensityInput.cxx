@@ -335,10 +335,10 @@ std::unique_ptr<InputDensity> DensityInput::Read(
   {
     warnOfAuto(choice, density->HowRead());
     // Once for each change of a density: what does not change it may run the filter, too.
-    density->SetListener([this, warn = choice.Warn](const std::vector<std::string>& lines,
-                           const InputDensity::Content& content) {
-      const InputDensity::Content before = std::exchange(this->Told, content);
-      if (content != before || content[0] == 0)
+    density->SetListener([this, warn = choice.Warn](
+                           const std::vector<std::string>& lines, const DataIdentity& content) {
+      const DataIdentity before = std::exchange(this->Told, content);
+      if (!content.HasHash() || !content.IsByContent(before))
       {
         std::for_each(lines.begin(), lines.end(), warn);
       }

@@ -52,7 +52,7 @@ private:
 
   ResampledDensity Resampled;
   GatheredBlocks Gathered;
-  InputDensity::Content Told{}; // of whose unusual values a warning told
+  DataIdentity Told; // of whose unusual values a warning told
 };
 
 } // namespace RectifiedTransport::Bridge

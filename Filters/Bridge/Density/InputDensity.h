@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -54,16 +55,13 @@ DensityReading readingBy(const DensityRules& rules, const std::string& arrayName
 // one value for each density, two of DensityRange.
 void addReadings(vtkDataObject* output, const std::vector<DensityReading>& readings);
 
-// If the values are distributed over ranks, Prepare, GetContent and methods marked so are
+// If the values are distributed over ranks, Prepare, Hash and methods marked so are
 // collective.
 class InputDensity
 {
 public:
   // The modification times of the array, the ghost arrays and the image itself.
   using Times = std::array<std::uint64_t, 4>;
-  // All that the tables of a density depend on: a hash of the values and the ghost arrays, and the
-  // parameters of reading them. The hash is 0 if an array is not contiguous in memory.
-  using Content = std::array<std::uint64_t, 17>;
 
   virtual ~InputDensity();
   InputDensity(const InputDensity&) = delete;
@@ -79,10 +77,11 @@ public:
   // The name of its array; empty if it has none.
   virtual std::string NameOfArray() const = 0;
   const DensityReading& HowRead() const { return this->Read; }
-  // Computed once. Throws Cancelled.
-  const Content& GetContent(Progress& progress) const;
-  // To compare it with others while it is there; hashing it is collective. Values that are no
-  // contiguous array in memory have no hash.
+  // Of the values and the ghost arrays, computed once; 0 if an array is not contiguous in memory.
+  // Throws Cancelled.
+  std::uint64_t Hash(Progress& progress) const;
+  // All that the tables of a density depend on, to compare it with others while it is there;
+  // hashing it is collective. Values that are no contiguous array in memory have no hash.
   DataIdentity Identity() const;
 
   // Computes what reading for such tables needs from all values, such as the largest value. Call it
@@ -124,7 +123,7 @@ public:
   // Receives one line for each finding of values that are probably not meant, and their content.
   // Without lines, it gets no content.
   using Listener =
-    std::function<void(const std::vector<std::string>& lines, const Content& content)>;
+    std::function<void(const std::vector<std::string>& lines, const DataIdentity& content)>;
   void SetListener(const Listener& listener) { this->Tell = listener; }
   // Call it when the values have been read, by this filter or another one. Collective.
   virtual void TellUnusual(const UnusualValues& values, Progress& progress);
@@ -196,8 +195,8 @@ private:
   Listener Tell;
   bool MayBeEmpty = false; // some cells
   bool MustFindEmpty = false;
-  Content Reading{};
-  mutable Content Hashed{}; // all 0 before GetContent
+  DataIdentity Reading; // the parameters of reading the values
+  mutable std::optional<std::uint64_t> Hashed;
   const std::tuple<Boxes<1>, Boxes<2>, Boxes<3>> OnRanks{ *this, *this, *this };
 };
 
