@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDensityAlgorithm.h"
 
+#include "Bridge/Blocks/OptionalArray.h"
 #include "Bridge/Cells/DensityInput.h"
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/DefaultArray.h"
@@ -137,7 +138,7 @@ vtkAbstractArray* vtkDensityAlgorithm::FindDensityArray(
 {
   vtkInformation* choice = this->GetInputArrayInformation(arrayIndex);
   association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
-  if (!isDensityAssociation(association))
+  if (!isArrayAssociation(association))
   {
     return nullptr; // GetInputAbstractArrayToProcess would report another error
   }

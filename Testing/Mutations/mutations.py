@@ -312,7 +312,7 @@ OTHERS = [
     E(CORE + "Resampling/CellValues.cxx",
       "(onPoints && «std::any_of(points.begin(), points.end(), isMissing)»)", "false"),
     E(CORE + "Resampling/CellValues.h", "this->IsGround ? «1.0» : density", "density"),
-    E(CORE + "Resampling/Reading/EmptyParts.cxx", "values[cell] += («1.0 - shareOf(cell)»)", "1.0"),
+    E(CORE + "Tables/Reading/FilledCells.cxx", "values[cell] += («1.0 - shareOf(cell)»)", "1.0"),
     # steps, equal areas, folds
     E(CORE + "Flow/Kernels/FlowKernels.cxx", "timeLeft <= «wide»", "0.3"),
     E(CORE + "Flow/Kernels/FlowKernels.cxx", "p[0] = «1.0 - 0.5 / second»", "1.0 - 0.501 / second"),

@@ -2,6 +2,7 @@
 #include "Bridge/Cells/DensityInput.h"
 
 #include "Bridge/Blocks/DensityBlocks.h"
+#include "Bridge/Blocks/OptionalArray.h"
 #include "Bridge/Cells/MeshCells.h"
 #include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Density/DensityImage.h"
@@ -313,12 +314,7 @@ std::unique_ptr<InputDensity> DensityInput::Read(
   {
     return nullptr;
   }
-  if (!isDensityAssociation(choice.Association))
-  {
-    throw Failure("The field association of the density array is " +
-      std::to_string(choice.Association) +
-      "; it must be 0 (points), 1 (cells) or 3 (points, then cells)");
-  }
+  requireArrayAssociation(choice.Association, "density array");
   std::unique_ptr<InputDensity> density;
   if (kind == "an image")
   {
@@ -369,13 +365,6 @@ std::unique_ptr<InputDensity> DensityInput::ReadBlocks(
     choice.Warn(warning);
   }
   return density;
-}
-
-bool isDensityAssociation(int association)
-{
-  return association == vtkDataObject::FIELD_ASSOCIATION_POINTS ||
-    association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
-    association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -12,9 +12,9 @@
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Resampling/CellFrame.h"
 #include "Core/Resampling/CellSums.h"
-#include "Core/Resampling/Reading/EmptyParts.h"
 #include "Core/Resampling/Reading/SetMessages.h"
 #include "Core/Resampling/RegionShapes.h"
+#include "Core/Tables/Reading/FilledCells.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -216,8 +216,13 @@ void ResampledDensity::FillEmpty(
   withMemory({ "what the input's cells cover", numberOfValues(grid) * sizeof(double) },
     [&]() { covered = LargeBuffer<double>(grid.NumberOfCells()); });
   this->AddCells(grid, ground, progress, covered.data());
-  this->Empty = fillEmptyParts(
-    covered.data(), grid.NumberOfCells(), this->Blocks.Findings, rule, progress, values);
+  FilledCells filled;
+  for (const SetFindings& set : this->Blocks.Findings)
+  {
+    filled.Least = std::min(filled.Least, set.Least);
+  }
+  this->Empty =
+    fillEmptyParts(covered.data(), grid.NumberOfCells(), filled, rule, progress, values);
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -29,7 +29,7 @@ void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const s
 // Failure if the array does not have it.
 DensityRules takenRules(vtkDataArray* array, const std::string& name, const DensityRules& rules);
 
-// Of netCDF and GDAL: _FillValue, missing_value, NO_DATA_VALUE. `fields` may be nullptr.
+// What netCDF and GDAL write: _FillValue, missing_value, NO_DATA_VALUE. `fields` may be nullptr.
 std::vector<FillValue> fillValuesOf(vtkFieldData* fields);
 
 // Reads any value type and memory layout. `rules` have the component that is taken, not Auto.

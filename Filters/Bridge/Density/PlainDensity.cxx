@@ -16,7 +16,7 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-// Of values with this summary.
+// The mass of values that have this summary.
 double massOf(InputDensity& density, UnusualValues values, Progress& progress)
 {
   const double sum = values.Found.Total;
