@@ -55,7 +55,6 @@ InputDensity::InputDensity(const InputDensity& inner, const ImageGrid& grown,
   : Geometry(grown)
   , Rules(inner.Rules)
   , Read(inner.Read)
-  , Changed(inner.Changed)
   , Name(inner.Name)
   , MayBeEmpty(true)
   , Reading(inner.Reading)
@@ -70,7 +69,7 @@ InputDensity::InputDensity(const InputDensity& inner, const ImageGrid& grown,
 
 InputDensity::~InputDensity() = default;
 
-void InputDensity::SetForm(const ArrayForm& form)
+void InputDensity::SetForm(const ArrayForm& form, const std::vector<std::uint64_t>& times)
 {
   this->Rules.Component = takenComponent(this->Name, this->Rules.Component,
     automaticComponent(form.Type, form.Components), form.Components);
@@ -91,13 +90,15 @@ void InputDensity::SetForm(const ArrayForm& form)
   DensityRules rules = this->Rules;
   rules.Empty = this->MayBeEmpty ? this->Rules.Empty : EmptyRule();
   this->Reading.AddRules(rules);
+  for (const std::uint64_t time : times)
+  {
+    this->Reading.AddTime(time);
+  }
 }
 
 DataIdentity InputDensity::Identity() const
 {
   DataIdentity identity = this->Reading;
-  std::for_each(this->Changed.begin(), this->Changed.end(),
-    [&](std::uint64_t time) { identity.AddTime(time); });
   identity.SetHasher([this](Progress& progress) { return this->Hash(progress); });
   return identity;
 }

@@ -60,9 +60,6 @@ void addReadings(vtkDataObject* output, const std::vector<DensityReading>& readi
 class InputDensity
 {
 public:
-  // The modification times of the array, the ghost arrays and the image itself.
-  using Times = std::array<std::uint64_t, 4>;
-
   virtual ~InputDensity();
   InputDensity(const InputDensity&) = delete;
   InputDensity& operator=(const InputDensity&) = delete;
@@ -147,8 +144,9 @@ protected:
   // For another density on its grid grown by `margin` cells, which this rule fills.
   InputDensity(const InputDensity& inner, const ImageGrid& grown, const GridSize<3>& margin,
     const EmptyRule& rule);
-  // Once, with the grid. Finds the component that is taken. Throws Failure without one.
-  void SetForm(const ArrayForm& form);
+  // Once, with the grid. Finds the component that is taken. `times` are the modification times of
+  // what has the values. Throws Failure if the array has no such component.
+  void SetForm(const ArrayForm& form, const std::vector<std::uint64_t>& times);
   bool NeedsWhite() const { return this->Rules.NeedsWhite(this->Read.Components); }
   bool Clamps() const { return this->Rules.ClampNegative && !this->Rules.Invert; }
   bool FillsEmpty() const
@@ -163,7 +161,6 @@ protected:
   ImageGrid Geometry;
   DensityRules Rules;
   DensityReading Read; // from SetForm on
-  Times Changed{};
   UnusualValues Known;
   double Empty = 0.0;
   std::vector<FillValue> FillValues; // of the input's field data
@@ -195,7 +192,7 @@ private:
   Listener Tell;
   bool MayBeEmpty = false; // some cells
   bool MustFindEmpty = false;
-  DataIdentity Reading; // the parameters of reading the values
+  DataIdentity Reading; // the parameters of reading the values, and their times
   mutable std::optional<std::uint64_t> Hashed;
   const std::tuple<Boxes<1>, Boxes<2>, Boxes<3>> OnRanks{ *this, *this, *this };
 };

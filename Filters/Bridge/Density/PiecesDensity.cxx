@@ -87,8 +87,7 @@ PiecesDensity::PiecesDensity(std::unique_ptr<const ImagePieces> pieces, const st
   }
   // Times differ among the ranks: only contents are compared.
   static std::atomic<std::uint64_t> count{ 0 };
-  this->Changed = { ++count, 0, 0, 0 };
-  this->SetForm(form);
+  this->SetForm(form, { ++count });
   this->FillValues = fillValuesOf(this->Distribution->OwnImage()->GetFieldData());
 }
 
