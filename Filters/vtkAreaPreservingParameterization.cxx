@@ -2,9 +2,9 @@
 #include "vtkAreaPreservingParameterization.h"
 
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Surfaces/AreaPreservingParameterization.h"
 #include "Bridge/Triangles/SurfaceInput.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/CornerSettings.h"
 

@@ -7,9 +7,9 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/FieldValue.h"
-#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Samples/BlueNoiseRelaxation.h"
 #include "Core/Messages/PartText.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkCellData.h"

@@ -4,9 +4,9 @@
 #include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Cartogram/Cartogram.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/MissingData.h"
 #include "Core/Cartogram/MapProjection.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkCompositeDataSet.h"

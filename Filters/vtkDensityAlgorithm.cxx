@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDensityAlgorithm.h"
 
+#include "Bridge/Blocks/OptionalArray.h"
 #include "Bridge/Cells/DensityInput.h"
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
-#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/MissingData.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 
@@ -128,7 +129,7 @@ vtkAbstractArray* vtkDensityAlgorithm::FindDensityArray(
 {
   vtkInformation* choice = this->GetInputArrayInformation(arrayIndex);
   association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
-  if (!isDensityAssociation(association))
+  if (!isArrayAssociation(association))
   {
     return nullptr; // GetInputAbstractArrayToProcess would report another error
   }

@@ -8,11 +8,12 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/FieldValue.h"
-#include "Core/Messages/PropertyCheck.h"
+#include "Bridge/Run/Settings/MissingData.h"
 #include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Device/DeviceUse.h"
 #include "Core/Messages/PartText.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 

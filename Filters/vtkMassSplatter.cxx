@@ -6,11 +6,11 @@
 #include "Bridge/Points/PointMasses.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
-#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/AssociationSettings.h"
 #include "Bridge/Run/Settings/SplatSettings.h"
 #include "Bridge/Splat/MassSplatter.h"
 #include "Core/Messages/PartText.h"
+#include "Core/Messages/PropertyCheck.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

@@ -6,10 +6,10 @@
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
-#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/AssociationSettings.h"
 #include "Bridge/Triangles/SolidDensity.h"
 #include "Core/Geometry/Boxes/SolidGrid.h"
+#include "Core/Messages/PropertyCheck.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

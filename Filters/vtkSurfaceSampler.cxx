@@ -3,12 +3,12 @@
 
 #include "Bridge/Blocks/OptionalArray.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/FlowSettings.h"
 #include "Bridge/Run/Settings/SeedSettings.h"
 #include "Bridge/Surfaces/SurfaceDensityArray.h"
 #include "Bridge/Surfaces/SurfaceSampler.h"
 #include "Bridge/Triangles/SurfaceInput.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/CornerSettings.h"
 

@@ -7,8 +7,8 @@
 #include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Ranks/FieldsOfFirst.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/IndexedList.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkInformation.h"

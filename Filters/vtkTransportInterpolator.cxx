@@ -4,8 +4,8 @@
 #include "Bridge/Ensembles/DensityBlend.h"
 #include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Run/Inputs/SeparateInputs.h"
-#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/TargetArray.h"
+#include "Core/Messages/PropertyCheck.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"

@@ -6,7 +6,6 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/MissingData.h"
 #include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Run/Settings/TargetArray.h"
@@ -15,6 +14,7 @@
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Messages/PartText.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkInformation.h"

@@ -7,9 +7,9 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Samples/TransportQuality.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkDoubleArray.h"

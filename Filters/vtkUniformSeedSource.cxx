@@ -2,9 +2,9 @@
 #include "vtkUniformSeedSource.h"
 
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Run/Settings/SeedSettings.h"
 #include "Bridge/Samples/UniformSeedSource.h"
+#include "Core/Messages/PropertyCheck.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

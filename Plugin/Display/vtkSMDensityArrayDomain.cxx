@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Display/vtkSMDensityArrayDomain.h"
 
-#include "Bridge/Image/IdNames.h"
+#include "Core/Tables/Reading/IdNames.h"
 
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
@@ -67,7 +67,7 @@ Choice choose(vtkSMArrayListDomain* list, vtkPVDataInformation* data)
     const ArrayUse use = useOf(data, list->GetDomainAssociation(i), name);
     if (use.Attribute == vtkDataSetAttributes::GLOBALIDS ||
       use.Attribute == vtkDataSetAttributes::PEDIGREEIDS || use.IsText ||
-      RectifiedTransport::Bridge::isIdName(name))
+      RectifiedTransport::isIdName(name))
     {
       continue;
     }

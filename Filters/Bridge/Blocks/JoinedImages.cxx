@@ -5,6 +5,7 @@
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Geometry/Boxes/JoinedBoxes.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/LatticeExtent.h"
 
@@ -90,84 +91,34 @@ std::optional<std::vector<Part>> partsOf(
   return parts;
 }
 
-// Calls visit(from, to, count) for runs of values of a part with mass that are no ghosts, until it
-// returns false. They go to the values `all`. Returns whether it never did.
-template <class Visit>
-bool visitRuns(const Part& part, int owner, const TupleBox& all, const Visit& visit)
+// The values of the parts with mass.
+std::vector<JoinedBox> boxesOf(const std::vector<Part>& parts, int owner)
 {
-  if (!part.Array)
-  {
-    return true;
-  }
   const bool onPoints = owner == vtkDataObject::POINT;
-  const TupleBox own = tuplesOf(part.Place, owner, part.Place);
-  const unsigned char* flags = !onPoints && !part.Flags.empty()
-    ? part.Flags.data()
-    : ghostFlags(part.Image, owner, part.Name.c_str());
-  const unsigned char mask = onPoints ? ghostPoint : ghostCell;
-  for (std::int64_t k = own.Low[2]; k < own.End(2); ++k)
+  std::vector<JoinedBox> boxes;
+  for (std::size_t p = 0; p < parts.size(); ++p)
   {
-    for (std::int64_t j = own.Low[1]; j < own.End(1); ++j)
+    const Part& part = parts[p];
+    if (part.Array)
     {
-      const std::int64_t from = own.NumberOf({ own.Low[0], j, k });
-      const std::int64_t to = all.NumberOf({ own.Low[0], j, k });
-      for (std::int64_t i = 0; i < own.Cells[0];)
-      {
-        const bool isGhost = flags && (flags[from + i] & mask);
-        std::int64_t end = i + 1;
-        while (end < own.Cells[0] && isGhost == (flags && (flags[from + end] & mask)))
-        {
-          ++end;
-        }
-        if (!isGhost && !visit(from + i, to + i, end - i))
-        {
-          return false;
-        }
-        i = end;
-      }
+      const unsigned char* flags = !onPoints && !part.Flags.empty()
+        ? part.Flags.data()
+        : ghostFlags(part.Image, owner, part.Name.c_str());
+      boxes.push_back(
+        { p, tuplesOf(part.Place, owner, part.Place), flags, onPoints ? ghostPoint : ghostCell });
     }
   }
-  return true;
+  return boxes;
 }
 
-// Which values of the lattice a part has given; false where cells overlap or points differ.
-bool findGiven(const std::vector<Part>& parts, int owner, const TupleBox& all,
-  std::vector<vtkIdType>& given, std::vector<std::int32_t>& giver)
+// Whether two tuples are the same; NaN is NaN.
+bool areSame(vtkDataArray* a, std::int64_t first, vtkDataArray* b, std::int64_t second)
 {
-  const bool onPoints = owner == vtkDataObject::POINT;
-  for (std::size_t t = 0; t < parts.size(); ++t)
+  for (int c = 0; c < a->GetNumberOfComponents(); ++c)
   {
-    const Part& part = parts[t];
-    const bool apart =
-      visitRuns(part, owner, all, [&](std::int64_t from, std::int64_t to, std::int64_t count) {
-        for (std::int64_t i = 0; i < count; ++i)
-        {
-          std::int32_t& first = giver[static_cast<std::size_t>(to + i)];
-          vtkIdType& source = given[static_cast<std::size_t>(to + i)];
-          if (first < 0)
-          {
-            first = static_cast<std::int32_t>(t);
-            source = static_cast<vtkIdType>(from + i);
-            continue;
-          }
-          const vtkDataArray* other = parts[static_cast<std::size_t>(first)].Array;
-          for (int c = 0; onPoints && c < other->GetNumberOfComponents(); ++c)
-          {
-            const double a = const_cast<vtkDataArray*>(other)->GetComponent(source, c);
-            const double b = part.Array->GetComponent(static_cast<vtkIdType>(from + i), c);
-            if (!(a == b) && !(std::isnan(a) && std::isnan(b)))
-            {
-              return false;
-            }
-          }
-          if (!onPoints)
-          {
-            return false;
-          }
-        }
-        return true;
-      });
-    if (!apart)
+    const double one = a->GetComponent(static_cast<vtkIdType>(first), c);
+    const double other = b->GetComponent(static_cast<vtkIdType>(second), c);
+    if (!(one == other) && !(std::isnan(one) && std::isnan(other)))
     {
       return false;
     }
@@ -190,21 +141,20 @@ template <class ArrayOf>
 vtkSmartPointer<vtkDataArray> joinArrays(const std::vector<Part>& parts, int owner,
   vtkDataArray* like, const TupleBox& all, const ArrayOf& arrayOf)
 {
-  const double bytes =
-    static_cast<double>(all.Count()) * like->GetNumberOfComponents() * like->GetDataTypeSize();
   const std::string name = like->GetName() ? like->GetName() : "without a name";
-  const std::string purpose = "the array " + name + " of images that are joined";
-  requireMemory({ purpose, bytes });
+  const MemoryPlan memory{ "the array " + name + " of images that are joined",
+    static_cast<double>(all.Count()) * like->GetNumberOfComponents() * like->GetDataTypeSize() };
   const auto joined = vtkSmartPointer<vtkDataArray>::Take(like->NewInstance());
   joined->SetName(like->GetName());
   joined->SetNumberOfComponents(like->GetNumberOfComponents());
-  withMemory({ purpose, bytes }, [&]() { joined->SetNumberOfTuples(all.Count()); });
+  withRequiredMemory(memory, [&]() { joined->SetNumberOfTuples(all.Count()); });
   joined->Fill(0.0);
   // The first image that has a value gives it.
-  for (auto part = parts.rbegin(); part != parts.rend(); ++part)
+  const std::vector<JoinedBox> boxes = boxesOf(parts, owner);
+  for (auto box = boxes.rbegin(); box != boxes.rend(); ++box)
   {
-    vtkDataArray* from = arrayOf(*part);
-    visitRuns(*part, owner, all, [&](std::int64_t first, std::int64_t to, std::int64_t count) {
+    vtkDataArray* from = arrayOf(parts[box->Number]);
+    visitRuns(*box, all, [&](std::int64_t first, std::int64_t to, std::int64_t count) {
       joined->InsertTuples(static_cast<vtkIdType>(to), static_cast<vtkIdType>(count),
         static_cast<vtkIdType>(first), from);
       return true;
@@ -243,15 +193,18 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
   }
   const int ofDensity = onPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
   const TupleBox all = tuplesOf(whole, ofDensity, whole);
-  std::vector<vtkIdType> given;
-  std::vector<std::int32_t> giver;
+  ValueGivers givers;
   withMemory({ "the lattice of images that are joined",
-               numberOfValues(grid) * (sizeof(vtkIdType) + sizeof(std::int32_t)) },
+               numberOfValues(grid) * (sizeof(std::int64_t) + sizeof(std::int32_t)) },
     [&]() {
-      given.resize(static_cast<std::size_t>(all.Count()));
-      giver.assign(static_cast<std::size_t>(all.Count()), -1);
+      givers.Values.resize(static_cast<std::size_t>(all.Count()));
+      givers.Boxes.assign(static_cast<std::size_t>(all.Count()), -1);
     });
-  if (!findGiven(*parts, ofDensity, all, given, giver))
+  const auto mayShare = [&](std::size_t giver, std::int64_t value, std::size_t part,
+                          std::int64_t other) {
+    return onPoints && areSame((*parts)[giver].Array, value, (*parts)[part].Array, other);
+  };
+  if (!findGivers(boxesOf(*parts, ofDensity), all, mayShare, givers))
   {
     return nullptr;
   }
@@ -282,14 +235,15 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
       }
     }
   }
-  if (std::any_of(giver.begin(), giver.end(), [](std::int32_t owner) { return owner < 0; }))
+  if (std::any_of(
+        givers.Boxes.begin(), givers.Boxes.end(), [](std::int32_t owner) { return owner < 0; }))
   {
     auto flags = newArray<vtkUnsignedCharArray>(
-      vtkDataSetAttributes::GhostArrayName(), 1, static_cast<vtkIdType>(giver.size()));
+      vtkDataSetAttributes::GhostArrayName(), 1, static_cast<vtkIdType>(givers.Boxes.size()));
     const auto hidden =
       static_cast<unsigned char>(onPoints ? int{ vtkDataSetAttributes::HIDDENPOINT }
                                           : int{ vtkDataSetAttributes::HIDDENCELL });
-    std::transform(giver.begin(), giver.end(), flags->GetPointer(0),
+    std::transform(givers.Boxes.begin(), givers.Boxes.end(), flags->GetPointer(0),
       [hidden](std::int32_t owner) { return owner < 0 ? hidden : static_cast<unsigned char>(0); });
     joined->GetAttributes(ofDensity)->AddArray(flags);
   }

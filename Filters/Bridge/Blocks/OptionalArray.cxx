@@ -14,16 +14,27 @@
 namespace RectifiedTransport::Bridge
 {
 
-OptionalArray findOptionalArray(vtkInformation* choice, vtkDataSet* data, const char* title)
+bool isArrayAssociation(int association)
 {
-  const int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
-  const bool isAny = association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
-  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS &&
-    association != vtkDataObject::FIELD_ASSOCIATION_CELLS && !isAny)
+  return association == vtkDataObject::FIELD_ASSOCIATION_POINTS ||
+    association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
+    association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
+}
+
+void requireArrayAssociation(int association, const std::string& title)
+{
+  if (!isArrayAssociation(association))
   {
     fail("The field association of the ", title, " is ", association,
       "; it must be 0 (points), 1 (cells) or 3 (points, then cells)");
   }
+}
+
+OptionalArray findOptionalArray(vtkInformation* choice, vtkDataSet* data, const char* title)
+{
+  const int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
+  const bool isAny = association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
+  requireArrayAssociation(association, title);
   const char* name = choice->Get(vtkDataObject::FIELD_NAME());
   const bool isAttribute = !name && choice->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE());
   OptionalArray found;

@@ -16,6 +16,11 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport::Bridge
 {
 
+// Whether an array that is chosen may have this field association: points, cells, or points, then
+// cells. Throws Failure if it may not; `title` names the array.
+bool isArrayAssociation(int association);
+void requireArrayAssociation(int association, const std::string& title);
+
 struct OptionalArray
 {
   vtkAbstractArray* Array = nullptr; // nullptr also if the data lack an array that is chosen
@@ -24,8 +29,7 @@ struct OptionalArray
   std::string Name;
 };
 
-// `choice`: GetInputArrayInformation of the filter. Throws Failure for an association other than
-// points, cells, or points, then cells; `title` names the array.
+// `choice`: GetInputArrayInformation of the filter. Throws Failure as above.
 OptionalArray findOptionalArray(vtkInformation* choice, vtkDataSet* data, const char* title);
 
 } // namespace RectifiedTransport::Bridge

@@ -6,7 +6,6 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/Settings/ComponentChoice.h"
 #include "Core/Messages/Failure.h"
-#include "Core/Tables/Reading/DensityFailure.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -28,11 +27,7 @@ std::string nameOf(const DensityBlock& block)
 
 DensityRules rulesOf(const DensityBlock& block, const DensityRules& rules)
 {
-  DensityRules taken = rules;
-  const int components = block.Array->GetNumberOfComponents();
-  taken.Component = takenComponent(nameOf(block), rules.Component,
-    automaticComponent(block.Array->GetDataType(), components), components);
-  return taken;
+  return takenRules(block.Array, nameOf(block), rules);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "Bridge/Cells/DensityInput.h"
 
 #include "Bridge/Blocks/DensityBlocks.h"
+#include "Bridge/Blocks/OptionalArray.h"
 #include "Bridge/Cells/MeshCells.h"
 #include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Density/DensityImage.h"
@@ -313,12 +314,7 @@ std::unique_ptr<InputDensity> DensityInput::Read(
   {
     return nullptr;
   }
-  if (!isDensityAssociation(choice.Association))
-  {
-    throw Failure("The field association of the density array is " +
-      std::to_string(choice.Association) +
-      "; it must be 0 (points), 1 (cells) or 3 (points, then cells)");
-  }
+  requireArrayAssociation(choice.Association, "density array");
   std::unique_ptr<InputDensity> density;
   if (kind == "an image")
   {
@@ -335,10 +331,10 @@ std::unique_ptr<InputDensity> DensityInput::Read(
   {
     warnOfAuto(choice, density->HowRead());
     // Once for each change of a density: what does not change it may run the filter, too.
-    density->SetListener([this, warn = choice.Warn](const std::vector<std::string>& lines,
-                           const InputDensity::Content& content) {
-      const InputDensity::Content before = std::exchange(this->Told, content);
-      if (content != before || content[0] == 0)
+    density->SetListener([this, warn = choice.Warn](
+                           const std::vector<std::string>& lines, const DataIdentity& content) {
+      const DataIdentity before = std::exchange(this->Told, content);
+      if (!content.HasHash() || !content.IsByContent(before))
       {
         std::for_each(lines.begin(), lines.end(), warn);
       }
@@ -369,13 +365,6 @@ std::unique_ptr<InputDensity> DensityInput::ReadBlocks(
     choice.Warn(warning);
   }
   return density;
-}
-
-bool isDensityAssociation(int association)
-{
-  return association == vtkDataObject::FIELD_ASSOCIATION_POINTS ||
-    association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
-    association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -34,9 +34,6 @@ struct DensityChoice
   std::function<void(const std::string&)> Warn;
 };
 
-// Whether a density may have this field association.
-bool isDensityAssociation(int association);
-
 // Keeps what the last run made of the data. It is made again only if the data or the choice change.
 class DensityInput
 {
@@ -52,7 +49,7 @@ private:
 
   ResampledDensity Resampled;
   GatheredBlocks Gathered;
-  InputDensity::Content Told{}; // of whose unusual values a warning told
+  DataIdentity Told; // of whose unusual values a warning told
 };
 
 } // namespace RectifiedTransport::Bridge

@@ -10,11 +10,11 @@
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Parallel/LargeBuffer.h"
+#include "Core/Resampling/CellFrame.h"
 #include "Core/Resampling/CellSums.h"
-#include "Core/Resampling/Reading/CellGrid.h"
-#include "Core/Resampling/Reading/EmptyParts.h"
 #include "Core/Resampling/Reading/SetMessages.h"
 #include "Core/Resampling/RegionShapes.h"
+#include "Core/Tables/Reading/FilledCells.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -58,14 +58,11 @@ DataIdentity contentOf(const DensityBlocks& blocks, int resolution, const Densit
       addArrays(block, content);
     }
   }
-  for (const int number : { blocks.OnPoints ? 1 : 0, blocks.Dimension, resolution, rules.Component,
-         rules.Invert ? 1 : 0, rules.ClampNegative ? 1 : 0, rules.Missing.AreNaN ? 1 : 0,
-         static_cast<int>(rules.Empty.Cells) })
+  for (const int number : { blocks.OnPoints ? 1 : 0, blocks.Dimension, resolution })
   {
     content.AddNumber(static_cast<std::uint64_t>(number));
   }
-  const double numbers[] = { rules.Missing.Low, rules.Missing.High, rules.Empty.Value };
-  content.AddNumbers(numbers, 3);
+  content.AddRules(rules);
   return content;
 }
 
@@ -141,14 +138,14 @@ std::unique_ptr<InputDensity> ResampledDensity::Read(
 void ResampledDensity::Resample(
   const DensityBlocks& blocks, int resolution, const DensityRules& rules, Progress& progress)
 {
-  // A mesh is checked by gridOfCells before its values are read.
+  // A mesh is checked by its frame before its values are read.
   const CellSets sets = cellSetsOf(blocks.All);
   const MassCells mass = massCells(sets, blocks.Dimension, progress);
   if (!mass.AreClosedLines)
   {
     this->Lattice = latticeOf(blocks.All, sets, blocks.Dimension, progress);
   }
-  ImageGrid grid = !this->Lattice ? gridOfCells(sets, mass, resolution, progress)
+  ImageGrid grid = !this->Lattice ? CellFrame::Of(sets, mass, progress).Grid(resolution)
     : blocks.OnPoints             ? this->Lattice->DividedGrid(resolution)
                                   : this->Lattice->Grid();
   const std::vector<DensityBlock> read = withMass(blocks.All);
@@ -158,7 +155,7 @@ void ResampledDensity::Resample(
   if (this->Lattice && !this->Lattice->HasEachOnce(this->Blocks.Cells, progress))
   {
     this->Lattice.reset();
-    grid = gridOfCells(sets, mass, resolution, progress);
+    grid = CellFrame::Of(sets, mass, progress).Grid(resolution);
   }
   if (!this->Lattice && mass.Dimension == 2)
   {
@@ -219,8 +216,13 @@ void ResampledDensity::FillEmpty(
   withMemory({ "what the input's cells cover", numberOfValues(grid) * sizeof(double) },
     [&]() { covered = LargeBuffer<double>(grid.NumberOfCells()); });
   this->AddCells(grid, ground, progress, covered.data());
-  this->Empty = fillEmptyParts(
-    covered.data(), grid.NumberOfCells(), this->Blocks.Findings, rule, progress, values);
+  FilledCells filled;
+  for (const SetFindings& set : this->Blocks.Findings)
+  {
+    filled.Least = std::min(filled.Least, set.Least);
+  }
+  this->Empty =
+    fillEmptyParts(covered.data(), grid.NumberOfCells(), filled, rule, progress, values);
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/ArrayReader.h"
 
+#include "Bridge/Run/Settings/ComponentChoice.h"
 #include "Core/Messages/Failure.h"
+#include "Core/Tables/Reading/DensityFailure.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkArrayDispatch.h"
@@ -125,6 +127,15 @@ void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const s
     fail("The ", describeArray(array), " has ", array->GetNumberOfTuples(), " tuples, but the ",
       what, " has ", expected, onPoints ? " points" : " cells", "; there must be one for each");
   }
+}
+
+DensityRules takenRules(vtkDataArray* array, const std::string& name, const DensityRules& rules)
+{
+  DensityRules taken = rules;
+  const int components = array->GetNumberOfComponents();
+  taken.Component = takenComponent(
+    name, rules.Component, automaticComponent(array->GetDataType(), components), components);
+  return taken;
 }
 
 std::vector<FillValue> fillValuesOf(vtkFieldData* fields)

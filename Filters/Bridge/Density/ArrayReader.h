@@ -25,7 +25,11 @@ std::string describeArray(vtkDataArray* array);
 // Throws Failure unless an array has one tuple for each point or cell of its data set, `what`.
 void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const std::string& what);
 
-// Of netCDF and GDAL: _FillValue, missing_value, NO_DATA_VALUE. `fields` may be nullptr.
+// The rules with the component that is taken of an array, which messages call `name`. Throws
+// Failure if the array does not have it.
+DensityRules takenRules(vtkDataArray* array, const std::string& name, const DensityRules& rules);
+
+// What netCDF and GDAL write: _FillValue, missing_value, NO_DATA_VALUE. `fields` may be nullptr.
 std::vector<FillValue> fillValuesOf(vtkFieldData* fields);
 
 // Reads any value type and memory layout. `rules` have the component that is taken, not Auto.

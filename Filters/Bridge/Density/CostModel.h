@@ -39,7 +39,7 @@ inline double flow(const FlowOptions& options, int dimension)
     (options.Integrator == Integrator::RungeKutta4 ? 4.0 : 1.0);
 }
 
-// Of the optimal map, where it has to be solved.
+// The cost of the optimal map, where it has to be solved.
 inline double optimal(
   const FlowCache& cache, const InputDensity& density, const OptimalSetting& setting)
 {
@@ -48,8 +48,8 @@ inline double optimal(
   return mustSolve ? OptimalCell * static_cast<double>(density.Grid().NumberOfCells()) : 0.0;
 }
 
-// Of the correction of areas, for each cell of the density: the flow of its corners, and the
-// passes.
+// The cost of the correction of areas for each cell of the density: the flow of its corners, and
+// the passes.
 inline double equalization(const FlowOptions& options, int dimension)
 {
   const double passes = dimension == 3 ? 1500.0 : 500.0;

@@ -61,12 +61,21 @@ DensityImage::DensityImage(
   };
   this->Sources = { this->Array, image->GetPointGhostArray(), image->GetCellGhostArray() };
   // The modification time of the vtkImageData itself: its GetMTime() includes all its arrays.
-  this->Changed = { time(this->Sources[0]), time(this->Sources[1]), time(this->Sources[2]),
-    static_cast<std::uint64_t>(image->vtkObject::GetMTime()) };
   this->SetForm({ array->GetDataType(), array->GetNumberOfComponents(), this->Sources[1] != nullptr,
-    this->Sources[2] != nullptr });
+                  this->Sources[2] != nullptr },
+    { time(this->Sources[0]), time(this->Sources[1]), time(this->Sources[2]),
+      static_cast<std::uint64_t>(image->vtkObject::GetMTime()) });
   this->Reader = makeDensityReader(array, this->Rules);
-  this->FindBlanks(image);
+  constexpr const char* what = "input image";
+  const unsigned char* points = ghostFlags(image, vtkDataObject::POINT, what);
+  if (onPoints)
+  {
+    this->Reader->SetBlanks(points, ghostPoint);
+    return;
+  }
+  this->CellFlags = ghostFlags(image, vtkDataObject::CELL, what);
+  this->Reader->SetBlanks(this->CellFlags, ghostCell);
+  this->HiddenPoints = points;
 }
 
 std::string DensityImage::NameOfArray() const
@@ -77,20 +86,6 @@ std::string DensityImage::NameOfArray() const
 std::uint64_t DensityImage::Fingerprint(Progress& progress) const
 {
   return fingerprint({ this->Sources.begin(), this->Sources.end() }, progress);
-}
-
-void DensityImage::FindBlanks(vtkImageData* image)
-{
-  constexpr const char* what = "input image";
-  const unsigned char* points = ghostFlags(image, vtkDataObject::POINT, what);
-  if (this->Geometry.IsOnPoints())
-  {
-    this->Reader->SetBlanks(points, ghostPoint);
-    return;
-  }
-  this->CellFlags = ghostFlags(image, vtkDataObject::CELL, what);
-  this->Reader->SetBlanks(this->CellFlags, ghostCell);
-  this->HiddenPoints = points;
 }
 
 void DensityImage::Prepare(FlowTables /*tables*/, Progress& progress)
@@ -157,8 +152,7 @@ LowestValue DensityImage::FindClamped(Progress& progress) const
 TupleBox DensityImage::AllTuples() const
 {
   const Extent& extent = this->Geometry.Extent();
-  return tuplesOf(
-    extent, this->Geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL, extent);
+  return tuplesOf(extent, this->Owner(), extent);
 }
 
 FilledCells DensityImage::FindFilled(const std::vector<TupleBox>& boxes, Progress& progress) const

@@ -47,7 +47,6 @@ public:
 private:
   std::uint64_t Fingerprint(Progress& progress) const override;
   TupleBox AllTuples() const;
-  void FindBlanks(vtkImageData* image);
   void BlankCellsOfHiddenPoints(Progress& progress);
 
   const vtkSmartPointer<vtkImageData> Input;

@@ -91,7 +91,7 @@ public:
 private:
   std::uint64_t Fingerprint(Progress& progress) const override
   {
-    return this->Inner->GetContent(progress)[0];
+    return this->Inner->Hash(progress);
   }
 
   std::shared_ptr<const DensityValues> Grow(std::shared_ptr<const DensityValues> inner) const

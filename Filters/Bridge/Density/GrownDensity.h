@@ -13,7 +13,7 @@ namespace RectifiedTransport::Bridge
 
 class InputDensity;
 
-// Of the property Margin.
+// The upper end of the range of the property Margin.
 constexpr double LargestMargin = 10.0;
 
 // The density with its box grown by `margin` times its longest axis, rounded up to whole cells, on

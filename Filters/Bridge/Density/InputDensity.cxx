@@ -10,28 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace RectifiedTransport::Bridge
 {
-
-namespace
-{
-
-std::uint64_t bitsOf(double value)
-{
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof(value));
-  return bits;
-}
-
-template <class T>
-std::uint64_t number(T value)
-{
-  return static_cast<std::uint64_t>(value);
-}
-
-} // namespace
 
 DensityReading readingBy(const DensityRules& rules, const std::string& arrayName, int components)
 {
@@ -74,62 +55,61 @@ InputDensity::InputDensity(const InputDensity& inner, const ImageGrid& grown,
   : Geometry(grown)
   , Rules(inner.Rules)
   , Read(inner.Read)
-  , Changed(inner.Changed)
   , Name(inner.Name)
   , MayBeEmpty(true)
   , Reading(inner.Reading)
 {
-  const GridSize<3> size = grown.Size<3>();
-  std::copy(size.begin(), size.end(), this->Reading.begin() + 4);
-  this->Reading[14] = number(rule.Cells);
-  this->Reading[15] = bitsOf(rule.Value);
-  constexpr int shift = 21;
-  this->Reading[16] =
-    number(margin[0]) + (number(margin[1]) << shift) + (number(margin[2]) << (2 * shift));
+  this->Reading.AddNumber(static_cast<std::uint64_t>(rule.Cells));
+  this->Reading.AddNumbers(&rule.Value, 1);
+  for (const std::int64_t cells : margin)
+  {
+    this->Reading.AddNumber(static_cast<std::uint64_t>(cells));
+  }
 }
 
 InputDensity::~InputDensity() = default;
 
-void InputDensity::SetForm(const ArrayForm& form)
+void InputDensity::SetForm(const ArrayForm& form, const std::vector<std::uint64_t>& times)
 {
   this->Rules.Component = takenComponent(this->Name, this->Rules.Component,
     automaticComponent(form.Type, form.Components), form.Components);
   this->Read = readingBy(this->Rules, this->NameOfArray(), form.Components);
-  const GridSize<3> size = this->Geometry.Size<3>();
   this->MayBeEmpty = this->Rules.Missing.Are() || form.HasPointGhosts ||
     (form.HasCellGhosts && !this->Geometry.IsOnPoints());
+  const GridSize<3> size = this->CellsInSpace();
+  for (const std::int64_t number : { std::int64_t{ form.Type }, std::int64_t{ form.Components },
+         std::int64_t{ this->Geometry.Dimension() }, size[0], size[1], size[2],
+         std::int64_t{ this->Owner() }, std::int64_t{ form.HasPointGhosts },
+         std::int64_t{ form.HasCellGhosts } })
+  {
+    this->Reading.AddNumber(static_cast<std::uint64_t>(number));
+  }
+  const double measure = this->Geometry.CellMeasure();
+  this->Reading.AddNumbers(&measure, 1);
   // Without empty cells what they count as is part of no density.
-  const EmptyRule rule = this->MayBeEmpty ? this->Rules.Empty : EmptyRule();
-  this->Reading = { 0, number(form.Type), number(form.Components),
-    number(this->Geometry.Dimension()), number(size[0]), number(size[1]), number(size[2]),
-    number(this->Rules.Component),
-    number(this->Rules.Invert) + 2 * number(this->Rules.ClampNegative) +
-      4 * number(this->Rules.Missing.AreNaN),
-    number(this->Geometry.IsOnPoints()),
-    number(form.HasPointGhosts) + 2 * number(form.HasCellGhosts),
-    bitsOf(this->Geometry.CellMeasure()), bitsOf(this->Rules.Missing.Low),
-    bitsOf(this->Rules.Missing.High), number(rule.Cells), bitsOf(rule.Value), 0 };
+  DensityRules rules = this->Rules;
+  rules.Empty = this->MayBeEmpty ? this->Rules.Empty : EmptyRule();
+  this->Reading.AddRules(rules);
+  for (const std::uint64_t time : times)
+  {
+    this->Reading.AddTime(time);
+  }
 }
 
 DataIdentity InputDensity::Identity() const
 {
-  DataIdentity identity;
-  std::for_each(this->Reading.begin() + 1, this->Reading.end(),
-    [&](std::uint64_t number) { identity.AddNumber(number); });
-  std::for_each(this->Changed.begin(), this->Changed.end(),
-    [&](std::uint64_t time) { identity.AddTime(time); });
-  identity.SetHasher([this](Progress& progress) { return this->GetContent(progress)[0]; });
+  DataIdentity identity = this->Reading;
+  identity.SetHasher([this](Progress& progress) { return this->Hash(progress); });
   return identity;
 }
 
-const InputDensity::Content& InputDensity::GetContent(Progress& progress) const
+std::uint64_t InputDensity::Hash(Progress& progress) const
 {
-  if (this->Hashed == Content{})
+  if (!this->Hashed)
   {
-    this->Hashed = this->Reading;
-    this->Hashed[0] = this->Fingerprint(progress);
+    this->Hashed = this->Fingerprint(progress);
   }
-  return this->Hashed;
+  return *this->Hashed;
 }
 
 double InputDensity::White() const
@@ -142,6 +122,11 @@ GridSize<3> InputDensity::CellsInSpace() const
   GridSize<3> cells = this->Geometry.Size<3>();
   std::fill(cells.begin() + this->Geometry.Dimension(), cells.end(), 1);
   return cells;
+}
+
+int InputDensity::Owner() const
+{
+  return this->Geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
 }
 
 std::vector<std::string> InputDensity::Describe(const UnusualValues& values) const
@@ -168,8 +153,13 @@ void InputDensity::TellUnusual(const UnusualValues& values, Progress& progress)
   {
     line = this->InputName.empty() ? line : this->InputName + ": " + line;
   }
-  // All ranks describe the same values.
-  this->Tell(lines, lines.empty() ? Content{} : this->GetContent(progress));
+  DataIdentity content;
+  if (!lines.empty()) // on all ranks, which describe the same values
+  {
+    content = this->Identity();
+    content.Hash(progress);
+  }
+  this->Tell(lines, content);
 }
 
 void InputDensity::ThrowInvalid(const DensitySummary& summary) const

@@ -7,6 +7,7 @@
 #include "Bridge/Store/DataIdentity.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowTables.h"
+#include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/Points.h"
 #include "Core/Tables/Density.h"
@@ -19,6 +20,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -53,17 +55,11 @@ DensityReading readingBy(const DensityRules& rules, const std::string& arrayName
 // one value for each density, two of DensityRange.
 void addReadings(vtkDataObject* output, const std::vector<DensityReading>& readings);
 
-// If the values are distributed over ranks, Prepare, GetContent and methods marked so are
+// If the values are distributed over ranks, Prepare, Hash and methods marked so are
 // collective.
 class InputDensity
 {
 public:
-  // The modification times of the array, the ghost arrays and the image itself.
-  using Times = std::array<std::uint64_t, 4>;
-  // All that the tables of a density depend on: a hash of the values and the ghost arrays, and the
-  // parameters of reading them. The hash is 0 if an array is not contiguous in memory.
-  using Content = std::array<std::uint64_t, 17>;
-
   virtual ~InputDensity();
   InputDensity(const InputDensity&) = delete;
   InputDensity& operator=(const InputDensity&) = delete;
@@ -71,15 +67,18 @@ public:
   const ImageGrid& Grid() const { return this->Geometry; }
   // The grid cells along each axis, 1 along axes that the grid lacks.
   GridSize<3> CellsInSpace() const;
+  // vtkDataObject::POINT or CELL, by the values.
+  int Owner() const;
   // Its name in messages.
   const std::string& GetName() const { return this->Name; }
   // The name of its array; empty if it has none.
   virtual std::string NameOfArray() const = 0;
   const DensityReading& HowRead() const { return this->Read; }
-  // Computed once. Throws Cancelled.
-  const Content& GetContent(Progress& progress) const;
-  // To compare it with others while it is there; hashing it is collective. Values that are no
-  // contiguous array in memory have no hash.
+  // Of the values and the ghost arrays, computed once; 0 if an array is not contiguous in memory.
+  // Throws Cancelled.
+  std::uint64_t Hash(Progress& progress) const;
+  // All that the tables of a density depend on, to compare it with others while it is there;
+  // hashing it is collective. Values that are no contiguous array in memory have no hash.
   DataIdentity Identity() const;
 
   // Computes what reading for such tables needs from all values, such as the largest value. Call it
@@ -94,7 +93,8 @@ public:
     return this->Values() ? DensitySource<D>(size, *this->Values())
                           : DensitySource<D>(size, std::get<Boxes<D>>(this->OnRanks));
   }
-  // As DistributedDensity::Gather; axes that the grid lacks have the cells from 0 up to 1.
+  // As DistributedDensity::Gather; axes that the grid lacks have the cells from 0 up to 1. Without
+  // an owner where Values has all.
   virtual std::shared_ptr<const DensityValues> Part(
     const GridSize<3>& low, const GridSize<3>& high) const = 0;
   // Releases what Prepare gathered, which Source needs.
@@ -120,7 +120,7 @@ public:
   // Receives one line for each finding of values that are probably not meant, and their content.
   // Without lines, it gets no content.
   using Listener =
-    std::function<void(const std::vector<std::string>& lines, const Content& content)>;
+    std::function<void(const std::vector<std::string>& lines, const DataIdentity& content)>;
   void SetListener(const Listener& listener) { this->Tell = listener; }
   // Call it when the values have been read, by this filter or another one. Collective.
   virtual void TellUnusual(const UnusualValues& values, Progress& progress);
@@ -144,8 +144,9 @@ protected:
   // For another density on its grid grown by `margin` cells, which this rule fills.
   InputDensity(const InputDensity& inner, const ImageGrid& grown, const GridSize<3>& margin,
     const EmptyRule& rule);
-  // Once, with the grid. Finds the component that is taken. Throws Failure without one.
-  void SetForm(const ArrayForm& form);
+  // Once, with the grid. Finds the component that is taken. `times` are the modification times of
+  // what has the values. Throws Failure if the array has no such component.
+  void SetForm(const ArrayForm& form, const std::vector<std::uint64_t>& times);
   bool NeedsWhite() const { return this->Rules.NeedsWhite(this->Read.Components); }
   bool Clamps() const { return this->Rules.ClampNegative && !this->Rules.Invert; }
   bool FillsEmpty() const
@@ -160,7 +161,6 @@ protected:
   ImageGrid Geometry;
   DensityRules Rules;
   DensityReading Read; // from SetForm on
-  Times Changed{};
   UnusualValues Known;
   double Empty = 0.0;
   std::vector<FillValue> FillValues; // of the input's field data
@@ -192,8 +192,8 @@ private:
   Listener Tell;
   bool MayBeEmpty = false; // some cells
   bool MustFindEmpty = false;
-  Content Reading{};
-  mutable Content Hashed{}; // all 0 before GetContent
+  DataIdentity Reading; // the parameters of reading the values, and their times
+  mutable std::optional<std::uint64_t> Hashed;
   const std::tuple<Boxes<1>, Boxes<2>, Boxes<3>> OnRanks{ *this, *this, *this };
 };
 

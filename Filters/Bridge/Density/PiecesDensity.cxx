@@ -2,7 +2,6 @@
 #include "Bridge/Density/PiecesDensity.h"
 
 #include "Bridge/Density/ArrayReader.h"
-#include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/Fingerprint.h"
@@ -10,6 +9,7 @@
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Tables/Reading/GrownValues.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -55,37 +55,6 @@ std::uint64_t joinFingerprints(
   return joined;
 }
 
-// The number in a whole image of a value of a part of it.
-std::int64_t indexIn(const ImageGrid& whole, const ImageGrid& part, std::int64_t index)
-{
-  const int owner = part.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
-  return tuplesOf(whole.Extent(), owner, whole.Extent())
-    .NumberOf(tuplesOf(part.Extent(), owner, whole.Extent()).CellOf(index));
-}
-
-// The values of a box, by the numbers of the whole grid.
-class BoxOfDensity final : public DensityValues
-{
-public:
-  BoxOfDensity(
-    std::unique_ptr<DensityImage> box, const GridSize<3>& whole, const LatticePart<3>& part)
-    : Box(std::move(box))
-    , Whole{ {}, whole }
-    , Part(part)
-  {
-  }
-
-  void Read(std::int64_t first, std::int64_t count, double* values) const override
-  {
-    this->Box->Values()->Read(this->Part.NumberOf(this->Whole.CellOf(first)), count, values);
-  }
-
-private:
-  const std::unique_ptr<DensityImage> Box;
-  const LatticePart<3> Whole;
-  const LatticePart<3> Part;
-};
-
 } // namespace
 
 PiecesDensity::PiecesDensity(std::unique_ptr<const ImagePieces> pieces, const std::string& name,
@@ -96,12 +65,11 @@ PiecesDensity::PiecesDensity(std::unique_ptr<const ImagePieces> pieces, const st
 {
   this->Geometry = gridOf(this->Distribution->MakeFrame(), onPoints);
   requireCells(this->Geometry);
-  const int owner = onPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
   ArrayForm form{};
   bool isFound = false;
   for (const ArrayKind& kind : this->Distribution->Kinds())
   {
-    if (kind.Owner == owner && kind.Name == name)
+    if (kind.Owner == this->Owner() && kind.Name == name)
     {
       form.Type = kind.Type;
       form.Components = kind.Components;
@@ -119,8 +87,7 @@ PiecesDensity::PiecesDensity(std::unique_ptr<const ImagePieces> pieces, const st
   }
   // Times differ among the ranks: only contents are compared.
   static std::atomic<std::uint64_t> count{ 0 };
-  this->Changed = { ++count, 0, 0, 0 };
-  this->SetForm(form);
+  this->SetForm(form, { ++count });
   this->FillValues = fillValuesOf(this->Distribution->OwnImage()->GetFieldData());
 }
 
@@ -129,13 +96,10 @@ PiecesDensity::~PiecesDensity() = default;
 std::uint64_t PiecesDensity::Fingerprint(Progress& progress) const
 {
   vtkImageData* own = this->Distribution->OwnImage();
-  const bool onPoints = this->Geometry.IsOnPoints();
-  vtkDataArray* array = attributesOf(own, onPoints)->GetArray(this->ArrayName.c_str());
-  const std::uint64_t bits =
-    fingerprint({ array, own->GetPointGhostArray(), own->GetCellGhostArray() }, progress);
-  return joinFingerprints(this->Distribution->Group(),
-    onPoints ? this->Distribution->Points() : this->Distribution->Cells(),
-    own->GetNumberOfPoints() == 0 ? 1 : bits);
+  const std::uint64_t bits = fingerprint(
+    { this->ArrayIn(own), own->GetPointGhostArray(), own->GetCellGhostArray() }, progress);
+  return joinFingerprints(
+    this->Distribution->Group(), this->Extents(), own->GetNumberOfPoints() == 0 ? 1 : bits);
 }
 
 void PiecesDensity::Prepare(FlowTables tables, Progress& progress)
@@ -160,11 +124,19 @@ const DensityValues* PiecesDensity::Values() const
   return this->Gathered ? this->Gathered->Values() : nullptr;
 }
 
+const std::vector<Extent>& PiecesDensity::Extents() const
+{
+  return this->Geometry.IsOnPoints() ? this->Distribution->Points() : this->Distribution->Cells();
+}
+
 const Extent& PiecesDensity::OwnExtent() const
 {
-  const auto own = static_cast<std::size_t>(this->Distribution->Group().Own());
-  return this->Geometry.IsOnPoints() ? this->Distribution->Points()[own]
-                                     : this->Distribution->Cells()[own];
+  return this->Extents()[static_cast<std::size_t>(this->Distribution->Group().Own())];
+}
+
+vtkDataArray* PiecesDensity::ArrayIn(vtkImageData* image) const
+{
+  return image->GetAttributes(this->Owner())->GetArray(this->ArrayName.c_str());
 }
 
 void PiecesDensity::PreparePieces(Progress& progress)
@@ -177,8 +149,13 @@ void PiecesDensity::PreparePieces(Progress& progress)
   const Ranks& ranks = this->Distribution->Group();
   const auto piece = this->Gather(this->OwnExtent());
   // Of all ranks, by the numbers of the whole image.
+  const Extent& whole = this->Geometry.Extent();
   const auto join = [&](auto own, auto& all) {
-    own.First = own.First < 0 ? -1 : indexIn(this->Geometry, piece->Grid(), own.First);
+    if (own.First >= 0)
+    {
+      const TupleBox part = tuplesOf(piece->Grid().Extent(), this->Owner(), whole);
+      own.First = tuplesOf(whole, this->Owner(), whole).NumberOf(part.CellOf(own.First));
+    }
     for (const auto& part : gatherValues(ranks, own))
     {
       merge(part, all);
@@ -200,17 +177,14 @@ void PiecesDensity::PreparePieces(Progress& progress)
 // Those that no rank below has, as points at common faces are in several pieces.
 std::vector<TupleBox> PiecesDensity::OwnTuples() const
 {
-  const bool onPoints = this->Geometry.IsOnPoints();
-  const int owner = onPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
   const Extent& whole = this->Distribution->Whole();
-  const auto& extents = onPoints ? this->Distribution->Points() : this->Distribution->Cells();
-  std::vector<TupleBox> own = { tuplesOf(this->OwnExtent(), owner, whole) };
+  std::vector<TupleBox> own = { tuplesOf(this->OwnExtent(), this->Owner(), whole) };
   for (int rank = 0; rank < this->Distribution->Group().Own(); ++rank)
   {
-    const Extent& below = extents[static_cast<std::size_t>(rank)];
+    const Extent& below = this->Extents()[static_cast<std::size_t>(rank)];
     if (!isEmpty(below))
     {
-      subtract(tuplesOf(below, owner, whole), own);
+      subtract(tuplesOf(below, this->Owner(), whole), own);
     }
   }
   return own;
@@ -221,18 +195,19 @@ std::unique_ptr<DensityImage> PiecesDensity::Gather(const Extent& extent) const
 {
   const vtkSmartPointer<vtkImageData> image =
     this->Distribution->Gather(extent, { this->ArrayName });
-  if (image->GetNumberOfPoints() == 0)
-  {
-    return nullptr;
-  }
-  const bool onPoints = this->Geometry.IsOnPoints();
-  vtkDataArray* array = attributesOf(image, onPoints)->GetArray(this->ArrayName.c_str());
-  return std::make_unique<DensityImage>(image, array, onPoints, this->Rules);
+  return image->GetNumberOfPoints() == 0
+    ? nullptr
+    : std::make_unique<DensityImage>(
+        image, this->ArrayIn(image), this->Geometry.IsOnPoints(), this->Rules);
 }
 
 std::shared_ptr<const DensityValues> PiecesDensity::Part(
   const GridSize<3>& low, const GridSize<3>& high) const
 {
+  if (this->Gathered)
+  {
+    return this->Gathered->Part(low, high);
+  }
   const ImageGrid& grid = this->Geometry;
   LatticePart<3> part{ low, {} };
   std::transform(high.begin(), high.end(), low.begin(), part.Cells.begin(), std::minus<>());
@@ -252,7 +227,7 @@ std::shared_ptr<const DensityValues> PiecesDensity::Part(
   {
     extent = { 0, -1, 0, -1, 0, -1 };
   }
-  std::unique_ptr<DensityImage> box = this->Gather(extent);
+  const std::shared_ptr<DensityImage> box = this->Gather(extent);
   if (!box)
   {
     return std::make_shared<DensityArray<3, double>>(nullptr, GridSize<3>{});
@@ -261,7 +236,8 @@ std::shared_ptr<const DensityValues> PiecesDensity::Part(
   Progress progress{ Context(serial) };
   box->SetWhite(this->White(), progress);
   box->SetEmpty(this->Empty);
-  return std::make_shared<BoxOfDensity>(std::move(box), this->CellsInSpace(), part);
+  return std::make_shared<GrownValues>(
+    std::shared_ptr<const DensityValues>(box, box->Values()), part, this->CellsInSpace(), 0.0);
 }
 
 vtkSmartPointer<vtkImageData> PiecesDensity::ImageIn(const Extent& extent) const

@@ -35,7 +35,9 @@ public:
 
 private:
   std::uint64_t Fingerprint(Progress& progress) const override;
+  const std::vector<Extent>& Extents() const; // of all ranks
   const Extent& OwnExtent() const;
+  vtkDataArray* ArrayIn(vtkImageData* image) const;
   std::vector<TupleBox> OwnTuples() const;
   std::unique_ptr<DensityImage> Gather(const Extent& extent) const;
   void PreparePieces(Progress& progress);

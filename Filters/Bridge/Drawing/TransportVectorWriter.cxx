@@ -5,9 +5,9 @@
 #include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Messages/PropertyCheck.h"
 #include "Core/Drawing/Drawing.h"
 #include "Core/Drawing/PageLayout.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Quality/DotRadius.h"
 

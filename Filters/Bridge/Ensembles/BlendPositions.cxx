@@ -41,8 +41,8 @@ std::shared_ptr<const LinearizedMap> make(InputDensity& density,
   Stages stages(progress, { { "tables", 4 }, { "positions", 96 } });
   const PivotLattice<D> pivot = pivotLattice<D>(settings.Pivot.Size<D>(), settings.PerCell);
   const std::int64_t particles = settings.Share.Count;
-  const FlowTables kind = chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
-    { settings.Options, FlowDirection::Forward, static_cast<double>(particles), true, "" });
+  const FlowTables kind = requireTables(chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
+    { settings.Options, FlowDirection::Forward, static_cast<double>(particles), true, "" }));
   const SharedFlow& flow = tables.Update(density, stages["tables"], kind);
   auto map = std::make_shared<LinearizedMap>();
   map->TotalMass = flow.TotalMass();

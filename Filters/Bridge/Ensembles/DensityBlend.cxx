@@ -2,7 +2,7 @@
 #include "Bridge/Ensembles/DensityBlend.h"
 
 #include "Bridge/Density/CostModel.h"
-#include "Bridge/Density/DensityOnGrid.h"
+#include "Bridge/Density/PlainDensity.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/SameOnRanks.h"

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ensembles/DensityDistances.h"
 
-#include "Bridge/Density/DensityMass.h"
-#include "Bridge/Density/WholeValues.h"
+#include "Bridge/Density/PlainDensity.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Core/Distance/ClassicalScaling.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
-#include "Core/Geometry/Dispatch.h"
 #include "Core/Messages/Failure.h"
 
 #include "vtkIdTypeArray.h"
@@ -25,15 +23,14 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-template <int D>
 DistanceInput read(InputDensity& density, Progress& progress)
 {
   DistanceInput input;
   input.Reading = density.HowRead();
   input.Grid = density.Grid();
-  input.Values = wholeValues<D>(density, "Density", progress);
+  input.Values = wholeValues(density, "Density", progress);
   density.ReleaseGathered();
-  const DensityArray<D, double> values(input.Values->GetPointer(0), input.Grid.Size<D>());
+  const DensityArray<1, double> values(input.Values->GetPointer(0), { input.Grid.NumberOfCells() });
   input.Mass = requireMass(density, values, progress);
   input.Identity.AddArray(input.Values);
   input.Identity.Hash(progress);
@@ -87,8 +84,7 @@ std::vector<std::string> columnNames(const std::vector<DistanceInput>& inputs)
 
 DistanceInput readDistanceInput(InputDensity& density, Progress& progress)
 {
-  return dispatchDimension(density.Grid().Dimension(), read<1>, read<2>, read<3>)(
-    density, progress);
+  return read(density, progress);
 }
 
 void DensityDistances::Begin(DistanceMethod method)

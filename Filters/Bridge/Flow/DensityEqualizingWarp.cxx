@@ -172,9 +172,9 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
       { "cost", optimal.NeedsMap() ? Cost::flow(options, D) * gridCells : 0.0 },
       { "write", Cost::Seed * count }, { "inverted cells", Cost::TurnedCell * inputCells } });
   WarpedPoints<D> points(density.Grid(), input);
-  const FlowTables tables = chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
+  const FlowTables tables = requireTables(chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
     { options, FlowDirection::Backward, count, false,
-      equalizes ? EqualAreas : optimal.WholeFor() });
+      equalizes ? EqualAreas : optimal.WholeFor() }));
   const SharedFlow& shared = cache.Update(density, stages["tables"], tables, { optimal });
   if (!equalizes)
   {

@@ -173,9 +173,9 @@ private:
 
   FlowTables TablesOf(const InputDensity& density, FlowDirection direction, bool isLattice) const
   {
-    return chooseTables<D>(this->Map.Tables, density.Grid().Size<D>(),
+    return requireTables(chooseTables<D>(this->Map.Tables, density.Grid().Size<D>(),
       { this->Options, direction, this->Count, isLattice,
-        this->Equalizes ? EqualAreas : this->Map.Optimal.WholeFor() });
+        this->Equalizes ? EqualAreas : this->Map.Optimal.WholeFor() }));
   }
 
   const SharedFlow& UpdateTables(Stages& stages)

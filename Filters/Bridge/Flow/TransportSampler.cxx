@@ -122,8 +122,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     : times.back() < 1.0                        ? "a FlowTime other than 1"
                                                 : optimal.WholeFor();
   const OptimalNeeds needs{ optimal, given ? 0.0 : static_cast<double>(share.All) };
-  const FlowTables tables = chooseTables<D>(
-    sampler.Tables, grid.Size<D>(), { options, FlowDirection::Forward, count, false, wholeFor });
+  const FlowTables tables = requireTables(chooseTables<D>(
+    sampler.Tables, grid.Size<D>(), { options, FlowDirection::Forward, count, false, wholeFor }));
   const SharedFlow& flow = cache.Update(density, stages["tables"], tables, needs);
   TransportSampler::Report report;
   if (given)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Image/DefaultArray.h"
 
-#include "Bridge/Image/IdNames.h"
+#include "Core/Tables/Reading/IdNames.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"

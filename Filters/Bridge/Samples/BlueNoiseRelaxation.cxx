@@ -2,7 +2,7 @@
 #include "Bridge/Samples/BlueNoiseRelaxation.h"
 
 #include "Bridge/Density/CostModel.h"
-#include "Bridge/Density/DensityMass.h"
+#include "Bridge/Density/PlainDensity.h"
 #include "Bridge/Points/SeedInput.h"
 #include "Core/Messages/Failure.h"
 

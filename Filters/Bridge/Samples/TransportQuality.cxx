@@ -201,8 +201,8 @@ ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid,
 template <int D>
 FlowTables choose(TableSetting setting, const ImageGrid& grid, std::int64_t particles)
 {
-  return chooseTablesForShares<D>(
-    setting, grid.Size<D>(), boxAspect<D>(grid), static_cast<double>(particles));
+  return requireTables(chooseTablesForShares<D>(
+    setting, grid.Size<D>(), boxAspect<D>(grid), static_cast<double>(particles)));
 }
 
 } // namespace

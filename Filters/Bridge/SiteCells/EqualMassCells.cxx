@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/SiteCells/EqualMassCells.h"
 
-#include "Bridge/Density/DensityMass.h"
+#include "Bridge/Density/PlainDensity.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Points/PointInput.h"

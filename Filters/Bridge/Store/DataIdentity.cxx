@@ -4,6 +4,7 @@
 #include "Bridge/Run/Fingerprint.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Geometry/ImageGrid.h"
+#include "Core/Tables/Reading/DensityRules.h"
 
 #include "vtkDataArray.h"
 
@@ -43,6 +44,17 @@ void DataIdentity::AddOptions(const FlowOptions& options)
     this->AddNumber(static_cast<std::uint64_t>(number));
   }
   const double numbers[] = { options.AreaTolerance, options.Particles, options.Tolerance };
+  this->AddNumbers(numbers, 3);
+}
+
+void DataIdentity::AddRules(const DensityRules& rules)
+{
+  for (const int number : { rules.Component, rules.Invert ? 1 : 0, rules.ClampNegative ? 1 : 0,
+         rules.Missing.AreNaN ? 1 : 0, static_cast<int>(rules.Empty.Cells) })
+  {
+    this->AddNumber(static_cast<std::uint64_t>(number));
+  }
+  const double numbers[] = { rules.Missing.Low, rules.Missing.High, rules.Empty.Value };
   this->AddNumbers(numbers, 3);
 }
 

@@ -19,6 +19,7 @@ namespace RectifiedTransport
 {
 class ImageGrid;
 class Progress;
+struct DensityRules;
 struct FlowOptions;
 } // namespace RectifiedTransport
 
@@ -38,6 +39,7 @@ public:
   void AddNumbers(const double* numbers, int count);
   void AddGrid(const ImageGrid& grid);
   void AddOptions(const FlowOptions& options);
+  void AddRules(const DensityRules& rules);
   void AddTime(std::uint64_t time) { this->Times.push_back(time); }
   // For an object that is no array, such as a vtkCellArray; nullptr is allowed.
   void AddTimeOf(vtkObject* object);

@@ -3,8 +3,8 @@
 
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Messages/PropertyCheck.h"
 #include "Bridge/Triangles/TriangleInput.h"
+#include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/AreaPreservingMap.h"
 #include "Core/Seams/CutSurfaceMap.h"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Temporal/KeptSteps.h"
 
-#include "Bridge/Density/DensityMass.h"
-#include "Bridge/Density/WholeValues.h"
-#include "Core/Geometry/Dispatch.h"
+#include "Bridge/Density/PlainDensity.h"
 #include "Core/Tables/DensityInspection.h"
 
 #include "vtkAlgorithm.h"
@@ -38,10 +36,9 @@ void requireValues(InputDensity& density, const StepDensity& step)
   }
 }
 
-template <int D>
 void read(InputDensity& density, StepDensity& step, Progress& progress)
 {
-  step.Values = wholeValues<D>(density, step.ArrayName, progress);
+  step.Values = wholeValues(density, step.ArrayName, progress);
   requireValues(density, step);
   step.Mass = massOf(density, progress);
   density.ReleaseGathered();
@@ -66,8 +63,7 @@ std::shared_ptr<const StepDensity> readStepDensity(
       step->Grid = density.Grid();
       step->Identity = identity;
       step->Identity.Hash(stages["hash"]);
-      dispatchDimension(step->Grid.Dimension(), read<1>, read<2>, read<3>)(
-        density, *step, stages["values"]);
+      read(density, *step, stages["values"]);
       return step;
     });
 }

@@ -2,8 +2,8 @@
 #include "Core/Cartogram/RegionChecks.h"
 
 #include "Core/Cartogram/Cartogram.h"
-#include "Core/Messages/PartText.h"
 #include "Core/Messages/Failure.h"
+#include "Core/Messages/PartText.h"
 
 #include <algorithm>
 #include <cmath>

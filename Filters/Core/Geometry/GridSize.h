@@ -5,7 +5,6 @@
 
 #include "Points.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -37,16 +36,6 @@ double numberOfCells(const GridSize<Dimension>& size)
     count *= static_cast<double>(cells);
   }
   return count;
-}
-
-// The same in three axes, with `cells` along those that are added.
-template <int Dimension>
-GridSize<3> inSpace(const GridSize<Dimension>& size, std::int64_t cells)
-{
-  GridSize<3> all;
-  all.fill(cells);
-  std::copy(size.begin(), size.end(), all.begin());
-  return all;
 }
 
 // The corners of the cells: one more along each axis.

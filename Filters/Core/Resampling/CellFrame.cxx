@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Resampling/CellFrame.h"
 
+#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Progress.h"
 
 #include <Eigen/Eigenvalues>
@@ -8,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <vector>
 
 namespace RectifiedTransport
@@ -22,17 +25,33 @@ using Eigen::Vector3d;
 // better.
 constexpr double flatness = 1e-5;
 
-// The first point that is not finite.
-struct NotFinite
+std::string describe(const Eigen::Vector3d& x)
 {
-  std::size_t Set = 0;
-  std::int64_t Point = -1; // none
-};
+  std::ostringstream text;
+  text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
+  return text.str();
+}
 
-// Calls visit(x) for the corners of all cells of a set with mass, each point once. Returns the
-// first of them that is not finite, or -1.
+[[noreturn]] void failFlat(const MassCells& mass, const Eigen::Vector3d& sides)
+{
+  const int dimension = mass.Dimension;
+  fail("The input's cells are ",
+    dimension == 1          ? "lines that are not on one straight line"
+      : mass.AreClosedLines ? "closed lines that lie in no plane"
+                            : "faces that lie in no plane",
+    ": points are ", sides[2 - dimension], " off, with a longest side of ", sides[2], "; ",
+    mass.AreClosedLines ? "they must lie in one plane"
+      : dimension == 2
+      ? "they must lie in one plane, as a slice does (Sample Surface takes curved "
+        "surfaces that are disks)"
+      : "they must lie on one, or closed ones in a plane, around regions (Triangle "
+        "Strips joins the segments of a slice)");
+}
+
+// Calls visit(x) for the corners of all cells of a set with mass, each point once. Throws Failure
+// for points that are not finite.
 template <class Visit>
-std::int64_t visitCorners(
+void visitCorners(
   const CellSet& set, const MassCells& cells, Progress& progress, const Visit& visit)
 {
   constexpr std::int64_t cellsBetweenPolls = std::int64_t{ 1 } << 16;
@@ -63,21 +82,23 @@ std::int64_t visitCorners(
       }
     }
   }
-  return notFinite;
+  if (notFinite >= 0)
+  {
+    Vector3d x;
+    reader->GetPosition(notFinite, x.data());
+    fail("Point ", notFinite, " of the ", set.Name, " is at ", describe(x),
+      "; the coordinates of all points of cells must be finite");
+  }
 }
 
-// The same for all sets, up to the first one with such a point.
 template <class Visit>
-NotFinite visitCorners(
+void visitCorners(
   const CellSets& sets, const MassCells& cells, Progress& progress, const Visit& visit)
 {
-  NotFinite found;
-  for (; found.Set < sets.size() && found.Point < 0; ++found.Set)
+  for (const std::shared_ptr<const CellSet>& set : sets)
   {
-    found.Point = visitCorners(*sets[found.Set], cells, progress, visit);
+    visitCorners(*set, cells, progress, visit);
   }
-  --found.Set;
-  return found;
 }
 
 using Bounds = Eigen::AlignedBox3d;
@@ -144,21 +165,17 @@ CellFrame CellFrame::Of(const CellSets& sets, const MassCells& cells, Progress& 
 {
   const int dimension = cells.Dimension;
   CellFrame frame;
-  const NotFinite notFinite =
-    visitCorners(sets, cells, progress, [&](const Vector3d& x) { frame.Box.extend(x); });
-  if (notFinite.Point >= 0)
-  {
-    frame.Wrong = Flaw::NotFinite;
-    frame.Set = notFinite.Set;
-    frame.Point = notFinite.Point;
-    return frame;
-  }
+  visitCorners(sets, cells, progress, [&](const Vector3d& x) { frame.Box.extend(x); });
   const Vector3d lengths = frame.Box.sizes();
   const double longest = lengths.maxCoeff();
-  if (!std::isfinite(longest) || !(longest > 0.0))
+  if (longest == 0.0)
   {
-    frame.Wrong = longest == 0.0 ? Flaw::OnePlace : Flaw::TooLong;
-    return frame;
+    fail("The cells of the input are all at one place; they must have a length, area or volume");
+  }
+  if (!std::isfinite(longest) || longest < 0.0)
+  {
+    fail("The cells of the input reach from ", describe(frame.Box.min()), " to ",
+      describe(frame.Box.max()), "; a side must not be past the largest double");
   }
   const auto isFlat = [&](const Vector3d& sides) {
     return (sides.array() <= flatness * longest).count() >= 3 - dimension;
@@ -172,16 +189,28 @@ CellFrame CellFrame::Of(const CellSets& sets, const MassCells& cells, Progress& 
     frame.Box = Bounds();
     const Eigen::Matrix3d toFrame = frame.Axes.transpose();
     visitCorners(sets, cells, progress, [&](const Vector3d& x) { frame.Box.extend(toFrame * x); });
-    frame.Sides = frame.Box.sizes();
-    if (!isFlat(frame.Sides))
+    Vector3d sides = frame.Box.sizes();
+    if (!isFlat(sides))
     {
-      std::sort(frame.Sides.data(), frame.Sides.data() + 3);
-      frame.Wrong = Flaw::NotFlat;
-      return frame;
+      std::sort(sides.data(), sides.data() + 3);
+      failFlat(cells, sides);
     }
   }
   flatten(dimension, frame.Box);
   return frame;
+}
+
+ImageGrid CellFrame::Grid(int resolution) const
+{
+  double box[6];
+  for (Eigen::Index a = 0; a < 3; ++a)
+  {
+    box[2 * a] = this->Box.min()[a];
+    box[2 * a + 1] = this->Box.max()[a];
+  }
+  const ImageGrid straight = gridWithResolution(gridOfBox(box), resolution, "DensityResolution");
+  return { straight.Extent(), this->Axes * straight.Origin(), straight.Spacing(), this->Axes,
+    straight.IsOnPoints() };
 }
 
 } // namespace RectifiedTransport

@@ -8,9 +8,6 @@
 
 #include <Eigen/Geometry>
 
-#include <cstddef>
-#include <cstdint>
-
 namespace RectifiedTransport
 {
 
@@ -22,28 +19,19 @@ ImageGrid::Matrix axesAround(const Eigen::Vector3d& direction, Eigen::Index main
 
 struct CellFrame
 {
-  // Why there is none.
-  enum class Flaw
-  {
-    None,
-    NotFinite, // a point of a cell
-    OnePlace,  // all points
-    TooLong,   // a side is past the largest double
-    NotFlat    // a surface in no plane, or lines on no straight one
-  };
-
-  // The frame of the cells with mass. Throws Cancelled.
+  // The frame of the cells with mass. Throws Cancelled, and Failure for sets without cells of
+  // positive measure, for surfaces that are not plane, for lines that are not straight, and for
+  // points of cells that are not finite.
   static CellFrame Of(const CellSets& sets, const MassCells& cells, Progress& progress);
+
+  // Values on cells, `resolution` cells along the longest axis, as near to cubes as whole numbers
+  // allow. Throws Failure for a resolution out of range.
+  ImageGrid Grid(int resolution) const;
 
   ImageGrid::Matrix Axes = ImageGrid::Matrix::Identity(); // columns
   // The range of the coordinates along the axes. Flat axes, those of the shortest sides, have no
   // length.
   Eigen::AlignedBox3d Box;
-
-  Flaw Wrong = Flaw::None;
-  std::size_t Set = 0; // the set of the first point that is not finite, and the point
-  std::int64_t Point = -1;
-  Eigen::Vector3d Sides = Eigen::Vector3d::Zero(); // if cells are not flat, in growing order
 };
 
 } // namespace RectifiedTransport

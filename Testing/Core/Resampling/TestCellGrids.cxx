@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The grids of cells: the box around them, along axes of space or their own, and the lattice that
 // boxes form.
+#include "Core/Messages/Failure.h"
 #include "Core/Resampling/CellFrame.h"
 #include "Core/Resampling/CellLattice.h"
 
@@ -8,7 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
+#include <string>
 
 namespace RectifiedTransport
 {
@@ -33,7 +37,6 @@ CellFrame frameOf(const std::shared_ptr<TestCells>& cells)
 TEST(CellFrame, AlongSpace)
 {
   const CellFrame frame = frameOf(triangle({ 1, 2, 5 }, { 4, 2, 5 }, { 1, 8, 5 }));
-  EXPECT_EQ(frame.Wrong, CellFrame::Flaw::None);
   EXPECT_EQ(frame.Axes, ImageGrid::Matrix(ImageGrid::Matrix::Identity()));
   EXPECT_EQ(Vector3d(frame.Box.min()), Vector3d(1, 2, 5));
   EXPECT_EQ(Vector3d(frame.Box.max()), Vector3d(4, 8, 5));
@@ -43,7 +46,6 @@ TEST(CellFrame, ObliquePlane)
 {
   // In the plane x = z, whose axes are along (1, 0, 1) and y.
   const CellFrame frame = frameOf(triangle({ 0, 0, 0 }, { 3, 0, 3 }, { 0, 4, 0 }));
-  EXPECT_EQ(frame.Wrong, CellFrame::Flaw::None);
   Vector3d sides = frame.Box.sizes();
   std::sort(sides.data(), sides.data() + 3);
   EXPECT_EQ(sides[0], 0.0);
@@ -53,27 +55,46 @@ TEST(CellFrame, ObliquePlane)
     (frame.Axes * frame.Axes.transpose() - ImageGrid::Matrix::Identity()).norm(), 0.0, 1e-14);
 }
 
+// Whether the error for cells without a frame has these words.
+bool fails(const std::shared_ptr<TestCells>& cells, const std::string& words)
+{
+  try
+  {
+    frameOf(cells);
+  }
+  catch (const Failure& failure)
+  {
+    return std::string(failure.what()).find(words) != std::string::npos;
+  }
+  return false;
+}
+
 TEST(CellFrame, Flaws)
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const CellFrame notFinite = frameOf(triangle({ 0, 0, 0 }, { 1, 0, 0 }, { 0, nan, 0 }));
-  EXPECT_EQ(notFinite.Wrong, CellFrame::Flaw::NotFinite);
-  EXPECT_EQ(notFinite.Set, 0U);
-  EXPECT_EQ(notFinite.Point, 2);
-  EXPECT_EQ(
-    frameOf(triangle({ 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 })).Wrong, CellFrame::Flaw::OnePlace);
-  EXPECT_EQ(frameOf(triangle({ -1.7e308, 0, 0 }, { 1.7e308, 0, 0 }, { 0, 1, 0 })).Wrong,
-    CellFrame::Flaw::TooLong);
+  const auto notFinite = triangle({ 0, 0, 0 }, { 1, 0, 0 }, { 0, nan, 0 });
+  notFinite->Name = "input";
+  EXPECT_TRUE(fails(notFinite, "Point 2 of the input is at (0, nan, 0)"));
+  EXPECT_TRUE(fails(triangle({ 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 }), "are all at one place"));
+  EXPECT_TRUE(
+    fails(triangle({ -1.7e308, 0, 0 }, { 1.7e308, 0, 0 }, { 0, 1, 0 }), "past the largest double"));
   const auto bent = std::make_shared<TestCells>(
     std::vector<Point<3>>{ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } },
     std::vector<TestCells::Cell>{
       { Shape::Triangle, { 0, 1, 2 } }, { Shape::Triangle, { 0, 1, 3 } } });
-  EXPECT_EQ(frameOf(bent).Wrong, CellFrame::Flaw::NotFlat);
+  EXPECT_TRUE(fails(bent, "faces that lie in no plane"));
   // Hidden cells may be anywhere.
   const auto hidden = triangle({ 0, 0, 0 }, { 1, 0, 0 }, { 0, nan, 0 });
   const unsigned char flags[] = { 1 };
   hidden->HiddenCells = { flags, 1 };
-  EXPECT_NE(frameOf(hidden).Wrong, CellFrame::Flaw::NotFinite);
+  EXPECT_NO_THROW(frameOf(hidden));
+}
+
+TEST(CellFrame, GridsHaveCellsNearToCubes)
+{
+  const CellFrame frame = frameOf(triangle({ 1, 2, 5 }, { 4, 2, 5 }, { 1, 8, 5 }));
+  EXPECT_EQ(frame.Grid(10).NumberOfValues(), (std::array<int, 3>{ 5, 10, 1 }));
+  EXPECT_THROW(frame.Grid(0), Failure);
 }
 
 // Quads of sides 2 and 1 at these places of a lattice that is turned about z, each begun at another

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_FlowSettings_h
 #define RectifiedTransport_FlowSettings_h
 
-#include "Core/Messages/PropertyCheck.h"
 #include "Core/Flow/FlowOptions.h"
+#include "Core/Messages/PropertyCheck.h"
 
 #include "vtkIndent.h"
 

@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_TableSettings_h
 #define RectifiedTransport_TableSettings_h
 
+#include "Core/Flow/TableChoice.h"
 #include "Core/Messages/PropertyCheck.h"
 
 namespace RectifiedTransport::Bridge
@@ -10,13 +11,6 @@ namespace RectifiedTransport::Bridge
 
 // Indexed by vtkTransportAlgorithm::TablesType.
 constexpr const char* TablesTexts[] = { "Auto", "Whole", "Tiled" };
-
-enum class TableSetting
-{
-  Auto,
-  Whole,
-  Tiled
-};
 
 // Throws Failure for a value out of range.
 inline TableSetting tableSetting(int tables)

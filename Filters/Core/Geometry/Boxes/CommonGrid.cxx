@@ -183,6 +183,7 @@ bool isSame(const Sides& a, const Sides& b)
 // Along one axis: the smallest interval that contains all sides, at the finest spacing.
 struct Union
 {
+  std::size_t Axis;
   double Low;
   double Length;
   double Finest; // or a multiple of it
@@ -205,7 +206,7 @@ Union uniteSides(const std::vector<Sides>& all, std::size_t axis)
   }
   const double tolerance = toleranceOf(low, high, finest);
   const double cells = std::max(1.0, std::ceil((high - low - tolerance) / finest));
-  return { low, high - low, finest, cells, sign };
+  return { axis, low, high - low, finest, cells, sign };
 }
 
 // Along one axis at a multiple of the finest spacing; at least `least`.
@@ -302,42 +303,29 @@ ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3
     // Points have no axis where there is one of them.
     coarsen(unions, *std::max_element(cells.begin(), cells.end()), first.IsOnPoints() ? 2.0 : 1.0);
   }
-  auto axis = unions.cbegin();
-  for (std::size_t i = 0; i < 3; ++i)
+  for (const Union& side : unions)
   {
-    if (!sides[i].IsAxis)
-    {
-      continue;
-    }
-    const Union& side = *axis++;
-    if (!(side.Cells <= most) && dimensions[i] == 0)
+    if (!(side.Cells <= most) && dimensions[side.Axis] == 0)
     {
       fail("The box of all inputs at the finest spacing has ", side.Cells, " cells along ",
-        "xyz"[i], "; it must have at most ", MaximumResolution);
+        "xyz"[side.Axis], "; it must have at most ", MaximumResolution);
     }
     const double cells = std::min(side.Cells, most);
-    sides[i].Low = side.Sign * side.Low;
-    sides[i].Cells = static_cast<int>(cells);
-    sides[i].Spacing = side.Sign * side.Length / cells;
+    sides[side.Axis].Low = side.Sign * side.Low;
+    sides[side.Axis].Cells = static_cast<int>(cells);
+    sides[side.Axis].Spacing = side.Sign * side.Length / cells;
   }
-  const Sides exact =
+  Sides exact =
     sidesOf(gridWithValues(withSides(first, sides), dimensions, property), first.Direction());
-  axis = unions.cbegin();
-  for (std::size_t i = 0; i < 3; ++i)
+  for (const Union& side : unions)
   {
-    sides[i] = exact[i];
-    if (!sides[i].IsAxis)
+    exact[side.Axis].Low = side.Sign * side.Low;
+    if (dimensions[side.Axis] == 0)
     {
-      continue;
-    }
-    const Union& side = *axis++;
-    sides[i].Low = side.Sign * side.Low;
-    if (dimensions[i] == 0)
-    {
-      sides[i].Spacing = side.Sign * side.Finest;
+      exact[side.Axis].Spacing = side.Sign * side.Finest;
     }
   }
-  return withSides(first, sides);
+  return withSides(first, exact);
 }
 
 bool haveSameCells(const ImageGrid& a, const ImageGrid& b)

@@ -5,6 +5,8 @@
 
 #include "Core/Geometry/ImageGrid.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
 
 namespace RectifiedTransport
@@ -36,6 +38,16 @@ GridSize<3> cellsOfMargin(const ImageGrid& grid, double margin);
 double numberOfValues(const ImageGrid& grid);
 // "8 x 4", without the axes of one point.
 std::string describeValues(const ImageGrid& grid);
+
+// The size in three axes, with `cells` along those that are added.
+template <int Dimension>
+GridSize<3> inSpace(const GridSize<Dimension>& size, std::int64_t cells)
+{
+  GridSize<3> all;
+  all.fill(cells);
+  std::copy(size.begin(), size.end(), all.begin());
+  return all;
+}
 
 // "8 x 4".
 template <int D>

@@ -28,6 +28,12 @@ struct FilledCells
 // 0 if all cells are empty.
 double densityOfEmptyCells(const EmptyRule& rule, const FilledCells& filled);
 
+// Adds to the values of `cells` cells the density of the part of each that data do not cover;
+// `covered` are the other parts, `filled` the least density in them. Returns the density that was
+// added. Throws Cancelled.
+double fillEmptyParts(const double* covered, std::int64_t cells, FilledCells filled,
+  const EmptyRule& rule, Progress& progress, double* values);
+
 } // namespace RectifiedTransport
 
 #endif

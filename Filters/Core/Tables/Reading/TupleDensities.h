@@ -83,63 +83,42 @@ template <class Tuples>
 void readTuples(const Tuples& begin, int components, std::int64_t count, const DensityRules& rules,
   double white, double* __restrict values)
 {
-  if (rules.Component != Luminance)
-  {
-    const int c = rules.Component;
-    if (c == Magnitude)
-    {
-      for (std::int64_t i = 0; i < count; ++i)
-      {
-        values[i] = magnitude(begin, components, i);
-      }
-    }
-    else
-    {
-      for (std::int64_t i = 0; i < count; ++i)
-      {
-        values[i] = static_cast<double>(begin(i, c));
-      }
-    }
-    if (rules.Invert)
-    {
-      for (std::int64_t i = 0; i < count; ++i)
-      {
-        values[i] = white - values[i];
-      }
-    }
-    return;
-  }
-  if (components >= 3)
-  {
+  // A loop of its own for each kind, so that the processor's vectors do it.
+  const auto setAll = [=](const auto& valueOf) {
     for (std::int64_t i = 0; i < count; ++i)
     {
-      values[i] = luminance(begin(i, 0), begin(i, 1), begin(i, 2));
+      values[i] = valueOf(i);
     }
+  };
+  const bool isColour = rules.Component == Luminance;
+  if (rules.Component == Magnitude)
+  {
+    setAll([&](std::int64_t i) { return magnitude(begin, components, i); });
+  }
+  else if (isColour && components >= 3)
+  {
+    setAll([&](std::int64_t i) { return luminance(begin(i, 0), begin(i, 1), begin(i, 2)); });
   }
   else
   {
-    for (std::int64_t i = 0; i < count; ++i)
-    {
-      values[i] = static_cast<double>(begin(i, 0));
-    }
-  }
-  if (components == 3)
-  {
-    if (rules.Invert)
-    {
-      for (std::int64_t i = 0; i < count; ++i)
-      {
-        values[i] = positivePart(white - values[i]);
-      }
-    }
-    return;
+    const int c = isColour ? 0 : rules.Component;
+    setAll([&](std::int64_t i) { return static_cast<double>(begin(i, c)); });
   }
   const int alpha = components - 1;
-  for (std::int64_t i = 0; i < count; ++i)
+  if (isColour && components != 3)
   {
-    const double opacity = white > 0.0 ? static_cast<double>(begin(i, alpha)) / white : 1.0;
-    const double ink = (white - values[i]) * opacity;
-    values[i] = rules.Invert ? positivePart(ink) : white - ink;
+    setAll([&](std::int64_t i) {
+      const double opacity = white > 0.0 ? static_cast<double>(begin(i, alpha)) / white : 1.0;
+      const double ink = (white - values[i]) * opacity;
+      return rules.Invert ? positivePart(ink) : white - ink;
+    });
+  }
+  else if (rules.Invert)
+  {
+    setAll([&](std::int64_t i) {
+      const double value = white - values[i];
+      return isColour ? positivePart(value) : value;
+    });
   }
 }
 

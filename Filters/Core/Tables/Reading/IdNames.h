@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // Whether files of maps number their features so: "FID", "OBJECTID", "objectid_1", "gid", "GEOID",
@@ -58,6 +58,6 @@ inline bool isIdName(const std::string& name)
   return false;
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Geometry/Boxes/JoinedBoxes.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+bool findGivers(const std::vector<JoinedBox>& boxes, const LatticePart<3>& all,
+  const std::function<bool(std::size_t, std::int64_t, std::size_t, std::int64_t)>& areSame,
+  ValueGivers& givers)
+{
+  return std::all_of(boxes.begin(), boxes.end(), [&](const JoinedBox& box) {
+    return visitRuns(box, all, [&](std::int64_t from, std::int64_t to, std::int64_t count) {
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        std::int32_t& giver = givers.Boxes[static_cast<std::size_t>(to + i)];
+        std::int64_t& value = givers.Values[static_cast<std::size_t>(to + i)];
+        if (giver < 0)
+        {
+          giver = static_cast<std::int32_t>(box.Number);
+          value = from + i;
+        }
+        else if (!areSame(static_cast<std::size_t>(giver), value, box.Number, from + i))
+        {
+          return false;
+        }
+      }
+      return true;
+    });
+  });
+}
+
+} // namespace RectifiedTransport
