@@ -7,8 +7,8 @@
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/ParticleCells.h"
+#include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/ParticleExchange.h"
-#include "Bridge/Ranks/PlaceOwners.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
@@ -392,7 +392,7 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs,
   const Ranks& ranks = progress.Group();
   if (ranks.AreSeveral())
   {
-    moveToOwners(output, 1, PlaceOwners(geometry, nullptr, ranks), ranks, stages["places"]);
+    moveToOwners(output, 1, ownersOf(geometry, nullptr, ranks), ranks, stages["places"]);
   }
   else
   {

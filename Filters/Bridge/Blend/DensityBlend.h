@@ -8,12 +8,12 @@
 #include "Bridge/Blend/BlendPositions.h"
 #include "Bridge/Blend/LinearizedMap.h"
 #include "Bridge/Density/InputDensity.h"
-#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"
 #include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Store/Store.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Blend/BlendWeights.h"
+#include "Core/Distributed/TupleBoxes.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Splat/Splat.h"
 

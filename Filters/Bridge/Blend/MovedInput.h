@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_MovedInput_h
 #define RectifiedTransport_MovedInput_h
 
-#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Distributed/TupleBoxes.h"
 #include "Core/Geometry/ImageGrid.h"
 
 VTK_ABI_NAMESPACE_BEGIN

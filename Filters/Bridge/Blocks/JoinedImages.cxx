@@ -3,8 +3,8 @@
 
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Distributed/TupleBoxes.h"
 #include "Core/Geometry/LatticeExtent.h"
 
 #include "vtkDataArray.h"

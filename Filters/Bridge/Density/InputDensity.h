@@ -5,9 +5,9 @@
 
 #include "Bridge/Density/DensityReader.h"
 #include "Bridge/Density/UnusualValues.h"
-#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Store/DataIdentity.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Distributed/TupleBoxes.h"
 #include "Core/Flow/FlowTables.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/Points.h"

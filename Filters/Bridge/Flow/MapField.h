@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_MapField_h
 #define RectifiedTransport_MapField_h
 
-#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Distributed/TupleBoxes.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Flow/MapDerivatives.h"
 #include "Core/Flow/MapDisplacement.h"

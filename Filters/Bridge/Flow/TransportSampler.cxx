@@ -7,8 +7,8 @@
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/ParticleSet.h"
 #include "Bridge/Points/SeedInput.h"
+#include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/ParticleExchange.h"
-#include "Bridge/Ranks/PlaceOwners.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Geometry/Dispatch.h"
@@ -240,7 +240,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   {
     output->GetPointData()->AddArray(slack);
   }
-  const PlaceOwners owners(grid, density.Pieces(), ranks);
+  const PlaceOwners owners = ownersOf(grid, density.Pieces(), ranks);
   moveToOwners(output, static_cast<std::int64_t>(times.size()), owners, ranks, stages["particles"]);
   report.SeedsMoved = sumOverRanks(ranks, report.SeedsMoved);
   report.ParticlesMoved = sumOverRanks(ranks, report.Flow.MovedToMass);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/GatheredData.h"
 
+#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Ranks/DataSetBytes.h"
 #include "Bridge/Ranks/DistributedPoints.h"
@@ -83,7 +84,7 @@ std::vector<DataPart> partsFrom(const Bytes& bytes)
     DataPart part;
     part.Name.assign(at, at + lengths[0]);
     at += lengths[0];
-    const ShortArrays tooShort = ShortArrays::FromText(std::string(at, at + lengths[1]));
+    const ShortArrays tooShort = ShortArrays(std::string(at, at + lengths[1]));
     at += lengths[1];
     part.Data = dataSetOfBytes(at, lengths[2]);
     tooShort.AddEmptyTo(part.Data);
@@ -250,19 +251,12 @@ vtkSmartPointer<vtkPolyData> joinSurface(vtkPolyData* all, const std::vector<Dat
     }
   }
   auto joined = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataType(all->GetPoints()->GetDataType());
-  all->GetPoints()->GetPoints(kept, points);
-  joined->SetPoints(points);
+  copyPoints(all, kept, joined);
   joined->SetVerts(withPoints(all->GetVerts(), newPoints));
   joined->SetLines(withPoints(all->GetLines(), newPoints));
   joined->SetPolys(withPoints(all->GetPolys(), newPoints));
   joined->SetStrips(withPoints(all->GetStrips(), newPoints));
-  joined->GetPointData()->CopyAllOn();
-  joined->GetPointData()->CopyAllocate(all->GetPointData(), kept->GetNumberOfIds());
-  joined->GetPointData()->CopyData(all->GetPointData(), kept);
   joined->GetCellData()->PassData(all->GetCellData());
-  joined->GetFieldData()->ShallowCopy(all->GetFieldData());
   return joined;
 }
 

@@ -6,8 +6,8 @@
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/ParticleCells.h"
+#include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/ParticleExchange.h"
-#include "Bridge/Ranks/PlaceOwners.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
@@ -291,7 +291,7 @@ void TemporalInterpolation::WriteParticles(const Interval& interval, const Image
   const Ranks& ranks = progress.Group();
   if (ranks.AreSeveral())
   {
-    moveToOwners(output.Particles, 1, PlaceOwners(geometry, nullptr, ranks), ranks, progress);
+    moveToOwners(output.Particles, 1, ownersOf(geometry, nullptr, ranks), ranks, progress);
     return;
   }
   if (!this->Vertices || this->Vertices->GetNumberOfCells() != count)

@@ -11,6 +11,7 @@ CORE = {
     "Parallel": set(),
     "Algebra": {"Parallel"},
     "Device": {"Parallel"},
+    "Distributed": {"Parallel", "Geometry"},
     "Geometry": {"Parallel"},
     "Mesh": {"Parallel", "Geometry"},
     "Messages": set(),
