@@ -50,7 +50,7 @@ std::vector<unsigned char> flagsOfCells(vtkImageData* image, const std::string& 
   withMemory({ "the flags of the cells of the " + name, static_cast<double>(cells) },
     [&]() { flags.resize(static_cast<std::size_t>(cells)); });
   blankCellsOfHiddenPoints(dimensions, points, ghostFlags(image, vtkDataObject::CELL, name.c_str()),
-    0, cells / std::max(1, dimensions[0] - 1), flags.data());
+    0, cells / std::max(1, dimensions[0] - 1), flags.data(), blankingFlags);
   return flags;
 }
 

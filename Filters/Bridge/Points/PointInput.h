@@ -3,9 +3,12 @@
 #ifndef RectifiedTransport_PointInput_h
 #define RectifiedTransport_PointInput_h
 
+#include "Bridge/Run/Failure.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Messages/NotFiniteValues.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/Reduction.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkDataArrayRange.h"
@@ -13,7 +16,6 @@
 #include "vtkPoints.h"
 
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -40,69 +42,42 @@ void findBounds(vtkPointSet* points, Progress& progress, double bounds[6]);
 // Collective.
 std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6>& own);
 
-// Counts points whose coordinates are not finite; thread-safe.
-class NotFinitePoints
-{
-public:
-  void Add(std::int64_t count, std::int64_t first);
-  // Throws Failure with their number if there are any; `what` names the input.
-  void RequireNone(const std::string& what) const;
-
-private:
-  std::atomic<std::int64_t> Count{ 0 };
-  std::atomic<std::int64_t> First{ -1 };
-};
-
 // Calls visit(i, x) for the points of a range of tuples.
 template <class Visit>
-class PointPass
+struct PointPass
 {
-public:
-  explicit PointPass(const Visit& visit)
-    : VisitPoint(visit)
-  {
-  }
+  const Visit& VisitPoint;
+  NotFiniteValues NotFinite;
 
   template <class ArrayT>
   void operator()(ArrayT* array, Progress& progress)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-    progress.For(
-      array->GetNumberOfTuples(), grain, [this, array](std::int64_t first, std::int64_t last) {
-        this->Range(vtk::DataArrayTupleRange<3>(array, first, last), first);
+    const auto visitRange = [this, array](std::int64_t first, std::int64_t last) {
+      NotFiniteValues notFinite;
+      std::int64_t i = first;
+      for (const auto tuple : vtk::DataArrayTupleRange<3>(array, first, last))
+      {
+        const double x[3] = { static_cast<double>(tuple[0]), static_cast<double>(tuple[1]),
+          static_cast<double>(tuple[2]) };
+        if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
+        {
+          this->VisitPoint(i, x);
+        }
+        else
+        {
+          notFinite.Add(i);
+        }
+        ++i;
+      }
+      return notFinite;
+    };
+    this->NotFinite = reduceChunks(progress, array->GetNumberOfTuples(), grain, NotFiniteValues(),
+      visitRange, [](NotFiniteValues all, const NotFiniteValues& range) {
+        all.Add(range);
+        return all;
       });
   }
-
-  NotFinitePoints NotFinite;
-
-private:
-  template <class Tuples>
-  void Range(const Tuples& tuples, std::int64_t first)
-  {
-    std::int64_t notFinite = 0;
-    std::int64_t firstNotFinite = -1;
-    std::int64_t i = first;
-    for (const auto tuple : tuples)
-    {
-      const double x[3] = { static_cast<double>(tuple[0]), static_cast<double>(tuple[1]),
-        static_cast<double>(tuple[2]) };
-      if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
-      {
-        this->VisitPoint(i, x);
-      }
-      else
-      {
-        firstNotFinite = notFinite++ == 0 ? i : firstNotFinite;
-      }
-      ++i;
-    }
-    if (notFinite > 0)
-    {
-      this->NotFinite.Add(notFinite, firstNotFinite);
-    }
-  }
-
-  const Visit& VisitPoint;
 };
 
 // Calls visit(i, x) for every point of a set, on several threads. Throws Failure for
@@ -115,14 +90,18 @@ void visitPoints(
   {
     return;
   }
-  PointPass<Visit> pass(visit);
+  PointPass<Visit> pass{ visit, {} };
   vtkDataArray* coordinates = points->GetPoints()->GetData();
   using Dispatch = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Reals>;
   if (!Dispatch::Execute(coordinates, pass, progress))
   {
     pass(coordinates, progress);
   }
-  pass.NotFinite.RequireNone(what);
+  if (pass.NotFinite.Count > 0)
+  {
+    throw Failure(
+      "The " + what + " " + pass.NotFinite.Text("point") + "; all coordinates must be finite");
+  }
 }
 
 } // namespace RectifiedTransport::Bridge
