@@ -284,7 +284,7 @@ OTHERS = [
     E(BRIDGE + "Blocks/RefinedGrids.cxx",
       "isFilled && box.Cells[a] == «std::max(points[a] - 1, 1)»", "box.Cells[a]"),
     E(BRIDGE + "Ranks/DataSetBytes.cxx", "if («data->IsA(\"vtkUniformGrid\")»)", "false"),
-    E(BRIDGE + "Run/Inputs/InputExtents.cxx", "is && «points >= 0» && points <= most", "true"),
+    E(CORE + "Distributed/TupleBoxes.cxx", "is && «points >= 0» && points <=", "true"),
     E(CORE + "Overlap/EdgeCrossings.cxx",
       "(rings.Edges() > few && «!haveCrossings(rings, progress)»)", "true"),
     E(CORE + "Resampling/RegionShapes.cxx", "if (mayBeSimple && «isSimple»)", "true"),
@@ -332,7 +332,7 @@ OTHERS = [
     E(CORE + "Equalize/AreaCorrection.cxx", "move[axis] += «weight» *", "(corner == 0 ? 1.0 : 0.0)"),
     E(CORE + "Equalize/MoveLimits.cxx", "round >= projections && «moved.Folded <= folded»", "true"),
     S(CORE + "Equalize/AreaProjection.cxx", "this->Lattice.KeepOnSides(cornerRow, row.After);", ";"),
-    E(BRIDGE + "Run/StepReport.h", "if (!(flow.AreaError > «options.AreaTolerance»))", "10.0"),
+    E(CORE + "Flow/Steps/StepWarning.cxx", "if (!(flow.AreaError > «options.AreaTolerance»))", "10.0"),
     # devices
     S(CORE + "Device/Device.cxx", "this->Taken += bytes;", ";"),
     E(CORE + "Device/Device.cxx", "i < counted ? «(static_cast<std::size_t>(number) + i) % counted» : i",

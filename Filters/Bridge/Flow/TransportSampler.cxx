@@ -233,9 +233,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     data->PassData(given->GetPointData());
   }
   const double mass = flow.TotalMass();
-  const double cost = sampler.OutputPaths
-    ? particles.WritePaths(mass, times, stages["particles"], output)
-    : particles.WriteParticles(mass, stages["particles"], output);
+  const double cost = particles.Write(mass, times, stages["particles"], output);
   if (slack)
   {
     output->GetPointData()->AddArray(slack);

@@ -13,33 +13,12 @@
 #include "vtkObject.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <limits>
 #include <sstream>
 #include <vector>
 
 namespace RectifiedTransport::Bridge
 {
-
-namespace
-{
-
-// A layer of points has no cells in an image that has some along its axis: with those next to it.
-Extent withCells(const Extent& extent, const Extent& whole)
-{
-  Extent grown = extent;
-  for (std::size_t low = 0; low < grown.size() && !isEmpty(extent); low += 2)
-  {
-    if (extent[low] == extent[low + 1] && whole[low] < whole[low + 1])
-    {
-      grown[low] -= extent[low + 1] == whole[low + 1] ? 1 : 0;
-      grown[low + 1] = grown[low] + 1;
-    }
-  }
-  return grown;
-}
-
-} // namespace
 
 std::string requireSameOnRanks(
   const Ranks& ranks, const std::string& own, const std::string& what, const std::string& rule)

@@ -2,6 +2,8 @@
 #include "Core/Distributed/TupleBoxes.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -18,6 +20,41 @@ Extent intersectionOf(const Extent& a, const Extent& b)
   }
   // Of one whose ends are reversed otherwise VTK counts points and cells that there are not.
   return isEmpty(both) ? emptyExtent : both;
+}
+
+Extent withCells(const Extent& extent, const Extent& whole)
+{
+  Extent grown = extent;
+  for (std::size_t low = 0; low < grown.size() && !isEmpty(extent); low += 2)
+  {
+    if (extent[low] == extent[low + 1] && whole[low] < whole[low + 1])
+    {
+      grown[low] -= extent[low + 1] == whole[low + 1] ? 1 : 0;
+      grown[low + 1] = grown[low] + 1;
+    }
+  }
+  return grown;
+}
+
+std::string textOfExtent(const int* extent)
+{
+  std::string text;
+  for (int i = 0; i < 6; ++i)
+  {
+    text += (i == 0 ? "" : " ") + std::to_string(extent[i]);
+  }
+  return text;
+}
+
+bool isReadable(const int* extent)
+{
+  bool is = true;
+  for (std::size_t a = 0; a < 6; a += 2)
+  {
+    const std::int64_t points = std::int64_t{ extent[a + 1] } - extent[a] + 1; // 0: empty
+    is = is && points >= 0 && points <= std::numeric_limits<int>::max();
+  }
+  return is;
 }
 
 TupleBox tuplesOf(const Extent& extent, int owner, const Extent& whole)

@@ -26,6 +26,15 @@ inline bool isEmpty(const Extent& extent)
 // The empty extent if they have none in common.
 Extent intersectionOf(const Extent& a, const Extent& b);
 
+// With a layer of cells: where an extent is one layer of points along an axis of a whole one, it
+// gets the layer next to it.
+Extent withCells(const Extent& extent, const Extent& whole);
+// "0 4 0 3 7 7".
+std::string textOfExtent(const int* extent);
+// Whether no axis ends before it begins, or has more points than VTK can count. The empty extent is
+// readable.
+bool isReadable(const int* extent);
+
 // What tuples belong to, numbered as by vtkDataObject.
 enum TupleOwner : int
 {
