@@ -13,8 +13,8 @@
 #include "Bridge/Store/Store.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Blend/BlendWeights.h"
-#include "Core/Distributed/TupleBoxes.h"
 #include "Core/Flow/FlowOptions.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Splat/Splat.h"
 
 #include "vtkDoubleArray.h"

@@ -4,7 +4,7 @@
 #define RectifiedTransport_MovedInput_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Distributed/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/ImageGrid.h"
 
 VTK_ABI_NAMESPACE_BEGIN

@@ -4,7 +4,7 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Distributed/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/LatticeExtent.h"
 
 #include "vtkDataArray.h"

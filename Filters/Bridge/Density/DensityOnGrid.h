@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_DensityOnGrid_h
 #define RectifiedTransport_DensityOnGrid_h
 
-#include "Core/Distributed/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/ImageGrid.h"
 
 namespace RectifiedTransport

@@ -7,8 +7,8 @@
 #include "Bridge/Density/UnusualValues.h"
 #include "Bridge/Store/DataIdentity.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Distributed/TupleBoxes.h"
 #include "Core/Flow/FlowTables.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/Points.h"
 

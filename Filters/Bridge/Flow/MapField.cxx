@@ -3,8 +3,8 @@
 
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Distributed/BoxExchange.h"
 #include "Core/Flow/RectifiedFlow.h"
+#include "Core/Geometry/Distributed/BoxExchange.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"

@@ -5,10 +5,10 @@
 #define RectifiedTransport_MapField_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Distributed/TupleBoxes.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Flow/MapDerivatives.h"
 #include "Core/Flow/MapDisplacement.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/LatticePart.h"
 #include "Core/Parallel/LargeBuffer.h"

@@ -2,7 +2,7 @@
 #include "Bridge/Ranks/CommonArrays.h"
 
 #include "Bridge/Points/CopiedTuples.h"
-#include "Core/Distributed/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkDataArray.h"
@@ -77,7 +77,7 @@ vtkSmartPointer<vtkDataArray> findArray(const ArrayKind& kind, vtkDataSet* data)
   return copy;
 }
 
-vtkDataArray* addArray(const ArrayKind& kind, vtkDataSet* data, vtkIdType tuples)
+vtkSmartPointer<vtkDataArray> addArray(const ArrayKind& kind, vtkDataSet* data, vtkIdType tuples)
 {
   const auto array =
     vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(kind.Type));

@@ -4,8 +4,8 @@
 #define RectifiedTransport_CommonArrays_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Distributed/ArrayKinds.h"
-#include "Core/Distributed/TupleMemory.h"
+#include "Core/Geometry/Distributed/ArrayKinds.h"
+#include "Core/Geometry/Distributed/TupleMemory.h"
 #include "Core/Parallel/Ranks.h"
 
 #include "vtkSmartPointer.h"
@@ -27,7 +27,7 @@ bool isGhosts(const ArrayKind& kind);
 // Contiguous: a copy if the array is not.
 vtkSmartPointer<vtkDataArray> findArray(const ArrayKind& kind, vtkDataSet* data);
 // Adds an array of this number of tuples to a data set; nullptr if it is not numeric.
-vtkDataArray* addArray(const ArrayKind& kind, vtkDataSet* data, vtkIdType tuples);
+vtkSmartPointer<vtkDataArray> addArray(const ArrayKind& kind, vtkDataSet* data, vtkIdType tuples);
 
 // The numeric arrays that all ranks with points have, in the order of the first of these ranks, and
 // the ghost arrays of any rank. `data` may be nullptr. Collective. Throws Failure for an array with

@@ -6,7 +6,7 @@
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Ranks/ShortArrays.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Distributed/RepeatedPoints.h"
+#include "Core/Geometry/Distributed/RepeatedPoints.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkArrayDispatch.h"

@@ -4,7 +4,7 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/Failure.h"
-#include "Core/Distributed/BoxExchange.h"
+#include "Core/Geometry/Distributed/BoxExchange.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkDataArray.h"
@@ -132,14 +132,15 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
   }
   const vtkSmartPointer<vtkImageData> image = this->MakeImage(wanted);
   std::vector<BoxArrays> arrays;
-  std::vector<vtkSmartPointer<vtkDataArray>> given;
+  std::vector<vtkSmartPointer<vtkDataArray>> kept; // also where one replaces another of its name
   for (const ArrayKind& kind : kinds)
   {
     const vtkIdType tuples = tuplesOf(wanted, kind.Owner, this->Joined.Whole).Count();
-    given.push_back(findArray(kind, this->Own));
-    arrays.push_back(
-      { kind.Owner == vtkDataObject::POINT ? &points : &cells, tuplesIn(given.back()),
-        tuplesOf(own, kind.Owner, this->Joined.Whole), tuplesIn(addArray(kind, image, tuples)) });
+    kept.push_back(findArray(kind, this->Own));
+    const TupleMemory given = tuplesIn(kept.back());
+    kept.push_back(addArray(kind, image, tuples));
+    arrays.push_back({ kind.Owner == vtkDataObject::POINT ? &points : &cells, given,
+      tuplesOf(own, kind.Owner, this->Joined.Whole), tuplesIn(kept.back()) });
   }
   if (!names.empty())
   {

@@ -6,8 +6,8 @@
 #include "Bridge/Ranks/CommonArrays.h"
 #include "Bridge/Ranks/ShortArrays.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Distributed/ImagePiece.h"
-#include "Core/Distributed/PlaceOwners.h"
+#include "Core/Geometry/Distributed/ImagePiece.h"
+#include "Core/Geometry/Distributed/PlaceOwners.h"
 
 #include "vtkSmartPointer.h"
 

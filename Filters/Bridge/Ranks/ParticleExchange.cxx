@@ -3,7 +3,7 @@
 
 #include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Ranks/CommonArrays.h"
-#include "Core/Distributed/PlaceOwners.h"
+#include "Core/Geometry/Distributed/PlaceOwners.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Ranks.h"
 

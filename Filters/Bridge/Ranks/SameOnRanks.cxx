@@ -4,7 +4,7 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/SampledFingerprint.h"
-#include "Core/Distributed/PropertyLines.h"
+#include "Core/Geometry/Distributed/PropertyLines.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkExtentTranslator.h"

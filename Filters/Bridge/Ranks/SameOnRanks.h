@@ -4,7 +4,7 @@
 #define RectifiedTransport_SameOnRanks_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Distributed/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Parallel/Ranks.h"
 
 #include <string>

@@ -4,7 +4,7 @@
 #define RectifiedTransport_ShortArrays_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Distributed/ArrayKinds.h"
+#include "Core/Geometry/Distributed/ArrayKinds.h"
 
 #include "vtkSmartPointer.h"
 

@@ -8,7 +8,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/ClosedSurface.h"
-#include "Core/Distributed/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Solid/SolidCoverage.h"

@@ -4,7 +4,7 @@
 #define RectifiedTransport_DistributedSplat_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Distributed/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Splat/Splat.h"

@@ -13,7 +13,7 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/DistributedSplat.h"
-#include "Core/Distributed/BoxExchange.h"
+#include "Core/Geometry/Distributed/BoxExchange.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankOrder.h"
 #include "Core/Parallel/Stages.h"

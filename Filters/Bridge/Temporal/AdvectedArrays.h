@@ -6,7 +6,7 @@
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Bridge/Temporal/AdvectedLabels.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Distributed/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Series/SeriesParticles.h"
 
 #include "vtkDataArray.h"

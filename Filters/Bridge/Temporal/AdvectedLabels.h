@@ -5,7 +5,7 @@
 #define RectifiedTransport_AdvectedLabels_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Distributed/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Series/SeriesLabels.h"
 
 #include "vtkAbstractArray.h"

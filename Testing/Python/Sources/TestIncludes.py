@@ -11,7 +11,6 @@ CORE = {
     "Parallel": set(),
     "Algebra": {"Parallel"},
     "Device": {"Parallel"},
-    "Distributed": {"Parallel", "Geometry"},
     "Geometry": {"Parallel"},
     "Mesh": {"Parallel", "Geometry"},
     "Messages": set(),

@@ -3,7 +3,7 @@
 #define RectifiedTransport_InputExtents_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Distributed/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 
 #include <functional>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Distributed/ImagePiece.h"
+#include "Core/Geometry/Distributed/ImagePiece.h"
 
 #include <algorithm>
 #include <sstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Distributed/PlaceOwners.h"
+#include "Core/Geometry/Distributed/PlaceOwners.h"
 
 #include "Core/Geometry/Dispatch.h"
 

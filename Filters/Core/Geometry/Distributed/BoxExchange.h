@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_BoxExchange_h
 #define RectifiedTransport_BoxExchange_h
 
-#include "Core/Distributed/TupleBoxes.h"
-#include "Core/Distributed/TupleMemory.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleMemory.h"
 #include "Core/Parallel/Ranks.h"
 
 #include <cstddef>

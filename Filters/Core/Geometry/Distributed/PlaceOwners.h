@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_PlaceOwners_h
 #define RectifiedTransport_PlaceOwners_h
 
-#include "Core/Distributed/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/LatticePart.h"
 #include "Core/Parallel/Ranks.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boxes of an image's tuples, and their exchange between ranks.
-#include "Core/Distributed/BoxExchange.h"
-#include "Core/Distributed/PlaceOwners.h"
+#include "Core/Geometry/Distributed/BoxExchange.h"
+#include "Core/Geometry/Distributed/PlaceOwners.h"
 
 #include "ThreadRanks.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Distributed/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What data sets on several ranks have in common: arrays, points, images, properties.
-#include "Core/Distributed/ArrayKinds.h"
-#include "Core/Distributed/ImagePiece.h"
-#include "Core/Distributed/PropertyLines.h"
-#include "Core/Distributed/RepeatedPoints.h"
+#include "Core/Geometry/Distributed/ArrayKinds.h"
+#include "Core/Geometry/Distributed/ImagePiece.h"
+#include "Core/Geometry/Distributed/PropertyLines.h"
+#include "Core/Geometry/Distributed/RepeatedPoints.h"
 
 #include "ThreadRanks.h"
 

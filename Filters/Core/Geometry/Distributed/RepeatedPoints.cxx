@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Distributed/RepeatedPoints.h"
+#include "Core/Geometry/Distributed/RepeatedPoints.h"
 
 #include "Core/Parallel/BytesHash.h"
 

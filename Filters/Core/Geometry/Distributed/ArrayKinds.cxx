@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Distributed/ArrayKinds.h"
+#include "Core/Geometry/Distributed/ArrayKinds.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Distributed/BoxExchange.h"
+#include "Core/Geometry/Distributed/BoxExchange.h"
 
 #include "Core/Parallel/RankExchange.h"
 

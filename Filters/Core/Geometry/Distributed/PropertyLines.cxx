@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Distributed/PropertyLines.h"
+#include "Core/Geometry/Distributed/PropertyLines.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Distributed/TupleMemory.h"
+#include "Core/Geometry/Distributed/TupleMemory.h"
 
 #include <algorithm>
 #include <numeric>

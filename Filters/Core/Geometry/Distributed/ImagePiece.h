@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_ImagePiece_h
 #define RectifiedTransport_ImagePiece_h
 
-#include "Core/Distributed/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 
 #include <array>
 #include <string>
