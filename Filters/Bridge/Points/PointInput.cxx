@@ -12,40 +12,6 @@
 namespace RectifiedTransport::Bridge
 {
 
-namespace
-{
-
-struct BoundsOfPoints
-{
-  PointBounds Found;
-
-  template <class ArrayT>
-  void operator()(ArrayT* array, Progress& progress)
-  {
-    constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-    const auto ofChunk = [array](std::int64_t first, std::int64_t last) {
-      PointBounds bounds;
-      for (const auto tuple : vtk::DataArrayTupleRange<3>(array, first, last))
-      {
-        const double x[3] = { static_cast<double>(tuple[0]), static_cast<double>(tuple[1]),
-          static_cast<double>(tuple[2]) };
-        if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
-        {
-          bounds.Add(x);
-        }
-      }
-      return bounds;
-    };
-    this->Found = reduceChunks(progress, array->GetNumberOfTuples(), grain, PointBounds(), ofChunk,
-      [](PointBounds all, const PointBounds& chunk) {
-        all.Add(chunk);
-        return all;
-      });
-  }
-};
-
-} // namespace
-
 vtkPointSet* pointSetOf(vtkInformationVector* port)
 {
   return requireBlock<vtkPointSet>(
@@ -82,20 +48,10 @@ void findBounds(vtkPointSet* points, const Ranks& ranks, double bounds[6])
 
 void findBounds(vtkPointSet* points, Progress& progress, double bounds[6])
 {
-  BoundsOfPoints pass;
-  if (points && points->GetNumberOfPoints() > 0)
-  {
-    vtkDataArray* coordinates = points->GetPoints()->GetData();
-    using Dispatch = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Reals>;
-    if (!Dispatch::Execute(coordinates, pass, progress))
-    {
-      pass(coordinates, progress);
-    }
-  }
-  const Point<3>& low = pass.Found.Low;
-  const Point<3>& high = pass.Found.High;
-  const std::array<double, 6> all =
-    boundsOfAll(progress.Group(), { low[0], high[0], low[1], high[1], low[2], high[2] });
+  const auto add = [](std::int64_t, const double* x, PointBounds& part) { part.Add(x); };
+  const PointBounds found = reducePoints<PointBounds>(points, progress, add).Found;
+  const std::array<double, 6> all = boundsOfAll(progress.Group(),
+    { found.Low[0], found.High[0], found.Low[1], found.High[1], found.Low[2], found.High[2] });
   std::copy_n(all.begin(), 6, bounds);
 }
 

@@ -42,19 +42,26 @@ void findBounds(vtkPointSet* points, Progress& progress, double bounds[6]);
 // Collective.
 std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6>& own);
 
-// Calls visit(i, x) for the points of a range of tuples.
-template <class Visit>
+// What a pass over points finds: a Part, which joins others by Add, of the finite ones.
+template <class Part>
+struct PointFindings
+{
+  Part Found{};
+  NotFiniteValues NotFinite;
+};
+
+template <class Part, class Visit>
 struct PointPass
 {
   const Visit& VisitPoint;
-  NotFiniteValues NotFinite;
+  PointFindings<Part> All;
 
   template <class ArrayT>
   void operator()(ArrayT* array, Progress& progress)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
     const auto visitRange = [this, array](std::int64_t first, std::int64_t last) {
-      NotFiniteValues notFinite;
+      PointFindings<Part> range;
       std::int64_t i = first;
       for (const auto tuple : vtk::DataArrayTupleRange<3>(array, first, last))
       {
@@ -62,23 +69,42 @@ struct PointPass
           static_cast<double>(tuple[2]) };
         if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
         {
-          this->VisitPoint(i, x);
+          this->VisitPoint(i, x, range.Found);
         }
         else
         {
-          notFinite.Add(i);
+          range.NotFinite.Add(i);
         }
         ++i;
       }
-      return notFinite;
+      return range;
     };
-    this->NotFinite = reduceChunks(progress, array->GetNumberOfTuples(), grain, NotFiniteValues(),
-      visitRange, [](NotFiniteValues all, const NotFiniteValues& range) {
-        all.Add(range);
-        return all;
-      });
+    const auto join = [](PointFindings<Part> all, const PointFindings<Part>& range) {
+      all.Found.Add(range.Found);
+      all.NotFinite.Add(range.NotFinite);
+      return all;
+    };
+    this->All = reduceChunks(
+      progress, array->GetNumberOfTuples(), grain, PointFindings<Part>(), visitRange, join);
   }
 };
+
+// Calls visit(i, x, part) for every finite point of a set, on several threads. Throws Cancelled.
+template <class Part, class Visit>
+PointFindings<Part> reducePoints(vtkPointSet* points, Progress& progress, const Visit& visit)
+{
+  PointPass<Part, Visit> pass{ visit, {} };
+  if (points && points->GetNumberOfPoints() > 0)
+  {
+    vtkDataArray* coordinates = points->GetPoints()->GetData();
+    using Dispatch = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Reals>;
+    if (!Dispatch::Execute(coordinates, pass, progress))
+    {
+      pass(coordinates, progress);
+    }
+  }
+  return pass.All;
+}
 
 // Calls visit(i, x) for every point of a set, on several threads. Throws Failure for
 // coordinates that are not finite, naming the input as `what`, and Cancelled.
@@ -86,21 +112,13 @@ template <class Visit>
 void visitPoints(
   vtkPointSet* points, const std::string& what, Progress& progress, const Visit& visit)
 {
-  if (points->GetNumberOfPoints() == 0)
-  {
-    return;
-  }
-  PointPass<Visit> pass{ visit, {} };
-  vtkDataArray* coordinates = points->GetPoints()->GetData();
-  using Dispatch = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Reals>;
-  if (!Dispatch::Execute(coordinates, pass, progress))
-  {
-    pass(coordinates, progress);
-  }
-  if (pass.NotFinite.Count > 0)
+  const auto visitOnly = [&](std::int64_t i, const double* x, NotFiniteValues&) { visit(i, x); };
+  const NotFiniteValues notFinite =
+    reducePoints<NotFiniteValues>(points, progress, visitOnly).NotFinite;
+  if (notFinite.Count > 0)
   {
     throw Failure(
-      "The " + what + " " + pass.NotFinite.Text("point") + "; all coordinates must be finite");
+      "The " + what + " " + notFinite.Text("point") + "; all coordinates must be finite");
   }
 }
 

@@ -135,12 +135,12 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
   std::vector<vtkSmartPointer<vtkDataArray>> kept; // also where one replaces another of its name
   for (const ArrayKind& kind : kinds)
   {
-    const vtkIdType tuples = tuplesOf(wanted, kind.Owner, this->Joined.Whole).Count();
+    const TupleBox made = tuplesOf(wanted, kind.Owner, this->Joined.Whole);
     kept.push_back(findArray(kind, this->Own));
     const TupleMemory given = tuplesIn(kept.back());
-    kept.push_back(addArray(kind, image, tuples));
+    kept.push_back(addArray(kind, image, static_cast<vtkIdType>(made.Count())));
     arrays.push_back({ kind.Owner == vtkDataObject::POINT ? &points : &cells, given,
-      tuplesOf(own, kind.Owner, this->Joined.Whole), tuplesIn(kept.back()) });
+      tuplesOf(own, kind.Owner, this->Joined.Whole), tuplesIn(kept.back()), made });
   }
   if (!names.empty())
   {

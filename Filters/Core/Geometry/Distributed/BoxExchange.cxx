@@ -34,14 +34,13 @@ std::vector<TupleRun> runsOf(const TupleBox& box, const TupleBox& image)
 BoxExchange::BoxExchange(std::vector<TupleBox> held, const TupleBox& wanted, const Ranks& ranks)
   : Held(std::move(held))
   , Wanted(gatherValues(ranks, wanted))
-  , Own(static_cast<std::size_t>(ranks.Own()))
 {
 }
 
-// Of a rank's tuples: nothing that a lower rank sends, too, as where each has all.
-TupleBox BoxExchange::PartOf(std::size_t rank, const TupleBox& wanted) const
+// Nothing that a lower rank sends, too, as where each has all.
+TupleBox BoxExchange::PartFor(std::size_t rank, std::size_t receiver) const
 {
-  TupleBox part = this->Held[rank].And(wanted);
+  TupleBox part = this->Held[rank].And(this->Wanted[receiver]);
   for (std::size_t lower = 0; lower < rank && !part.IsEmpty(); ++lower)
   {
     if (this->Held[lower].Contains(part))
@@ -52,51 +51,35 @@ TupleBox BoxExchange::PartOf(std::size_t rank, const TupleBox& wanted) const
   return part;
 }
 
-void BoxExchange::Append(
-  const TupleMemory& from, const TupleBox& all, std::vector<Bytes>& parts) const
-{
-  for (std::size_t rank = 0; rank < this->Wanted.size(); ++rank)
-  {
-    if (rank != this->Own)
-    {
-      appendTuples(from, runsOf(this->PartOf(this->Own, this->Wanted[rank]), all), parts[rank]);
-    }
-  }
-}
-
-void BoxExchange::CopyOwn(const TupleMemory& from, const TupleBox& all, const TupleMemory& to) const
-{
-  const TupleBox& wanted = this->OwnWanted();
-  const TupleBox part = this->PartOf(this->Own, wanted);
-  copyTuples(from, runsOf(part, all), runsOf(part, wanted), to);
-}
-
-const char* BoxExchange::Take(
-  const char* from, std::size_t rank, const TupleMemory& to, const TupleBox& all) const
-{
-  return takeTuples(from, runsOf(this->PartOf(rank, this->OwnWanted()), all), to);
-}
-
 void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks)
 {
+  const auto own = static_cast<std::size_t>(ranks.Own());
   std::vector<Bytes> parts(static_cast<std::size_t>(ranks.Count()));
   for (const BoxArrays& array : arrays)
   {
-    array.Boxes->Append(array.From, array.All, parts);
+    for (std::size_t rank = 0; rank < parts.size(); ++rank)
+    {
+      if (rank != own)
+      {
+        appendTuples(array.From, runsOf(array.Boxes->PartFor(own, rank), array.Given), parts[rank]);
+      }
+    }
   }
   std::vector<Bytes> received = ranks.Exchange(std::move(parts));
+  // The lowest rank comes last: its tuples count.
   for (std::size_t rank = received.size(); rank-- > 0;)
   {
     const char* bytes = received[rank].data();
     for (const BoxArrays& array : arrays)
     {
-      if (array.Boxes->IsOwn(rank))
+      const TupleBox part = array.Boxes->PartFor(rank, own);
+      if (rank != own)
       {
-        array.Boxes->CopyOwn(array.From, array.All, array.To);
+        bytes = takeTuples(bytes, runsOf(part, array.Made), array.To);
       }
-      else
+      else if (array.To.First != array.From.First)
       {
-        bytes = array.Boxes->Take(bytes, rank, array.To, array.Boxes->OwnWanted());
+        copyTuples(array.From, runsOf(part, array.Given), runsOf(part, array.Made), array.To);
       }
     }
     received[rank] = Bytes();
@@ -107,23 +90,15 @@ void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, co
   const TupleMemory& from, const TupleMemory& to)
 {
   const BoxExchange boxes(held, wanted, ranks);
-  exchangeArrays({ { &boxes, from, held[static_cast<std::size_t>(ranks.Own())], to } }, ranks);
+  exchangeArrays(
+    { { &boxes, from, held[static_cast<std::size_t>(ranks.Own())], to, wanted } }, ranks);
 }
 
 void completeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const TupleBox& all,
   const Ranks& ranks, const TupleMemory& array)
 {
   const BoxExchange boxes(held, wanted, ranks);
-  std::vector<Bytes> parts(held.size());
-  boxes.Append(array, all, parts);
-  const std::vector<Bytes> received = ranks.Exchange(std::move(parts));
-  for (std::size_t rank = 0; rank < received.size(); ++rank)
-  {
-    if (!boxes.IsOwn(rank))
-    {
-      boxes.Take(received[rank].data(), rank, array, all);
-    }
-  }
+  exchangeArrays({ { &boxes, array, all, array, all } }, ranks);
 }
 
 } // namespace RectifiedTransport

@@ -21,32 +21,23 @@ public:
   // `held`: the boxes that all ranks hold; `wanted`: the box that this rank wants. Collective.
   BoxExchange(std::vector<TupleBox> held, const TupleBox& wanted, const Ranks& ranks);
 
-  // Appends to the parts for the other ranks what they want of tuples of the box `all`.
-  void Append(const TupleMemory& from, const TupleBox& all, std::vector<Bytes>& parts) const;
-  // Reads what another rank sent, for an array with the tuples of the box `all`; returns where the
-  // next array begins. Call it for the ranks in descending order, with CopyOwn for this rank, to an
-  // array of the wanted tuples.
-  const char* Take(
-    const char* from, std::size_t rank, const TupleMemory& to, const TupleBox& all) const;
-  void CopyOwn(const TupleMemory& from, const TupleBox& all, const TupleMemory& to) const;
-  const TupleBox& OwnWanted() const { return this->Wanted[this->Own]; }
-  bool IsOwn(std::size_t rank) const { return rank == this->Own; }
+  // What a rank sends of its tuples to another one, or keeps.
+  TupleBox PartFor(std::size_t rank, std::size_t receiver) const;
 
 private:
-  TupleBox PartOf(std::size_t rank, const TupleBox& wanted) const;
-
   const std::vector<TupleBox> Held;
   const std::vector<TupleBox> Wanted;
-  const std::size_t Own;
 };
 
-// An array with the tuples of the box `All`, and one for the wanted tuples of an exchange.
+// An array with the tuples of the box `Given`, and one, or the same, with those of the box `Made`,
+// which gets the wanted tuples of an exchange.
 struct BoxArrays
 {
   const BoxExchange* Boxes;
   TupleMemory From;
-  TupleBox All;
+  TupleBox Given;
   TupleMemory To;
+  TupleBox Made;
 };
 // Exchanges several arrays together. Collective; every rank gives the same arrays.
 void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks);
