@@ -28,6 +28,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -40,18 +41,8 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-struct Key
-{
-  std::int64_t Number;
-  std::uint64_t Fingerprint;
-
-  bool operator==(const Key& other) const
-  {
-    return this->Number == other.Number && this->Fingerprint == other.Fingerprint;
-  }
-};
-
-using Keys = std::vector<Key>; // of the parts of a rank
+using Key = std::array<std::uint64_t, 2>; // the number of a part, and its fingerprint
+using Keys = std::vector<Key>;            // of the parts of a rank
 
 // Whether a part is one that no lower rank has.
 bool isFirst(const std::vector<Keys>& all, std::size_t rank, const Key& key)
@@ -114,7 +105,8 @@ GatheredParts gatherDataParts(
   Keys keys;
   for (const DataPart& part : own)
   {
-    keys.push_back({ part.Number, sampledFingerprint({ part.Data.Get() }) });
+    keys.push_back(
+      { static_cast<std::uint64_t>(part.Number), sampledFingerprint({ part.Data.Get() }) });
   }
   std::vector<Keys> all;
   for (const Bytes& bytes : ranks.Gather(toBytes(keys)))
@@ -150,7 +142,7 @@ GatheredParts gatherDataParts(
       if (isFirst(all, rank, all[rank][i]))
       {
         DataPart& part = parts[rank == self ? i : next++];
-        part.Number = all[rank][i].Number;
+        part.Number = static_cast<std::int64_t>(all[rank][i][0]);
         gathered.Parts.push_back(part);
       }
     }

@@ -39,17 +39,6 @@ Extent ownExtent(vtkImageData* image, int owner, const Extent& all)
   return extentOf(hasFlags ? boxWithout(box, ghosts->GetPointer(0), duplicate) : box, owner, all);
 }
 
-std::vector<Extent> extentsOf(
-  const std::vector<ImagePiece>& pieces, Extent ImagePiece::*ofPointsOrCells)
-{
-  std::vector<Extent> extents;
-  for (const ImagePiece& piece : pieces)
-  {
-    extents.push_back(piece.*ofPointsOrCells);
-  }
-  return extents;
-}
-
 } // namespace
 
 ImagePieces::ImagePieces(vtkImageData* own, const Ranks& ranks)
@@ -72,10 +61,7 @@ ImagePieces::ImagePieces(vtkImageData* own, const Ranks& ranks)
     std::copy_n(own->GetSpacing(), 3, piece.Geometry.begin() + 3);
     std::copy_n(own->GetDirectionMatrix()->GetData(), 9, piece.Geometry.begin() + 6);
   }
-  const std::vector<ImagePiece> pieces = gatherValues(ranks, piece);
-  this->PointExtents = extentsOf(pieces, &ImagePiece::Points);
-  this->CellExtents = extentsOf(pieces, &ImagePiece::Cells);
-  this->Joined = joinPieces(pieces);
+  this->Joined = joinPieces(gatherValues(ranks, piece));
   if (!this->Joined.Fault.empty())
   {
     throw Failure(this->Joined.Fault);
@@ -115,8 +101,7 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
     });
   const auto exchangeOf = [&](int owner) {
     std::vector<TupleBox> held;
-    for (const Extent& extent :
-      owner == vtkDataObject::POINT ? this->PointExtents : this->CellExtents)
+    for (const Extent& extent : owner == vtkDataObject::POINT ? this->Points() : this->Cells())
     {
       held.push_back(tuplesOf(extent, owner, this->Joined.Whole));
     }

@@ -35,9 +35,9 @@ public:
   // Empty if no rank has points.
   const Extent& Whole() const { return this->Joined.Whole; }
   // The extents of the points of each rank, without duplicates.
-  const std::vector<Extent>& Points() const { return this->PointExtents; }
+  const std::vector<Extent>& Points() const { return this->Joined.Points; }
   // The extents of the corners of each rank's cells, without duplicates.
-  const std::vector<Extent>& Cells() const { return this->CellExtents; }
+  const std::vector<Extent>& Cells() const { return this->Joined.Cells; }
   const Ranks& Group() const { return this->Processes; }
   vtkImageData* OwnImage() const;
   // The arrays that can be gathered.
@@ -59,8 +59,6 @@ private:
   const vtkSmartPointer<vtkImageData> Own;
   ShortArrays TooShort; // on any rank
   ArrayKinds Arrays;
-  std::vector<Extent> PointExtents;
-  std::vector<Extent> CellExtents;
   JoinedPieces Joined;
 };
 

@@ -91,6 +91,8 @@ JoinedPieces joinPieces(const std::vector<ImagePiece>& pieces)
   for (std::size_t rank = 0; rank < pieces.size(); ++rank)
   {
     const ImagePiece& piece = pieces[rank];
+    joined.Points.push_back(piece.Points);
+    joined.Cells.push_back(piece.Cells);
     if (isEmpty(piece.Points))
     {
       continue;

@@ -24,6 +24,8 @@ TupleBox boxWithout(const TupleBox& all, const unsigned char* flags, unsigned ch
 
 struct JoinedPieces
 {
+  std::vector<Extent> Points; // of the pieces
+  std::vector<Extent> Cells;
   Extent Whole = emptyExtent; // empty if no piece has points
   std::array<double, 15> Geometry{};
   // Why the pieces are no parts of one image, or do not fill it; empty if they do.
