@@ -3,10 +3,10 @@
 
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Boxes/JoinedBoxes.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/LatticeExtent.h"
 
 #include "vtkDataArray.h"
@@ -52,7 +52,7 @@ std::vector<unsigned char> flagsOfCells(vtkImageData* image, const std::string& 
   withMemory({ "the flags of the cells of the " + name, static_cast<double>(cells) },
     [&]() { flags.resize(static_cast<std::size_t>(cells)); });
   blankCellsOfHiddenPoints(dimensions, points, ghostFlags(image, vtkDataObject::CELL, name.c_str()),
-    0, cells / std::max(1, dimensions[0] - 1), flags.data());
+    0, cells / std::max(1, dimensions[0] - 1), flags.data(), blankingFlags);
   return flags;
 }
 

@@ -4,12 +4,13 @@
 #include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Points/PlacesInImage.h"
+#include "Bridge/Points/SampledArrays.h"
 #include "Bridge/Run/Fingerprint.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Resampling/PlacesInImage.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -126,8 +127,8 @@ void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
   const std::int64_t columns = std::max(1, points[0] - 1);
   const std::int64_t rowsAtOnce = std::max<std::int64_t>(1, grain / columns);
   progress.For(cells / columns, rowsAtOnce, [&](std::int64_t first, std::int64_t last) {
-    blankCellsOfHiddenPoints(
-      points, this->HiddenPoints, this->CellFlags, first, last, this->CombinedFlags.data());
+    blankCellsOfHiddenPoints(points, this->HiddenPoints, this->CellFlags, first, last,
+      this->CombinedFlags.data(), blankingFlags);
   });
   this->Reader->SetBlanks(this->CombinedFlags.data(), ghostCell);
 }

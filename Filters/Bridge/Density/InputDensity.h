@@ -3,11 +3,11 @@
 #ifndef RectifiedTransport_InputDensity_h
 #define RectifiedTransport_InputDensity_h
 
-#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Store/DataIdentity.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowTables.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/Points.h"
 #include "Core/Tables/Density.h"

@@ -75,7 +75,7 @@ PiecesDensity::PiecesDensity(std::unique_ptr<const ImagePieces> pieces, const st
       form.Components = kind.Components;
       isFound = true;
     }
-    else if (kind.IsGhosts())
+    else if (isGhosts(kind))
     {
       (kind.Owner == vtkDataObject::POINT ? form.HasPointGhosts : form.HasCellGhosts) = true;
     }

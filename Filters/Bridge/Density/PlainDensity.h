@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_PlainDensity_h
 #define RectifiedTransport_PlainDensity_h
 
-#include "Bridge/Ranks/TupleBoxes.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/ImageGrid.h"
 
 #include "vtkDoubleArray.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/MapField.h"
 
+#include "Bridge/Ranks/SameOnRanks.h"
+#include "Core/Geometry/Distributed/BoxExchange.h"
 #include "Core/Messages/PartText.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -10,20 +12,6 @@
 
 namespace RectifiedTransport::Bridge
 {
-
-namespace
-{
-
-// Without a copy; of memory that outlives it.
-vtkSmartPointer<vtkDoubleArray> arrayOn(double* values, int components, std::int64_t tuples)
-{
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetNumberOfComponents(components);
-  array->SetArray(values, static_cast<vtkIdType>(tuples * components), 1);
-  return array;
-}
-
-} // namespace
 
 template <int D>
 MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const TupleBox& wanted,
@@ -124,10 +112,11 @@ PointSpan<D> MapField<D>::Positions()
 template <int D>
 void MapField<D>::Complete()
 {
-  const auto array = arrayOn(this->Positions().data(), D, this->Kept.Count());
+  const TupleMemory positions = TupleMemory::Of(this->Positions().data(), D);
   for (const LatticePart<D>& part : { this->Wanted.Around(this->Lattice), this->Measured })
   {
-    completeBoxes(this->Held, this->BoxOf(part), this->BoxOf(this->Kept), this->Processes, array);
+    completeBoxes(
+      this->Held, this->BoxOf(part), this->BoxOf(this->Kept), this->Processes, positions);
   }
 }
 

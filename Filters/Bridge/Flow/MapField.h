@@ -4,9 +4,9 @@
 #ifndef RectifiedTransport_MapField_h
 #define RectifiedTransport_MapField_h
 
-#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Quality/MapFigures.h"
 
 #include "vtkSmartPointer.h"

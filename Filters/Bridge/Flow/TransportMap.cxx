@@ -126,7 +126,8 @@ public:
     const std::int64_t moved = sumOverRanks(ranks, reports.back().MovedToMass);
     addFieldValue(output, "MovedSamples", static_cast<double>(moved));
     addFieldValue(output, "FoldedCells", static_cast<double>(figures.Folds.Samples));
-    addFieldTuple(output, "LargestBlockError", { figures.Blocks.Quantile, figures.Blocks.Largest });
+    addFieldValues(
+      output, "LargestBlockError", { figures.Blocks.Quantile, figures.Blocks.Largest }, 2);
     const bool isUncorrected =
       equalizes && addEqualAreas(output, ranks, passes, reports.front()) == 0;
     addSteps(output, reports);

@@ -5,8 +5,8 @@
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/ParticleSet.h"
 #include "Bridge/Points/SeedInput.h"
+#include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/ParticleExchange.h"
-#include "Bridge/Ranks/PlaceOwners.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Seeds/SeedShare.h"
@@ -176,14 +176,12 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
       ->PassData(given->GetPointData());
   }
   const double mass = flow.TotalMass();
-  const double cost = sampler.OutputPaths
-    ? particles.WritePaths(mass, times, stages["particles"], output)
-    : particles.WriteParticles(mass, stages["particles"], output);
+  const double cost = particles.Write(mass, times, stages["particles"], output);
   if (slack)
   {
     output->GetPointData()->AddArray(slack);
   }
-  const PlaceOwners owners(grid, density.Pieces(), ranks);
+  const PlaceOwners owners = ownersOf(grid, density.Pieces(), ranks);
   moveToOwners(output, static_cast<std::int64_t>(times.size()), owners, ranks, stages["particles"]);
   report.SeedsMoved = sumOverRanks(ranks, report.SeedsMoved);
   report.ParticlesMoved = sumOverRanks(ranks, report.Flow.MovedToMass);

@@ -9,6 +9,12 @@
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
 
 #include <algorithm>
 #include <string>
@@ -73,6 +79,18 @@ void copyTuples(const TupleSource& source, std::int64_t count,
       }
     },
     units);
+}
+
+void copyPoints(vtkPointSet* from, vtkIdList* ids, vtkPointSet* to)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(from->GetPoints()->GetDataType());
+  from->GetPoints()->GetPoints(ids, points);
+  to->SetPoints(points);
+  to->GetPointData()->CopyAllOn();
+  to->GetPointData()->CopyAllocate(from->GetPointData(), ids->GetNumberOfIds());
+  to->GetPointData()->CopyData(from->GetPointData(), ids);
+  to->GetFieldData()->ShallowCopy(from->GetFieldData());
 }
 
 } // namespace RectifiedTransport::Bridge

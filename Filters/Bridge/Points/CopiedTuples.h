@@ -15,6 +15,8 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractArray;
 class vtkDataSet;
 class vtkDataSetAttributes;
+class vtkIdList;
+class vtkPointSet;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
@@ -45,6 +47,9 @@ void requireTuples(vtkDataSet* data, const std::string& name);
 // no memory, and Cancelled.
 void copyTuples(const TupleSource& source, std::int64_t count,
   const std::function<vtkIdType(vtkIdType)>& idOf, vtkDataSetAttributes* to, Progress& progress);
+
+// Copies the points of these ids with all their arrays, and the field data.
+void copyPoints(vtkPointSet* from, vtkIdList* ids, vtkPointSet* to);
 
 } // namespace RectifiedTransport::Bridge
 

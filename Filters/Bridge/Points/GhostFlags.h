@@ -6,10 +6,10 @@
 
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/LargeBuffer.h"
+#include "Core/Resampling/HiddenPoints.h"
 
 #include "vtkDataSetAttributes.h"
 
-#include <array>
 #include <cstdint>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -29,11 +29,7 @@ constexpr unsigned char ghostCell = vtkDataSetAttributes::DUPLICATECELL |
 // there is none. Throws Failure for a ghost array of another length; `what` names the input.
 const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what);
 
-// Writes the flags of the cells in some rows of an image along its first axis: ghostCell if a point
-// of the cell is hidden, else the cell's own flags, 0 if `cells` is nullptr. `dimensions` are
-// numbers of points; 1 is no axis.
-void blankCellsOfHiddenPoints(const std::array<int, 3>& dimensions, const unsigned char* points,
-  const unsigned char* cells, std::int64_t firstRow, std::int64_t lastRow, unsigned char* flags);
+constexpr BlankingFlags blankingFlags = { vtkDataSetAttributes::HIDDENPOINT, ghostCell };
 
 // The points of a data set without these ghost flags, numbered from 0 in their order.
 class CountedPoints

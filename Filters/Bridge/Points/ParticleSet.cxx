@@ -79,9 +79,9 @@ PointSpan<3> ParticleSet<D>::PhysicalSeeds()
 // Calls write(i) for every particle, which returns the squared distance that it moved, in units of
 // the scale. Returns the mean squared displacement.
 template <int D>
-template <class Write>
+template <class WriteParticle>
 double ParticleSet<D>::WriteEach(
-  const LengthScale& scale, Progress& progress, const Write& write) const
+  const LengthScale& scale, Progress& progress, const WriteParticle& write) const
 {
   const std::int64_t chunk = std::max<std::int64_t>(1, 4096 / this->Times);
   const auto total = sumExactly<ExactSum>(progress, this->NumberOfParticles, chunk,
@@ -120,17 +120,22 @@ void ParticleSet<D>::ToPhysical(
 }
 
 template <int D>
-double ParticleSet<D>::WriteParticles(double totalMass, Progress& progress, vtkPolyData* output)
+double ParticleSet<D>::Write(
+  double totalMass, const std::vector<double>& times, Progress& progress, vtkPolyData* output)
 {
-  const std::int64_t count = this->NumberOfParticles;
-  auto ids = newArray<vtkIdTypeArray>("SeedId", 1, count);
-  auto displacements = newArray<vtkDoubleArray>("Displacement", 3, count);
-  auto masses = newArray<vtkDoubleArray>("Mass", 1, count);
+  const std::int64_t each = this->Times;
+  const std::int64_t count = this->NumberOfParticles * each;
+  const bool arePaths = each > 1;
+  const auto ids = newArray<vtkIdTypeArray>("SeedId", 1, count);
+  const auto masses = newArray<vtkDoubleArray>("Mass", 1, count);
+  const auto further = arePaths ? newArray<vtkDoubleArray>("Time", 1, count)
+                                : newArray<vtkDoubleArray>("Displacement", 3, count);
   vtkIdType* id = ids->GetPointer(0);
-  double* displacement = displacements->GetPointer(0);
   double* mass = masses->GetPointer(0);
+  double* time = arePaths ? further->GetPointer(0) : nullptr;
+  double* displacement = arePaths ? nullptr : further->GetPointer(0);
   double* points = this->Points->GetPointer(0);
-  double* physicalSeeds = this->SeedPosition->GetPointer(0);
+  double* physicalSeeds = arePaths ? nullptr : this->SeedPosition->GetPointer(0);
   const double* seeds = this->Seeds().data();
   const double* positions = this->Positions().data();
   const double share = totalMass / static_cast<double>(this->AllParticles);
@@ -140,65 +145,39 @@ double ParticleSet<D>::WriteParticles(double totalMass, Progress& progress, vtkP
   const double cost = this->WriteEach(scale, stages["points"], [&](std::int64_t i) {
     double index[D];
     std::copy_n(seeds + i * D, D, index); // in 3D the same memory as the physical seed
-    double* seed = physicalSeeds + i * 3;
-    double* x = points + i * 3;
-    this->ToPhysicalSeed(i, index, seed);
-    this->ToPhysical(positions + i * D, index, seed, x);
-    for (int r = 0; r < 3; ++r)
-    {
-      displacement[i * 3 + r] = x[r] - seed[r];
-    }
-    id[i] = this->FirstId + i;
-    mass[i] = share;
-    return scale.SquaredDistanceInUnits(x, seed);
-  });
-
-  setParticles(output, std::exchange(this->Points, nullptr), 1, stages["cells"]);
-  vtkPointData* data = output->GetPointData();
-  data->AddArray(ids);
-  data->AddArray(std::exchange(this->SeedPosition, nullptr));
-  data->SetVectors(displacements);
-  data->AddArray(masses);
-  return cost;
-}
-
-template <int D>
-double ParticleSet<D>::WritePaths(
-  double totalMass, const std::vector<double>& times, Progress& progress, vtkPolyData* output)
-{
-  const std::int64_t count = this->NumberOfParticles;
-  const std::int64_t each = this->Times;
-  auto ids = newArray<vtkIdTypeArray>("SeedId", 1, count * each);
-  auto timeArray = newArray<vtkDoubleArray>("Time", 1, count * each);
-  auto masses = newArray<vtkDoubleArray>("Mass", 1, count * each);
-  vtkIdType* id = ids->GetPointer(0);
-  double* time = timeArray->GetPointer(0);
-  double* mass = masses->GetPointer(0);
-  double* points = this->Points->GetPointer(0);
-  const double* seeds = this->Seeds().data();
-  const double* positions = this->Positions().data();
-  const double share = totalMass / static_cast<double>(this->AllParticles);
-  const LengthScale scale(this->Geometry);
-
-  Stages stages(progress, { { "points", 8 }, { "cells", 2 } });
-  const double cost = this->WriteEach(scale, stages["points"], [&](std::int64_t i) {
-    const double* index = seeds + i * D;
-    double seed[3];
+    double ofPath[3];
+    double* seed = arePaths ? ofPath : physicalSeeds + i * 3;
     this->ToPhysicalSeed(i, index, seed);
     for (std::int64_t p = i * each; p < (i + 1) * each; ++p)
     {
       this->ToPhysical(positions + p * D, index, seed, points + p * 3);
       id[p] = this->FirstId + i;
-      time[p] = times[static_cast<std::size_t>(p - i * each)];
       mass[p] = share;
+      if (arePaths)
+      {
+        time[p] = times[static_cast<std::size_t>(p - i * each)];
+      }
     }
-    return scale.SquaredDistanceInUnits(points + ((i + 1) * each - 1) * 3, seed);
+    const double* x = points + ((i + 1) * each - 1) * 3;
+    for (int r = 0; r < 3 && !arePaths; ++r)
+    {
+      displacement[i * 3 + r] = x[r] - seed[r];
+    }
+    return scale.SquaredDistanceInUnits(x, seed);
   });
 
   setParticles(output, std::exchange(this->Points, nullptr), each, stages["cells"]);
   vtkPointData* data = output->GetPointData();
   data->AddArray(ids);
-  data->AddArray(timeArray);
+  if (arePaths)
+  {
+    data->AddArray(further);
+  }
+  else
+  {
+    data->AddArray(std::exchange(this->SeedPosition, nullptr));
+    data->SetVectors(further);
+  }
   data->AddArray(masses);
   return cost;
 }

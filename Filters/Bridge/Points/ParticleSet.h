@@ -54,18 +54,16 @@ public:
   // In physical space.
   PointSpan<3> PhysicalSeeds();
 
-  // Writes points with vertices, SeedId, SeedPosition, Displacement and Mass and does not keep
-  // them; seeds and positions are undefined afterwards. Returns the mean squared displacement of
-  // the particles of all ranks. Collective. Throws Failure and Cancelled.
-  double WriteParticles(double totalMass, Progress& progress, vtkPolyData* output);
-
-  // The same with polylines, SeedId, Time and Mass.
-  double WritePaths(
+  // Writes points with vertices, SeedId, SeedPosition, Displacement and Mass, or for several times
+  // polylines with SeedId, Time and Mass, and does not keep them; seeds and positions are undefined
+  // afterwards. Returns the mean squared displacement of the particles of all ranks. Collective.
+  // Throws Failure and Cancelled.
+  double Write(
     double totalMass, const std::vector<double>& times, Progress& progress, vtkPolyData* output);
 
 private:
-  template <class Write>
-  double WriteEach(const LengthScale& scale, Progress& progress, const Write& write) const;
+  template <class WriteParticle>
+  double WriteEach(const LengthScale& scale, Progress& progress, const WriteParticle& write) const;
   void ToPhysicalSeed(std::int64_t particle, const double* index, double* seed) const;
   void ToPhysical(
     const double* index, const double* indexSeed, const double* seed, double* x) const;

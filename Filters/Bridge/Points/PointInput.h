@@ -4,8 +4,11 @@
 #define RectifiedTransport_PointInput_h
 
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Messages/Failure.h"
+#include "Core/Messages/NotFiniteValues.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/Reduction.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkDataArrayRange.h"
@@ -13,7 +16,6 @@
 #include "vtkPoints.h"
 
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -40,70 +42,69 @@ void findBounds(vtkPointSet* points, Progress& progress, double bounds[6]);
 // Collective.
 std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6>& own);
 
-// Counts points whose coordinates are not finite; thread-safe.
-class NotFinitePoints
+// What a pass over points finds: a Part, which joins others by Add, of the finite ones.
+template <class Part>
+struct PointFindings
 {
-public:
-  void Add(std::int64_t count, std::int64_t first);
-  // Throws Failure with their number if there are any; `what` names the input.
-  void RequireNone(const std::string& what) const;
-
-private:
-  std::atomic<std::int64_t> Count{ 0 };
-  std::atomic<std::int64_t> First{ -1 };
+  Part Found{};
+  NotFiniteValues NotFinite;
 };
 
-// Calls visit(i, x) for the points of a range of tuples.
-template <class Visit>
-class PointPass
+template <class Part, class Visit>
+struct PointPass
 {
-public:
-  explicit PointPass(const Visit& visit)
-    : VisitPoint(visit)
-  {
-  }
+  const Visit& VisitPoint;
+  PointFindings<Part> All;
 
   template <class ArrayT>
   void operator()(ArrayT* array, Progress& progress)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-    progress.For(
-      array->GetNumberOfTuples(), grain, [this, array](std::int64_t first, std::int64_t last) {
-        this->Range(vtk::DataArrayTupleRange<3>(array, first, last), first);
-      });
-  }
-
-  NotFinitePoints NotFinite;
-
-private:
-  template <class Tuples>
-  void Range(const Tuples& tuples, std::int64_t first)
-  {
-    std::int64_t notFinite = 0;
-    std::int64_t firstNotFinite = -1;
-    std::int64_t i = first;
-    for (const auto tuple : tuples)
-    {
-      const double x[3] = { static_cast<double>(tuple[0]), static_cast<double>(tuple[1]),
-        static_cast<double>(tuple[2]) };
-      if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
+    const auto visitRange = [this, array](std::int64_t first, std::int64_t last) {
+      PointFindings<Part> range;
+      std::int64_t i = first;
+      for (const auto tuple : vtk::DataArrayTupleRange<3>(array, first, last))
       {
-        this->VisitPoint(i, x);
+        const double x[3] = { static_cast<double>(tuple[0]), static_cast<double>(tuple[1]),
+          static_cast<double>(tuple[2]) };
+        if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
+        {
+          this->VisitPoint(i, x, range.Found);
+        }
+        else
+        {
+          range.NotFinite.Add(i);
+        }
+        ++i;
       }
-      else
-      {
-        firstNotFinite = notFinite++ == 0 ? i : firstNotFinite;
-      }
-      ++i;
-    }
-    if (notFinite > 0)
-    {
-      this->NotFinite.Add(notFinite, firstNotFinite);
-    }
+      return range;
+    };
+    const auto join = [](PointFindings<Part> all, const PointFindings<Part>& range) {
+      all.Found.Add(range.Found);
+      all.NotFinite.Add(range.NotFinite);
+      return all;
+    };
+    this->All = reduceChunks(
+      progress, array->GetNumberOfTuples(), grain, PointFindings<Part>(), visitRange, join);
   }
-
-  const Visit& VisitPoint;
 };
+
+// Calls visit(i, x, part) for every finite point of a set, on several threads. Throws Cancelled.
+template <class Part, class Visit>
+PointFindings<Part> reducePoints(vtkPointSet* points, Progress& progress, const Visit& visit)
+{
+  PointPass<Part, Visit> pass{ visit, {} };
+  if (points && points->GetNumberOfPoints() > 0)
+  {
+    vtkDataArray* coordinates = points->GetPoints()->GetData();
+    using Dispatch = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Reals>;
+    if (!Dispatch::Execute(coordinates, pass, progress))
+    {
+      pass(coordinates, progress);
+    }
+  }
+  return pass.All;
+}
 
 // Calls visit(i, x) for every point of a set, on several threads. Throws Failure for
 // coordinates that are not finite, naming the input as `what`, and Cancelled.
@@ -111,18 +112,14 @@ template <class Visit>
 void visitPoints(
   vtkPointSet* points, const std::string& what, Progress& progress, const Visit& visit)
 {
-  if (points->GetNumberOfPoints() == 0)
+  const auto visitOnly = [&](std::int64_t i, const double* x, NotFiniteValues&) { visit(i, x); };
+  const NotFiniteValues notFinite =
+    reducePoints<NotFiniteValues>(points, progress, visitOnly).NotFinite;
+  if (notFinite.Count > 0)
   {
-    return;
+    throw Failure(
+      "The " + what + " " + notFinite.Text("point") + "; all coordinates must be finite");
   }
-  PointPass<Visit> pass(visit);
-  vtkDataArray* coordinates = points->GetPoints()->GetData();
-  using Dispatch = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Reals>;
-  if (!Dispatch::Execute(coordinates, pass, progress))
-  {
-    pass(coordinates, progress);
-  }
-  pass.NotFinite.RequireNone(what);
 }
 
 } // namespace RectifiedTransport::Bridge

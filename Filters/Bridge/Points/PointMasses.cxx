@@ -6,6 +6,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/NumbersOfText.h"
 #include "Core/Messages/Failure.h"
+#include "Core/Messages/NotFiniteValues.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 
@@ -18,7 +19,7 @@
 
 #include <cmath>
 #include <cstdint>
-#include <sstream>
+#include <string>
 
 namespace RectifiedTransport::Bridge
 {
@@ -31,80 +32,48 @@ struct RangeOfMasses
 {
   double Sum = 0.0;
   double Sizes = 0.0;
-  std::int64_t NotFinite = 0;
-  std::int64_t First = -1;
+  NotFiniteValues NotFinite;
 };
 
 RangeOfMasses joinRanges(RangeOfMasses all, const RangeOfMasses& range)
 {
   all.Sum += range.Sum;
   all.Sizes += range.Sizes;
-  all.First = all.NotFinite == 0 ? range.First : all.First;
-  all.NotFinite += range.NotFinite;
+  all.NotFinite.Add(range.NotFinite);
   return all;
 }
 
-// Copies values, or 1 each; 0 for ghosts.
-class ReadMasses
+// Copies values; 0 for ghosts.
+struct ReadMasses
 {
-public:
-  ReadMasses(const unsigned char* ghosts, double* masses, std::int64_t count)
-    : Ghosts(ghosts)
-    , Masses(masses)
-    , Count(count)
-  {
-  }
+  const unsigned char* Ghosts;
+  double* Masses;
+  RangeOfMasses Found;
 
   template <class ArrayT>
   void operator()(ArrayT* array, Progress& progress)
   {
-    this->ReadAll(progress, [this, array](std::int64_t first, std::int64_t last) {
-      const auto values = vtk::DataArrayValueRange<1>(array, first, last);
-      auto value = values.begin();
-      return this->Read(first, last, [&value]() { return static_cast<double>(*value++); });
-    });
-  }
-
-  void ReadOnes(Progress& progress)
-  {
-    this->ReadAll(progress, [this](std::int64_t first, std::int64_t last) {
-      return this->Read(first, last, []() { return 1.0; });
-    });
-  }
-
-  const RangeOfMasses& All() const { return this->Found; }
-
-private:
-  template <class ReadRange>
-  void ReadAll(Progress& progress, const ReadRange& read)
-  {
-    this->Found =
-      reduceChunks(progress, this->Count, PointMasses::Chunk, RangeOfMasses{}, read, joinRanges);
-  }
-
-  template <class Next>
-  RangeOfMasses Read(std::int64_t first, std::int64_t last, const Next& next) const
-  {
-    RangeOfMasses range;
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      const double value = next();
-      const bool isGhost = this->Ghosts && (this->Ghosts[i] & ghostPoint) != 0;
-      if (!isGhost && !std::isfinite(value))
+    const auto read = [this, array](std::int64_t first, std::int64_t last) {
+      RangeOfMasses range;
+      std::int64_t i = first;
+      for (const auto given : vtk::DataArrayValueRange<1>(array, first, last))
       {
-        range.First = range.NotFinite++ == 0 ? i : range.First;
+        const auto value = static_cast<double>(given);
+        const bool isGhost = this->Ghosts && (this->Ghosts[i] & ghostPoint) != 0;
+        if (!isGhost && !std::isfinite(value))
+        {
+          range.NotFinite.Add(i);
+        }
+        this->Masses[i] = isGhost ? 0.0 : value;
+        range.Sum += this->Masses[i];
+        range.Sizes += std::abs(this->Masses[i]);
+        ++i;
       }
-      this->Masses[i] = isGhost ? 0.0 : value;
-      range.Sum += this->Masses[i];
-      range.Sizes += std::abs(this->Masses[i]);
-    }
-    return range;
+      return range;
+    };
+    this->Found = reduceChunks(
+      progress, array->GetNumberOfTuples(), PointMasses::Chunk, RangeOfMasses(), read, joinRanges);
   }
-
-  const unsigned char* Ghosts;
-  double* Masses;
-  std::int64_t Count;
-  RangeOfMasses Found;
 };
 
 vtkSmartPointer<vtkDataArray> requireMasses(
@@ -162,34 +131,27 @@ PointMasses::PointMasses(vtkPointSet* points, vtkDataArray* array, Progress& pro
     return;
   }
   this->Masses = newArray<vtkDoubleArray>("Mass", 1, count);
-  ReadMasses read(ghosts, this->Masses->GetPointer(0), count);
-  using Dispatch = vtkArrayDispatch::Dispatch;
+  ReadMasses read{ ghosts, this->Masses->GetPointer(0), {} };
   if (!array)
   {
-    read.ReadOnes(progress);
+    this->Masses->Fill(1.0);
   }
-  else if (!Dispatch::Execute(array, read, progress))
+  vtkDataArray* from = array ? array : this->Masses.Get();
+  if (!vtkArrayDispatch::Dispatch::Execute(from, read, progress))
   {
-    read(array, progress);
+    read(from, progress);
   }
-  const RangeOfMasses all = read.All();
-  this->Sum = all.Sum;
-  this->Sizes = all.Sizes;
-  const char* name = array ? array->GetName() : nullptr;
-  std::ostringstream message;
-  message << "The mass array '" << (name ? name : "") << "' ";
-  if (all.NotFinite > 0)
+  this->Sum = read.Found.Sum;
+  this->Sizes = read.Found.Sizes;
+  const std::string title =
+    "The mass array '" + std::string(array && array->GetName() ? array->GetName() : "") + "' ";
+  if (read.Found.NotFinite.Count > 0)
   {
-    message << "has " << all.NotFinite
-            << (all.NotFinite == 1 ? " value that is" : " values that are")
-            << " NaN or infinite, the first at index " << all.First
-            << "; all masses must be finite";
-    throw Failure(message.str());
+    throw Failure(title + read.Found.NotFinite.Text("value") + "; all masses must be finite");
   }
-  if (!std::isfinite(all.Sum))
+  if (!std::isfinite(this->Sum))
   {
-    message << "sums to " << all.Sum << "; the sum must be a double";
-    throw Failure(message.str());
+    fail(title, "sums to ", this->Sum, "; the sum must be a double");
   }
 }
 

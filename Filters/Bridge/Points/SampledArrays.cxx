@@ -197,8 +197,8 @@ public:
       }
       for (int c = 0; c < components; ++c)
       {
-        tuple[c] =
-          interpolate<Value>(place, [=](vtkIdType point) { return given[point * components + c]; });
+        tuple[c] = interpolate<Value>(
+          place, [=](std::int64_t point) { return given[point * components + c]; });
       }
     }
   }
@@ -271,7 +271,8 @@ public:
       }
       for (vtk::ComponentIdType c = 0; c < tuples.GetTupleSize(); ++c)
       {
-        tuple[c] = interpolate<Value>(place, [&](vtkIdType point) { return given[point][c]; });
+        tuple[c] = interpolate<Value>(place,
+          [&](std::int64_t point) { return given[static_cast<vtk::TupleIdType>(point)][c]; });
       }
     }
   }
@@ -345,7 +346,7 @@ void sampleTuples(const NewArray& array, vtkAbstractArray* to, const SampledPlac
         }
         if (ofCells)
         {
-          to->SetTuple(static_cast<vtkIdType>(i), place.Cell, from);
+          to->SetTuple(static_cast<vtkIdType>(i), static_cast<vtkIdType>(place.Cell), from);
           continue;
         }
         points->SetNumberOfIds(place.Count);

@@ -3,18 +3,18 @@
 #ifndef RectifiedTransport_SeedInput_h
 #define RectifiedTransport_SeedInput_h
 
-#include "Bridge/VTKCompatibility.h"
-#include "Core/Geometry/ImageGrid.h"
+#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Points/PointInput.h"
+#include "Core/Geometry/PhysicalPoints.h"
 #include "Core/Parallel/Progress.h"
 
-VTK_ABI_NAMESPACE_BEGIN
-class vtkPointSet;
-VTK_ABI_NAMESPACE_END
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <string>
 
 namespace RectifiedTransport::Bridge
 {
-
-class CountedPoints;
 
 // Writes the points of a set that are not ghosts in index space, clamped to the domain, in the
 // order of their numbers; and all points in physical space (coordinates inside stay bitwise the
@@ -23,7 +23,24 @@ class CountedPoints;
 // naming the input as `what`, and Cancelled.
 template <int D>
 std::int64_t readSeeds(vtkPointSet* points, const CountedPoints& counted, const std::string& what,
-  const ImageGrid& grid, Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds);
+  const ImageGrid& grid, Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds)
+{
+  visitPoints(points, what, progress,
+    [&](std::int64_t i, const double* x) { std::copy_n(x, 3, physicalSeeds[i]); });
+  std::atomic<std::int64_t> moved{ 0 };
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+  progress.For(counted.Count(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t number = first; number < last; ++number)
+    {
+      double* seed = physicalSeeds[counted.Point(number)];
+      if (moveToDomain<D>(grid, seed, indexSeeds[number]))
+      {
+        ++moved;
+      }
+    }
+  });
+  return moved;
+}
 
 } // namespace RectifiedTransport::Bridge
 

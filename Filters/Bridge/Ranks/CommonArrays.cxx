@@ -2,26 +2,28 @@
 #include "Bridge/Ranks/CommonArrays.h"
 
 #include "Bridge/Points/CopiedTuples.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <iomanip>
-#include <sstream>
+#include <string>
 
 namespace RectifiedTransport::Bridge
 {
 
+static_assert(OfPoints == +vtkDataObject::POINT && OfCells == +vtkDataObject::CELL, "as in VTK");
+
 namespace
 {
 
-std::vector<ArrayKind> kindsOf(vtkDataSet* data)
+ArrayKinds kindsOf(vtkDataSet* data)
 {
-  std::vector<ArrayKind> kinds;
+  ArrayKinds kinds;
   for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
     vtkDataSetAttributes* attributes = data->GetAttributes(owner);
@@ -34,10 +36,9 @@ std::vector<ArrayKind> kindsOf(vtkDataSet* data)
       }
       requireTuples(array, data->GetNumberOfElements(owner),
         owner == vtkDataObject::CELL ? "cell" : "point", "input");
+      ArrayKind kind = kindOf(attributes, i, owner);
       // Bits have no bytes of their own.
-      const int type = array->GetDataType() == VTK_BIT ? VTK_UNSIGNED_CHAR : array->GetDataType();
-      ArrayKind kind{ owner, type, array->GetNumberOfComponents(),
-        attributes->IsArrayAnAttribute(i), array->GetName(), {} };
+      kind.Type = kind.Type == VTK_BIT ? VTK_UNSIGNED_CHAR : kind.Type;
       for (int c = 0; array->HasAComponentName() && c < kind.Components; ++c)
       {
         const char* name = array->GetComponentName(c);
@@ -49,178 +50,75 @@ std::vector<ArrayKind> kindsOf(vtkDataSet* data)
   return kinds;
 }
 
-Bytes describe(const std::vector<ArrayKind>& kinds)
-{
-  std::ostringstream os;
-  for (const ArrayKind& kind : kinds)
-  {
-    os << kind.Owner << ' ' << kind.Type << ' ' << kind.Components << ' ' << kind.Attribute << ' '
-       << kind.ComponentNames.size() << ' ' << std::quoted(kind.Name);
-    for (const std::string& name : kind.ComponentNames)
-    {
-      os << ' ' << std::quoted(name);
-    }
-    os << '\n';
-  }
-  const std::string text = os.str();
-  return Bytes(text.begin(), text.end());
-}
-
-std::vector<ArrayKind> kindsFrom(const Bytes& bytes)
-{
-  std::istringstream is(std::string(bytes.begin(), bytes.end()));
-  std::vector<ArrayKind> kinds;
-  std::size_t names = 0;
-  for (ArrayKind kind; is >> kind.Owner >> kind.Type >> kind.Components >> kind.Attribute >>
-       names >> std::quoted(kind.Name);)
-  {
-    kind.ComponentNames.resize(names);
-    for (std::string& name : kind.ComponentNames)
-    {
-      is >> std::quoted(name);
-    }
-    kinds.push_back(kind);
-  }
-  return kinds;
-}
-
-bool has(const std::vector<ArrayKind>& kinds, const ArrayKind& wanted)
-{
-  return std::any_of(
-    kinds.begin(), kinds.end(), [&](const ArrayKind& kind) { return kind.IsLike(wanted); });
-}
-
 } // namespace
 
-bool ArrayKind::IsGhosts() const
+ArrayKind kindOf(vtkDataSetAttributes* attributes, int array, int owner)
 {
-  return this->Name == vtkDataSetAttributes::GhostArrayName();
+  vtkAbstractArray* given = attributes->GetAbstractArray(array);
+  return { owner, given->GetDataType(), given->GetNumberOfComponents(),
+    attributes->IsArrayAnAttribute(array), given->GetName() ? given->GetName() : "" };
 }
 
-vtkSmartPointer<vtkDataArray> ArrayKind::Find(vtkDataSet* data) const
+bool isGhosts(const ArrayKind& kind)
+{
+  return kind.Name == vtkDataSetAttributes::GhostArrayName();
+}
+
+vtkSmartPointer<vtkDataArray> findArray(const ArrayKind& kind, vtkDataSet* data)
 {
   vtkDataArray* array =
-    data ? data->GetAttributes(this->Owner)->GetArray(this->Name.c_str()) : nullptr;
-  if (!array)
-  {
-    return nullptr;
-  }
-  if (array->HasStandardMemoryLayout() && array->GetDataType() == this->Type)
+    data ? data->GetAttributes(kind.Owner)->GetArray(kind.Name.c_str()) : nullptr;
+  if (!array || (array->HasStandardMemoryLayout() && array->GetDataType() == kind.Type))
   {
     return array;
   }
-  const auto copy = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
+  const auto copy = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(kind.Type));
   copy->DeepCopy(array);
   return copy;
 }
 
-vtkSmartPointer<vtkDataArray> ArrayKind::Make(vtkDataSet* data, vtkIdType tuples) const
+vtkSmartPointer<vtkDataArray> addArray(const ArrayKind& kind, vtkDataSet* data, vtkIdType tuples)
 {
-  const auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
-  array->SetName(this->Name.c_str());
-  array->SetNumberOfComponents(this->Components);
-  for (std::size_t c = 0; c < this->ComponentNames.size(); ++c)
+  const auto array =
+    vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(kind.Type));
+  array->SetName(kind.Name.c_str());
+  array->SetNumberOfComponents(kind.Components);
+  for (std::size_t c = 0; c < kind.ComponentNames.size(); ++c)
   {
-    array->SetComponentName(static_cast<vtkIdType>(c), this->ComponentNames[c].c_str());
+    array->SetComponentName(static_cast<vtkIdType>(c), kind.ComponentNames[c].c_str());
   }
   array->SetNumberOfTuples(tuples);
-  vtkDataSetAttributes* attributes = data->GetAttributes(this->Owner);
+  vtkDataSetAttributes* attributes = data->GetAttributes(kind.Owner);
   const int index = attributes->AddArray(array);
-  if (this->Attribute >= 0)
+  if (kind.Attribute >= 0)
   {
-    attributes->SetActiveAttribute(index, this->Attribute);
+    attributes->SetActiveAttribute(index, kind.Attribute);
   }
-  return array;
+  return vtkDataArray::SafeDownCast(array);
 }
 
-std::vector<ArrayKind> commonArrays(vtkDataSet* data, const Ranks& ranks)
+ArrayKinds commonArrays(vtkDataSet* data, const Ranks& ranks)
 {
+  // A first letter tells whether there are data.
   const bool hasData = data && data->GetNumberOfPoints() > 0;
-  // A first byte for whether there are data.
-  Bytes own(1, hasData ? 1 : 0);
-  const Bytes kinds = hasData ? describe(kindsOf(data)) : Bytes();
-  own.insert(own.end(), kinds.begin(), kinds.end());
-  std::vector<std::vector<ArrayKind>> all;
-  for (const Bytes& bytes : ranks.Gather(own))
+  std::vector<ArrayKinds> all;
+  for (const std::string& text :
+    gatherTexts(ranks, hasData ? "+" + textOfKinds(kindsOf(data)) : std::string()))
   {
-    if (bytes.front() != 0)
+    if (!text.empty())
     {
-      all.push_back(kindsFrom(Bytes(bytes.begin() + 1, bytes.end())));
+      all.push_back(kindsOfText(text.substr(1)));
     }
   }
-  std::vector<ArrayKind> common;
-  for (const std::vector<ArrayKind>& others : all)
-  {
-    for (const ArrayKind& kind : others)
-    {
-      const bool isInAll = std::all_of(all.begin(), all.end(),
-        [&](const std::vector<ArrayKind>& kindsThere) { return has(kindsThere, kind); });
-      if ((isInAll || kind.IsGhosts()) && !has(common, kind))
-      {
-        common.push_back(kind);
-      }
-    }
-  }
-  return common;
+  return commonKinds(all, vtkDataSetAttributes::GhostArrayName());
 }
 
-void appendTuples(vtkDataArray* from, const std::vector<TupleRun>& runs, Bytes& to)
+TupleMemory tuplesIn(vtkDataArray* array)
 {
-  std::size_t tuples = 0;
-  for (const TupleRun& run : runs)
-  {
-    tuples += static_cast<std::size_t>(run.Count);
-  }
-  if (!from)
-  {
-    to.resize(to.size() + tuples);
-    return;
-  }
-  const auto size = static_cast<std::size_t>(from->GetDataTypeSize()) *
-    static_cast<std::size_t>(from->GetNumberOfComponents());
-  to.reserve(to.size() + tuples * size);
-  const auto* bytes = static_cast<const char*>(from->GetVoidPointer(0));
-  for (const TupleRun& run : runs)
-  {
-    const char* first = bytes + static_cast<std::size_t>(run.First) * size;
-    to.insert(to.end(), first, first + static_cast<std::size_t>(run.Count) * size);
-  }
-}
-
-void copyTuples(vtkDataArray* from, const std::vector<TupleRun>& runs,
-  const std::vector<TupleRun>& runsThere, vtkDataArray* to)
-{
-  const auto size = static_cast<std::size_t>(to->GetDataTypeSize()) *
-    static_cast<std::size_t>(to->GetNumberOfComponents());
-  const auto* here = from ? static_cast<const char*>(from->GetVoidPointer(0)) : nullptr;
-  auto* there = static_cast<char*>(to->GetVoidPointer(0));
-  for (std::size_t i = 0; i < runs.size(); ++i)
-  {
-    const std::size_t length = static_cast<std::size_t>(runs[i].Count) * size;
-    char* target = there + static_cast<std::size_t>(runsThere[i].First) * size;
-    if (here)
-    {
-      std::copy_n(here + static_cast<std::size_t>(runs[i].First) * size, length, target);
-    }
-    else
-    {
-      std::fill_n(target, length, '\0');
-    }
-  }
-}
-
-const char* takeTuples(const char* from, const std::vector<TupleRun>& runs, vtkDataArray* to)
-{
-  const auto size = static_cast<std::size_t>(to->GetDataTypeSize()) *
-    static_cast<std::size_t>(to->GetNumberOfComponents());
-  auto* bytes = static_cast<char*>(to->GetVoidPointer(0));
-  for (const TupleRun& run : runs)
-  {
-    const std::size_t length = static_cast<std::size_t>(run.Count) * size;
-    std::copy_n(from, length, bytes + static_cast<std::size_t>(run.First) * size);
-    from += length;
-  }
-  return from;
+  return array ? TupleMemory{ static_cast<char*>(array->GetVoidPointer(0)),
+    static_cast<std::size_t>(array->GetDataTypeSize()) *
+      static_cast<std::size_t>(array->GetNumberOfComponents()) }
+               : TupleMemory{};
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -1,67 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arrays that data sets on several ranks have in common, and their tuples as bytes.
+// The arrays of data sets on several ranks, by their kinds.
 #ifndef RectifiedTransport_CommonArrays_h
 #define RectifiedTransport_CommonArrays_h
 
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/Distributed/ArrayKinds.h"
+#include "Core/Geometry/Distributed/TupleMemory.h"
 #include "Core/Parallel/Ranks.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
-#include <string>
-#include <vector>
-
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
 class vtkDataSet;
+class vtkDataSetAttributes;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport::Bridge
 {
 
-// A numeric array of points or cells.
-struct ArrayKind
-{
-  int Owner = 0; // vtkDataObject::POINT or CELL
-  int Type = 0;
-  int Components = 1;
-  int Attribute = -1; // for which it is the active one
-  std::string Name;
-  std::vector<std::string> ComponentNames; // or none
+// The kind of an array of points or cells (`owner`), without the names of components.
+ArrayKind kindOf(vtkDataSetAttributes* attributes, int array, int owner);
+bool isGhosts(const ArrayKind& kind);
+// The numeric array of this kind in a data set, which may be nullptr; nullptr if there is none.
+// Contiguous: a copy if the array is not.
+vtkSmartPointer<vtkDataArray> findArray(const ArrayKind& kind, vtkDataSet* data);
+// Adds an array of this number of tuples to a data set; nullptr if it is not numeric.
+vtkSmartPointer<vtkDataArray> addArray(const ArrayKind& kind, vtkDataSet* data, vtkIdType tuples);
 
-  bool IsLike(const ArrayKind& other) const
-  {
-    return this->Owner == other.Owner && this->Type == other.Type &&
-      this->Components == other.Components && this->Name == other.Name;
-  }
-  bool IsGhosts() const;
-  // The array of this kind in a data set; nullptr if there is none. Contiguous: a copy if the array
-  // is not.
-  vtkSmartPointer<vtkDataArray> Find(vtkDataSet* data) const;
-  // Adds an array of this number of tuples to a data set.
-  vtkSmartPointer<vtkDataArray> Make(vtkDataSet* data, vtkIdType tuples) const;
-};
+// The numeric arrays that all ranks with points have, in the order of the first of these ranks, and
+// the ghost arrays of any rank. `data` may be nullptr. Collective. Throws Failure for an array with
+// too few tuples.
+ArrayKinds commonArrays(vtkDataSet* data, const Ranks& ranks);
 
-// The arrays that all ranks with points have, in the order of the first of these ranks, and the
-// ghost arrays of any rank. `data` may be nullptr. Collective. Throws Failure for an array with too
-// few tuples.
-std::vector<ArrayKind> commonArrays(vtkDataSet* data, const Ranks& ranks);
-
-// Consecutive tuples.
-struct TupleRun
-{
-  vtkIdType First;
-  vtkIdType Count;
-};
-
-// Appends the tuples of a contiguous array; zeros of one byte for nullptr.
-void appendTuples(vtkDataArray* from, const std::vector<TupleRun>& runs, Bytes& to);
-// Copies tuples to as many tuples of another array of the kind; zeros for nullptr.
-void copyTuples(vtkDataArray* from, const std::vector<TupleRun>& runs,
-  const std::vector<TupleRun>& runsThere, vtkDataArray* to);
-// Reads tuples from bytes; returns where the next ones begin.
-const char* takeTuples(const char* from, const std::vector<TupleRun>& runs, vtkDataArray* to);
+// The tuples of a contiguous array; zeros of one byte for nullptr.
+TupleMemory tuplesIn(vtkDataArray* array);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/DistributedPoints.h"
 
+#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Ranks/ShortArrays.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Geometry/Distributed/RepeatedPoints.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkArrayDispatch.h"
@@ -28,7 +30,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <utility>
 #include <vector>
 
 namespace RectifiedTransport::Bridge
@@ -38,18 +39,9 @@ namespace
 {
 
 // The bits of the coordinates, or the global id.
-using Identity = std::array<std::uint64_t, 3>;
-
-struct Found
+PointIdentity identityOf(vtkPointSet* points, vtkIdType i, vtkDataArray* ids)
 {
-  Identity Point;
-  std::size_t Rank;
-  std::size_t Number; // among those of the rank
-};
-
-Identity identityOf(vtkPointSet* points, vtkIdType i, vtkDataArray* ids)
-{
-  Identity identity{};
+  PointIdentity identity{};
   if (ids)
   {
     identity[0] = static_cast<std::uint64_t>(ids->GetVariantValue(i).ToTypeInt64());
@@ -72,47 +64,10 @@ bool connectsPoints(vtkPointSet* set)
   return connects;
 }
 
-// Which rank compares a point with those of all.
-std::size_t comparerOf(const Identity& identity, int ranks)
-{
-  std::uint64_t hash = 0;
-  for (const std::uint64_t word : identity)
-  {
-    hash = (hash ^ word) * 0x9e3779b97f4a7c15;
-    hash ^= hash >> 32;
-  }
-  return static_cast<std::size_t>(hash % static_cast<std::uint64_t>(ranks));
-}
-
-// Of the points that each rank sent, those that a lower one sent, too.
-std::vector<std::vector<unsigned char>> compare(const std::vector<std::vector<Identity>>& points)
-{
-  std::vector<Found> all;
-  std::vector<std::vector<unsigned char>> repeated;
-  for (std::size_t rank = 0; rank < points.size(); ++rank)
-  {
-    for (std::size_t i = 0; i < points[rank].size(); ++i)
-    {
-      all.push_back({ points[rank][i], rank, i });
-    }
-    repeated.emplace_back(points[rank].size());
-  }
-  std::sort(all.begin(), all.end(), [](const Found& a, const Found& b) {
-    return a.Point != b.Point ? a.Point < b.Point : a.Rank < b.Rank;
-  });
-  std::size_t lowest = 0;
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    lowest = i > 0 && all[i].Point == all[i - 1].Point ? lowest : all[i].Rank;
-    repeated[all[i].Rank][all[i].Number] = all[i].Rank > lowest ? 1 : 0;
-  }
-  return repeated;
-}
-
 // For each counted point of this rank whether a lower rank counts it, too: one of its global id, or
 // else one at the same place. Empty for points that no line, face or cell connects on any rank:
 // these are particles, of which two may be at one place.
-std::vector<unsigned char> repeatedPoints(
+std::vector<unsigned char> repeatedIn(
   vtkPointSet* own, const CountedPoints& counted, const Ranks& ranks)
 {
   if (onAllRanks(ranks, !connectsPoints(own)))
@@ -122,23 +77,10 @@ std::vector<unsigned char> repeatedPoints(
   vtkDataArray* ids = own->GetPointData()->GetGlobalIds();
   const bool isWhole = ids && ids->GetNumberOfTuples() >= own->GetNumberOfPoints();
   ids = onAllRanks(ranks, isWhole || counted.Count() == 0) ? ids : nullptr;
-  std::vector<std::vector<Identity>> given(static_cast<std::size_t>(ranks.Count()));
-  std::vector<std::size_t> comparers;
-  for (std::int64_t i = 0; i < counted.Count(); ++i)
-  {
-    const Identity identity = identityOf(own, static_cast<vtkIdType>(counted.Point(i)), ids);
-    comparers.push_back(comparerOf(identity, ranks.Count()));
-    given[comparers.back()].push_back(identity);
-  }
-  const std::vector<std::vector<unsigned char>> answers =
-    exchangeValues(ranks, compare(exchangeValues(ranks, std::move(given))));
-  std::vector<unsigned char> repeated;
-  std::vector<std::size_t> taken(answers.size());
-  for (const std::size_t comparer : comparers)
-  {
-    repeated.push_back(answers[comparer][taken[comparer]++]);
-  }
-  return repeated;
+  return repeatedPoints(
+    counted.Count(),
+    [&](std::int64_t i) { return identityOf(own, static_cast<vtkIdType>(counted.Point(i)), ids); },
+    ranks);
 }
 
 vtkSmartPointer<vtkPointSet> countedSet(vtkPointSet* own, const Ranks& ranks)
@@ -204,7 +146,7 @@ CountedPoints countedOf(vtkPointSet* points, unsigned char ghosts, const Ranks& 
   withMemory({ "a comparison of the points of ranks",
                100.0 * static_cast<double>(points->GetNumberOfPoints()) },
     [&]() {
-      const std::vector<unsigned char> repeated = repeatedPoints(points, counted, ranks);
+      const std::vector<unsigned char> repeated = repeatedIn(points, counted, ranks);
       left.assign(
         repeated.empty() ? 0 : static_cast<std::size_t>(points->GetNumberOfPoints()), ghosts);
       for (std::size_t i = 0; i < repeated.size(); ++i)
@@ -243,9 +185,6 @@ vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& rank
   {
     kept->SetId(i, static_cast<vtkIdType>(counted.Point(i)));
   }
-  vtkNew<vtkPoints> points;
-  points->SetDataType(set->GetPoints()->GetDataType());
-  set->GetPoints()->GetPoints(kept, points);
   vtkSmartPointer<vtkPointSet> own;
   vtkNew<vtkCellArray> vertices;
   for (vtkIdType i = 0; i < count; ++i)
@@ -264,12 +203,8 @@ vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& rank
     grid->SetCells(VTK_VERTEX, vertices);
     own = grid;
   }
-  own->SetPoints(points);
-  own->GetPointData()->CopyAllOn();
-  own->GetPointData()->CopyAllocate(whole->GetPointData(), count);
-  own->GetPointData()->CopyData(whole->GetPointData(), kept);
+  copyPoints(whole, kept, own);
   own->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
-  own->GetFieldData()->ShallowCopy(set->GetFieldData());
   tooShort.AddEmptyTo(own);
   own->GetCellData()->Initialize(); // its cells are others
   return own;

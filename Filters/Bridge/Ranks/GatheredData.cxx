@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/GatheredData.h"
 
+#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Ranks/DataSetBytes.h"
 #include "Bridge/Ranks/DistributedPoints.h"
@@ -27,6 +28,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -39,18 +41,8 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-struct Key
-{
-  std::int64_t Number;
-  std::uint64_t Fingerprint;
-
-  bool operator==(const Key& other) const
-  {
-    return this->Number == other.Number && this->Fingerprint == other.Fingerprint;
-  }
-};
-
-using Keys = std::vector<Key>; // of the parts of a rank
+using Key = std::array<std::uint64_t, 2>; // the number of a part, and its fingerprint
+using Keys = std::vector<Key>;            // of the parts of a rank
 
 // Whether a part is one that no lower rank has.
 bool isFirst(const std::vector<Keys>& all, std::size_t rank, const Key& key)
@@ -83,7 +75,7 @@ std::vector<DataPart> partsFrom(const Bytes& bytes)
     DataPart part;
     part.Name.assign(at, at + lengths[0]);
     at += lengths[0];
-    const ShortArrays tooShort = ShortArrays::FromText(std::string(at, at + lengths[1]));
+    const ShortArrays tooShort = ShortArrays(std::string(at, at + lengths[1]));
     at += lengths[1];
     part.Data = dataSetOfBytes(at, lengths[2]);
     tooShort.AddEmptyTo(part.Data);
@@ -113,7 +105,8 @@ GatheredParts gatherDataParts(
   Keys keys;
   for (const DataPart& part : own)
   {
-    keys.push_back({ part.Number, sampledFingerprint({ part.Data.Get() }) });
+    keys.push_back(
+      { static_cast<std::uint64_t>(part.Number), sampledFingerprint({ part.Data.Get() }) });
   }
   std::vector<Keys> all;
   for (const Bytes& bytes : ranks.Gather(toBytes(keys)))
@@ -149,7 +142,7 @@ GatheredParts gatherDataParts(
       if (isFirst(all, rank, all[rank][i]))
       {
         DataPart& part = parts[rank == self ? i : next++];
-        part.Number = all[rank][i].Number;
+        part.Number = static_cast<std::int64_t>(all[rank][i][0]);
         gathered.Parts.push_back(part);
       }
     }
@@ -250,19 +243,12 @@ vtkSmartPointer<vtkPolyData> joinSurface(vtkPolyData* all, const std::vector<Dat
     }
   }
   auto joined = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataType(all->GetPoints()->GetDataType());
-  all->GetPoints()->GetPoints(kept, points);
-  joined->SetPoints(points);
+  copyPoints(all, kept, joined);
   joined->SetVerts(withPoints(all->GetVerts(), newPoints));
   joined->SetLines(withPoints(all->GetLines(), newPoints));
   joined->SetPolys(withPoints(all->GetPolys(), newPoints));
   joined->SetStrips(withPoints(all->GetStrips(), newPoints));
-  joined->GetPointData()->CopyAllOn();
-  joined->GetPointData()->CopyAllocate(all->GetPointData(), kept->GetNumberOfIds());
-  joined->GetPointData()->CopyData(all->GetPointData(), kept);
   joined->GetCellData()->PassData(all->GetCellData());
-  joined->GetFieldData()->ShallowCopy(all->GetFieldData());
   return joined;
 }
 

@@ -5,12 +5,12 @@
 
 #include "Bridge/Ranks/CommonArrays.h"
 #include "Bridge/Ranks/ShortArrays.h"
-#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/Distributed/ImagePiece.h"
+#include "Core/Geometry/Distributed/PlaceOwners.h"
 
 #include "vtkSmartPointer.h"
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -33,15 +33,15 @@ public:
   ImagePieces(vtkImageData* own, const Ranks& ranks);
 
   // Empty if no rank has points.
-  const Extent& Whole() const { return this->WholeExtent; }
+  const Extent& Whole() const { return this->Joined.Whole; }
   // The extents of the points of each rank, without duplicates.
-  const std::vector<Extent>& Points() const { return this->PointExtents; }
+  const std::vector<Extent>& Points() const { return this->Joined.Points; }
   // The extents of the corners of each rank's cells, without duplicates.
-  const std::vector<Extent>& Cells() const { return this->CellExtents; }
+  const std::vector<Extent>& Cells() const { return this->Joined.Cells; }
   const Ranks& Group() const { return this->Processes; }
   vtkImageData* OwnImage() const;
   // The arrays that can be gathered.
-  const std::vector<ArrayKind>& Kinds() const { return this->Arrays; }
+  const ArrayKinds& Kinds() const { return this->Arrays; }
   // An image of the whole extent, without arrays.
   vtkSmartPointer<vtkImageData> MakeFrame() const;
 
@@ -53,19 +53,17 @@ public:
     const Extent& wanted, const std::vector<std::string>& names = {}) const;
 
 private:
-  struct Piece;
-  void TakePieces(const std::vector<Piece>& pieces);
   vtkSmartPointer<vtkImageData> MakeImage(Extent extent) const;
 
   const Ranks& Processes;
   const vtkSmartPointer<vtkImageData> Own;
   ShortArrays TooShort; // on any rank
-  std::vector<ArrayKind> Arrays;
-  std::vector<Extent> PointExtents;
-  std::vector<Extent> CellExtents;
-  Extent WholeExtent{ 0, -1, 0, -1, 0, -1 };
-  std::array<double, 15> Geometry{}; // origin, spacing, direction
+  ArrayKinds Arrays;
+  JoinedPieces Joined;
 };
+
+// Which rank owns a position of a grid: one that holds its cell among pieces, which may be nullptr.
+PlaceOwners ownersOf(const ImageGrid& grid, const ImagePieces* pieces, const Ranks& ranks);
 
 // If the first rank has an image and the others have none: gives each rank the extent that is
 // requested of its output, with all arrays; announces the whole extent. Field data stay.

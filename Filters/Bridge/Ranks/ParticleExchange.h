@@ -17,14 +17,13 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 class ImageGrid;
+class PlaceOwners;
 class Progress;
 class Ranks;
 } // namespace RectifiedTransport
 
 namespace RectifiedTransport::Bridge
 {
-
-class PlaceOwners;
 
 // Each particle is a cell of `points` consecutive points; the last one is its position. Afterwards
 // the data set has the particles at the positions that this rank owns, those of rank 0 first, in

@@ -3,11 +3,12 @@
 #ifndef RectifiedTransport_SameOnRanks_h
 #define RectifiedTransport_SameOnRanks_h
 
-#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Parallel/Ranks.h"
 
 #include <string>
+#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataObject;
@@ -30,6 +31,9 @@ void requireSameProperties(vtkObject* filter, const Ranks& ranks);
 // Whether all ranks have the same data, or none has any: one data set, not parts of one. `data` may
 // be nullptr. Collective.
 bool areSameOnRanks(vtkDataObject* data, const Ranks& ranks);
+
+// The pieces into which VTK divides an extent; points at their faces are in both.
+std::vector<Extent> dividedExtent(const Extent& whole, int ranks);
 
 // The part of an image that this rank outputs. A single rank outputs all of it. Otherwise, if all
 // ranks have announced the whole extent, it is the requested part, with at least a layer of cells;

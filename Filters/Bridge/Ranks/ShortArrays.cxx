@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/ShortArrays.h"
 
-#include "Core/Parallel/Ranks.h"
+#include "Bridge/Ranks/CommonArrays.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataObject.h"
@@ -9,19 +10,12 @@
 #include "vtkDataSetAttributes.h"
 
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
 
 namespace RectifiedTransport::Bridge
 {
 
 namespace
 {
-
-std::string nameOf(vtkAbstractArray* array)
-{
-  return array->GetName() ? array->GetName() : "";
-}
 
 bool isShort(vtkAbstractArray* array, vtkDataSet* data, int owner)
 {
@@ -37,33 +31,19 @@ ShortArrays::ShortArrays(vtkDataSet* data)
     vtkDataSetAttributes* attributes = data ? data->GetAttributes(owner) : nullptr;
     for (int i = 0; attributes && i < attributes->GetNumberOfArrays(); ++i)
     {
-      vtkAbstractArray* array = attributes->GetAbstractArray(i);
-      if (isShort(array, data, owner))
+      if (isShort(attributes->GetAbstractArray(i), data, owner))
       {
-        this->Arrays.push_back({ owner, array->GetDataType(), array->GetNumberOfComponents(),
-          attributes->IsArrayAnAttribute(i), nameOf(array) });
+        this->Arrays.push_back(kindOf(attributes, i, owner));
       }
     }
   }
 }
 
-ShortArrays ShortArrays::FromText(const std::string& text)
-{
-  ShortArrays made;
-  std::istringstream is(text);
-  for (Array array; is >> array.Owner >> array.Type >> array.Components >> array.Attribute >>
-       std::quoted(array.Name);)
-  {
-    made.Arrays.push_back(array);
-  }
-  return made;
-}
-
 void ShortArrays::Add(const ShortArrays& others)
 {
-  for (const Array& other : others.Arrays)
+  for (const ArrayKind& other : others.Arrays)
   {
-    if (std::none_of(this->Arrays.begin(), this->Arrays.end(), [&other](const Array& array) {
+    if (std::none_of(this->Arrays.begin(), this->Arrays.end(), [&other](const ArrayKind& array) {
           return array.Owner == other.Owner && array.Name == other.Name;
         }))
     {
@@ -74,33 +54,21 @@ void ShortArrays::Add(const ShortArrays& others)
 
 void ShortArrays::AddFromRanks(const Ranks& ranks)
 {
-  const std::string own = this->Text();
-  for (const Bytes& text : ranks.Gather(Bytes(own.begin(), own.end())))
+  for (const std::string& text : gatherTexts(ranks, this->Text()))
   {
-    this->Add(FromText(std::string(text.begin(), text.end())));
+    this->Add(ShortArrays(text));
   }
-}
-
-std::string ShortArrays::Text() const
-{
-  std::ostringstream os;
-  for (const Array& array : this->Arrays)
-  {
-    os << array.Owner << ' ' << array.Type << ' ' << array.Components << ' ' << array.Attribute
-       << ' ' << std::quoted(array.Name) << '\n';
-  }
-  return os.str();
 }
 
 void ShortArrays::RemoveFrom(vtkDataSet* data) const
 {
-  for (const Array& array : this->Arrays)
+  for (const ArrayKind& array : this->Arrays)
   {
     vtkDataSetAttributes* attributes = data->GetAttributes(array.Owner);
     for (int i = attributes->GetNumberOfArrays(); i-- > 0;)
     {
-      vtkAbstractArray* other = attributes->GetAbstractArray(i);
-      if (nameOf(other) == array.Name && (!array.Name.empty() || isShort(other, data, array.Owner)))
+      if (kindOf(attributes, i, array.Owner).Name == array.Name &&
+        (!array.Name.empty() || isShort(attributes->GetAbstractArray(i), data, array.Owner)))
       {
         attributes->RemoveArray(i);
       }
@@ -110,21 +78,11 @@ void ShortArrays::RemoveFrom(vtkDataSet* data) const
 
 void ShortArrays::AddEmptyTo(vtkDataSet* data) const
 {
-  for (const Array& array : this->Arrays)
+  for (const ArrayKind& array : this->Arrays)
   {
-    if (array.Name.empty())
+    if (!array.Name.empty())
     {
-      continue;
-    }
-    const auto empty =
-      vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(array.Type));
-    empty->SetName(array.Name.c_str());
-    empty->SetNumberOfComponents(array.Components);
-    vtkDataSetAttributes* attributes = data->GetAttributes(array.Owner);
-    const int index = attributes->AddArray(empty);
-    if (array.Attribute >= 0)
-    {
-      attributes->SetActiveAttribute(index, array.Attribute);
+      addArray(array, data, 0);
     }
   }
 }

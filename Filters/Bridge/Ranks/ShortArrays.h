@@ -4,11 +4,11 @@
 #define RectifiedTransport_ShortArrays_h
 
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/Distributed/ArrayKinds.h"
 
 #include "vtkSmartPointer.h"
 
 #include <string>
-#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataSet;
@@ -32,12 +32,15 @@ public:
   // Finds the short arrays of a data set, which may be nullptr.
   explicit ShortArrays(vtkDataSet* data);
   // Reads what Text wrote.
-  static ShortArrays FromText(const std::string& text);
+  explicit ShortArrays(const std::string& text)
+    : Arrays(kindsOfText(text))
+  {
+  }
 
   void Add(const ShortArrays& others);
   // Adds those of all other ranks. Collective.
   void AddFromRanks(const Ranks& ranks);
-  std::string Text() const;
+  std::string Text() const { return textOfKinds(this->Arrays); }
 
   // A shallow copy without arrays of these names; the data set itself if there are none.
   template <class DataT>
@@ -57,18 +60,9 @@ public:
   void AddEmptyTo(vtkDataSet* data) const;
 
 private:
-  struct Array
-  {
-    int Owner; // vtkDataObject::POINT or CELL
-    int Type;
-    int Components;
-    int Attribute;    // for which it is the active one, or -1
-    std::string Name; // or empty: has none, and is left out
-  };
-
   void RemoveFrom(vtkDataSet* data) const;
 
-  std::vector<Array> Arrays;
+  ArrayKinds Arrays; // with an empty name: has none, and is left out
 };
 
 } // namespace RectifiedTransport::Bridge

@@ -13,27 +13,17 @@
 namespace RectifiedTransport::Bridge
 {
 
-// Adds an array of several numbers. It replaces an array of the same name.
+// Adds an array of several numbers, in tuples of so many. It replaces an array of the same name.
 inline void addFieldValues(
-  vtkDataObject* output, const char* name, const std::vector<double>& values)
+  vtkDataObject* output, const char* name, const std::vector<double>& values, int components = 1)
 {
   vtkNew<vtkDoubleArray> array;
   array->SetName(name);
+  array->SetNumberOfComponents(components);
   for (const double value : values)
   {
     array->InsertNextValue(value);
   }
-  output->GetFieldData()->AddArray(array);
-}
-
-// The same, of one tuple.
-inline void addFieldTuple(
-  vtkDataObject* output, const char* name, const std::vector<double>& components)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(static_cast<int>(components.size()));
-  array->InsertNextTuple(components.data());
   output->GetFieldData()->AddArray(array);
 }
 

@@ -15,25 +15,12 @@ vtkMPIController* mpiController()
   return vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
 }
 
-bool haveSeveralRanks()
-{
-  vtkMPIController* controller = mpiController();
-  return controller && controller->GetNumberOfProcesses() > 1;
-}
-
-bool isPieceOfRanks(int piece, int pieces)
-{
-  return haveSeveralRanks() && pieces == mpiController()->GetNumberOfProcesses() &&
-    piece == mpiController()->GetLocalProcessId();
-}
-
 DataPiece pieceOfRank()
 {
-  if (!haveSeveralRanks())
-  {
-    return { 0, 1 };
-  }
-  return { mpiController()->GetLocalProcessId(), mpiController()->GetNumberOfProcesses() };
+  vtkMPIController* controller = mpiController();
+  return controller
+    ? DataPiece{ controller->GetLocalProcessId(), controller->GetNumberOfProcesses() }
+    : DataPiece{ 0, 1 };
 }
 
 std::string machineOfRank()
@@ -42,16 +29,6 @@ std::string machineOfRank()
 }
 
 #else
-
-bool haveSeveralRanks()
-{
-  return false;
-}
-
-bool isPieceOfRanks(int, int)
-{
-  return false;
-}
 
 DataPiece pieceOfRank()
 {
@@ -64,5 +41,16 @@ std::string machineOfRank()
 }
 
 #endif
+
+bool haveSeveralRanks()
+{
+  return pieceOfRank().Count > 1;
+}
+
+bool isPieceOfRanks(int piece, int pieces)
+{
+  const DataPiece own = pieceOfRank();
+  return own.Count > 1 && pieces == own.Count && piece == own.Number;
+}
 
 } // namespace RectifiedTransport::Bridge

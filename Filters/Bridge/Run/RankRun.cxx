@@ -25,15 +25,6 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-// RECTIFIEDTRANSPORT_RANK_TIMEOUT in seconds, else 120 s.
-std::chrono::duration<double> rankTimeout()
-{
-  constexpr double usual = 120.0;
-  const char* given = std::getenv("RECTIFIEDTRANSPORT_RANK_TIMEOUT");
-  const double seconds = given ? std::strtod(given, nullptr) : 0.0;
-  return std::chrono::duration<double>(seconds > 0.0 ? seconds : usual);
-}
-
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI
 
 constexpr int exchangeTag = 52719;  // of no other messages in ParaView or VTK
@@ -292,12 +283,15 @@ std::unique_ptr<RankRun> meet(const std::string&, bool, std::chrono::duration<do
 
 std::unique_ptr<RankRun> RankRun::Begin(const std::string& filter, int piece, int pieces)
 {
-  return isPieceOfRanks(piece, pieces) ? meet(filter, true, rankTimeout()) : nullptr;
+  return isPieceOfRanks(piece, pieces) ? meet(filter, true, Timeout()) : nullptr;
 }
 
-std::unique_ptr<RankRun> RankRun::TryBegin(const std::string& filter)
+std::chrono::duration<double> RankRun::Timeout()
 {
-  return TryBegin(filter, rankTimeout());
+  constexpr double usual = 120.0;
+  const char* given = std::getenv("RECTIFIEDTRANSPORT_RANK_TIMEOUT");
+  const double seconds = given ? std::strtod(given, nullptr) : 0.0;
+  return std::chrono::duration<double>(seconds > 0.0 ? seconds : usual);
 }
 
 std::unique_ptr<RankRun> RankRun::TryBegin(

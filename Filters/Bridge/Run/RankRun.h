@@ -22,10 +22,11 @@ public:
   // another filter.
   static std::unique_ptr<RankRun> Begin(const std::string& filter, int piece, int pieces);
   // The same before data are made. nullptr if the ranks do not meet in time, and at once if this
-  // rank waits here while others are in Begin(). The time is that of Begin, or `longest`.
-  static std::unique_ptr<RankRun> TryBegin(const std::string& filter);
+  // rank waits here while others are in Begin().
   static std::unique_ptr<RankRun> TryBegin(
-    const std::string& filter, std::chrono::duration<double> longest);
+    const std::string& filter, std::chrono::duration<double> longest = Timeout());
+  // RECTIFIEDTRANSPORT_RANK_TIMEOUT in seconds, else 120 s.
+  static std::chrono::duration<double> Timeout();
 
   // Call it instead of any further exchange. The runs of the other ranks that have not ended end by
   // an exception. Returns what to report here: on the first rank, the message of the first rank

@@ -5,15 +5,11 @@
 
 #include "Bridge/Run/FieldValue.h"
 #include "Core/Flow/FlowOptions.h"
-#include "Core/Flow/Steps/ProbePlan.h"
-#include "Core/Messages/PartText.h"
+#include "Core/Flow/Steps/StepWarning.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <sstream>
-#include <string>
 #include <vector>
 
 namespace RectifiedTransport::Bridge
@@ -31,42 +27,6 @@ inline void addSteps(vtkDataObject* output, const std::vector<FlowReport>& flows
   }
   addFieldValues(output, "StepsTaken", steps);
   addFieldValues(output, "AreaErrorEstimate", errors);
-}
-
-// The text of a warning if a flow does not keep the AreaTolerance; else empty. `areParticles`: they
-// show masses of larger blocks than those of 4 cells a side.
-inline std::string stepWarning(const FlowReport& flow, const FlowOptions& options,
-  FlowDirection direction, bool areParticles = false)
-{
-  if (!(flow.AreaError > options.AreaTolerance))
-  {
-    return {};
-  }
-  std::ostringstream text;
-  text.precision(3);
-  text << "AreaTolerance " << options.AreaTolerance << " is not reached: with "
-       << flow.NumberOfSteps << " steps, the most that ";
-  options.AreaTolerance == FlowOptions::UsualTolerance
-    ? text << "take at most 8 times as long as " << options.LeastSteps
-    : text << "NumberOfSteps 0 takes";
-  text << ", " << (direction == FlowDirection::Backward ? "areas" : "masses") << " of blocks of ";
-  areParticles ? text << std::round(particlesThatShow(options.AreaTolerance)) << " particles"
-               : text << "4 cells a side";
-  text << " are off by about " << percentText(flow.AreaError) << "; ";
-  if (flow.StepsNeeded > FlowOptions::MaximumNumberOfSteps)
-  {
-    text << "more than " << FlowOptions::MaximumNumberOfSteps << " steps would be needed";
-  }
-  else
-  {
-    text << "NumberOfSteps " << flow.StepsNeeded << " reaches it, in about ";
-    const double times = std::round(flow.TimesNeeded);
-    times > 1.0 ? text << times << " times the time" : text << "the same time";
-  }
-  text << (options.Integrator == Integrator::Multistep
-      ? " (less contrast helps, for example a part of the mean added with Calculator)"
-      : " (Integrator Multistep needs fewer)");
-  return text.str();
 }
 
 // The passes of EqualizeAreas that were kept, the same on all ranks; `own` is 0 on a rank that has

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_DistributedSplat_h
 #define RectifiedTransport_DistributedSplat_h
 
-#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Splat/Splat.h"

@@ -4,6 +4,7 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Points/PointMasses.h"
+#include "Bridge/Ranks/CommonArrays.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/SameOnRanks.h"
@@ -11,6 +12,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Distributed/BoxExchange.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankOrder.h"
@@ -146,7 +148,7 @@ SplatResult splatOnRanks(const SplatInput& input, const TupleBox& whole, const T
     newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(own.Layers.Count()));
   const std::int64_t outside = splat(own.Layers, values);
   const double sum = sumChunks(values->GetPointer(0) + own.First, own.Count, splatSumChunk, ranks);
-  exchangeBoxes(held, wanted, ranks, values, cells);
+  exchangeBoxes(held, wanted, ranks, tuplesIn(values), tuplesIn(cells));
   return { outside, sum * input.Target.CellMeasure() };
 }
 

@@ -3,10 +3,10 @@
 #ifndef RectifiedTransport_AdvectedArrays_h
 #define RectifiedTransport_AdvectedArrays_h
 
-#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Bridge/Temporal/AdvectedLabels.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Series/SeriesParticles.h"
 
 #include "vtkDataArray.h"

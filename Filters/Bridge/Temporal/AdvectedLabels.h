@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_AdvectedLabels_h
 #define RectifiedTransport_AdvectedLabels_h
 
-#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Series/SeriesLabels.h"
 
 #include "vtkAbstractArray.h"

@@ -3,6 +3,7 @@
 
 #include "Bridge/Density/DensityPlan.h"
 #include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"

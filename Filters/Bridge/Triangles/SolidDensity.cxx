@@ -3,11 +3,11 @@
 
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/ClosedSurface.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/Boxes/SolidGrid.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"

@@ -13,40 +13,29 @@ namespace RectifiedTransport
 namespace
 {
 
-class DeviceRegistry
+// The devices that are open in this process are found again.
+std::shared_ptr<Device> findOrOpen(const std::string& name, int number)
 {
-public:
-  static DeviceRegistry& Get()
+  static std::mutex mutex;
+  static std::vector<std::weak_ptr<Device>> entries;
+  // Held while a device is opened: who asks for it meanwhile gets the same one.
+  const std::lock_guard<std::mutex> lock(mutex);
+  std::vector<std::shared_ptr<Device>> open;
+  for (const std::weak_ptr<Device>& entry : entries)
   {
-    static DeviceRegistry registry;
-    return registry;
+    if (std::shared_ptr<Device> device = entry.lock())
+    {
+      open.push_back(std::move(device));
+    }
   }
-
-  std::shared_ptr<Device> FindOrOpen(const std::string& name, int number)
+  std::shared_ptr<Device> found = openDevice(name, number, open);
+  if (std::find(open.begin(), open.end(), found) == open.end())
   {
-    // Held while a device is opened: who asks for it meanwhile gets the same one.
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    std::vector<std::shared_ptr<Device>> open;
-    for (const std::weak_ptr<Device>& entry : this->Entries)
-    {
-      if (std::shared_ptr<Device> device = entry.lock())
-      {
-        open.push_back(std::move(device));
-      }
-    }
-    std::shared_ptr<Device> found = openDevice(name, number, open);
-    if (std::find(open.begin(), open.end(), found) == open.end())
-    {
-      open.push_back(found);
-    }
-    this->Entries.assign(open.begin(), open.end());
-    return found;
+    open.push_back(found);
   }
-
-private:
-  std::mutex Mutex;
-  std::vector<std::weak_ptr<Device>> Entries;
-};
+  entries.assign(open.begin(), open.end());
+  return found;
+}
 
 } // namespace
 
@@ -59,7 +48,7 @@ DeviceUse KeptDevice::Begin(const std::string& name, int number)
   this->Release();
   try
   {
-    this->Opened = DeviceRegistry::Get().FindOrOpen(name, number);
+    this->Opened = findOrOpen(name, number);
     this->Name = name;
     this->Number = number;
     return DeviceUse(this->Opened);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Texts of messages, and numbers in texts.
 #include "Core/Messages/MessageText.h"
+#include "Core/Messages/NotFiniteValues.h"
 #include "Core/Messages/NumberText.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Parallel/MemoryPlan.h"
@@ -53,6 +54,19 @@ TEST(Texts, SayWhichPart)
   EXPECT_FALSE(isWorthWarning<std::int64_t>(1, 1001));
   EXPECT_TRUE(isWorthWarning<std::int64_t>(1, 1000));
   EXPECT_TRUE(isWorthWarning(0.5, 2.0));
+}
+
+TEST(Texts, CountValuesThatAreNotFinite)
+{
+  NotFiniteValues all;
+  all.Add(NotFiniteValues());
+  NotFiniteValues later;
+  later.Add(7);
+  all.Add(later);
+  EXPECT_EQ(all.Text("point"), "has 1 point that is NaN or infinite, the first at index 7");
+  later.Add(9);
+  all.Add(later);
+  EXPECT_EQ(all.Text("point"), "has 3 points that are NaN or infinite, the first at index 7");
 }
 
 TEST(Texts, SayWhichMemoryIsMissing)

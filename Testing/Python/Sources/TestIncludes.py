@@ -17,7 +17,7 @@ CORE = {
     "Mesh": {"Parallel", "Geometry"},
     "Messages": set(),
     "Tables": {"Parallel", "Geometry"},
-    "Flow": {"Parallel", "Device", "Geometry", "Tables"},
+    "Flow": {"Parallel", "Messages", "Device", "Geometry", "Tables"},
     "Grid": {"Parallel", "Geometry"},
     "Equalize": {"Parallel", "Geometry", "Grid", "Tables", "Flow"},
     "OptimalMap": {"Parallel", "Geometry", "Grid", "Tables", "Flow"},

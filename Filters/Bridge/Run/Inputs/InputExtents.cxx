@@ -15,7 +15,6 @@
 
 #include <array>
 #include <cctype>
-#include <cstdint>
 #include <limits>
 #include <string>
 
@@ -24,8 +23,6 @@ namespace RectifiedTransport::Bridge
 
 namespace
 {
-
-constexpr int most = std::numeric_limits<int>::max();
 
 template <class Grid>
 bool findExtentOf(vtkDataObject* data, std::array<int, 6>& extent)
@@ -50,33 +47,12 @@ void requireExtent(vtkDataObject* data, const std::string& name)
     std::string first = name;
     first[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(first[0])));
     throw Failure(first + " has the extent " + textOfExtent(extent.data()) +
-      "; each axis must end no earlier than it begins and have at most " + std::to_string(most) +
-      " points");
+      "; each axis must end no earlier than it begins and have at most " +
+      std::to_string(std::numeric_limits<int>::max()) + " points");
   }
 }
 
 } // namespace
-
-std::string textOfExtent(const int* extent)
-{
-  std::string text;
-  for (int i = 0; i < 6; ++i)
-  {
-    text += (i == 0 ? "" : " ") + std::to_string(extent[i]);
-  }
-  return text;
-}
-
-bool isReadable(const int* extent)
-{
-  bool is = true;
-  for (std::size_t a = 0; a < 6; a += 2)
-  {
-    const std::int64_t points = std::int64_t{ extent[a + 1] } - extent[a] + 1; // 0: empty
-    is = is && points >= 0 && points <= most;
-  }
-  return is;
-}
 
 void visitLeaves(vtkDataObject* data, const std::string& name, const VisitLeaf& visit)
 {

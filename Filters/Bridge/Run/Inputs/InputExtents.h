@@ -3,6 +3,7 @@
 #define RectifiedTransport_InputExtents_h
 
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 
 #include <functional>
 #include <string>
@@ -22,16 +23,11 @@ using VisitLeaf = std::function<void(vtkDataObject* leaf, const std::string& nam
 void visitLeaves(vtkDataObject* data, const std::string& name, const VisitLeaf& visit);
 void visitLeaves(vtkAlgorithm* filter, vtkInformationVector** inputVector, const VisitLeaf& visit);
 
-// Throws Failure if the extent of an image or a structured grid, or of such a block, ends before it
-// begins, or is longer than VTK can count points. VTK would count points and cells that do not
-// exist.
+// Throws Failure unless the extent of an image or a structured grid, or of such a block, is
+// readable: VTK would count points and cells that do not exist.
 void requireExtents(vtkAlgorithm* filter, vtkInformationVector** inputVector);
 // The same for one input; `name` is its name in messages.
 void requireExtents(vtkDataObject* data, const std::string& name);
-
-std::string textOfExtent(const int* extent);
-// Whether an extent is valid in this sense. The empty extent is valid.
-bool isReadable(const int* extent);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -3,16 +3,16 @@
 #ifndef RectifiedTransport_PlacesInImage_h
 #define RectifiedTransport_PlacesInImage_h
 
-#include "Bridge/Points/SampledArrays.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/Points.h"
+#include "Core/Resampling/SampledPlaces.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
 // Linear between the image's points. The domain of a point array is half a spacing larger: places
@@ -61,9 +61,9 @@ private:
   void FindAt(const double* index, const GridSize<D>& cells, SampledPlace& found) const
   {
     double parts[D];
-    vtkIdType steps[D];
-    vtkIdType cellStep = 1;
-    vtkIdType pointStep = 1;
+    std::int64_t steps[D];
+    std::int64_t cellStep = 1;
+    std::int64_t pointStep = 1;
     bool isBetween = true; // points along every axis
     found.Set = 0;
     found.Cell = 0;
@@ -72,14 +72,14 @@ private:
     {
       const double x = std::clamp(index[a], 0.0, static_cast<double>(cells[a]));
       const auto cell = std::min(static_cast<std::int64_t>(x), cells[a] - 1);
-      const auto inPart = static_cast<vtkIdType>(cell - this->Start[a]);
+      const std::int64_t inPart = cell - this->Start[a];
       parts[a] = x - static_cast<double>(cell);
       steps[a] = pointStep;
       isBetween = isBetween && parts[a] > 0.0 && parts[a] < 1.0;
       found.Cell += inPart * cellStep;
       found.Points[0] += inPart * pointStep;
-      cellStep *= static_cast<vtkIdType>(this->PartCells[a]);
-      pointStep *= static_cast<vtkIdType>(this->PartCells[a] + 1);
+      cellStep *= this->PartCells[a];
+      pointStep *= this->PartCells[a] + 1;
     }
     found.Weights[0] = 1.0;
     if (isBetween)
@@ -106,7 +106,7 @@ private:
 
   // Divides the weights of the first points between them and the next points along an axis, which
   // are appended.
-  static void divide(int count, int before, double part, vtkIdType step, SampledPlace& found)
+  static void divide(int count, int before, double part, std::int64_t step, SampledPlace& found)
   {
     for (int i = 0; i < count; ++i)
     {
@@ -125,6 +125,6 @@ private:
   const ConstPointSpan<3> Places;
 };
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

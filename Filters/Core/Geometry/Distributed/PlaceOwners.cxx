@@ -1,48 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Ranks/PlaceOwners.h"
+#include "Core/Geometry/Distributed/PlaceOwners.h"
 
 #include "Core/Geometry/Dispatch.h"
 
 #include <algorithm>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
-PlaceOwners::PlaceOwners(const ImageGrid& grid, const ImagePieces* pieces, const Ranks& ranks)
+PlaceOwners::PlaceOwners(const ImageGrid& grid, std::vector<Extent> held,
+  const std::vector<Extent>& divided, const Ranks& ranks)
   : Grid(grid)
 {
-  std::vector<Extent> extents;
-  if (pieces)
+  const auto withData =
+    std::count_if(held.begin(), held.end(), [](const Extent& extent) { return !isEmpty(extent); });
+  const bool isWhole =
+    withData > 1 && std::find(held.begin(), held.end(), grid.Extent()) != held.end();
+  if (held.empty() || isWhole)
   {
-    extents = grid.IsOnPoints() ? pieces->Points() : pieces->Cells();
-    const auto withData = std::count_if(
-      extents.begin(), extents.end(), [](const Extent& extent) { return !isEmpty(extent); });
-    if (withData > 1 && std::find(extents.begin(), extents.end(), grid.Extent()) != extents.end())
-    {
-      extents.clear();
-    }
+    held = divided;
   }
-  if (extents.empty())
+  this->Own = held[static_cast<std::size_t>(ranks.Own())];
+  for (const Extent& extent : held)
   {
-    extents = dividedExtent(grid.Extent(), ranks.Count());
-  }
-  this->Own = extents[static_cast<std::size_t>(ranks.Own())];
-  const bool onPoints = grid.IsOnPoints();
-  for (const Extent& extent : extents)
-  {
-    LatticePart<3> box{ {}, { 1, 1, 1 } };
-    std::size_t axis = 0;
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      if (grid.IsAxis(a))
-      {
-        const std::int64_t start = grid.Extent()[2 * a];
-        box.Low[axis] = extent[2 * a] - start;
-        box.Cells[axis] = extent[2 * a + 1] - extent[2 * a] + (onPoints ? 1 : 0);
-        ++axis;
-      }
-    }
-    this->Boxes.push_back(isEmpty(extent) ? LatticePart<3>{} : box);
+    const int owner = grid.IsOnPoints() ? OfPoints : OfCells;
+    this->Boxes.push_back(latticePartOf<3>(tuplesOf(extent, owner, grid.Extent()), grid));
+    GridSize<3>& cells = this->Boxes.back().Cells;
+    std::fill(cells.begin() + grid.Dimension(), cells.end(), 1); // they are no axes
   }
   // A table of the owners of all parts, unless pieces are so irregular that there are too many.
   std::size_t parts = 1;
@@ -121,4 +105,4 @@ int PlaceOwners::OwnerOf(const double* place) const
   return (this->*find)(place);
 }
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport

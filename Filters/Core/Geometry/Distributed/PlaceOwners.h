@@ -3,27 +3,29 @@
 #ifndef RectifiedTransport_PlaceOwners_h
 #define RectifiedTransport_PlaceOwners_h
 
-#include "Bridge/Ranks/ImagePieces.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/LatticePart.h"
-#include "Core/Geometry/Points.h"
+#include "Core/Parallel/Ranks.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-namespace RectifiedTransport::Bridge
+namespace RectifiedTransport
 {
 
-// The owner is the lowest rank that has the grid cell of the position. If a rank has the whole
-// domain and others also have parts of it, or if there are no pieces, ranks own the pieces into
-// which VTK divides an image's extent.
+// The owner is the lowest rank that holds the grid cell of the position. If a rank holds the whole
+// domain and others also hold parts of it, or if none holds any, ranks own the pieces into which
+// the domain is divided.
 class PlaceOwners
 {
 public:
-  // `pieces` may be nullptr.
-  PlaceOwners(const ImageGrid& grid, const ImagePieces* pieces, const Ranks& ranks);
+  // Extents of the points, or of the corners of the cells, of each rank: those that they hold, or
+  // none, and the pieces of the domain.
+  PlaceOwners(const ImageGrid& grid, std::vector<Extent> held, const std::vector<Extent>& divided,
+    const Ranks& ranks);
 
   // The owner of a physical position, or of the nearest position of the domain.
   int OwnerOf(const double* place) const;
@@ -41,6 +43,6 @@ private:
   std::vector<int> Owners;                      // of the parts between cuts
 };
 
-} // namespace RectifiedTransport::Bridge
+} // namespace RectifiedTransport
 
 #endif

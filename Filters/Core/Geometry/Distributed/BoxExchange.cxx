@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Geometry/Distributed/BoxExchange.h"
+
+#include "Core/Parallel/RankExchange.h"
+
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// The rows of a box among the tuples of another one, that of an image.
+std::vector<TupleRun> runsOf(const TupleBox& box, const TupleBox& image)
+{
+  std::vector<TupleRun> runs;
+  if (box.IsEmpty())
+  {
+    return runs;
+  }
+  for (std::int64_t k = box.Low[2]; k < box.End(2); ++k)
+  {
+    for (std::int64_t j = box.Low[1]; j < box.End(1); ++j)
+    {
+      runs.push_back({ image.NumberOf({ box.Low[0], j, k }), box.Cells[0] });
+    }
+  }
+  return runs;
+}
+
+} // namespace
+
+BoxExchange::BoxExchange(std::vector<TupleBox> held, const TupleBox& wanted, const Ranks& ranks)
+  : Held(std::move(held))
+  , Wanted(gatherValues(ranks, wanted))
+{
+}
+
+// Nothing that a lower rank sends, too, as where each has all.
+TupleBox BoxExchange::PartFor(std::size_t rank, std::size_t receiver) const
+{
+  TupleBox part = this->Held[rank].And(this->Wanted[receiver]);
+  for (std::size_t lower = 0; lower < rank && !part.IsEmpty(); ++lower)
+  {
+    if (this->Held[lower].Contains(part))
+    {
+      part.Cells = {};
+    }
+  }
+  return part;
+}
+
+void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks)
+{
+  const auto own = static_cast<std::size_t>(ranks.Own());
+  std::vector<Bytes> parts(static_cast<std::size_t>(ranks.Count()));
+  for (const BoxArrays& array : arrays)
+  {
+    for (std::size_t rank = 0; rank < parts.size(); ++rank)
+    {
+      if (rank != own)
+      {
+        appendTuples(array.From, runsOf(array.Boxes->PartFor(own, rank), array.Given), parts[rank]);
+      }
+    }
+  }
+  std::vector<Bytes> received = ranks.Exchange(std::move(parts));
+  // The lowest rank comes last: its tuples count.
+  for (std::size_t rank = received.size(); rank-- > 0;)
+  {
+    const char* bytes = received[rank].data();
+    for (const BoxArrays& array : arrays)
+    {
+      const TupleBox part = array.Boxes->PartFor(rank, own);
+      if (rank != own)
+      {
+        bytes = takeTuples(bytes, runsOf(part, array.Made), array.To);
+      }
+      else if (array.To.First != array.From.First)
+      {
+        copyTuples(array.From, runsOf(part, array.Given), runsOf(part, array.Made), array.To);
+      }
+    }
+    received[rank] = Bytes();
+  }
+}
+
+void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const Ranks& ranks,
+  const TupleMemory& from, const TupleMemory& to)
+{
+  const BoxExchange boxes(held, wanted, ranks);
+  exchangeArrays(
+    { { &boxes, from, held[static_cast<std::size_t>(ranks.Own())], to, wanted } }, ranks);
+}
+
+void completeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const TupleBox& all,
+  const Ranks& ranks, const TupleMemory& array)
+{
+  const BoxExchange boxes(held, wanted, ranks);
+  exchangeArrays({ { &boxes, array, all, array, all } }, ranks);
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Places in data sets, at which arrays are sampled.
+#ifndef RectifiedTransport_SampledPlaces_h
+#define RectifiedTransport_SampledPlaces_h
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// A place in a data set: between points that have weights, and in a cell.
+struct SampledPlace
+{
+  std::int64_t Points[8];
+  double Weights[8];
+  int Count;         // of points
+  std::int64_t Cell; // -1 for a place in none: values are NaN, or 0 for types without NaN
+  int Set = 0;       // which of the data sets
+};
+
+class SampledPlaces
+{
+public:
+  virtual ~SampledPlaces() = default;
+
+  virtual std::int64_t Count() const = 0;
+  // On any thread.
+  virtual SampledPlace Find(std::int64_t place) const = 0;
+  // The same for `count` places from `first` on; for a place it writes only as many points as it
+  // has.
+  virtual void FindBlock(std::int64_t first, std::int64_t count, SampledPlace* found) const
+  {
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      found[i] = this->Find(first + i);
+    }
+  }
+};
+
+} // namespace RectifiedTransport
+
+#endif
