@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBlueNoiseRelaxation.h"
 
+#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/GhostFlags.h"
+#include "Bridge/Data/PointInput.h"
 #include "Bridge/Density/InputDensity.h"
-#include "Bridge/Points/CellCheck.h"
-#include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Samples/BlueNoiseRelaxation.h"

@@ -3,9 +3,9 @@
 
 #include "Bridge/Blocks/OptionalArray.h"
 #include "Bridge/Cells/DensityInput.h"
+#include "Bridge/Data/DefaultArray.h"
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/FlowCache.h"
-#include "Bridge/Image/DefaultArray.h"
-#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/Settings/MissingData.h"

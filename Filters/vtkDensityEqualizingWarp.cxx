@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDensityEqualizingWarp.h"
 
+#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/PointInput.h"
 #include "Bridge/Density/GrownDensity.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Flow/DensityEqualizingWarp.h"
-#include "Bridge/Points/CellCheck.h"
-#include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Settings/MissingData.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkEqualMassCells.h"
 
+#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/ImageGrids.h"
+#include "Bridge/Data/PointInput.h"
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Density/InputDensity.h"
-#include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Points/CellCheck.h"
-#include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"

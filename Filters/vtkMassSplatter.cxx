@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMassSplatter.h"
 
-#include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Points/PointInput.h"
-#include "Bridge/Points/PointMasses.h"
+#include "Bridge/Data/ImageGrids.h"
+#include "Bridge/Data/PointInput.h"
+#include "Bridge/Data/PointMasses.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
 #include "Bridge/Run/Settings/AssociationSettings.h"

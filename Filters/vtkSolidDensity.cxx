@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSolidDensity.h"
 
-#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Ranks/GatheredData.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"

@@ -2,9 +2,9 @@
 #include "vtkTransportBlend.h"
 
 #include "Bridge/Blocks/GivenInputs.h"
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Ensembles/DensityBlend.h"
-#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Settings/SplatSettings.h"
 #include "Bridge/Run/Settings/TableSettings.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportDotRadius.h"
 
-#include "Bridge/Points/DoubleTuples.h"
-#include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Points/PointInput.h"
+#include "Bridge/Data/DoubleTuples.h"
+#include "Bridge/Data/GhostFlags.h"
+#include "Bridge/Data/PointInput.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Core/Parallel/Stages.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportMap.h"
 
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Flow/TransportMap.h"
-#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Settings/MissingData.h"

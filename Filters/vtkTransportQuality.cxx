@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportQuality.h"
 
+#include "Bridge/Data/GhostFlags.h"
+#include "Bridge/Data/PointInput.h"
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Density/InputDensity.h"
-#include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Settings/TableSettings.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportSampler.h"
 
+#include "Bridge/Data/PointInput.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Flow/TransportSampler.h"
-#include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Settings/SeedSettings.h"

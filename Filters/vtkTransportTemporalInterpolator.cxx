@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportTemporalInterpolator.h"
 
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/InputDensity.h"
-#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Pipeline/ConsumerExtents.h"
 #include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Run/AlgorithmProgress.h"

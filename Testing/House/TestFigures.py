@@ -137,8 +137,8 @@ const char* other = "\\"// nor this";
     def test_rooms(self):
         self.write("Filters/Bridge/Version.h", '#include "Core/Flow/Flow.h"\n')
         self.write("Filters/Bridge/Run/Run.h", '#include "Core/Flow/Flow.h"\n#include "Bridge/Run/A.h"\n')
-        self.write("Filters/Bridge/Points/Points.h", '#include "Bridge/Run/Run.h"\n')
-        self.write("Filters/Bridge/Blend/Blend.h", '#include "Bridge/Points/Points.h"\n'
+        self.write("Filters/Bridge/Data/Points.h", '#include "Bridge/Run/Run.h"\n')
+        self.write("Filters/Bridge/Blend/Blend.h", '#include "Bridge/Data/Points.h"\n'
                    '#include "Bridge/Run/Run.h"\n#include "Core/Flow/Flow.h"\n')
         self.assertEqual(self.value("bridge_rooms"), 3)
         self.assertEqual(self.value("bridge_most_known"), 3)

@@ -94,7 +94,7 @@ SURFACES = [
     # regions that are filled, and files of drawings
     E(CORE + "Overlap/RingTriangles.cxx", "kept = «isTwice ? kept - 1 : kept + 1»;", "kept + 1"),
     E(CORE + "Overlap/RingTriangles.cxx", "error += «this->Swept.Rounding()» *", "0.0"),
-    E(BRIDGE + "Points/TupleValues.cxx", "«value.ToDouble()» + 0.0;", "std::round(value.ToDouble())"),
+    E(BRIDGE + "Data/TupleValues.cxx", "«value.ToDouble()» + 0.0;", "std::round(value.ToDouble())"),
     E(CORE + "Drawing/OutputTarget.cxx", "mode = status.st_mode & «0777»;", "0700"),
     E(CORE + "Drawing/OutputFile.cxx", "O_CREAT | «O_EXCL | O_NOFOLLOW» | O_CLOEXEC", "O_TRUNC"),
     # points on surfaces

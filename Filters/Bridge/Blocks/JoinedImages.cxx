@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blocks/JoinedImages.h"
 
-#include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Data/GhostFlags.h"
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Boxes/JoinedBoxes.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"

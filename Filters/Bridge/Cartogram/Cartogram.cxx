@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Cartogram/Cartogram.h"
 
-#include "Bridge/Points/PointInput.h"
+#include "Bridge/Data/PointInput.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Cartogram/MapFellows.h"
@@ -10,7 +10,6 @@
 #include "Core/Cartogram/MapWarnings.h"
 #include "Core/Cartogram/RegionChecks.h"
 #include "Core/Cartogram/RegionRaster.h"
-#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkAbstractArray.h"

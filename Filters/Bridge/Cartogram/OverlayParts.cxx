@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Cartogram/OverlayParts.h"
 
-#include "Bridge/Points/CellCheck.h"
-#include "Bridge/Points/PointInput.h"
+#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/PointInput.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
 #include "Bridge/Run/Memory.h"
 

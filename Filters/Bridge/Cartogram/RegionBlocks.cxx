@@ -2,8 +2,8 @@
 #include "Bridge/Cartogram/RegionBlocks.h"
 
 #include "Bridge/Cartogram/UnifiedTypes.h"
-#include "Bridge/Points/CellCheck.h"
-#include "Bridge/Points/CopiedTuples.h"
+#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/CopiedTuples.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/Stages.h"
 

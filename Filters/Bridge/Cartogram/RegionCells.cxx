@@ -2,8 +2,8 @@
 #include "Bridge/Cartogram/RegionCells.h"
 
 #include "Bridge/Cartogram/RegionBlocks.h"
-#include "Bridge/Image/DefaultArray.h"
-#include "Bridge/Points/TupleValues.h"
+#include "Bridge/Data/DefaultArray.h"
+#include "Bridge/Data/TupleValues.h"
 #include "Bridge/Run/NumbersOfText.h"
 #include "Core/Cartogram/RegionList.h"
 #include "Core/Messages/Failure.h"

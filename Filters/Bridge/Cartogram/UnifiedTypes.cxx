@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Cartogram/UnifiedTypes.h"
 
-#include "Bridge/Points/TupleValues.h"
+#include "Bridge/Data/TupleValues.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellData.h"

@@ -5,7 +5,6 @@
 #include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/Settings/ComponentChoice.h"
-#include "Core/Messages/Failure.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Cells/MeshCells.h"
 
-#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Data/GhostFlags.h"
 
 #include "vtkCellType.h"
 #include "vtkDataArray.h"

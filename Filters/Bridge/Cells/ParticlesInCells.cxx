@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Cells/ParticlesInCells.h"
 
-#include "Bridge/Points/SampledArrays.h"
+#include "Bridge/Data/SampledArrays.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Resampling/PlacesInCells.h"

@@ -3,10 +3,10 @@
 
 #include "Bridge/Blocks/JoinedImages.h"
 #include "Bridge/Cells/ParticlesInCells.h"
+#include "Bridge/Data/DefaultArray.h"
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Density/DensityImage.h"
-#include "Bridge/Image/DefaultArray.h"
-#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Parallel/LargeBuffer.h"

@@ -6,7 +6,6 @@
 #include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Cells/BlockValues.h"
 #include "Bridge/Density/InputDensity.h"
-#include "Bridge/Store/DataIdentity.h"
 #include "Core/Resampling/CellLattice.h"
 #include "Core/Resampling/CellPieces.h"
 

@@ -2,7 +2,6 @@
 #include "Bridge/Density/ArrayReader.h"
 
 #include "Bridge/Run/Settings/ComponentChoice.h"
-#include "Core/Messages/Failure.h"
 #include "Core/Tables/Reading/DensityFailure.h"
 
 #include "vtkAOSDataArrayTemplate.h"

@@ -4,6 +4,7 @@
 #define RectifiedTransport_ArrayReader_h
 
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Messages/Failure.h"
 #include "Core/Tables/Reading/DensityReader.h"
 
 #include <memory>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/DensityImage.h"
 
+#include "Bridge/Data/GhostFlags.h"
+#include "Bridge/Data/ImageGrids.h"
+#include "Bridge/Data/SampledArrays.h"
 #include "Bridge/Density/ArrayReader.h"
-#include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Points/SampledArrays.h"
 #include "Bridge/Run/Fingerprint.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"

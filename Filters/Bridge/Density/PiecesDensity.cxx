@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/PiecesDensity.h"
 
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/ArrayReader.h"
-#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/Fingerprint.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"

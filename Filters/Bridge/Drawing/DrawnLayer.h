@@ -3,11 +3,11 @@
 #ifndef RectifiedTransport_DrawnLayer_h
 #define RectifiedTransport_DrawnLayer_h
 
+#include "Bridge/Data/DoubleTuples.h"
 #include "Bridge/Drawing/OutlinedRegions.h"
 #include "Bridge/Drawing/PolyDataShapes.h"
 #include "Bridge/Drawing/ShapeColours.h"
 #include "Bridge/Drawing/TransportVectorWriter.h"
-#include "Bridge/Points/DoubleTuples.h"
 #include "Core/Drawing/PageLayout.h"
 #include "Core/Parallel/Progress.h"
 

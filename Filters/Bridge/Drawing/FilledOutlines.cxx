@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Drawing/FilledOutlines.h"
 
+#include "Bridge/Data/CopiedTuples.h"
 #include "Bridge/Drawing/OutlinedRegions.h"
-#include "Bridge/Points/CopiedTuples.h"
 #include "Core/Overlap/RingShape.h"
 #include "Core/Overlap/RingTriangles.h"
 #include "Core/Parallel/Progress.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Drawing/OutlinedRegions.h"
 
-#include "Bridge/Points/CellCheck.h"
-#include "Bridge/Points/CopiedTuples.h"
-#include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Points/TupleValues.h"
+#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/CopiedTuples.h"
+#include "Bridge/Data/GhostFlags.h"
+#include "Bridge/Data/TupleValues.h"
 #include "Core/Overlap/RingShape.h"
 
 #include "vtkAbstractArray.h"

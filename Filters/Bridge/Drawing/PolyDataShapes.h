@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_PolyDataShapes_h
 #define RectifiedTransport_PolyDataShapes_h
 
-#include "Bridge/Points/CellCheck.h"
-#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/GhostFlags.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Progress.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Drawing/TransportVectorWriter.h"
 
+#include "Bridge/Data/CopiedTuples.h"
 #include "Bridge/Drawing/DrawnLayer.h"
-#include "Bridge/Points/CopiedTuples.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Drawing/Drawing.h"

@@ -4,7 +4,6 @@
 #include "Bridge/Run/StepReport.h"
 #include "Core/Blend/OptimalBlend.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Messages/Failure.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ensembles/DensityBlend.h"
 
-#include "Bridge/Density/CostModel.h"
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/PlainDensity.h"
-#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Run/CostModel.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Blend/MovedCells.h"
 #include "Core/Flow/WeightedMean.h"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ensembles/DensityDistances.h"
 
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/PlainDensity.h"
-#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Core/Distance/ClassicalScaling.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
-#include "Core/Messages/Failure.h"
 
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/DensityEqualizingWarp.h"
 
-#include "Bridge/Density/CostModel.h"
-#include "Bridge/Points/PointInput.h"
+#include "Bridge/Data/PointInput.h"
+#include "Bridge/Density/FlowCosts.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Equalize/CorrectedImages.h"
 #include "Core/Geometry/Dispatch.h"

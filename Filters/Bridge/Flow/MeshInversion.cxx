@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/MeshInversion.h"
 
-#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Data/GhostFlags.h"
 #include "Core/Geometry/Dispatch.h"
 
 #include "vtkCellType.h"

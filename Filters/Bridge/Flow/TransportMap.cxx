@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/TransportMap.h"
 
-#include "Bridge/Density/CostModel.h"
+#include "Bridge/Data/ImageGrids.h"
+#include "Bridge/Density/FlowCosts.h"
 #include "Bridge/Flow/MapField.h"
-#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Equalize/CorrectedImages.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/TransportSampler.h"
 
-#include "Bridge/Density/CostModel.h"
-#include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Points/ParticleSet.h"
-#include "Bridge/Points/SeedInput.h"
+#include "Bridge/Data/GhostFlags.h"
+#include "Bridge/Data/ParticleSet.h"
+#include "Bridge/Data/SeedInput.h"
+#include "Bridge/Density/FlowCosts.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Run/StepReport.h"

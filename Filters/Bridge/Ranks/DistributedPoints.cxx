@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/DistributedPoints.h"
 
-#include "Bridge/Points/CopiedTuples.h"
-#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Data/CopiedTuples.h"
+#include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Ranks/ShortArrays.h"
 #include "Bridge/Run/Memory.h"

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_DistributedPoints_h
 #define RectifiedTransport_DistributedPoints_h
 
-#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Data/GhostFlags.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Ranks.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/GatheredData.h"
 
-#include "Bridge/Points/CopiedTuples.h"
-#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Data/CopiedTuples.h"
+#include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Ranks/DataSetBytes.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Ranks/ShortArrays.h"

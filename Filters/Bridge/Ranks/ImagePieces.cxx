@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/ImagePieces.h"
 
-#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Core/Geometry/Distributed/BoxExchange.h"
 #include "Core/Messages/Failure.h"

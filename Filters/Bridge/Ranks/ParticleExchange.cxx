@@ -3,7 +3,7 @@
 
 #include "Bridge/Ranks/ImagePieces.h"
 
-#include "Bridge/Points/ParticleCells.h"
+#include "Bridge/Data/ParticleCells.h"
 #include "Bridge/Ranks/CommonArrays.h"
 #include "Core/Geometry/Distributed/PlaceOwners.h"
 #include "Core/Parallel/Progress.h"

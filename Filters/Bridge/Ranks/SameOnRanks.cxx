@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/SameOnRanks.h"
 
-#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Run/SampledFingerprint.h"
 #include "Core/Geometry/Distributed/PropertyLines.h"
 #include "Core/Messages/Failure.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Samples/BlueNoiseRelaxation.h"
 
-#include "Bridge/Density/CostModel.h"
+#include "Bridge/Data/SeedInput.h"
+#include "Bridge/Density/FlowCosts.h"
 #include "Bridge/Density/PlainDensity.h"
-#include "Bridge/Points/SeedInput.h"
 #include "Core/Messages/Failure.h"
 
 #include "vtkDoubleArray.h"

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_BridgeBlueNoiseRelaxation_h
 #define RectifiedTransport_BridgeBlueNoiseRelaxation_h
 
-#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Data/GhostFlags.h"
 #include "Core/Relaxation/BlueNoiseRelaxation.h"
 
 VTK_ABI_NAMESPACE_BEGIN

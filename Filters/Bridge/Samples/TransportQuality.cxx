@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Samples/TransportQuality.h"
 
-#include "Bridge/Density/CostModel.h"
-#include "Bridge/Points/DoubleTuples.h"
-#include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Points/PointInput.h"
+#include "Bridge/Data/DoubleTuples.h"
+#include "Bridge/Data/GhostFlags.h"
+#include "Bridge/Data/PointInput.h"
+#include "Bridge/Density/FlowCosts.h"
 #include "Bridge/Run/NumbersOfText.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Messages/Failure.h"

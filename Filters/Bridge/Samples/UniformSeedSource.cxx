@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Samples/UniformSeedSource.h"
 
-#include "Bridge/Points/ParticleCells.h"
+#include "Bridge/Data/ParticleCells.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Messages/Failure.h"
 #include "Core/Seeds/SeedShare.h"
 
 #include "vtkDoubleArray.h"

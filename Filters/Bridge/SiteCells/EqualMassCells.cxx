@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/SiteCells/EqualMassCells.h"
 
+#include "Bridge/Data/DoubleTuples.h"
+#include "Bridge/Data/ImageGrids.h"
+#include "Bridge/Data/PointInput.h"
 #include "Bridge/Density/PlainDensity.h"
-#include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Points/DoubleTuples.h"
-#include "Bridge/Points/PointInput.h"
 #include "Bridge/SiteCells/LabelGrid.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/Dispatch.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/SiteCells/SiteColorArray.h"
 
-#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/SiteCells/CellOutputs.h"
 #include "Core/Geometry/Dispatch.h"

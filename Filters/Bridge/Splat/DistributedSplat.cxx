@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Splat/DistributedSplat.h"
 
-#include "Bridge/Points/DoubleTuples.h"
+#include "Bridge/Data/DoubleTuples.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Splat/RankSplat.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Splat/MassSplatter.h"
 
-#include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Points/PointInput.h"
-#include "Bridge/Points/PointMasses.h"
+#include "Bridge/Data/ImageGrids.h"
+#include "Bridge/Data/PointInput.h"
+#include "Bridge/Data/PointMasses.h"
 #include "Bridge/Ranks/CommonArrays.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Ranks/ImagePieces.h"
@@ -13,7 +13,6 @@
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/Distributed/BoxExchange.h"
-#include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankOrder.h"
 #include "Core/Parallel/Stages.h"

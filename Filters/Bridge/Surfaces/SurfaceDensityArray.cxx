@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Surfaces/SurfaceDensityArray.h"
 
-#include "Bridge/Points/DoubleTuples.h"
-#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Data/DoubleTuples.h"
+#include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/NumbersOfText.h"
 #include "Bridge/Triangles/TriangleInput.h"
-#include "Core/Messages/Failure.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

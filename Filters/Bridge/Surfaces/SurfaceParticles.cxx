@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Surfaces/SurfaceParticles.h"
 
-#include "Bridge/Density/CostModel.h"
-#include "Bridge/Points/ParticleCells.h"
-#include "Bridge/Points/SampledArrays.h"
+#include "Bridge/Data/ParticleCells.h"
+#include "Bridge/Data/SampledArrays.h"
+#include "Bridge/Run/CostModel.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Stages.h"

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Surfaces/SurfaceSampler.h"
 
-#include "Bridge/Density/CostModel.h"
+#include "Bridge/Run/CostModel.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/Surfaces/SurfaceDensityArray.h"
 #include "Bridge/Surfaces/SurfaceParticles.h"
 #include "Bridge/Triangles/SurfaceInput.h"
 #include "Bridge/Triangles/TriangleInput.h"
-#include "Core/Messages/Failure.h"
 #include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Parameterization/AreaPreservingMap.h"

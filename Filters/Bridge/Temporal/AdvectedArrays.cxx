@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Temporal/AdvectedArrays.h"
 
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/DensityImage.h"
-#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Series/AdvectedMeans.h"

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Temporal/TemporalInterpolation.h"
 
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/DensityPlan.h"
-#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Messages/Failure.h"
 #include "Core/Series/FadingParticles.h"
 #include "Core/Series/IntervalPlan.h"
 

@@ -4,7 +4,6 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/PolygonInput.h"
 #include "Core/Mesh/Repair/RepairText.h"
-#include "Core/Messages/Failure.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Solid/SolidPolygons.h"

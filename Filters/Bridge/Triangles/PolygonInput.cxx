@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Triangles/PolygonInput.h"
 
-#include "Bridge/Points/CellCheck.h"
-#include "Bridge/Points/PointInput.h"
+#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/PointInput.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Messages/Failure.h"
 
 #include "vtkIdList.h"
 #include "vtkNew.h"

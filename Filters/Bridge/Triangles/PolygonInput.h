@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_PolygonInput_h
 #define RectifiedTransport_PolygonInput_h
 
-#include "Bridge/Points/IntegerArrays.h"
+#include "Bridge/Data/IntegerArrays.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Mesh/CutPolygons.h"
 #include "Core/Parallel/LargeBuffer.h"

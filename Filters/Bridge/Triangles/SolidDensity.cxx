@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Triangles/SolidDensity.h"
 
-#include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Points/PointInput.h"
+#include "Bridge/Data/ImageGrids.h"
+#include "Bridge/Data/PointInput.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/ClosedSurface.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/Boxes/SolidGrid.h"
 #include "Core/Geometry/Distributed/TupleBoxes.h"
-#include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Solid/SolidCoverage.h"

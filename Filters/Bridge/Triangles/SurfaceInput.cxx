@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Triangles/SurfaceInput.h"
 
-#include "Bridge/Points/CellCheck.h"
-#include "Bridge/Points/CopiedTuples.h"
+#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/CopiedTuples.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/PolygonInput.h"
-#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkCellArray.h"

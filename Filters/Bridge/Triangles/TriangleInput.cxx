@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Triangles/TriangleInput.h"
 
-#include "Bridge/Points/CopiedTuples.h"
-#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Data/CopiedTuples.h"
+#include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/PolygonInput.h"
 #include "Core/Mesh/Repair/TJunctions.h"

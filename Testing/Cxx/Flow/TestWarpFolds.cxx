@@ -3,8 +3,8 @@
 // steps, in all kinds of data sets; ghosts; the warning.
 #include "WarpTest.h"
 
+#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Flow/MeshInversion.h"
-#include "Bridge/Image/ImageGrids.h"
 
 #include "vtkCellType.h"
 #include "vtkDataSetTriangleFilter.h"

@@ -47,19 +47,18 @@ OPTIMAL_MAP = {
     "Masses": ({"Nodes"}, {"Parallel", "Geometry", "Grid", "Tables"}),
 }
 RUN = {"Run"}
-WORKERS = RUN | {"Image", "Points", "Density", "Ranks", "Store"}
+WORKERS = RUN | {"Data", "Density", "Ranks", "Store"}
 BRIDGE = collections.defaultdict(lambda: WORKERS, {  # rooms that are not named are workers
     "Pipeline": set(),
     "Run": {"Pipeline"},
-    "Image": RUN,
-    "Points": RUN,
-    "Ranks": RUN | {"Image", "Points"},
-    "Triangles": RUN | {"Image", "Points", "Ranks"},
-    "Drawing": RUN | {"Points"},
+    "Data": RUN,
+    "Ranks": RUN | {"Data"},
+    "Triangles": RUN | {"Data", "Ranks"},
+    "Drawing": RUN | {"Data"},
     "Store": RUN,
-    "Density": RUN | {"Image", "Points", "Ranks", "Store"},
-    "Blocks": RUN | {"Image", "Points", "Ranks", "Store"},
-    "Cells": RUN | {"Image", "Points", "Ranks", "Density", "Blocks", "Store"},
+    "Density": RUN | {"Data", "Ranks", "Store"},
+    "Blocks": RUN | {"Data", "Ranks", "Store"},
+    "Cells": RUN | {"Data", "Ranks", "Density", "Blocks", "Store"},
     "Ensembles": WORKERS | {"Splat"},
     "Temporal": WORKERS | {"Splat"},
     **{folder: WORKERS | {"Blocks"} for folder in ("Cartogram", "SiteCells")},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Points/SampledArrays.h"
+#include "Bridge/Data/SampledArrays.h"
 
-#include "Bridge/Points/CopiedTuples.h"
+#include "Bridge/Data/CopiedTuples.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Stages.h"
 

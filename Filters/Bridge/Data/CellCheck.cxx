@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Points/CellCheck.h"
+#include "Bridge/Data/CellCheck.h"
 
-#include "Bridge/Points/CellTypes.h"
-#include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Points/IntegerArrays.h"
+#include "Bridge/Data/CellTypes.h"
+#include "Bridge/Data/GhostFlags.h"
+#include "Bridge/Data/IntegerArrays.h"
 #include "Core/Messages/Failure.h"
 
 #include "vtkCell.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Data/GhostFlags.h"
 
 #include "Bridge/Run/Memory.h"
-#include "Core/Messages/Failure.h"
 
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Data/ImageGrids.h"
 
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/Memory.h"

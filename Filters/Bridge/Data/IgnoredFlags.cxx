@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Points/IgnoredFlags.h"
+#include "Bridge/Data/IgnoredFlags.h"
 
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Core/Messages/MessageText.h"

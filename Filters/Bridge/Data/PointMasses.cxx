@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Points/PointMasses.h"
+#include "Bridge/Data/PointMasses.h"
 
-#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/NumbersOfText.h"
-#include "Core/Messages/Failure.h"
 #include "Core/Messages/NotFiniteValues.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"

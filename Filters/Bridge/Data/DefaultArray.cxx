@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Image/DefaultArray.h"
+#include "Bridge/Data/DefaultArray.h"
 
 #include "Core/Tables/Reading/IdNames.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Points/PointInput.h"
+#include "Bridge/Data/PointInput.h"
 
 #include "Bridge/Run/Inputs/InputBlock.h"
 #include "Core/Geometry/PointBounds.h"

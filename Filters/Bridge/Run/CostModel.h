@@ -3,7 +3,6 @@
 #ifndef RectifiedTransport_CostModel_h
 #define RectifiedTransport_CostModel_h
 
-#include "Bridge/Density/FlowCache.h"
 #include "Core/Flow/FlowOptions.h"
 
 namespace RectifiedTransport::Bridge
@@ -23,13 +22,6 @@ constexpr double TurnedCell = 200.0;   // of a vtkCell, to find whether it turne
 constexpr double Reading = 2.0;        // of a cell's value
 constexpr double OptimalCell = 1500.0; // of a cell of an optimal map
 
-inline double tables(const FlowCache& cache, const InputDensity& density)
-{
-  constexpr double cell = 10.0;
-  return cache.IsOutdated(density) ? cell * static_cast<double>(density.Grid().NumberOfCells())
-                                   : 0.0;
-}
-
 // The cost of moving one particle.
 inline double flow(const FlowOptions& options, int dimension)
 {
@@ -37,15 +29,6 @@ inline double flow(const FlowOptions& options, int dimension)
   constexpr int usual = 64; // that 0 stands for
   return evaluation * (options.NumberOfSteps > 0 ? options.NumberOfSteps : usual) *
     (options.Integrator == Integrator::RungeKutta4 ? 4.0 : 1.0);
-}
-
-// The cost of the optimal map, where it has to be solved.
-inline double optimal(
-  const FlowCache& cache, const InputDensity& density, const OptimalSetting& setting)
-{
-  const bool mustSolve =
-    cache.MustSolve(setting) || (setting.NeedsMap() && cache.IsOutdated(density));
-  return mustSolve ? OptimalCell * static_cast<double>(density.Grid().NumberOfCells()) : 0.0;
 }
 
 // The cost of the correction of areas for each cell of the density: the flow of its corners, and

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Points/CopiedTuples.h"
+#include "Bridge/Data/CopiedTuples.h"
 
 #include "Bridge/Run/Memory.h"
-#include "Core/Messages/Failure.h"
 #include "Core/Parallel/Progress.h"
 
 #include "vtkAbstractArray.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Points/DoubleTuples.h"
+#include "Bridge/Data/DoubleTuples.h"
 
-#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Run/Memory.h"
 
 #include "vtkDoubleArray.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Points/TupleValues.h"
+#include "Bridge/Data/TupleValues.h"
 
 #include "Core/Messages/PropertyCheck.h"
 

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_SeedInput_h
 #define RectifiedTransport_SeedInput_h
 
-#include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Points/PointInput.h"
+#include "Bridge/Data/GhostFlags.h"
+#include "Bridge/Data/PointInput.h"
 #include "Core/Geometry/PhysicalPoints.h"
 #include "Core/Parallel/Progress.h"
 
