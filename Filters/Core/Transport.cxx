@@ -196,16 +196,13 @@ SampledMap<Dimension> map(const BoxDensity<Dimension>& density,
   });
   const auto lattice = LatticePart<Dimension>::WholeOf(sampled.Samples);
   const Point<Dimension> sides = cellSides(density);
-  stages["derivatives"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
+  stages["derivatives"].ForEach(count, grain, [&](std::int64_t i) {
+    const GridSize<Dimension> cell = lattice.CellOf(i);
+    Point<Dimension>& moved = images[static_cast<std::size_t>(i)];
+    for (int axis = 0; axis < Dimension; ++axis)
     {
-      const GridSize<Dimension> cell = lattice.CellOf(i);
-      Point<Dimension>& moved = images[static_cast<std::size_t>(i)];
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        const double centre = (static_cast<double>(cell[axis]) + 0.5) * step[axis];
-        moved[axis] = (moved[axis] - centre) * sides[axis];
-      }
+      const double centre = (static_cast<double>(cell[axis]) + 0.5) * step[axis];
+      moved[axis] = (moved[axis] - centre) * sides[axis];
     }
   });
   return sampled;

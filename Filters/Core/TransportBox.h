@@ -53,13 +53,10 @@ template <int D>
 void scalePoints(const Point<D>& factors, PointSpan<D> points, Progress& progress)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-  progress.For(points.size(), grain, [=](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
+  progress.ForEach(points.size(), grain, [=](std::int64_t i) {
+    for (int axis = 0; axis < D; ++axis)
     {
-      for (int axis = 0; axis < D; ++axis)
-      {
-        points[i][axis] *= factors[axis];
-      }
+      points[i][axis] *= factors[axis];
     }
   });
 }

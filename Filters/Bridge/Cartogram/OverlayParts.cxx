@@ -78,11 +78,8 @@ void writeOverlay(
   {
     const std::int64_t count = part.Input->GetNumberOfPoints();
     const auto places = newArray<vtkDoubleArray>("Points", 3, count);
-    progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        places->SetTypedTuple(i, fellows.OverlayPoint(static_cast<std::size_t>(before + i)).data());
-      }
+    progress.ForEach(count, grain, [&](std::int64_t i) {
+      places->SetTypedTuple(i, fellows.OverlayPoint(static_cast<std::size_t>(before + i)).data());
     });
     vtkNew<vtkPoints> points;
     points->SetData(places);

@@ -39,11 +39,8 @@ void DoubleTuples::Copy(
                static_cast<double>(values) * sizeof(double) },
     [&]() { this->Copies = LargeBuffer<double>(values); });
   double* copies = this->Copies.data();
-  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      array->GetTuple(static_cast<vtkIdType>(tupleAt(i)), copies + i * components);
-    }
+  progress.ForEach(count, grain, [&](std::int64_t i) {
+    array->GetTuple(static_cast<vtkIdType>(tupleAt(i)), copies + i * components);
   });
   this->Values = copies;
 }

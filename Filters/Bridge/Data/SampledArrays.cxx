@@ -331,28 +331,25 @@ void sampleTuples(const NewArray& array, vtkAbstractArray* to, const SampledPlac
   bool ofCells, Progress& progress)
 {
   vtkNew<vtkIdList> points;
-  progress.ForInOrder(
+  progress.ForEachInOrder(
     places.Count(), Grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+    [&](std::int64_t i) {
+      SampledPlace place = places.Find(i);
+      vtkAbstractArray* from = array.From[static_cast<std::size_t>(place.Set)];
+      if (place.Cell < 0)
       {
-        SampledPlace place = places.Find(i);
-        vtkAbstractArray* from = array.From[static_cast<std::size_t>(place.Set)];
-        if (place.Cell < 0)
-        {
-          points->Reset();
-          to->InterpolateTuple(static_cast<vtkIdType>(i), points, from, nullptr);
-          continue;
-        }
-        if (ofCells)
-        {
-          to->SetTuple(static_cast<vtkIdType>(i), static_cast<vtkIdType>(place.Cell), from);
-          continue;
-        }
-        points->SetNumberOfIds(place.Count);
-        std::copy_n(place.Points, place.Count, points->GetPointer(0));
-        to->InterpolateTuple(static_cast<vtkIdType>(i), points, from, place.Weights);
+        points->Reset();
+        to->InterpolateTuple(static_cast<vtkIdType>(i), points, from, nullptr);
+        return;
       }
+      if (ofCells)
+      {
+        to->SetTuple(static_cast<vtkIdType>(i), static_cast<vtkIdType>(place.Cell), from);
+        return;
+      }
+      points->SetNumberOfIds(place.Count);
+      std::copy_n(place.Points, place.Count, points->GetPointer(0));
+      to->InterpolateTuple(static_cast<vtkIdType>(i), points, from, place.Weights);
     },
     Units);
 }

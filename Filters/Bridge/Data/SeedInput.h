@@ -29,14 +29,11 @@ std::int64_t readSeeds(vtkPointSet* points, const CountedPoints& counted, const 
     [&](std::int64_t i, const double* x) { std::copy_n(x, 3, physicalSeeds[i]); });
   std::atomic<std::int64_t> moved{ 0 };
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  progress.For(counted.Count(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t number = first; number < last; ++number)
+  progress.ForEach(counted.Count(), grain, [&](std::int64_t number) {
+    double* seed = physicalSeeds[counted.Point(number)];
+    if (moveToDomain<D>(grid, seed, indexSeeds[number]))
     {
-      double* seed = physicalSeeds[counted.Point(number)];
-      if (moveToDomain<D>(grid, seed, indexSeeds[number]))
-      {
-        ++moved;
-      }
+      ++moved;
     }
   });
   return moved;

@@ -108,12 +108,8 @@ vtkSmartPointer<vtkDoubleArray> slackOf(const TransportPlan<D>& plan, const Imag
   double* slack = array->GetPointer(0);
   Stages stages(progress, { { "slack", 9 }, { "units", 1 } });
   plan.Certificate()->Slack(points, images, slack, stages["slack"]);
-  stages["units"].For(count, grain, [=](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      slack[i] = scale.SquareFromUnits(slack[i]);
-    }
-  });
+  stages["units"].ForEach(
+    count, grain, [=](std::int64_t i) { slack[i] = scale.SquareFromUnits(slack[i]); });
   return array;
 }
 

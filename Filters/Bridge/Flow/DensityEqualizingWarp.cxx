@@ -96,14 +96,11 @@ public:
   void Correct(const AreaCorrection<D>& correction, Progress& progress)
   {
     const double* points = this->Points->GetPointer(0);
-    progress.For(this->Count, grain, [=, &correction](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        double point[D];
-        this->Grid.template ToIndex<D>(points + i * 3, point);
-        this->Grid.template ClampToDomain<D>(point);
-        correction.Correct(point, this->Index + i * D);
-      }
+    progress.ForEach(this->Count, grain, [=, &correction](std::int64_t i) {
+      double point[D];
+      this->Grid.template ToIndex<D>(points + i * 3, point);
+      this->Grid.template ClampToDomain<D>(point);
+      correction.Correct(point, this->Index + i * D);
     });
   }
 
@@ -112,23 +109,20 @@ public:
   {
     double* points = this->Points->GetPointer(0);
     double* displacements = this->Displacements->GetPointer(0);
-    progress.For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+    progress.ForEach(this->Count, grain, [=](std::int64_t i) {
+      double* x = points + i * 3;
+      double move[D];
+      this->Grid.template ToIndex<D>(x, move);
+      this->Grid.template ClampToDomain<D>(move);
+      for (int a = 0; a < D; ++a)
       {
-        double* x = points + i * 3;
-        double move[D];
-        this->Grid.template ToIndex<D>(x, move);
-        this->Grid.template ClampToDomain<D>(move);
-        for (int a = 0; a < D; ++a)
-        {
-          move[a] = blend * (this->Index[i * D + a] - move[a]);
-        }
-        double* displacement = displacements + i * 3;
-        this->Grid.template VectorToPhysical<D>(move, displacement);
-        for (int r = 0; r < 3; ++r)
-        {
-          x[r] += displacement[r];
-        }
+        move[a] = blend * (this->Index[i * D + a] - move[a]);
+      }
+      double* displacement = displacements + i * 3;
+      this->Grid.template VectorToPhysical<D>(move, displacement);
+      for (int r = 0; r < 3; ++r)
+      {
+        x[r] += displacement[r];
       }
     });
     vtkNew<vtkPoints> moved;

@@ -62,17 +62,14 @@ public:
   {
     double* points = this->Points->GetPointer(0);
     const PointSpan<D> relaxed = this->Relaxed();
-    progress.For(relaxed.size(), grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+    progress.ForEach(relaxed.size(), grain, [&](std::int64_t i) {
+      double* x = points + 3 * this->Counted.Point(i);
+      double before[D];
+      this->Grid.template ToIndex<D>(x, before);
+      this->Grid.template ClampToDomain<D>(before);
+      if (!std::equal(before, before + D, relaxed[i]))
       {
-        double* x = points + 3 * this->Counted.Point(i);
-        double before[D];
-        this->Grid.template ToIndex<D>(x, before);
-        this->Grid.template ClampToDomain<D>(before);
-        if (!std::equal(before, before + D, relaxed[i]))
-        {
-          this->Grid.template ToPhysical<D>(relaxed[i], x);
-        }
+        this->Grid.template ToPhysical<D>(relaxed[i], x);
       }
     });
     vtkNew<vtkPoints> moved;

@@ -123,15 +123,12 @@ private:
   {
     double total = 0.0;
     const std::int64_t count = masses ? this->Counted.Count() : 0;
-    progress.ForInOrder(count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+    progress.ForEachInOrder(count, grain, [&](std::int64_t i) {
+      if (!(masses[i] >= 0.0) || std::isinf(masses[i]))
       {
-        if (!(masses[i] >= 0.0) || std::isinf(masses[i]))
-        {
-          this->FailValue("Mass", masses[i], i, "every mass must be finite and not negative");
-        }
-        total += masses[i];
+        this->FailValue("Mass", masses[i], i, "every mass must be finite and not negative");
       }
+      total += masses[i];
     });
     if (onAllRanks(this->Group, !masses))
     {
@@ -150,18 +147,15 @@ private:
   void CheckDisplacements(Progress& progress)
   {
     const ConstPointSpan<3> displacements(this->Displacements->data(), this->Counted.Count());
-    progress.ForInOrder(this->Counted.Count(), grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+    progress.ForEachInOrder(this->Counted.Count(), grain, [&](std::int64_t i) {
+      double squared = 0.0;
+      for (int r = 0; r < 3; ++r)
       {
-        double squared = 0.0;
-        for (int r = 0; r < 3; ++r)
+        const double component = displacements[i][r];
+        squared += component * component;
+        if (!std::isfinite(squared))
         {
-          const double component = displacements[i][r];
-          squared += component * component;
-          if (!std::isfinite(squared))
-          {
-            this->FailValue("Displacement", component, i, "its square must be finite");
-          }
+          this->FailValue("Displacement", component, i, "its square must be finite");
         }
       }
     });

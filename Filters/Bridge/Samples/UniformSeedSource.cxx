@@ -66,19 +66,16 @@ void fillBox(
   const double* unit = D == 3 ? points : separate.data();
 
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-  stages["points"].For(count, grain, [=](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
+  stages["points"].ForEach(count, grain, [=](std::int64_t i) {
+    for (int a = 0; a < D; ++a)
     {
-      for (int a = 0; a < D; ++a)
-      {
-        const double low = bounds[2 * a];
-        const double high = bounds[2 * a + 1];
-        points[3 * i + a] = std::min(low + (high - low) * unit[i * D + a], high);
-      }
-      if (D == 2)
-      {
-        points[3 * i + 2] = bounds[4];
-      }
+      const double low = bounds[2 * a];
+      const double high = bounds[2 * a + 1];
+      points[3 * i + a] = std::min(low + (high - low) * unit[i * D + a], high);
+    }
+    if (D == 2)
+    {
+      points[3 * i + 2] = bounds[4];
     }
   });
   setParticles(output, coordinates, 1, stages["cells"]);

@@ -97,17 +97,13 @@ public:
     double* areas = this->Area->GetPointer(0);
     double* angles = this->Angle->GetPointer(0);
     unsigned char* flipped = this->Flipped->GetPointer(0);
-    progress.For(
-      triangles.Surface.NumberOfTriangles, grain, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t triangle = first; triangle < last; ++triangle)
-        {
-          const TriangleDistortion found = distortionOf(triangles, this->Positions, triangle);
-          const vtkIdType cell = cellOf(triangle);
-          areas[cell] = found.Area;
-          angles[cell] = found.Angle;
-          flipped[cell] = found.IsFlipped ? 1 : 0;
-        }
-      });
+    progress.ForEach(triangles.Surface.NumberOfTriangles, grain, [&](std::int64_t triangle) {
+      const TriangleDistortion found = distortionOf(triangles, this->Positions, triangle);
+      const vtkIdType cell = cellOf(triangle);
+      areas[cell] = found.Area;
+      angles[cell] = found.Angle;
+      flipped[cell] = found.IsFlipped ? 1 : 0;
+    });
   }
 
   // Repeated triangles have the values of the first ones.

@@ -62,24 +62,21 @@ vtkSmartPointer<vtkDoubleArray> writeParticles(
   double* normal = normals->GetPointer(0);
   const double share = totalMass / static_cast<double>(count);
   const TriangleSurface triangles = surface.Surface();
-  progress.For(count, Grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
+  progress.ForEach(count, Grain, [&](std::int64_t i) {
+    const PlaceOnTriangle& place = places.data()[i];
+    const PointWeights in = surface.InGiven(place);
+    Eigen::Vector3d x = Eigen::Vector3d::Zero();
+    for (std::size_t corner = 0; corner < 3; ++corner)
     {
-      const PlaceOnTriangle& place = places.data()[i];
-      const PointWeights in = surface.InGiven(place);
-      Eigen::Vector3d x = Eigen::Vector3d::Zero();
-      for (std::size_t corner = 0; corner < 3; ++corner)
-      {
-        Eigen::Vector3d at;
-        on.Triangles.Input()->GetPoint(static_cast<vtkIdType>(in.Points[corner]), at.data());
-        x += in.Weights[corner] * at;
-      }
-      Eigen::Map<Eigen::Vector3d>(point + 3 * i) = x;
-      Eigen::Map<Eigen::Vector3d>(normal + 3 * i) = normalOf(triangles, place.Triangle);
-      id[i] = i;
-      mass[i] = share;
-      cell[i] = on.Input.InputCellOf(on.CellOf(place));
+      Eigen::Vector3d at;
+      on.Triangles.Input()->GetPoint(static_cast<vtkIdType>(in.Points[corner]), at.data());
+      x += in.Weights[corner] * at;
     }
+    Eigen::Map<Eigen::Vector3d>(point + 3 * i) = x;
+    Eigen::Map<Eigen::Vector3d>(normal + 3 * i) = normalOf(triangles, place.Triangle);
+    id[i] = i;
+    mass[i] = share;
+    cell[i] = on.Input.InputCellOf(on.CellOf(place));
   });
   vtkPointData* data = output->GetPointData();
   data->AddArray(ids);

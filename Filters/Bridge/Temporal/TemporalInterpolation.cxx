@@ -208,12 +208,8 @@ void copyDensity(
   const TupleBox all = tuplesOf(whole, ownerOf(step.Grid), whole);
   double* to = density->GetPointer(0);
   const double* from = step.Values->GetPointer(0);
-  progress.For(wanted.Count(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      to[i] = from[all.NumberOf(wanted.CellOf(i))];
-    }
-  });
+  progress.ForEach(
+    wanted.Count(), grain, [&](std::int64_t i) { to[i] = from[all.NumberOf(wanted.CellOf(i))]; });
 }
 
 AdvectedImage advectedImage(const TemporalStep& step, const Extent& wanted)

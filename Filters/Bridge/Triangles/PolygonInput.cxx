@@ -63,15 +63,12 @@ PolygonSource::Visits visitsOf(vtkCellArray* cells)
     constexpr std::int64_t units = std::int64_t{ 1 } << 12; // polygons that take some milliseconds
     vtkNew<vtkIdList> ids;
     PolygonCutter::Corners corners;
-    progress.ForInOrder(
+    progress.ForEachInOrder(
       cells->GetNumberOfCells(), grain,
-      [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t cell = first; cell < last; ++cell)
-        {
-          cells->GetCellAtId(static_cast<vtkIdType>(cell), ids);
-          corners.assign(ids->begin(), ids->end());
-          visit(cell, corners);
-        }
+      [&](std::int64_t cell) {
+        cells->GetCellAtId(static_cast<vtkIdType>(cell), ids);
+        corners.assign(ids->begin(), ids->end());
+        visit(cell, corners);
       },
       units);
   };

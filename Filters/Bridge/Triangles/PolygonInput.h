@@ -42,19 +42,16 @@ void visitTriangles(vtkCellArray* triangles, Progress& progress, const Visit& vi
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   visitIntegers(triangles->GetConnectivityArray(), [&](const auto& ids) {
-    progress.ForInOrder(
+    progress.ForEachInOrder(
       triangles->GetNumberOfCells(), grain,
-      [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t triangle = first; triangle < last; ++triangle)
+      [&](std::int64_t triangle) {
+        std::array<std::int64_t, 3> points;
+        for (std::size_t corner = 0; corner < 3; ++corner)
         {
-          std::array<std::int64_t, 3> points;
-          for (std::size_t corner = 0; corner < 3; ++corner)
-          {
-            points[corner] =
-              static_cast<std::int64_t>(ids[3 * triangle + static_cast<std::int64_t>(corner)]);
-          }
-          visit(triangle, points);
+          points[corner] =
+            static_cast<std::int64_t>(ids[3 * triangle + static_cast<std::int64_t>(corner)]);
         }
+        visit(triangle, points);
       },
       RandomAccessUnits);
   });

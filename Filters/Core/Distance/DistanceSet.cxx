@@ -99,14 +99,10 @@ void forItems(std::int64_t count, double cells, Progress& progress, const Work& 
   if (cells <= mostCellsOfThread)
   {
     static const SerialExecutor serial;
-    progress.For(
+    progress.ForEach(
       count, 1,
-      [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
-        {
-          work(i, Context(serial, {}, [&]() { return progress.ShouldStop(); }));
-        }
-      },
+      [&](
+        std::int64_t i) { work(i, Context(serial, {}, [&]() { return progress.ShouldStop(); })); },
       1);
     return;
   }

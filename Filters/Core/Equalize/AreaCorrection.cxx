@@ -96,12 +96,9 @@ void AreaCorrection<Dimension>::Make(const RectifiedFlow<Dimension>& flow,
   const auto count = static_cast<std::int64_t>(numberOfCorners<Dimension>(this->Size));
   LargeBuffer<double> corners(count * Dimension);
   const PointSpan<Dimension> images(corners.data(), count);
-  stages["corners"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      const Point<Dimension> place = cornerAt<Dimension>(i, this->Size);
-      std::copy_n(place.data(), Dimension, images[i]);
-    }
+  stages["corners"].ForEach(count, grain, [&](std::int64_t i) {
+    const Point<Dimension> place = cornerAt<Dimension>(i, this->Size);
+    std::copy_n(place.data(), Dimension, images[i]);
   });
   moveBack(images, stages["map"]);
 

@@ -21,17 +21,14 @@ void correctImages(const AreaCorrection<D>& correction, const Point<D>& step,
   const LatticePart<D>& part, const LatticeParts<D>& parts, PointSpan<D> images, Progress& progress)
 {
   constexpr std::int64_t grain = 1 << 12;
-  progress.For(part.Count(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
+  progress.ForEach(part.Count(), grain, [&](std::int64_t i) {
+    const GridSize<D> cell = part.CellOf(i);
+    Point<D> sample;
+    for (int a = 0; a < D; ++a)
     {
-      const GridSize<D> cell = part.CellOf(i);
-      Point<D> sample;
-      for (int a = 0; a < D; ++a)
-      {
-        sample[a] = (static_cast<double>(cell[a]) + 0.5) * step[a];
-      }
-      correction.Correct(sample.data(), images[parts.IndexOf(cell)]);
+      sample[a] = (static_cast<double>(cell[a]) + 0.5) * step[a];
     }
+    correction.Correct(sample.data(), images[parts.IndexOf(cell)]);
   });
 }
 

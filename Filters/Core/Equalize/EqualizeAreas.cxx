@@ -200,12 +200,7 @@ private:
     const std::int64_t cells = this->Targets.size();
     const auto mean = static_cast<float>(missing / static_cast<double>(cells));
     float* right = this->System.RightHandSide();
-    progress.For(cells, grainCells, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t q = first; q < last; ++q)
-      {
-        right[q] += mean;
-      }
-    });
+    progress.ForEach(cells, grainCells, [&](std::int64_t q) { right[q] += mean; });
   }
 
   void FindMoves(Progress& progress)

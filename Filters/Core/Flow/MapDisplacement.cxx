@@ -89,13 +89,10 @@ void MapDisplacement<Dimension>::WriteCosts(const double* displacements,
   const DisplacementSums& sums, double* costs, Progress& progress) const
 {
   const double all = sums.Weight.Value();
-  progress.For(this->Part.Count(), chunk, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      const double share = this->WeightOf(this->Part.CellOf(i)) / all;
-      const double square = this->Scale.SquareInUnits(displacements + 3 * i);
-      costs[i] = this->Scale.SquareFromUnits(share * square);
-    }
+  progress.ForEach(this->Part.Count(), chunk, [&](std::int64_t i) {
+    const double share = this->WeightOf(this->Part.CellOf(i)) / all;
+    const double square = this->Scale.SquareInUnits(displacements + 3 * i);
+    costs[i] = this->Scale.SquareFromUnits(share * square);
   });
 }
 

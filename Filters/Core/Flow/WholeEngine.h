@@ -87,15 +87,12 @@ public:
   {
     constexpr std::int64_t grain = 256;
     Progress progress(context);
-    progress.For(
+    progress.ForEach(
       centres.size(), grain,
-      [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
-        {
-          Point<Dimension> centre;
-          std::copy_n(centres[i], Dimension, centre.begin());
-          measures[i] = measureOfShare<Dimension>(this->View(), centre, aspect, shares[i]);
-        }
+      [&](std::int64_t i) {
+        Point<Dimension> centre;
+        std::copy_n(centres[i], Dimension, centre.begin());
+        measures[i] = measureOfShare<Dimension>(this->View(), centre, aspect, shares[i]);
       },
       16 * grain);
   }

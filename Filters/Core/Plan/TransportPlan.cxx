@@ -70,24 +70,15 @@ void forPositions(
 {
   if (!seeds.IsLattice())
   {
-    progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        visit(i, i);
-      }
-    });
+    progress.ForEach(count, grain, [&](std::int64_t i) { visit(i, i); });
     return;
   }
   std::int64_t before = 0;
   progress.Expect(count);
   for (const LatticePart<Dimension>& part : seeds.Parts().Parts)
   {
-    progress.For(part.Count(), grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        visit(before + i, seeds.Parts().IndexOf(part.CellOf(i)));
-      }
-    });
+    progress.ForEach(part.Count(), grain,
+      [&](std::int64_t i) { visit(before + i, seeds.Parts().IndexOf(part.CellOf(i))); });
     before += part.Count();
   }
 }

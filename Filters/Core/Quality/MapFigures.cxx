@@ -42,13 +42,10 @@ void takeFrom(const ImageGrid& target, const MapOnLattice<D>& map, Progress& pro
     return;
   }
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  progress.For(map.Positions.size(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      double x[3];
-      target.ToPhysical<D>(map.Positions[i], x);
-      map.Geometry.template ToIndex<D>(x, map.Positions[i]);
-    }
+  progress.ForEach(map.Positions.size(), grain, [&](std::int64_t i) {
+    double x[3];
+    target.ToPhysical<D>(map.Positions[i], x);
+    map.Geometry.template ToIndex<D>(x, map.Positions[i]);
   });
 }
 

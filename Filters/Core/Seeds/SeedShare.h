@@ -55,13 +55,10 @@ void writeSeeds(const UnitSeeds<D>& pattern, const GridSize<D>& size, std::int64
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
   Stages stages(progress, { { "pattern", 8 }, { "scale", 2 } });
   pattern.GenerateFrom(first, seeds, stages["pattern"]);
-  stages["scale"].For(seeds.size(), grain, [=](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i)
+  stages["scale"].ForEach(seeds.size(), grain, [=](std::int64_t i) {
+    for (int a = 0; a < D; ++a)
     {
-      for (int a = 0; a < D; ++a)
-      {
-        seeds[i][a] *= static_cast<double>(size[a]);
-      }
+      seeds[i][a] *= static_cast<double>(size[a]);
     }
   });
 }

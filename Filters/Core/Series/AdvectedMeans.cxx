@@ -15,25 +15,19 @@ void writeMoments(
   const AdvectedValues& values, const SeriesMoment& moment, Progress& progress, double* moments)
 {
   const double* masses = moment.Masses();
-  progress.For(moment.Count(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      const std::int64_t at = values.Stride * (moment.First() + i);
-      moments[i] = masses[i] * AdvectedValues::Between(values.OfParticles, at, moment.Part());
-    }
+  progress.ForEach(moment.Count(), grain, [&](std::int64_t i) {
+    const std::int64_t at = values.Stride * (moment.First() + i);
+    moments[i] = masses[i] * AdvectedValues::Between(values.OfParticles, at, moment.Part());
   });
 }
 
 void writeMeans(const AdvectedValues& values, double part, const LatticePart<3>& image,
   const LatticePart<3>& wanted, const double* masses, Progress& progress, double* sums)
 {
-  progress.For(wanted.Count(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      const std::int64_t at = values.Stride * image.NumberOf(wanted.CellOf(i));
-      sums[i] =
-        masses[i] > 0.0 ? sums[i] / masses[i] : AdvectedValues::Between(values.InPlace, at, part);
-    }
+  progress.ForEach(wanted.Count(), grain, [&](std::int64_t i) {
+    const std::int64_t at = values.Stride * image.NumberOf(wanted.CellOf(i));
+    sums[i] =
+      masses[i] > 0.0 ? sums[i] / masses[i] : AdvectedValues::Between(values.InPlace, at, part);
   });
 }
 

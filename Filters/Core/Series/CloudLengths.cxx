@@ -89,28 +89,25 @@ void addCloudsAtImages(const PivotLattice<D>& lattice, const ImageGrid& here,
   const std::size_t before = lengths.size();
   lengths.resize(before + static_cast<std::size_t>(D * images.size()));
   float* added = lengths.data() + before;
-  progress.For(images.size(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
+  progress.ForEach(images.size(), grain, [&](std::int64_t i) {
+    const std::int64_t number = numbers[static_cast<std::size_t>(i)];
+    std::int64_t rest = number % static_cast<std::int64_t>(numberOfCells<D>(size));
+    std::int64_t step = 1;
+    for (int axis = 0; axis < D; ++axis)
     {
-      const std::int64_t number = numbers[static_cast<std::size_t>(i)];
-      std::int64_t rest = number % static_cast<std::int64_t>(numberOfCells<D>(size));
-      std::int64_t step = 1;
-      for (int axis = 0; axis < D; ++axis)
-      {
-        const auto distanceTo = [&](bool isInside, std::int64_t neighbour) {
-          const std::int64_t found = isInside ? where[static_cast<std::size_t>(neighbour)] : none;
-          return found == none
-            ? -1.0
-            : std::abs(all[static_cast<std::size_t>(D * found + axis)] - images[i][axis]) *
-              unit[axis];
-        };
-        const std::int64_t at = rest % size[axis];
-        const double spacing = spacingOf(distanceTo(at > 0, number - step),
-          distanceTo(at + 1 < size[axis], number + step), side[axis]);
-        added[D * i + axis] = static_cast<float>(spacing * share);
-        rest /= size[axis];
-        step *= size[axis];
-      }
+      const auto distanceTo = [&](bool isInside, std::int64_t neighbour) {
+        const std::int64_t found = isInside ? where[static_cast<std::size_t>(neighbour)] : none;
+        return found == none
+          ? -1.0
+          : std::abs(all[static_cast<std::size_t>(D * found + axis)] - images[i][axis]) *
+            unit[axis];
+      };
+      const std::int64_t at = rest % size[axis];
+      const double spacing = spacingOf(distanceTo(at > 0, number - step),
+        distanceTo(at + 1 < size[axis], number + step), side[axis]);
+      added[D * i + axis] = static_cast<float>(spacing * share);
+      rest /= size[axis];
+      step *= size[axis];
     }
   });
 }

@@ -32,12 +32,9 @@ void TrackedParticles::Follow(
   Stages stages(progress, { { "start", 1 }, { "move", 96 }, { "images", 3 } });
   const ConstPointSpan<3> from = this->Steps.back().Positions->Span();
   LargeBuffer<double> points(from.size() * D);
-  stages["start"].For(from.size(), grainOfPositions, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      before.ToIndex<D>(from[i], points.data() + D * i);
-      before.ClampToDomain<D>(points.data() + D * i);
-    }
+  stages["start"].ForEach(from.size(), grainOfPositions, [&](std::int64_t i) {
+    before.ToIndex<D>(from[i], points.data() + D * i);
+    before.ClampToDomain<D>(points.data() + D * i);
   });
   Step step;
   step.Move = move({ points.data(), from.size() }, stages["move"]);

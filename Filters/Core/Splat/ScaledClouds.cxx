@@ -41,26 +41,23 @@ void deposit(const ScaledClouds<D>& clouds, const ImageGrid& grid, int exponent,
     std::ldexp(1.0, exponent - exponent / 2) };
   const GridSize<D> size = grid.Size<D>();
   const bool isAlone = progress.Threads().Concurrency() == 1;
-  progress.For(clouds.Centres.size(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
+  progress.ForEach(clouds.Centres.size(), grain, [&](std::int64_t i) {
+    const Point<D> centre = clouds.CentreIn(grid, i);
+    CloudRows<D> rows;
+    for (int axis = 0; axis < D; ++axis)
     {
-      const Point<D> centre = clouds.CentreIn(grid, i);
-      CloudRows<D> rows;
-      for (int axis = 0; axis < D; ++axis)
-      {
-        const auto a = static_cast<std::size_t>(axis);
-        rows[a] = cloudRow(centre[a], clouds.Length(i, axis), size[a]);
-      }
-      visitRows<D>(rows, clouds.Masses[i] * scales[0] * scales[1],
-        [&](std::int64_t row, std::int64_t plane, double mass) {
-          const std::int64_t line = D > 1 ? plane * size[D > 1 ? 1 : 0] + row : 0;
-          Counter* to = cells + line * size[0] + rows[0].First;
-          for (int n = 0; n < rows[0].Count; ++n)
-          {
-            add(to[n], mass * rows[0].Parts[n], isAlone);
-          }
-        });
+      const auto a = static_cast<std::size_t>(axis);
+      rows[a] = cloudRow(centre[a], clouds.Length(i, axis), size[a]);
     }
+    visitRows<D>(rows, clouds.Masses[i] * scales[0] * scales[1],
+      [&](std::int64_t row, std::int64_t plane, double mass) {
+        const std::int64_t line = D > 1 ? plane * size[D > 1 ? 1 : 0] + row : 0;
+        Counter* to = cells + line * size[0] + rows[0].First;
+        for (int n = 0; n < rows[0].Count; ++n)
+        {
+          add(to[n], mass * rows[0].Parts[n], isAlone);
+        }
+      });
   });
 }
 

@@ -84,12 +84,9 @@ void SurfaceMasses::ReadRelative(
   requireValid(found, density);
   this->Largest = found.Maximum > 0.0 ? found.Maximum : 1.0;
   this->Relative = LargeBuffer<double>(this->OnPoints ? density.Last : triangles);
-  progress.For(this->Relative.size(), Grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      this->Relative.data()[i] =
-        density.Values[this->OnPoints ? i : density.CellOf(i)] / this->Largest;
-    }
+  progress.ForEach(this->Relative.size(), Grain, [&](std::int64_t i) {
+    this->Relative.data()[i] =
+      density.Values[this->OnPoints ? i : density.CellOf(i)] / this->Largest;
   });
 }
 

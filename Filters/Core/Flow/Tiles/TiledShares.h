@@ -117,14 +117,11 @@ private:
     {
       const std::vector<double> values = fromBytes<double>(visitors);
       std::vector<double> found(values.size() / Values);
-      progress.For(
+      progress.ForEach(
         static_cast<std::int64_t>(found.size()), grain,
-        [&](std::int64_t first, std::int64_t last) {
-          for (std::int64_t i = first; i < last; ++i)
-          {
-            const double* box = values.data() + static_cast<std::size_t>(i) * Values;
-            found[static_cast<std::size_t>(i)] = this->Parent.MeasureOf(box, box[Dimension]);
-          }
+        [&](std::int64_t i) {
+          const double* box = values.data() + static_cast<std::size_t>(i) * Values;
+          found[static_cast<std::size_t>(i)] = this->Parent.MeasureOf(box, box[Dimension]);
         },
         units);
       return toBytes(found);
@@ -163,22 +160,19 @@ private:
     constexpr std::int64_t range = std::int64_t{ 1 } << 14;
     std::vector<std::vector<std::int64_t>> found(
       static_cast<std::size_t>((count + range - 1) / range));
-    progress.For(count, range, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
+    progress.ForEach(count, range, [&](std::int64_t i) {
+      std::vector<std::int64_t>& those = found[static_cast<std::size_t>(i / range)];
+      if (i % range == 0)
       {
-        std::vector<std::int64_t>& those = found[static_cast<std::size_t>(i / range)];
-        if (i % range == 0)
-        {
-          those.reserve(static_cast<std::size_t>(std::min(range, count - i)));
-        }
-        if (shares[i] > 0.0)
-        {
-          those.push_back(i);
-        }
-        else
-        {
-          measures[i] = 0.0;
-        }
+        those.reserve(static_cast<std::size_t>(std::min(range, count - i)));
+      }
+      if (shares[i] > 0.0)
+      {
+        those.push_back(i);
+      }
+      else
+      {
+        measures[i] = 0.0;
       }
     });
     return { found, this->Tiles.Count(),

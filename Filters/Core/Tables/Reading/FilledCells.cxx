@@ -68,12 +68,8 @@ double fillEmptyParts(const double* covered, std::int64_t cells, FilledCells fil
       }
     }));
   const double empty = densityOfEmptyCells(rule, filled);
-  progress.For(cells, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t cell = first; cell < last; ++cell)
-    {
-      values[cell] += (1.0 - shareOf(cell)) * empty;
-    }
-  });
+  progress.ForEach(
+    cells, grain, [&](std::int64_t cell) { values[cell] += (1.0 - shareOf(cell)) * empty; });
   return empty;
 }
 
