@@ -308,17 +308,20 @@ private:
     const auto planes = static_cast<std::int64_t>(this->Nodes[last].size());
     const std::int64_t rows = Dimension == 3 ? static_cast<std::int64_t>(this->Nodes[1].size()) : 1;
     const Executor& threads = progress.Threads();
-    threads.ForEach(planes, 1, [&](std::int64_t plane) {
-      for (std::int64_t j = 0; j < rows; ++j)
+    threads.For(planes, 1, [&](std::int64_t first, std::int64_t end) {
+      for (std::int64_t plane = first; plane < end; ++plane)
       {
-        double* row = records + plane * stride[last] + (Dimension == 3 ? j * stride[1] : 0);
-        for (std::int64_t i = 1; i < columns; ++i)
+        for (std::int64_t j = 0; j < rows; ++j)
         {
-          add(row + i * record, row + (i - 1) * record, record);
-        }
-        if (j > 0)
-        {
-          add(row, row - stride[1], columns * record);
+          double* row = records + plane * stride[last] + (Dimension == 3 ? j * stride[1] : 0);
+          for (std::int64_t i = 1; i < columns; ++i)
+          {
+            add(row + i * record, row + (i - 1) * record, record);
+          }
+          if (j > 0)
+          {
+            add(row, row - stride[1], columns * record);
+          }
         }
       }
     });
