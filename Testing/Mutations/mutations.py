@@ -106,7 +106,7 @@ OTHERS = [
     E(CORE + "Tables/BoxShare.cxx", "«std::clamp(this->Centre[axis] + h * this->Aspect[axis], 0.0, size)»",
       "this->Centre[axis] + h * this->Aspect[axis]"),
     E(CORE + "Flow/MapDerivatives.cxx", "«below && above» ? 2.0 * this->Step[axis]", "below || above"),
-    E(CORE + "Geometry/BoxTree.h", "withEqual ? «value(item) <= pivot»",
+    E(CORE + "Geometry/Trees/BoxTree.h", "withEqual ? «value(item) <= pivot»",
       "value(item) < pivot || &item == items + first"),
     E(CORE + "Flow/WeightedMean.cxx", "begin += «block»", "block + 1"),
     # the bridge

@@ -225,7 +225,7 @@ ParameterizationReport AreaPreservingParameterization::Run(
     {
       throw;
     }
-    if (this->Corners.Number() > 0)
+    if (!this->Corners.Points.empty())
     {
       throw Failure(std::string(defect.what()) +
         "; or give no Corners, which only a disk can have: " + "then it is cut along seams");

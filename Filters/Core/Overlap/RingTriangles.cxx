@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Overlap/RingTriangles.h"
 
-#include "Core/Geometry/Bins.h"
+#include "Core/Geometry/Trees/Bins.h"
 #include "Core/Overlap/EdgeCrossings.h"
 #include "Core/Overlap/EdgeOrder.h"
 #include "Core/Overlap/MonotoneStrips.h"

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_LocalMap_h
 #define RectifiedTransport_LocalMap_h
 
-#include "Core/Geometry/Bins.h"
+#include "Core/Geometry/Trees/Bins.h"
 #include "Core/Parameterization/ConformalMap.h"
 #include "Core/Parameterization/LocalSystem.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Parameterization/LocalSystem.h"
 
-#include "Core/Geometry/Bins.h"
+#include "Core/Geometry/Trees/Bins.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Parameterization/MassRaster.h"
 
-#include "Core/Geometry/Bins.h"
+#include "Core/Geometry/Trees/Bins.h"
 #include "Core/Parallel/Stages.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/PowerCells/SiteTree.h"
 
-#include "Core/Geometry/BoxTree.h"
+#include "Core/Geometry/Trees/BoxTree.h"
 #include "Core/Parallel/Progress.h"
 
 #include <limits>

@@ -5,8 +5,8 @@
 #ifndef RectifiedTransport_ReachTree_h
 #define RectifiedTransport_ReachTree_h
 
-#include "Core/Geometry/BlockTree.h"
 #include "Core/Geometry/Points.h"
+#include "Core/Geometry/Trees/BlockTree.h"
 #include "Core/Relaxation/Kernels/RepulsionKernels.h"
 
 #include <algorithm>

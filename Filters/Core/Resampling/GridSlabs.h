@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_GridSlabs_h
 #define RectifiedTransport_GridSlabs_h
 
-#include "Core/Geometry/Bins.h"
 #include "Core/Geometry/ImageGrid.h"
+#include "Core/Geometry/Trees/Bins.h"
 #include "Core/Overlap/Overlap.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Resampling/CellValues.h"

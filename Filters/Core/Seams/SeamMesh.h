@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_SeamMesh_h
 #define RectifiedTransport_SeamMesh_h
 
-#include "Core/Geometry/Bins.h"
 #include "Core/Geometry/Points.h"
+#include "Core/Geometry/Trees/Bins.h"
 #include "Core/Mesh/SurfaceEdges.h"
 #include "Core/Parallel/Context.h"
 

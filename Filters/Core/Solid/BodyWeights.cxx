@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Solid/BodyWeights.h"
 
-#include "Core/Geometry/Bins.h"
 #include "Core/Geometry/PointBounds.h"
+#include "Core/Geometry/Trees/Bins.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Solid/SurfaceCuts.h"
 

@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_DotTree_h
 #define RectifiedTransport_DotTree_h
 
-#include "Core/Geometry/BlockTree.h"
+#include "Core/Geometry/Trees/BlockTree.h"
 #include "Core/SurfaceRelaxation/Kernels/DotKernels.h"
 
 #include <cstdint>

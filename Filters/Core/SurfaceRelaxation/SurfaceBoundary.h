@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_SurfaceBoundary_h
 #define RectifiedTransport_SurfaceBoundary_h
 
-#include "Core/Geometry/ItemTree.h"
+#include "Core/Geometry/Trees/ItemTree.h"
 #include "Core/SurfaceRelaxation/DotTree.h"
 #include "Core/SurfaceRelaxation/WalkedSurface.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SurfaceSampling/FlatLocator.h"
 
-#include "Core/Geometry/BoxTree.h"
 #include "Core/Geometry/ExactOrientation.h"
+#include "Core/Geometry/Trees/BoxTree.h"
 
 #include <algorithm>
 #include <limits>

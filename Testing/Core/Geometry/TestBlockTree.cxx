@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A tree over blocks finds what a loop over all of them finds.
-#include "Core/Geometry/BlockTree.h"
+#include "Core/Geometry/Trees/BlockTree.h"
 
 #include <gtest/gtest.h>
 

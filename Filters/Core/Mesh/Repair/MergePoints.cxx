@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/Repair/MergePoints.h"
 
-#include "Core/Geometry/Bins.h"
 #include "Core/Geometry/EqualPoints.h"
 #include "Core/Geometry/ReproducibleMath.h"
+#include "Core/Geometry/Trees/Bins.h"
 #include "Core/Mesh/Trees.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"

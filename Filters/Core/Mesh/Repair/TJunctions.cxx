@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/Repair/TJunctions.h"
 
-#include "Core/Geometry/ItemTree.h"
 #include "Core/Geometry/PointBounds.h"
+#include "Core/Geometry/Trees/ItemTree.h"
 #include "Core/Mesh/EdgeSides.h"
 #include "Core/Mesh/PlaceOnSide.h"
 #include "Core/Parallel/Progress.h"

@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_RepulsionKernels_h
 #define RectifiedTransport_RepulsionKernels_h
 
-#include "Core/Geometry/BlockBounds.h"
+#include "Core/Geometry/Trees/BlockBounds.h"
 #include "Core/Parallel/InstructionSet.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SiteCells/EqualMasses/EqualizeSiteMasses.h"
 
-#include "Core/Geometry/Bins.h"
+#include "Core/Geometry/Trees/Bins.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/EqualMasses/BorderMaxFlow.h"
 #include "Core/SiteCells/PixelRows.h"

@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_BlockTree_h
 #define RectifiedTransport_BlockTree_h
 
-#include "Core/Geometry/BlockBounds.h"
+#include "Core/Geometry/Trees/BlockBounds.h"
 
 #include <algorithm>
 #include <cstdint>

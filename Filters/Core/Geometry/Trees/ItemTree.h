@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_ItemTree_h
 #define RectifiedTransport_ItemTree_h
 
-#include "Core/Geometry/BoxTree.h"
 #include "Core/Geometry/PointBounds.h"
+#include "Core/Geometry/Trees/BoxTree.h"
 
 #include <cstddef>
 #include <cstdint>
