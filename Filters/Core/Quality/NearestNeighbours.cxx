@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Quality/NearestNeighbours.h"
 
-#include "Core/Geometry/PointBounds.h"
+#include "Core/Geometry/Trees/ItemTree.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"

@@ -54,7 +54,7 @@ SurfaceBoundary::SurfaceBoundary(const WalkedSurface& surface, Progress& progres
 double SurfaceBoundary::MemoryFor(double sides)
 {
   // Leaves are half full or more, about; the vector of boxes doubles as it grows.
-  return sides * (sizeof(std::int64_t) + 3.0 * 2.0 * sizeof(ItemTree::Box) / (0.5 * sidesOfLeaf));
+  return sides * (sizeof(std::int64_t) + 3.0 * 2.0 * sizeof(ItemBox) / (0.5 * sidesOfLeaf));
 }
 
 void SurfaceBoundary::FindNear(

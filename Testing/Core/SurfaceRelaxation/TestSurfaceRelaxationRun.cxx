@@ -198,7 +198,8 @@ TEST(SurfaceRelaxationRun, QueriesOften)
     int queries = 0;
     std::clock_t longest = 0;
     std::clock_t last = std::clock();
-    const Context context(SerialExecutor(), {}, [&]() {
+    const SerialExecutor executor;
+    const Context context(executor, {}, [&]() {
       const std::clock_t now = std::clock();
       longest = std::max(longest, now - last);
       last = now;

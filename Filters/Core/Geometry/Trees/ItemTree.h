@@ -14,16 +14,17 @@
 namespace RectifiedTransport
 {
 
+// The bounds of a range of items in a tree, see makeBoxTree.
+struct ItemBox : PointBounds
+{
+  std::int64_t First; // items
+  std::int64_t Last;
+  std::int64_t Second; // of the children, after the next one; -1 in a leaf
+};
+
 class ItemTree
 {
 public:
-  struct Box : PointBounds
-  {
-    std::int64_t First; // items
-    std::int64_t Last;
-    std::int64_t Second; // of the children, after the next one; -1 in a leaf
-  };
-
   // bound(item, box) adds an item to a box. Boxes of more than `itemsOfLeaf` items are divided
   // across their longest side, by value(item, axis). Throws std::bad_alloc and Cancelled.
   template <class Bound, class Value>
@@ -35,10 +36,10 @@ public:
     {
       return;
     }
-    this->Boxes = makeBoxTree<Box>(
+    this->Boxes = makeBoxTree<ItemBox>(
       static_cast<std::int64_t>(this->Items.size()),
       [&](std::int64_t first, std::int64_t last) {
-        Box box{ {}, first, last, -1 };
+        ItemBox box{ {}, first, last, -1 };
         for (std::int64_t i = first; i < last; ++i)
         {
           bound(this->Items[static_cast<std::size_t>(i)], box);
@@ -46,7 +47,7 @@ public:
         progress.Add(last - first);
         return box;
       },
-      [&](const Box& box) {
+      [&](const ItemBox& box) {
         if (box.Last - box.First <= itemsOfLeaf)
         {
           return box.First;
@@ -75,7 +76,7 @@ private:
   template <class IsNear, class Visit>
   void VisitNear(std::int64_t at, const IsNear& isNear, const Visit& visit) const
   {
-    const Box& box = this->Boxes[static_cast<std::size_t>(at)];
+    const ItemBox& box = this->Boxes[static_cast<std::size_t>(at)];
     if (!isNear(box))
     {
       return;
@@ -93,7 +94,7 @@ private:
   }
 
   std::vector<std::int64_t> Items;
-  std::vector<Box> Boxes;
+  std::vector<ItemBox> Boxes;
 };
 
 } // namespace RectifiedTransport
