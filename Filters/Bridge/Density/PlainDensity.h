@@ -6,6 +6,7 @@
 
 #include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/ImageGrid.h"
+#include "Core/Parallel/Stages.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
@@ -15,7 +16,6 @@
 namespace RectifiedTransport
 {
 class DensityValues;
-class Progress;
 } // namespace RectifiedTransport
 
 namespace RectifiedTransport::Bridge

@@ -4,6 +4,7 @@
 #include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/PlainDensity.h"
 #include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/Memory.h"
 #include "Core/Distance/ClassicalScaling.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
 

@@ -10,6 +10,7 @@
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Messages/Failure.h"
+#include "Core/Messages/PartText.h"
 
 #include "vtkCellData.h"
 #include "vtkDataObject.h"
