@@ -289,7 +289,7 @@ int vtkCollectiveAlgorithm::RequestDataObject(
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
     const char* type = this->GetOutputPortInformation(port)->Get(vtkDataObject::DATA_TYPE_NAME());
-    if (std::string(type) == "vtkPointSet")
+    if (type && std::string(type) == "vtkPointSet")
     {
       makeOutputLike(vtkPointSet::GetData(inputVector[0]), outputVector, port);
     }

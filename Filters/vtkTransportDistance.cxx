@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -253,19 +254,23 @@ bool vtkTransportDistance::Add(vtkDataObject* data, const std::string& title,
   const std::string& name, int number, double time, RectifiedTransport::Progress& progress)
 {
   Stages stages(progress, { { "input", 1 }, { "values", 1 }, { "maps", 8 } });
-  const std::unique_ptr<InputDensity> density =
-    withName(title, [&]() { return this->ReadDensity(data, stages["input"], 0, number); });
-  if (!density)
+  std::optional<DistanceInput> input = withName(title, [&]() {
+    const std::unique_ptr<InputDensity> density =
+      this->ReadDensity(data, stages["input"], 0, number);
+    if (density)
+    {
+      density->SetInputName(title);
+    }
+    return density ? std::optional(readDistanceInput(*density, stages["values"])) : std::nullopt;
+  });
+  if (!input)
   {
     return false;
   }
-  density->SetInputName(title);
-  DistanceInput input =
-    withName(title, [&]() { return readDistanceInput(*density, stages["values"]); });
-  input.Title = title;
-  input.Name = name;
-  input.Time = time;
-  this->Internals->Distances.Add(std::move(input), stages["maps"]);
+  input->Title = title;
+  input->Name = name;
+  input->Time = time;
+  this->Internals->Distances.Add(std::move(*input), stages["maps"]);
   return true;
 }
 

@@ -25,9 +25,19 @@ template <int D>
 std::int64_t readSeeds(vtkPointSet* points, const CountedPoints& counted, const std::string& what,
   const ImageGrid& grid, Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds)
 {
-  visitPoints(points, what, progress,
-    [&](std::int64_t i, const double* x) { std::copy_n(x, 3, physicalSeeds[i]); });
   std::atomic<std::int64_t> moved{ 0 };
+  const bool areAll = counted.Count() == points->GetNumberOfPoints();
+  visitPoints(points, what, progress, [&](std::int64_t i, const double* x) {
+    std::copy_n(x, 3, physicalSeeds[i]);
+    if (areAll && moveToDomain<D>(grid, physicalSeeds[i], indexSeeds[i]))
+    {
+      ++moved;
+    }
+  });
+  if (areAll)
+  {
+    return moved;
+  }
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   progress.ForEach(counted.Count(), grain, [&](std::int64_t number) {
     double* seed = physicalSeeds[counted.Point(number)];

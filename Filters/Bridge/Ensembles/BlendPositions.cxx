@@ -47,10 +47,9 @@ std::shared_ptr<const LinearizedMap> make(InputDensity& density,
   map->TotalMass = flow.TotalMass();
   map->Positions = newArray<vtkDoubleArray>("Positions", 3, particles);
   const double bytes = D == 3 ? 0.0 : static_cast<double>(particles * D) * sizeof(double);
-  map->Flow = withMemory({ "the particles", bytes }, [&]() {
-    return writePivot<D>(flow.Flow<D>(), density.Grid(), pivot, settings.Share,
-      { map->Positions->GetPointer(0), particles }, settings.Options, stages["positions"]);
-  });
+  requireMemory({ "the particles", bytes });
+  map->Flow = writePivot<D>(flow.Flow<D>(), density.Grid(), pivot, settings.Share,
+    { map->Positions->GetPointer(0), particles }, settings.Options, stages["positions"]);
   return map;
 }
 

@@ -23,20 +23,6 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-DistanceInput read(InputDensity& density, Progress& progress)
-{
-  DistanceInput input;
-  input.Reading = density.HowRead();
-  input.Grid = density.Grid();
-  input.Values = wholeValues(density, "Density", progress);
-  density.ReleaseGathered();
-  const DensityArray<1, double> values(input.Values->GetPointer(0), { input.Grid.NumberOfCells() });
-  input.Mass = requireMass(density, values, progress);
-  input.Identity.AddArray(input.Values);
-  input.Identity.Hash(progress);
-  return input;
-}
-
 std::vector<double> matrixOf(std::size_t inputs, const std::vector<DistancePair>& pairs)
 {
   std::vector<double> matrix(inputs * inputs, 0.0);
@@ -84,7 +70,16 @@ std::vector<std::string> columnNames(const std::vector<DistanceInput>& inputs)
 
 DistanceInput readDistanceInput(InputDensity& density, Progress& progress)
 {
-  return read(density, progress);
+  DistanceInput input;
+  input.Reading = density.HowRead();
+  input.Grid = density.Grid();
+  input.Values = wholeValues(density, "Density", progress);
+  density.ReleaseGathered();
+  const DensityArray<1, double> values(input.Values->GetPointer(0), { input.Grid.NumberOfCells() });
+  input.Mass = requireMass(density, values, progress);
+  input.Identity.AddArray(input.Values);
+  input.Identity.Hash(progress);
+  return input;
 }
 
 void DensityDistances::Begin(DistanceMethod method)

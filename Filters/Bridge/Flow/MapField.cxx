@@ -3,7 +3,7 @@
 
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Core/Geometry/Distributed/BoxExchange.h"
-#include "Core/Messages/PartText.h"
+
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/ParticleExchange.h"
 
-#include "Bridge/Ranks/ImagePieces.h"
-
 #include "Bridge/Data/ParticleCells.h"
 #include "Bridge/Ranks/CommonArrays.h"
+#include "Bridge/Ranks/ImagePieces.h"
 #include "Core/Geometry/Distributed/PlaceOwners.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Ranks.h"

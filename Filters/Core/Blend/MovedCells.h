@@ -8,6 +8,8 @@
 #include "Core/Parallel/RankShare.h"
 
 #include <algorithm>
+#include <cstddef>
+
 namespace RectifiedTransport
 {
 

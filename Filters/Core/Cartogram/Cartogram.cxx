@@ -2,12 +2,12 @@
 #include "Core/Cartogram/Cartogram.h"
 
 #include "Core/Cartogram/EdgeLengths.h"
-#include "Core/Cartogram/PlaneBounds.h"
 #include "Core/Cartogram/RegionRaster.h"
 #include "Core/Cartogram/RegionValues.h"
 #include "Core/Cartogram/Sea.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/EqualPoints.h"
+#include "Core/Geometry/PointBounds.h"
 #include "Core/Parallel/Stages.h"
 
 #include <algorithm>
@@ -439,7 +439,7 @@ private:
 
 CartogramBox boxAround(const RegionMap& map, const CartogramOptions& options)
 {
-  const PlaneBounds bounds(map.Points());
+  const auto bounds = Bounds<2>::Of(map.Points());
   const double side = bounds.LongestSide() * (1.0 + 2.0 * options.Margin);
   return { { 0.5 * (bounds.Low[0] + bounds.High[0] - side),
              0.5 * (bounds.Low[1] + bounds.High[1] - side) },

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Cartogram/MapFellows.h"
 
-#include "Core/Cartogram/PlaneBounds.h"
+#include "Core/Geometry/PointBounds.h"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ struct Reach
 
 std::array<Reach, 2> reachOf(const RegionMap& map, double side)
 {
-  const PlaneBounds bounds(map.Points());
+  const auto bounds = Bounds<2>::Of(map.Points());
   const double margin = 0.5 * (side - bounds.LongestSide());
   constexpr double rounding = 1e-6;
   std::array<Reach, 2> reach;
@@ -72,11 +72,13 @@ MapFellows::MapFellows(const MapPlace& place, const RegionMap& map)
 void MapFellows::AddOverlay(std::vector<Point<3>> points)
 {
   this->Place.Projection.Require(points, "Overlay");
-  for (Point<3>& point : points)
+  const std::size_t first = this->Moved.size();
+  this->Moved.resize(first + points.size());
+  this->Before.resize(this->Moved.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    point = this->Place.Projection.Project(point);
-    this->Moved.push_back(this->Place.ToIndex(point));
-    this->Before.push_back(this->Moved.back());
+    points[i] = this->Place.Projection.Project(points[i]);
+    this->Moved[first + i] = this->Before[first + i] = this->Place.ToIndex(points[i]);
   }
   this->OverlayBefore.insert(this->OverlayBefore.end(), points.begin(), points.end());
 }

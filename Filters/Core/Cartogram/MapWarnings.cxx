@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Cartogram/MapWarnings.h"
 
-#include "Core/Cartogram/PlaneBounds.h"
+#include "Core/Geometry/PointBounds.h"
 #include "Core/Messages/PartText.h"
 
 #include <algorithm>
@@ -89,7 +89,7 @@ private:
 bool looksLikeDegrees(const std::vector<Point<3>>& places)
 {
   constexpr double wide = 20.0;
-  const PlaneBounds bounds(places);
+  const auto bounds = Bounds<2>::Of(places);
   const Point<2>& low = bounds.Low;
   const Point<2>& high = bounds.High;
   const bool isOnEarth =

@@ -151,7 +151,7 @@ void PdfDrawing::WriteObject(std::size_t number, std::string_view text)
 
 void PdfDrawing::WriteStream(std::size_t number, const std::string& entries, std::string_view data)
 {
-  const std::string packed = this->Packed(data);
+  const std::string packed = this->Pack(data);
   this->WriteObject(number,
     "<< " + entries + " /Filter /FlateDecode /Length " + std::to_string(packed.size()) +
       " >>\nstream\n" + packed + "\nendstream");

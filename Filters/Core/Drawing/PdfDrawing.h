@@ -27,7 +27,7 @@ public:
   // The file must outlive this object.
   PdfDrawing(OutputFile& file, Compress* compress)
     : File(file)
-    , Packed(compress)
+    , Pack(compress)
   {
   }
 
@@ -53,7 +53,7 @@ private:
   void WriteContent();
 
   OutputFile& File;
-  Compress* const Packed;
+  Compress* const Pack;
   std::vector<std::int64_t> Offsets; // of the objects in the file
   std::vector<std::size_t> Contents; // the page's streams
   std::string Text;                  // of the next one

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// On which side of a line a point is, exactly and never on the line. Points are moved by symbolic
-// infinitesimals (simulation of simplicity), so that no three are collinear and no two coincide or
-// have the same height. Touching, overlapping and duplicate parts then need no special case.
+// On which side of a line a point is, exactly; and, except for turnOf, never on the line: points
+// are moved by symbolic infinitesimals (simulation of simplicity), so that no three are collinear
+// and no two coincide or have the same height. Touching, overlapping and duplicate parts then need
+// no special case.
 #ifndef RectifiedTransport_ExactOrientation_h
 #define RectifiedTransport_ExactOrientation_h
 

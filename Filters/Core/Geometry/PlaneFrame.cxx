@@ -13,11 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
-double lengthOf(const Point<3>& vector)
-{
-  return std::sqrt(dot(vector, vector));
-}
-
+// The vector must not be zero.
 void normalize(Point<3>& vector)
 {
   const double length = lengthOf(vector);

@@ -28,6 +28,19 @@ struct Bounds
     }
   }
 
+  // The bounds of places along their first axes.
+  template <class Places>
+  static Bounds Of(const Places& places)
+  {
+    Bounds bounds;
+    for (const auto& place : places)
+    {
+      bounds.Add(place.data());
+    }
+    return bounds;
+  }
+
+  double LongestSide() const { return this->Length(this->Longest()); }
   double Length(std::size_t axis) const { return this->High[axis] - this->Low[axis]; }
   // The axis of the longest side.
   std::size_t Longest() const

@@ -5,6 +5,7 @@
 
 #include "Core/Geometry/Points.h"
 
+#include <cmath>
 #include <cstdint>
 
 namespace RectifiedTransport
@@ -29,6 +30,7 @@ inline Point<3> operator/(const Point<3>& a, double divisor)
 {
   return { a[0] / divisor, a[1] / divisor, a[2] / divisor };
 }
+
 inline double dot(const Point<3>& a, const Point<3>& b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -38,10 +40,17 @@ inline Point<3> cross(const Point<3>& a, const Point<3>& b)
 {
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
+
 inline double squaredDistance(const Point<3>& a, const Point<3>& b)
 {
   return dot(a - b, a - b);
 }
+
+inline double lengthOf(const Point<3>& vector)
+{
+  return std::sqrt(dot(vector, vector));
+}
+
 inline Point<3> pointAt(ConstPointSpan<3> points, std::int64_t i)
 {
   return { points[i][0], points[i][1], points[i][2] };

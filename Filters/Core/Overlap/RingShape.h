@@ -24,17 +24,16 @@ inline bool areFinite(const std::vector<Point<3>>& ring)
 // Whether not all points are on a line.
 inline bool hasArea(const std::vector<Point<3>>& ring)
 {
-  const auto length = [](const Point<3>& way) { return std::sqrt(dot(way, way)); };
   Point<3> longest{ 0.0, 0.0, 0.0 };
   for (const Point<3>& place : ring)
   {
     const Point<3> offset = place - ring.front();
-    longest = length(offset) > length(longest) ? offset : longest;
+    longest = lengthOf(offset) > lengthOf(longest) ? offset : longest;
   }
   constexpr double rounding = 1e-14;
   const double least = rounding * dot(longest, longest);
   return std::any_of(ring.begin(), ring.end(),
-    [&](const Point<3>& place) { return length(cross(longest, place - ring.front())) > least; });
+    [&](const Point<3>& place) { return lengthOf(cross(longest, place - ring.front())) > least; });
 }
 
 // A quick test for rings of few points, as most have; false for others.

@@ -101,11 +101,11 @@ void visitCorners(
   }
 }
 
-using Bounds = Eigen::AlignedBox3d;
+using PhysicalBox = Eigen::AlignedBox3d;
 
 // The eigenvectors of the points' covariance, by growing eigenvalue.
 Eigen::Matrix3d principalAxes(
-  const CellSets& sets, const MassCells& cells, const Bounds& bounds, Progress& progress)
+  const CellSets& sets, const MassCells& cells, const PhysicalBox& bounds, Progress& progress)
 {
   const Vector3d middle = 0.5 * (bounds.min() + bounds.max());
   const double unit = bounds.sizes().maxCoeff();
@@ -134,7 +134,7 @@ Vector3d roundedDirection(Vector3d v, Eigen::Index& largest)
 }
 
 // Axes of the shortest sides get no length.
-void flatten(int dimension, Bounds& box)
+void flatten(int dimension, PhysicalBox& box)
 {
   Vector3d sides = box.sizes();
   for (int flat = dimension; flat < 3; ++flat)
@@ -186,7 +186,7 @@ CellFrame CellFrame::Of(const CellSets& sets, const MassCells& cells, Progress& 
     const Vector3d direction = roundedDirection(
       principalAxes(sets, cells, frame.Box, progress).col(dimension == 2 ? 0 : 2), main);
     frame.Axes = axesAround(direction, main);
-    frame.Box = Bounds();
+    frame.Box = PhysicalBox();
     const Eigen::Matrix3d toFrame = frame.Axes.transpose();
     visitCorners(sets, cells, progress, [&](const Vector3d& x) { frame.Box.extend(toFrame * x); });
     Vector3d sides = frame.Box.sizes();

@@ -9,7 +9,7 @@ namespace RectifiedTransport
 
 void blankCellsOfHiddenPoints(const std::array<int, 3>& dimensions, const unsigned char* points,
   const unsigned char* cells, std::int64_t firstRow, std::int64_t lastRow, unsigned char* flags,
-  const BlankingFlags& values)
+  BlankingFlags values)
 {
   const std::int64_t columns = std::max(1, dimensions[0] - 1);
   const std::int64_t rows = std::max(1, dimensions[1] - 1);

@@ -20,7 +20,7 @@ struct BlankingFlags
 // `dimensions` are numbers of points; 1 is no axis.
 void blankCellsOfHiddenPoints(const std::array<int, 3>& dimensions, const unsigned char* points,
   const unsigned char* cells, std::int64_t firstRow, std::int64_t lastRow, unsigned char* flags,
-  const BlankingFlags& values);
+  BlankingFlags values);
 
 } // namespace RectifiedTransport
 

@@ -14,13 +14,11 @@ namespace RectifiedTransport
 {
 
 // Triangles of the same three points; each has three edges of more than two triangles. Returns the
-// triangles to drop, in ascending order, by three rules:
-// * Triangles of one direction count once, and those of opposite directions cancel each other:
-// faces
-//   that two solids share.
-// * One of an odd number stays, none of an even number: the same with random directions.
-// * One stays: duplicate polygons.
-// O(n log n) for n triangles with such edges.
+// triangles to drop, in ascending order, by three rules. By the first, triangles of one direction
+// count once, and those of opposite directions cancel each other, as faces that two solids share.
+// By the second, one of an odd number stays and none of an even number: the same with random
+// directions. By the third, one stays: duplicate polygons. O(n log n) for n triangles with such
+// edges.
 std::array<std::vector<std::int64_t>, 3> findRepeated(
   const TriangleSurface& surface, const SurfaceEdges& edges);
 

@@ -80,16 +80,14 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
     ++tables.LevelCount;
   }
   const std::int64_t widest = std::int64_t{ 1 } << ((tables.LevelCount - 1) * levelShift);
-  double estimate = TableView<Dimension>::Record;
+  if (TableView<Dimension>::Record * numberOfCorners<Dimension>(size) > 1e17)
+  {
+    throw std::bad_alloc();
+  }
   const std::int64_t words = setGrid<Dimension>(tables, size);
   for (int axis = 0; axis < Dimension; ++axis)
   {
     tables.EvenLevels[axis] = size[axis] % widest == 0;
-    estimate *= tables.Size[axis] + 1.0;
-  }
-  if (estimate > 1e17)
-  {
-    throw std::bad_alloc();
   }
   std::int64_t total = 0;
   std::int64_t offset[TableView<Dimension>::MaximumLevels];

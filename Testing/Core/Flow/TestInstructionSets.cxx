@@ -138,14 +138,21 @@ TEST(InstructionSets, SameBitsOfARow)
 // What the environment asks for, where the processor has it.
 TEST(InstructionSets, Chosen)
 {
-  const char* wanted = std::getenv("RECTIFIEDTRANSPORT_ISA");
+  const char* asked = std::getenv("RECTIFIEDTRANSPORT_ISA");
   InstructionSet expected = widestInstructionSet();
   for (const InstructionSet set : runnableSets())
   {
-    expected = wanted && std::string(wanted) == nameOf(set) ? set : expected;
+    expected = asked && std::string(asked) == nameOf(set) ? set : expected;
   }
   EXPECT_EQ(instructionSet(), expected);
-  EXPECT_EQ(flowKernels<2>().Advect, flowKernels<2>(expected).Advect);
+  const auto expectFlow = [&](auto kernels, auto wanted) {
+    EXPECT_EQ(kernels.Advect, wanted.Advect);
+    EXPECT_EQ(kernels.Advance, wanted.Advance);
+    EXPECT_EQ(kernels.Read, wanted.Read);
+  };
+  expectFlow(flowKernels<1>(), flowKernels<1>(expected));
+  expectFlow(flowKernels<2>(), flowKernels<2>(expected));
+  expectFlow(flowKernels<3>(), flowKernels<3>(expected));
   EXPECT_EQ(&tableKernels(), &tableKernels(expected));
 }
 

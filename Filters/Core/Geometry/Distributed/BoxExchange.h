@@ -45,7 +45,7 @@ void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks);
 void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const Ranks& ranks,
   const TupleMemory& from, const TupleMemory& to);
 // Within one array with the tuples of the box `all`: this rank has those that it holds and gets the
-// wanted ones.
+// wanted ones. Ranks that hold a tuple have the same value of it.
 void completeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const TupleBox& all,
   const Ranks& ranks, const TupleMemory& array);
 

@@ -63,8 +63,8 @@ protected:
   unsigned char Mask = 0;
 };
 
-// A reader of arrays whose tuples `Tuples` visits in runs, as Bridge/Density/ArrayReader.cxx has
-// them.
+// A reader of arrays whose tuples `Tuples` visits in runs, which is made of an
+// array.
 template <class Tuples>
 class TupleReader final : public DensityReader
 {

@@ -3,7 +3,6 @@
 #ifndef RectifiedTransport_FilledCells_h
 #define RectifiedTransport_FilledCells_h
 
-#include "Bridge/Run/Settings/MissingData.h"
 #include "Core/Parallel/ExactSum.h"
 #include "Core/Tables/Reading/DensityRules.h"
 

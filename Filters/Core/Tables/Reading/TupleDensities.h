@@ -84,39 +84,40 @@ void readTuples(const Tuples& begin, int components, std::int64_t count, const D
   double white, double* __restrict values)
 {
   // A loop of its own for each kind, so that the processor's vectors do it.
-  const auto setAll = [=](const auto& valueOf) {
+  const auto setAll = [count](double* __restrict to, const auto& valueOf) {
     for (std::int64_t i = 0; i < count; ++i)
     {
-      values[i] = valueOf(i);
+      to[i] = valueOf(i, to[i]);
     }
   };
   const bool isColour = rules.Component == Luminance;
   if (rules.Component == Magnitude)
   {
-    setAll([&](std::int64_t i) { return magnitude(begin, components, i); });
+    setAll(values, [&](std::int64_t i, double) { return magnitude(begin, components, i); });
   }
   else if (isColour && components >= 3)
   {
-    setAll([&](std::int64_t i) { return luminance(begin(i, 0), begin(i, 1), begin(i, 2)); });
+    setAll(values,
+      [&](std::int64_t i, double) { return luminance(begin(i, 0), begin(i, 1), begin(i, 2)); });
   }
   else
   {
     const int c = isColour ? 0 : rules.Component;
-    setAll([&](std::int64_t i) { return static_cast<double>(begin(i, c)); });
+    setAll(values, [&](std::int64_t i, double) { return static_cast<double>(begin(i, c)); });
   }
   const int alpha = components - 1;
   if (isColour && components != 3)
   {
-    setAll([&](std::int64_t i) {
+    setAll(values, [&](std::int64_t i, double known) {
       const double opacity = white > 0.0 ? static_cast<double>(begin(i, alpha)) / white : 1.0;
-      const double ink = (white - values[i]) * opacity;
+      const double ink = (white - known) * opacity;
       return rules.Invert ? positivePart(ink) : white - ink;
     });
   }
   else if (rules.Invert)
   {
-    setAll([&](std::int64_t i) {
-      const double value = white - values[i];
+    setAll(values, [&](std::int64_t, double known) {
+      const double value = white - known;
       return isColour ? positivePart(value) : value;
     });
   }
