@@ -106,16 +106,16 @@ void pqDensityComponentWidget::updateList()
   const int count = array ? array->GetNumberOfComponents() : 0;
   const int automatic = array
     ? RectifiedTransport::Bridge::automaticComponent(array->GetDataType(), count)
-    : RectifiedTransport::Bridge::AutoComponent;
-  this->List->addItem(automatic == RectifiedTransport::Bridge::Magnitude ? tr("Auto (magnitude)")
-      : automatic == RectifiedTransport::Bridge::Luminance               ? tr("Auto (luminance)")
-                                                                         : tr("Auto"),
-    RectifiedTransport::Bridge::AutoComponent);
-  if (count <= RectifiedTransport::Bridge::MostColorComponents)
+    : RectifiedTransport::AutoComponent;
+  this->List->addItem(automatic == RectifiedTransport::Magnitude ? tr("Auto (magnitude)")
+      : automatic == RectifiedTransport::Luminance               ? tr("Auto (luminance)")
+                                                                 : tr("Auto"),
+    RectifiedTransport::AutoComponent);
+  if (count <= RectifiedTransport::MostColorComponents)
   {
-    this->List->addItem(tr("Luminance"), RectifiedTransport::Bridge::Luminance);
+    this->List->addItem(tr("Luminance"), RectifiedTransport::Luminance);
   }
-  this->List->addItem(tr("Magnitude"), RectifiedTransport::Bridge::Magnitude);
+  this->List->addItem(tr("Magnitude"), RectifiedTransport::Magnitude);
   for (int i = 0; i < count; ++i)
   {
     const QString name = array->GetComponentName(i);
