@@ -15,7 +15,8 @@ namespace RectifiedTransport
 double bytesOfIntervalFlows(const SeriesStep& from, const SeriesStep& to);
 
 // Both steps have mass, and the box contains their grids; lengths are in its LengthScale. The
-// steps need not outlive the plan: its map or its flows are made. Collective. Throws std::bad_alloc and Cancelled.
+// steps need not outlive the plan: its map or its flows are made. Collective. Throws std::bad_alloc
+// and Cancelled.
 template <int D>
 std::unique_ptr<const TransportPlan<D>> planInterval(const SeriesStep& from, const SeriesStep& to,
   const ImageGrid& box, bool isOptimal, Progress& progress);
