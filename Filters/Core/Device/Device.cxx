@@ -137,11 +137,13 @@ void DeviceRelease::operator()(cl_program program) const
 
 void DeviceTransfer::Wait()
 {
-  if (const DeviceHandle<cl_event> event = std::move(this->Event))
+  if (this->Event)
   {
-    const Device& owner = *event.get_deleter().Owner;
-    const cl_event waited = event.get();
-    owner.RequireWork(owner.Cl.clWaitForEvents(1, &waited), "did not finish a transfer");
+    const Device& owner = *this->Event.get_deleter().Owner;
+    const cl_event event = this->Event.release();
+    const cl_int waited = owner.Cl.clWaitForEvents(1, &event);
+    owner.Cl.clReleaseEvent(event);
+    owner.RequireWork(waited, "did not finish a transfer");
   }
 }
 
