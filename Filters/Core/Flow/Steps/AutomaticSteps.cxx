@@ -120,7 +120,7 @@ public:
     , Work(context)
     , Plan(planOf(engine, options, direction))
     , Surface(this->Plan.Parts)
-    , Probes(engine, direction, this->Plan, this->Work)
+    , Probes(engine, direction, this->Plan, this->Parts.Next())
   {
     std::copy_n(engine.View().Cells, Dimension, this->Size.begin());
     this->Options.Maps = FlowMaps::Off;
@@ -203,7 +203,7 @@ private:
       }
     }
     this->Move(AdvectionKind::Forward, FlowOptions::FewestSteps, places);
-    this->Probes.AddAbout(places, this->Work);
+    this->Probes.AddAbout(places, this->Parts.Next());
   }
 
   Images PointsOf(const std::vector<std::size_t>& blocks) const
@@ -246,8 +246,7 @@ private:
     const Ranks& ranks = this->Work.Group();
     const RankShare share(count, ranks);
     const PointSpan<Dimension> own = PointSpan<Dimension>(points).Part(share.First, share.Count);
-    this->Engine.Advect(
-      kind, ConstPointSpan<Dimension>(own), own, options, this->Advections.Next());
+    this->Engine.Advect(kind, ConstPointSpan<Dimension>(own), own, options, this->Parts.Next());
     gatherParts(ranks, shareStarts(count, Dimension, ranks), points.front().data());
   }
 
@@ -424,7 +423,7 @@ private:
   FlowOptions Options; // without flow maps
   const FlowDirection Direction;
   Progress Work;
-  Rounds Advections{ this->Work, 1 }; // how many there are is not known
+  Rounds Parts{ this->Work, 1 }; // choices of blocks and advections; their number is not known
   const ProbePlan<Dimension> Plan;
   BlockSurface<Dimension> Surface;
   ProbeBlocks<Dimension> Probes;

@@ -116,9 +116,10 @@ private:
   {
     // Every rank has whole tables.
     const Ranks& ranks = this->Engine.HasWholeTables() ? SoloRanks::Get() : progress.Group();
+    progress.Expect(count);
     for (std::int64_t first = 0; first < count; first += ranks.Count())
     {
-      progress.Check();
+      progress.EndSlice(std::min<std::int64_t>(ranks.Count(), count - first));
       ProbeBlock<Dimension> examined = makeBlock(std::min(first + ranks.Own(), count - 1));
       this->Examine(examined);
       const std::vector<ProbeBlock<Dimension>> blocks = gatherValues(ranks, examined);
