@@ -5,6 +5,7 @@
 
 #include "Core/Geometry/Points.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -54,6 +55,13 @@ inline double lengthOf(const Point<3>& vector)
 inline Point<3> pointAt(ConstPointSpan<3> points, std::int64_t i)
 {
   return { points[i][0], points[i][1], points[i][2] };
+}
+
+// Whether no coordinate is infinite or NaN.
+inline bool areFinite(ConstPointSpan<3> points)
+{
+  return std::all_of(points.data(), points.data() + 3 * points.size(),
+    [](double coordinate) { return std::isfinite(coordinate); });
 }
 
 } // namespace RectifiedTransport

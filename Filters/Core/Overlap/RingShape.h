@@ -13,14 +13,6 @@
 namespace RectifiedTransport
 {
 
-// Whether no coordinate is infinite or NaN.
-inline bool areFinite(const std::vector<Point<3>>& ring)
-{
-  return std::all_of(ring.begin(), ring.end(), [](const Point<3>& place) {
-    return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
-  });
-}
-
 // Whether not all points are on a line.
 inline bool hasArea(const std::vector<Point<3>>& ring)
 {

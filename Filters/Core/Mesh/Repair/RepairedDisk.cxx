@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/Repair/RepairedDisk.h"
 
+#include "Core/Geometry/Vectors.h"
 #include "Core/Parallel/Stages.h"
 
 #include <Eigen/Geometry>
@@ -14,12 +15,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-bool areFinite(ConstPointSpan<3> points)
-{
-  return std::all_of(points.data(), points.data() + 3 * points.size(),
-    [](double coordinate) { return std::isfinite(coordinate); });
-}
 
 // Merging cannot help where it only joins more. It helps with edges of more than two triangles if
 // some of these are repeated.
