@@ -98,7 +98,7 @@ public:
     MadeDensity<D> made{ this->Cells,
       std::vector<double>(static_cast<std::size_t>(this->Grid.NumberOfCells())) };
     const double each = (1.0 - share) * mass / static_cast<double>(this->Count);
-    splatMass<D, double>({ mean, nullptr, each, this->Grid.ToIndexMap<D>() }, this->Cells,
+    splatMass<D, double>({ mean, nullptr, each, this->Grid.template ToIndexMap<D>() }, this->Cells,
       this->Options.Splat, 1.0 / this->Grid.CellMeasure(), made.Values.data(), stages["splat"]);
     if (share > 0.0)
     {
