@@ -49,7 +49,7 @@ private:
 
   ResampledDensity Resampled;
   GatheredBlocks Gathered;
-  DataIdentity Told; // of whose unusual values a warning told
+  DataIdentity Told; // the data whose unusual values were reported
 };
 
 } // namespace RectifiedTransport::Bridge

@@ -42,7 +42,7 @@ void findBounds(vtkPointSet* points, Progress& progress, double bounds[6]);
 // Collective.
 std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6>& own);
 
-// What a pass over points finds: a Part, which joins others by Add, of the finite ones.
+// What a pass over points finds. A Part sums up the finite points; Add joins two parts.
 template <class Part>
 struct PointFindings
 {

@@ -74,7 +74,7 @@ public:
   // The name of its array; empty if it has none.
   virtual std::string NameOfArray() const = 0;
   const DensityReading& HowRead() const { return this->Read; }
-  // Of the values and the ghost arrays, computed once; 0 if an array is not contiguous in memory.
+  // Hashes the values and the ghost arrays once; 0 if an array is not contiguous in memory.
   // Throws Cancelled.
   std::uint64_t Hash(Progress& progress) const;
   // All that the tables of a density depend on, to compare it with others while it is there;

@@ -62,7 +62,8 @@ private:
   JoinedPieces Joined;
 };
 
-// Which rank owns a position of a grid: one that holds its cell among pieces, which may be nullptr.
+// The rank that owns a position is one that holds its cell. Without pieces (nullptr) the grid is
+// divided among the ranks.
 PlaceOwners ownersOf(const ImageGrid& grid, const ImagePieces* pieces, const Ranks& ranks);
 
 // If the first rank has an image and the others have none: gives each rank the extent that is

@@ -91,7 +91,7 @@ private:
   std::list<Interval> Intervals; // the last one first
   SeriesTracks Tracked;
   std::int64_t Made = 0;
-  vtkSmartPointer<vtkCellArray> Vertices; // of the particles, if they are as many again
+  vtkSmartPointer<vtkCellArray> Vertices; // kept for runs with as many particles
 };
 
 } // namespace RectifiedTransport::Bridge

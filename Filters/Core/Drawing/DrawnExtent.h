@@ -23,7 +23,7 @@ public:
   const double* LowerCorner() const { return this->Lower.data(); }
   const double* UpperCorner() const { return this->Upper.data(); }
   double Length(std::size_t axis) const { return this->Upper[axis] - this->Lower[axis]; }
-  // All but the axis of the least length; of equal lengths the last.
+  // Leaves out the shortest axis, the last one if several are as short.
   std::array<std::size_t, 2> LongestAxes() const;
 
 private:

@@ -151,7 +151,7 @@ private:
 
   void Take(double blocks)
   {
-    // Of 2,048 blocks the third largest error is that of 99.9 %.
+    // 99.9 % of 2,048 blocks have at most the third largest error.
     constexpr double mostBlocks = 2048.0;
     constexpr std::int64_t images = SymmetricPlace<Dimension>::Images;
     const auto taken = static_cast<std::int64_t>(std::min(blocks, mostBlocks));

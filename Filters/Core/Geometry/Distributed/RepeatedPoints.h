@@ -20,7 +20,7 @@ using PointIdentity = std::array<std::uint64_t, 3>;
 // Which rank compares a point with those of all.
 std::size_t comparerOf(const PointIdentity& identity, int ranks);
 
-// Of the points that each rank sent, those that a lower one sent, too.
+// Marks the points of each rank that a lower rank sent, too.
 std::vector<std::vector<unsigned char>> findRepeated(
   const std::vector<std::vector<PointIdentity>>& points);
 

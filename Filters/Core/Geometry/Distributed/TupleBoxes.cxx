@@ -18,7 +18,7 @@ Extent intersectionOf(const Extent& a, const Extent& b)
     both[2 * axis] = std::max(a[2 * axis], b[2 * axis]);
     both[2 * axis + 1] = std::min(a[2 * axis + 1], b[2 * axis + 1]);
   }
-  // Of one whose ends are reversed otherwise VTK counts points and cells that there are not.
+  // VTK counts points and cells in extents whose ends are reversed in another way.
   return isEmpty(both) ? emptyExtent : both;
 }
 
