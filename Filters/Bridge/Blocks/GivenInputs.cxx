@@ -22,14 +22,14 @@ void addBlocks(
   auto* composite = blocksAreInputs ? vtkCompositeDataSet::SafeDownCast(data) : nullptr;
   if (!composite)
   {
-    all.All.push_back({ data, port, connection, false, "" });
+    all.All.push_back({ data, port, connection, "" });
     return;
   }
   for (const Leaf& leaf : leavesOf(composite))
   {
     if (vtkDataSet::SafeDownCast(leaf.Data) || vtkHyperTreeGrid::SafeDownCast(leaf.Data))
     {
-      all.All.push_back({ leaf.Data, port, connection, true, leaf.Name });
+      all.All.push_back({ leaf.Data, port, connection, leaf.Name });
       continue;
     }
     all.Others.Add(leaf.Data, leaf.Text());

@@ -28,8 +28,7 @@ struct GivenInput
   vtkDataObject* Data;
   int Port;
   int Connection;    // of its port
-  bool IsBlock;      // of composite data
-  std::string Block; // its name; empty for none
+  std::string Block; // the name of a block of composite data; else empty
 };
 
 struct GivenInputs
