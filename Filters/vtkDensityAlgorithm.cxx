@@ -5,7 +5,7 @@
 #include "Bridge/Cells/DensityInput.h"
 #include "Bridge/Data/DefaultArray.h"
 #include "Bridge/Data/ImageGrids.h"
-#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Plan/FlowCache.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/Settings/MissingData.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportAlgorithm.h"
 
-#include "Bridge/Density/DensityPlan.h"
+#include "Bridge/Plan/DensityPlan.h"
 #include "Bridge/Run/MpiController.h"
 #include "Bridge/Run/Settings/FlowSettings.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"

@@ -2,8 +2,8 @@
 #include "vtkTransportInterpolator.h"
 
 #include "Bridge/Ensembles/DensityBlend.h"
-#include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Run/Inputs/SeparateInputs.h"
+#include "Bridge/Run/Pipeline/OutputInformation.h"
 #include "Bridge/Run/Settings/TargetArray.h"
 #include "Core/Messages/PropertyCheck.h"
 

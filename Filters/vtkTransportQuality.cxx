@@ -3,8 +3,8 @@
 
 #include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Data/PointInput.h"
-#include "Bridge/Density/FlowCache.h"
 #include "Bridge/Density/InputDensity.h"
+#include "Bridge/Plan/FlowCache.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Settings/TableSettings.h"

@@ -3,9 +3,9 @@
 
 #include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/InputDensity.h"
-#include "Bridge/Pipeline/ConsumerExtents.h"
-#include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Pipeline/ConsumerExtents.h"
+#include "Bridge/Run/Pipeline/OutputInformation.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"
 #include "Bridge/Run/Settings/SplatSettings.h"
 #include "Bridge/Temporal/KeptSteps.h"

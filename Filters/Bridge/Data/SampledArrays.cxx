@@ -3,7 +3,9 @@
 
 #include "Bridge/Data/CopiedTuples.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Stages.h"
+#include "Core/Resampling/PlacesInImage.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkArrayDispatch.h"
@@ -13,6 +15,7 @@
 #include "vtkDataSet.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -418,6 +421,14 @@ void sampleBlocks(const Sampling& sampling, const SampledPlaces& places, Progres
     Units);
 }
 
+template <int D>
+void samplePart(vtkImageData* part, const ImageGrid& grid, const Extent& extent,
+  ConstPointSpan<3> particles, Progress& progress, vtkPointData* output)
+{
+  sampleArrays({ { part }, "input image", false }, PlacesInImage<D>(grid, extent, particles),
+    progress, output);
+}
+
 } // namespace
 
 void sampleArrays(
@@ -437,6 +448,13 @@ void sampleArrays(
   {
     sampleTuples(array.From, array.To, places, array.OfCells, parts[++part]);
   }
+}
+
+void sampleImage(vtkImageData* part, const ImageGrid& grid, const Extent& extent,
+  ConstPointSpan<3> particles, Progress& progress, vtkPointData* output)
+{
+  dispatchDimension(grid.Dimension(), samplePart<1>, samplePart<2>, samplePart<3>)(
+    part, grid, extent, particles, progress, output);
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -4,12 +4,16 @@
 #define RectifiedTransport_SampledArrays_h
 
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/Distributed/TupleBoxes.h"
+#include "Core/Geometry/ImageGrid.h"
+#include "Core/Geometry/Points.h"
 #include "Core/Resampling/SampledPlaces.h"
 
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataSet;
+class vtkImageData;
 class vtkPointData;
 VTK_ABI_NAMESPACE_END
 
@@ -35,6 +39,10 @@ struct ArraySource
 // Throws Failure and Cancelled.
 void sampleArrays(
   const ArraySource& source, const SampledPlaces& places, Progress& progress, vtkPointData* output);
+
+// The same for particles in a part of an image on a grid.
+void sampleImage(vtkImageData* part, const ImageGrid& grid, const Extent& extent,
+  ConstPointSpan<3> particles, Progress& progress, vtkPointData* output);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -8,9 +8,7 @@
 #include "Bridge/Run/Fingerprint.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
-#include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Resampling/PlacesInImage.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -29,22 +27,7 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
-template <int D>
-void samplePart(vtkImageData* part, const ImageGrid& grid, const Extent& extent,
-  ConstPointSpan<3> particles, Progress& progress, vtkPointData* output)
-{
-  sampleArrays({ { part }, "input image", false }, PlacesInImage<D>(grid, extent, particles),
-    progress, output);
-}
-
 } // namespace
-
-void sampleImage(vtkImageData* part, const ImageGrid& grid, const Extent& extent,
-  ConstPointSpan<3> particles, Progress& progress, vtkPointData* output)
-{
-  dispatchDimension(grid.Dimension(), samplePart<1>, samplePart<2>, samplePart<3>)(
-    part, grid, extent, particles, progress, output);
-}
 
 DensityImage::DensityImage(
   vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules)

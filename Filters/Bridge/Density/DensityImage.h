@@ -60,10 +60,6 @@ private:
   std::vector<unsigned char> CombinedFlags; // of both, from BlankCellsOfHiddenPoints on
 };
 
-// Gives particles in a part of an image on a grid the values of the arrays of the part.
-void sampleImage(vtkImageData* part, const ImageGrid& grid, const Extent& extent,
-  ConstPointSpan<3> particles, Progress& progress, vtkPointData* output);
-
 } // namespace RectifiedTransport::Bridge
 
 #endif

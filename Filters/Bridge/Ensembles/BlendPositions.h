@@ -5,8 +5,8 @@
 #ifndef RectifiedTransport_BlendPositions_h
 #define RectifiedTransport_BlendPositions_h
 
-#include "Bridge/Density/FlowCache.h"
-#include "Bridge/Density/TableChoice.h"
+#include "Bridge/Plan/FlowCache.h"
+#include "Bridge/Plan/TableChoice.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"
 #include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Splat/DistributedSplat.h"

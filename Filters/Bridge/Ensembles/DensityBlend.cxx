@@ -2,7 +2,7 @@
 #include "Bridge/Ensembles/DensityBlend.h"
 
 #include "Bridge/Data/ImageGrids.h"
-#include "Bridge/Density/PlainDensity.h"
+#include "Bridge/Plan/PlainDensity.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/CostModel.h"

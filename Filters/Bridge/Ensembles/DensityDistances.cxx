@@ -2,7 +2,6 @@
 #include "Bridge/Ensembles/DensityDistances.h"
 
 #include "Bridge/Data/ImageGrids.h"
-#include "Bridge/Density/PlainDensity.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Distance/ClassicalScaling.h"

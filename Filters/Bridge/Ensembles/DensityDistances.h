@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_DensityDistances_h
 #define RectifiedTransport_DensityDistances_h
 
-#include "Bridge/Density/InputDensity.h"
+#include "Bridge/Plan/PlainDensity.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Distance/DistanceSet.h"
 

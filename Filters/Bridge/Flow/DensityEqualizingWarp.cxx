@@ -2,7 +2,7 @@
 #include "Bridge/Flow/DensityEqualizingWarp.h"
 
 #include "Bridge/Data/PointInput.h"
-#include "Bridge/Density/FlowCosts.h"
+#include "Bridge/Plan/FlowCosts.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Equalize/CorrectedImages.h"
 #include "Core/Geometry/Dispatch.h"

@@ -3,9 +3,9 @@
 #ifndef RectifiedTransport_DensityEqualizingWarp_h
 #define RectifiedTransport_DensityEqualizingWarp_h
 
-#include "Bridge/Density/FlowCache.h"
-#include "Bridge/Density/TableChoice.h"
 #include "Bridge/Flow/MeshInversion.h"
+#include "Bridge/Plan/FlowCache.h"
+#include "Bridge/Plan/TableChoice.h"
 
 namespace RectifiedTransport::Bridge
 {

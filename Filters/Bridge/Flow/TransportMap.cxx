@@ -2,8 +2,8 @@
 #include "Bridge/Flow/TransportMap.h"
 
 #include "Bridge/Data/ImageGrids.h"
-#include "Bridge/Density/FlowCosts.h"
 #include "Bridge/Flow/MapField.h"
+#include "Bridge/Plan/FlowCosts.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Equalize/CorrectedImages.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"

@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_TransportMap_h
 #define RectifiedTransport_TransportMap_h
 
-#include "Bridge/Density/FlowCache.h"
-#include "Bridge/Density/TableChoice.h"
+#include "Bridge/Plan/FlowCache.h"
+#include "Bridge/Plan/TableChoice.h"
 
 namespace RectifiedTransport::Bridge
 {

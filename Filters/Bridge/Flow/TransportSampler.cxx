@@ -4,7 +4,7 @@
 #include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Data/ParticleSet.h"
 #include "Bridge/Data/SeedInput.h"
-#include "Bridge/Density/FlowCosts.h"
+#include "Bridge/Plan/FlowCosts.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Run/StepReport.h"

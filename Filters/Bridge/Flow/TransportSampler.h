@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_TransportSampler_h
 #define RectifiedTransport_TransportSampler_h
 
-#include "Bridge/Density/FlowCache.h"
-#include "Bridge/Density/TableChoice.h"
+#include "Bridge/Plan/FlowCache.h"
+#include "Bridge/Plan/TableChoice.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"
 #include "Bridge/Run/Settings/TableSettings.h"
 #include "Core/Seeds/Seeds.h"

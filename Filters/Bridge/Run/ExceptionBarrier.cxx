@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/ExceptionBarrier.h"
 
-#include "Bridge/Pipeline/ConsumerExtents.h"
+#include "Bridge/Run/Pipeline/ConsumerExtents.h"
 #include "Bridge/Run/RankRun.h"
 #include "Core/Flow/NoMemoryForFlowMap.h"
 #include "Core/Messages/MessageText.h"

@@ -4,7 +4,7 @@
 #include "Bridge/Data/DoubleTuples.h"
 #include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Data/PointInput.h"
-#include "Bridge/Density/FlowCosts.h"
+#include "Bridge/Plan/FlowCosts.h"
 #include "Bridge/Run/NumbersOfText.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Messages/Failure.h"

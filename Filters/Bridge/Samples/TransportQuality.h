@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_TransportQuality_h
 #define RectifiedTransport_TransportQuality_h
 
-#include "Bridge/Density/FlowCache.h"
-#include "Bridge/Density/TableChoice.h"
+#include "Bridge/Plan/FlowCache.h"
+#include "Bridge/Plan/TableChoice.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/Settings/TableSettings.h"
 #include "Core/Quality/ParticleQuality.h"

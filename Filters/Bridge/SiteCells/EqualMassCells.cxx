@@ -4,7 +4,7 @@
 #include "Bridge/Data/DoubleTuples.h"
 #include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Data/PointInput.h"
-#include "Bridge/Density/PlainDensity.h"
+#include "Bridge/Plan/PlainDensity.h"
 #include "Bridge/SiteCells/LabelGrid.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"
 #include "Core/Geometry/Dispatch.h"

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_EqualMassCells_h
 #define RectifiedTransport_EqualMassCells_h
 
-#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Plan/FlowCache.h"
 #include "Bridge/SiteCells/CellOutputs.h"
 
 namespace RectifiedTransport::Bridge

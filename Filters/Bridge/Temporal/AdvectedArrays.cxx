@@ -2,7 +2,7 @@
 #include "Bridge/Temporal/AdvectedArrays.h"
 
 #include "Bridge/Data/ImageGrids.h"
-#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Data/SampledArrays.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Series/AdvectedMeans.h"

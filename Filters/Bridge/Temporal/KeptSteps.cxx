@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Temporal/KeptSteps.h"
 
-#include "Bridge/Density/PlainDensity.h"
-#include "Core/Tables/DensityInspection.h"
+#include "Bridge/Plan/PlainDensity.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
 #include "vtkDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace RectifiedTransport::Bridge
 {
@@ -25,21 +23,10 @@ vtkMTimeType inputTime(vtkAlgorithm* filter)
   return pipeline ? pipeline->GetPipelineMTime() : 0;
 }
 
-// A density without mass is none for a map, but one of a series.
-void requireValues(InputDensity& density, const StepDensity& step)
-{
-  const DensitySummary found =
-    summarize(step.Values->GetPointer(0), step.Values->GetNumberOfTuples(), 0);
-  if (found.NotFinite > 0 || found.Negative > 0 || std::isinf(found.Total))
-  {
-    density.ThrowInvalid(found);
-  }
-}
-
 void read(InputDensity& density, StepDensity& step, Progress& progress)
 {
   step.Values = wholeValues(density, step.ArrayName, progress);
-  requireValues(density, step);
+  requireValues(density, *step.Values);
   step.Mass = massOf(density, progress);
   density.ReleaseGathered();
 }

@@ -2,7 +2,7 @@
 #include "Bridge/Temporal/TemporalInterpolation.h"
 
 #include "Bridge/Data/ImageGrids.h"
-#include "Bridge/Density/DensityPlan.h"
+#include "Bridge/Plan/DensityPlan.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/SameOnRanks.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/Inputs/SeparateInputs.h"
 
-#include "Bridge/Pipeline/RequestedTimes.h"
+#include "Bridge/Run/Pipeline/RequestedTimes.h"
 #include "Core/Messages/Failure.h"
 
 #include "vtkAlgorithm.h"

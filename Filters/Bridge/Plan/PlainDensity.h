@@ -4,6 +4,7 @@
 #ifndef RectifiedTransport_PlainDensity_h
 #define RectifiedTransport_PlainDensity_h
 
+#include "Bridge/Density/InputDensity.h"
 #include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/Stages.h"
@@ -13,15 +14,8 @@
 
 #include <string>
 
-namespace RectifiedTransport
-{
-class DensityValues;
-} // namespace RectifiedTransport
-
 namespace RectifiedTransport::Bridge
 {
-
-class InputDensity;
 
 // Density times cell measure, summed, for a prepared density. Reports values that are probably not
 // meant. Throws Failure if the mass is beyond the largest double, and Cancelled. If there are wrong
@@ -35,6 +29,10 @@ double requireMass(InputDensity& density, const DensityValues& gathered, Progres
 // density.ReleaseGathered(). Collective. Throws Failure and Cancelled.
 vtkSmartPointer<vtkDoubleArray> wholeValues(
   InputDensity& density, const std::string& name, Progress& progress);
+
+// Throws the Failure for whole values that are no density; here no mass is no failure, as a step of
+// a series may have none.
+void requireValues(InputDensity& density, vtkDoubleArray& values);
 
 // Writes the tuples `wanted` of a grid that covers the density's, along the same axes: the values
 // themselves, to the bit, where both have the same cells up to rounding; else the means over the

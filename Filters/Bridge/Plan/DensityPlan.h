@@ -5,7 +5,7 @@
 #define RectifiedTransport_DensityPlan_h
 
 #include "Bridge/Density/InputDensity.h"
-#include "Bridge/Density/OptimalMemory.h"
+#include "Bridge/Plan/OptimalMemory.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Density/PlainDensity.h"
+#include "Bridge/Plan/PlainDensity.h"
 
-#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
@@ -84,6 +83,15 @@ vtkSmartPointer<vtkDoubleArray> wholeValues(
   progress.For(cells, grain,
     [&](std::int64_t first, std::int64_t last) { whole->Read(first, last - first, to + first); });
   return values;
+}
+
+void requireValues(InputDensity& density, vtkDoubleArray& values)
+{
+  const DensitySummary found = summarize(values.GetPointer(0), values.GetNumberOfTuples(), 0);
+  if (found.NotFinite > 0 || found.Negative > 0 || std::isinf(found.Total))
+  {
+    density.ThrowInvalid(found);
+  }
 }
 
 void writeDensityOn(const ImageGrid& grid, InputDensity& density, const TupleBox& wanted,

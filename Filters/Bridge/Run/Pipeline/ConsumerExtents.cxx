@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Pipeline/ConsumerExtents.h"
+#include "Bridge/Run/Pipeline/ConsumerExtents.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Density/SharedFlow.h"
+#include "Bridge/Plan/SharedFlow.h"
 
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Plan/FlowCache.h"
 
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Boxes/SizedGrids.h"

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_FlowCosts_h
 #define RectifiedTransport_FlowCosts_h
 
-#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Plan/FlowCache.h"
 #include "Bridge/Run/CostModel.h"
 
 namespace RectifiedTransport::Bridge

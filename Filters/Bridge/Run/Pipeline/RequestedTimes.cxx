@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Pipeline/RequestedTimes.h"
+#include "Bridge/Run/Pipeline/RequestedTimes.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkInformation.h"

@@ -2,7 +2,7 @@
 // The gap between the cost of a map and its certified bound, also where the bound is rounding.
 #include "Checks.h"
 
-#include "Bridge/Density/DensityPlan.h"
+#include "Bridge/Plan/DensityPlan.h"
 
 #include "vtkDataArray.h"
 #include "vtkPolyData.h"

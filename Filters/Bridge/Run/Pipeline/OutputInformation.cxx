@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Pipeline/OutputInformation.h"
+#include "Bridge/Run/Pipeline/OutputInformation.h"
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Pipeline/EarlyUpdate.h"
+#include "Bridge/Run/Pipeline/EarlyUpdate.h"
 
-#include "Bridge/Pipeline/RequestedTimes.h"
+#include "Bridge/Run/Pipeline/RequestedTimes.h"
 #include "Core/Parallel/Ranks.h"
 
 #include "vtkAlgorithm.h"

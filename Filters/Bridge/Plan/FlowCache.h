@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_FlowCache_h
 #define RectifiedTransport_FlowCache_h
 
-#include "Bridge/Density/DensityPlan.h"
-#include "Bridge/Density/SharedFlow.h"
+#include "Bridge/Plan/DensityPlan.h"
+#include "Bridge/Plan/SharedFlow.h"
 #include "Bridge/Store/Store.h"
 #include "Core/Equalize/AreaCorrection.h"
 #include "Core/Plan/TransportPlan.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Pipeline/InputFields.h"
+#include "Bridge/Run/Pipeline/InputFields.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataObject.h"
