@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of the list of filter kinds.
+// What the sources of filter kinds share.
 #ifndef Campaign_Kinds_h
 #define Campaign_Kinds_h
 
@@ -16,15 +16,6 @@ vtkSmartPointer<vtkAlgorithm> make()
 
 // Of a filter that is quick as it is.
 inline void leaveAsItIs(RandomSource&, vtkAlgorithm*) {}
-
-FilterKind transportMapKind();
-FilterKind distanceKind();
-FilterKind temporalKind();
-void addTransportKinds(std::vector<FilterKind>& kinds);
-void addBlendKinds(std::vector<FilterKind>& kinds);
-void addOtherKinds(std::vector<FilterKind>& kinds);
-void addSurfaceKinds(std::vector<FilterKind>& kinds);
-void addMapKinds(std::vector<FilterKind>& kinds);
 
 } // namespace Campaign
 

@@ -112,10 +112,10 @@ void quickDistance(RandomSource&, vtkAlgorithm* filter)
 
 } // namespace
 
-FilterKind distanceKind()
+void addDistanceKinds(std::vector<FilterKind>& kinds)
 {
-  return { "Distance", make<Distance>, drawDistance, drawDistanceInputs, expectDistance,
-    checkDistance, quickDistance };
+  kinds.push_back({ "Distance", make<Distance>, drawDistance, drawDistanceInputs, expectDistance,
+    checkDistance, quickDistance });
 }
 
 } // namespace Campaign

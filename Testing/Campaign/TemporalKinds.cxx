@@ -344,10 +344,10 @@ void quickTemporal(RandomSource& random, vtkAlgorithm* filter)
 
 } // namespace
 
-FilterKind temporalKind()
+void addTemporalKinds(std::vector<FilterKind>& kinds)
 {
-  return { "Temporal", make<Temporal>, drawTemporal, drawTemporalInputs, expectTemporal,
-    checkTemporal, quickTemporal };
+  kinds.push_back({ "Temporal", make<Temporal>, drawTemporal, drawTemporalInputs, expectTemporal,
+    checkTemporal, quickTemporal });
 }
 
 } // namespace Campaign

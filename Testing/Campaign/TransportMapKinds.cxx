@@ -129,9 +129,9 @@ void quickMap(RandomSource& random, vtkAlgorithm* filter)
 
 } // namespace
 
-FilterKind transportMapKind()
+void addTransportMapKinds(std::vector<FilterKind>& kinds)
 {
-  return { "Map", make<Map>, drawMap, drawMapInputs, expectMap, checkMap, quickMap };
+  kinds.push_back({ "Map", make<Map>, drawMap, drawMapInputs, expectMap, checkMap, quickMap });
 }
 
 } // namespace Campaign
