@@ -11,6 +11,7 @@ import sys
 import tempfile
 import unittest
 
+from rt_filters import FILTERS
 from rt_scripts import run_script
 from rt_testing import OUTPUT, SOURCE, main, need_display
 
@@ -76,6 +77,12 @@ class Pages(unittest.TestCase):
                     self.assertTrue(os.path.exists(os.path.join(SOURCE, target)))
                     if anchor:
                         self.assertIn(anchor, anchors(target))
+
+    def test_filters_on_ranks(self):
+        """The page of each filter says what several ranks have of it."""
+        for filter_ in FILTERS:
+            with self.subTest(filter_.label):
+                self.assertIn("](Parallel.md)", read("Documentation/%s.md" % filter_.name)[0])
 
     def test_named_files(self):
         """Paths in code spans and includes lead to files; so do names of sources without a path."""
