@@ -2,7 +2,7 @@
 """Wrong changes of maps and points of surfaces, and of cartograms."""
 from mutation import BRIDGE, CORE, E, S
 
-SURFACES = [
+OTHERS = [
     # maps of disks
     E(CORE + "Parameterization/SquareCorners.cxx", "return «length(a) > length(b)»", "length(a) < length(b)"),
     E(CORE + "Parameterization/SquareCorners.cxx",
