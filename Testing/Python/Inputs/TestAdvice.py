@@ -105,9 +105,8 @@ TOUCHING = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 1, 0), (2, 2, 0), (1
             (4, 2, 0)]
 TOUCHING_CELLS = [(0, 1, 2, 3), (2, 4, 5, 6), (1, 0, 7), (1, 7, 8, 4), (4, 8, 5)]
 
-SURFACES = tuple(filter_.name for filter_, _ in of_kind("disk"))
-# With these the filters take disks only.
-DISKS_ONLY = {"AreaPreservingParameterization": {"Seams": "None"}, "SampleSurface": {"Method": "Flow"}}
+OF_DISKS = {filter_.name: filter_.of_disks for filter_, _ in of_kind("disk")}
+SURFACES = tuple(OF_DISKS)
 
 TABLE = [
     Advice(SURFACES, simple.Sphere, "cut it open, for example with Clip",
@@ -178,7 +177,7 @@ class FollowingAdvice(unittest.TestCase):
                     source = advice.make()
                     source.UpdatePipeline()
                     made = getattr(simple, name)(
-                        Input=source, **DISKS_ONLY.get(name, {}), **advice.settings)
+                        Input=source, **OF_DISKS.get(name, {}), **advice.settings)
                     reported = Listener(made.GetClientSideObject())
                     self.assertEqual(size_of(output_of(made)), 0)
                     self.assertIn(advice.message, reported.errors[0])

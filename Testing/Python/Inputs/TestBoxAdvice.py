@@ -5,7 +5,8 @@ import re
 import unittest
 
 import numpy as np
-from rt_testing import Listener, load_plugin, main, producer
+from rt_filters import FILTERS, by_label
+from rt_testing import Listener, load_plugin, main, output_of, producer, size_of
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 
@@ -37,9 +38,13 @@ def first_array(source):
     return ["POINTS" if data.GetPointData().HasArray("Density") else "CELLS", "Density"]
 
 
+def of_several(filter_, sources):
+    return filter_.make(simple, {"densities": lambda: sources}, DensityArray=first_array(sources[0]),
+                        DensityResolution=32)
+
+
 def distance(sources):
-    return simple.TransportDistance(Input=sources, DensityArray=first_array(sources[0]),
-                                    DensityResolution=32)
+    return of_several(by_label("Transport Distance"), sources)
 
 
 def morph(sources):
@@ -121,9 +126,13 @@ class Boxes(unittest.TestCase):
                 for source in sources]
 
     def check(self, sources, expected):
-        message = error_of(distance(sources))
-        self.assertIn("all must fill the same box (Resample To Image of each makes it so", message)
-        resampled = self.follow(sources, message)
+        for filter_ in FILTERS:
+            if filter_.one_box:
+                message = error_of(of_several(filter_, sources))
+                self.assertIn("all must fill the same box (Resample To Image of each makes it so", message)
+                resampled = self.follow(sources, message)
+                proxy = of_several(filter_, resampled)
+                self.assertGreater(size_of(output_of(proxy)), 0, filter_.label)
         self.assertLess(abs(found_distance(distance(resampled)) - expected), 0.1)
 
     def test_crops(self):

@@ -127,6 +127,10 @@ def points(source):
 PROPERTIES = {proxy.label: proxy.properties for proxy in proxies()}
 
 
+# With these the output depends on both inputs, and not on their names.
+BOTH_COUNT = {"Measure": "Density", "Weights": [3, 1], "InputNames": ["one", "other"]}
+
+
 def of_two_inputs(filter_):
     """What makes a filter of two data sets of a series, or None if it has one input at the most."""
     names = list(filter_.ports)
@@ -134,9 +138,9 @@ def of_two_inputs(filter_):
         return None
     arrays = {name: ["CELLS", "Density"] for name in ("DensityArray", "TargetArray")
               if name in PROPERTIES[filter_.label]}
-    given = {"Equal-Mass Cells": dict(Measure="Density", Resolution=192),
-             "Density Barycenter": dict(Weights=[3, 1]),
-             "Transport Distance": dict(InputNames=["one", "other"])}.get(filter_.label, {})
+    given = {name: value for name, value in BOTH_COUNT.items() if name in filter_.panel}
+    if "Measure" in given:
+        given["Resolution"] = 192
 
     def make(one, other):
         by_name = {}

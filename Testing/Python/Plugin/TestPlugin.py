@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 from PIL import Image
-from rt_filters import FILTERS, PROPERTIES, by_label
+from rt_filters import FILTERS, PROPERTIES, Property, by_label
 from rt_proxies import proxies
 from rt_testing import OUTPUT, SOURCE, density_image, load_plugin, main, output_of, producer
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -51,12 +51,12 @@ class Plugin(unittest.TestCase):
                 self.assertEqual(label.replace(" ", ""), name)
 
     def test_integration_is_advanced(self):
-        warp = simple.DensityEqualizingWarp(  # it has all of them
-            simple.Plane(), Density=producer(simple, density_image()))
-        names = simple.TransportDistance().GetProperty("InputNames")
-        self.assertEqual(names.GetPanelVisibility(), "advanced")
-        for name in (name for name, prop in PROPERTIES.items() if prop.advanced and name != "InputNames"):
-            self.assertEqual(warp.GetProperty(name).GetPanelVisibility(), "advanced")
+        for filter_ in FILTERS:
+            made = getattr(simple, filter_.name)()
+            for name in filter_.panel:
+                if PROPERTIES.get(name, Property()).advanced and name not in filter_.always_shown:
+                    with self.subTest(filter_.label, property=name):
+                        self.assertEqual(made.GetProperty(name).GetPanelVisibility(), "advanced")
 
     def test_array_is_chosen_from_points_and_cells(self):
         for cells in (True, False):

@@ -37,8 +37,8 @@ def pipeline():
         inputs = {kind: (lambda source=source: source) for kind, source in given.items()}
         if "Target" in filter_.inputs:  # small ones, that differ
             inputs.update(Input=lambda: given["densities"][0], Target=lambda: given["densities"][1])
-        if filter_.label == "Transport Distance":  # of one box
-            inputs.update(Input=lambda: given["alike"])
+        if filter_.one_box:
+            inputs.update(densities=lambda: given["alike"])
         # Dimensions count where there is no reference.
         filter_.make(simple, inputs, optional="Reference" not in filter_.optional,
                      registrationName=filter_.label, **filter_.saved)

@@ -107,10 +107,6 @@ def result(proxy, values, domain=None):
         filter_.SetNumberOfPoints(30)
     if hasattr(filter_, "SetResolution"):
         filter_.SetResolution(resolution)
-    if hasattr(filter_, "SetNumberOfWeights"):  # a single density comes out as it is
-        filter_.AddInputDataObject(0, density_image(shape, seed=5))
-    if hasattr(filter_, "SetTargetData") and "Target" in by_label(proxy.label).inputs:
-        filter_.SetTargetData(density_image(shape, seed=5))
     if domain:
         filter_.SetDomainData(domain_of(domain, shape))
     if "EmptyCells" in values and hasattr(filter_, "SetNaNValuesToEmpty"):
@@ -345,18 +341,17 @@ class XML(unittest.TestCase):
                                        "property": "Method", "value": "0"}]
                                      if prop.name in OF_FLOW else [])
                     found = [one for one in found if one not in shown]
-                if proxy.label == "Sample Surface":
-                    if prop.name == "RandomSeed":  # by one of two
-                        self.assertEqual(
-                            [[(one.get("property"), one.get("value"), one.get("inverse"))
-                              for one in either.find("Expression")] for either in found],
-                            [[("Method", "0", None), ("SeedPattern", "1", "1")]])
-                        continue
-                    shown = [one for one in found if one.get("property") == "Method"]
+                if proxy.label == "Sample Surface" and prop.name == "RandomSeed":  # by one of two
                     self.assertEqual(
-                        [one.get("value") for one in shown],
-                        ["1"] if prop.name in (*OF_FLOW, "SeedPattern", "Resolution", "Corners")
-                        else ["0"] if prop.name == "RelaxationIterations" else [])
+                        [[(one.get("property"), one.get("value"), one.get("inverse"))
+                          for one in either.find("Expression")] for either in found],
+                        [[("Method", "0", None), ("SeedPattern", "1", "1")]])
+                    continue
+                shown_at = by_label(proxy.label).shown_at
+                if shown_at:
+                    shown = [one for one in found if one.get("property") == "Method"]
+                    self.assertEqual([one.get("value") for one in shown],
+                                     [value for value, names in shown_at.items() if prop.name in names])
                     found = [one for one in found if one not in shown]
                 if prop.name == "OptimalityTolerance":  # by one of two
                     self.assertEqual([one.get("type") for one in found], ["CompositeDecorator"])
@@ -407,11 +402,12 @@ class XML(unittest.TestCase):
                     if prop.name == "DeviceName":
                         continue  # it changes no result
                     owner = proxy.properties[decorator.get("property")]
-                    flow = {"Method": 1} if proxy.label == "Sample Surface" else {}
+                    method = {"Method": int(value) for value, names in
+                              by_label(proxy.label).shown_at.items() if prop.name in names}
                     for value in owner.texts or (("0", "1") if owner.boolean else ()):
                         with self.subTest(**{owner.name: value}):
                             one, other = (result(
-                                proxy, {**flow, owner.name: int(value), prop.name: number})
+                                proxy, {**method, owner.name: int(value), prop.name: number})
                                           for number in known(prop).differing)
                             self.assertEqual(one != other, is_shown(decorator, value))
 

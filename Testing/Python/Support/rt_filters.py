@@ -50,7 +50,11 @@ class Filter(NamedTuple):
     defaults: dict = {}          # choices that are not the first one here
     choices: dict = {}           # those of properties that mean something else here
     slow_at_highest: tuple = ()  # properties that take 10 GB at their highest value
+    shown_at: dict = {}          # by value of Method: the properties that no other value shows
+    of_disks: dict = {}          # properties with which it takes no surfaces but disks
+    one_box: bool = False        # whether its densities must fill the same box
     gives_table: bool = False
+    gives_figures: bool = True   # whether its outputs have field data of its own
     on_ranks: bool = True  # whether ParaView offers it on servers of several processes
 
     @property
@@ -133,7 +137,7 @@ FILTERS = [
                   "Threading"],
            refused=("NumberOfCoordinates", 0, 3),
            saved=dict(Method="Certified", NumberOfCoordinates=3, InvertDensity=1),
-           choices={"Method": ["Linearized", "Certified"]},
+           choices={"Method": ["Linearized", "Certified"]}, one_box=True,
            shown=[("View", {"type": "None", "port": "0"}), ("View", {"type": "None", "port": "1"}),
                   ("View", {"type": "XYPointChartView", "port": "2"}),
                   ("FirstDisplay", {"port": "2", "type": "Scatter", "x": "Coordinate0", "y": "Coordinate1"})], gives_table=True),
@@ -161,7 +165,7 @@ FILTERS = [
            refused=("Supersampling", 99, 2), quick=dict(Resolution=12),
            saved=dict(Resolution=20, Supersampling=3, Padding=0.25, Association="Cells",
                       Threading="Serial"),
-           shown=[VOLUME, ("FirstContour", {"array": "Density", "value": "0.5"})]),
+           shown=[VOLUME, ("FirstContour", {"array": "Density", "value": "0.5"})], gives_figures=False),
     Filter("Area-Preserving Parameterization", "vtkAreaPreservingParameterization", {"Input": "disk"},
            outputs=["Surface", "Flat"], panel=["Seams", "Resolution", "Polish", "Corners", "Threading"],
            refused=("Resolution", 0, 12), quick=dict(Resolution=32),
@@ -169,7 +173,7 @@ FILTERS = [
            shown=[("View", {"type": "None", "port": "1"}),
                   ("FirstDisplay", {"port": "0", "type": "Checkerboard", "array": ""}),
                   ("FirstDisplay", {"port": "1", "type": "Checkerboard With Edges", "array": ""})],
-           slow_at_highest=("Resolution",)),
+           of_disks={"Seams": "None"}, slow_at_highest=("Resolution",)),
     Filter("Sample Surface", "vtkSurfaceSampler", {"Input": "disk"},
            panel=["NumberOfParticles", "Method", "RelaxationIterations", "SeedPattern", "RandomSeed",
                   "Resolution", "Corners", "DensityArray", *FLOW_PANEL, "Threading"],
@@ -177,14 +181,16 @@ FILTERS = [
            saved=dict(NumberOfParticles=321, Method="Flow", RelaxationIterations=7,
                       DensityArray=["POINTS", "Height"], SeedPattern="Jittered", RandomSeed=7,
                       Corners=[2, 13, 39, 21], Resolution=24, NumberOfSteps=9),
-           shown=PARTICLES, choices={"Method": ["Relaxation", "Flow"]},
+           shown=PARTICLES, choices={"Method": ["Relaxation", "Flow"]}, of_disks={"Method": "Flow"},
+           shown_at={"0": ["RelaxationIterations"],
+                     "1": ["SeedPattern", "Resolution", "Corners", *FLOW_PANEL]},
            slow_at_highest=("Resolution",)),
     Filter("Uniform Seeds", "vtkUniformSeedSource",
            panel=["Bounds", "Dimension", "NumberOfPoints", "Pattern", "RandomSeed", "Threading"],
            refused=("NumberOfPoints", 0, 9),
            quick=dict(NumberOfPoints=40, Dimension=3),
            saved=dict(Bounds=[0, 511, 0, 511, 0, 9], NumberOfPoints=500, Pattern="Jittered"),
-           shown=PARTICLES),
+           shown=PARTICLES, gives_figures=False),
     Filter("Density-Equalizing Warp", "vtkDensityEqualizingWarp",
            {"Input": "mesh", "Density": "density"},
            panel=["Blend", "EqualizeAreas", *DENSITY_PANEL, "EmptyCells", "EmptyValue", "Margin", *TILED_PANEL],
@@ -285,7 +291,16 @@ def by_label(label):
     return next(filter_ for filter_ in FILTERS if filter_.label == label)
 
 
+def by_class(name):
+    return next(filter_ for filter_ in FILTERS if filter_.class_name == name)
+
+
 def of_kind(*kinds):
     """The filters that have an input of one of some kinds, each with the first port of that."""
     return [(filter_, filter_.port_of(*kinds)) for filter_ in FILTERS
             if filter_.port_of(*kinds) is not None]
+
+
+def with_property(name):
+    """The filters that have a property."""
+    return [filter_ for filter_ in FILTERS if name in filter_.panel]

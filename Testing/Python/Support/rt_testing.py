@@ -9,12 +9,12 @@ import time
 import unittest
 
 import numpy as np
+from rt_filters import by_class
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
-from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 SOURCE = os.environ.get("RT_SOURCE") or os.path.join(os.path.dirname(__file__), "..", "..", "..")
 OUTPUT = os.environ.get("RT_OUTPUT") or "."
@@ -109,26 +109,17 @@ def region_map():
     return data
 
 
-def surface_for(algorithm):
-    """A surface that an algorithm takes: those with corners map a disk to a square, and those of masses of
-    regions need a map."""
-    if hasattr(algorithm, "GetMinimumShare"):
-        return region_map()
-    return disk_surface() if hasattr(algorithm, "GetNumberOfCorners") else closed_surface()
+SURFACES = {"disk": disk_surface, "solid": closed_surface, "map": region_map}
 
 
 def connect_inputs(algorithm, shape=(4, 3), number=50, cells=True):
-    """Gives data to the inputs that an algorithm requires, small images by default."""
-    for port in range(algorithm.GetNumberOfInputPorts()):
-        information = algorithm.GetInputPortInformation(port)
-        if not information.Has(vtkAlgorithm.INPUT_IS_OPTIONAL()):
-            image = density_image(shape, cells, seed=port)
-            kind = information.Get(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), 0)
-            algorithm.SetInputData(port, image if kind in ("vtkImageData", "vtkDataSet") else
-                                   surface_for(algorithm) if kind == "vtkPolyData" else
-                                   points_in(image, number))
-            if hasattr(algorithm, "GetMassDifference"):  # of two and more densities
-                algorithm.AddInputDataObject(port, density_image(shape, cells, seed=5))
+    """Gives data to the inputs that a filter of the register requires, small images by default."""
+    for port, kind in enumerate(by_class(algorithm.GetClassName()).inputs.values()):
+        image = density_image(shape, cells, seed=port)
+        algorithm.SetInputData(port, SURFACES[kind]() if kind in SURFACES else
+                               points_in(image, number) if kind in ("points", "mesh") else image)
+        if kind == "densities":
+            algorithm.AddInputDataObject(port, density_image(shape, cells, seed=5))
 
 
 def quick_algorithm(filter_, *inputs, **properties):
