@@ -7,12 +7,12 @@ import subprocess
 import tempfile
 import unittest
 
+from rt_filters import with_property
 from rt_testing import main
 
 SCRIPT = os.path.join(os.path.dirname(__file__), "device_script.py")
 INSTEAD = "; the processor did the work, with the same result"
-FILTERS = ["TransportSampler", "TransportMap", "DensityEqualizingWarp", "TransportInterpolator",
-           "TransportBarycenter"]
+FILTERS = [filter_.name for filter_ in with_property("Device")]
 # MPI would load all drivers to see the machine.
 USUAL = {"HWLOC_COMPONENTS": "-opencl"}
 # OpenCL's loader then finds no driver.

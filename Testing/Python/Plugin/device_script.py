@@ -5,6 +5,7 @@ import json
 import os
 import sys
 
+from rt_filters import with_property
 from rt_testing import Listener, digest, load_plugin, output_of
 
 simple = load_plugin()
@@ -17,22 +18,17 @@ def is_driver_loaded():
         return "libpocl" in maps.read()
 
 
-def sources():
-    wavelet = simple.Wavelet(WholeExtent=[-12, 12, -10, 10, 0, 0], registrationName="Density")
-    other = simple.Wavelet(WholeExtent=[-12, 12, -10, 10, 0, 0], XFreq=20, registrationName="Other")
-    plane = simple.Plane(XResolution=6, YResolution=5)
-    return wavelet, other, plane
+NAMES = [filter_.name for filter_ in with_property("Device")]
 
 
 def filters():
-    wavelet, other, plane = sources()
-    return [
-        simple.SampleDensity(wavelet, NumberOfParticles=300, registrationName="Sample"),
-        simple.TransportMap(wavelet, registrationName="Map"),
-        simple.DensityEqualizingWarp(plane, Density=wavelet, registrationName="Warp"),
-        simple.MorphDensities(wavelet, Target=other, registrationName="Morph"),
-        simple.DensityBarycenter(Input=[wavelet, other], registrationName="Mean"),
-    ]
+    wavelet = simple.Wavelet(WholeExtent=[-12, 12, -10, 10, 0, 0])
+    other = simple.Wavelet(WholeExtent=[-12, 12, -10, 10, 0, 0], XFreq=20)
+    plane = simple.Plane(XResolution=6, YResolution=5)
+    sources = {"density": lambda: wavelet, "Target": lambda: other, "densities": lambda: [wavelet, other],
+               "mesh": lambda: plane}
+    return {filter_.name: filter_.make(simple, sources, registrationName=filter_.name)
+            for filter_ in with_property("Device")}
 
 
 def names_of(proxy):
@@ -54,21 +50,20 @@ def run(proxy):
 found = {}
 if STATE:
     simple.LoadState(STATE[0])
-    for proxy in map(simple.FindSource, ("Sample", "Map", "Warp", "Morph", "Mean")):
-        name = proxy.SMProxy.GetXMLName()
+    for name in NAMES:
+        proxy = simple.FindSource(name)
         hashed, warnings = run(proxy)
         found[name] = {"digest": hashed, "warnings": warnings, "Device": proxy.Device.GetData(),
                        "DeviceName": proxy.DeviceName.GetData(), **names_of(proxy)}
 else:
     found["driver"] = {}
     made = filters()
-    for proxy in made:
-        name = proxy.SMProxy.GetXMLName()
+    for name, proxy in made.items():
         hashed, warnings = run(proxy)
         found[name] = {"cpu": hashed, "cpu warnings": warnings, "cpu names": names_of(proxy)}
     found["driver"]["cpu"] = is_driver_loaded()
-    for proxy in made:
-        values = found[proxy.SMProxy.GetXMLName()]
+    for name, proxy in made.items():
+        values = found[name]
         proxy.Device = "OpenCL"
         values["digest"], values["warnings"] = run(proxy)
         values.update(names_of(proxy))
@@ -79,7 +74,7 @@ else:
         values["kept name"] = proxy.DeviceName.GetData()
         proxy.DeviceName = ""
     found["driver"]["opencl"] = is_driver_loaded()
-    made[0].DeviceName = "Another"
+    made[NAMES[0]].DeviceName = "Another"
     simple.SaveState(os.path.join(FOLDER, "device.pvsm"))
 with open(os.path.join(FOLDER, "found.json"), "w", encoding="utf-8") as file:
     json.dump(found, file)

@@ -14,9 +14,9 @@ if KIND == "none" or (KIND == "last has none" and RANK == COUNT - 1):
     os.environ["OCL_ICD_VENDORS"] = "/nonexistent"  # before the driver is loaded
 
 import numpy as np
-from rectifiedtransport import (vtkDensityEqualizingWarp, vtkTransportBarycenter,
-                                vtkTransportInterpolator, vtkTransportMap, vtkTransportSampler)
-from rt_testing import Listener, digest, points_in
+import rectifiedtransport
+from rt_filters import with_property
+from rt_testing import Listener, digest, points_in, set_property
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
@@ -42,32 +42,32 @@ points = vtkTrivialProducer()
 box = vtkImageData()
 box.SetDimensions(7, 6, 9)
 points.SetOutput(points_in(box))
-filters = {"sample": vtkTransportSampler(), "map": vtkTransportMap(),
-           "warp": vtkDensityEqualizingWarp(), "morph": vtkTransportInterpolator(),
-           "mean": vtkTransportBarycenter()}
-for name, algorithm in filters.items():
-    algorithm.SetInputConnection(0, (points if name == "warp" else one).GetOutputPort())
-filters["warp"].SetInputConnection(1, one.GetOutputPort())
-filters["morph"].SetInputConnection(1, other.GetOutputPort())
-filters["mean"].AddInputConnection(0, other.GetOutputPort())
-filters["sample"].SetNumberOfParticles(200)
+SOURCES = {"density": [one], "densities": [one, other], "Target": [other], "mesh": [points]}
+
+filters = {}  # all at once, so that devices stay open
+for filter_ in with_property("Device"):
+    algorithm = filters[filter_.name] = getattr(rectifiedtransport, filter_.class_name)()
+    for port, (name, kind) in enumerate(filter_.inputs.items()):
+        for source in SOURCES.get(name) or SOURCES[kind]:
+            algorithm.AddInputConnection(port, source.GetOutputPort())
+    for name, value in {**filter_.quick, "NumberOfSteps": 8}.items():
+        set_property(algorithm, name, value)
 
 results = {}
 for name, algorithm in filters.items():
     messages = Listener(algorithm)
-    algorithm.SetNumberOfSteps(8)
-    results[name] = {}
+    given = results[name] = {}
     for device in (0, 1):
         algorithm.SetDevice(device)
         messages.warnings.clear()
         algorithm.UpdatePiece(RANK, COUNT, 0)
-        results[name]["OpenCL" if device else "CPU"] = {
+        given["OpenCL" if device else "CPU"] = {
             "digests": [digest(algorithm.GetOutputDataObject(port))
                         for port in range(algorithm.GetNumberOfOutputPorts())],
             "warnings": [" ".join(warning.split()) for warning in messages.warnings],
             "errors": messages.errors}
         RANKS.Barrier()
-names = filters["sample"].GetDeviceNames()  # with OpenCL
+names = algorithm.GetDeviceNames()  # with OpenCL
 results["devices"] = names.GetNumberOfValues() - 1
 with open("%s.%d" % (sys.argv[1], RANK), "w", encoding="utf-8") as file:
     json.dump(results, file)
