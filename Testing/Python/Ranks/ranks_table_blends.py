@@ -4,6 +4,12 @@ from paraview import servermanager, simple
 from ranks_rows import give, give_both, give_tables, with_ghosts
 
 
+def give_rows(_inputs):
+    give_blends()
+    give_targets()
+    give_distances()
+
+
 def morph(**properties):
     simple.SetActiveSource(None)  # whose arrays would be the defaults of a new filter
     return simple.MorphDensities(**properties)

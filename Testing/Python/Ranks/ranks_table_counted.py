@@ -48,8 +48,9 @@ def pieces(others, values):
                                      ScriptRequestInformation=WHOLE)
 
 
-def give_counted(image):
+def give_rows(inputs):
     """What several ranks have, or one alone: it counts once."""
+    image = inputs["points"]
     usual = dict(NegativeValues="Clamp", NumberOfSteps=8)
     counts = dict(Kernel="NearestCell", DivideByVolume=0)
     nodes = simple.Threshold(Input=image, Scalars=["POINTS", "RTData"], LowerThreshold=-1000,

@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Of ranks_table_script.py: densities with missing data, and what empty cells count as."""
+"""Rows of TestRanksTable.py: densities with missing data, and what empty cells count as."""
 from paraview import simple
 from ranks_rows import give, give_row, tiles, with_ghosts
 
 
-def give_missing(image, cells, hidden):
+def give_rows(inputs):
     """Values out of range and NaN, in points, cells and meshes; the box with a margin."""
+    image, cells, hidden = (inputs[name] for name in ("points", "cells", "hidden"))
     holes = simple.Calculator(Input=image, ResultArrayName="Holes",
                               Function="if(coordsX^2 + coordsY^2 < 9, sqrt(-1), RTData)")
     mesh = simple.ImageDatatoPointSet(Input=cells)
     range_ = dict(ValidRange=[120, 240], NumberOfSteps=32, DensityResolution=12)
-    inputs = {
+    densities = {
         "points": (image, range_),
         "cells": (cells, range_),
         "ghosts": (with_ghosts(image, 2), range_),
@@ -22,7 +23,7 @@ def give_missing(image, cells, hidden):
     }
     shell = simple.Contour(Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[150.0],
                            ComputeNormals=0)
-    for name, (density, properties) in inputs.items():
+    for name, (density, properties) in densities.items():
         give("missing sample " + name, simple.SampleDensity(
             density, NumberOfParticles=300, SampleArrays=0, **properties))
         for tables in ("Whole", "Tiled"):

@@ -62,6 +62,12 @@ for key in (Pipeline.TIME_STEPS(), Pipeline.TIME_RANGE()):
 """
 
 
+def give_rows(inputs):
+    images = {name: inputs[name] for name in ("points", "cells", "flat", "ghosts")}
+    give_splats(images["points"], images["flat"], images["ghosts"])
+    give_qualities(images)
+
+
 def spread(where):
     return simple.ProgrammableSource(OutputDataSetType="vtkPolyData", Script=SPREAD % where)
 

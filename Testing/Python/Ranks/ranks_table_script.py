@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What TestRanksTable.py runs on each rank: filters on distributed images. Each rank writes what it
-has of the outputs: a digest of each element, by its place."""
+has of the outputs: a digest of each element, by its place. Further rows are those of give_rows in the
+other files ranks_table_*.py."""
+import glob
+import importlib
+import os
 import pickle
 import sys
 
 from paraview import simple
 from ranks_rows import (RANK, gathered, give, give_row, redistributed, refined, tiles, turned,
                         with_ghosts)
-from ranks_table_blends import give_blends, give_distances, give_targets
-from ranks_table_counted import give_counted
-from ranks_table_missing import give_missing
-from ranks_table_points import give_qualities, give_splats
-from ranks_table_temporal import give_temporal
 from rt_testing import load_plugin, producer
 from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -181,6 +180,7 @@ def main(path):
     hidden = simple.Calculator(
         Input=cells, Function="2*(coordsX^2 + coordsY^2 < 9)", AttributeType="Point Data",
         ResultArrayName="vtkGhostType", ResultArrayType="Unsigned Char")
+    inputs["hidden"] = hidden
     for tables in ("Whole", "Tiled"):  # the largest values are hidden
         give("hidden points " + tables, simple.SampleDensity(
             Input=hidden, NumberOfParticles=500, InvertDensity=1, Tables=tables, NumberOfSteps=32,
@@ -231,15 +231,10 @@ def main(path):
             Input=simple.UniformSeeds(NumberOfPoints=80, Dimension=3, Bounds=[0, 10, -4, 8, -7, 0]),
             Density=density, **usual))
     give_tiled()
-    give_splats(image, flat, ghosts)
-    give_qualities(inputs)
     give_data()
-    give_missing(image, cells, hidden)
-    give_counted(image)
-    give_blends()
-    give_targets()
-    give_distances()
-    give_temporal()
+    for file in sorted(glob.glob("ranks_table_*.py", root_dir=os.path.dirname(__file__))):
+        if file != os.path.basename(__file__):
+            importlib.import_module(file[:-3]).give_rows(inputs)
     with open("%s.%d" % (path, RANK), "wb") as file:
         pickle.dump(gathered, file)
     print("WROTE", RANK, flush=True)

@@ -33,7 +33,7 @@ def series(image, script=STEP):
                                      CopyArrays=0)
 
 
-def give_temporal():
+def give_rows(_inputs):
     """Both methods and chains, of points and cells, in a volume and a plane, at and between steps."""
     whole = [-4, 8, 0, 7, 0, 10]
     image = simple.Wavelet(WholeExtent=whole)
