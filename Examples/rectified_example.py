@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the examples share: their arguments, where the plugin and the inputs are, and how a picture
-is framed."""
-import argparse
+"""What the examples share: where the plugin and the inputs are, and how a picture is framed."""
 import glob
 import os
 import re
@@ -10,6 +8,7 @@ import sys
 import types
 
 from paraview import simple
+from rectified_arguments import number, output, parser  # for the examples, which import this
 from vtkmodules.vtkImagingCore import vtkImageShrink3D
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
@@ -20,48 +19,11 @@ IMAGES = os.path.join(ROOT, "Documentation", "Images")
 PHOTOGRAPH = os.path.join(DATA, "raccoon.png")
 BRAIN = os.path.join(DATA, "brain-t1.vti")
 NIGHT = os.path.join(DATA, "night-europe.png")
-# Numbers that several examples take: what they say, and the least that they may be.
-NUMBERS = {"size": ("pixels along the sides of the images", 8),
-           "particles": ("particles a pixel; the paper has 1", 1),
-           "resolution": ("cells along the longest axis of a solid; the paper has 256", 8),
-           "frames": ("pictures of a morph", 2),
-           "panel": ("side of each of the pictures", 16)}
-
-
-def number(default, words, least=1):
-    """An argument of a parser that is a whole number or, if its default is a list, are several."""
-    def parsed(text):
-        if not text.isdigit() or int(text) < least:
-            raise argparse.ArgumentTypeError("%s is not a whole number of at least %d"
-                                             % (text, least))
-        return int(text)
-    several = {"nargs": "+"} if isinstance(default, list) else {}
-    return dict(type=parsed, default=default, help=words + " (default: %(default)s)", **several)
 
 
 def file(default=PHOTOGRAPH, words="a photograph in any format that ParaView reads"):
     """An argument of a parser that is a file."""
     return dict(nargs="?", default=default, help=words)
-
-
-def parser(description, output=".", **arguments):
-    """A parser of arguments: each is a default of one of NUMBERS, or keywords of add_argument; what
-    has nargs "?" or "*" is given by its place, the others by --name."""
-    made = argparse.ArgumentParser(description=description)
-    for name, keywords in arguments.items():
-        if isinstance(keywords, int):
-            keywords = number(keywords, *NUMBERS[name])
-        dashes = "" if keywords.get("nargs") in ("?", "*") else "--"
-        made.add_argument(dashes + name.replace("_", "-"), **keywords)
-    made.add_argument("--output", default=output,
-                      help="folder of the pictures (default: %(default)s)")
-    return made
-
-
-def output(arguments, name):
-    """The path of a file in the folder --output, which is made."""
-    os.makedirs(arguments.output, exist_ok=True)
-    return os.path.join(arguments.output, name)
 
 
 def stem(path):

@@ -45,7 +45,8 @@ def blocks(values):
 
 def main():
     arguments = example.parser(
-        __doc__, cells=example.number(256, "cells along each side, a multiple of 4", 8),
+        __doc__, small="--cells 128 --pixels 480",
+        cells=example.number(256, "cells along each side, a multiple of 4", 8),
         ratio=dict(type=float, default=100, help="density of the disc over that of the rest"),
         pixels=example.number(1600, "width of the picture")).parse_args()
     if arguments.cells % BLOCK:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every function of rectifiedtransport.arrays on small pictures, with numpy alone: no pipeline, no
 ParaView, no file to read. The picture is drawn into an array and written as PNG."""
-import argparse
 import glob
 import os
 import struct
@@ -10,8 +9,10 @@ import zlib
 
 import numpy as np
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, os.pardir)
-sys.path += glob.glob(os.path.join(ROOT, "build", "lib*", "python3*", "*-packages"))
+EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir)
+sys.path.insert(0, EXAMPLES)
+sys.path += glob.glob(os.path.join(EXAMPLES, os.pardir, "build", "lib*", "python3*", "*-packages"))
+from rectified_arguments import number, output, parser
 from rectifiedtransport import arrays
 
 INK = np.array([0.13, 0.16, 0.28])
@@ -118,12 +119,10 @@ def montage(rows, gap=8):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--size", type=int, default=128, help="pixels along the sides of the densities")
-    parser.add_argument("--dots", type=int, default=1500, help="number of dots")
-    parser.add_argument("--panel", type=int, default=256, help="side of each of the pictures")
-    parser.add_argument("--output", default=".", help="folder of the picture")
-    arguments = parser.parse_args()
+    arguments = parser(
+        __doc__, small="--size 48 --dots 300 --panel 96",
+        size=number(128, "pixels along the sides of the densities", 8),
+        dots=number(1500, "number of dots"), panel=256).parse_args()
     size, panel = arguments.size, arguments.panel
     a, b, c, smooth = ring(size), discs(size), star(size), waves(size)
     radius = 0.3 * panel / arguments.dots ** 0.5
@@ -152,8 +151,7 @@ def main():
         [enlarged(tinted(c), panel), enlarged(tinted(mean, WARM), panel),
          dotted(sites, size, panel, panel / 100, enlarged(coloured, panel)),
          bent(back.displacement, panel)]])
-    os.makedirs(arguments.output, exist_ok=True)
-    path = os.path.join(arguments.output, "arrays.png")
+    path = output(arguments, "arrays.png")
     write_png(path, picture)
     print(path)
 

@@ -13,8 +13,9 @@ from paraview import simple
 
 def main():
     parser = example.parser(
-        __doc__, shapes=shapes.names(["bunny", "coupling", "spot+bear", "knot"], "four shapes, top "
-                                     "left, top right, bottom left, bottom right"),
+        __doc__, small="--size 64 --rows 3 --panel 96",
+        shapes=shapes.names(["bunny", "coupling", "spot+bear", "knot"], "four shapes, top "
+                            "left, top right, bottom left, bottom right"),
         size=256, particles=9, rows=example.number(5, "rows and columns of pictures", 2), panel=256)
     arguments = parser.parse_args()
     if len(arguments.shapes) != 4:

@@ -13,8 +13,9 @@ from paraview import simple
 
 def main():
     parser = example.parser(
-        __doc__, shapes=shapes.names(["spot", "eight", "bunny"],
-                                     "three closed surfaces, top, left and right", joined=False),
+        __doc__, small="--resolution 32 --rows 3 --panel 120",
+        shapes=shapes.names(["spot", "eight", "bunny"],
+                            "three closed surfaces, top, left and right", joined=False),
         resolution=96, rows=example.number(4, "rows of the triangle", 2), panel=360)
     arguments = parser.parse_args()
     if len(arguments.shapes) != 3:

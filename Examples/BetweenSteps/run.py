@@ -94,8 +94,10 @@ def panels(images, largest, steps):
 
 
 def main():
-    parser = example.parser(__doc__, size=128, keep=example.number(10, "every how many steps one is kept", 2),
-                            every=example.number(3, "every how many steps left out are compared"), panel=176)
+    parser = example.parser(
+        __doc__, small="--size 40 --every 12 --panel 96",
+        size=128, keep=example.number(10, "every how many steps one is kept", 2),
+        every=example.number(3, "every how many steps left out are compared"), panel=176)
     arguments = parser.parse_args()
     example.load_plugin()
     shown = [round(i * (STEPS - 1) / 8) for i in (0, 1, 2, 3, 4)]  # two intervals of ten steps

@@ -14,7 +14,8 @@ MAP = os.path.join(example.DATA, "us-states.geojson")
 
 def main():
     arguments = example.parser(
-        __doc__, map=example.file(MAP, "a map that GDAL Vector Reader takes, in an equal-area projection"),
+        __doc__, small="--pixels 480",
+        map=example.file(MAP, "a map that GDAL Vector Reader takes, in an equal-area projection"),
         mass=dict(default="mass", help="the attribute with the people of each state"),
         pixels=example.number(1600, "width of the picture")).parse_args()
 

@@ -65,9 +65,10 @@ def row(name, mesh, cut):
 
 def main():
     arguments = example.parser(
-        __doc__, surfaces=dict(nargs="*", default=["bunny", "armadillo", "eight"],
-                               help="names of rectified_shapes.py or files of closed surfaces "
-                               "(default: bunny, armadillo, eight)"), panel=360).parse_args()
+        __doc__, small="--panel 160",
+        surfaces=dict(nargs="*", default=["bunny", "armadillo", "eight"],
+                      help="names of rectified_shapes.py or files of closed surfaces "
+                      "(default: bunny, armadillo, eight)"), panel=360).parse_args()
     example.load_plugin()
     rows, pictures = [], []
     for name in arguments.surfaces:

@@ -87,7 +87,8 @@ def draw(path, dots, colours, bounds, radius, longest):
 
 def main():
     arguments = example.parser(
-        __doc__, image=example.file(),
+        __doc__, small="--particles 3000 --iterations 10 --pixels 480",
+        image=example.file(),
         particles=example.number(30000, "number of dots"),
         ratio=example.number(5, "how many times as large the largest dots are"),
         scale=example.number(10, "pixels over which detail is looked for"),

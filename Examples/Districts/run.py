@@ -50,7 +50,8 @@ def draw(path, people, power, flow, pixels):
 
 def main():
     arguments = example.parser(
-        __doc__, parts=example.number(12, "how many parts"),
+        __doc__, small="--pixels 600",
+        parts=example.number(12, "how many parts"),
         pixels=example.number(1800, "width of the picture")).parse_args()
     example.load_plugin()
     path = example.output(arguments, "people.tif")

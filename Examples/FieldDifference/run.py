@@ -56,7 +56,8 @@ def draw_arrows(path, runs, arrows, size, pixels):
 
 
 def main():
-    arguments = example.parser(__doc__, size=128, panel=320).parse_args()
+    arguments = example.parser(
+        __doc__, small="--size 64 --panel 160", size=128, panel=320).parse_args()
     size, panel = arguments.size, arguments.panel
     example.load_plugin()
     values = [plume(size, turn) for turn in (0.05, 0.18)]

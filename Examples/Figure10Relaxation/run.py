@@ -93,7 +93,8 @@ def print_tables(found, ink, tables_of):
 
 def main():
     parser = example.parser(
-        __doc__, image=example.file(ASCENT),
+        __doc__, small="--size 256 --particles 600 --iterations 1 5 20 --panel 128",
+        image=example.file(ASCENT),
         size=example.number(1024, "pixels along the sides of the photograph", 8),
         particles=example.number(8192, "number of dots"),
         iterations=example.number([0, 1, 5, 20, 50], "that are drawn and timed", 0),

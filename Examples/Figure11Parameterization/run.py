@@ -143,9 +143,10 @@ def pictures_of(mesh, alone, kept, pose, pixels):
 
 def main():
     arguments = example.parser(
-        __doc__, surfaces=dict(nargs="*", default=list(disks.NAMES),
-                               help="names of rectified_disks.py or files of surfaces that are "
-                               "disks (default: all that have names)"),
+        __doc__, small="--resolution 128 --panel 160",
+        surfaces=dict(nargs="*", default=list(disks.NAMES),
+                      help="names of rectified_disks.py or files of surfaces that are "
+                      "disks (default: all that have names)"),
         resolution=example.number(1024, "cells along the grid of the flow"),
         panel=360).parse_args()
 

@@ -142,7 +142,8 @@ def draw(density, number, start, pixels):
 
 def main():
     parser = example.parser(
-        __doc__, cells=example.number(512, "cells of the density", 8),
+        __doc__, small="--particles 2000 --paths 24 --pixels 480",
+        cells=example.number(512, "cells of the density", 8),
         particles=example.number(10000, "number of particles that the errors are taken over"),
         paths=example.number(64, "number of paths in the picture"),
         start=dict(type=float, help="where the purple path starts, in cells; by default in the "

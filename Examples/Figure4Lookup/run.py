@@ -134,7 +134,9 @@ def count_steps(photograph, arguments):
 
 def main():
     arguments = example.parser(
-        __doc__, image=example.file(),
+        __doc__, small="--resolutions 16 64 --samples 64 --published 48 --check 40 --size 128 "
+                       "--step-samples 64 --steps 5 25 --panel 96",
+        image=example.file(),
         resolutions=example.number([16, 64, 256, 1024],
                                    "pixels along the sides of the photograph, upper part", 2),
         steps=example.number([5, 10, 25, 50, 100], "numbers of steps, lower part"),

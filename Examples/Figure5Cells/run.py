@@ -59,7 +59,8 @@ def draw(path, sets, pixels):
 
 def main():
     arguments = example.parser(
-        __doc__, sites=example.number(1024, "how many, in each of the two sets"),
+        __doc__, small="--sites 64 --resolution 128 --pixels 480",
+        sites=example.number(1024, "how many, in each of the two sets"),
         resolution=example.number(1024, "pixels of the square's side"),
         seed=example.number(1, "of the random sites", 0),
         pixels=example.number(2040, "width of the picture", 64)).parse_args()

@@ -80,7 +80,7 @@ def measure(name, image, invert, direction):
 
 def main():
     arguments = example.parser(
-        __doc__,
+        __doc__, small="--size 64 --panel 64",
         image=example.file(words="a photograph that covers the plane; dark is mass"),
         subject=dict(default=example.BRAIN,
                      help="a picture, or a volume of which the middle slice is taken, with a "

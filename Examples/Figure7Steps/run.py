@@ -18,7 +18,8 @@ def positions(dots, **options):
 
 def main():
     arguments = example.parser(
-        __doc__, image=example.file(),
+        __doc__, small="--size 128 --particles 1500 --steps 2 10 50 --pictures 2 --panel 128",
+        image=example.file(),
         size=example.number(1024, "pixels along the sides of the photograph", 8),
         particles=example.number(16384, "number of dots"),
         steps=example.number([1, 2, 5, 10, 25, 50, 200], "numbers of steps"),

@@ -63,7 +63,9 @@ def whole_time(image, number, repeats):
 
 def main():
     arguments = example.parser(
-        __doc__, image=example.file(),
+        __doc__, small="--samples 500 2000 --size 256 --sizes 64 128 --particles 1000 --repeats 2 "
+                       "--panel 128",
+        image=example.file(),
         samples=example.number([2048, 8192, 32768, 131072], "numbers of samples, first row"),
         size=example.number(2048, "pixels along the sides of the photograph, first row", BLOCKS),
         sizes=example.number([256, 512, 1024, 2048, 4096],

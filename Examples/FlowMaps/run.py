@@ -188,7 +188,8 @@ def panels(density, time, seeds, cells, pixels):
 
 def main():
     parser = example.parser(
-        __doc__, image=example.file(),
+        __doc__, small="--size 128 --particles 1500 --panel 160",
+        image=example.file(),
         size=example.number(512, "pixels along the sides of its middle square", 16),
         particles=example.number(8000, "number of particles"),
         cells=example.number(16, "cells of the lattice along an axis", 8),

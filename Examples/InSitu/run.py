@@ -123,7 +123,8 @@ def panels(files, pixels):
 
 def main():
     arguments = example.parser(
-        __doc__, ranks=example.number(2, "ranks of MPI"),
+        __doc__, small="--particles 2000 --panel 320",
+        ranks=example.number(2, "ranks of MPI"),
         particles=example.number(4000, "number of particles", 16),
         panel=example.number(640, "width of each of the four pictures", 16)).parse_args()
     find = importlib.util.find_spec

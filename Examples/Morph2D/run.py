@@ -13,7 +13,7 @@ from paraview import simple
 
 def main():
     parser = example.parser(
-        __doc__,
+        __doc__, small="--size 64 --frames 3 --panel 96",
         shapes=shapes.names(["bunny", "camel+dinosaur", "knot", "coupling", "bull", "rings"],
                             "pairs of shapes, a morph each"),
         size=256, particles=9, frames=7, panel=256)

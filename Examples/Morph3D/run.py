@@ -46,8 +46,9 @@ def morph(names, method, options):
 
 def main():
     parser = example.parser(
-        __doc__, shapes=shapes.names(["spot", "bunny", "spot", "eight"],
-                                     "pairs of closed surfaces, a morph each", joined=False),
+        __doc__, small="--resolution 32 --frames 3 --panel 120",
+        shapes=shapes.names(["spot", "bunny", "spot", "eight"],
+                            "pairs of closed surfaces, a morph each", joined=False),
         resolution=128,
         cube=dict(action="store_true",
                   help="grow the boxes of the solids to cubes, as the paper has them"),

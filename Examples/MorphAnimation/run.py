@@ -46,7 +46,8 @@ def flat_view(sources, size, pixels):
 
 def main():
     parser = example.parser(
-        __doc__, shapes=shapes.names(["knot", "coupling"], "two shapes"), size=256, particles=9,
+        __doc__, small="--size 64 --frames 5 --seconds 1 --pictures 3 --panel 120",
+        shapes=shapes.names(["knot", "coupling"], "two shapes"), size=256, particles=9,
         frames=example.number(21, "of the animation", 2),
         seconds=dict(type=float, default=2, help="that it takes, one way"),
         pictures=example.number(5, "how many frames the strip shows", 2), panel=320)

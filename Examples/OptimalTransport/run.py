@@ -185,7 +185,8 @@ def barycenter(arguments):
 
 def main():
     arguments = example.parser(
-        __doc__, image=example.file(),
+        __doc__, small="--particles 2000 --size 64 --barycenter 48 --panel 240",
+        image=example.file(),
         particles=example.number(20000, "number of dots", 100), size=256,
         barycenter=example.number(128, "pixels along the sides of the barycenter", 16),
         particles_per_cell=example.number(4, "of the barycenter"), panel=620).parse_args()

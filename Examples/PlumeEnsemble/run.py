@@ -101,7 +101,8 @@ def overlay(plumes, winds, panel):
 
 def main():
     arguments = example.parser(
-        __doc__, size=128, members=example.number(40, "plumes of the ensemble", 3),
+        __doc__, small="--size 48 --panel 220",
+        size=128, members=example.number(40, "plumes of the ensemble", 3),
         seed=example.number(1, "of the random numbers", 0), panel=360).parse_args()
     example.load_plugin()
     winds, plumes = ensemble(arguments.size, arguments.members, arguments.seed)

@@ -49,7 +49,8 @@ def deviation(cells):
 
 def main():
     arguments = example.parser(
-        __doc__, sites=example.number(1024, "how many, in each of the sets"),
+        __doc__, small="--sites 64 --resolution 64 --drawn 20 --pixels 480",
+        sites=example.number(1024, "how many, in each of the sets"),
         resolution=example.number(1024, "pixels of the square's side"),
         seed=example.number(1, "of the sites", 0),
         drawn=example.number(150, "sites in the pictures"),

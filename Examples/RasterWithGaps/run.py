@@ -49,7 +49,9 @@ def draw(path, parts, bounds, pixels):
 
 
 def main():
-    arguments = example.parser(__doc__, pixels=example.number(1800, "width of the picture")).parse_args()
+    arguments = example.parser(
+        __doc__, small="--pixels 600",
+        pixels=example.number(1800, "width of the picture")).parse_args()
     example.load_plugin()
     path = example.output(arguments, "island.tif")
     raster.write_geotiff(path, raster.island())

@@ -37,7 +37,7 @@ def draw(path, particles, bounds, radius, pixels):
 
 def main():
     arguments = example.parser(
-        __doc__,
+        __doc__, small="--particles 50000 --pixels 400",
         volume=example.file(example.BRAIN,
                             "an image of three dimensions in any format that ParaView reads"),
         particles=example.number(300000, "number of particles"),

@@ -40,7 +40,8 @@ def write_png(path, dots, bounds, radius, longest):
 
 def main():
     arguments = example.parser(
-        __doc__, image=example.file(),
+        __doc__, small="--particles 5000 --pixels 800",
+        image=example.file(),
         particles=example.number(40000, "number of dots"),
         pixels=example.number(2048, "longest side of the PNG"), width=pages.WIDTH).parse_args()
 

@@ -42,7 +42,8 @@ def dots(colours, style, number, exponent):
 
 def main():
     parser = example.parser(
-        __doc__, image=example.file(), particles=example.number(40000, "number of dots"),
+        __doc__, small="--particles 3000 --panel 160",
+        image=example.file(), particles=example.number(40000, "number of dots"),
         width=pages.WIDTH,
         styles=dict(nargs="+", choices=STYLES, default=STYLES, metavar="STYLE",
                     help="of dots: " + ", ".join(STYLES) + " (default: all of them)"),

@@ -59,9 +59,10 @@ def draw(mesh, dots, size, pose, pixels):
 
 def main():
     arguments = example.parser(
-        __doc__, surface=dict(nargs="?", default="bunny",
-                              help="a name of rectified_shapes.py or rectified_disks.py, or a "
-                              "file of a surface (default: %(default)s)"),
+        __doc__, small="--dots 3000 --panel 300",
+        surface=dict(nargs="?", default="bunny",
+                     help="a name of rectified_shapes.py or rectified_disks.py, or a "
+                     "file of a surface (default: %(default)s)"),
         dots=example.number(16384, "dots on the surface"), panel=640).parse_args()
 
     example.load_plugin()

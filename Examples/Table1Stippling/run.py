@@ -16,7 +16,7 @@ from paraview import simple
 
 SHIPPED = [os.path.join(example.DATA, name) for name in ("raccoon.png", "ascent.png")]
 SKIMAGE = ["camera.png", "astronaut.png"]  # of Debian's python3-skimage
-SMALL = 1024, [2048, 2048, 4096, 4096]
+USUAL = 1024, [2048, 2048, 4096, 4096]
 FULL = 2048, [8192, 8192, 16384, 16384]
 KINDS = "direct", "GBN", "BNOT"
 # Seconds of the paper's four rows, for photographs of its own, on 32 cores (AMD Ryzen Threadripper
@@ -125,16 +125,16 @@ def middle(picture, panel):
 
 def main():
     arguments = example.parser(
-        __doc__,
+        __doc__, small="--size 192 --samples 400 600 --iterations 10 --panel 96",
         images=dict(nargs="*", help="photographs in any format that ParaView reads (default: two "
                                     "of the project and two of python3-skimage)"),
         full=dict(action="store_true",
                   help="the paper's numbers of dots, on %d\u00b2 pixels" % FULL[0]),
         size=dict(example.number(None, "", 8), help="pixels along the sides of the photographs "
-                  "(default: %d)" % SMALL[0]),
+                  "(default: %d)" % USUAL[0]),
         samples=dict(example.number([], ""), default=None,
                      help="numbers of dots, of one photograph after another (default: %s)"
-                     % " ".join(map(str, SMALL[1]))),
+                     % " ".join(map(str, USUAL[1]))),
         iterations=example.number(50, "of each of the two methods, at most"),
         threading=dict(choices=["Serial", "Auto"], default="Serial",
                        help="one thread, timed by the processor's time, or all, by the clock "
@@ -142,9 +142,9 @@ def main():
         device=dict(metavar="NAME",
                     help="also on an OpenCL device whose name contains this, or \"%s\": the paper's "
                          "column \"Ours (GPU)\"" % ANY_DEVICE)).parse_args()
-    usual = FULL if arguments.full else SMALL
-    arguments.size = arguments.size or usual[0]
-    samples = arguments.samples or usual[1]
+    size, samples = FULL if arguments.full else USUAL
+    arguments.size = arguments.size or size
+    samples = arguments.samples or samples
 
     example.load_plugin()
     rows, devices, pictures = [], [], []

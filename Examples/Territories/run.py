@@ -125,8 +125,9 @@ def row(shape, cells, count):
 
 def main():
     arguments = example.parser(
-        __doc__, image=example.file(example.NIGHT, "a picture of which every territory gets an "
-                                    "equal share of the light"),
+        __doc__, small="--sites 40 --iterations 10 --resolution 342 --pixels 480",
+        image=example.file(example.NIGHT, "a picture of which every territory gets an "
+                           "equal share of the light"),
         sites=example.number(120, "how many territories"),
         iterations=example.number(40, "of the sites' relaxation", 0),
         resolution=example.number(1710, "pixels of the territories along the longest side"),

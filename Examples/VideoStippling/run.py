@@ -228,8 +228,9 @@ def picture_of_paths(paths, size, pixels):
 
 def main():
     parser = example.parser(
-        __doc__, photographs=dict(nargs="*", default=[example.PHOTOGRAPH],
-                                  help="one, or two between which the film fades"),
+        __doc__, small="--size 160 --frames 8 --particles 1000 --panel 160",
+        photographs=dict(nargs="*", default=[example.PHOTOGRAPH],
+                         help="one, or two between which the film fades"),
         frames=example.number(32, "of the film", 4),
         size=example.number(400, "width of a frame in pixels; the height is 3 to 4", 32),
         particles=example.number(6000, "number of dots", 100),

@@ -80,7 +80,8 @@ def draw(path, parts, array, bounds, pixels):
 
 def main():
     arguments = example.parser(
-        __doc__, image=example.file(),
+        __doc__, small="--pixels 480",
+        image=example.file(),
         columns=example.number(8, "cells of the grid, left to right"),
         rows=example.number(6, "and top to bottom"),
         blend=dict(type=float, default=1, help="how far to warp, from 0 to 1"),

@@ -5,10 +5,11 @@ TestExampleShapes.py."""
 import os
 import re
 import subprocess
+import sys
 
 import numpy as np
-from rt_examples import DATA, OWN, SHAPES, SMALL, ExampleTest, first, need_meshes, read, tables
-from rt_testing import OUTPUT, main, need_display
+from rt_examples import DATA, ExampleTest, examples, first, need_meshes, read, tables
+from rt_testing import OUTPUT, SOURCE, main, need_display
 from vtkmodules.vtkIOImage import vtkJPEGWriter
 
 
@@ -46,9 +47,29 @@ class Examples(ExampleTest):
         self.assertTrue(os.path.isfile(os.path.join(OUTPUT, "stipple-own.png")))
 
     def test_no_such_file(self):
-        for example in set(SMALL) - OWN:
-            printed = self.refused(example, *["nowhere.png"] * SHAPES.get(example, 1))
-            self.assertIn("nowhere.png", printed)
+        """Every example names the file, also one that takes none; those of shapes want several."""
+        for example in examples():
+            for number in range(1, 5):
+                printed = self.refused(example, *["nowhere.png"] * number)
+                if "%d shapes are given; it must be" % number not in printed:
+                    break
+            self.assertIn("nowhere.png", printed, example)
+
+    def test_small(self):
+        """--small stands for other arguments, and what is given before or after it wins."""
+        sys.path.insert(0, os.path.join(SOURCE, "Examples"))
+        from rectified_arguments import number, parser
+
+        def parsed(*arguments):
+            found = parser("", small="--size 48 --steps 2 10", image=dict(nargs="*", default=["a"]),
+                           size=128, steps=number([5], "steps"), panel=360).parse_args(arguments)
+            return found.image, found.size, found.steps, found.panel
+
+        self.assertEqual(parsed(), (["a"], 128, [5], 360))
+        self.assertEqual(parsed("--small"), (["a"], 48, [2, 10], 360))
+        self.assertEqual(parsed("--small", "b", "--panel", "16"), (["b"], 48, [2, 10], 16))
+        for given in ["--size", "128", "--small"], ["--small", "--size", "128"]:
+            self.assertEqual(parsed(*given), (["a"], 128, [2, 10], 360))
 
     def test_not_an_image(self):
         for name, what in (("broken.vti", "ParaView has no reader for"), ("broken.png", "no image")):

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of examples share: small arguments, what is printed, reference pictures.
+"""What the tests of examples share: how they are run, what is printed, reference pictures.
 
 Tests called with --update draw the reference pictures anew.
 """
+import glob
 import os
 import re
 import shutil
@@ -16,64 +17,29 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 DATA = os.path.join(SOURCE, "Testing", "Data")
-SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
-         "StipplePrint": ["--particles", "3000", "--panel", "160"],
-         "VideoStippling": ["--size", "160", "--frames", "8", "--particles", "1000",
-                            "--panel", "160"],
-         "ColourStippling": ["--particles", "3000", "--iterations", "10", "--pixels", "480"],
-         "Territories": ["--sites", "40", "--iterations", "10", "--resolution", "342", "--pixels",
-                         "480"],
-         "WarpedPhotograph": ["--pixels", "480"],
-         "Cartogram": ["--pixels", "480"],
-         "RasterWithGaps": ["--pixels", "600"],
-         "Districts": ["--pixels", "600"],
-         "AreaErrors": ["--cells", "128", "--pixels", "480"],
-         "FieldDifference": ["--size", "64", "--panel", "160"],
-         "PlumeEnsemble": ["--size", "48", "--panel", "220"],
-         "BetweenSteps": ["--size", "40", "--every", "12", "--panel", "96"],
-         "StippleSurface": ["--dots", "3000", "--panel", "300"],
-         "ClosedSurfaces": ["--panel", "160"],
-         "SampleVolume": ["--particles", "50000", "--pixels", "400"],
-         "Figure2Paths": ["--particles", "2000", "--paths", "24", "--pixels", "480"],
-         "Figure4Lookup": ["--resolutions", "16", "64", "--samples", "64", "--published", "48",
-                           "--check", "40", "--size", "128", "--step-samples", "64",
-                           "--steps", "5", "25", "--panel", "96"],
-         "Figure5Cells": ["--sites", "64", "--resolution", "128", "--pixels", "480"],
-         "PowerCells": ["--sites", "64", "--resolution", "64", "--drawn", "20", "--pixels", "480"],
-         "Figure6Map": ["--size", "64", "--panel", "64"],
-         "Figure7Steps": ["--size", "128", "--particles", "1500", "--steps", "2", "10", "50",
-                          "--pictures", "2", "--panel", "128"],
-         "Figure8Samples": ["--samples", "500", "2000", "--size", "256", "--sizes", "64", "128",
-                            "--particles", "1000", "--repeats", "2", "--panel", "128"],
-         "Figure10Relaxation": ["--size", "256", "--particles", "600", "--iterations", "1", "5",
-                                "20", "--panel", "128"],
-         "Table1Stippling": ["--size", "192", "--samples", "400", "600", "--iterations", "10",
-                             "--panel", "96"],
-         "Figure11Parameterization": ["--resolution", "128", "--panel", "160"],
-         "FlowMaps": ["--size", "128", "--particles", "1500", "--panel", "160"],
-         "Morph2D": ["--size", "64", "--frames", "3", "--panel", "96"],
-         "Morph3D": ["--resolution", "32", "--frames", "3", "--panel", "120"],
-         "OptimalTransport": ["--particles", "2000", "--size", "64", "--barycenter", "48", "--panel",
-                              "240"],
-         "Arrays": ["--size", "48", "--dots", "300", "--panel", "96"],
-         "MorphAnimation": ["--size", "64", "--frames", "5", "--seconds", "1", "--pictures", "3",
-                            "--panel", "120"],
-         "InSitu": ["--particles", "2000", "--panel", "320"],
-         "Barycenters2D": ["--size", "64", "--rows", "3", "--panel", "96"],
-         "Barycenters3D": ["--resolution", "32", "--rows", "3", "--panel", "120"]}
-SHAPES = {"Morph2D": 2, "Morph3D": 2, "MorphAnimation": 2, "Barycenters2D": 4, "Barycenters3D": 3}
 need_meshes = unittest.skipUnless(
     os.path.isfile(os.path.join(SOURCE, "build-meshes", "complete")),
     "needs the meshes that Testing/run.sh fetches")
-# examples that make their input
-OWN = {"AreaErrors", "Arrays", "BetweenSteps", "Districts", "FieldDifference", "Figure2Paths", "Figure5Cells",
-       "InSitu", "PlumeEnsemble", "PowerCells", "RasterWithGaps"}
+
+
+def script(example):
+    return os.path.join(SOURCE, "Examples", example, "run.py")
+
+
+def examples(word=""):
+    """The names of the examples whose script contains a word."""
+    found = []
+    for path in sorted(glob.glob(script("*"))):
+        with open(path, encoding="utf-8") as file:
+            if word in file.read():
+                found.append(os.path.basename(os.path.dirname(path)))
+    return found
 
 
 def command(example, *arguments):
-    """The script of an example and its arguments; its pictures go to OUTPUT."""
-    return [os.path.join(SOURCE, "Examples", example, "run.py"), "--output", OUTPUT, *arguments,
-            *SMALL[example]]
+    """The script of an example and its arguments, those of --small but for what is given; its pictures
+    go to OUTPUT."""
+    return [script(example), "--output", OUTPUT, "--small", *arguments]
 
 
 def run(example, *arguments):
