@@ -95,6 +95,12 @@ class ExampleTest(unittest.TestCase):
         self.assertNotEqual(code, 0)
         return printed + messages
 
+    def check_falls(self, numbers):
+        """Numbers become less from one to the next."""
+        numbers = [first(cell) for cell in numbers]
+        self.assertEqual(numbers, sorted(numbers, reverse=True))
+        self.assertLess(numbers[-1], numbers[0])
+
     def check_picture(self, name):
         """Against NAME and, as in VTK's own tests, NAME_1: what is as good with other last bits."""
         reference = os.path.join(DATA, "Baseline", name)
