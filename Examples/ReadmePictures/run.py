@@ -125,7 +125,10 @@ def main():
     example.load_plugin()
     stipple = example.script("StippleImage")
 
+    drawn = []
+
     def path(name):
+        drawn.append(name)
         return example.output(arguments, name + ".png")
 
     draw_particles(path("particles"), stipple)
@@ -173,12 +176,7 @@ def main():
     draw_example(path("video"), "VideoStippling", "video-stippling.png", "--panel", "220")
     draw_examples({path("tutorial-" + name): "tutorial-%s.png" % name
                    for name in ("slice", "morph", "compare", "people", "mesh")}, "Tutorial", "--pixels", "600")
-    print("particles, volume, warped-photograph, cartogram, gaps, districts, area-errors, cells, "
-          "territories, colours, patterns, flow, flow-maps, map, paths, morph, morph-3d, "
-          "morph-3d-optimal, optimal-stipples, optimal-ways, optimal-barycenter, barycenters, splats, solid, parameterization, "
-          "closed-surfaces, surface-dots, print, video, tutorial-slice, tutorial-morph, tutorial-compare, "
-          "tutorial-people, tutorial-mesh: "
-          + arguments.output)
+    print("%s: %s" % (", ".join(drawn), arguments.output))
 
 
 if __name__ == "__main__":
