@@ -2,6 +2,7 @@
 #include "Bridge/Density/PiecesDensity.h"
 
 #include "Bridge/Data/ImageGrids.h"
+#include "Bridge/Data/SampledArrays.h"
 #include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/Fingerprint.h"
