@@ -15,40 +15,17 @@ namespace RectifiedTransport
 namespace
 {
 
-class Library
+// A function of the loader's library, which is never closed: drivers do not survive it.
+void* find(const char* name)
 {
-public:
-  // It is never closed: drivers do not survive it.
-  Library()
-  {
 #ifdef _WIN32
-    this->Handle = LoadLibraryA("OpenCL.dll");
+  static const HMODULE library = LoadLibraryA("OpenCL.dll");
+  return library ? reinterpret_cast<void*>(GetProcAddress(library, name)) : nullptr;
 #else
-    this->Handle = dlopen("libOpenCL.so.1", RTLD_NOW | RTLD_LOCAL);
+  static void* const library = dlopen("libOpenCL.so.1", RTLD_NOW | RTLD_LOCAL);
+  return library ? dlsym(library, name) : nullptr;
 #endif
-  }
-
-  template <class Function>
-  bool Find(const char* name, Function& function) const
-  {
-    if (this->Handle)
-    {
-#ifdef _WIN32
-      function = reinterpret_cast<Function>(GetProcAddress(this->Handle, name));
-#else
-      function = reinterpret_cast<Function>(dlsym(this->Handle, name));
-#endif
-    }
-    return function != nullptr;
-  }
-
-private:
-#ifdef _WIN32
-  HMODULE Handle;
-#else
-  void* Handle;
-#endif
-};
+}
 
 struct Loading
 {
@@ -58,9 +35,9 @@ struct Loading
 
   Loading()
   {
-    const Library library;
 #define RectifiedTransport_FIND(name)                                                              \
-  this->IsComplete = library.Find(#name, this->Functions.name) && this->IsComplete
+  this->Functions.name = reinterpret_cast<decltype(OpenCL::name)>(find(#name));                    \
+  this->IsComplete = this->IsComplete && this->Functions.name
     RectifiedTransport_FUNCTIONS(RectifiedTransport_FIND);
 #undef RectifiedTransport_FIND
   }
