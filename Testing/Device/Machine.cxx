@@ -41,10 +41,9 @@ T numberOf(const FoundDevice& found, cl_device_info what)
 
 const char* kindOf(const FoundDevice& found)
 {
-  const auto type = numberOf<cl_device_type>(found, CL_DEVICE_TYPE);
-  return (type & CL_DEVICE_TYPE_GPU) != 0 ? "GPU"
-    : (type & CL_DEVICE_TYPE_CPU) != 0    ? "the processor itself"
-                                          : "another kind of device";
+  return (found.Type & CL_DEVICE_TYPE_GPU) != 0 ? "GPU"
+    : (found.Type & CL_DEVICE_TYPE_CPU) != 0    ? "the processor itself"
+                                                : "another kind of device";
 }
 
 std::string stateOf(const FoundDevice& found)
@@ -107,7 +106,7 @@ bool isGpu(const Device& device)
   {
     if (found.Description.Name == device.Description().Name)
     {
-      return (numberOf<cl_device_type>(found, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_GPU) != 0;
+      return (found.Type & CL_DEVICE_TYPE_GPU) != 0;
     }
   }
   return false;

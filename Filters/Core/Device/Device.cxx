@@ -81,8 +81,8 @@ std::shared_ptr<Device> openDevice(
     }
   }
   // Processors come last, and are not counted beside others.
-  const auto processors = std::stable_partition(
-    complete.begin(), complete.end(), [](const FoundDevice& found) { return !found.IsProcessor; });
+  const auto processors = std::stable_partition(complete.begin(), complete.end(),
+    [](const FoundDevice& found) { return (found.Type & CL_DEVICE_TYPE_CPU) == 0; });
   const auto others = static_cast<std::size_t>(processors - complete.begin());
   const std::size_t counted = others > 0 ? others : complete.size();
   for (std::size_t i = 0; i < complete.size(); ++i)
@@ -178,7 +178,6 @@ Device::Device(const FoundDevice& found)
 {
   this->Cl.clGetDeviceInfo(found.Id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof(this->LargestBuffer),
     &this->LargestBuffer, nullptr);
-  this->Cl.clGetDeviceInfo(found.Id, CL_DEVICE_TYPE, sizeof(this->Type), &this->Type, nullptr);
   const cl_context_properties ofPlatform[] = { CL_CONTEXT_PLATFORM,
     reinterpret_cast<cl_context_properties>(found.Platform), 0 };
   cl_int code = CL_SUCCESS;

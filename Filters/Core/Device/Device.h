@@ -28,7 +28,7 @@ struct FoundDevice
 {
   cl_platform_id Platform;
   cl_device_id Id;
-  bool IsProcessor; // which OpenCL can be, too
+  cl_device_type Type; // which may be a processor
   DeviceDescription Description;
 };
 // As listDevices.
@@ -136,7 +136,7 @@ public:
   std::timed_mutex& Mutex() { return this->InUse; }
   bool IsLost() const { return this->HasFailed || OpenCL::IsOfParent(); }
   void MarkLost() { this->HasFailed = true; }
-  bool IsGpu() const { return (this->Type & CL_DEVICE_TYPE_GPU) != 0; }
+  bool IsGpu() const { return (this->Found.Type & CL_DEVICE_TYPE_GPU) != 0; }
   const DeviceWork& Work() const { return this->Done; }
   std::uint64_t LargestAllocation() const { return this->LargestBuffer; } // bytes
   // What buffers of this object may still take.
@@ -191,7 +191,6 @@ private:
   const OpenCL& Cl;
   const FoundDevice Found;
   std::uint64_t LargestBuffer = 0;
-  cl_device_type Type = 0;
   std::atomic<std::uint64_t> Taken{ 0 };
   DeviceWork Done;
   cl_context Context = nullptr;

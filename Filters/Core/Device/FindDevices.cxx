@@ -57,9 +57,7 @@ FoundDevice describe(const OpenCL& cl, cl_platform_id platform, cl_device_id dev
   const std::string version = infoText([&](std::size_t size, void* text, std::size_t* needed) {
     return cl.clGetPlatformInfo(platform, CL_PLATFORM_VERSION, size, text, needed);
   });
-  const bool isProcessor =
-    (numberOf<cl_device_type>(cl, device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) != 0;
-  return { platform, device, isProcessor,
+  return { platform, device, numberOf<cl_device_type>(cl, device, CL_DEVICE_TYPE),
     { textOf(cl, device, CL_DEVICE_NAME), version + ", " + textOf(cl, device, CL_DRIVER_VERSION),
       numberOf<cl_ulong>(cl, device, CL_DEVICE_GLOBAL_MEM_SIZE), lacksOf(cl, device) } };
 }
