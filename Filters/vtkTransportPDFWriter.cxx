@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportPDFWriter.h"
 
-#include "Core/Drawing/PdfDrawing.h"
+#include "Core/Drawing/DrawingFormats.h"
 
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -29,7 +29,7 @@ std::string compress(std::string_view data)
 std::unique_ptr<RectifiedTransport::Drawing> vtkTransportPDFWriter::NewDrawing(
   RectifiedTransport::OutputFile& file) const
 {
-  return std::make_unique<RectifiedTransport::PdfDrawing>(file, compress);
+  return RectifiedTransport::newPdfDrawing(file, compress);
 }
 
 //------------------------------------------------------------------------------

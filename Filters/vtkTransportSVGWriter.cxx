@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportSVGWriter.h"
 
-#include "Core/Drawing/SvgDrawing.h"
+#include "Core/Drawing/DrawingFormats.h"
 
 #include "vtkObjectFactory.h"
 
@@ -12,7 +12,7 @@ vtkStandardNewMacro(vtkTransportSVGWriter);
 std::unique_ptr<RectifiedTransport::Drawing> vtkTransportSVGWriter::NewDrawing(
   RectifiedTransport::OutputFile& file) const
 {
-  return std::make_unique<RectifiedTransport::SvgDrawing>(file);
+  return RectifiedTransport::newSvgDrawing(file);
 }
 
 //------------------------------------------------------------------------------

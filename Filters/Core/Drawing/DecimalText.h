@@ -3,38 +3,24 @@
 #ifndef RectifiedTransport_DecimalText_h
 #define RectifiedTransport_DecimalText_h
 
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <string>
 
 namespace RectifiedTransport
 {
 
-// Appends a number below 10^12 with up to 6 decimals, without trailing zeros.
+// Appends a number rounded to decimals, without trailing zeros. The rounded number has at most 15
+// digits, so that the shortest text that a double is read from again has no others.
 inline void appendDecimal(std::string& text, double value, int decimals)
 {
-  std::int64_t unit = 1;
-  for (int i = 0; i < decimals; ++i)
-  {
-    unit *= 10;
-  }
-  std::int64_t rounded = std::llround(std::abs(value) * static_cast<double>(unit));
-  if (value < 0.0 && rounded > 0)
-  {
-    text += '-';
-  }
-  text += std::to_string(rounded / unit);
-  rounded %= unit;
-  if (rounded > 0)
-  {
-    text += '.';
-  }
-  while (rounded > 0)
-  {
-    unit /= 10;
-    text += static_cast<char>('0' + rounded / unit);
-    rounded %= unit;
-  }
+  std::array<char, 320> digits; // as many as the largest double has
+  const double unit = std::pow(10.0, decimals);
+  const double rounded = std::round(value * unit) / unit + 0.0; // without the sign of -0
+  char* const begin = digits.data();
+  text.append(
+    begin, std::to_chars(begin, begin + digits.size(), rounded, std::chars_format::fixed).ptr);
 }
 
 } // namespace RectifiedTransport

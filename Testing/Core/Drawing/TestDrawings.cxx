@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pages of SVG and PDF in files, and what is joined to one area.
+#include "Core/Drawing/DrawingFormats.h"
 #include "Core/Drawing/FilledAreas.h"
 #include "Core/Drawing/OutputFile.h"
-#include "Core/Drawing/PdfDrawing.h"
-#include "Core/Drawing/SvgDrawing.h"
 
 #include <gtest/gtest.h>
 
@@ -52,8 +51,7 @@ void draw(Drawing& drawing)
 TEST(Drawings, Svg)
 {
   OutputFile file(place().string());
-  SvgDrawing drawing(file);
-  draw(drawing);
+  draw(*newSvgDrawing(file));
   EXPECT_FALSE(std::filesystem::exists(place()));
   file.Close();
   EXPECT_EQ(takeText(),
@@ -75,8 +73,7 @@ TEST(Drawings, Svg)
 TEST(Drawings, Pdf)
 {
   OutputFile file(place().string());
-  PdfDrawing drawing(file, [](std::string_view data) { return std::string(data); });
-  draw(drawing);
+  draw(*newPdfDrawing(file, [](std::string_view data) { return std::string(data); }));
   file.Close();
   const std::string text = takeText();
   EXPECT_NE(text.find("1 0 0 rg\nq 1 0 0 1 5 2.5 cm /Disc Do Q\n"), std::string::npos);
