@@ -182,9 +182,9 @@ void TransportVectorWriter::Run(
     {
       layer.Radius = radius;
     }
-    extent.Rest.Include(extent.Dots, radius);
+    extent.SetRadiusOfDots(radius);
   }
-  if (extent.Points.IsEmpty())
+  if (extent.Points.isEmpty())
   {
     fail(points > 0 ? "The input has points, but none that is drawn: its cells have no points, or "
                       "vtkGhostType marks them as duplicates or hidden"

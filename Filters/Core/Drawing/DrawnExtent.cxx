@@ -3,9 +3,7 @@
 
 #include "Core/Messages/Failure.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace RectifiedTransport
 {
@@ -13,76 +11,57 @@ namespace RectifiedTransport
 namespace
 {
 
-void requireFinite(const double* point, std::int64_t number)
+Eigen::Vector3d finite(const double* point, std::int64_t number)
 {
-  if (!std::all_of(point, point + 3, [](double x) { return std::isfinite(x); }))
+  const Eigen::Map<const Eigen::Vector3d> place(point);
+  if (!place.allFinite())
   {
     fail("The input has a point that is NaN or infinite, at index ", number,
       "; all coordinates must be finite");
+  }
+  return place;
+}
+
+void extend(DrawnBounds& bounds, const DrawnBounds& box, double radius)
+{
+  if (!box.isEmpty())
+  {
+    const Eigen::Vector3d border = Eigen::Vector3d::Constant(radius);
+    bounds.extend(DrawnBounds(box.min() - border, box.max() + border));
   }
 }
 
 } // namespace
 
-DrawnBounds::DrawnBounds()
-{
-  this->Lower.fill(std::numeric_limits<double>::infinity());
-  this->Upper.fill(-std::numeric_limits<double>::infinity());
-}
-
-void DrawnBounds::Include(const double* point, double radius)
-{
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    this->Lower[axis] = std::min(this->Lower[axis], point[axis] - radius);
-    this->Upper[axis] = std::max(this->Upper[axis], point[axis] + radius);
-  }
-}
-
-void DrawnBounds::Include(const DrawnBounds& other, double radius)
-{
-  if (!other.IsEmpty())
-  {
-    this->Include(other.Lower.data(), radius);
-    this->Include(other.Upper.data(), radius);
-  }
-}
-
-std::array<std::size_t, 2> DrawnBounds::LongestAxes() const
-{
-  std::size_t shortest = 2;
-  for (const std::size_t axis : { 1, 0 })
-  {
-    shortest = this->Length(axis) < this->Length(shortest) ? axis : shortest;
-  }
-  return { shortest == 0 ? std::size_t{ 1 } : 0, shortest == 2 ? std::size_t{ 1 } : 2 };
-}
-
 void DrawnExtent::Include(const double* point, std::int64_t number, double radius)
 {
-  requireFinite(point, number);
+  const DrawnBounds place(finite(point, number));
   if (!(radius >= 0.0) || !std::isfinite(radius))
   {
     fail("RadiusArray has the value ", radius, " at index ", number,
       "; every radius must be finite and not negative");
   }
-  this->Points.Include(point);
-  this->Rest.Include(point, radius);
+  this->Points.extend(place);
+  extend(this->Rest, place, radius);
 }
 
 void DrawnExtent::IncludeDot(const double* point, std::int64_t number)
 {
-  requireFinite(point, number);
-  this->Points.Include(point);
-  this->Dots.Include(point);
+  const Eigen::Vector3d place = finite(point, number);
+  this->Points.extend(place);
+  this->Dots.extend(place);
   ++this->NumberOfDots;
+}
+
+void DrawnExtent::SetRadiusOfDots(double radius)
+{
+  extend(this->Rest, this->Dots, radius);
 }
 
 double DrawnExtent::RadiusWithoutNeighbours() const
 {
   constexpr double share = 0.01; // of the longest side
-  const double longest =
-    std::max({ this->Points.Length(0), this->Points.Length(1), this->Points.Length(2) });
+  const double longest = this->Points.sizes().maxCoeff();
   return longest > 0.0 ? share * longest : 1.0;
 }
 

@@ -9,10 +9,9 @@
 #include <sys/xattr.h>
 #endif
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 
@@ -31,14 +30,14 @@ constexpr int folderAccess = O_RDONLY;
 // The number of an open descriptor of this process, as which a path names a file; -1: it does not.
 int ownDescriptor(const std::string& path)
 {
-  constexpr std::size_t most = 6; // digits
   for (const std::string folder : { "/dev/fd/", "/proc/self/fd/" })
   {
-    const std::string number = path.substr(std::min(folder.size(), path.size()));
-    if (path == folder + number && !number.empty() && number.size() <= most &&
-      std::all_of(number.begin(), number.end(), [](unsigned char c) { return std::isdigit(c); }))
+    int number = -1;
+    const char* const end = path.data() + path.size();
+    if (path.rfind(folder, 0) == 0 &&
+      std::from_chars(path.data() + folder.size(), end, number).ptr == end)
     {
-      return std::stoi(number);
+      return number;
     }
   }
   return -1;

@@ -9,16 +9,29 @@
 namespace RectifiedTransport
 {
 
-PageLayout::PageLayout(const std::array<std::size_t, 2>& axes, const DrawnBounds& bounds,
+namespace
+{
+
+// Leaves out the shortest axis, the last one if several are as short.
+std::array<Eigen::Index, 2> longestAxes(const DrawnBounds& bounds)
+{
+  Eigen::Index last = 0;
+  bounds.sizes().reverse().minCoeff(&last);
+  return { last == 2 ? 1 : 0, last == 0 ? 1 : 2 };
+}
+
+} // namespace
+
+PageLayout::PageLayout(const std::array<Eigen::Index, 2>& axes, const DrawnBounds& bounds,
   double pageWidth, double margin)
   : Axes(axes)
-  , Origin{ bounds.LowerCorner()[axes[0]], bounds.LowerCorner()[axes[1]] }
+  , Origin{ bounds.min()[axes[0]], bounds.min()[axes[1]] }
   , Margins{ margin, margin }
 {
   constexpr double rounding = 1e-9;       // of lengths
   constexpr double shortestHeight = 1e-3; // of a page whose polygons have no area
-  const double width = bounds.Length(axes[0]);
-  const double height = bounds.Length(axes[1]);
+  const double width = bounds.sizes()[axes[0]];
+  const double height = bounds.sizes()[axes[1]];
   if (!std::isfinite(width) || !std::isfinite(height))
   {
     fail("The input has a length past the largest double; its coordinates must be smaller");
@@ -57,14 +70,11 @@ void PageSettings::CheckBounds() const
 PageLayout PageSettings::LayoutInBounds(const DrawnBounds& drawn) const
 {
   constexpr double farthest = 1e6; // millimetres, for numbers that all readers take
-  DrawnBounds shown;
-  for (std::size_t side = 0; side < 2; ++side)
-  {
-    shown.Include(
-      Point<3>{ this->Bounds[side], this->Bounds[2 + side], this->Bounds[4 + side] }.data());
-  }
-  const PageLayout layout(shown.LongestAxes(), shown, this->Width, this->Margin);
-  for (const double* corner : { drawn.LowerCorner(), drawn.UpperCorner() })
+  const std::array<double, 6>& bounds = this->Bounds;
+  const DrawnBounds shown(Eigen::Vector3d(bounds[0], bounds[2], bounds[4]),
+    Eigen::Vector3d(bounds[1], bounds[3], bounds[5]));
+  const PageLayout layout(longestAxes(shown), shown, this->Width, this->Margin);
+  for (const double* corner : { drawn.min().data(), drawn.max().data() })
   {
     for (const double distance : layout.At(corner))
     {
@@ -89,7 +99,7 @@ PageLayout PageSettings::Layout(const DrawnExtent& extent, double longestSide) c
   }
   const PageLayout layout = this->HasBounds()
     ? this->LayoutInBounds(extent.Rest)
-    : PageLayout(extent.Points.LongestAxes(), extent.Rest, this->Width, margin);
+    : PageLayout(longestAxes(extent.Points), extent.Rest, this->Width, margin);
   const Point<2>& size = layout.Size();
   const double longest = std::max(size[0], size[1]);
   if (longest > longestSide)

@@ -7,7 +7,6 @@
 #include "Core/Geometry/Points.h"
 
 #include <array>
-#include <cstddef>
 
 namespace RectifiedTransport
 {
@@ -19,8 +18,8 @@ class PageLayout
 public:
   // `width` and `margin` in millimetres. Throws Failure if the lengths, or millimetres
   // for a unit of them, are past the largest double.
-  PageLayout(
-    const std::array<std::size_t, 2>& axes, const DrawnBounds& bounds, double width, double margin);
+  PageLayout(const std::array<Eigen::Index, 2>& axes, const DrawnBounds& bounds, double width,
+    double margin);
 
   // Millimetres for a unit of the data.
   double Scale() const { return this->Unit; }
@@ -32,7 +31,7 @@ public:
   }
 
 private:
-  std::array<std::size_t, 2> Axes;
+  std::array<Eigen::Index, 2> Axes;
   Point<2> Origin;
   Point<2> Margins;
   Point<2> Sides;

@@ -51,7 +51,11 @@ TEST(PageLayout, RadiiAndStrokesFitOnThePage)
 {
   DrawnExtent extent = rectangle();
   extent.HasStrokes = true;
-  extent.Rest.Include(extent.Points, 1.0);
+  for (const Point<3>& corner : { Point<3>{ 1.0, 2.0, 3.0 }, { 1.0, 6.0, 5.0 } })
+  {
+    extent.IncludeDot(corner.data(), 2);
+  }
+  extent.SetRadiusOfDots(1.0);
   const PageLayout layout = PageSettings{ 62.0, 0.0, {}, 2.0 }.Layout(extent, farthest);
   EXPECT_EQ(layout.Scale(), 10.0);
   EXPECT_EQ(layout.At(Point<3>{ 0.0, 1.0, 2.0 }.data()), (Point<2>{ 1.0, 1.0 }));
@@ -97,7 +101,7 @@ TEST(PageLayout, RefusesWhatIsNotFinite)
     "The input has a point that is NaN or infinite, at index 7; all coordinates must be finite");
   EXPECT_EQ(errorOf([&]() { extent.Include(Point<3>{}.data(), 3, -1.0); }),
     "RadiusArray has the value -1 at index 3; every radius must be finite and not negative");
-  EXPECT_TRUE(extent.Rest.IsEmpty());
+  EXPECT_TRUE(extent.Rest.isEmpty());
 }
 
 } // namespace
