@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <initializer_list>
 
 namespace RectifiedTransport
 {
@@ -15,34 +14,16 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr int Decimals = 4; // of millimetres
 constexpr double PointsPerMillimetre = 72.0 / 25.4;
-constexpr double CircleHandle = 0.55228; // of a quarter of the unit circle as a Bezier curve
 constexpr std::size_t ContentSize = std::size_t{ 1 } << 20;
 
-void append(
-  std::string& text, std::initializer_list<double> values, const char* operation, int decimals)
-{
-  for (const double value : values)
-  {
-    appendDecimal(text, value, decimals);
-    text += ' ';
-  }
-  text += operation;
-  text += '\n';
-}
-
-std::string unitDisc()
-{
-  constexpr double h = CircleHandle;
-  std::string text;
-  append(text, { 1, 0 }, "m", 5);
-  append(text, { 1, h, h, 1, 0, 1 }, "c", 5);
-  append(text, { -h, 1, -1, h, -1, 0 }, "c", 5);
-  append(text, { -1, -h, -h, -1, 0, -1 }, "c", 5);
-  append(text, { h, -1, 1, -h, 1, 0 }, "c", 5);
-  return text + "f\n";
-}
+// Four Bezier curves.
+constexpr const char* unitDisc = "1 0 m\n"
+                                 "1 0.55228 0.55228 1 0 1 c\n"
+                                 "-0.55228 1 -1 0.55228 -1 0 c\n"
+                                 "-1 -0.55228 -0.55228 -1 0 -1 c\n"
+                                 "0.55228 -1 1 -0.55228 1 0 c\n"
+                                 "f\n";
 
 std::string reference(std::size_t object)
 {
@@ -73,24 +54,21 @@ public:
     this->File.Write("%PDF-1.4\n%\xE2\xE3\xCF\xD3\n"); // the second line marks a binary file
     this->Disc = this->NewObject();
     this->WriteStream(
-      this->Disc, "/Type /XObject /Subtype /Form /BBox [-1 -1 1 1] /Resources << >>", unitDisc());
-    append(this->Text, { PointsPerMillimetre, 0, 0, PointsPerMillimetre, 0, 0 }, "cm",
-      6); // from millimetres to points
-    append(this->Text, { page.StrokeWidth }, "w 1 J 1 j", Decimals);
-    if (page.ClippedMargin > 0.0)
+      this->Disc, "/Type /XObject /Subtype /Form /BBox [-1 -1 1 1] /Resources << >>", unitDisc);
+    appendAll(this->Text, "2.834646 0 0 2.834646 0 0 cm\n", page.StrokeWidth, " w 1 J 1 j\n");
+    const double margin = page.ClippedMargin;
+    if (margin > 0.0)
     {
-      append(this->Text,
-        { page.ClippedMargin, page.ClippedMargin, page.Size[0] - 2.0 * page.ClippedMargin,
-          page.Size[1] - 2.0 * page.ClippedMargin },
-        "re W n", Decimals);
+      appendAll(this->Text, margin, ' ', margin, ' ', page.Size[0] - 2.0 * margin, ' ',
+        page.Size[1] - 2.0 * margin, " re W n\n");
     }
   }
 
   void FillDisc(const PagePoint& centre, double radius, Colour colour) override
   {
     this->UseColour(colour, false);
-    this->Text += "q ";
-    append(this->Text, { radius, 0, 0, radius, centre[0], centre[1] }, "cm /Disc Do Q", Decimals);
+    appendAll(this->Text, "q ", radius, " 0 0 ", radius, ' ', centre[0], ' ', centre[1],
+      " cm /Disc Do Q\n");
     this->Flush();
   }
 
@@ -122,9 +100,8 @@ public:
     {
       if (this->Opacities[opacity])
       {
-        std::string value;
-        appendDecimal(value, static_cast<double>(opacity) / 255.0, Decimals);
-        states += opacityName(opacity) + " << /ca " + value + " /CA " + value + " >>\n";
+        const double value = static_cast<double>(opacity) / 255.0;
+        appendAll(states, opacityName(opacity), " << /ca ", value, " /CA ", value, " >>\n");
       }
     }
     const std::size_t pages = this->NewObject();
@@ -134,13 +111,11 @@ public:
     {
       contents += reference(content);
     }
-    std::string size;
-    append(size, { 0, 0, PointsPerMillimetre * this->Size[0], PointsPerMillimetre * this->Size[1] },
-      "", Decimals);
-    this->WriteObject(page,
-      "<< /Type /Page /Parent " + reference(pages) + "/MediaBox [" + size +
-        "]\n/Resources << /XObject << /Disc " + reference(this->Disc) + ">> /ExtGState <<\n" +
-        states + ">> >>\n/Contents [" + contents + "] >>");
+    std::string text = "<< /Type /Page /Parent ";
+    appendAll(text, reference(pages), "/MediaBox [0 0 ", PointsPerMillimetre * this->Size[0], ' ',
+      PointsPerMillimetre * this->Size[1], " \n]\n/Resources << /XObject << /Disc ",
+      reference(this->Disc), ">> /ExtGState <<\n", states, ">> >>\n/Contents [", contents, "] >>");
+    this->WriteObject(page, text);
     this->WriteObject(pages, "<< /Type /Pages /Count 1 /Kids [" + reference(page) + "] >>");
     const std::size_t root = this->NewObject();
     this->WriteObject(root, "<< /Type /Catalog /Pages " + reference(pages) + ">>");
@@ -208,21 +183,21 @@ private:
     const double blue = colour.Blue / 255.0;
     if (red == green && green == blue) // printed with black ink alone
     {
-      append(this->Text, { red }, ofStrokes ? "G" : "g", Decimals);
+      appendAll(this->Text, red, ofStrokes ? " G\n" : " g\n");
     }
     else
     {
-      append(this->Text, { red, green, blue }, ofStrokes ? "RG" : "rg", Decimals);
+      appendAll(this->Text, red, ' ', green, ' ', blue, ofStrokes ? " RG\n" : " rg\n");
     }
   }
 
   void AppendPath(const PagePath& path)
   {
-    const char* operation = "m";
+    const char* operation = " m\n";
     for (const PagePoint& point : path)
     {
-      append(this->Text, { point[0], point[1] }, operation, Decimals);
-      operation = "l";
+      appendAll(this->Text, point[0], ' ', point[1], operation);
+      operation = " l\n";
     }
   }
 

@@ -12,17 +12,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr int Decimals = 4; // of millimetres
 constexpr std::size_t BufferSize = std::size_t{ 1 } << 16;
-
-void appendAttribute(std::string& text, const char* name, double value)
-{
-  text += ' ';
-  text += name;
-  text += "=\"";
-  appendDecimal(text, value, Decimals);
-  text += '"';
-}
 
 class SvgDrawing final : public Drawing
 {
@@ -39,39 +29,26 @@ public:
     const PagePoint& size = page.Size;
     this->Height = size[1];
     this->StrokeWidth = page.StrokeWidth;
-    std::string& text = this->Text;
-    text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-           "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"";
-    appendDecimal(text, size[0], Decimals);
-    text += "mm\" height=\"";
-    appendDecimal(text, size[1], Decimals);
-    text += "mm\" viewBox=\"0 0 ";
-    appendDecimal(text, size[0], Decimals);
-    text += ' ';
-    appendDecimal(text, size[1], Decimals);
-    text += "\">\n";
-    this->IsClipped = page.ClippedMargin > 0.0;
+    appendAll(this->Text,
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"",
+      size[0], "mm\" height=\"", size[1], "mm\" viewBox=\"0 0 ", size[0], ' ', size[1], "\">\n");
+    const double margin = page.ClippedMargin;
+    this->IsClipped = margin > 0.0;
     if (this->IsClipped)
     {
-      text += "<clipPath id=\"inside\"><rect";
-      appendAttribute(text, "x", page.ClippedMargin);
-      appendAttribute(text, "y", page.ClippedMargin);
-      appendAttribute(text, "width", size[0] - 2.0 * page.ClippedMargin);
-      appendAttribute(text, "height", size[1] - 2.0 * page.ClippedMargin);
-      text += "/></clipPath>\n<g clip-path=\"url(#inside)\">\n";
+      appendAll(this->Text, "<clipPath id=\"inside\"><rect x=\"", margin, "\" y=\"", margin,
+        "\" width=\"", size[0] - 2.0 * margin, "\" height=\"", size[1] - 2.0 * margin,
+        "\"/></clipPath>\n<g clip-path=\"url(#inside)\">\n");
     }
   }
 
   void FillDisc(const PagePoint& centre, double radius, Colour colour) override
   {
     this->EnterGroup(Group::Fills);
-    this->Text += "<circle";
-    appendAttribute(this->Text, "cx", centre[0]);
-    appendAttribute(this->Text, "cy", this->Height - centre[1]);
-    appendAttribute(this->Text, "r", radius);
-    this->AppendColour("fill", colour);
-    this->Text += "/>\n";
-    this->Flush();
+    appendAll(this->Text, "<circle cx=\"", centre[0], "\" cy=\"", this->Height - centre[1],
+      "\" r=\"", radius, '"');
+    this->EndShape("fill", colour);
   }
 
   void FillPolygons(const std::vector<PagePath>& polygons, FillRule rule, Colour colour) override
@@ -93,9 +70,7 @@ public:
       }
     }
     this->Text += rule == FillRule::Odd ? "\" fill-rule=\"evenodd\"" : "\"";
-    this->AppendColour("fill", colour);
-    this->Text += "/>\n";
-    this->Flush();
+    this->EndShape("fill", colour);
   }
 
   void Stroke(const PagePath& path, bool isClosed, Colour colour) override
@@ -104,9 +79,7 @@ public:
     this->Text += isClosed ? "<polygon points=\"" : "<polyline points=\"";
     this->AppendPoints(path);
     this->Text += '"';
-    this->AppendColour("stroke", colour);
-    this->Text += "/>\n";
-    this->Flush();
+    this->EndShape("stroke", colour);
   }
 
   void End() override
@@ -140,26 +113,32 @@ private:
     }
     if (group == Group::Strokes)
     {
-      this->Text += "<g fill=\"none\" stroke=\"#000000\" stroke-linecap=\"round\" "
-                    "stroke-linejoin=\"round\"";
-      appendAttribute(this->Text, "stroke-width", this->StrokeWidth);
-      this->Text += ">\n";
+      appendAll(this->Text,
+        "<g fill=\"none\" stroke=\"#000000\" stroke-linecap=\"round\" "
+        "stroke-linejoin=\"round\" stroke-width=\"",
+        this->StrokeWidth, "\">\n");
     }
     this->Open = group;
   }
 
-  // What differs from the group's opaque black.
-  void AppendColour(const std::string& paint, Colour colour)
+  // With what differs from the group's opaque black.
+  void EndShape(const char* paint, Colour colour)
   {
     if (colour.Red + colour.Green + colour.Blue > 0)
     {
       char value[8];
       std::snprintf(value, sizeof(value), "#%02x%02x%02x", colour.Red, colour.Green, colour.Blue);
-      this->Text += " " + paint + "=\"" + value + "\"";
+      appendAll(this->Text, ' ', paint, "=\"", value, '"');
     }
     if (colour.Opacity < 255)
     {
-      appendAttribute(this->Text, (paint + "-opacity").c_str(), colour.Opacity / 255.0);
+      appendAll(this->Text, ' ', paint, "-opacity=\"", colour.Opacity / 255.0, '"');
+    }
+    this->Text += "/>\n";
+    if (this->Text.size() >= BufferSize)
+    {
+      this->File.Write(this->Text);
+      this->Text.clear();
     }
   }
 
@@ -167,21 +146,9 @@ private:
   {
     for (const PagePoint& point : points)
     {
-      appendDecimal(this->Text, point[0], Decimals);
-      this->Text += ',';
-      appendDecimal(this->Text, this->Height - point[1], Decimals);
-      this->Text += ' ';
+      appendAll(this->Text, point[0], ',', this->Height - point[1], ' ');
     }
     this->Text.pop_back();
-  }
-
-  void Flush()
-  {
-    if (this->Text.size() >= BufferSize)
-    {
-      this->File.Write(this->Text);
-      this->Text.clear();
-    }
   }
 
   OutputFile& File;
