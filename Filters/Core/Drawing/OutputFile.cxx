@@ -86,10 +86,7 @@ void OutputFile::OpenPart()
       O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, isNew ? 0666 : 0600));
     this->Part = this->File.IsOpen() ? part : "";
   }
-  if (!this->File.IsOpen())
-  {
-    this->Target.Fail();
-  }
+  this->Target.Require(this->File.IsOpen());
   if (!isNew)
   {
     copyAccess(this->Target.Existing, this->File);
@@ -117,7 +114,7 @@ void OutputFile::Write(std::string_view bytes)
       const int reason = errno;
       signals.Drop();
       errno = reason;
-      this->Target.Fail();
+      this->Target.Require(false);
     }
   }
 }
@@ -137,16 +134,10 @@ void OutputFile::WaitForReader() const
 void OutputFile::Close()
 {
   errno = 0;
-  if (!this->File.Close())
-  {
-    this->Target.Fail();
-  }
-  if (!this->Part.empty() &&
-    renameat(this->Target.Folder.Get(), this->Part.c_str(), this->Target.Folder.Get(),
-      this->Target.File.c_str()) != 0)
-  {
-    this->Target.Fail();
-  }
+  this->Target.Require(this->File.Close());
+  const int folder = this->Target.Folder.Get();
+  this->Target.Require(this->Part.empty() ||
+    renameat(folder, this->Part.c_str(), folder, this->Target.File.c_str()) == 0);
   this->Part.clear();
 }
 

@@ -43,134 +43,114 @@ int ownDescriptor(const std::string& path)
   return -1;
 }
 
-class TargetSearch
+// The folders before the name may be links, too, which the system follows.
+std::filesystem::path followLinks(const OutputTarget& target)
 {
-public:
-  explicit TargetSearch(const std::string& name)
-    : Path(name)
+  constexpr int most = 40; // as in Linux
+  std::filesystem::path path = target.Name;
+  for (int links = 0; ownDescriptor(path.string()) < 0; ++links)
   {
-    this->Found.Name = name;
+    std::error_code none;
+    const std::filesystem::path next = std::filesystem::read_symlink(path, none);
+    if (none)
+    {
+      break;
+    }
+    errno = ELOOP;
+    target.Require(links < most);
+    path = path.parent_path() / next;
   }
+  return path;
+}
 
-  OutputTarget Find()
+// By the given name: the system may not follow links that others have made in shared folders.
+void openExisting(OutputTarget& target)
+{
+  const std::string& name = target.Name;
+  FileDescriptor file(open(name.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  if (!file.IsOpen())
   {
-    this->FollowLinks();
-    const int own = ownDescriptor(this->Path.string());
-    if (own >= 0)
+    if (errno == EISDIR)
     {
-      this->Found.Direct = FileDescriptor(fcntl(own, F_DUPFD_CLOEXEC, 0));
-      this->Require(this->Found.Direct.IsOpen());
-      return std::move(this->Found);
+      fail("FileName '", name, "' is a folder; it must be a file");
     }
-    this->OpenExisting();
-    if (!this->Found.Direct.IsOpen())
+    if (errno == ENXIO)
     {
-      this->OpenFolder();
+      fail("FileName '", name,
+        "' is a pipe that no program reads, or a socket; it must be a file, or a program must "
+        "read the pipe before");
     }
-    return std::move(this->Found);
+    target.Require(errno == ENOENT);
+    return;
   }
-
-private:
-  void Require(bool isDone) const
+  struct stat status
   {
-    if (!isDone)
-    {
-      this->Found.Fail();
-    }
-  }
-
-  // The folders before the name may be links, too, which the system follows.
-  void FollowLinks()
+  };
+  target.Require(fstat(file.Get(), &status) == 0);
+  if (S_ISBLK(status.st_mode))
   {
-    constexpr int most = 40; // as in Linux
-    for (int links = 0; ownDescriptor(this->Path.string()) < 0; ++links)
-    {
-      std::error_code none;
-      const std::filesystem::path next = std::filesystem::read_symlink(this->Path, none);
-      if (none)
-      {
-        return;
-      }
-      errno = ELOOP;
-      this->Require(links < most);
-      this->Path = this->Path.parent_path() / next;
-    }
+    fail("FileName '", name, "' is a block device, such as a disk; it must be a file");
   }
+  (S_ISREG(status.st_mode) ? target.Existing : target.Direct) = std::move(file);
+}
 
-  // By the given name: the system may not follow links that others have made in shared folders.
-  void OpenExisting()
+void openFolder(OutputTarget& target, const std::filesystem::path& path)
+{
+  const std::filesystem::path folder = path.parent_path();
+  target.File = path.filename().string();
+  target.Folder = FileDescriptor(
+    open(folder.empty() ? "." : folder.c_str(), folderAccess | O_DIRECTORY | O_CLOEXEC));
+  target.Require(target.Folder.IsOpen());
+  if (!target.Existing.IsOpen())
   {
-    const std::string& name = this->Found.Name;
-    FileDescriptor file(open(name.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
-    if (!file.IsOpen())
-    {
-      if (errno == EISDIR)
-      {
-        fail("FileName '", name, "' is a folder; it must be a file");
-      }
-      if (errno == ENXIO)
-      {
-        fail("FileName '", name,
-          "' is a pipe that no program reads, or a socket; it must be a file, or a program must "
-          "read the pipe before");
-      }
-      this->Require(errno == ENOENT);
-      return;
-    }
-    struct stat status
-    {
-    };
-    this->Require(fstat(file.Get(), &status) == 0);
-    if (S_ISBLK(status.st_mode))
-    {
-      fail("FileName '", name, "' is a block device, such as a disk; it must be a file");
-    }
-    (S_ISREG(status.st_mode) ? this->Found.Existing : this->Found.Direct) = std::move(file);
+    return;
   }
-
-  void OpenFolder()
+  struct stat opened
   {
-    const std::filesystem::path folder = this->Path.parent_path();
-    this->Found.File = this->Path.filename().string();
-    this->Found.Folder = FileDescriptor(
-      open(folder.empty() ? "." : folder.c_str(), folderAccess | O_DIRECTORY | O_CLOEXEC));
-    this->Require(this->Found.Folder.IsOpen());
-    if (!this->Found.Existing.IsOpen())
-    {
-      return;
-    }
-    struct stat opened
-    {
-    };
-    struct stat named
-    {
-    };
-    this->Require(fstat(this->Found.Existing.Get(), &opened) == 0);
-    const bool isThere =
-      fstatat(this->Found.Folder.Get(), this->Found.File.c_str(), &named, AT_SYMLINK_NOFOLLOW) == 0;
-    if (!isThere || opened.st_dev != named.st_dev || opened.st_ino != named.st_ino)
-    {
-      fail("FileName '", this->Found.Name,
-        "' leads to a file without a name of its own; it must be a file in a folder");
-    }
+  };
+  struct stat named
+  {
+  };
+  target.Require(fstat(target.Existing.Get(), &opened) == 0);
+  const bool isThere =
+    fstatat(target.Folder.Get(), target.File.c_str(), &named, AT_SYMLINK_NOFOLLOW) == 0;
+  if (!isThere || opened.st_dev != named.st_dev || opened.st_ino != named.st_ino)
+  {
+    fail("FileName '", target.Name,
+      "' leads to a file without a name of its own; it must be a file in a folder");
   }
-
-  std::filesystem::path Path;
-  OutputTarget Found;
-};
+}
 
 } // namespace
 
-void OutputTarget::Fail() const
+void OutputTarget::Require(bool isDone) const
 {
-  const std::string reason = errno != 0 ? std::strerror(errno) : "unknown error";
-  fail("FileName '", this->Name, "' cannot be written (", reason,
-    "); its folder must exist and have room, and the folder and the file must be writable");
+  if (!isDone)
+  {
+    const std::string reason = errno != 0 ? std::strerror(errno) : "unknown error";
+    fail("FileName '", this->Name, "' cannot be written (", reason,
+      "); its folder must exist and have room, and the folder and the file must be writable");
+  }
 }
 
 OutputTarget findOutputTarget(const std::string& name)
 {
-  return TargetSearch(name).Find();
+  OutputTarget target;
+  target.Name = name;
+  const std::filesystem::path path = followLinks(target);
+  const int own = ownDescriptor(path.string());
+  if (own >= 0)
+  {
+    target.Direct = FileDescriptor(fcntl(own, F_DUPFD_CLOEXEC, 0));
+    target.Require(target.Direct.IsOpen());
+    return target;
+  }
+  openExisting(target);
+  if (!target.Direct.IsOpen())
+  {
+    openFolder(target, path);
+  }
+  return target;
 }
 
 void copyAccess(const FileDescriptor& earlier, const FileDescriptor& file)

@@ -47,8 +47,8 @@ struct OutputTarget
   FileDescriptor Folder;   // that has the plain file, where links end
   std::string File;        // its name there
 
-  // With errno as the reason.
-  [[noreturn]] void Fail() const;
+  // Throws Failure unless it is done, with errno as the reason.
+  void Require(bool isDone) const;
 };
 
 // Follows symbolic links, if the system would. A descriptor of this process, such as /dev/stdout,
