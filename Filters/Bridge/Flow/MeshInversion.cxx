@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/MeshInversion.h"
 
-#include "Bridge/Data/GhostFlags.h"
+#include "Bridge/Data/MeshCells.h"
 #include "Core/Geometry/Dispatch.h"
 
 #include "vtkCellType.h"
-#include "vtkDataArray.h"
-#include "vtkDataObject.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointSet.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <initializer_list>
-#include <iterator>
 #include <vector>
 
 namespace RectifiedTransport::Bridge
@@ -27,129 +22,54 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-constexpr int triquadraticPyramid = 37; // VTK's name of it is newer than the oldest VTK
-constexpr int allCorners = 0;
-
-// The corners of a cell are the first of its points.
-struct TypesOfShape
+// Adds the triangles at a polygon's first corner, or the tetrahedra of these and an apex. Their
+// signed measures have the same sum as those of any others.
+template <class Iterator>
+void addFan(Iterator first, Iterator end, const CellReader::Ids& apex, CellReader::Ids& vertices)
 {
-  OrientedShape Shape;
-  int Corners;
-  std::initializer_list<int> Types;
-};
-
-const TypesOfShape shapes[] = {
-  { OrientedShape::Line, allCorners,
-    { VTK_LINE, VTK_QUADRATIC_EDGE, VTK_CUBIC_LINE, VTK_LAGRANGE_CURVE, VTK_BEZIER_CURVE } },
-  { OrientedShape::PolyLine, allCorners, { VTK_POLY_LINE } },
-  { OrientedShape::Polygon, 3,
-    { VTK_TRIANGLE, VTK_QUADRATIC_TRIANGLE, VTK_BIQUADRATIC_TRIANGLE, VTK_LAGRANGE_TRIANGLE,
-      VTK_BEZIER_TRIANGLE } },
-  { OrientedShape::Polygon, 4,
-    { VTK_QUAD, VTK_QUADRATIC_QUAD, VTK_QUADRATIC_LINEAR_QUAD, VTK_BIQUADRATIC_QUAD,
-      VTK_LAGRANGE_QUADRILATERAL, VTK_BEZIER_QUADRILATERAL } },
-  { OrientedShape::Pixel, allCorners, { VTK_PIXEL } },
-  { OrientedShape::Polygon, allCorners, { VTK_POLYGON, VTK_QUADRATIC_POLYGON } },
-  { OrientedShape::TriangleStrip, allCorners, { VTK_TRIANGLE_STRIP } },
-  { OrientedShape::Tetrahedron, allCorners,
-    { VTK_TETRA, VTK_QUADRATIC_TETRA, VTK_LAGRANGE_TETRAHEDRON, VTK_BEZIER_TETRAHEDRON } },
-  { OrientedShape::Voxel, allCorners, { VTK_VOXEL } },
-  { OrientedShape::Hexahedron, allCorners,
-    { VTK_HEXAHEDRON, VTK_QUADRATIC_HEXAHEDRON, VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON,
-      VTK_TRIQUADRATIC_HEXAHEDRON, VTK_LAGRANGE_HEXAHEDRON, VTK_BEZIER_HEXAHEDRON } },
-  { OrientedShape::Wedge, allCorners,
-    { VTK_WEDGE, VTK_QUADRATIC_WEDGE, VTK_QUADRATIC_LINEAR_WEDGE, VTK_BIQUADRATIC_QUADRATIC_WEDGE,
-      VTK_LAGRANGE_WEDGE, VTK_BEZIER_WEDGE } },
-  { OrientedShape::Pyramid, allCorners,
-    { VTK_PYRAMID, VTK_QUADRATIC_PYRAMID, triquadraticPyramid, VTK_LAGRANGE_PYRAMID,
-      VTK_BEZIER_PYRAMID } },
-  { OrientedShape::PentagonalPrism, allCorners, { VTK_PENTAGONAL_PRISM } },
-  { OrientedShape::HexagonalPrism, allCorners, { VTK_HEXAGONAL_PRISM } },
-};
-
-template <int D>
-std::vector<OrientedPiece> piecesOfType(int type, vtkIdType points)
-{
-  const auto* found =
-    std::find_if(std::begin(shapes), std::end(shapes), [type](const TypesOfShape& shape) {
-      return std::find(shape.Types.begin(), shape.Types.end(), type) != shape.Types.end();
-    });
-  if (found == std::end(shapes))
+  for (Iterator corner = first; end - corner > 2; ++corner)
   {
-    return {};
+    vertices.insert(vertices.end(), apex.begin(), apex.end());
+    vertices.insert(vertices.end(), { *first, corner[1], corner[2] });
   }
-  const vtkIdType corners = type == VTK_QUADRATIC_POLYGON ? points / 2
-    : found->Corners != allCorners                        ? found->Corners
-                                                          : points;
-  return orientedPieces<D>(found->Shape, corners);
 }
 
-// The cells of one range: most are of the same type as the one before.
-template <int D>
-class CellReader
+// Adds tetrahedra between the faces of a polyhedron, which all point outwards, and one corner.
+void addFaces(vtkPointSet* cells, vtkIdType cell, CellReader::Ids& vertices)
 {
-public:
-  explicit CellReader(vtkPointSet* cells)
-    : Cells(cells)
+  vtkNew<vtkIdList> stream;
+  vtkUnstructuredGrid::SafeDownCast(cells)->GetFaceStream(cell, stream);
+  const vtkIdType* face = stream->GetPointer(0) + 1;
+  const CellReader::Ids apex{ face[1] };
+  for (vtkIdType faces = stream->GetId(0); faces > 0; --faces)
   {
+    const vtkIdType* end = face + 1 + *face;
+    addFan(face + 1, end, apex, vertices);
+    face = end;
   }
+}
 
-  void Read(vtkIdType cell)
+// Finds the vertices of the simplices that a cell consists of. Returns whether it can be divided.
+// VTK takes a time for polygons that grows as the square of their corners, and 70 times as long as
+// this for polyhedra.
+bool findSimplices(
+  vtkPointSet* cells, CellReader& reader, vtkIdType cell, CellReader::Ids& vertices)
+{
+  vertices.clear();
+  const CellShape shape = reader.ShapeOf(cell);
+  if (shape == CellShape::Quad || shape == CellShape::Polygon)
   {
-    const int type = this->Cells->GetCellType(cell);
-    if (D == 3 && type == VTK_POLYHEDRON)
-    {
-      this->Type = type;
-      this->ReadFaces(cell);
-      return;
-    }
-    this->Cells->GetCellPoints(cell, this->Ids);
-    const vtkIdType points = this->Ids->GetNumberOfIds();
-    if (type != this->Type || points != this->Points)
-    {
-      this->Type = type;
-      this->Points = points;
-      this->Pieces = piecesOfType<D>(type, points);
-    }
+    const CellReader::Ids& corners = reader.PointsOf(cell);
+    addFan(corners.begin(), corners.end(), {}, vertices);
+    return true;
   }
-  const std::vector<OrientedPiece>& PiecesOfCell() const { return this->Pieces; }
-  // Its points in index space.
-  void ReadPlaces(vtkDataArray* points, const ImageGrid& grid, std::vector<Point<D>>& places) const
+  if (cells->GetCellType(cell) == VTK_POLYHEDRON)
   {
-    places.resize(static_cast<std::size_t>(this->Ids->GetNumberOfIds()));
-    for (std::size_t i = 0; i < places.size(); ++i)
-    {
-      double x[3];
-      points->GetTuple(this->Ids->GetId(static_cast<vtkIdType>(i)), x);
-      grid.ToIndex<D>(x, places[i].data());
-    }
+    addFaces(cells, cell, vertices);
+    return true;
   }
-
-private:
-  // The points of all faces, one face after the other.
-  void ReadFaces(vtkIdType cell)
-  {
-    vtkNew<vtkIdList> stream;
-    vtkUnstructuredGrid::SafeDownCast(this->Cells)->GetFaceStream(cell, stream);
-    this->Pieces.assign(1, OrientedPiece(static_cast<std::size_t>(stream->GetId(0))));
-    this->Ids->Reset();
-    vtkIdType place = 1;
-    for (PieceOutline& outline : this->Pieces[0])
-    {
-      const vtkIdType end = place + 1 + stream->GetId(place);
-      for (++place; place < end; ++place)
-      {
-        outline.push_back(this->Ids->InsertNextId(stream->GetId(place)));
-      }
-    }
-  }
-
-  vtkPointSet* const Cells;
-  vtkNew<vtkIdList> Ids;
-  std::vector<OrientedPiece> Pieces;
-  int Type = -1;
-  vtkIdType Points = -1;
-};
+  return reader.Divide(cell, vertices);
+}
 
 template <int D>
 InvertedCells count(
@@ -160,7 +80,7 @@ InvertedCells count(
   {
     surface->BuildCells(); // afterwards threads may read cells
   }
-  const unsigned char* ghosts = ghostFlags(before, vtkDataObject::CELL, "input");
+  const MeshCells cells(before, "input");
   const double origin[3] = { 0.0, 0.0, 0.0 };
   Point<D> index;
   grid.ToIndex<D>(origin, index.data());
@@ -172,22 +92,31 @@ InvertedCells count(
   constexpr std::int64_t grain = 1024;
   return sumExactly<InvertedCells>(progress, before->GetNumberOfCells(), grain,
     [&](std::int64_t first, std::int64_t last, InvertedCells& found) {
-      CellReader<D> reader(before);
+      const auto reader = cells.Read();
+      CellReader::Ids vertices;
       std::vector<Point<D>> places;
       std::vector<Point<D>> moved;
       for (vtkIdType cell = first; cell < last; ++cell)
       {
-        if (ghosts && (ghosts[cell] & ghostCell))
+        if (cells.HiddenCells.Has(cell) || reader->DimensionOf(cell) != D ||
+          !findSimplices(before, *reader, cell, vertices) || vertices.empty())
         {
           continue;
         }
-        reader.Read(cell);
-        if (!reader.PiecesOfCell().empty())
+        places.resize(vertices.size());
+        moved.resize(vertices.size());
+        for (std::size_t i = 0; i < vertices.size(); ++i)
         {
-          reader.ReadPlaces(before->GetPoints()->GetData(), grid, places);
-          reader.ReadPlaces(after->GetPoints()->GetData(), grid, moved);
-          found.AddCell<D>(reader.PiecesOfCell(), places, moved, offset);
+          double x[3];
+          reader->GetPosition(vertices[i], x);
+          grid.ToIndex<D>(x, places[i].data());
+          after->GetPoint(static_cast<vtkIdType>(vertices[i]), x);
+          grid.ToIndex<D>(x, moved[i].data());
         }
+        const int type = before->GetCellType(cell);
+        const bool hasPieces = type == VTK_POLY_LINE || type == VTK_TRIANGLE_STRIP;
+        const auto simplices = static_cast<std::int64_t>(vertices.size() / (D + 1));
+        found.AddCell<D>(places, moved, hasPieces ? simplices : 1, offset);
       }
     });
 }

@@ -15,8 +15,8 @@ namespace RectifiedTransport::Bridge
 {
 
 // Counts cells of as many dimensions as the grid: lines, polygons seen along the grid's normal, or
-// volumes, by the lines between their corners in index space. Ghost cells do not count. `before`
-// has the cells, `after` the moved points. Throws Failure and Cancelled.
+// volumes, by the simplices that VTK divides them into. Ghost cells do not count, nor cells that it
+// cannot divide. `before` has the cells, `after` the moved points. Throws Failure and Cancelled.
 InvertedCells countInvertedCells(
   const ImageGrid& grid, vtkPointSet* before, vtkPointSet* after, Progress& progress);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cells that a move of their corners inverts.
+// The cells that a move of their points inverts.
 #ifndef RectifiedTransport_InvertedCells_h
 #define RectifiedTransport_InvertedCells_h
 
@@ -7,37 +7,9 @@
 #include "Core/Parallel/ExactSum.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace RectifiedTransport
 {
-
-// Corners are numbered as those of VTK's linear cells.
-enum class OrientedShape
-{
-  None, // has no orientation
-  Line,
-  PolyLine,
-  Polygon,
-  Pixel,
-  TriangleStrip,
-  Tetrahedron,
-  Voxel,
-  Hexahedron,
-  Wedge,
-  Pyramid,
-  PentagonalPrism,
-  HexagonalPrism
-};
-
-// Corners of a cell by their numbers: a line, the outline of a polygon or of a face.
-using PieceOutline = std::vector<std::int64_t>;
-// What has an orientation of its own: one line, one polygon, or the faces of one volume.
-using OrientedPiece = std::vector<PieceOutline>;
-
-// The pieces of a cell with so many corners; none if the shape is not of D dimensions.
-template <int D>
-std::vector<OrientedPiece> orientedPieces(OrientedShape shape, std::int64_t corners);
 
 struct InvertedCells
 {
@@ -55,12 +27,14 @@ struct InvertedCells
     this->Area.Add(other.Area);
   }
 
-  // Adds a cell by the places of its corners before and after a move. It has an orientation if the
-  // signed length, area or volume of a piece is not 0 before, and is inverted if that has the other
-  // sign or is 0 after. `offset`: the largest coordinate of the places before their rounding.
+  // Adds a cell by the vertices of its simplices before and after a move, D + 1 for each simplex.
+  // Its pieces have equally many of them, one piece after the other. The signed length, area or
+  // volume of a piece is the sum of those of its simplices. A cell has an orientation if that is
+  // not 0 before, for one of its pieces, and is inverted if it has the other sign or is 0 after.
+  // `offset`: the largest coordinate of the vertices before their rounding.
   template <int D>
-  void AddCell(const std::vector<OrientedPiece>& pieces, ConstPointSpan<D> before,
-    ConstPointSpan<D> after, double offset);
+  void AddCell(
+    ConstPointSpan<D> before, ConstPointSpan<D> after, std::int64_t pieces, double offset);
 };
 
 } // namespace RectifiedTransport

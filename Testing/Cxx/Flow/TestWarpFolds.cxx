@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FoldedCells of vtkDensityEqualizingWarp: cells of all types, turned over by hand and by too few
-// steps, in all kinds of data sets; ghosts; the warning.
+// FoldedCells of vtkDensityEqualizingWarp: cells of all types and their measures, turned over by
+// hand and by too few steps, in all kinds of data sets; ghosts; the warning.
 #include "WarpTest.h"
 
 #include "Bridge/Data/ImageGrids.h"
@@ -38,9 +38,9 @@ vtkSmartPointer<vtkUnstructuredGrid> makeCell(int type, const Corners& corners)
   return grid;
 }
 
-// The two counts, where each point x is moved.
+// What is found where each point x is moved.
 template <class Move>
-std::array<std::int64_t, 2> turnedBy(vtkPointSet* before, int dimension, const Move& move)
+InvertedCells movedBy(vtkPointSet* before, int dimension, const Move& move)
 {
   auto after = vtkSmartPointer<vtkPointSet>::Take(before->NewInstance());
   after->DeepCopy(before);
@@ -58,7 +58,14 @@ std::array<std::int64_t, 2> turnedBy(vtkPointSet* before, int dimension, const M
   const ImageGrid grid = gridOf(image, false);
   const SerialExecutor serial;
   Progress progress{ Context(serial) };
-  const InvertedCells found = countInvertedCells(grid, before, after, progress);
+  return countInvertedCells(grid, before, after, progress);
+}
+
+// The two counts of it.
+template <class Move>
+std::array<std::int64_t, 2> turnedBy(vtkPointSet* before, int dimension, const Move& move)
+{
+  const InvertedCells found = movedBy(before, dimension, move);
   return { found.Inverted, found.All };
 }
 
@@ -91,6 +98,20 @@ void checkCell(Checks& checks, int type, const Corners& corners, int dimension, 
   }
 }
 
+Corners prism(int sides, double height)
+{
+  Corners corners;
+  for (const double z : { 0.0, height })
+  {
+    for (int i = 0; i < sides; ++i)
+    {
+      const double angle = 2.0 * std::acos(-1.0) * i / sides;
+      corners.push_back({ std::cos(angle), std::sin(angle), z });
+    }
+  }
+  return corners;
+}
+
 void checkTypes(Checks& checks)
 {
   const Corners line = { { 1, 2, 3 }, { 2, 4, 1 } };
@@ -108,13 +129,15 @@ void checkTypes(Checks& checks)
     checks, VTK_POLYGON, { quad[0], quad[1], quad[2], { 1.5, 4, 0 }, quad[3] }, 2, __LINE__);
   checkCell(
     checks, VTK_TRIANGLE_STRIP, { quad[0], quad[1], quad[3], quad[2], { 1, 5, 0 } }, 2, __LINE__);
-  // Their points on edges are anywhere.
+  // Their points on edges are anywhere, except those of polygons, which must not cross themselves.
   Corners all = quad;
   all.insert(all.end(), { { 8, 8, 1 }, { 3, 3, 1 }, { -4, 1, 0 }, { 9, 1, 7 } });
   checkCell(checks, VTK_QUADRATIC_QUAD, all, 2, __LINE__);
-  checkCell(checks, VTK_QUADRATIC_POLYGON, all, 2, __LINE__);
   checkCell(checks, VTK_QUADRATIC_TRIANGLE, { quad[0], quad[1], quad[2], all[5], all[6], all[7] },
     2, __LINE__);
+  const Corners round = { { 1, 2, 0 }, { 2, 2.5, 0 }, { 2.5, 4, 0 }, { 0.5, 3, 0 }, { 1.5, 2, 0 },
+    { 2.5, 3, 0 }, { 1.5, 4, 0 }, { 0.5, 2.5, 0 } };
+  checkCell(checks, VTK_QUADRATIC_POLYGON, round, 2, __LINE__);
 
   const Corners hexahedron = { { 0, 0, 0 }, { 1, 0.1, 0 }, { 1.2, 1, 0 }, { 0, 1, 0.3 },
     { 0, 0, 1 }, { 1, 0, 1.4 }, { 1, 1, 1 }, { 0.2, 1, 1 } };
@@ -132,38 +155,75 @@ void checkTypes(Checks& checks)
     { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0.3, 0.2, 2 } }, 3, __LINE__);
   for (const int sides : { 5, 6 })
   {
-    Corners prism;
-    for (const double z : { 0.0, 1.5 })
-    {
-      for (int i = 0; i < sides; ++i)
-      {
-        prism.push_back({ std::cos(6.2832 * i / sides), std::sin(6.2832 * i / sides), z });
-      }
-    }
-    checkCell(checks, sides == 5 ? VTK_PENTAGONAL_PRISM : VTK_HEXAGONAL_PRISM, prism, 3, __LINE__);
+    checkCell(checks, sides == 5 ? VTK_PENTAGONAL_PRISM : VTK_HEXAGONAL_PRISM, prism(sides, 1.5), 3,
+      __LINE__);
   }
   Corners quadratic = hexahedron;
-  quadratic.resize(20, { 7, 7, 7 });
+  const std::array<std::size_t, 2> edges[] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 },
+    { 5, 6 }, { 6, 7 }, { 7, 4 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } };
+  for (const auto& [a, b] : edges)
+  {
+    const auto &p = hexahedron[a], &q = hexahedron[b];
+    quadratic.push_back({ 0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]) + 0.1, 0.5 * (p[2] + q[2]) });
+  }
   checkCell(checks, VTK_QUADRATIC_HEXAHEDRON, quadratic, 3, __LINE__);
 }
 
+// Lengths, areas along z, and volumes; those of mirrored cells are twice as large.
+void checkMeasures(Checks& checks)
+{
+  constexpr double cells[] = { 0.0, 0.5, 0.125, 0.25 }; // the size of a cell of the density
+  const auto check = [&](
+                       int type, const Corners& corners, int dimension, double measure, int line) {
+    const auto grid = makeCell(type, corners);
+    const InvertedCells found = movedBy(grid, dimension, [](double* x) { x[0] *= -2.0; });
+    const std::string name = "a cell of type " + std::to_string(type);
+    checks.That(found.Inverted == 1 && found.All == 1, name.c_str(), line);
+    const double moved = 2.0 * measure / cells[dimension];
+    checks.Near(found.Area.Value(), moved, 1e-13 * moved, name.c_str(), line);
+    checks.That(found.InvertedArea.Value() == found.Area.Value(), name.c_str(), line);
+  };
+  check(VTK_LINE, { { 1, 0, 0 }, { 1.5, 7, 7 } }, 1, 0.5, __LINE__);
+  check(VTK_POLY_LINE, { { 1, 0, 0 }, { 1.5, 7, 7 }, { 3, 0, 7 } }, 1, 2.0, __LINE__);
+  const Corners box = { { 0, 0, 0 }, { 2, 0, 0 }, { 2, 1, 0 }, { 0, 1, 0 }, { 0, 0, 3 },
+    { 2, 0, 3 }, { 2, 1, 3 }, { 0, 1, 3 } };
+  check(VTK_TRIANGLE, { box[0], box[1], box[6] }, 2, 1.0, __LINE__);
+  check(VTK_QUAD, { box[0], box[1], box[6], box[7] }, 2, 2.0, __LINE__);
+  check(VTK_PIXEL, { box[0], box[1], box[3], box[2] }, 2, 2.0, __LINE__);
+  check(VTK_TRIANGLE_STRIP, { box[0], box[1], box[3], box[2] }, 2, 2.0, __LINE__);
+  check(VTK_POLYGON, { box[0], box[1], { 0.5, 0.5, 0 }, box[3] }, 2, 0.75, __LINE__);
+  check(VTK_TETRA, { box[0], box[1], box[3], box[4] }, 3, 1.0, __LINE__);
+  check(VTK_HEXAHEDRON, box, 3, 6.0, __LINE__);
+  check(VTK_VOXEL, { box[0], box[1], box[3], box[2], box[4], box[5], box[7], box[6] }, 3, 6.0,
+    __LINE__);
+  check(VTK_PYRAMID, { box[0], box[1], box[2], box[3], box[4] }, 3, 2.0, __LINE__);
+  check(VTK_WEDGE, { box[0], box[1], box[3], box[4], box[5], box[7] }, 3, 3.0, __LINE__);
+  check(VTK_PENTAGONAL_PRISM, prism(5, 1.0), 3, 2.5 * std::sin(0.4 * std::acos(-1.0)), __LINE__);
+  check(VTK_HEXAGONAL_PRISM, prism(6, 1.0), 3, 1.5 * std::sqrt(3.0), __LINE__);
+}
+
+// A cube with a notch in its top.
 void checkPolyhedron(Checks& checks)
 {
   vtkNew<vtkUnstructuredGrid> grid;
   vtkNew<vtkPoints> points;
-  for (const auto& x : Corners{ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 9, 9, 9 } })
+  for (const auto& x : Corners{ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
+         { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 }, { 0.5, 0.5, 0.25 }, { 9, 9, 9 } })
   {
     points->InsertNextPoint(x.data());
   }
   grid->SetPoints(points);
-  const vtkIdType faces[] = { 3, 0, 2, 1, 3, 0, 1, 3, 3, 0, 3, 2, 3, 1, 2, 3 };
-  const vtkIdType ids[] = { 0, 1, 2, 3 };
-  grid->InsertNextCell(VTK_POLYHEDRON, 4, ids, 4, faces);
-  const auto turned = [&](double factor) {
-    return turnedBy(grid, 3, [=](double* x) { x[2] *= factor; });
-  };
-  CHECK(checks, (turned(0.5) == std::array<std::int64_t, 2>{ 0, 1 }));
-  CHECK(checks, (turned(-0.5) == std::array<std::int64_t, 2>{ 1, 1 }));
+  const vtkIdType faces[] = { 4, 0, 3, 2, 1, 4, 0, 1, 5, 4, 4, 1, 2, 6, 5, 4, 2, 3, 7, 6, 4, 3, 0,
+    4, 7, 3, 4, 5, 8, 3, 5, 6, 8, 3, 6, 7, 8, 3, 7, 4, 8 };
+  const vtkIdType ids[] = { 0, 1, 2, 3, 4, 5, 6, 7, 8 };
+  grid->InsertNextCell(VTK_POLYHEDRON, 9, ids, 9, faces);
+  for (const double factor : { 0.5, -0.5 })
+  {
+    const InvertedCells found = movedBy(grid, 3, [=](double* x) { x[2] *= factor; });
+    CHECK(checks, found.All == 1);
+    CHECK(checks, found.Inverted == (factor < 0.0 ? 1 : 0));
+    CHECK_NEAR(checks, found.Area.Value(), 0.5 * 0.75 / 0.25, 1e-13);
+  }
 }
 
 // What has no area before cannot lose it, whatever rounding says: cells edge-on, or of one point.
@@ -327,5 +387,6 @@ void checkVolumes(Checks& checks)
 
 int TestWarpFolds(int, char*[])
 {
-  return runChecks({ checkTypes, checkPolyhedron, checkEdgeOn, checkFilter, checkVolumes });
+  return runChecks(
+    { checkTypes, checkMeasures, checkPolyhedron, checkEdgeOn, checkFilter, checkVolumes });
 }
