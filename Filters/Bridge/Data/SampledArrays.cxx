@@ -7,7 +7,6 @@
 #include "Core/Parallel/Stages.h"
 #include "Core/Resampling/PlacesInImage.h"
 
-#include "vtkAOSDataArrayTemplate.h"
 #include "vtkArrayDispatch.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -22,8 +21,8 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
-#include <memory>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -119,14 +118,10 @@ vtkSmartPointer<vtkAbstractArray> makeLike(vtkAbstractArray* array, std::int64_t
   return made;
 }
 
-// Writes the tuples of one array for a block of places: on any thread, as no two of them share a
-// value's memory.
-class ArraySampler
-{
-public:
-  virtual ~ArraySampler() = default;
-  virtual void Sample(const SampledPlace* places, std::int64_t first, std::int64_t count) const = 0;
-};
+// Writes the tuples of one array for `count` places, the first of which has the number `first`: on
+// any thread, as no two of them share a value's memory.
+using ArraySampler =
+  std::function<void(const SampledPlace* places, std::int64_t first, std::int64_t count)>;
 
 template <class Value>
 Value noValue()
@@ -151,181 +146,61 @@ Value rounded(double number)
   return value;
 }
 
-// The mean of value(point) with a place's weights.
-template <class Value, class ValueAt>
-Value interpolate(const SampledPlace& place, const ValueAt& valueAt)
-{
-  double sum = 0.0;
-  for (int k = 0; k < place.Count; ++k)
-  {
-    sum += place.Weights[k] * static_cast<double>(valueAt(place.Points[k]));
-  }
-  return rounded<Value>(sum);
-}
-
-// Of arrays whose tuples are contiguous, with `N` components; 0 for any number.
-template <class Value, int N>
-class ContiguousSampler final : public ArraySampler
-{
-public:
-  ContiguousSampler(const NewArray& array, vtkDataArray* to, bool ofCells)
-    : To(vtkArrayDownCast<vtkAOSDataArrayTemplate<Value>>(to)->GetPointer(0))
-    , Components(to->GetNumberOfComponents())
-    , OfCells(ofCells)
-  {
-    for (vtkAbstractArray* from : array.From)
-    {
-      this->From.push_back(vtkArrayDownCast<vtkAOSDataArrayTemplate<Value>>(from)->GetPointer(0));
-    }
-  }
-
-  void Sample(const SampledPlace* places, std::int64_t first, std::int64_t count) const override
-  {
-    const int components = N > 0 ? N : this->Components;
-    Value* tuple = this->To + first * components;
-    this->Touch(places, count, components);
-    for (std::int64_t i = 0; i < count; ++i, tuple += components)
-    {
-      const SampledPlace& place = places[i];
-      if (place.Cell < 0)
-      {
-        std::fill_n(tuple, components, noValue<Value>());
-        continue;
-      }
-      const Value* given = this->From[static_cast<std::size_t>(place.Set)];
-      if (this->OfCells)
-      {
-        std::copy_n(given + place.Cell * components, components, tuple);
-        continue;
-      }
-      for (int c = 0; c < components; ++c)
-      {
-        tuple[c] = interpolate<Value>(
-          place, [=](std::int64_t point) { return given[point * components + c]; });
-      }
-    }
-  }
-
-private:
-  // Reads a value of each cache line beforehand, by loads that do not wait for each other:
-  // particles are not in the order of memory, and processors drop prefetches of pages that they do
-  // not know.
-  void Touch(const SampledPlace* places, std::int64_t count, int components) const
-  {
-    for (std::int64_t i = 0; i < count; ++i)
-    {
-      const SampledPlace& place = places[i];
-      if (place.Cell < 0)
-      {
-        continue;
-      }
-      const volatile Value* given = this->From[static_cast<std::size_t>(place.Set)];
-      if (this->OfCells)
-      {
-        static_cast<void>(given[place.Cell * components]);
-        continue;
-      }
-      for (int k = 0; k < place.Count; k += 2) // the next one lies beside it
-      {
-        static_cast<void>(given[place.Points[k] * components]);
-      }
-    }
-  }
-
-  std::vector<const Value*> From; // of each data set
-  Value* To;
-  const int Components;
-  const bool OfCells;
-};
-
-// Of arrays of any layout.
-template <class Array>
-class RangeSampler final : public ArraySampler
-{
-public:
-  RangeSampler(const NewArray& array, vtkDataArray* to, bool ofCells)
-    : To(vtkArrayDownCast<Array>(to))
-    , OfCells(ofCells)
-  {
-    for (vtkAbstractArray* from : array.From)
-    {
-      this->From.push_back(vtk::DataArrayTupleRange(vtkArrayDownCast<Array>(from)));
-    }
-  }
-
-  void Sample(const SampledPlace* places, std::int64_t first, std::int64_t count) const override
-  {
-    using Value = vtk::GetAPIType<Array>;
-    auto tuples = vtk::DataArrayTupleRange(this->To);
-    for (std::int64_t i = 0; i < count; ++i)
-    {
-      const SampledPlace& place = places[i];
-      auto tuple = tuples[static_cast<vtk::TupleIdType>(first + i)];
-      if (place.Cell < 0)
-      {
-        tuple.fill(noValue<Value>());
-        continue;
-      }
-      const auto& given = this->From[static_cast<std::size_t>(place.Set)];
-      if (this->OfCells)
-      {
-        tuple = given[static_cast<vtk::TupleIdType>(place.Cell)];
-        continue;
-      }
-      for (vtk::ComponentIdType c = 0; c < tuples.GetTupleSize(); ++c)
-      {
-        tuple[c] = interpolate<Value>(place,
-          [&](std::int64_t point) { return given[static_cast<vtk::TupleIdType>(point)][c]; });
-      }
-    }
-  }
-
-private:
-  std::vector<decltype(vtk::DataArrayTupleRange(std::declval<Array*>()))> From;
-  Array* To;
-  const bool OfCells;
-};
-
+// Makes the sampler of arrays that are all of one class.
 struct MakeSampler
 {
-  std::unique_ptr<ArraySampler> Made;
+  ArraySampler Made;
 
-  template <class Value>
-  void operator()(
-    vtkAOSDataArrayTemplate<Value>*, const NewArray& array, vtkDataArray* to, bool ofCells)
-  {
-    if (!areAll<vtkAOSDataArrayTemplate<Value>>(array, to))
-    {
-      return;
-    }
-    switch (to->GetNumberOfComponents())
-    {
-      case 1:
-        this->Made = std::make_unique<ContiguousSampler<Value, 1>>(array, to, ofCells);
-        break;
-      case 3:
-        this->Made = std::make_unique<ContiguousSampler<Value, 3>>(array, to, ofCells);
-        break;
-      default:
-        this->Made = std::make_unique<ContiguousSampler<Value, 0>>(array, to, ofCells);
-    }
-  }
   template <class Array>
   void operator()(Array*, const NewArray& array, vtkDataArray* to, bool ofCells)
   {
-    if (areAll<Array>(array, to))
+    auto* made = vtkArrayDownCast<Array>(to);
+    std::vector<decltype(vtk::DataArrayTupleRange(made))> given;
+    for (vtkAbstractArray* from : array.From)
     {
-      this->Made = std::make_unique<RangeSampler<Array>>(array, to, ofCells);
+      auto* own = vtkArrayDownCast<Array>(from);
+      if (!made || !own)
+      {
+        return; // arrays of one type may be of several classes
+      }
+      given.push_back(vtk::DataArrayTupleRange(own));
     }
+    this->Made = [=](const SampledPlace* places, std::int64_t first, std::int64_t count) {
+      auto tuples = vtk::DataArrayTupleRange(made, first, first + count);
+      for (const auto tuple : tuples)
+      {
+        sample(given, ofCells, *places++, tuple);
+      }
+    };
   }
 
-  // Arrays of one type may be of several classes.
-  template <class Array>
-  static bool areAll(const NewArray& array, vtkDataArray* to)
+private:
+  template <class Range, class Tuple>
+  static void sample(
+    const std::vector<Range>& given, bool ofCells, const SampledPlace& place, Tuple tuple)
   {
-    return vtkArrayDownCast<Array>(to) &&
-      std::all_of(array.From.begin(), array.From.end(),
-        [](vtkAbstractArray* from) { return vtkArrayDownCast<Array>(from) != nullptr; });
+    using Value = typename Tuple::value_type;
+    if (place.Cell < 0)
+    {
+      tuple.fill(noValue<Value>());
+      return;
+    }
+    const Range& from = given[static_cast<std::size_t>(place.Set)];
+    if (ofCells)
+    {
+      tuple = from[static_cast<vtk::TupleIdType>(place.Cell)];
+      return;
+    }
+    for (vtk::ComponentIdType c = 0; c < tuple.size(); ++c)
+    {
+      double sum = 0.0;
+      for (int k = 0; k < place.Count; ++k)
+      {
+        const auto value = from[static_cast<vtk::TupleIdType>(place.Points[k])][c];
+        sum += place.Weights[k] * static_cast<double>(value);
+      }
+      tuple[c] = rounded<Value>(sum);
+    }
   }
 };
 
@@ -360,7 +235,7 @@ void sampleTuples(const NewArray& array, vtkAbstractArray* to, const SampledPlac
 // The arrays of an output that are to be sampled.
 struct Sampling
 {
-  std::vector<std::unique_ptr<ArraySampler>> Blocks;
+  std::vector<ArraySampler> Blocks;
   struct InOrder
   {
     NewArray From;
@@ -412,9 +287,9 @@ void sampleBlocks(const Sampling& sampling, const SampledPlaces& places, Progres
       {
         const std::int64_t count = std::min(block, end - first);
         places.FindBlock(first, count, found);
-        for (const auto& array : sampling.Blocks)
+        for (const ArraySampler& sample : sampling.Blocks)
         {
-          array->Sample(found, first, count);
+          sample(found, first, count);
         }
       }
     },
