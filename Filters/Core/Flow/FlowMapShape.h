@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which lattices a flow map has. They depend only on the grid, the number of steps and the
-// direction. Documentation/Flow.md gives the formulas.
+// direction. FlowMapShape.cxx has the formulas.
 #ifndef RectifiedTransport_FlowMapShape_h
 #define RectifiedTransport_FlowMapShape_h
 
