@@ -47,8 +47,8 @@ class Budgets(unittest.TestCase):
             print("%-26s %8s  budget %8s  target %s" % (name, value, budgets[name]["budget"], target))
         passed = passed_budgets(found, budgets)
         if passed:
-            self.fail("\n%s\nThe budgets of Testing/House/budgets.json are only lowered." %
-                      "\n".join(passed))
+            self.fail("\n%s\nThe budgets of Testing/House/budgets.json are only lowered, except for a "
+                      "new filter." % "\n".join(passed))
 
     def test_names_in_programs_of_tests(self):
         """Each folder is one program, or few, that contain the sources, too."""
@@ -214,6 +214,12 @@ const char* other = "\\"// nor this";
         self.write("Documentation/Pages/Map.md", "two\nmore\n")
         self.write("CHANGELOG.md", "none of these\n")
         self.assertEqual(self.value("words"), 5)
+
+    def test_long_pages(self):
+        self.write("README.md", "word " * 2001)
+        self.write("Documentation/Map.md", "word " * 2000)
+        self.write("Documentation/Speed.md", "word " * 3000)
+        self.assertEqual(self.value("long_pages"), 1)
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ BRIDGE = "Filters/Bridge/"
 MATHEMATICS = ("Filters/Core/", "Filters/Surfaces/")
 # Sources of which the build takes one or the other.
 ALTERNATIVES = ("Filters/Core/Device/WithoutOpenCL.cxx",)
+LONGER_PAGES = ("Documentation/Contributing.md", "Documentation/Speed.md")
 
 Figure = collections.namedtuple("Figure", ["count", "advice"])
 FIGURES = {}
@@ -233,12 +234,24 @@ def fragments(tree):
     return tree.matches(r"^\s*(?://|///) (?:Of|of) |; // of ", tree.sources)
 
 
+def words_of_pages(tree):
+    """The words of the README and of each page of Documentation."""
+    pages = tree.files(["Documentation"], (".md",))
+    pages += ["README.md"] if os.path.exists(os.path.join(tree.root, "README.md")) else []
+    return {page: len(tree.text(page).split()) for page in pages}
+
+
 @figure("shorten a page")
 def words(tree):
     """Words of the README and the pages of Documentation. Nobody reads much."""
-    pages = tree.files(["Documentation"], (".md",))
-    pages += ["README.md"] if os.path.exists(os.path.join(tree.root, "README.md")) else []
-    return sum(len(tree.text(page).split()) for page in pages)
+    return sum(words_of_pages(tree).values())
+
+
+@figure("shorten the page, or part it by what its readers want")
+def long_pages(tree):
+    """Pages of more than 2000 words; those of developers, with their tables, may have 3000."""
+    return sorted("%s (%d words)" % (page, count) for page, count in words_of_pages(tree).items()
+                  if count > (3000 if page in LONGER_PAGES else 2000))
 
 
 def without_ctags():
