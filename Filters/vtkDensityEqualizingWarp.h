@@ -26,9 +26,9 @@
  * area seen along the normal of a 2D density, signed volume in a 3D one, signed length along a 1D
  * one, changed its sign or became 0 although it was not. It is that of the simplices that VTK
  * divides a cell into: cells of higher order count by all of their points, warped faces by the
- * diagonals that VTK takes. The faces of polyhedra are seen from outside, as VTK defines them. Ghost
- * cells do not count, nor cells that VTK cannot divide. A warning says how many there are if they
- * are at least one in a thousand, or that of the area.
+ * diagonals that VTK takes. The faces of polyhedra are seen from outside, as VTK defines them.
+ * Ghost cells do not count, nor cells that VTK cannot divide. A warning says how many there are if
+ * they are at least one in a thousand, or that of the area.
  *
  * With Method Optimal or Certify, and Blend above 0, there are also the field data `TransportCost`,
  * the mean squared displacement of the density's mass, by the centres of its cells, and

@@ -202,6 +202,18 @@ void checkMeasures(Checks& checks)
   check(VTK_HEXAGONAL_PRISM, prism(6, 1.0), 3, 1.5 * std::sqrt(3.0), __LINE__);
 }
 
+// One line of a polyline, or one triangle of a strip, is enough.
+void checkPieces(Checks& checks)
+{
+  const std::array<std::int64_t, 2> turned = { 1, 1 };
+  const auto move = [](double* x) { x[0] = x[0] > 2.5 ? 0.5 : x[0]; };
+  CHECK(checks,
+    turnedBy(makeCell(VTK_POLY_LINE, { { 0, 0, 0 }, { 2, 0, 0 }, { 3, 0, 0 } }), 1, move) ==
+      turned);
+  const Corners strip = { { 0, 0, 0 }, { 2, 0, 0 }, { 0, 1, 0 }, { 3, 0.25, 0 } };
+  CHECK(checks, turnedBy(makeCell(VTK_TRIANGLE_STRIP, strip), 2, move) == turned);
+}
+
 // A cube with a notch in its top.
 void checkPolyhedron(Checks& checks)
 {
@@ -387,6 +399,6 @@ void checkVolumes(Checks& checks)
 
 int TestWarpFolds(int, char*[])
 {
-  return runChecks(
-    { checkTypes, checkMeasures, checkPolyhedron, checkEdgeOn, checkFilter, checkVolumes });
+  return runChecks({ checkTypes, checkMeasures, checkPieces, checkPolyhedron, checkEdgeOn,
+    checkFilter, checkVolumes });
 }
