@@ -17,8 +17,8 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport::Bridge
 {
 
-// With all arrays in their order, the active attributes and ghost arrays. Throws Failure for a type
-// of data set that VTK cannot send.
+// With all arrays in their order, the active attributes and ghost arrays. Throws Failure for
+// a type of data set that VTK cannot send.
 Bytes bytesOfDataSet(vtkDataSet* data);
 // Images come as vtkImageData.
 vtkSmartPointer<vtkDataSet> dataSetOfBytes(const char* bytes, std::size_t count);

@@ -42,7 +42,7 @@ namespace
 {
 
 using Key = std::array<std::uint64_t, 2>; // the number of a part, and its fingerprint
-using Keys = std::vector<Key>;            // of the parts of a rank
+using Keys = std::vector<Key>;            // one key for each part of a rank
 
 // Whether a part is one that no lower rank has.
 bool isFirst(const std::vector<Keys>& all, std::size_t rank, const Key& key)
@@ -155,7 +155,8 @@ GatheredParts gatherDataParts(
 namespace
 {
 
-// Places that differ by less are rounded differently on ranks.
+// Points at a distance of less differ by rounding alone: ranks may have computed the same point
+// with errors of a few units in the last place of the farthest coordinate.
 double roundingOf(vtkPolyData* all)
 {
   double bounds[6];
@@ -171,7 +172,8 @@ double roundingOf(vtkPolyData* all)
                                                   : std::numeric_limits<double>::epsilon());
 }
 
-// Of each point the one that it becomes.
+// The point that each point becomes. Parts of lower ranks come first, so a point that lies within
+// rounding of one in a lower part is merged with it; points of one part stay apart.
 std::vector<vtkIdType> pointsToKeep(vtkPolyData* all, const std::vector<DataPart>& parts)
 {
   std::vector<vtkIdType> becomes(static_cast<std::size_t>(all->GetNumberOfPoints()));

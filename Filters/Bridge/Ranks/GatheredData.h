@@ -23,7 +23,7 @@ namespace RectifiedTransport::Bridge
 // A data set with points, or the part of one that a rank has.
 struct DataPart
 {
-  std::int64_t Number = 0; // of the data set, the same on all ranks
+  std::int64_t Number = 0; // the number of the data set, the same on all ranks
   std::string Name;
   vtkSmartPointer<vtkDataSet> Data;
 };

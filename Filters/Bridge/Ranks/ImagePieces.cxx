@@ -61,6 +61,8 @@ ImagePieces::ImagePieces(vtkImageData* own, const Ranks& ranks)
     std::copy_n(own->GetSpacing(), 3, piece.Geometry.begin() + 3);
     std::copy_n(own->GetDirectionMatrix()->GetData(), 9, piece.Geometry.begin() + 6);
   }
+  // Every rank learns the extents of all, so that senders and receivers agree on each message
+  // without asking.
   this->Joined = joinPieces(gatherValues(ranks, piece));
   if (!this->Joined.Fault.empty())
   {
@@ -99,6 +101,8 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
       return names.empty() || isGhosts(kind) ||
         std::find(names.begin(), names.end(), kind.Name) != names.end();
     });
+  // Points and cells have boxes of their own: where cells meet at a face, both pieces have its
+  // points.
   const auto exchangeOf = [&](int owner) {
     std::vector<TupleBox> held;
     for (const Extent& extent : owner == vtkDataObject::POINT ? this->Points() : this->Cells())
@@ -127,6 +131,7 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
     arrays.push_back({ kind.Owner == vtkDataObject::POINT ? &points : &cells, given,
       tuplesOf(own, kind.Owner, this->Joined.Whole), tuplesIn(kept.back()), made });
   }
+  // A few named arrays are sent in one round of messages.
   if (!names.empty())
   {
     exchangeArrays(arrays, this->Processes);

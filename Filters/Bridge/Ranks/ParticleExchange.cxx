@@ -32,6 +32,8 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
+// The rank that owns the last of the `each` points of every particle: a path belongs to where it
+// ends.
 std::vector<int> findOwners(
   vtkDataArray* points, std::int64_t each, const PlaceOwners& owners, Progress& progress)
 {

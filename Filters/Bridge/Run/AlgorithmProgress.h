@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The Progress of one execution of a vtkAlgorithm: progress events, abort checks and the executor
-// of its property Threading.
+// that its property Threading chooses.
 #ifndef RectifiedTransport_AlgorithmProgress_h
 #define RectifiedTransport_AlgorithmProgress_h
 

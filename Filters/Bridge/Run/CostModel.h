@@ -12,15 +12,15 @@ namespace RectifiedTransport::Bridge
 namespace Cost
 {
 
-constexpr double Seed = 20.0;
-constexpr double Write = 50.0;         // of a particle with its arrays
-constexpr double MassShare = 150.0;    // of a sample in 3D, with the sample's other arrays
-constexpr double MeanAndSplat = 60.0;  // of a particle of a blend
-constexpr double Comparison = 4000.0;  // of a particle with a density
-constexpr double Relaxation = 20000.0; // of a point, in each iteration
-constexpr double TurnedCell = 200.0;   // of a vtkCell, to find whether it turned over
-constexpr double Reading = 2.0;        // of a cell's value
-constexpr double OptimalCell = 1500.0; // of a cell of an optimal map
+constexpr double Seed = 20.0;          // a seed
+constexpr double Write = 50.0;         // a particle with its arrays
+constexpr double MassShare = 150.0;    // a sample in 3D, with its other arrays
+constexpr double MeanAndSplat = 60.0;  // a particle of a blend
+constexpr double Comparison = 4000.0;  // a particle and a density
+constexpr double Relaxation = 20000.0; // a point, in each iteration
+constexpr double TurnedCell = 200.0;   // a vtkCell, to find whether it turned over
+constexpr double Reading = 2.0;        // a cell's value
+constexpr double OptimalCell = 1500.0; // a cell of an optimal map
 
 // The cost of moving one particle.
 inline double flow(const FlowOptions& options, int dimension)

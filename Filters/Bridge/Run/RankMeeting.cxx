@@ -26,7 +26,7 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int meetingTag = 52718; // of no other messages in ParaView or VTK
+constexpr int meetingTag = 52718; // a tag that no message of ParaView or VTK has
 
 using Seconds = std::chrono::duration<double>;
 

@@ -27,9 +27,11 @@ namespace
 
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI
 
-constexpr int exchangeTag = 52719;  // of no other messages in ParaView or VTK
-constexpr long long much = 1 << 24; // bytes
+constexpr int exchangeTag = 52719;  // a tag that no message of ParaView or VTK has
+constexpr long long much = 1 << 24; // bytes; more is sent in pieces, after all have the memory
 
+// An exchange among ranks of which any may fail. A rank that fails or is cancelled says so in its
+// next announcement, which all ranks take part in, and none waits for a message that never comes.
 class MpiRun final : public RankRun
 {
 public:
@@ -132,6 +134,7 @@ MpiRun::Arrivals MpiRun::Announce(
   return arriving;
 }
 
+// All ranks get the messages of all, of which the first one is reported, by rank 0.
 void MpiRun::CollectReports(const std::string& message) const
 {
   const auto length = static_cast<long long>(message.size());
@@ -149,6 +152,8 @@ void MpiRun::CollectReports(const std::string& message) const
   }
 }
 
+// AllGatherV takes one round, but the sum of the parts must be less than 2^31 bytes, as MPI counts
+// with int; it also makes a copy of all.
 std::vector<Bytes> MpiRun::Gather(const Bytes& own) const
 {
   const std::vector<const Bytes*> parts(static_cast<std::size_t>(this->Count()), &own);
@@ -226,7 +231,9 @@ std::vector<Bytes> MpiRun::AllocateFor(const Arrivals& arrivals) const
   return received;
 }
 
-// Without this rank's own part.
+// Sends and receives all parts except this rank's own. MPI counts with int, so a message has at
+// most 2^30 bytes. All receives are posted before the first send, so that data arrive in their
+// place.
 std::vector<Bytes> MpiRun::Transfer(
   const std::vector<const Bytes*>& parts, const Arrivals& arrivals) const
 {
@@ -288,6 +295,8 @@ std::unique_ptr<RankRun> RankRun::Begin(const std::string& filter, int piece, in
 
 std::chrono::duration<double> RankRun::Timeout()
 {
+  // Seconds until the ranks that wait report one that does not arrive, for example because an
+  // upstream filter failed there.
   constexpr double usual = 120.0;
   const char* given = std::getenv("RECTIFIEDTRANSPORT_RANK_TIMEOUT");
   const double seconds = given ? std::strtod(given, nullptr) : 0.0;

@@ -22,7 +22,8 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-// Of an array of any length: samples suffice, as pieces of a data set differ nearly everywhere.
+// The number of samples of an array of any length: samples suffice, as pieces of a data set differ
+// nearly everywhere.
 constexpr vtkIdType maximumSamples = 4096;
 
 template <class Visit>

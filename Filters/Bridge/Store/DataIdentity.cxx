@@ -13,6 +13,7 @@
 namespace RectifiedTransport::Bridge
 {
 
+// Doubles are compared by their bits: -0 differs from 0, and NaN equals itself.
 void DataIdentity::AddNumbers(const double* numbers, int count)
 {
   for (int i = 0; i < count; ++i)
@@ -58,6 +59,8 @@ void DataIdentity::AddRules(const DensityRules& rules)
   this->AddNumbers(numbers, 3);
 }
 
+// The address belongs to the time: another object at the same time is other data. A new object at
+// an old address has a newer time, as VTK's clock never repeats one.
 void DataIdentity::AddTimeOf(vtkObject* object)
 {
   this->Times.push_back(static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(object)));
@@ -89,6 +92,8 @@ void DataIdentity::AddArray(vtkAbstractArray* array)
   this->AddNumber(static_cast<std::uint64_t>(array->GetMTime()));
 }
 
+// Hashes are lazy, so the other identity is kept until Hash combines both. A hash that exists
+// already is wrapped as a hasher, because Hash would otherwise look for arrays that are gone.
 void DataIdentity::Add(const DataIdentity& other)
 {
   this->Numbers.insert(this->Numbers.end(), other.Numbers.begin(), other.Numbers.end());
@@ -103,6 +108,8 @@ void DataIdentity::Add(const DataIdentity& other)
 
 void DataIdentity::Hash(Progress& progress)
 {
+  // The hashes h and g of two identities are combined as (h odd xor h / 2^32) + g, which depends on
+  // their order. An odd factor is invertible modulo 2^64, so no bit of h is lost in it.
   constexpr std::uint64_t odd = 0x9e3779b97f4a7c15; // 2^64 over the golden ratio
   if (this->IsHashed)
   {
@@ -131,6 +138,9 @@ bool DataIdentity::IsByContent(const DataIdentity& other) const
   return this->IsHashed && other.IsHashed && this->Content() == other.Content();
 }
 
+// From cheap to expensive: numbers must be equal, equal times suffice, and only other times make
+// the values be hashed. The times are then taken over, so that the next comparison is cheap again.
+// Data without a hash (0) are the same only by their times.
 bool DataIdentity::IsSameAs(DataIdentity& before, Progress& progress)
 {
   if (!before.IsHashed || this->Numbers != before.Numbers)

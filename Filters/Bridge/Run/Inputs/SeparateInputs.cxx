@@ -80,7 +80,7 @@ std::optional<double> dataTime(vtkDataObject* data)
 }
 
 // Whether data are of a time that they may have, where `asked` was requested: a source without data
-// of that time gives those of the step before or after it.
+// at that time gives those at the step before or after it.
 bool isTimeOf(double time, double asked, vtkInformation* output, const TimeRange& announced)
 {
   double before = announced.Steps > 0 ? announced.First : asked;

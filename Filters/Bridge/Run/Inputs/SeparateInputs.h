@@ -53,14 +53,14 @@ public:
   void End();
 
 private:
-  using Output = std::pair<vtkAlgorithm*, int>; // of a filter, by its port
+  using Output = std::pair<vtkAlgorithm*, int>; // a filter and its output port
   struct Branch;
   struct Made
   {
     int Port;
     int Index;
     vtkSmartPointer<vtkDataObject> Data; // the producer's own
-    vtkMTimeType Time;                   // of its last update
+    vtkMTimeType Time;                   // when it was updated last
     vtkSmartPointer<vtkDataObject> Copy;
   };
   // The modification time of a filter, and the time of the data if an output has only one.
@@ -77,9 +77,8 @@ private:
   std::string Failed;             // the error message; empty if all inputs were made
   std::map<Output, State> Untold; // whose data have another time even if made separately
 
-  std::map<vtkAlgorithm*, vtkMTimeType> Keepers; // of steps, and when their data were made last
-
-  // What replaces the executive's inputs.
+  // Filters that keep steps, and when their data were made last.
+  std::map<vtkAlgorithm*, vtkMTimeType> Keepers;
   std::vector<vtkSmartPointer<vtkInformationVector>> Vectors;
   std::vector<vtkInformationVector*> Pointers;
 };

@@ -89,7 +89,7 @@ bool isTimeRequested(vtkInformationVector* outputs)
   return false;
 }
 
-// Of the data on each port.
+// One fingerprint a port, for the data on it.
 std::vector<std::uint64_t> fingerprintsOf(const std::vector<std::vector<vtkDataObject*>>& inputs)
 {
   std::vector<std::uint64_t> fingerprints;
@@ -100,8 +100,7 @@ std::vector<std::uint64_t> fingerprintsOf(const std::vector<std::vector<vtkDataO
   return fingerprints;
 }
 
-// Of the data on each port: what is not the same on all ranks, nor on the first one only, as a
-// text.
+// Describes the ports with data that are neither the same on all ranks nor on the first one only.
 std::string differenceOf(const Ranks& ranks, const std::vector<std::uint64_t>& fingerprints)
 {
   std::vector<std::vector<std::uint64_t>> all;

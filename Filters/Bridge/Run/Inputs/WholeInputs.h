@@ -51,8 +51,8 @@ public:
   // Requests the rank's own piece of what is partitioned.
   void RequestPartitioned(int port, vtkInformationVector* inputs) const;
   // Requests from all outputs the piece that is requested from one. Otherwise the executive makes
-  // an image whole that is not requested itself, and then treats all outputs as made for the piece
-  // of the requested one.
+  // an image whole that is not requested itself, and then treats all outputs as made for the
+  // requested piece.
   void RequestOutputs(vtkInformation* request, vtkInformationVector* outputs) const;
 
   // As SeparateInputs, except while the executive iterates over blocks: the producer of a block
@@ -77,7 +77,7 @@ public:
   void Require(vtkAlgorithm* filter, vtkInformationVector** inputVector, const RankRun* run);
 
 private:
-  using Inputs = std::vector<std::vector<vtkDataObject*>>; // of each port
+  using Inputs = std::vector<std::vector<vtkDataObject*>>; // by port and connection
 
   vtkCompositeDataSet* CompositeAt(int port, int connection) const; // nullptr for none
   bool IsIteratingOverBlocks(vtkAlgorithm* filter, vtkInformationVector** inputVector) const;
@@ -90,9 +90,8 @@ private:
   SeparateInputs Separated;
   int Piece = 0;
   int NumberOfPieces = 1;
-  std::vector<std::vector<vtkWeakPointer<vtkCompositeDataSet>>> Composites; // of each port
-
-  // The last comparison.
+  // By port and connection.
+  std::vector<std::vector<vtkWeakPointer<vtkCompositeDataSet>>> Composites;
   vtkMTimeType ComparedTime = 0;   // the newest modification time of the inputs
   std::vector<std::uint64_t> Same; // the fingerprints of the ports; empty if ranks differed
   std::string Difference;          // the error message; empty if ranks agreed

@@ -91,7 +91,7 @@ bool visitConsumers(vtkInformation* output, const Visit& visit)
 struct PieceRequest
 {
   vtkInformation* Output;
-  std::array<int, 3> Values; // of the keys
+  std::array<int, 3> Values; // the values of the keys, see pieceKeys
 };
 
 std::array<vtkInformationIntegerKey*, 3> pieceKeys()

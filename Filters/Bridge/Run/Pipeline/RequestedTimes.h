@@ -51,7 +51,7 @@ public:
   RequestedTimes& operator=(const RequestedTimes&) = delete;
 
 private:
-  std::map<vtkInformation*, std::optional<double>> Times; // of each output
+  std::map<vtkInformation*, std::optional<double>> Times; // the requested time of each output
 };
 
 } // namespace RectifiedTransport::Bridge

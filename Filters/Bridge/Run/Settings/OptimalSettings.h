@@ -41,7 +41,7 @@ struct OptimalSetting
   }
 };
 
-// Of a filter that has these properties. Throws Failure for values out of range.
+// Reads the settings of a filter that has these properties. Throws Failure for values out of range.
 template <class Filter>
 OptimalSetting optimalSettingOf(Filter& filter)
 {
