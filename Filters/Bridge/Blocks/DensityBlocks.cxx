@@ -63,6 +63,7 @@ void addCells(vtkCellArray* cells, DataIdentity& content)
   content.AddArray(cells ? cells->GetConnectivityArray() : nullptr);
 }
 
+// Without an array of types (VTK may keep implicit ones) every grid with cells may have polyhedra.
 bool mayHavePolyhedra(vtkUnstructuredGrid* grid)
 {
   auto* types = vtkUnsignedCharArray::SafeDownCast(cellTypesOf(grid));
@@ -123,6 +124,9 @@ void failOthers(const std::string& what, std::int64_t count, const OtherLeaves& 
     others.FirstText());
 }
 
+// The data sets that have points, each with its name and number: hyper tree grids become meshes of
+// their leaves, and cells of AMR grids that finer levels cover are marked as refined. Other leaves
+// are counted, for messages.
 std::vector<DensityBlock> densityBlocks(
   vtkDataObject* data, OtherLeaves* others, Progress* progress, const Ranks& ranks)
 {
@@ -163,6 +167,8 @@ std::vector<DensityBlock> densityBlocks(
   return blocks;
 }
 
+// The identity of a geometry is that of all that its cells depend on: extents and transforms of
+// grids, coordinates, connectivity, types, and ghost flags.
 void addGeometry(const DensityBlock& block, DataIdentity& content)
 {
   vtkDataSet* data = block.Data;

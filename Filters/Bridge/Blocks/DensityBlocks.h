@@ -35,7 +35,7 @@ struct DensityBlock
   vtkSmartPointer<vtkDataSet> Data;
   std::string Name;    // that messages call it by
   std::int64_t Number; // among the leaves of a composite data set
-  std::uint64_t Time;  // of the data object that the block is of
+  std::uint64_t Time;  // the modification time of the data object that holds the block
   // The density; set by those who know its name, none: no mass.
   vtkSmartPointer<vtkDataArray> Array = nullptr;
 };

@@ -48,6 +48,7 @@ std::vector<DataPart> partsOf(const std::vector<DensityBlock>& blocks)
   return parts;
 }
 
+// The first rank gets the whole image and the others an empty extent, as it alone runs the filter.
 vtkSmartPointer<vtkDataObject> gatherImage(vtkImageData* own, const Ranks& ranks)
 {
   const ImagePieces pieces(own, ranks);
@@ -55,7 +56,8 @@ vtkSmartPointer<vtkDataObject> gatherImage(vtkImageData* own, const Ranks& ranks
   return pieces.Gather(ranks.Own() == 0 ? pieces.Whole() : none);
 }
 
-// As blocks of one data set.
+// Gathers data sets as blocks of one. If every rank has all parts already, its own data are
+// returned.
 vtkSmartPointer<vtkDataObject> gatherBlocks(vtkDataObject* own, const Ranks& ranks)
 {
   const GatheredParts gathered =
@@ -90,6 +92,8 @@ vtkSmartPointer<vtkDataObject> gatherAny(vtkDataObject* own, GatheredKind kind, 
   }
   auto* image = vtkImageData::SafeDownCast(own);
   const bool hasPoints = own && own->GetNumberOfElements(vtkDataObject::POINT) > 0;
+  // Pieces of one image are joined exactly, cell by cell. Other data become blocks of one data set.
+  // All ranks must take the same way, as each way is collective.
   const char* type = !hasPoints ? "" : image ? "an image" : "no image";
   return requireSameOnRanks(ranks, type, "The density is ") == "an image"
     ? gatherImage(image, ranks)
@@ -102,6 +106,8 @@ const std::vector<DensityBlock>& GatheredBlocks::Gather(
   const std::vector<DensityBlock>& own, const Ranks& ranks, Progress& progress)
 {
   DataIdentity content = contentOf(own);
+  // Blocks are gathered again if they changed on any rank; a rank that kept its own would not take
+  // part in the exchange.
   if (onAllRanks(ranks, content.IsSameAs(this->Content, progress)))
   {
     return this->Blocks;

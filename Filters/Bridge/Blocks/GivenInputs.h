@@ -27,7 +27,7 @@ struct GivenInput
 {
   vtkDataObject* Data;
   int Port;
-  int Connection;    // of its port
+  int Connection;    // its index on the port
   std::string Block; // the name of a block of composite data; else empty
 };
 

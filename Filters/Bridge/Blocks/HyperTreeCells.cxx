@@ -45,9 +45,11 @@ void poll(std::size_t leaf, Progress* progress)
 struct Leaves
 {
   std::vector<Bounds> Boxes;
-  std::vector<vtkIdType> Numbers; // of their values
+  std::vector<vtkIdType> Numbers; // the tuples of the leaves in the cell arrays of the grid
 };
 
+// Depth first, as the values of coarse cells are not needed: leaves alone tile the domain, and
+// masked ones are no part of it.
 void addLeaves(
   vtkHyperTreeGridNonOrientedGeometryCursor* cursor, Progress* progress, Leaves& leaves)
 {
@@ -128,6 +130,8 @@ std::vector<int> axesOf(vtkHyperTreeGrid* grid)
   return axes;
 }
 
+// Arrays of a hyper tree grid have a tuple for each node of its trees, coarse ones, too. An array
+// that lacks tuples of leaves is left out.
 void copyValues(vtkHyperTreeGrid* grid, const Leaves& leaves, vtkCellData* to)
 {
   auto* from =
@@ -183,6 +187,8 @@ vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid, Progre
     points->SetData(cornersOf(leaves, axes));
     cells->SetPoints(points);
     cells->Allocate(static_cast<vtkIdType>(leaves.Boxes.size()));
+    // Each leaf has corners of its own: a density needs the boxes of cells, not which of them share
+    // points.
     const int type = axes.size() == 1 ? VTK_LINE : axes.size() == 2 ? VTK_PIXEL : VTK_VOXEL;
     std::array<vtkIdType, 8> ids{};
     for (std::size_t leaf = 0; leaf < leaves.Boxes.size(); ++leaf)

@@ -62,6 +62,8 @@ bool areOfOneKind(vtkDataArray* a, vtkDataArray* b)
     a->GetNumberOfComponents() == b->GetNumberOfComponents();
 }
 
+// The images are parts of one lattice if they have the spacings and directions of the first one and
+// are whole cells apart, to rounding (see extentIn).
 std::optional<std::vector<Part>> partsOf(
   const std::vector<DensityBlock>& blocks, bool onPoints, ImageGrid& lattice)
 {
@@ -186,6 +188,7 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
   }
   const Extent whole = extentOf(points, vtkDataObject::POINT, parts->front().Place);
   const ImageGrid grid{ whole, lattice.Origin(), lattice.Spacing(), lattice.Direction(), onPoints };
+  // Bounds the memory: how many times the values of its parts the joined image may have.
   constexpr double mostEmpty = 8.0;
   if (numberOfValues(grid) > mostEmpty * values)
   {

@@ -59,6 +59,8 @@ std::optional<CellLattice> latticeOf(
   return lattice;
 }
 
+// Auto would take the luminance of a colour in one block and the magnitude of a vector in another,
+// which have no common unit. Blocks of one component, where nothing is to choose, agree with any.
 int commonComponent(const std::vector<DensityBlock>& blocks, int component)
 {
   DensityRules rules;
@@ -82,6 +84,8 @@ int commonComponent(const std::vector<DensityBlock>& blocks, int component)
   return first ? taken : rulesOf(blocks.front(), rules).Component;
 }
 
+// Two passes if the density is inverted: white, the largest value of all blocks, is known only
+// after all were read.
 BlockValues readBlocks(const std::vector<DensityBlock>& blocks, const CellSets& sets, bool onPoints,
   const MassCells& mass, const DensityRules& rules, Progress& progress)
 {

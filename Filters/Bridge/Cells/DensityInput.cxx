@@ -241,9 +241,9 @@ DensityBlocks chooseArrays(
   }
   DensityBlocks chosen{ {}, found.Association == vtkDataObject::FIELD_ASSOCIATION_POINTS,
     dimensions[found.Block] };
-  std::int64_t all = 0; // blocks of as many dimensions or more
-  std::int64_t without = 0;
-  std::string first; // of those
+  std::int64_t all = 0;     // blocks of as many dimensions or more
+  std::int64_t without = 0; // those among them that lack the array
+  std::string first;        // the name of the first block without the array
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {
     if (dimensions[b] < chosen.Dimension)

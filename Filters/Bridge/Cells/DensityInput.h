@@ -25,7 +25,7 @@ namespace RectifiedTransport::Bridge
 struct DensityChoice
 {
   DensityRules Rules;
-  int Resolution;        // of data that are not images
+  int Resolution;        // cells along the longest axis, for data that are not images
   int Association;       // as the filter's choice of the array has it
   std::string ArrayName; // empty for the default array
   // The array of a data set; sets its association. nullptr for none.

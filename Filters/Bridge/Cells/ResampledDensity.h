@@ -50,7 +50,7 @@ private:
   void FillEmpty(const ImageGrid& grid, const EmptyRule& rule, Progress& progress, double* values);
 
   DataIdentity Content; // what the last Read got
-  DensityReading How;   // of resampled data
+  DensityReading How;   // how resampled data were read
   vtkSmartPointer<vtkImageData> Image;
   // If the image was resampled: the data sets with mass, the lattice of their cells if they form
   // one, and findings about values that are probably not meant.

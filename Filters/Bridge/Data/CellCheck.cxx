@@ -42,7 +42,7 @@ std::string cellOf(vtkIdType cell, const std::string& name)
     (points > 0 ? "points 0 to " + std::to_string(points - 1) : std::string("no points")));
 }
 
-// Of cells that are numbered from `first` on.
+// Checks the point ids of cells that are numbered from `first` on.
 void requireIds(vtkCellArray* cells, std::int64_t points, vtkIdType first, const std::string& name)
 {
   if (!cells || cells->GetNumberOfCells() <= 0)
@@ -90,7 +90,8 @@ void requireIds(vtkCellArray* cells, std::int64_t points, vtkIdType first, const
   });
 }
 
-// Of every type the number of points, 0 where that is not fixed and -1 where VTK has no such type.
+// The number of points of every cell type: 0 where that is not fixed and -1 where VTK has no such
+// type.
 using PointsOfTypes = std::array<vtkIdType, 256>;
 
 PointsOfTypes pointsOfTypes()

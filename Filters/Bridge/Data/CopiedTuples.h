@@ -30,9 +30,9 @@ namespace RectifiedTransport::Bridge
 struct TupleSource
 {
   vtkDataSetAttributes* From;
-  vtkIdType Count;   // of its points or cells
+  vtkIdType Count;   // the number of its points or cells
   const char* Owner; // "point" or "cell"
-  const char* Name;  // of the data set, in messages
+  const char* Name;  // the name of the data set, in messages
 };
 
 // Throws Failure if the array has too few tuples for `count` points or cells (`owner`) of the data

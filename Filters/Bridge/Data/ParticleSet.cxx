@@ -27,11 +27,17 @@ ParticleSet<D>::ParticleSet(const ImageGrid& geometry, const std::string& purpos
   , SeedsGiven(seedsGiven)
 {
   const bool paths = times > 1;
+  // In 3D index and physical positions have the same size and share the memory of the output array.
+  // Given seeds keep their physical coordinates beside those in index space, and paths have no
+  // output array of seeds.
   const bool separateSeeds = D != 3 || paths || seedsGiven;
   const bool separatePositions = D != 3;
   const double each = static_cast<double>(times);
   constexpr double real = sizeof(double);
   constexpr double id = sizeof(vtkIdType);
+  // A point of a path has 3 coordinates, Mass and Time, SeedId and an id in its cell, and a path an
+  // offset. A particle has 3 coordinates, SeedPosition, Displacement and Mass, SeedId and a cell of
+  // two ids.
   const double written = paths ? each * (5 * real + 2 * id) + id : 10 * real + 3 * id;
   const double scratch =
     real * D * ((separateSeeds ? 1.0 : 0.0) + (separatePositions ? each : 0.0));
@@ -77,7 +83,8 @@ PointSpan<3> ParticleSet<D>::PhysicalSeeds()
 }
 
 // Calls write(i) for every particle, which returns the squared distance that it moved, in units of
-// the scale. Returns the mean squared displacement.
+// the scale. Returns the mean squared displacement. The sum is exact, so that it is the same for
+// every number of threads and ranks.
 template <int D>
 template <class WriteParticle>
 double ParticleSet<D>::WriteEach(

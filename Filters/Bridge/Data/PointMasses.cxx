@@ -119,6 +119,9 @@ vtkSmartPointer<vtkDataArray> findMasses(vtkPointSet* points, const std::string&
   return requireMasses(points, found, "The mass array '" + name + "'");
 }
 
+// Masses are doubles, one a point, 0 for ghosts. They are summed in fixed chunks, so that the sum
+// is the same for every number of threads. Sizes is the sum of |m|, which bounds the rounding of
+// sums.
 PointMasses::PointMasses(vtkPointSet* points, vtkDataArray* array, Progress& progress)
 {
   const vtkIdType count = points->GetNumberOfPoints();

@@ -40,8 +40,8 @@ constexpr std::int64_t Units = std::int64_t{ 1 } << 14;
 
 struct NewArray
 {
-  std::vector<vtkAbstractArray*> From; // of each data set
-  int Attribute;                       // that it is, else negative
+  std::vector<vtkAbstractArray*> From; // the array of this name in each data set
+  int Attribute;                       // the attribute type of the array, else negative
 };
 
 std::string nameOf(vtkAbstractArray* array)
@@ -204,7 +204,7 @@ private:
   }
 };
 
-// Of strings, bits and the like.
+// Strings, bits and the like have no mean: VTK interpolates their tuples, one by one.
 void sampleTuples(const NewArray& array, vtkAbstractArray* to, const SampledPlaces& places,
   bool ofCells, Progress& progress)
 {

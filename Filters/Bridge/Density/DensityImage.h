@@ -57,7 +57,7 @@ private:
   // If the density is cell data: ghost flags of the cells and of the points.
   const unsigned char* CellFlags = nullptr;
   const unsigned char* HiddenPoints = nullptr;
-  std::vector<unsigned char> CombinedFlags; // of both, from BlankCellsOfHiddenPoints on
+  std::vector<unsigned char> CombinedFlags; // both kinds of flags, from BlankCellsOfHiddenPoints on
 };
 
 } // namespace RectifiedTransport::Bridge

@@ -15,6 +15,8 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// A density with a margin of empty cells around it, which count as the rule for empty cells says.
+// The inner density reads the values; indices of cells in messages are translated back to its own.
 class GrownDensity final : public InputDensity
 {
 public:

@@ -45,8 +45,8 @@ class ImagePieces;
 struct DensityReading
 {
   std::string ArrayName; // empty for an array without a name
-  int Components = 1;    // of the array
-  int Component = 0;     // that is taken: an index, Luminance or Magnitude
+  int Components = 1;    // the number of components of the array
+  int Component = 0;     // the one that is taken: an index, Luminance or Magnitude
   bool IsInverted = false;
   std::array<double, 2> Range{}; // ValidRange
 };
@@ -163,7 +163,7 @@ protected:
   DensityReading Read; // from SetForm on
   UnusualValues Known;
   double Empty = 0.0;
-  std::vector<FillValue> FillValues; // of the input's field data
+  std::vector<FillValue> FillValues; // those in the input's field data
 
 private:
   // The values on ranks, for the core.

@@ -149,7 +149,7 @@ void PiecesDensity::PreparePieces(Progress& progress)
   }
   const Ranks& ranks = this->Distribution->Group();
   const auto piece = this->Gather(this->OwnExtent());
-  // Of all ranks, by the numbers of the whole image.
+  // What all ranks found is joined by the numbers that tuples have in the whole image.
   const Extent& whole = this->Geometry.Extent();
   const auto join = [&](auto own, auto& all) {
     if (own.First >= 0)

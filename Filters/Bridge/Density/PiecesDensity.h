@@ -35,7 +35,7 @@ public:
 
 private:
   std::uint64_t Fingerprint(Progress& progress) const override;
-  const std::vector<Extent>& Extents() const; // of all ranks
+  const std::vector<Extent>& Extents() const; // one a rank
   const Extent& OwnExtent() const;
   vtkDataArray* ArrayIn(vtkImageData* image) const;
   std::vector<TupleBox> OwnTuples() const;

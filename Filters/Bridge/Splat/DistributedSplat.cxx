@@ -32,6 +32,9 @@ struct OwnPoints
   const std::int64_t* Order;
 };
 
+// Densities are masses divided by the measure of a cell. On several ranks points go to the ranks of
+// their cells and are added in a common order (Order), so that sums do not depend on the number of
+// ranks.
 template <int D, class Real>
 std::int64_t splatIn(const OwnPoints<Real>& own, const SplatTarget& target, const TupleBox& wanted,
   Progress& progress, double* cells)

@@ -76,8 +76,8 @@ struct SplatInput
 
 struct SplatResult
 {
-  std::int64_t Outside; // of the points of all ranks
-  double TotalMass;     // that the whole image holds
+  std::int64_t Outside; // points of all ranks outside the grid
+  double TotalMass;     // the mass that the whole image holds
 };
 
 double inOrder(
@@ -164,7 +164,7 @@ ImageGrid MassSplatter::CellsIn(const double (&bounds)[6]) const
   return gridWithValues(box, dimensions, "Dimensions");
 }
 
-// Of the image.
+// The grid of the image: its points are the centres of the cells if the density is on points.
 ImageGrid MassSplatter::GridOf(const ImageGrid& cells, bool hasReference) const
 {
   return this->OnPoints && !hasReference ? cells.AtCellCentres() : cells;
@@ -175,7 +175,7 @@ ImageGrid MassSplatter::GridAround(const double (&bounds)[6]) const
   return this->GridOf(this->CellsIn(bounds), false);
 }
 
-// Of the image that all ranks have together.
+// The grid of the image that all ranks have together.
 ImageGrid MassSplatter::GridOfReference(vtkImageData* reference, const Ranks& ranks) const
 {
   vtkSmartPointer<vtkImageData> whole = reference;

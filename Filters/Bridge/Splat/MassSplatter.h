@@ -36,16 +36,16 @@ struct MassSplatter
 
   struct Report
   {
-    ImageGrid Grid; // of the whole image; empty if there is none
+    ImageGrid Grid; // the whole image; empty if there is none
     std::int64_t Points = 0;
-    std::int64_t Outside = 0; // of the grid
+    std::int64_t Outside = 0; // points outside the grid
   };
   // What masses are splat onto.
   struct Target
   {
     bool HasReference; // else a box around the points
     vtkImageData* Reference;
-    vtkInformation* Output; // of the pipeline
+    vtkInformation* Output; // the pipeline information of the output
   };
 
   // The grid of the output on the points' bounds, without a reference. Throws Failure.
