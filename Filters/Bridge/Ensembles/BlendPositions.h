@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the particles of a blend are in its inputs: by maps from one pivot, a unit box with equally
-// many particles in each cell of a grid (Section 3.4), and by optimal maps. Each rank has its share
-// of the particles.
+// many particles in each cell of a grid (Section 3.4), and by optimal maps. The particles are
+// divided among the ranks.
 #ifndef RectifiedTransport_BlendPositions_h
 #define RectifiedTransport_BlendPositions_h
 
@@ -28,7 +28,7 @@ struct BlendInput
 {
   std::unique_ptr<InputDensity> Density;
   std::string Name;         // in messages
-  std::string PositionName; // of the array of the particles' positions; empty for none
+  std::string PositionName; // names the array of the particles' positions; empty for none
   double Weight = 0.0;      // at least 0; all sum to 1
 };
 
@@ -39,7 +39,7 @@ struct LinearizedMapSettings
   std::int64_t PerCell;
   FlowOptions Options;
   TableSetting Tables;
-  RankShare Share; // of the numbers of the particles
+  RankShare Share; // the range of particle numbers that this rank has
 };
 
 struct LinearizedMap
@@ -85,14 +85,14 @@ private:
 
 struct BlendSettings
 {
-  int Dimensions[3]; // of commonGrid
+  int Dimensions[3]; // the arguments of commonGrid
   int ParticlesPerCell;
   BlendedMass Mode;
   FlowOptions Flow;
   TableSetting Tables;
   OptimalSetting Optimal;
   SplatOptions Splat;
-  bool ComparesEnds = false; // of two inputs: gives TransportCost and Displacement
+  bool ComparesEnds = false; // two inputs also give TransportCost and Displacement
 };
 
 // What one run blends.
@@ -100,8 +100,8 @@ struct BlendRun
 {
   const std::vector<BlendInput>& Inputs;
   const BlendSettings& Settings;
-  ImageGrid Geometry; // of the blended density
-  double Particles;   // of all ranks
+  ImageGrid Geometry; // the grid of the blended density
+  double Particles;   // their number on all ranks together
 };
 
 struct BlendPositions

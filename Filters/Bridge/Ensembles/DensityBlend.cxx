@@ -72,8 +72,8 @@ void reuseOrMake(
 struct MovedInput
 {
   InputDensity& Density;
-  double OwnMass;       // of the density
-  double Mass;          // that it gets
+  double OwnMass;       // the mass that the density has
+  double Mass;          // the mass that it gets
   vtkDoubleArray* From; // where the particles are in the density
   vtkDoubleArray* To;   // and where they are now
 };

@@ -22,6 +22,8 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// The symmetric matrix d(i, j) of inputs x inputs distances, by rows, from the pairs i < j in the
+// order (0, 1), (0, 2) ... (1, 2) ...
 std::vector<double> matrixOf(std::size_t inputs, const std::vector<DistancePair>& pairs)
 {
   std::vector<double> matrix(inputs * inputs, 0.0);
@@ -67,6 +69,8 @@ std::vector<std::string> columnNames(const std::vector<DistanceInput>& inputs)
 
 } // namespace
 
+// Values are hashed once here: the hash identifies maps and pairs of earlier runs, even if a source
+// made the same density again.
 DistanceInput readDistanceInput(InputDensity& density, Progress& progress)
 {
   DistanceInput input;
@@ -94,6 +98,8 @@ void DensityDistances::Add(DistanceInput input, Progress& progress)
   {
     const DistanceInput& first = this->Given.front();
     requireSameBox({ first.Grid, first.Title }, { input.Grid, input.Title });
+    // The potentials that certify a distance need both densities on the same cells. Linearized
+    // compares maps from one reference, which takes any grids in the same box.
     if (this->Method == DistanceMethod::Certified &&
       input.Grid.NumberOfValues() != first.Grid.NumberOfValues())
     {
@@ -125,6 +131,7 @@ void DensityDistances::MakeMaps(Progress& progress)
 
 std::vector<DistancePair> DensityDistances::Find(Progress& progress)
 {
+  // Making a map costs far more than comparing two of them.
   const bool lacksMaps = this->Distances.LacksMaps();
   Stages stages(progress, { { "maps", lacksMaps ? 9.0 : 0.0 }, { "pairs", 1 } });
   if (lacksMaps)

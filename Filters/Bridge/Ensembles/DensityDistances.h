@@ -26,7 +26,7 @@ namespace RectifiedTransport::Bridge
 struct DistanceInput
 {
   std::string Title; // in messages
-  std::string Name;  // of its column
+  std::string Name;  // the name of its column
   double Time = std::numeric_limits<double>::quiet_NaN();
   DensityReading Reading;
   ImageGrid Grid;

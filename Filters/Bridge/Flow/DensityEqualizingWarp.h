@@ -22,7 +22,7 @@ struct DensityEqualizingWarp
   struct Report
   {
     std::int64_t Outside = 0; // points of this rank outside the domain
-    InvertedCells Cells;      // of this rank's input
+    InvertedCells Cells;      // counted in this rank's input
     FlowReport Flow;
     TransportReport Transport;
     bool IsUncorrected = false; // EqualizeAreas has changed nothing

@@ -29,6 +29,8 @@ MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const
     this->FindParts(samples, wanted, ranks);
   }
   constexpr double real = sizeof(double);
+  // Positions take D doubles a kept sample and displacements 3 a wanted one, which in 3D share
+  // memory; the scalars are Divergence, JacobianDeterminant and, with a target, CostDensity.
   const double kept = numberOfCells<D>(this->Kept.Cells) + static_cast<double>(this->Ahead);
   const double count = numberOfCells<D>(this->Wanted.Cells);
   const double vectors = D == 3 ? std::max(kept, count) : count;
@@ -43,7 +45,8 @@ MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const
   }
 }
 
-// Pieces as VTK divides extents, of which points at common faces belong to the upper one.
+// Divides the samples as VTK divides extents; points at common faces belong to the upper piece.
+// Finite differences need the neighbours of wanted samples, so Kept surrounds them.
 template <int D>
 void MapField<D>::FindParts(const ImageGrid& samples, const TupleBox& wanted, const Ranks& ranks)
 {

@@ -58,9 +58,9 @@ private:
   LatticePart<D> Measured; // what the figures of the own part depend on
   LatticePart<D> Kept;
   std::int64_t Ahead = 0;     // tuples in the memory before the positions
-  std::vector<TupleBox> Held; // by the ranks
-  std::array<int, 3> Start{}; // of the lattice, in the image
-  std::array<int, D> Axes{};  // of the image
+  std::vector<TupleBox> Held; // the box that each rank holds
+  std::array<int, 3> Start{}; // where the lattice begins in the image
+  std::array<int, D> Axes{};  // the image's axis for each axis of the lattice
   vtkSmartPointer<vtkDoubleArray> Displacement;
   LargeBuffer<double> PositionBuffer; // not in 3D
 };

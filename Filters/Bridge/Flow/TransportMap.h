@@ -38,12 +38,12 @@ struct TransportMap
   TableSetting Tables;
   OptimalSetting Optimal;
   bool Backward;                       // to the uniform measure; has no effect with a goal
-  bool EqualizeAreas;                  // of Backward
+  bool EqualizeAreas;                  // only for Backward
   std::array<int, 3> SampleDimensions; // 0 keeps the number of the density's values
 
   struct Report
   {
-    ImageGrid Grid; // of all samples
+    ImageGrid Grid; // the grid of all samples
     double Samples;
     std::vector<FlowReport> Flows; // with a goal that of the source, then that of the target
     TransportReport Transport;

@@ -47,6 +47,9 @@ std::vector<double> timesOf(const TransportSampler& sampler)
   return times;
 }
 
+// Seeds are uniform in the box of the density, in index space. A pattern with SamplesPerCell is a
+// grid that divides every cell; otherwise the pattern fills the box's physical lengths, so that the
+// spacing is the same along all axes.
 template <int D>
 UnitSeeds<D> patternOf(const TransportSampler& sampler, const ImageGrid& grid)
 {
@@ -65,6 +68,8 @@ UnitSeeds<D> patternOf(const TransportSampler& sampler, const ImageGrid& grid)
 
 std::string describeParticles(double count, bool paths)
 {
+  // Below 2^53 a double is an exact integer, and the count of a large grid may exceed every
+  // integer.
   constexpr double maximumExact = 1e15;
   const std::string number =
     count < maximumExact ? std::to_string(static_cast<std::int64_t>(count)) : "more than 1e15";
@@ -122,6 +127,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     : times.back() < 1.0                        ? "a FlowTime other than 1"
                                                 : optimal.WholeFor();
   const OptimalNeeds needs{ optimal, given ? 0.0 : static_cast<double>(share.All) };
+  // Tiles serve a run of all particles from t = 0 to 1 in one pass. Positions at times between need
+  // the tables as a whole.
   const FlowTables tables = requireTables(chooseTables<D>(
     sampler.Tables, grid.Size<D>(), { options, FlowDirection::Forward, count, false, wholeFor }));
   const SharedFlow& flow = cache.Update(density, stages["tables"], tables, needs);
@@ -145,6 +152,9 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   vtkSmartPointer<vtkDoubleArray> slack;
   try
   {
+    // x(0) is the seed itself. x(1) can come from any solver of the plan, with a certificate. Times
+    // between need the paths: x(t) along the flow, or the straight line (1 - t) x(0) + t x(1) of
+    // the optimal map.
     if (times.back() == 0.0 && times.size() == 1)
     {
       stages["flow"].For(seeds.size(), grain, [=](std::int64_t first, std::int64_t last) {
@@ -166,6 +176,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   }
   catch (const std::bad_alloc& caught)
   {
+    // The flow sorts particles by cells: an index a particle.
     const double sort = count * sizeof(std::int64_t);
     failOutOfMemory(caught, { purpose, sort });
   }
@@ -181,6 +192,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   {
     output->GetPointData()->AddArray(slack);
   }
+  // Each particle goes to the rank that owns the cell where it ends.
   const PlaceOwners owners = ownersOf(grid, density.Pieces(), ranks);
   moveToOwners(output, static_cast<std::int64_t>(times.size()), owners, ranks, stages["particles"]);
   report.SeedsMoved = sumOverRanks(ranks, report.SeedsMoved);

@@ -35,7 +35,7 @@ struct TransportSampler
   struct Report
   {
     std::int64_t Particles = 0;
-    FlowReport Flow; // of this rank
+    FlowReport Flow; // the flow of this rank
     TransportReport Transport;
     std::int64_t SeedsMoved = 0;     // to the domain's border
     std::int64_t ParticlesMoved = 0; // from empty cells of the density to the nearest mass

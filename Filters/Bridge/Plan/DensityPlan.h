@@ -70,7 +70,7 @@ struct TransportReport
 // gap is 0 for ways of less than a tenth of a cell, which are errors of integration, else infinite.
 inline void addCostBound(vtkDataObject* output, double bound, double cost, const ImageGrid& grid)
 {
-  constexpr double rounding = 1e-12; // of the squared diagonal
+  constexpr double rounding = 1e-12; // relative to the squared diagonal
   double gap = std::max(0.0, cost / bound - 1.0);
   if (!(bound > rounding * grid.Diagonal() * grid.Diagonal()))
   {

@@ -14,6 +14,8 @@
 namespace RectifiedTransport::Bridge
 {
 
+// The mass is the sum of the values times the measure of a cell. A density without mass, or with an
+// infinite one, has no flow.
 template <int D>
 SharedFlow::SharedFlow(RectifiedFlow<D> flow, FlowTables tables, const InputDensity& density)
   : Kept(std::move(flow))

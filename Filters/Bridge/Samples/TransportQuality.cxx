@@ -94,8 +94,8 @@ public:
   }
 
 private:
-  // Of this rank's particles, nullptr where it has none. Throws Failure where only some ranks have
-  // the array.
+  // The array of this rank's particles, nullptr where it has none. Throws Failure where only some
+  // ranks have the array.
   vtkSmartPointer<vtkDataArray> Find(const char* name, int components) const
   {
     const bool hasAny = this->Counted.Count() > 0;
@@ -175,9 +175,9 @@ template <int D>
 ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid,
   std::int64_t blockSize, const SharedFlow& flow, Progress& progress)
 {
-  constexpr double eachParticle = 11 * sizeof(double); // of measureQuality
+  constexpr double eachParticle = 11 * sizeof(double); // bytes that measureQuality takes
   constexpr double eachBlock = 2 * sizeof(double);
-  constexpr double usualParticles = 64.0; // of a block
+  constexpr double usualParticles = 64.0; // a block, if BlockSize is 0
   const auto count = particles.Points.size();
   if (blockSize == 0)
   {

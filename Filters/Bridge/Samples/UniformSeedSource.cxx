@@ -71,6 +71,7 @@ void fillBox(
     {
       const double low = bounds[2 * a];
       const double high = bounds[2 * a + 1];
+      // Rounding of low + (high - low) u may pass the upper bound.
       points[3 * i + a] = std::min(low + (high - low) * unit[i * D + a], high);
     }
     if (D == 2)

@@ -22,7 +22,7 @@ struct EqualMassCells
   {
     std::int64_t Outside = 0;     // sites outside the domain
     std::int64_t WithoutMass = 0; // sites whose cells have no mass
-    FlowReport Flow;              // of Shape Flow
+    FlowReport Flow;              // what Shape Flow reports
   };
 
   // Assigns the pixels of a domain with points to at least one site; if the domain is nullptr, the

@@ -80,6 +80,7 @@ ImageGrid LabelGrid::On(vtkDataObject* domain, const Ranks& ranks) const
   return box.IsEmpty() ? box : this->On(box);
 }
 
+// A density on points has its mass in the dual cells around them.
 ImageGrid LabelGrid::On(const ImageGrid& density) const
 {
   const ImageGrid box = density.IsOnPoints() ? density.WithDualCells() : density;

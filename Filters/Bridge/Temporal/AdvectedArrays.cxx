@@ -61,6 +61,8 @@ vtkSmartPointer<vtkDoubleArray> doublesOf(vtkPointData* values, const std::strin
   return doubles;
 }
 
+// The density itself moves by the transport, ghost flags say what of an image counts, and an array
+// with another number of tuples lacks values.
 bool isAdvected(const AdvectedImage& image, int owner, vtkAbstractArray* array)
 {
   const bool isDensity = array && array->GetName() && image.Density == array->GetName() &&
@@ -98,6 +100,9 @@ void AdvectedArrays::Make(const AdvectedImage& first, const AdvectedImage& secon
   }
 }
 
+// Floating-point arrays are sampled where the particles begin (in the first image) and end (in the
+// second one), and at all tuples in place. Arrays of integers, text and the like are labels, which
+// have no mean.
 void AdvectedArrays::MakeOf(int owner, const AdvectedImage& first, const AdvectedImage& second,
   const SeriesParticles& particles, const ImageGrid& geometry, Progress& progress)
 {
@@ -148,6 +153,8 @@ void AdvectedArrays::MakeOf(int owner, const AdvectedImage& first, const Advecte
   }
 }
 
+// Value at a place: the sum of m v over the particles that are splat there, divided by the sum of
+// m. The denominator is the same for all arrays of an association and is splat once.
 void AdvectedArrays::Write(const SeriesMoment& moment, const ImageGrid& geometry,
   const SplatOptions& splat, const Extent& wanted, Progress& progress, vtkImageData* output) const
 {
@@ -176,6 +183,9 @@ void AdvectedArrays::Write(const SeriesMoment& moment, const ImageGrid& geometry
   }
 }
 
+// One component at a time, so that the scratch memory is a double a particle and one a tuple,
+// whatever the number of components. `moments` has m v of each particle, with v = (1 - s) v0 + s v1
+// at the share s of the interval.
 void AdvectedArrays::WriteOne(const Advected& advected, const SeriesMoment& moment,
   const SplatTarget& target, const TupleBox& wanted, vtkDoubleArray* mass, Progress& progress,
   vtkImageData* output) const

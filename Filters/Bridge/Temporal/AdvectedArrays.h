@@ -61,7 +61,7 @@ private:
     int Owner;                              // vtkDataObject::POINT or CELL
     vtkSmartPointer<vtkAbstractArray> Like; // for the type and the names of components
     Ends OfParticles;
-    Ends InPlace; // of the tuples of the whole geometry
+    Ends InPlace; // the values at the tuples of the whole geometry
   };
   void MakeOf(int owner, const AdvectedImage& first, const AdvectedImage& second,
     const SeriesParticles& particles, const ImageGrid& geometry, Progress& progress);

@@ -87,6 +87,8 @@ bool isOfLabels(vtkAbstractArray* array)
   return type != VTK_DOUBLE && type != VTK_FLOAT;
 }
 
+// Labels of the two images are compared by their values: tuples of both that are equal get one
+// number (see findEqual), and particles carry the number of their tuple.
 void AdvectedLabels::Make(int owner, const std::vector<std::string>& names,
   const AdvectedImage& first, const AdvectedImage& second, const SeriesParticles& particles)
 {
@@ -103,6 +105,7 @@ void AdvectedLabels::Make(int owner, const std::vector<std::string>& names,
       this->Arrays.emplace_back(Labels{ name, { arrayOf(first), arrayOf(second) } });
     const std::array<std::int64_t, 2> tuples{ labels.Arrays[0]->GetNumberOfTuples(),
       labels.Arrays[1]->GetNumberOfTuples() };
+    // About the bytes that the table of keys takes a tuple.
     const double bytes = 48.0 * static_cast<double>(tuples[0] + tuples[1]);
     this->Equal.push_back(withMemory({ "the labels of " + name, bytes }, [&]() {
       return findEqual(tuples,
@@ -134,6 +137,7 @@ void AdvectedLabels::Write(const SeriesMoment& moment, const ImageGrid& geometry
   }
   const TupleBox box = tuplesOf(wanted, this->Owner, geometry.Extent());
   const auto ofFirst = static_cast<vtkIdType>(this->OfParticles.TuplesOfFirst());
+  // Tuples of the second image are numbered on from those of the first one.
   const auto write = [&](std::size_t array, const std::vector<std::int64_t>& tuples) {
     const Labels& labels = this->Arrays[array];
     const auto made = newLike(labels.Arrays[0], labels.Name, box.Count());

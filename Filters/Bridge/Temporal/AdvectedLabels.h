@@ -54,7 +54,7 @@ private:
   int Owner = 0; // vtkDataObject::POINT or CELL
   SeriesLabels OfParticles;
   std::vector<Labels> Arrays;
-  std::vector<std::vector<std::int64_t>> Equal; // of each of these, see findEqual
+  std::vector<std::vector<std::int64_t>> Equal; // one list an array, see findEqual
 };
 
 } // namespace RectifiedTransport::Bridge

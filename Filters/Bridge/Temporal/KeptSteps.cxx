@@ -89,6 +89,7 @@ int KeptSteps::Use(double time)
   return place;
 }
 
+// Evicts the step that was used least recently, unless one of this time is there.
 void KeptSteps::Keep(double time, vtkDataObject* data)
 {
   // One of this time, kept or outdated, has the density that is probably the same.

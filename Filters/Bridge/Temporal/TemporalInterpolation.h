@@ -35,13 +35,13 @@ struct TemporalStep
   std::shared_ptr<const StepDensity> Density;
 };
 
-// Of one step alone, First and Second are the same and Length is 0.
+// With one step alone, First and Second are the same and Length is 0.
 struct TemporalMoment
 {
   TemporalStep First;
   TemporalStep Second;
-  double Part;   // of the interval
-  double Length; // of the interval, in time
+  double Part;   // the share of the interval that has passed, from 0 to 1
+  double Length; // the length of the interval, in time
 };
 
 struct TemporalOutput
