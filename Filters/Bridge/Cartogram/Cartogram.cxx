@@ -80,6 +80,9 @@ void writeGraticule(const MapFellows& fellows, vtkPolyData* output)
   output->SetLines(lines);
 }
 
+// One run: the regions become rings in the plane of the map and then in the index space of a square
+// box; runCartogram moves their points until areas are proportional to masses; graticule and
+// overlay move along as fellows; all go back to the plane in space.
 class CartogramJob
 {
 public:
@@ -119,6 +122,7 @@ public:
         "The coordinates look like degrees of longitude and latitude, in which areas are wrong; "
         "set Projection to EqualArea, or project the map with the Calculator or QGIS");
     }
+    // From here on the map is in index space, in cells of the raster.
     for (Point<2>& place : this->Map.Points())
     {
       place = this->Box.ToIndex(place);
@@ -214,13 +218,15 @@ private:
 
   void RequireMemory() const
   {
-    constexpr double bytesOfCell = 40.0; // of a density and its flow
+    constexpr double bytesOfCell = 40.0; // a density and its flow
     const auto side = static_cast<double>(this->Box.Side);
     const std::string text = std::to_string(this->Box.Side);
     requireMemory({ "a raster of " + text + " x " + text + " cells (see Resolution)",
       bytesOfCell * side * side + RegionRaster::BytesOf(this->Map, this->Box.Side) });
   }
 
+  // The raster of the unmoved map depends on its points, cells and regions, on the projection,
+  // Resolution and Margin, but not on masses. A run with other masses reuses it.
   CartogramStart FindStart(Progress& progress)
   {
     DataIdentity content;
@@ -247,6 +253,9 @@ private:
     return {};
   }
 
+  // Points that divide edges follow those of the input. Their values are interpolated along the
+  // edge; an end may be such a point itself, so they are made in the order in which they were
+  // added. With Blend = 0 places stay as given, without rounding by index space.
   void WriteRegions(const MapPlace& where, Progress& progress)
   {
     vtkPolyData* input = this->Cells.Data;
@@ -302,6 +311,8 @@ private:
     return errors;
   }
 
+  // Cells keep their order, and each gets AreaError, TargetArea = mass / total mass times the land
+  // area, and MassPerArea, the density before. Cells that are no region have 0.
   void WriteCells(vtkPolyData* output)
   {
     vtkPolyData* input = this->Cells.Data;
@@ -364,14 +375,14 @@ private:
   KeptMap& Kept;
   const CartogramOutputs& Outputs;
   std::vector<std::string> Warnings;
-  std::vector<Point<3>> Places; // of the input's points
+  std::vector<Point<3>> Places; // the input's points, projected if they are in degrees
   MapProjection Projection;
   std::optional<PlaneFrame> Frame;
   RegionMap Map;
-  std::vector<DividingPoint> Added; // to the input's points
+  std::vector<DividingPoint> Added; // what follows the input's points, on their edges
   CartogramBox Box{};
-  std::vector<double> MassesBefore; // of the regions
-  std::vector<double> Before;       // areas of the regions
+  std::vector<double> MassesBefore; // the masses of the regions, without the least share
+  std::vector<double> Before;       // the areas of the regions, in the plane of the map
   double Land = 0.0;                // their sum
   std::int32_t Enlarged = 0;
   CartogramResult Result;

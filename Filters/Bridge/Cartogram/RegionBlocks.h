@@ -26,7 +26,7 @@ struct RegionBlocks
   // vtkPolyData: vertices, lines, polygons, each block by block.
   vtkSmartPointer<vtkPolyData> Data;
   std::vector<std::size_t> Blocks; // the block of each cell
-  std::vector<vtkIdType> Numbers;  // of the cells in their block
+  std::vector<vtkIdType> Numbers;  // the number of each cell in its block
 };
 
 // Joins blocks that are vtkPolyData, or vtkUnstructuredGrid with cells that a vtkPolyData may have.

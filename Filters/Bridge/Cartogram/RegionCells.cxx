@@ -41,6 +41,8 @@ bool isName(const char* name)
   return lower.find("name") != std::string::npos;
 }
 
+// A closed line ends where it begins, by index or by coordinates, as readers of files repeat the
+// first point. The shortest is a triangle, with 4 ids.
 bool isClosed(vtkPolyData* data, vtkIdList* line)
 {
   const vtkIdType last = line->GetNumberOfIds() - 1;
@@ -55,6 +57,8 @@ bool isClosed(vtkPolyData* data, vtkIdList* line)
   return std::equal(begin, begin + 3, end);
 }
 
+// Finds the region of each cell and its mass. A region is all cells with one value of RegionArray;
+// without it, a block of a composite of several, or else a cell by itself.
 class RegionReading
 {
 public:
@@ -169,6 +173,7 @@ private:
     }
   }
 
+  // The active scalars, or else the only numeric array of one component; ids are no masses.
   vtkDataArray* DefaultMass(vtkCellData* cells)
   {
     const auto mayBeMass = [cells](vtkDataArray* array) {
@@ -267,7 +272,7 @@ private:
   RegionBlocks Joined;
   vtkAbstractArray* Key = nullptr;   // whose values tell regions apart, if one is chosen
   vtkAbstractArray* Name = nullptr;  // names for messages, if there are some
-  std::vector<unsigned char> IsOpen; // of cells
+  std::vector<unsigned char> IsOpen; // one flag a cell
   vtkSmartPointer<vtkDataArray> Mass;
   std::string MassTitle;
   RegionCells Found;

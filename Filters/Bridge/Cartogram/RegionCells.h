@@ -33,9 +33,9 @@ struct RegionCells
   // All blocks as one, with double points and the arrays that all blocks have. Cells are numbered
   // as those of a vtkPolyData: vertices, lines, polygons.
   vtkSmartPointer<vtkPolyData> Data;
-  std::vector<std::int32_t> Regions; // of cells; -1 of vertices and of open lines
-  std::vector<std::string> Names;    // of regions, for messages
-  std::vector<double> Masses;        // of regions, at least 0
+  std::vector<std::int32_t> Regions; // one a cell; -1 for vertices and open lines
+  std::vector<std::string> Names;    // one a region, for messages
+  std::vector<double> Masses;        // one a region, at least 0
   std::string OpenLines;             // a warning, if there are some
 };
 

@@ -16,7 +16,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport::Bridge
 {
 
-// Of one file a reader may give whole numbers, of another one real numbers or text. Arrays of one
+// A reader may give whole numbers for one file and real numbers or text for another. Arrays of one
 // component that all parts with cells have get one type, which holds their values exactly: text
 // where no type of numbers does. vtkAppendPolyData would leave them out.
 void unifyTypes(const std::vector<vtkSmartPointer<vtkPolyData>>& parts);

@@ -14,6 +14,8 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// Draws one data set onto a page. Polygons with given colours are collected in FilledAreas and
+// drawn before the next shape of another kind, because what comes later lies on top.
 class LayerPainter
 {
 public:
@@ -25,6 +27,8 @@ public:
   {
   }
 
+  // All outlines of a region are one path, filled by the even-odd rule: an outline within another
+  // one is a hole.
   void PaintRegions()
   {
     std::vector<vtkIdType> points;

@@ -25,6 +25,9 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// Cells of vtkPolyData are ordered as vertices, lines, polygons and strips. The output has the
+// vertices and lines, a line around each polygon, the filled areas and the strips; Cells has the
+// input cell of each in that order.
 class OutlineFilling
 {
 public:
@@ -59,9 +62,9 @@ private:
   struct AddedPoint
   {
     Point<3> Place;
-    vtkIdType First; // end of one of the edges
+    vtkIdType First; // the ends of one of the edges
     vtkIdType Second;
-    double Part; // of that edge before it
+    double Part; // the share of that edge before the point, from 0 to 1
   };
 
   void AddCells(vtkIdType first, vtkIdType last)
@@ -87,7 +90,7 @@ private:
     }
   }
 
-  // Around a polygon.
+  // Adds a line around a polygon, so that its edge is drawn as those of outlines.
   void AddLoop(vtkIdList* polygon)
   {
     this->Lines->InsertNextCell(static_cast<int>(polygon->GetNumberOfIds() + 1));
@@ -98,6 +101,8 @@ private:
     this->Lines->InsertCellPoint(polygon->GetId(0));
   }
 
+  // A convex polygon stays one cell. VTK draws others as a fan of triangles, which covers more than
+  // the polygon, so they are triangulated as a region of one outline.
   void FillPolygon(vtkIdType cell, vtkIdList* polygon)
   {
     std::vector<Point<3>> places(static_cast<std::size_t>(polygon->GetNumberOfIds()));
@@ -116,6 +121,9 @@ private:
     this->FillRegion({ { cell, { polygon->begin(), polygon->end() } } }, plane.Frame());
   }
 
+  // The outlines of a region become rings in its plane, which the even-odd rule triangulates.
+  // Points where edges cross are added with the values that are interpolated along one of the
+  // edges.
   void FillRegion(const std::vector<Outline>& region, const PlaneFrame& plane)
   {
     Rings rings;
@@ -162,6 +170,7 @@ private:
     filled->ShallowCopy(this->Data);
     filled->SetLines(this->Lines);
     filled->SetPolys(this->Areas);
+    // VTK would read past the end of an array that is too short.
     requireTuples(this->Data, "input");
     vtkCellData* cells = filled->GetCellData();
     cells->Initialize();
@@ -201,7 +210,7 @@ private:
   Progress Ends; // nothing is aborted
   vtkNew<vtkCellArray> Lines;
   vtkNew<vtkCellArray> Areas;
-  vtkNew<vtkIdList> Cells; // of the input, whose data the cells of the output have
+  vtkNew<vtkIdList> Cells; // the cell of the input whose data each cell of the output has
   std::vector<vtkIdType> CellsOfAreas;
   std::vector<AddedPoint> Added;
 };

@@ -127,8 +127,8 @@ private:
   std::vector<vtkAbstractArray*> Arrays;
   RingPlane Plane;
   OutlinedRegions Found;
-  std::unordered_map<std::string, std::size_t> Numbers; // of regions, by their values
-  std::vector<Point<3>> Places;                         // of a line
+  std::unordered_map<std::string, std::size_t> Numbers; // the index of each region, by its values
+  std::vector<Point<3>> Places;                         // the points of one line
   std::string Values;
 };
 

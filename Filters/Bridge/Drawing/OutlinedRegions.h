@@ -26,7 +26,7 @@ struct Outline
 struct OutlinedRegions
 {
   std::vector<std::vector<Outline>> Regions;
-  PlaneFrame Plane{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 } }; // of all outlines
+  PlaneFrame Plane{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 } }; // the plane that all outlines lie in
 };
 
 // Lines that end where they begin are outlines. Those with the same cell data, global ids and

@@ -30,7 +30,7 @@ struct Shape
 {
   ShapeKind Kind;
   const vtkIdType* Points;
-  vtkIdType Count; // of the points, at least 1
+  vtkIdType Count; // the number of points, at least 1
   vtkIdType Cell;  // -1 for a point of data without cells
 };
 

@@ -37,7 +37,7 @@ bool isStroked(const DrawnLayer& layer, const Shape& shape)
     (shape.Kind == ShapeKind::Polygon && !layer.Colours.AreGiven());
 }
 
-// Those without a radius of their own.
+// The positions of the dots without a radius of their own, 3 values a dot.
 LargeBuffer<double> dotsOf(
   const std::vector<DrawnLayer>& layers, std::int64_t count, Progress& progress)
 {
@@ -129,6 +129,9 @@ void TransportVectorWriter::Check() const
     "more than 0, or 0 for a radius from the spacing");
 }
 
+// Three passes: the extent of all shapes, the radius of dots, and the drawing. The extent depends
+// on the radius, as dots at the border must fit on the page, so dots enter it without a radius
+// first.
 void TransportVectorWriter::Run(
   const std::vector<DrawnData>& data, Drawing& drawing, Progress& progress) const
 {

@@ -31,7 +31,7 @@ struct DrawnData
   PolyDataShapes Shapes;
   vtkAbstractArray* Colours; // nullptr: black
   bool HasColoursOnPoints;
-  vtkDataArray* Radii; // of the points; nullptr: PointRadius
+  vtkDataArray* Radii; // one a point; nullptr: PointRadius
 };
 
 // The members are the properties of that class.

@@ -142,7 +142,7 @@ private:
   const vtkSmartPointer<vtkUnsignedCharArray> Flipped;
 };
 
-// Of a repaired surface the figures are those of its own cells: in the disk a triangle may have
+// The figures of a repaired surface are those of its own cells: in the disk a triangle may have
 // been cut where a point lies on its side.
 MapDistortion measureCells(const TriangleInput& read, const DiskTriangles& surface,
   const AreaPreservingMap& map, CellDistortions& distortions, Progress& progress)

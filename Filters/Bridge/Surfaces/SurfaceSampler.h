@@ -27,8 +27,8 @@ class SurfaceInput;
 constexpr const char* SurfaceMethodTexts[] = { "Relaxation", "Flow" };
 enum class SurfaceMethod
 {
-  Relaxation, // of any surface
-  Flow        // of a disk, by its map
+  Relaxation, // for any surface
+  Flow        // for a disk, by its map
 };
 
 // The members are the properties of that class.
@@ -38,7 +38,7 @@ struct SurfaceSampler
 
   SurfaceMethod Method;
   int RelaxationIterations;
-  CornerSettings Corners;         // of the flow's disk
+  CornerSettings Corners;         // the corners of the disk, for Flow
   SurfaceSamplingOptions Options; // the number of samples and the seed also of the relaxation
 
   // Throws Failure for values that are out of range for any surface.

@@ -20,6 +20,7 @@
 namespace RectifiedTransport::Bridge
 {
 
+// The bounds of points in polygons: points of no polygon must not enlarge the domain.
 std::array<double, 6> polygonBounds(vtkPolyData* surface)
 {
   std::array<double, 6> bounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
@@ -88,6 +89,8 @@ std::string ClosedSurface::RepairWarning() const
   return repairWarning(counts);
 }
 
+// Signed volumes need consistent orientation: two triangles at an edge must run along it in
+// opposite directions, for which one side of the surface has to be the inside.
 SolidSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress)
 {
   Stages stages(progress, { { "points", 1 }, { "orientation", 1 } });

@@ -32,8 +32,8 @@ class ClosedSurface
 public:
   // Merges points with equal coordinates and cuts polygons and strips into triangles. Lines and
   // vertices are ignored. If edges are then open, closes them as ClosedMesh::Close does: within
-  // rounding, 1e-9 of the longest side of the polygons' bounds and if the coordinates are float 4
-  // of their rounding errors, and at T-junctions that gape by up to 1e-5, 1e-4, 1e-3 or 1e-2 of
+  // rounding, which is 1e-9 of the longest side of the polygons' bounds or four rounding errors of
+  // float coordinates, and at T-junctions that gape by up to 1e-5, 1e-4, 1e-3 or 1e-2 of
   // that side. Throws Failure if the input has no polygons, coordinates that are not finite, or
   // edges of an odd number of triangles, and Cancelled.
   ClosedSurface(vtkPolyData* input, Progress& progress);

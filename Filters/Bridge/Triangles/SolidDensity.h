@@ -26,7 +26,7 @@ namespace RectifiedTransport::Bridge
 
 struct SolidDensityReport
 {
-  ImageGrid Grid;     // of the whole image
+  ImageGrid Grid;     // the whole image
   std::string Repair; // a warning; empty if the surface needed no repair
 };
 

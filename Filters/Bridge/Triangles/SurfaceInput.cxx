@@ -38,7 +38,7 @@ enum Part
   Lines,
   Polygons,
   Strips,
-  NoPart // of three dimensions, or with curved sides
+  NoPart // cells of three dimensions, or with curved sides
 };
 
 Part partOf(int cellType)

@@ -23,7 +23,7 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-constexpr double bytesOfMappedPoint = 1350.0; // of the conformal map
+constexpr double bytesOfMappedPoint = 1350.0; // in the conformal map
 
 // Calls a function with the errors of a run: what Core says is wrong with a surface is the
 // predicate of a sentence.
@@ -89,6 +89,8 @@ TriangleInput::TriangleInput(vtkPolyData* input, const std::string& need, Progre
   this->Triangles = { std::move(coordinates), std::move(corners), rounding };
 }
 
+// Point ids of the triangles, 3 each. Triangles are copied as they are; other polygons are cut, and
+// Polygons then has the polygon that each triangle comes from.
 LargeBuffer<std::int64_t> TriangleInput::ReadCorners(
   ConstPointSpan<3> points, double rounding, Progress& work)
 {
@@ -114,6 +116,8 @@ LargeBuffer<std::int64_t> TriangleInput::ReadCorners(
   return std::move(cut.Corners);
 }
 
+// Errors name the cell of the input, as triangles of cut polygons have numbers of their own.
+// Coordinates and, where the input can be read again, corners are freed: the disk has its own.
 DiskTriangles TriangleInput::Disk(Progress& progress)
 {
   const TriangleSurface surface = this->Triangles.Surface();
@@ -142,6 +146,8 @@ DiskTriangles TriangleInput::Disk(Progress& progress)
   }
 }
 
+// T-junctions are closed first, as the sides of an open one are boundaries, which part the surface
+// there.
 OpenedSurface TriangleInput::Opened(Progress& progress)
 {
   Stages stages(progress, { { "T-junctions", 5 }, { "seams", 95 } });
@@ -174,6 +180,7 @@ WholeTriangles TriangleInput::Whole(Progress& progress)
     });
 }
 
+// Disk may have freed the corners; those of an input of triangles are read again.
 LargeBuffer<std::int64_t> TriangleInput::Corners(Progress& progress) const
 {
   if (!this->IsInput())
