@@ -54,9 +54,9 @@
  * If the surface is no disk otherwise, points in no polygon (their coordinates are 0 0) and
  * triangles without area are left out of the map, points at the same position are merged, and
  * triangles are cut at T-junctions (points of others within their sides), with a warning that
- * counts them. Of a triangle that is cut, all parts are cells with its data, in its place; one of
- * three points on a line beside it is not in the output. A cut of a disk whose points are
- * duplicated stays a cut. A triangle with the points of one before counts once. Polygons with
+ * counts them. All parts of a triangle that is cut are cells with its data, in its place; a
+ * triangle of three collinear points beside it is not in the output. A cut of a disk whose points
+ * are duplicated stays a cut. A triangle with the points of one before counts once. Polygons with
  * inconsistent orientation are mapped with the orientation that most of the area of a component
  * has. Sheets that share an edge of more than two triangles are parted there. If Seams is None, a
  * closed surface, several components or boundaries, handles, and edges of more than two triangles

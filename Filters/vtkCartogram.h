@@ -26,7 +26,7 @@
  * them, that moves along.
  *
  * Output 0, "Regions": a vtkPolyData with the cells of the input, all blocks together, lines first,
- * in their order and direction; of an unstructured grid, vertices first, then lines, then polygons.
+ * in their order and direction; those of an unstructured grid as vertices, lines, polygons.
  * Long edges are divided; both sides of a border stay the same. Point data are interpolated, cell
  * data kept. Cell data `AreaError` is a region's share of the area divided by its share of the
  * mass, less 1; `TargetArea` its area without error; `MassPerArea` its mass by its area in the

@@ -121,8 +121,8 @@ protected:
   {
     PORT_WHOLE,               // all data, on each rank
     PORT_PIECES,              // the requested piece, each by itself
-    PORT_PARTITIONED_POINTS,  // of each rank its own piece of the points
-    PORT_PARTITIONED_DENSITY, // of each rank its own piece of a density of any type
+    PORT_PARTITIONED_POINTS,  // each rank has its own piece of the points
+    PORT_PARTITIONED_DENSITY, // each rank has its own piece of a density of any type
     PORT_GATHERED_POINTS,     // partitioned ones, gathered on the first rank, which alone runs
                               // RequestData
     PORT_GATHERED_SURFACE,    // the same

@@ -161,7 +161,7 @@ ImageGrid vtkDensityAlgorithm::AnnouncedDensityGrid(
 ImageGrid vtkDensityAlgorithm::FindDensityGrid(vtkDataObject* data, int arrayIndex, int number)
 {
   AlgorithmProgress progress(this, this->Threading, this->GetRanks());
-  requireExtents(data, "input"); // of data that come, those of all inputs are looked at
+  requireExtents(data, "input"); // the extents of all inputs that have data
   DensityChoice choice = this->GetDensityChoice(arrayIndex);
   choice.Warn = [](const std::string&) {}; // the run that follows gives the warnings
   // No share of it, as the run that follows begins at 0.

@@ -118,8 +118,8 @@ public:
   ///@{
   /**
    * Use (white - value) as the density, so that dark ink is mass. White is 255 for unsigned char,
-   * else the largest value of the array (of the component, if Component is an index). Of the
-   * magnitude it is the largest one. Off by default.
+   * else the largest value of the array (of the component, if Component is an index). With the
+   * magnitude, it is the largest magnitude. Off by default.
    */
   vtkSetMacro(InvertDensity, vtkTypeBool);
   vtkGetMacro(InvertDensity, vtkTypeBool);
@@ -150,9 +150,9 @@ public:
   ///@{
   /**
    * What NaN is. Error (default): stop with a message that counts them. Empty: it marks missing
-   * data; the cell is empty, as a blanked one is. Of a colour and of the magnitude, NaN in any
-   * component counts. In
-   * other data than images, so are the cells of a point whose value is missing.
+   * data; the cell is empty, as a blanked one is. NaN in any component of a colour
+   * or of the magnitude counts. In data other than images, the cells of a point whose value is
+   * missing are empty, too.
    */
   vtkSetMacro(NaNValues, int);
   vtkGetMacro(NaNValues, int);
@@ -164,9 +164,9 @@ public:
   ///@{
   /**
    * The smallest and the largest valid value of the array. Values outside mark missing data: their
-   * cells are empty. Values are compared as they are in the array, before InvertDensity; of a
-   * colour, each component but alpha; of the magnitude, each component. An end of 1e299 or more, of
-   * either sign, is no bound; infinite values are then errors. Default -1e+299 1e+299.
+   * cells are empty. Values are compared as they are in the array, before InvertDensity: each
+   * component of a colour except alpha, and each component of the magnitude. An end of 1e299 or
+   * more, of either sign, is no bound; infinite values are then errors. Default -1e+299 1e+299.
    */
   vtkSetVector2Macro(ValidRange, double);
   vtkGetVector2Macro(ValidRange, double);
@@ -245,7 +245,7 @@ protected:
 
   /**
    * What cells that hold no data count as: blanked cells, missing values, what data other than
-   * images do not cover. Of filters that have these properties; others leave them Zero.
+   * images do not cover. For filters that have these properties; others leave them Zero.
    */
   int EmptyCells = EMPTY_CELLS_ZERO;
   double EmptyValue = 0.0;

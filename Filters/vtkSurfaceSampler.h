@@ -19,7 +19,7 @@
  * Transactions on Graphics 44(4), 2025, doi:10.1145/3731147. Then they are put on the triangles.
  *
  * Input: a vtkPolyData with polygons or triangle strips, a vtkUnstructuredGrid or a
- * vtkStructuredGrid; of cells of three dimensions the outer surface. Polygons are cut into
+ * vtkStructuredGrid; cells of three dimensions give their outer surface. Polygons are cut into
  * triangles. Lines and vertices are ignored. With Flow, surfaces that are no disk are errors that
  * say what is wrong; points in no polygon and triangles without area are left out, and points at
  * the same position are merged, with a warning that counts them. A cut whose points are duplicated
@@ -53,10 +53,10 @@
  * lowers this number. In rare cases the map turns triangles over. Their particles are then on the
  * triangles above them.
  *
- * Cost of Relaxation: O(triangles + particles * RelaxationIterations). Of Flow: O(points^1.5) for
- * the conformal map, O(points log points + Resolution^2 + particles *
- * steps) for the rest. Memory: up to 1350 bytes a point, 45 a cell of the grid, and 140 a particle,
- * plus the arrays that are passed.
+ * Cost of Relaxation: O(triangles + particles * RelaxationIterations). Cost of Flow: O(points^1.5)
+ * for the conformal map, O(points log points + Resolution^2 + particles * steps) for the rest.
+ * Memory: up to 1350 bytes a point, 45 a cell of the grid, and 140 a particle, plus the arrays that
+ * are passed.
  *
  * The output is in one piece: if several are requested, piece 0 holds all particles. With several
  * MPI ranks the surface is gathered on rank 0, which has the output.

@@ -210,8 +210,8 @@ public:
 
   ///@{
   /**
-   * With OpenCL: the name of the device, or a part of it, in any case of letters. Of several such
-   * devices the first that can be used is taken. Empty (default): any device.
+   * With OpenCL: the name of the device, or a part of it, in any case of letters. If several
+   * devices match, the first that can be used is taken. Empty (default): any device.
    */
   void SetDeviceName(const char* name);
   const char* GetDeviceName();

@@ -52,7 +52,7 @@ struct vtkTransportDistance::vtkInternals
 {
   DensityDistances Distances;
   IndexedList<std::string> Names{ "input names", "number of a connection", "" };
-  std::size_t Step = 0;     // of OverTime, the next one
+  std::size_t Step = 0;     // the next time step, for OverTime
   bool HasAll = true;       // whether no input of this run is empty
   std::vector<double> Told; // the masses of the last warning
 };

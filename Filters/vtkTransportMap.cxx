@@ -37,7 +37,7 @@ using namespace RectifiedTransport::Bridge;
 
 const char* const DirectionTexts[] = { "UniformToDensity", "DensityToUniform" };
 
-// Of the inputs of a map to a target, in messages.
+// What messages call the inputs of a map to a target.
 const char* const InputNames[] = { "Source", "Target" };
 
 bool hasTarget(vtkInformationVector** inputVector)

@@ -72,17 +72,17 @@ double requestedTime(
 
 struct vtkTransportTemporalInterpolator::vtkInternals
 {
-  StepTimes Times;       // of the input, as announced
+  StepTimes Times;       // the times of the input, as announced
   bool IsSeries = false; // else Times is the time of the one input
   KeptSteps Steps;
   TemporalInterpolation Interpolation;
-  int AllPasses = 1;            // that it is going to take
-  int Passes = 0;               // of this execution that are done
+  int AllPasses = 1;            // how many this execution is going to take
+  int Passes = 0;               // how many of them are done
   int Agreed = -1;              // the step that all ranks request next; -1 in the first pass
-  int Requested = 0;            // the step that the input is of
-  bool Changed = false;         // whether something before the filter has
-  bool IsWarned = false;        // that there are no two steps
-  vtkMTimeType ChangedTime = 0; // of the filter at its last execution
+  int Requested = 0;            // the step of the data that the input has
+  bool Changed = false;         // whether something upstream has
+  bool IsWarned = false;        // whether it warned that there are no two steps
+  vtkMTimeType ChangedTime = 0; // the filter's modification time at its last execution
 
   double TimeOf(vtkInformation* request, vtkInformationVector* outputs) const
   {
@@ -397,7 +397,7 @@ void vtkTransportTemporalInterpolator::Interpolate(
     moment.Second = moment.First;
     if (!(moment.First.Density->Mass > 0.0))
     {
-      moment.First.Input->ThrowInvalid({}); // of a series, some steps may have no mass
+      moment.First.Input->ThrowInvalid({}); // in a series, some steps may have no mass
     }
     if (!std::exchange(own.IsWarned, true))
     {
