@@ -74,6 +74,7 @@ bool keepsScale(vtkSMProxy* filter)
     vtkSMPropertyHelper(filter, "InvertDensity").GetAsInt() == 0;
 }
 
+// Half of the least maximum of the inputs: every input has larger values.
 std::optional<double> halfOf(vtkSMProxy* filter, const std::string& names)
 {
   if (!keepsScale(filter))

@@ -39,6 +39,8 @@ bool isGiven(vtkPVXMLElement* element, const char* attribute, int& value)
   return element->GetScalarAttribute(attribute, &value) != 0;
 }
 
+// A hint may ask for a value of a property of the producer, or for a dimension of its data; the
+// first one that applies is taken.
 bool applies(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port)
 {
   int value = 0;
@@ -93,7 +95,8 @@ void colourByCategories(vtkSMProxy* representation, int highest)
   table->UpdateVTKObjects();
 }
 
-// Before the colours get their range.
+// Colours by logarithms if the values are positive and span more than the factor `least`. Call it
+// before the colours get their range.
 void colourByLogarithms(vtkSMProxy* representation, double least, const double* range)
 {
   vtkSMProxy* table = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
@@ -233,6 +236,8 @@ public:
   }
 
 private:
+  // Hides the scalar bar of the old array with its table, and shows one for the new array if there
+  // was one.
   void Change(vtkPVXMLElement* element)
   {
     this->Representation->SetRepresentationType(
@@ -266,7 +271,7 @@ private:
   bool IsColoured = false; // by an array whose range is not known yet
   bool HasDots = false;    // set up, once there were data
   vtkWeakPointer<vtkSMPVRepresentationProxy> Representation;
-  vtkPVXMLElement* Applied = nullptr; // of the proxy's definition, which stays
+  vtkPVXMLElement* Applied = nullptr; // an element of the proxy's definition, which stays
   std::string Type;
 };
 
@@ -277,7 +282,7 @@ void applyFirstDisplay(vtkSMSourceProxy* producer, int port, vtkSMProxy* proxy)
   auto* representation = vtkSMPVRepresentationProxy::SafeDownCast(proxy);
   if (!representation)
   {
-    // Of a view that is not a render view.
+    // The view is no render view.
     if (vtkPVXMLElement* element = elementFor(producer, port))
     {
       showScatter(element, producer, port, proxy);

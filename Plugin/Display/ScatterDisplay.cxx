@@ -19,8 +19,8 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr const char* circle = "4"; // of SeriesMarkerStyle
-constexpr const char* size = "9";
+constexpr const char* circle = "4"; // a value of SeriesMarkerStyle
+constexpr const char* size = "9";   // pixels, a value of SeriesMarkerSize
 
 void setTexts(vtkSMProxy* proxy, const char* name, const std::vector<std::string>& texts)
 {

@@ -50,6 +50,7 @@ protected:
 
 vtkStandardNewMacro(FillOutlines);
 
+// The mapper of outlines draws lines alone; the surface has its own.
 class LinesAlone : public vtkPolyDataAlgorithm
 {
 public:

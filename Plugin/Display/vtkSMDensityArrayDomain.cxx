@@ -22,7 +22,7 @@ vtkStandardNewMacro(vtkSMDensityArrayDomain);
 namespace
 {
 
-// Of SetInputArrayToProcess.
+// SetInputArrayToProcess has five elements: index, port, connection, association and name.
 constexpr unsigned int elements = 5;
 constexpr unsigned int nameElement = 4;
 

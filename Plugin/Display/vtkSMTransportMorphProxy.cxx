@@ -79,6 +79,8 @@ void vtkSMTransportMorphProxy::RestoreTimes()
   this->SetIgnored({});
 }
 
+// Sources that are no longer upstream are restored, except those that ParaView ignores by itself
+// and those that were ignored before; new ones are ignored.
 void vtkSMTransportMorphProxy::SetIgnored(const std::set<vtkSMProxy*>& sources)
 {
   vtkSMTimeKeeperProxy* times = this->TimeKeeper;

@@ -6,8 +6,8 @@
  * The XML element TransportMorphProxy. With PublishTime on, the morph's inputs stay at their first
  * time. The session's TimeKeeper then ignores the times of all sources upstream, so that the scene
  * has the times of the morph only. With PublishTime off, or when the morph is deleted, it takes
- * them into account again, except those that ParaView itself ignores: of the inputs of a filter
- * that has times of its own.
+ * them into account again, except those that ParaView itself ignores, which are the inputs of a
+ * filter that has times of its own.
  *
  * The user's choice of sources in the window's list of times comes first: a source that was ignored
  * before PublishTime was on stays so, and one that is chosen again afterwards is not ignored again.

@@ -31,7 +31,7 @@ vtkSMProperty* inputOf(vtkSMProperty* array)
   return list ? list->GetRequiredProperty("Input") : nullptr;
 }
 
-// Of the first input, where there are several; nullptr where the array is not known yet.
+// The array in the first input, where there are several; nullptr where it is not known yet.
 vtkPVArrayInformation* chosenArray(vtkSMProperty* array)
 {
   vtkSMProperty* input = inputOf(array);
@@ -98,6 +98,9 @@ void pqDensityComponentWidget::setComponent(int component)
   }
 }
 
+// The entries depend on the array: what Auto takes, Luminance only for as many components as a
+// colour has, and the names of the components. A value that the array lacks stays in the list,
+// marked, so that the property does not change by itself.
 void pqDensityComponentWidget::updateList()
 {
   const QSignalBlocker blocker(this->List);

@@ -21,7 +21,7 @@ public:
   void shutdown() {}
 
 protected:
-  // Of the widgets that hold a menu's actions.
+  // Receives the events of the widgets that hold a menu's actions.
   bool eventFilter(QObject* holder, QEvent* event) override;
 
 private:
