@@ -161,7 +161,7 @@ ImageGrid vtkDensityAlgorithm::AnnouncedDensityGrid(
 ImageGrid vtkDensityAlgorithm::FindDensityGrid(vtkDataObject* data, int arrayIndex, int number)
 {
   AlgorithmProgress progress(this, this->Threading, this->GetRanks());
-  requireExtents(data, "input"); // the extents of all inputs that have data
+  requireExtents(data, "input"); // as a run checks those of all inputs
   DensityChoice choice = this->GetDensityChoice(arrayIndex);
   choice.Warn = [](const std::string&) {}; // the run that follows gives the warnings
   // No share of it, as the run that follows begins at 0.

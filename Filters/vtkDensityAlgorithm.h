@@ -245,7 +245,7 @@ protected:
 
   /**
    * What cells that hold no data count as: blanked cells, missing values, what data other than
-   * images do not cover. For filters that have these properties; others leave them Zero.
+   * images do not cover. Filters without these properties leave them Zero.
    */
   int EmptyCells = EMPTY_CELLS_ZERO;
   double EmptyValue = 0.0;

@@ -80,7 +80,7 @@ struct vtkTransportTemporalInterpolator::vtkInternals
   int Passes = 0;               // how many of them are done
   int Agreed = -1;              // the step that all ranks request next; -1 in the first pass
   int Requested = 0;            // the step of the data that the input has
-  bool Changed = false;         // whether something upstream has
+  bool Changed = false;         // whether something upstream has changed
   bool IsWarned = false;        // whether it warned that there are no two steps
   vtkMTimeType ChangedTime = 0; // the filter's modification time at its last execution
 

@@ -218,8 +218,8 @@ vtkSmartPointer<vtkDataArray> arrayLike(
   return array && !array->GetName() && association == found.Association ? array : nullptr;
 }
 
-// Sets the arrays of the blocks and leaves out those that cannot carry mass: of fewer dimensions
-// than the blocks with the array, and those of more dimensions without it.
+// Sets the arrays of the blocks and leaves out those that cannot carry mass: those of fewer
+// dimensions than the blocks with the array, and those of more dimensions without it.
 DensityBlocks chooseArrays(
   const DensityChoice& choice, const std::vector<DensityBlock>& blocks, const Ranks& ranks)
 {
