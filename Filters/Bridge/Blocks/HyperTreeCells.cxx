@@ -18,7 +18,6 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <array>
-#include <string>
 #include <vector>
 
 namespace RectifiedTransport::Bridge
@@ -180,9 +179,11 @@ vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid, Progre
   {
     return cells;
   }
-  withMemory({ purpose, static_cast<double>(grid->GetNumberOfCells()) * sizeof(Bounds) }, [&]() {
+  const int corners = 1 << axes.size();
+  // A cell has its box, its corners and their numbers.
+  const double bytes = sizeof(Bounds) + corners * (3 * sizeof(double) + sizeof(vtkIdType));
+  withMemory({ purpose, static_cast<double>(grid->GetNumberOfCells()) * bytes }, [&]() {
     const Leaves leaves = leavesOf(grid, progress);
-    const int corners = 1 << axes.size();
     vtkNew<vtkPoints> points;
     points->SetData(cornersOf(leaves, axes));
     cells->SetPoints(points);
