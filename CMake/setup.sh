@@ -174,7 +174,7 @@ need_meshes()
   )
 }
 
-# configure_and_build FOLDER CMAKE-ARGUMENT...: all, or the `target` that is set for the call.
+# configure_and_build FOLDER CMAKE-ARGUMENT...: all, or the targets in `target`, set for the call.
 configure_and_build()
 {
   local folder="$1" steps
@@ -189,14 +189,16 @@ configure_and_build()
     -DPython3_EXECUTABLE=/usr/bin/python3 "$@" || return 1
   # A separate file, because a dry run of build.ninja itself only lists that CMake may run again.
   echo 'include build.ninja' > "$folder/count.ninja"
-  steps="$(cmake --build "$folder" --target "${target:-all}" -- -f count.ninja -n |
+  # shellcheck disable=SC2086
+  steps="$(cmake --build "$folder" --target ${target:-all} -- -f count.ninja -n |
     grep -c '^\[' || true)"
   if [ "$steps" != 0 ]; then
     say "Building in $folder: $steps steps, about $((1 + steps * 2 / 60 / $(nproc))) min"
     echo "What the compiler says is in $folder/build.log"
   fi
+  # shellcheck disable=SC2086
   logged "$folder/build.log" \
-    cmake --build "$folder" --target "${target:-all}" -j "$(nproc)"
+    cmake --build "$folder" --target ${target:-all} -j "$(nproc)"
 }
 
 # The Release build that the examples and the tests share.

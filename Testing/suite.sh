@@ -57,7 +57,7 @@ copy_source
 failed=0
 summary=""
 run_command "$folder-testing.log" bash Testing/run.sh "$@"
-run_command "$folder-examples.log" bash Examples/run.sh
+run_command "$folder-examples.log" bash Examples/run.sh --all
 say "$suite, $commit"
 versions
 echo "$summary" | sed '/^$/d'
