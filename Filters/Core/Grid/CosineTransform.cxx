@@ -12,10 +12,12 @@
 namespace RectifiedTransport
 {
 
+// Eigen's kissfft works on any scalar type: four lines in a Lanes are one scalar to it.
 struct CosineLines::Plan : Eigen::internal::kiss_cpx_fft<Lanes>
 {
 };
 
+// cos(pi j / M) and sin(pi j / M) for j up to M / 2 are all that cosft1 and the twiddles need.
 CosineLines::CosineLines(std::int64_t cells)
   : Cells(cells)
   , Fourier(std::make_unique<Plan>())
@@ -31,7 +33,8 @@ CosineLines::CosineLines(std::int64_t cells)
     this->Cosines[j] = cosine;
     this->Sines[j] = sine;
   }
-  // Eigen would take the cosines of the standard library, whose bits vary.
+  // The twiddles exp(-2 pi i j / M), set here: Eigen would take the cosines of the standard
+  // library, whose bits vary.
   Plan& plan = *this->Fourier;
   plan.m_inverse = false;
   plan.m_twiddles.resize(2 * half);
@@ -51,12 +54,16 @@ CosineLines::CosineLines(std::int64_t cells)
 
 CosineLines::~CosineLines() = default;
 
+// With y_j = (f_j + f_{M-j}) / 2 - sin(pi j / M) (f_j - f_{M-j}), the Fourier transform of y holds
+// the even X in its real part and the differences of odd X in its imaginary part. Two real lines, a
+// and b, are transformed as a + i b; the sums and differences of z_k and z_{M-k} separate them.
 void CosineLines::Transform()
 {
   const std::int64_t cells = this->Cells;
   const std::int64_t middle = cells / 2;
   Complex* f = this->Line.data();
-  Complex odd = Lanes(0.5) * (f[0] - f[cells]); // half of X(1)
+  Complex odd = Lanes(0.5) *
+    (f[0] - f[cells]); // half of X(1), which the recursion of the odd terms starts from
   f[0] = Lanes(0.5) * (f[0] + f[cells]);
   for (std::int64_t j = 1; j < middle; ++j)
   {
@@ -69,6 +76,7 @@ void CosineLines::Transform()
   }
   this->Fourier->work(0, this->Spectrum.data(), f, 1, 1);
   const Complex* z = this->Spectrum.data();
+  // X(2 k + 1) = X(2 k - 1) + twice the sine sum at k.
   Complex last = Lanes(2.0) * odd;
   f[0] = Lanes(2.0) * z[0];
   f[1] = last;

@@ -31,9 +31,10 @@ public:
   Complex* Nodes() { return this->Line.data(); }
   double* Values() { return reinterpret_cast<double*>(this->Line.data()); }
 
-  // In place.
+  // Transforms the lines in place.
   void Transform();
 
+  // Bytes for lines of so many cells.
   static double MemoryFor(std::int64_t cells);
 
 private:
@@ -41,13 +42,13 @@ private:
 
   std::int64_t Cells;
   std::unique_ptr<Plan> Fourier;
-  std::vector<double> Cosines; // of pi j / M for j up to M / 2
-  std::vector<double> Sines;
+  std::vector<double> Cosines; // cos(pi j / M) for j up to M / 2
+  std::vector<double> Sines;   // sin(pi j / M)
   LargeBuffer<Complex> Line;
   LargeBuffer<Complex> Spectrum;
 };
 
-// Lends every thread its own.
+// Lends each thread its own object and takes it back.
 class CosineLinesPool
 {
 public:
@@ -56,7 +57,7 @@ public:
   {
   }
 
-  // work(lines). Throws std::bad_alloc.
+  // Calls work(lines). Throws std::bad_alloc.
   template <class Work>
   void With(const Work& work)
   {
@@ -82,7 +83,7 @@ private:
   }
 
   std::int64_t Cells;
-  std::mutex Mutex; // of the next
+  std::mutex Mutex; // guards Free
   std::vector<std::unique_ptr<CosineLines>> Free;
 };
 

@@ -20,19 +20,22 @@ namespace
 constexpr std::int64_t grain = 1 << 13;      // cells
 constexpr std::int64_t firstSlice = 1 << 18; // a few milliseconds
 
-// Damping of Jacobi's iteration: Chebyshev's polynomial of fourth degree on [1/6, 2]. 2 is
-// Gershgorin's bound. The modes that a coarser level does not see have eigenvalues above 1/2, less
-// where weights differ from axis to axis. Long and short steps take turns.
+// Damping factors of Jacobi's iteration: the inverses of the roots of Chebyshev's polynomial of
+// fourth degree on [1/6, 2], T_4((x - 13/12) / (11/12)), which is the smallest one there that is 1
+// at 0. 2 is Gershgorin's bound on eigenvalues of D^-1 A. The modes that a coarser level does not
+// see have eigenvalues above 1/2, less where weights differ from axis to axis. Long and short steps
+// take turns, so that intermediate errors stay small.
 constexpr double centre = 13.0 / 12.0;
 constexpr double radius = 11.0 / 12.0;
-constexpr double cosine1 = 0.92387953251128674; // of pi / 8
-constexpr double cosine3 = 0.38268343236508977; // of 3 pi / 8
+constexpr double cosine1 = 0.92387953251128674; // cos(pi / 8)
+constexpr double cosine3 = 0.38268343236508977; // cos(3 pi / 8)
 constexpr std::array<double, 4> factors = { 1.0 / (centre - radius * cosine1),
   1.0 / (centre + radius * cosine1), 1.0 / (centre - radius * cosine3),
   1.0 / (centre + radius * cosine3) };
 constexpr std::int64_t coarsest = 8; // cells
 constexpr int coarsestSweeps = 4;
 
+// Progress expects as many iterations; the V-cycle's convergence does not depend on the size.
 constexpr int usualIterations = 8;
 constexpr std::int64_t workOfIteration = 15; // loops over all cells
 // A solution hardly changes if so many iterations gained no more than this part of the energy that
@@ -40,7 +43,8 @@ constexpr std::int64_t workOfIteration = 15; // loops over all cells
 constexpr int lastIterations = 4;
 constexpr double leastGain = 0.01;
 
-// Cells between neighbours along the last axis, the farthest ones, all together.
+// The zeros to be read before and after a grid's values: the largest distance of neighbours, which
+// is that along the last axis, plus that along each axis before.
 template <int Dimension>
 std::int64_t marginOf(const GridSize<Dimension>& size)
 {
@@ -54,6 +58,8 @@ std::int64_t marginOf(const GridSize<Dimension>& size)
   return margin;
 }
 
+// The size of the next coarser level: two cells along each axis become one, an odd last one stays
+// alone.
 template <int Dimension>
 GridSize<Dimension> halfOf(const GridSize<Dimension>& size)
 {
@@ -85,6 +91,8 @@ void forFineRows(const GridSize<Dimension>& fine, const GridSize<Dimension>& coa
 
 } // namespace
 
+// Both margins are zeros, so that kernels read neighbours beyond the border without a branch; their
+// weights are 0.
 template <int Dimension, class Value>
 CellArray<Dimension, Value>::CellArray(const GridSize<Dimension>& size)
   : Margin(marginOf<Dimension>(size))
@@ -112,6 +120,7 @@ FaceSystem<Dimension>::Level::Level(const GridSize<Dimension>& size)
   }
 }
 
+// Pointers for the kernels, which see no classes.
 template <int Dimension>
 FaceWeights<Dimension> FaceSystem<Dimension>::Level::View() const
 {
@@ -125,6 +134,7 @@ FaceWeights<Dimension> FaceSystem<Dimension>::Level::View() const
   return view;
 }
 
+// Levels are halved down to at most `coarsest` cells.
 template <int Dimension>
 FaceSystem<Dimension>::FaceSystem(const GridSize<Dimension>& size)
   : Kernels(faceKernels<Dimension>())
@@ -139,6 +149,9 @@ FaceSystem<Dimension>::FaceSystem(const GridSize<Dimension>& size)
   }
 }
 
+// Bytes of floats a cell: a right-hand side, a solution in double precision (2 floats) and a search
+// direction on the finest level; Dimension weights, the inverse diagonal, right-hand side, x and a
+// copy on each.
 template <int Dimension>
 double FaceSystem<Dimension>::Memory(const GridSize<Dimension>& size)
 {
@@ -153,6 +166,7 @@ double FaceSystem<Dimension>::Memory(const GridSize<Dimension>& size)
   }
 }
 
+// Levels of one chunk stay on the calling thread, as waking others would take longer.
 template <int Dimension>
 void FaceSystem<Dimension>::For(std::int64_t cells, RangeKernel kernel, Progress& progress) const
 {
@@ -178,6 +192,8 @@ void FaceSystem<Dimension>::ForRows(
     std::max<std::int64_t>(firstSlice / coarse.Size[0], 1));
 }
 
+// Inverse = 1 / diagonal of A, with A_qq = the sum of a cell's weights; 0 for a cell without
+// neighbours.
 template <int Dimension>
 void FaceSystem<Dimension>::Invert(Level& level, Progress& progress)
 {
@@ -199,7 +215,9 @@ void FaceSystem<Dimension>::Invert(Level& level, Progress& progress)
     progress);
 }
 
-// A face of a coarse cell has the area of the fine faces in it and twice the distance.
+// The weight of a coarse face is half the sum of the fine weights in it, as w = area / distance:
+// the face has the fine faces' areas, and centres are twice as far apart. This is half of the
+// Galerkin operator of piecewise constant prolongation, which would make corrections too small.
 template <int Dimension>
 void FaceSystem<Dimension>::Coarsen(const Level& fine, Level& coarse, Progress& progress)
 {
@@ -242,6 +260,7 @@ void FaceSystem<Dimension>::Coarsen(const Level& fine, Level& coarse, Progress& 
     progress);
 }
 
+// Makes all levels from the weights of the finest one.
 template <int Dimension>
 void FaceSystem<Dimension>::Prepare(Progress& progress)
 {
@@ -253,6 +272,8 @@ void FaceSystem<Dimension>::Prepare(Progress& progress)
   }
 }
 
+// The right-hand side of the coarse level sums the residual b - A x over the fine cells in each
+// coarse cell, which is the transpose of Prolong.
 template <int Dimension>
 void FaceSystem<Dimension>::Restrict(const Level& fine, Level& coarse, Progress& progress)
 {
@@ -262,6 +283,7 @@ void FaceSystem<Dimension>::Restrict(const Level& fine, Level& coarse, Progress&
   this->ForRows(
     coarse,
     [&](std::int64_t first, std::int64_t last) {
+      // A row of residuals at a time stays in the cache; the fine level needs no array for them.
       std::vector<float> values(static_cast<std::size_t>(cells));
       for (std::int64_t row = first; row < last; ++row)
       {
@@ -286,6 +308,7 @@ void FaceSystem<Dimension>::Restrict(const Level& fine, Level& coarse, Progress&
     progress);
 }
 
+// x += the coarse correction, piecewise constant.
 template <int Dimension>
 void FaceSystem<Dimension>::Prolong(const Level& coarse, Level& fine, Progress& progress)
 {
@@ -315,10 +338,12 @@ void FaceSystem<Dimension>::Prolong(const Level& coarse, Level& fine, Progress& 
     progress);
 }
 
+// One damped Jacobi step x += factor D^-1 (b - A x).
 template <int Dimension>
 void FaceSystem<Dimension>::RelaxOnce(
   Level& level, bool fromZero, double factor, Progress& progress)
 {
+  // Jacobi's step reads x and writes Other; the arrays are swapped.
   const FaceWeights<Dimension> system = level.View();
   const float* x = fromZero ? nullptr : level.X.data();
   this->For(
@@ -331,6 +356,7 @@ void FaceSystem<Dimension>::RelaxOnce(
   std::swap(level.X, level.Other);
 }
 
+// Smooths by the four Chebyshev steps in their order.
 template <int Dimension>
 void FaceSystem<Dimension>::Relax(Level& level, bool fromZero, Progress& progress)
 {
@@ -340,6 +366,7 @@ void FaceSystem<Dimension>::Relax(Level& level, bool fromZero, Progress& progres
   }
 }
 
+// Smooths by the same steps in the opposite order.
 template <int Dimension>
 void FaceSystem<Dimension>::RelaxBack(Level& level, Progress& progress)
 {
@@ -349,7 +376,9 @@ void FaceSystem<Dimension>::RelaxBack(Level& level, Progress& progress)
   }
 }
 
-// Symmetric, hence the factors in the opposite order on the way up.
+// The V-cycle x = M b from x = 0. M is symmetric, as conjugate gradients need of a preconditioner:
+// the way up takes the factors in the opposite order of the way down. The coarsest level is
+// smoothed several times in place of a direct solution.
 template <int Dimension>
 void FaceSystem<Dimension>::Cycle(std::size_t at, Progress& progress)
 {
@@ -373,6 +402,9 @@ void FaceSystem<Dimension>::Cycle(std::size_t at, Progress& progress)
   this->RelaxBack(level, progress);
 }
 
+// Preconditioned conjugate gradients for A x = b, in floats except for x and the sums. b is in
+// Right of the finest level, which then holds the residual r as the right-hand side of the V-cycle.
+// Returns |b - A x| / |b|.
 template <int Dimension>
 FaceSolution FaceSystem<Dimension>::Solve(double tolerance, int maximum, Progress& progress)
 {
@@ -398,7 +430,9 @@ FaceSolution FaceSystem<Dimension>::Solve(double tolerance, int maximum, Progres
   });
   FaceSolution found;
   ConjugateGradients method;
+  // |r|^2 <= tolerance^2 |b|^2.
   const double enough = tolerance * tolerance * begin;
+  // |r|^2 as the updates have it; gains of the last iterations, in a ring.
   double now = begin;
   std::array<double, lastIterations> gains{};
   double allGains = 0.0;
@@ -436,11 +470,14 @@ FaceSolution FaceSystem<Dimension>::Solve(double tolerance, int maximum, Progres
     gains[static_cast<std::size_t>(found.Iterations % lastIterations)] = method.Gain();
     allGains += method.Gain();
     ++found.Iterations;
+    // An iteration's gain is what it takes from the energy x A x / 2 - b x, which falls
+    // monotonically, unlike the residual.
     const bool isIdle = found.Iterations >= lastIterations &&
       std::accumulate(gains.begin(), gains.end(), 0.0) <= leastGain * allGains;
     if (now <= enough || isIdle || found.Iterations == maximum)
     {
-      // The residual itself: updates do not know what rounding lost.
+      // Computes the residual b - A x anew: updates do not know what rounding lost. If it is above
+      // the tolerance, the iteration restarts from it with beta = 0.
       now = sum(round, [&](std::int64_t first, std::int64_t last) {
         return this->Kernels.Rest(system, x, b, first, last, r);
       });

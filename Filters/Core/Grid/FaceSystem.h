@@ -16,8 +16,8 @@
 namespace RectifiedTransport
 {
 
-// Values of the cells of a grid. The largest distance of neighbours, and one, may be read before
-// and after them: zeros.
+// Values of the cells of a grid, axis 0 fastest. Zeros lie before and after them, so that
+// neighbours beyond the border may be read.
 template <int Dimension, class Value = float>
 class CellArray
 {
@@ -32,12 +32,14 @@ private:
   LargeBuffer<Value> Values;
 };
 
+// What a solution took and how good it is: |b - A x| / |b|.
 struct FaceSolution
 {
   int Iterations = 0;
   double Residual = 0.0; // relative to the right-hand side
 };
 
+// The solver and its levels. It holds float arrays; the solution alone is in double precision.
 template <int Dimension>
 class FaceSystem
 {
@@ -50,13 +52,17 @@ public:
   float* RightHandSide() { return this->Levels.front().Right.data(); }
   // Makes the coarser levels. Units of progress: twice the cells.
   void Prepare(Progress& progress);
-  // Until the residual is within the tolerance, or the solution hardly changes any more.
+  // Iterates until the residual is within the tolerance, relative to the right-hand side, or the
+  // solution hardly changes any more.
   FaceSolution Solve(double tolerance, int maximum, Progress& progress);
   const double* Solution() const { return this->Found.data(); }
 
+  // Bytes that an object takes.
   static double Memory(const GridSize<Dimension>& size);
 
 private:
+  // A level of the multigrid: Weights of the upper faces along each axis, the inverse diagonal, the
+  // right-hand side, x, and the array that a Jacobi step writes. All have one value a cell.
   struct Level
   {
     GridSize<Dimension> Size;
@@ -72,7 +78,8 @@ private:
     FaceWeights<Dimension> View() const;
   };
 
-  // Runs a kernel on the progress's threads, but small levels here.
+  // Runs a kernel on cells [0, cells) by the progress's threads, or on this thread if the level is
+  // small.
   void For(std::int64_t cells, RangeKernel kernel, Progress& progress) const;
   void ForRows(const Level& coarse, RangeKernel kernel, Progress& progress) const;
   void Invert(Level& level, Progress& progress);
@@ -86,8 +93,9 @@ private:
 
   FaceKernels<Dimension> Kernels;
   std::vector<Level> Levels;
-  CellArray<Dimension> Given;         // the right-hand side
-  CellArray<Dimension, double> Found; // differences of neighbours are far smaller than values
+  CellArray<Dimension> Given; // the right-hand side
+  CellArray<Dimension, double>
+    Found; // in doubles: differences of neighbours are far smaller than values
   CellArray<Dimension> Search;
 };
 

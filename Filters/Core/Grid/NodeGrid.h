@@ -20,7 +20,7 @@ template <int Dimension>
 struct NodeGrid
 {
   GridSize<Dimension> Cells;  // along each axis an even number, at least 2
-  Point<Dimension> Spacing{}; // of the nodes; the box is [0, Cells * Spacing]
+  Point<Dimension> Spacing{}; // distances of nodes, in lengths; the box is [0, Cells * Spacing]
 
   std::int64_t NumberOfCells() const
   {
@@ -37,7 +37,7 @@ struct NodeGrid
     }
     return stride;
   }
-  // Of the box.
+  // The sum of the box's squared sides, in squared lengths.
   double SquaredDiagonal() const
   {
     double sum = 0.0;
@@ -66,9 +66,9 @@ struct NodeLines
     return line / this->Stride * this->Stride * this->Nodes + line % this->Stride;
   }
 
-  std::int64_t Nodes;  // of a line
-  std::int64_t Stride; // of neighbours on it
-  std::int64_t Count;
+  std::int64_t Nodes;  // nodes of a line
+  std::int64_t Stride; // distance in memory of neighbours on a line
+  std::int64_t Count;  // number of lines
 };
 
 // The cell that holds a point, whose coordinates are in cells, and the place in it, from 0 to 1.
@@ -89,7 +89,8 @@ struct CellPlace
   Point<Dimension> Place;
 };
 
-// The nodes about a point of the box, in cells of the nodes, and their hat functions there.
+// The 2^Dimension nodes about a point of the box, given in cells of the nodes, and the values of
+// their hat functions there, which sum to 1.
 template <int Dimension>
 struct HatsAt
 {

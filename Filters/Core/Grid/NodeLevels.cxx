@@ -11,9 +11,11 @@ namespace RectifiedTransport
 namespace
 {
 
-// The largest number of cells along an axis that is not halved on the way to coarser nodes.
+// An axis of at most so many cells is not halved any more: the coarsest nodes still resolve the
+// density's shape.
 constexpr std::int64_t coarsest = 12;
 
+// The cosine transform of a line needs an even number of cells, at least 2.
 std::int64_t evenAtLeast(double cells)
 {
   return std::max<std::int64_t>(2, 2 * static_cast<std::int64_t>(std::ceil(0.5 * cells)));
@@ -21,6 +23,8 @@ std::int64_t evenAtLeast(double cells)
 
 } // namespace
 
+// The wanted number of cells along an axis is that of the finest density, from the shorter sides of
+// cells in fractions of the box.
 template <int Dimension>
 GridSize<Dimension> finestNodeCells(
   const std::vector<Point<Dimension>>& cellSides, double mostNodes)
@@ -37,6 +41,8 @@ GridSize<Dimension> finestNodeCells(
     wanted[axis] = std::round(1.0 / shortest);
     all *= wanted[axis];
   }
+  // Few cells are doubled along each axis, as nodes cost little then and the bound's error falls by
+  // 4 each time.
   double factor = 1.0;
   for (; all * factor < fewCells<Dimension>; factor *= std::ldexp(1.0, Dimension))
   {
@@ -45,6 +51,7 @@ GridSize<Dimension> finestNodeCells(
       cells *= 2.0;
     }
   }
+  // More nodes than the most are thinned by the same factor along each axis.
   all *= factor;
   const double ratio = all > mostNodes ? std::pow(mostNodes / all, 1.0 / Dimension) : 1.0;
   GridSize<Dimension> cells;
@@ -55,6 +62,8 @@ GridSize<Dimension> finestNodeCells(
   return cells;
 }
 
+// Each level has half the cells of the next one along each axis, rounded up to an even number; the
+// coarsest comes first.
 template <int Dimension>
 std::vector<GridSize<Dimension>> nodeLevels(const GridSize<Dimension>& finest)
 {
@@ -76,6 +85,8 @@ std::vector<GridSize<Dimension>> nodeLevels(const GridSize<Dimension>& finest)
   return levels;
 }
 
+// Nodes over a box of `size` cells with `sides`, `cellsANode` cells apart, in an even number of
+// cells.
 template <int Dimension>
 NodeGrid<Dimension> nodesOver(
   const GridSize<Dimension>& size, const Point<Dimension>& sides, int cellsANode)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves of points down the gradient of a function at nodes. Points are in cells of the nodes.
+// The vector field -grad q of a function q at nodes, by which points move. Points are in cells of
+// the nodes.
 #ifndef RectifiedTransport_NodeMoves_h
 #define RectifiedTransport_NodeMoves_h
 
@@ -12,12 +13,13 @@
 namespace RectifiedTransport
 {
 
-// A vector a node.
+// One vector a node, coordinates interleaved.
 template <int Dimension>
 class NodeMoves
 {
 public:
-  // -grad q in cells of the nodes, by central differences; none across the faces of the box. Adds a
+  // -grad q in cells of the nodes, -(q_{i+1} - q_{i-1}) / (2 h^2) along each axis, and 0 across the
+  // faces of the box, so that none leaves it. Adds a
   // unit of work a node. Throws std::bad_alloc and Cancelled.
   NodeMoves(const NodeGrid<Dimension>& grid, const double* q, Progress& progress)
     : Cells(grid.Cells)
@@ -34,6 +36,7 @@ public:
   }
 
   const GridSize<Dimension>& Size() const { return this->Cells; }
+  // The field at a point, by multilinear interpolation.
   Point<Dimension> At(const double* point) const
   {
     const HatsAt<Dimension> hats(point, this->Cells);
@@ -50,6 +53,7 @@ public:
   }
 
 private:
+  // The vectors of a line of nodes along axis 0 that begins at node `begin`.
   void WriteLine(const NodeGrid<Dimension>& grid, const double* q, std::int64_t begin)
   {
     const std::int64_t nodes = grid.Cells[0] + 1;

@@ -23,12 +23,14 @@ namespace
 {
 
 constexpr int lanes = CosineLines::Count;
+// Units of the first piece of work, after which its pace sizes the others.
 constexpr std::int64_t firstSlice = std::int64_t{ 1 } << 19;
 
-// kernel(first) for all blocks of lines. Adds `transforms` units a node.
+// Calls kernel(first) for all blocks of eight lines. Adds `transforms` units a node.
 template <class Kernel>
 void forBlocks(const NodeLines& lines, Progress& progress, int transforms, const Kernel& kernel)
 {
+  // Units count nodes of lines, so that chunks of whole blocks have about 8192 of them.
   const std::int64_t line = lines.Nodes * transforms;
   const std::int64_t block = lanes * line;
   progress.For(
@@ -42,7 +44,8 @@ void forBlocks(const NodeLines& lines, Progress& progress, int transforms, const
     firstSlice);
 }
 
-// Where the lines of a block begin. In the last block the last line stands for those that lack.
+// The eight lines that are transformed together, as their first nodes. In the last block the last
+// line stands for those that lack.
 struct PoissonBlock
 {
   PoissonBlock(const NodeLines& lines, std::int64_t first)
@@ -54,9 +57,11 @@ struct PoissonBlock
     {
       this->Begin[i] = lines.Begin(first + std::min(i, this->Count - 1));
     }
+    // Neighbours in memory are copied as one cache line a node, which axes from 1 on have.
     this->Together = this->Begin[lanes - 1] == this->Begin[0] + lanes - 1 && this->Count == lanes;
   }
 
+  // Copies the nodes of the lines to values[j][line].
   void Load(const double* grid, double* values) const
   {
     for (std::int64_t j = 0; j < this->Nodes; ++j, values += lanes)
@@ -75,7 +80,7 @@ struct PoissonBlock
       }
     }
   }
-  // Times a factor for each line.
+  // The same, times a factor for each line.
   void LoadScaled(const double* grid, const double* factors, double* values) const
   {
     for (std::int64_t j = 0; j < this->Nodes; ++j, values += lanes)
@@ -87,6 +92,7 @@ struct PoissonBlock
       }
     }
   }
+  // Copies values[j][line] back to the nodes.
   void Store(const double* values, double* grid) const
   {
     for (std::int64_t j = 0; j < this->Nodes; ++j, values += lanes)
@@ -109,12 +115,14 @@ struct PoissonBlock
   std::int64_t Nodes;
   std::int64_t Stride;
   int Count;
-  bool Together; // neighbours in memory
+  bool Together; // whether the lines are neighbours in memory
   std::int64_t Begin[lanes];
 };
 
 } // namespace
 
+// The cosine transform of the first kind diagonalizes -Laplace with natural boundaries: along an
+// axis of M cells of width h the eigenvalues are (2 sin(pi k / 2M) / h)^2.
 template <int Dimension>
 struct NodePoisson<Dimension>::Implementation
 {
@@ -130,6 +138,7 @@ struct NodePoisson<Dimension>::Implementation
     for (int axis = 0; axis < TransformedAxes; ++axis)
     {
       const std::int64_t cells = grid.Cells[axis];
+      // Axes of the same length share their transforms' tables and buffers.
       for (int other = 0; other < axis; ++other)
       {
         if (grid.Cells[other] == cells)
@@ -142,6 +151,7 @@ struct NodePoisson<Dimension>::Implementation
         this->Pools[axis] = std::make_shared<CosineLinesPool>(cells);
       }
       this->Eigenvalues[axis].resize(static_cast<std::size_t>(cells + 1));
+      // sin(pi k / 2M) comes from a table with the same bits on every machine.
       for (std::int64_t k = 0; k <= cells; ++k)
       {
         const double root = 2.0 * cosineAndSine(k, 4 * cells).Sine / grid.Spacing[axis];
@@ -162,14 +172,16 @@ struct NodePoisson<Dimension>::Implementation
     }
   }
 
-  // In one dimension the masses up to an edge are what flows through it: fewer operations, and less
-  // rounding, than transforms.
+  // In one dimension the masses up to an edge are what flows through it: -p' = F by integration.
+  // That takes fewer operations, and gives less rounding, than transforms.
   void SolveLine(const double* masses, double* p, Progress& progress)
   {
     const std::int64_t cells = this->Grid.Cells[0];
     const double number = static_cast<double>(cells);
     const double spacing = this->Grid.Spacing[0];
+    // The flux between two nodes per difference of p: 1 / (M h^2), as the whole box has volume 1.
     const double conductance = 1.0 / (number * spacing * spacing);
+    // The sum of the masses is taken as 0: its mean is subtracted.
     const double all =
       sumOverNodes(this->Grid, progress, [=](std::int64_t i) { return masses[i]; });
     double flux = 0.0;
@@ -179,11 +191,14 @@ struct NodePoisson<Dimension>::Implementation
       flux += masses[i] - all * (shareOf(i, cells) / number);
       value -= flux / conductance;
     });
+    // p is determined up to a constant; the solution has mean 0.
     const double mean = sumOverNodes(
       this->Grid, progress, [=](std::int64_t i) { return p[i] * (shareOf(i, cells) / number); });
     progress.ForEach(this->Nodes, this->Chunk, [=](std::int64_t i) { p[i] -= mean; });
   }
 
+  // p = C^-1 (1 / lambda) C r: transforms along all axes, a division, and the same transforms back.
+  // The arrays of all stages are p itself, and a block of lines that a thread holds.
   void SolveByTransforms(const double* masses, double* p, Progress& progress)
   {
     this->Along(
@@ -201,7 +216,7 @@ struct NodePoisson<Dimension>::Implementation
     {
       this->Along(axis, 1, progress, inPlace);
     }
-    // There and back while the lines are in the cache.
+    // Forwards and back along the last axis while the lines are in the cache.
     this->Along(
       Last, 2, progress, [&](std::int64_t first, const PoissonBlock& block, CosineLines& lines) {
         block.Load(p, lines.Values());
@@ -214,7 +229,8 @@ struct NodePoisson<Dimension>::Implementation
     }
   }
 
-  // kernel(first, block, lines) for blocks of lines along an axis.
+  // Calls kernel(first, block, lines) for all blocks of lines along an axis, with a thread's own
+  // transform.
   template <class Kernel>
   void Along(int axis, int transforms, Progress& progress, const Kernel& kernel)
   {
@@ -225,7 +241,7 @@ struct NodePoisson<Dimension>::Implementation
     });
   }
 
-  // Lines along axis 0 of masses over the nodes' shares of a cell.
+  // Loads lines along axis 0 of the density at nodes: masses over the nodes' shares of a cell.
   void LoadDensity(
     const double* masses, std::int64_t first, const PoissonBlock& block, CosineLines& lines) const
   {
@@ -236,6 +252,7 @@ struct NodePoisson<Dimension>::Implementation
     }
     block.LoadScaled(masses, factors, lines.Values());
     CosineLines::Complex* nodes = lines.Nodes();
+    // The two end nodes stand for half a cell.
     nodes[0] *= Lanes(2.0);
     nodes[block.Nodes - 1] *= Lanes(2.0);
   }
@@ -255,11 +272,13 @@ struct NodePoisson<Dimension>::Implementation
       for (int axis = 0; axis < Last; ++axis)
       {
         const std::int64_t nodes = this->Grid.Cells[axis] + 1;
+        // A line's frequencies along the other axes add up to its part of the eigenvalue.
         sum += this->Eigenvalues[axis][static_cast<std::size_t>(line % nodes)];
         line /= nodes;
       }
       others[i] = sum;
-      atZero[i] = sum > 0.0 ? sum : std::numeric_limits<double>::infinity(); // the mean
+      atZero[i] =
+        sum > 0.0 ? sum : std::numeric_limits<double>::infinity(); // divides the mean away: it is 0
     }
     const Lanes scale(1.0 / (1 << Dimension));
     const Lanes real = Lanes::Load(others);
@@ -278,9 +297,9 @@ struct NodePoisson<Dimension>::Implementation
 
   const NodeGrid<Dimension> Grid;
   const std::int64_t Nodes;
-  const std::int64_t Chunk; // of whole rows along axis 0
+  const std::int64_t Chunk; // nodes: whole rows along axis 0
   std::array<std::shared_ptr<CosineLinesPool>, Dimension> Pools;
-  std::array<std::vector<double>, Dimension> Eigenvalues; // of -Laplace along each axis
+  std::array<std::vector<double>, Dimension> Eigenvalues; // eigenvalues of -Laplace along each axis
   WeightedPoisson<Dimension> Weighted;
 };
 
@@ -303,12 +322,14 @@ template <int Dimension>
 void NodePoisson<Dimension>::SolveWeighted(const double* masses, const double* density,
   double floor, int iterations, double* p, Progress& progress)
 {
+  // Solve is the exact inverse for the weight 1.
   const auto precondition = [&](const double* rest, double* solution) {
     this->Self->Solve(rest, solution, progress);
   };
   this->Self->Weighted.Solve(masses, density, floor, iterations, precondition, p, progress);
 }
 
+// An estimate, for one thread a processor.
 template <int Dimension>
 double NodePoisson<Dimension>::MemoryFor(const NodeGrid<Dimension>& grid, bool weighted)
 {

@@ -20,13 +20,13 @@ std::int64_t chunkOfRows(const NodeGrid<Dimension>& grid)
   return std::max<std::int64_t>(1, 8192 / nodes) * nodes;
 }
 
-// Of the cells, the share that a node stands for along an axis.
+// The share of a cell that a node stands for along an axis: half of one at both ends.
 inline double shareOf(std::int64_t node, std::int64_t cells)
 {
   return node == 0 || node == cells ? 0.5 : 1.0;
 }
 
-// Of a cell, the share of an inner node of a row.
+// The share of a cell that an inner node of a row stands for, the product over the axes across it.
 template <int Dimension>
 double shareOfRow(const NodeGrid<Dimension>& grid, std::int64_t row)
 {

@@ -9,7 +9,7 @@
 namespace RectifiedTransport
 {
 
-// Along one axis after the other.
+// Multilinear interpolation, along one axis after the other: values lie as [after][nodes][before].
 template <int Dimension>
 NodeValues prolong(const NodeValues& values, const GridSize<Dimension>& from,
   const GridSize<Dimension>& to, Progress& progress)
@@ -27,6 +27,8 @@ NodeValues prolong(const NodeValues& values, const GridSize<Dimension>& from,
     }
     const std::int64_t old = cells[axis] + 1;
     const std::int64_t nodes = to[axis] + 1;
+    // Node j lies at j M_old / M_new, in cells of the old nodes, which need not be an integer
+    // factor.
     const double ratio = static_cast<double>(cells[axis]) / static_cast<double>(to[axis]);
     NodeValues made(before * nodes * after);
     double* written = made.data();
@@ -34,6 +36,7 @@ NodeValues prolong(const NodeValues& values, const GridSize<Dimension>& from,
     progress.For(nodes * after * before, lines * before, [=](std::int64_t first, std::int64_t end) {
       for (std::int64_t line = first / before; line < end / before; ++line)
       {
+        // The last node lies at the end of the last interval.
         const double place = static_cast<double>(line % nodes) * ratio;
         const auto low = std::min(static_cast<std::int64_t>(place), old - 2);
         const double weight = place - static_cast<double>(low);

@@ -19,6 +19,9 @@ WeightedPoisson<Dimension>::WeightedPoisson(const NodeGrid<Dimension>& grid)
 {
 }
 
+// Preconditioned conjugate gradients with A p = -div(w grad p), w = max(floor, density), from p =
+// 0. The preconditioner is the inverse of -Laplace, whose ratio to A is bounded by the extreme
+// values of w, whatever the number of nodes. All arrays have one value a node.
 template <int Dimension>
 void WeightedPoisson<Dimension>::Solve(const double* masses, const double* density, double floor,
   int iterations, const Preconditioner& precondition, double* p, Progress& progress)
@@ -37,16 +40,20 @@ void WeightedPoisson<Dimension>::Solve(const double* masses, const double* densi
   const double* image = this->Image.data();
   double* rest = this->Rest.data();
   double* direction = this->Direction.data();
+  // z = M r, and the product r . z.
   const auto solve = [&]() {
     precondition(this->Rest.data(), this->Preconditioned.data());
     return sumOverNodes(
       this->Grid, progress, [=](std::int64_t node) { return z[node] * rest[node]; });
   };
+  // d = z + beta d.
   const auto turn = [&](double beta) {
     progress.ForEach(
       this->Nodes, this->Chunk, [=](std::int64_t i) { direction[i] = z[i] + beta * direction[i]; });
   };
+  // q = A d, and the product d . q.
   const auto apply = [&]() { return this->Apply(progress); };
+  // p += alpha d, r -= alpha q.
   const auto advance = [&](double alpha) {
     progress.ForEach(this->Nodes, this->Chunk, [=](std::int64_t i) {
       p[i] += alpha * direction[i];
@@ -59,7 +66,8 @@ void WeightedPoisson<Dimension>::Solve(const double* masses, const double* densi
   }
 }
 
-// kernel(row, first node) for the rows along axis 0 of a range of nodes.
+// Calls kernel(row, first node) for the rows along axis 0 of a range of nodes, which begins and
+// ends with whole rows.
 template <int Dimension>
 template <class Kernel>
 void WeightedPoisson<Dimension>::ForRows(
@@ -72,6 +80,8 @@ void WeightedPoisson<Dimension>::ForRows(
   }
 }
 
+// r = b, p = 0, d = 0, and the weights: a node's density is its mass over the part of the box that
+// its hat stands for, half a cell for each side of the box that it lies on.
 template <int Dimension>
 void WeightedPoisson<Dimension>::Begin(
   const double* masses, const double* density, double floor, double* p, Progress& progress)
@@ -97,7 +107,8 @@ void WeightedPoisson<Dimension>::Begin(
   });
 }
 
-// Image = -div(weight grad Direction), as masses. Returns its product with Direction.
+// Image = A Direction, as masses. Returns the product Direction . Image. Chunks of rows keep the
+// sum's bits independent of threads.
 template <int Dimension>
 double WeightedPoisson<Dimension>::Apply(Progress& progress)
 {
@@ -112,6 +123,8 @@ double WeightedPoisson<Dimension>::Apply(Progress& progress)
     std::plus<>());
 }
 
+// The same for a row, with second-order differences: (A d)_i = sum over neighbours j of (w_i + w_j)
+// / 2 (d_i - d_j) / h^2, times the area of the face between both in shares of a cell.
 template <int Dimension>
 double WeightedPoisson<Dimension>::ApplyToRow(std::int64_t row, std::int64_t node)
 {
@@ -119,7 +132,8 @@ double WeightedPoisson<Dimension>::ApplyToRow(std::int64_t row, std::int64_t nod
   const double* d = this->Direction.data() + node;
   const double* w = this->Weights.data() + node;
   double* image = this->Image.data() + node;
-  // A node's share of a flux is that of the nodes across it.
+  // The face between two nodes has the share of the nodes of the row across it, halved at the
+  // border.
   const double share = shareOfRow<Dimension>(this->Grid, row);
   const double number = static_cast<double>(this->Grid.NumberOfCells());
   const auto scaleOf = [&](int axis) {
@@ -143,6 +157,7 @@ double WeightedPoisson<Dimension>::ApplyToRow(std::int64_t row, std::int64_t nod
         ((w[i] + w[i + low]) * (d[i] - d[i + low]) + (w[i] + w[i + high]) * (d[i] - d[i + high]));
     }
   }
+  // Along the other axes the faces of the row's end nodes are half as large.
   image[0] *= 0.5;
   image[cells] *= 0.5;
   const double scale = scaleOf(0) * share;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// -div(max(floor, density) grad p) = r on the nodes of a box with natural boundaries, by the method
-// of conjugate gradients.
+// Solves -div(max(floor, density) grad p) = r on the nodes of a box with natural boundaries, by the
+// method of conjugate gradients.
 #ifndef RectifiedTransport_WeightedPoisson_h
 #define RectifiedTransport_WeightedPoisson_h
 
@@ -14,7 +14,7 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Of NodePoisson, which preconditions: see there for what masses mean and who may call.
+// The solver's arrays. NodePoisson preconditions: see there for what masses mean and who may call.
 template <int Dimension>
 class WeightedPoisson
 {

@@ -19,11 +19,14 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::array<int, 2> iterations = { 6, 4 }; // of each correction
-constexpr double leastWeight = 0.1;                 // of the mean density
+// Steps of preconditioned conjugate gradients in each of both corrections. The second one starts
+// from less excess and needs fewer.
+constexpr std::array<int, 2> iterations = { 6, 4 }; // in each correction
+constexpr double leastWeight = 0.1;                 // in units of the mean density
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
-// Cells between nodes are two cells wide, where these are few one.
+// The grid on which Poisson's equation is solved. Its cells are two cells wide, or one where cells
+// are few, as it costs little there.
 template <int Dimension>
 NodeGrid<Dimension> balancingNodes(const NodeGrid<Dimension>& corners)
 {
@@ -31,7 +34,8 @@ NodeGrid<Dimension> balancingNodes(const NodeGrid<Dimension>& corners)
   return nodesOver<Dimension>(corners.Cells, corners.Spacing, areFew ? 1 : 2);
 }
 
-// What the nodes' hats have of the masses that cells get too much.
+// The residual at nodes: the masses that cells got beyond their shares, summed by the nodes' hats.
+// A mass of 1 is the whole.
 template <int Dimension>
 NodeValues findExcess(const CellDensity<Dimension>& source, const CellDensity<Dimension>& target,
   const NodeMap<Dimension>& corners, const NodeGrid<Dimension>& nodes, Progress& progress)
@@ -46,6 +50,7 @@ NodeValues findExcess(const CellDensity<Dimension>& source, const CellDensity<Di
   return hatSums<Dimension>(values, target.Size(), nodes, progress);
 }
 
+// Moves the images of corners by the field at nodes, interpolated there, and keeps them in the box.
 template <int Dimension>
 void moveCorners(const NodeMoves<Dimension>& moves, const CellPlacement<Dimension>& toNodes,
   NodeMap<Dimension>& corners, Progress& progress)
@@ -67,11 +72,15 @@ void moveCorners(const NodeMoves<Dimension>& moves, const CellPlacement<Dimensio
 
 } // namespace
 
+// Each correction is a step of -div(max(target, .1) grad q) = image - target and a move by -grad q,
+// as in MassCorrection.h, but for the corners of cells: their images then carry the masses of whole
+// cells.
 template <int Dimension>
 void balanceMap(const CellDensity<Dimension>& source, const CellDensity<Dimension>& target,
   NodeMap<Dimension>& corners, Progress& progress)
 {
   const NodeGrid<Dimension> nodes = balancingNodes(corners.Grid);
+  // From cells of the density to cells of the nodes.
   const auto toNodes = CellPlacement<Dimension>::Filling(target.Size(), nodes.Cells);
   const NodeValues wanted = hatMasses<Dimension>(target, toNodes, nodes, progress);
   NodePoisson<Dimension> poisson(nodes);
@@ -87,8 +96,8 @@ void balanceMap(const CellDensity<Dimension>& source, const CellDensity<Dimensio
 template <int Dimension>
 double memoryForBalancing(const GridSize<Dimension>& cells)
 {
-  constexpr double arrays = 3.0 + Dimension; // excess, target's masses and solution; moves
-  // Sums of threads, what cells got too much, and its sums along an axis.
+  constexpr double arrays = 3.0 + Dimension; // excess, target's masses, solution; and the moves
+  // The sums' arrays of all threads, the cells' excess, and its sums along an axis.
   constexpr double arraysOfCells = mostArraysOfSums + 2.0;
   const NodeGrid<Dimension> nodes = balancingNodes<Dimension>({ cells });
   return sizeof(double) *

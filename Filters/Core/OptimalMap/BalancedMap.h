@@ -11,11 +11,11 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Moves the images of the cells' corners, which are given in cells, down the gradients of solutions
-// of Poisson's equation, weighted by the target, for what cells get too much by shareImages. Twice,
-// and on nodes two cells apart, unless cells are few: what is wrong within some cells is left. Both
-// densities have the size of the map's grid. The same bits for every number of threads. Throws
-// std::bad_alloc and Cancelled.
+// Moves the images of the cells' corners, which are given in cells, by two corrections. Each goes
+// down the gradient of the solution of Poisson's equation, weighted by the target, for the excess
+// that shareImages leaves in cells. Nodes are two cells apart unless cells are few, so that errors
+// within some cells are left. Both densities have the size of the map's grid. The result
+// has the same bits for every number of threads. Throws std::bad_alloc and Cancelled.
 template <int Dimension>
 void balanceMap(const CellDensity<Dimension>& source, const CellDensity<Dimension>& target,
   NodeMap<Dimension>& corners, Progress& progress);

@@ -15,9 +15,11 @@ namespace RectifiedTransport
 namespace
 {
 
+// MassError compares the masses of blocks of 8 cells a side.
 constexpr std::int64_t blockSide = 8;
 
-// The parts of a source's cells between nodes and their images.
+// The images of the parts of a source's cells between nodes: coordinates, interleaved, and a mass
+// for each.
 template <int Dimension>
 struct ImageCloud
 {
@@ -27,6 +29,8 @@ struct ImageCloud
   PointSpan<Dimension> Points() { return { this->Images.data(), this->Masses.size() }; }
 };
 
+// Moves each part of each cell by the map. A first pass counts the parts of rows, so that the
+// second one knows where each row begins and rows are independent.
 template <int Dimension>
 ImageCloud<Dimension> sampleImages(const PointMap<Dimension>& map,
   const SolverSide<Dimension>& source, const SampleFineness& fineness, Progress& progress)
@@ -36,7 +40,7 @@ ImageCloud<Dimension> sampleImages(const PointMap<Dimension>& map,
   std::vector<std::int64_t> begins(static_cast<std::size_t>(rows + 1), 0);
   const std::int64_t grain = std::max<std::int64_t>(1, 256 / nodes.Grid.Cells[0]);
   const std::int64_t firstRows = std::max<std::int64_t>(1, (1 << 15) / nodes.Grid.Cells[0]);
-  // visit(row, i, sample, its image in cells of the nodes) of sample i of each row.
+  // Calls visit(row, i, sample, image) for part i of each row; `image` is in cells of the nodes.
   const auto forSamples = [&](std::int64_t units, const auto& visit) {
     progress.For(
       rows, grain,
@@ -57,6 +61,7 @@ ImageCloud<Dimension> sampleImages(const PointMap<Dimension>& map,
   std::partial_sum(begins.begin(), begins.end(), begins.begin());
   ImageCloud<Dimension> cloud{ LargeBuffer<double>(begins.back() * Dimension),
     LargeBuffer<double>(begins.back()) };
+  // Masses of mean 1 a cell become shares of the whole.
   const double share = 1.0 / static_cast<double>(nodes.Grid.NumberOfCells());
   forSamples(firstRows / 16 + 1,
     [&](std::int64_t row, std::int64_t i, const CellSample<Dimension>& sample,
@@ -71,6 +76,8 @@ ImageCloud<Dimension> sampleImages(const PointMap<Dimension>& map,
 
 } // namespace
 
+// Corrects the masses of the map at points by MassCorrection: the same moves then apply to any
+// image.
 template <int Dimension>
 CorrectedMap<Dimension>::CorrectedMap(const PotentialSolver<Dimension>& solver, int from,
   const CellDensity<Dimension>& target, const Point<Dimension>& sides, PointImages images,
@@ -90,11 +97,14 @@ CorrectedMap<Dimension>::CorrectedMap(const PotentialSolver<Dimension>& solver, 
   this->MeasureBlocks(target, cloud.Points(), cloud.Masses.data(), progress);
 }
 
+// The relative L2 error over blocks: sqrt(sum_b (m_b - w_b)^2 / sum_b w_b^2), with m_b the images'
+// mass in block b and w_b the target's. Cells alone would measure the sampling noise.
 template <int Dimension>
 void CorrectedMap<Dimension>::MeasureBlocks(const CellDensity<Dimension>& target,
   ConstPointSpan<Dimension> images, const double* masses, Progress& progress)
 {
   const GridSize<Dimension>& cells = target.Size();
+  // The lattice of blocks of blockSide cells; the last ones along an axis may be narrower.
   const auto lattice = LatticePart<Dimension>::WholeOf(cells);
   auto blocks = lattice;
   for (std::int64_t& count : blocks.Cells)
@@ -112,6 +122,7 @@ void CorrectedMap<Dimension>::MeasureBlocks(const CellDensity<Dimension>& target
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   std::vector<double> wanted(static_cast<std::size_t>(blocks.Count()), 0.0);
   std::vector<double> excess(static_cast<std::size_t>(blocks.Count()), 0.0);
+  // In order, so that the sums' bits do not depend on threads.
   progress.ForEachInOrder(target.NumberOfCells(), grain,
     [&](std::int64_t cell) { wanted[blockOf(cell)] += target.Share(cell); });
   progress.ForEachInOrder(images.size(), grain,

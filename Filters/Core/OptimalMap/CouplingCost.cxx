@@ -18,9 +18,11 @@ namespace RectifiedTransport
 namespace
 {
 
+// Corners a chunk of parallel loops.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
-// The images of the corners of cells, in cells.
+// The images of the corners of cells, in cells: interpolates a map at nodes if these are not the
+// corners themselves.
 template <int Dimension>
 NodeMap<Dimension> atCorners(
   NodeMap<Dimension> map, const GridSize<Dimension>& cells, Progress& progress)
@@ -37,6 +39,7 @@ NodeMap<Dimension> atCorners(
   }
   auto corners = NodeMap<Dimension>::On({ cells, sides });
   const std::int64_t line = cells[0] + 1;
+  // i M / n rather than a sum of sides: the last corner is exactly the last node.
   const auto placeOf = [&](std::int64_t corner, int axis) {
     return static_cast<double>(corner * map.Grid.Cells[axis]) / static_cast<double>(cells[axis]);
   };
@@ -56,6 +59,7 @@ NodeMap<Dimension> atCorners(
         {
           at[0] = placeOf(i, 0);
           const Point<Dimension> image = map.At(at.data());
+          // From cells of the nodes to cells of the density.
           for (int axis = 0; axis < Dimension; ++axis)
           {
             const auto a = static_cast<std::size_t>(axis);
@@ -69,6 +73,9 @@ NodeMap<Dimension> atCorners(
 
 } // namespace
 
+// The cost of a coupling is an upper bound on the least one. Images of cells are balanced by
+// Poisson corrections, shared among the cells about them, and what remains too much goes to cells
+// that lack mass. Parts go by translation, so a plan between cells costs exactly |c_i - c_j|^2.
 template <int Dimension>
 CouplingCost couplingCost(const CellDensity<Dimension>& source,
   const CellDensity<Dimension>& target, NodeMap<Dimension> map, Progress& progress)
@@ -82,11 +89,14 @@ CouplingCost couplingCost(const CellDensity<Dimension>& source,
   constexpr bool withCosts = true;
   const auto shares = shareImages<Dimension>(source, target, corners, withCosts, progress);
   corners.Images = {}; // its memory is not needed any more
+  // Costs are integers, in squared diagonals over integerUnit, so that their sums do not depend on
+  // threads.
   const double spread =
     static_cast<double>(shares.CostOfSpread) / integerUnit * shares.SquaredDiagonal;
   return { passRest(shares, target, progress), spread };
 }
 
+// The larger of two stages' needs: balancing the map, then sharing it.
 template <int Dimension>
 double memoryForCoupling(const GridSize<Dimension>& size, const NodeGrid<Dimension>& grid)
 {
@@ -94,7 +104,8 @@ double memoryForCoupling(const GridSize<Dimension>& size, const NodeGrid<Dimensi
   const double cells = numberOfCells<Dimension>(size);
   const double corners =
     grid.Cells == size ? 0.0 : Dimension * real * numberOfCorners<Dimension>(size);
-  // The sums of all threads; what is passed on takes less.
+  // Arrays for the sums of all threads take at most 16 doubles a cell; passing the rest on takes
+  // less.
   const double sharing = real * (16.0 + Dimension + 1.0) * cells;
   return corners + std::max(memoryForBalancing<Dimension>(size), sharing);
 }

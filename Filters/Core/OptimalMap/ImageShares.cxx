@@ -13,12 +13,12 @@ namespace RectifiedTransport
 namespace
 {
 
-// Images of parts of cells need not lie close: what a cell between them gets too little comes from
-// its neighbours.
+// Samples a cell's side relative to its image's extent. Images of parts of cells need not lie
+// close: what a cell between them lacks comes from its neighbours.
 constexpr double fineness = 0.5;
 constexpr double finenessOfLight = 0.25;
 
-// The cells about an image.
+// The cells whose centres surround an image, bit a of their number for the higher one along axis a.
 template <int Dimension>
 struct CellsAbout
 {
@@ -26,11 +26,13 @@ struct CellsAbout
 
   std::int64_t Cell[Count] = { 0 };
   double Mass[Count];
-  double Square[Count] = { 0.0 }; // of the way there, in squared diagonals
-  double Ways[Dimension][2];      // to lower and higher cells, in parts of the whole grid
-  double Spread = 0.0;            // the mean square of the ways from the image itself
+  double Square[Count] = { 0.0 }; // squared ways from the source cell, in squared diagonals
+  double Ways[Dimension][2];      // to the lower and higher cells, in parts of the whole grid
+  double Spread = 0.0; // the mean square of the ways from the image itself, in squared diagonals
 };
 
+// Deposits the parts of the source's cells in the target's. Each is the number of sums a cell: the
+// mass alone, or the mass and its first moments of the ways, which PassRest needs to update costs.
 template <int Dimension, int Each>
 class Sharing
 {
@@ -49,6 +51,8 @@ public:
     {
       const auto cells = static_cast<double>(this->Shares.Size[axis]);
       const double length = this->Shares.Sides[axis] * cells;
+      // |c_i - c_j|^2 = sum_a PartOfSquare[a] way_a^2 in squared diagonals, for ways in parts of
+      // the grid.
       this->PartOfSquare[axis] = length * length / this->Shares.SquaredDiagonal;
       this->Last[axis] = cells - 1.0;
       this->Part[axis] = 1.0 / cells;
@@ -56,6 +60,7 @@ public:
     }
   }
 
+  // Fixed-point sums (IntegerSums.h) commute, so the bits do not depend on threads.
   CellShares<Dimension> Share(const NodeMap<Dimension>& corners)
   {
     const std::int64_t rows = ImageSamples<Dimension>::NumberOfRows(corners.Grid);
@@ -66,10 +71,12 @@ public:
     IntegerSums integers(count * Each, 4 * count, this->Work);
     this->Work.For(
       rows, each,
+      // Samples of a row of source cells, and where each one's image goes.
       [&](std::int64_t first, std::int64_t last) {
         const IntegerSums::Part part(integers);
         const double meanMass = 1.0 / static_cast<double>(count);
         ImageSamples<Dimension> samples(corners, { fineness, finenessOfLight, meanMass });
+        // Without an array each sample's mass is a part of 1, to be scaled by the uniform share.
         const double scale = integerUnit * (this->Source.IsUniform() ? this->Source.Share(0) : 1.0);
         CostOfImage own;
         for (std::int64_t row = first; row < last; ++row)
@@ -93,12 +100,14 @@ public:
   }
 
 private:
+  // Costs of a chunk's images, in squared diagonals over integerUnit.
   struct CostOfImage
   {
     std::int64_t All = 0;
     std::int64_t OfSpread = 0;
   };
 
+  // Adds an image's mass to the cells about it, with the cost of the ways from its source cell.
   void ShareImage(const GridSize<Dimension>& from, double mass, const Point<Dimension>& image,
     std::int64_t* out, CostOfImage& costs) const
   {
@@ -129,7 +138,8 @@ private:
     }
   }
 
-  // With a mass shared among them by hats.
+  // The cells about an image and the mass that each gets by multilinear weights, as on nodes at the
+  // centres of cells. These keep the centroid.
   CellsAbout<Dimension> FindCells(
     const GridSize<Dimension>& from, double mass, const Point<Dimension>& image) const
   {
@@ -137,11 +147,13 @@ private:
     about.Mass[0] = mass;
     std::int64_t stride = 1;
     int count = 1;
+    // Beyond the outermost centres all mass goes to the outermost cells.
     for (int axis = 0; axis < Dimension; ++axis)
     {
       const double at = std::clamp(image[axis] - 0.5, 0.0, this->Last[axis]);
       const auto low = static_cast<std::int64_t>(at);
       const double high = at - static_cast<double>(low);
+      // At the last cell the higher one is the cell itself, with weight 0.
       const std::int64_t step = low + 1 < this->Shares.Size[axis] ? stride : 0;
       double squares[2];
       for (int i = 0; i < 2; ++i)
@@ -150,6 +162,8 @@ private:
         about.Ways[axis][i] = way;
         squares[i] = this->PartOfSquare[axis] * (way * way);
       }
+      // Splitting a mass between two centres at distances h and 1 - h costs h (1 - h) squared
+      // cells.
       about.Spread += this->SquareOfCell[axis] * high * (1.0 - high);
       for (int c = 0; c < count; ++c)
       {
@@ -166,7 +180,8 @@ private:
     return about;
   }
 
-  // Only cells with mass get some; if none has any, one of them gets all, from where it goes on.
+  // Only cells with mass may get some, in the same proportions. If none has any, one of them gets
+  // all, and PassRest moves it on.
   void KeepFromVoids(double mass, CellsAbout<Dimension>& about) const
   {
     bool isChanged = false;
@@ -180,6 +195,7 @@ private:
       }
       sum += about.Mass[c];
     }
+    // The weights no longer keep the centroid, so the estimate of the spread does not hold.
     about.Spread = isChanged ? 0.0 : about.Spread;
     if (isChanged && sum > 0.0)
     {
@@ -196,10 +212,10 @@ private:
   const CellDensity<Dimension>& Target;
   Progress& Work;
   CellShares<Dimension> Shares;
-  Point<Dimension> Last{};         // cell
-  Point<Dimension> Part{};         // of the whole grid that a cell is
-  Point<Dimension> SquareOfCell{}; // its side, in squared diagonals
-  Point<Dimension> PartOfSquare{}; // of the box's squared diagonal that its squared side is
+  Point<Dimension> Last{};         // the greatest place of a cell along each axis
+  Point<Dimension> Part{};         // a cell's side, as a part of the whole grid's
+  Point<Dimension> SquareOfCell{}; // a cell's squared side, in squared diagonals
+  Point<Dimension> PartOfSquare{}; // the box's squared side, in squared diagonals
 };
 
 } // namespace

@@ -21,7 +21,7 @@ template <int Dimension>
 struct CellShares
 {
   const std::int64_t* Got(std::int64_t cell) const { return this->Sums.data() + cell * this->Each; }
-  // What a cell got more than its share.
+  // How much mass a cell got beyond its share; negative if it lacks some.
   std::int64_t RestOf(std::int64_t cell, const CellDensity<Dimension>& target) const
   {
     return this->Got(cell)[0] - toInteger(target.Share(cell) * integerUnit);
@@ -32,13 +32,13 @@ struct CellShares
   }
 
   GridSize<Dimension> Size;
-  Point<Dimension> Sides{};     // of a cell
-  double SquaredDiagonal = 0.0; // of the box
+  Point<Dimension> Sides{};     // sides of a cell, in lengths
+  double SquaredDiagonal = 0.0; // squared diagonal of the box
   LargeBuffer<std::int64_t> Sums;
   int Each = 1; // sums a cell: the mass, with costs also its first moments, with ways from
                 // the source in parts of the whole grid
-  // In squared diagonals: of all ways, rounded up; and what of it is because parts of an image go
-  // to several cells.
+  // The cost of all ways, rounded up, and the part of it that arises as images are split between
+  // cells, both in squared diagonals over integerUnit.
   std::int64_t Cost = 0;
   std::int64_t CostOfSpread = 0;
 };

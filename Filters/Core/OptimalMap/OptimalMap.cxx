@@ -29,6 +29,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Throws std::invalid_argument unless the options are in their ranges.
 void check(const OptimalMapOptions& options)
 {
   if (!(options.Tolerance > 0.0 && options.Tolerance < 1.0))
@@ -64,6 +65,7 @@ void checkBox(const Point<Dimension>& low, const Point<Dimension>& high)
   }
 }
 
+// The point with the same coordinate along each axis.
 template <int Dimension>
 Point<Dimension> pointOf(double coordinate)
 {
@@ -77,7 +79,8 @@ Point<Dimension> pointOf(double coordinate)
 template <int Dimension>
 struct OptimalMap<Dimension>::Implementation
 {
-  // The densities in a box of these sides, in which they fill the parts.
+  // The densities in a box of these sides, of which each fills a part: its low and high corner, in
+  // fractions of the sides.
   Implementation(CellDensity<Dimension> source, CellDensity<Dimension> target,
     const Point<Dimension>& sides, const std::array<std::array<Point<Dimension>, 2>, 2>& parts,
     const OptimalMapOptions& options)
@@ -95,10 +98,12 @@ struct OptimalMap<Dimension>::Implementation
   {
     return std::max(this->Nodes(), 10.0 * static_cast<double>(points.size()));
   }
+  // A density with the place of its cells, as the solver wants it.
   BoxedDensity<Dimension> Boxed(std::size_t side) const
   {
     return { this->Densities[side], this->Parts[side][0], this->Parts[side][1] };
   }
+  // The sides of a density's cells, in the lengths of Sides.
   Point<Dimension> CellSides(std::size_t side) const
   {
     Point<Dimension> sides;
@@ -110,6 +115,7 @@ struct OptimalMap<Dimension>::Implementation
     }
     return sides;
   }
+  // Cells can be compared one by one only if both densities have the same cells in the whole box.
   bool HaveSameGrid() const
   {
     return this->Densities[0].Size() == this->Densities[1].Size() &&
@@ -117,8 +123,8 @@ struct OptimalMap<Dimension>::Implementation
       this->Parts[0][1] == pointOf<Dimension>(1.0);
   }
 
-  // The map from a side to the other one, made when it is first wanted. Not for what stands still:
-  // there is none if that is all.
+  // The map from a side to the other one, made when it is first wanted. Moving is absent if all
+  // mass stands still.
   struct Direction
   {
     std::optional<StillCells<Dimension>> Still;
@@ -126,6 +132,7 @@ struct OptimalMap<Dimension>::Implementation
   };
   const Direction& MapFrom(int side, Progress& progress)
   {
+    // Maps are made once, under the lock; several threads may ask for them.
     const std::lock_guard<std::mutex> lock(this->Mutex);
     Direction& map = this->Maps[static_cast<std::size_t>(side)];
     const auto to = static_cast<std::size_t>(1 - side);
@@ -140,7 +147,7 @@ struct OptimalMap<Dimension>::Implementation
     }
     return map;
   }
-  // The same without corrected masses.
+  // The map from a side to the other one without corrected masses: x - grad potential alone.
   const PointMap<Dimension>& PlainMapFrom(int side, Progress& progress)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
@@ -153,11 +160,14 @@ struct OptimalMap<Dimension>::Implementation
     }
     return *map;
   }
+  // Points between nodes are inverted by Newton's method, unless interpolation, which is faster, is
+  // asked for.
   PointImages Images() const
   {
     return this->Options.InterpolatePoints ? PointImages::Interpolated : PointImages::Inverted;
   }
 
+  // The map without corrected masses (CorrectMasses off), at all seeds.
   FlowReport MovePlainly(int side, const FlowSeeds<Dimension>& seeds,
     PointSpan<Dimension> positions, const Context& context);
   FlowReport Move(int side, const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions,
@@ -167,16 +177,17 @@ struct OptimalMap<Dimension>::Implementation
 
   const std::array<CellDensity<Dimension>, 2> Densities;
   const Point<Dimension> Sides;
-  const std::array<std::array<Point<Dimension>, 2>, 2> Parts; // low and high, as fractions
+  const std::array<std::array<Point<Dimension>, 2>, 2> Parts; // low and high, in fractions of Sides
   const OptimalMapOptions Options;
   PotentialSolver<Dimension> Solver;
   double Bound = 0.0;
   OptimalMapReport Info;
-  std::mutex Mutex; // of the maps
+  std::mutex Mutex; // guards Maps and Plain
   std::array<Direction, 2> Maps;
   std::array<std::optional<PointMap<Dimension>>, 2> Plain;
 };
 
+// From the uniform measure: the source is the constant density on the same cells.
 template <int Dimension>
 OptimalMap<Dimension>::OptimalMap(const DensitySource<Dimension>& density,
   const Point<Dimension>& sides, const OptimalMapOptions& options, const Context& context)
@@ -184,12 +195,14 @@ OptimalMap<Dimension>::OptimalMap(const DensitySource<Dimension>& density,
   check(options);
   checkBox<Dimension>(pointOf<Dimension>(0.0), sides);
   check<Dimension>(density.Size, "a density");
+  // Small densities take one thread, as waking others takes longer.
   Progress progress(contextForSize(context, numberOfCells<Dimension>(density.Size)));
   const std::array<Point<Dimension>, 2> whole{ pointOf<Dimension>(0.0), pointOf<Dimension>(1.0) };
   this->Self = std::make_unique<Implementation>(CellDensity<Dimension>(density.Size),
     CellDensity<Dimension>(density, progress), sides, std::array{ whole, whole }, options);
 }
 
+// Between two densities, each in its own box: the problem's box is the bounding box of both.
 template <int Dimension>
 OptimalMap<Dimension>::OptimalMap(const PlacedDensity<Dimension>& source,
   const PlacedDensity<Dimension>& target, const OptimalMapOptions& options, const Context& context)
@@ -211,6 +224,7 @@ OptimalMap<Dimension>::OptimalMap(const PlacedDensity<Dimension>& source,
     checkBox<Dimension>(density.Low, density.High);
     for (int axis = 0; axis < Dimension; ++axis)
     {
+      // Where each density lies in the common box, in fractions of its sides.
       parts[i][0][axis] = (density.Low[axis] - low[axis]) / sides[axis];
       parts[i][1][axis] = (density.High[axis] - low[axis]) / sides[axis];
     }
@@ -221,6 +235,8 @@ OptimalMap<Dimension>::OptimalMap(const PlacedDensity<Dimension>& source,
   Stages stages(progress, { { "source", 1 }, { "target", 1 } });
   CellDensity<Dimension> first(source.Source, stages["source"]);
   CellDensity<Dimension> second(target.Source, stages["target"]);
+  // Densities that agree up to rounding get the same shares in every bit, so that the map is
+  // exactly the identity.
   second.TakeIfSame(first, stages["target"]);
   this->Self =
     std::make_unique<Implementation>(std::move(first), std::move(second), sides, parts, options);
@@ -233,6 +249,8 @@ OptimalMap<Dimension>::OptimalMap(OptimalMap&&) noexcept = default;
 template <int Dimension>
 OptimalMap<Dimension>& OptimalMap<Dimension>::operator=(OptimalMap&&) noexcept = default;
 
+// Maximizes the dual (PotentialSolver.cxx). The bound on finer nodes takes two c-transforms, about
+// a tenth of the iterations' time.
 template <int Dimension>
 void OptimalMap<Dimension>::Solve(const Context& context)
 {
@@ -242,6 +260,8 @@ void OptimalMap<Dimension>::Solve(const Context& context)
   this->Self->Solver.Solve(stages["potentials"]);
   const double bound =
     refines ? this->Self->Solver.RefinedBound(stages["bound"]) : this->Self->Solver.Bound();
+  // A squared distance is at least 0; on nearly uniform densities the error of the nodes may exceed
+  // it.
   this->Self->Bound = std::max(0.0, bound);
   this->Self->Info.Iterations = this->Self->Solver.Iterations();
 }
@@ -260,6 +280,7 @@ double OptimalMap<Dimension>::MassError(const Context& context) const
     return 0.0;
   }
   Progress progress(contextForSize(context, this->Self->Nodes()));
+  // The correction measures its error when the map is made; a map that moves nothing has none.
   const auto& map = this->Self->MapFrom(0, progress);
   return map.Moving ? map.Moving->MassError() : 0.0;
 }
@@ -270,6 +291,8 @@ double OptimalMap<Dimension>::LowerBound() const
   return this->Self->Bound;
 }
 
+// Any coupling's cost is an upper bound, so the least of both directions is taken. The second one
+// is skipped if it cannot pay: what spreading images over cells alone costs is in both.
 template <int Dimension>
 double OptimalMap<Dimension>::UpperBound(const Context& context, double enough) const
 {
@@ -285,12 +308,14 @@ double OptimalMap<Dimension>::UpperBound(const Context& context, double enough) 
   for (int side = 0; side < 2 && goesOn; ++side)
   {
     Progress& part = sides[side];
+    // The images T(x_i) = x_i - grad phi(x_i) of the nodes.
     auto map = NodeMap<Dimension>::On(this->Self->Solver.Grid());
     writeGradientMap<Dimension>(this->Self->Solver.Side(side).Potential.data(), map, part);
     const auto from = static_cast<std::size_t>(side);
     const CouplingCost cost = couplingCost<Dimension>(
       this->Self->Densities[from], this->Self->Densities[1 - from], std::move(map), part);
     least = std::min(least, cost.All);
+    // All - OfSpread is the cost beyond what the cells' extent makes unavoidable.
     goesOn = cost.All - cost.OfSpread > enough;
   }
   return least;
@@ -327,6 +352,7 @@ const GridSize<Dimension>& OptimalMap<Dimension>::Size() const
   return this->Self->Densities[0].Size();
 }
 
+// T at each seed, from one density's index space to the other's, without a correction of masses.
 template <int Dimension>
 FlowReport OptimalMap<Dimension>::Implementation::MovePlainly(int side,
   const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions, const Context& context)
@@ -344,6 +370,8 @@ FlowReport OptimalMap<Dimension>::Implementation::MovePlainly(int side,
   return {};
 }
 
+// T at each seed with corrected masses. Samples of the source are then finished together, so that
+// each target cell gets its exact count, and what stands still keeps its place.
 template <int Dimension>
 FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds<Dimension>& seeds,
   PointSpan<Dimension> positions, const Context& context)
@@ -357,6 +385,7 @@ FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds
   const Direction& map = this->MapFrom(side, stages["map"]);
   const auto from = static_cast<std::size_t>(side);
   ParticleSource<Dimension> source(seeds, this->Densities[from].Size(), positions.size());
+  // Only samples have counts that can be exact: other seeds may lie anywhere and in any number.
   const bool areFinished = seeds.AreSamples() && map.Moving;
   // What stands still is finished with the others, and then returns.
   const bool returns = areFinished && !map.Still->AreNone();
@@ -365,6 +394,8 @@ FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds
   forParticles(source, steps["images"].Expect(source.Count()),
     [&](std::int64_t index, const Point<Dimension>& point) {
       Point<Dimension> image = point;
+      // Finishing counts all samples, so those that stand still take part with their images under
+      // the map.
       if (areFinished || !map.Still->Keep(image.data()))
       {
         image = map.Moving->At(point.data());
@@ -385,6 +416,8 @@ FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds
   return {};
 }
 
+// The inverse of the corrected map, target to source: the correction is undone first, T_c = C o T,
+// so x = T^-1(C^-1(y)).
 template <int Dimension>
 FlowReport OptimalMap<Dimension>::Implementation::Undo(
   const FlowSeeds<Dimension>& points, PointSpan<Dimension> positions, const Context& context)
@@ -399,6 +432,7 @@ FlowReport OptimalMap<Dimension>::Implementation::Undo(
       Point<Dimension> image = point;
       if (!map.Still->KeepBack(image.data()))
       {
+        // `back` is the gradient map of the target's potential, the inverse of the plain map.
         image = back.At(map.Moving->Uncorrected(point.data()).data());
       }
       std::copy(image.begin(), image.end(), positions[index]);
@@ -417,14 +451,19 @@ template <int Dimension>
 FlowReport OptimalMap<Dimension>::Backward(
   const FlowSeeds<Dimension>& points, PointSpan<Dimension> positions, const Context& context) const
 {
+  // With interpolation the inverse of Forward itself is at hand; else the map from the target's
+  // side is inverted for each point and has corrected masses of its own.
   return this->Self->Options.InterpolatePoints ? this->Self->Undo(points, positions, context)
                                                : this->Self->Move(1, points, positions, context);
 }
 
+// Displacement interpolation: at time t a particle is at (1 - t) x + t T(x). Seeds are converted
+// from the source's index space to the target's, in which positions are given.
 template <int Dimension>
 FlowReport OptimalMap<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds,
   const std::vector<double>& times, PointSpan<Dimension> positions, const Context& context) const
 {
+  // The placements are affine maps between each index space and cells of the nodes.
   const auto& target = this->Self->Solver.Side(1).Placement;
   const auto& from = this->Self->Solver.Side(0).Placement;
   return moveOnStraightPaths<Dimension>(
@@ -433,6 +472,7 @@ FlowReport OptimalMap<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds,
     });
 }
 
+// The target cell that holds each seed's image, numbered with axis 0 fastest.
 template <int Dimension>
 FlowReport OptimalMap<Dimension>::ForwardToCells(
   const FlowSeeds<Dimension>& seeds, std::int64_t* cells, const Context& context) const

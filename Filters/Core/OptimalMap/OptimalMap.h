@@ -69,7 +69,7 @@ template <int Dimension>
 struct PlacedDensity
 {
   DensitySource<Dimension> Source;
-  Point<Dimension> Low; // of its own box, in lengths
+  Point<Dimension> Low; // low corner of its own box, in lengths
   Point<Dimension> High;
 };
 
@@ -110,9 +110,9 @@ public:
   // costs that images lie between cells. Densities must have the same size and box.
   // Throws std::invalid_argument.
   double UpperBound(const Context& context = Context(), double enough = 0.0) const;
-  // Of pairs of points and images: how much more they cost, halved, than the bound allows for where
-  // they are. At least 0. Twice the mean over a map's pairs is its cost less LowerBound, but for
-  // the error of the nodes.
+  // The slack of pairs of points and images: how much more they cost, halved, than the bound allows
+  // for where they are. At least 0. Twice the mean over a map's pairs is its cost less LowerBound,
+  // but for the error of the nodes.
   void Slack(ConstPointSpan<Dimension> points, ConstPointSpan<Dimension> images, double* slack,
     const Context& context = Context()) const;
   // At the nodes, of which there are NodeCells() + 1 along each axis, axis 0 fastest: x - grad of
@@ -124,10 +124,10 @@ public:
   // one direction and this use of it.
   static double MemoryFor(const GridSize<Dimension>& source, const GridSize<Dimension>& target,
     const OptimalMapOptions& options = {}, const OptimalMapUse& use = {});
-  // Of these, those that samples take beyond what a map has, while Forward moves them.
+  // The part of these bytes that samples take beyond what a map has, while Forward moves them.
   static double MemoryForSamples(const GridSize<Dimension>& target, const OptimalMapUse& use);
 
-  // Of the source.
+  // The size of the source.
   const GridSize<Dimension>& Size() const override;
   // Nothing here takes steps: reports have 0 of them. Seeds that are samples (FlowSeeds::AsSamples)
   // are moved together, so that boxes of cells get their shares of them, and parts of cells nearly

@@ -14,11 +14,13 @@
 namespace RectifiedTransport
 {
 
+// The most of three moments counts: solving, making a map, and using it.
 template <int Dimension>
 double OptimalMap<Dimension>::MemoryFor(const GridSize<Dimension>& source,
   const GridSize<Dimension>& target, const OptimalMapOptions& options, const OptimalMapUse& use)
 {
   constexpr double real = sizeof(double);
+  // Eight threads stand for any number: their arrays of sums are limited anyway (mostArraysOfSums).
   constexpr int threads = 8;
   std::vector<Point<Dimension>> cellSides;
   for (const GridSize<Dimension>& size : { source, target })
@@ -50,7 +52,7 @@ double OptimalMap<Dimension>::MemoryFor(const GridSize<Dimension>& source,
     use.UpperBound ? nodes * real * Dimension + memoryForCoupling<Dimension>(target, grid) : 0.0;
   const double after = kept + std::max(MemoryForSamples(target, use), coupling);
   // Work on lines of nodes holds some, on a line for each thread that has one.
-  constexpr double ofLine = 400.0; // bytes a node
+  constexpr double ofLine = 400.0; // bytes a node of a line
   const double lines = ofLine * (Dimension == 1 ? 1 : threads) *
     static_cast<double>(*std::max_element(grid.Cells.begin(), grid.Cells.end()));
   return densities + lines +
@@ -61,7 +63,8 @@ template <int Dimension>
 double OptimalMap<Dimension>::MemoryForSamples(
   const GridSize<Dimension>& target, const OptimalMapUse& use)
 {
-  constexpr double starts = Dimension * sizeof(double); // of each, where some stand still
+  constexpr double starts =
+    Dimension * sizeof(double); // the samples' starts, kept where some stand still
   return use.Samples > 0.0
     ? starts * use.Samples + memoryForFinishing<Dimension>(target, use.Samples, use.OnSeveralRanks)
     : 0.0;

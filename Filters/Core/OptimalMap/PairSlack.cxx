@@ -10,6 +10,8 @@
 namespace RectifiedTransport
 {
 
+// The constraint of the dual is phi(x) + psi(y) <= |x - y|^2 / 2, with equality on the support of
+// an optimal plan (complementary slackness).
 template <int Dimension>
 void findSlack(const PotentialSolver<Dimension>& solver, ConstPointSpan<Dimension> points,
   ConstPointSpan<Dimension> images, double* slack, Progress& progress)
@@ -26,7 +28,8 @@ void findSlack(const PotentialSolver<Dimension>& solver, ConstPointSpan<Dimensio
       for (int axis = 0; axis < Dimension; ++axis)
       {
         place[axis] = std::clamp(place[axis], 0.0, static_cast<double>(grid.Cells[axis]));
-        // What is interpolated is the convex |x|^2 / 2 - potential.
+        // The convex u = |x|^2 / 2 - phi is what is interpolated, so that the slack is never
+        // negative. The interpolant of |x|^2 / 2 exceeds it by h^2 r (1 - r) / 2 along each axis.
         const double h = grid.Spacing[axis];
         const double part = place[axis] - std::floor(place[axis]);
         sum += 0.5 * h * h * part * (1.0 - part);
@@ -39,6 +42,7 @@ void findSlack(const PotentialSolver<Dimension>& solver, ConstPointSpan<Dimensio
       const double way = grid.Spacing[axis] * (places[1][axis] - places[0][axis]);
       sum += 0.5 * way * way;
     }
+    // Rounding alone could make it negative.
     slack[i] = std::max(0.0, sum);
   });
 }

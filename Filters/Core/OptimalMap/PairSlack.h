@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much more pairs of points cost than the bound of a solver's potentials allows for.
+// The slack of pairs of points in the constraint of the dual.
 #ifndef RectifiedTransport_PairSlack_h
 #define RectifiedTransport_PairSlack_h
 
@@ -10,8 +10,9 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Of points in the index space of the source and images in that of the target, as many as points:
-// |x - y|^2 / 2 less both potentials, which are interpolated. At least 0. Throws Cancelled.
+// slack = |x - y|^2 / 2 - phi(x) - psi(y) for each pair of a point x, in the index space of the
+// source, and an image y, in that of the target, as many as points. Potentials are interpolated
+// multilinearly. It is at least 0, and 0 for pairs of an optimal plan. Throws Cancelled.
 template <int Dimension>
 void findSlack(const PotentialSolver<Dimension>& solver, ConstPointSpan<Dimension> points,
   ConstPointSpan<Dimension> images, double* slack, Progress& progress);

@@ -16,6 +16,8 @@ namespace RectifiedTransport
 namespace
 {
 
+// Completes a coupling: moves what cells got beyond their shares to cells that lack mass, and keeps
+// the sum of what all that costs.
 template <int Dimension>
 class Passing
 {
@@ -28,6 +30,8 @@ public:
   {
   }
 
+  // Greedy: excess first goes to the nearest cells that lack mass; what is left meets along a curve
+  // that keeps neighbours together.
   double Cost()
   {
     this->FindRest();
@@ -37,7 +41,8 @@ public:
   }
 
 private:
-  // What each cell got more than its share.
+  // How much mass each cell got beyond its share, in parts of integerUnit; negative where it lacks
+  // some.
   void FindRest()
   {
     this->Rest = LargeBuffer<std::int64_t>(this->Target.NumberOfCells());
@@ -47,7 +52,7 @@ private:
     this->Sum.Add(static_cast<double>(this->Shares.Cost));
   }
 
-  // visit(cell) of all cells, in order.
+  // Calls visit(cell) for all cells, in order.
   template <class Visit>
   void ForCells(const Visit& visit)
   {
@@ -55,13 +60,14 @@ private:
     this->Work.ForEachInOrder(this->Target.NumberOfCells(), grain, visit);
   }
 
+  // Which part of all that a cell got a mass is.
   double PartOf(std::int64_t mass, std::int64_t cell) const
   {
     return static_cast<double>(mass) / static_cast<double>(this->Shares.Got(cell)[0]);
   }
 
-  // From a cell that got too much to one that got too little. The mixture of what the cell got
-  // goes on.
+  // Passes mass from a cell that got too much to one that lacks some. What goes on is a mixture of
+  // all that the cell got, in the same proportions.
   void Pass(std::int64_t from, std::int64_t to)
   {
     const GridSize<Dimension> begin = this->Shares.PlaceOf(from);
@@ -69,7 +75,7 @@ private:
     std::transform(way.begin(), way.end(), begin.begin(), way.begin(), std::minus<>());
     this->Pass(from, to, way, 1.0);
   }
-  // The way times `sign` leads there.
+  // The same, where the displacement from `from` to `to` is `cells` times `sign`.
   void Pass(std::int64_t from, std::int64_t to, const GridSize<Dimension>& cells, double sign)
   {
     std::int64_t* rest = this->Rest.data();
@@ -78,20 +84,25 @@ private:
     rest[to] += mass;
     const std::int64_t* got = this->Shares.Got(from);
     const double share = this->PartOf(mass, from);
+    // A mass m that came by w and goes on by d has moved by w + d, which costs m (|w + d|^2 -
+    // |w|^2) = 2 d . (m w) + m |d|^2 more. The first moment m w is what the cell got, in
+    // proportion.
     double cost = 0.0;
     for (int axis = 0; axis < Dimension; ++axis)
     {
       const double scale =
         this->Shares.Sides[axis] * this->Shares.Sides[axis] / this->Shares.SquaredDiagonal;
       const double way = sign * static_cast<double>(cells[axis]);
-      const double before = share * static_cast<double>(got[1 + axis]) *
+      const double before = share *
+        static_cast<double>(got[1 + axis]) *          // the first moment, in cells
         static_cast<double>(this->Shares.Size[axis]); // in cells
       cost += scale * way * (2.0 * before + way * static_cast<double>(mass));
     }
     this->Sum.Add(cost);
   }
 
-  // The nearest ones first.
+  // Passes mass to neighbours within reach, the nearest ones first. Pairs nearer than that are the
+  // most; farther ones are left to the curve, as the number of offsets grows with reach^Dimension.
   void PassToNeighbours()
   {
     constexpr int reach = Dimension == 3 ? 2 : 5; // cells
@@ -104,7 +115,7 @@ private:
     about.Low.fill(-reach);
     about.Cells.fill(2 * reach + 1);
     std::vector<Offset> offsets;
-    // One of two opposite ones.
+    // One of each two opposite offsets: PassEach looks both ways.
     for (std::int64_t i = about.Count() / 2 + 1; i < about.Count(); ++i)
     {
       Offset offset{ 0.0, about.CellOf(i) };
@@ -128,6 +139,7 @@ private:
       this->PassBy(offset.Cells);
     }
   }
+  // Passes mass between all cells and their neighbours at one offset.
   void PassBy(const GridSize<Dimension>& way)
   {
     const auto whole = LatticePart<Dimension>::WholeOf(this->Shares.Size);
@@ -136,7 +148,7 @@ private:
     {
       reached.Low[axis] = -way[axis];
     }
-    reached = reached.And(whole); // cells that have another one there
+    reached = reached.And(whole); // the cells whose neighbour is in the grid
     const std::int64_t row = reached.Cells[0];
     const std::int64_t step = whole.NumberOf(way);
     for (std::int64_t i = 0; !reached.IsEmpty() && i < reached.Count(); i += row)
@@ -146,14 +158,17 @@ private:
       this->Work.Add(this->Shares.Size[0]);
     }
   }
+  // Passes mass between cells [first, last) of a row and those `step` farther on.
   void PassInRow(
     std::int64_t first, std::int64_t last, std::int64_t step, const GridSize<Dimension>& way)
   {
+    // Few pairs have one cell with too much and one with too little. Eight pairs at a time are
+    // tested for it by the signs' exclusive or, which the compiler turns into vectors.
     constexpr std::int64_t together = 8;
     const std::int64_t* rest = this->Rest.data();
     for (; first + together <= last; first += together)
     {
-      std::int64_t signs = 0; // Few pairs have two of them: they are looked for by vectors.
+      std::int64_t signs = 0; // The sign bit is set if any pair's signs differ.
       for (std::int64_t i = 0; i < together; ++i)
       {
         signs |= rest[first + i] ^ rest[first + i + step];
@@ -166,6 +181,7 @@ private:
     this->PassEach(first, last, step, way);
   }
 
+  // Passes mass in the pairs whose signs differ.
   void PassEach(
     std::int64_t first, std::int64_t last, std::int64_t step, const GridSize<Dimension>& way)
   {
@@ -184,7 +200,9 @@ private:
     }
   }
 
-  // What is left meets along Morton's curve, as brackets do.
+  // Matches what is left along Morton's curve with a stack, as brackets match: a cell that lacks
+  // mass takes it from the nearest open one before it, and the other way round. Each cell enters
+  // the stack once, so that the time is linear.
   void PassAlongCurve()
   {
     struct Ordered
@@ -200,7 +218,7 @@ private:
       }
     });
     sortByKey(order, this->Work);
-    std::vector<std::int64_t> open; // all with too much or all with too little
+    std::vector<std::int64_t> open; // all with too much, or all with too little
     for (const Ordered& next : order)
     {
       std::int64_t& rest = this->Rest.data()[next.Cell];
@@ -221,9 +239,10 @@ private:
     }
   }
 
+  // Interleaves the bits of a cell's coordinates, axis 0 in the lowest ones.
   std::uint64_t MortonCode(std::int64_t cell) const
   {
-    constexpr int bits = Dimension == 3 ? 21 : 31; // of each coordinate
+    constexpr int bits = Dimension == 3 ? 21 : 31; // bits a coordinate: 3 * 21 = 63 fit the code
     std::uint64_t code = 0;
     const GridSize<Dimension> place = this->Shares.PlaceOf(cell);
     for (int axis = 0; axis < Dimension; ++axis)
@@ -238,9 +257,11 @@ private:
     return code;
   }
 
+  // The cost of the completed coupling, in squared lengths; never less than the true one.
   double TotalCost()
   {
-    // What rounding left may have to cross the whole box.
+    // Sums of rounded shares need not agree. What cannot be passed on counts as if it had to cross
+    // the whole box, whose squared diagonal is 1 here.
     this->ForCells([this](std::int64_t cell) {
       if (this->Rest.data()[cell] != 0)
       {
@@ -254,7 +275,7 @@ private:
   const CellDensity<Dimension>& Target;
   Progress& Work;
   LargeBuffer<std::int64_t> Rest;
-  ExactSum Sum; // of the cost, in integerUnit squared diagonals
+  ExactSum Sum; // the cost, in squared diagonals over integerUnit
 };
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The end of a coupling of cells: what some got beyond their shares goes on to others.
+// The last step of a coupling of cells: what some got beyond their shares goes on to others.
 #ifndef RectifiedTransport_PassRest_h
 #define RectifiedTransport_PassRest_h
 
@@ -10,7 +10,8 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Passes it to the nearest cells that got too little, then along a space-filling curve. Returns the
+// Passes excess to the nearest cells that got too little, then along a space-filling curve. Returns
+// the
 // cost of the coupling, in which what rounding left counts as if it had to cross the whole box.
 // Throws std::bad_alloc and Cancelled.
 template <int Dimension>

@@ -18,6 +18,7 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 
+// T(x_i) = x_i - grad potential(x_i) at each node, in cells of the nodes.
 template <int Dimension>
 NodeMap<Dimension> gradientMap(
   const NodeGrid<Dimension>& grid, const double* potential, Progress& progress)
@@ -27,14 +28,15 @@ NodeMap<Dimension> gradientMap(
   return map;
 }
 
-// Matrix^-1 right; false where the matrix is singular.
+// solution = matrix^-1 right, for one Newton step; false where the matrix is singular.
 template <int Dimension>
 bool solve(const std::array<Point<Dimension>, Dimension>& matrix, const Point<Dimension>& right,
   Point<Dimension>& solution)
 {
   using Square = Eigen::Matrix<double, Dimension, Dimension, Eigen::DontAlign>;
   using Column = Eigen::Matrix<double, Dimension, 1, Eigen::DontAlign>;
-  constexpr double raise = 1e-9; // of the diagonal
+  constexpr double raise =
+    1e-9; // added to the diagonal, small beside the derivatives of a map, which are about 1
   Square square;
   for (int row = 0; row < Dimension; ++row)
   {
@@ -49,7 +51,9 @@ bool solve(const std::array<Point<Dimension>, Dimension>& matrix, const Point<Di
   return found.allFinite();
 }
 
-// The multilinear interpolant of values at a cell's corners, and its derivatives.
+// The multilinear interpolant of values at a cell's corners, at a place in [0, 1]^Dimension, and
+// its derivatives along the axes. Corner numbers have axis 0 in their lowest bit; each axis in turn
+// halves the values and the differences of the axes before it.
 template <int Dimension>
 double interpolate(std::array<double, std::size_t{ 1 } << Dimension> values,
   const Point<Dimension>& place, Point<Dimension>& slopes)
@@ -76,6 +80,7 @@ double interpolate(std::array<double, std::size_t{ 1 } << Dimension> values,
   return values[0];
 }
 
+// Clamps a point of the nodes' index space to the box.
 template <int Dimension>
 Point<Dimension> clampedTo(const Point<Dimension>& point, const GridSize<Dimension>& cells)
 {
@@ -102,6 +107,9 @@ PointMap<Dimension>::PointMap(const PotentialSolver<Dimension>& solver, int from
   , Potential(solver.Side(1 - from).Potential.data())
 {
   const SolverSide<Dimension>& other = solver.Side(1 - from);
+  // Back is the gradient map of the other potential, T^-1 up to the error of the nodes. Newton's
+  // method needs its derivatives; interpolation needs no inverse and smooths the stairs of T
+  // instead.
   if (images == PointImages::Inverted)
   {
     this->Back = gradientMap(solver.Grid(), other.Potential.data(), progress);
@@ -110,6 +118,8 @@ PointMap<Dimension>::PointMap(const PotentialSolver<Dimension>& solver, int from
   {
     smoothMap(this->There, progress);
   }
+  // A node whose hat has no mass is as good as a void: an image there would be outside of the
+  // target.
   const double* hats = other.Hats.data();
   const std::int64_t nodes = other.Hats.size();
   bool hasVoids = target.HasVoids();
@@ -117,6 +127,8 @@ PointMap<Dimension>::PointMap(const PotentialSolver<Dimension>& solver, int from
   {
     hasVoids = hats[i] == 0.0;
   }
+  // In a void of the target x - grad phi may be anything. The restricted c-transform, argmin over
+  // nodes with mass of |x - y|^2 / 2 - psi(y), is where the optimal plan sends x.
   if (hasVoids)
   {
     NodeValues restricted(nodes);
@@ -130,6 +142,8 @@ PointMap<Dimension>::PointMap(const PotentialSolver<Dimension>& solver, int from
   }
 }
 
+// Whether an image, in cells of the nodes, lies in a target cell with mass. Without voids this is
+// true everywhere.
 template <int Dimension>
 bool PointMap<Dimension>::HasMass(const Point<Dimension>& image) const
 {
@@ -148,6 +162,7 @@ bool PointMap<Dimension>::HasMass(const Point<Dimension>& image) const
   return this->Target.HasMass(point.data());
 }
 
+// From the source's index space to the target's.
 template <int Dimension>
 Point<Dimension> PointMap<Dimension>::At(const double* point) const
 {
@@ -155,6 +170,8 @@ Point<Dimension> PointMap<Dimension>::At(const double* point) const
     clampedTo<Dimension>(this->SourcePlacement.ToNodes(point), this->There.Grid.Cells));
 }
 
+// T at a place in cells of the nodes: the interpolated gradient map, moved out of voids, then
+// improved.
 template <int Dimension>
 Point<Dimension> PointMap<Dimension>::AtPlace(const Point<Dimension>& place) const
 {
@@ -170,6 +187,8 @@ Point<Dimension> PointMap<Dimension>::AtPlace(const Point<Dimension>& place) con
   return this->ToTarget(image);
 }
 
+// A sample whose interpolated image is known already needs AtPlace only if that image is in a void,
+// or if images are inverted.
 template <int Dimension>
 Point<Dimension> PointMap<Dimension>::AtSample(
   const CellSample<Dimension>& sample, const Point<Dimension>& image) const
@@ -179,25 +198,29 @@ Point<Dimension> PointMap<Dimension>::AtSample(
     : this->AtPlace(sample.Place(this->There.Grid.Cells));
 }
 
+// To the target's index space, clamped to its box, and moved into the nearest cell with mass.
 template <int Dimension>
 Point<Dimension> PointMap<Dimension>::ToTarget(const Point<Dimension>& image) const
 {
   Point<Dimension> point = this->TargetPlacement.FromNodes(image.data());
   point = clampedTo<Dimension>(point, this->Target.Size());
-  if (!this->Target.HasMass(point.data())) // cells that nodes do not resolve
+  if (!this->Target.HasMass(point.data())) // nodes do not resolve such cells
   {
     this->Target.MoveToMass(point.data(), this->CellSides);
   }
   return point;
 }
 
-// In a cell with mass at the node that the potentials say is best for one of the corners about a
-// place, where in the cell the place is in its own, so that neighbours stay apart.
+// The image of a place whose gradient map ends in a void. Each corner about the place has its node
+// y of least cost |x - y|^2 / 2 - psi(y) among those with mass; the best of these wins. The image
+// lies in a cell with mass at that node, where in the cell the place is in its own, so that
+// neighbours stay apart.
 template <int Dimension>
 Point<Dimension> PointMap<Dimension>::LeastCost(
   const Point<Dimension>& place, const Point<Dimension>& image) const
 {
-  constexpr double inside = 0.02; // of a cell: at least so far from its sides
+  constexpr double inside =
+    0.02; // in parts of a cell: the least distance from its sides, so that rounding cannot leave it
   const NodeGrid<Dimension>& grid = this->There.Grid;
   const CellPlace<Dimension> at(place.data(), grid.Cells);
   Point<Dimension> best = image;
@@ -210,6 +233,7 @@ Point<Dimension> PointMap<Dimension>::LeastCost(
       node = node * (grid.Cells[axis] + 1) + at.Cell[axis] + ((corner >> axis) & 1);
     }
     std::int64_t rest = this->Minimizers.data()[node];
+    // |x - y|^2 / 2 - psi(y) for this node y, in squared lengths.
     double cost = -this->Potential[rest];
     Point<Dimension> to;
     for (int axis = 0; axis < Dimension; ++axis)
@@ -223,7 +247,7 @@ Point<Dimension> PointMap<Dimension>::LeastCost(
     {
       continue;
     }
-    for (int side = 0; side < (1 << Dimension); ++side) // of the cells about the node
+    for (int side = 0; side < (1 << Dimension); ++side) // the cells that meet at the node
     {
       Point<Dimension> in;
       bool isInBox = true;
@@ -243,14 +267,18 @@ Point<Dimension> PointMap<Dimension>::LeastCost(
   return best;
 }
 
-// Newton's method for the image that the inverse map takes to the place: steps that come nearer and
-// stay on mass.
+// Newton's method for the image y that the inverse map takes to the place: F(y) = y - grad psi(y) -
+// x = 0. A step is damped until the residual |F| falls and y stays on mass; without such a step the
+// image stays.
 template <int Dimension>
 void PointMap<Dimension>::Improve(const Point<Dimension>& place, Point<Dimension>& image) const
 {
+  // Newton's method converges quadratically where it converges; elsewhere 8 steps bound the time.
   constexpr int mostSteps = 8;
-  constexpr double close = 1e-6; // of a cell
+  constexpr double close = 1e-6; // in cells: far below the error of the nodes
+  // Damping by 1, 1/2 and 1/4: shorter steps gain too little to be worth an evaluation.
   constexpr double leastDamping = 0.2;
+  // A step must make the residual at least a tenth smaller.
   constexpr double nearer = 0.9;
   Inverse now = this->InverseAt(image, place);
   for (int step = 0; step < mostSteps && now.Size > close; ++step)
@@ -287,11 +315,14 @@ void PointMap<Dimension>::Improve(const Point<Dimension>& place, Point<Dimension
   }
 }
 
+// The residual F = y - grad psi(y) - x in cells of the nodes, and its Jacobian, both from the
+// multilinear interpolant of the inverse map at the nodes.
 template <int Dimension>
 typename PointMap<Dimension>::Inverse PointMap<Dimension>::InverseAt(
   const Point<Dimension>& image, const Point<Dimension>& place) const
 {
   constexpr std::size_t corners = std::size_t{ 1 } << Dimension;
+  // The corners of the cell that holds the image: within it the interpolant is smooth.
   const CellPlace<Dimension> at(image.data(), this->Back.Grid.Cells);
   std::array<std::int64_t, corners> nodes{};
   for (std::size_t corner = 0; corner < corners; ++corner)

@@ -15,14 +15,14 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Of points between nodes.
+// How the images of points between nodes are found.
 enum class PointImages
 {
   Inverted,    // by Newton's method on the map from the other side
   Interpolated // in a fraction of the time
 };
 
-// From one side of a solver to the other.
+// The map T(x) = x - grad phi(x) from one side of a solver to the other.
 template <int Dimension>
 class PointMap
 {
@@ -32,23 +32,24 @@ public:
   PointMap(const PotentialSolver<Dimension>& solver, int from, const CellDensity<Dimension>& target,
     const Point<Dimension>& sides, PointImages images, Progress& progress);
 
-  // In cells of the nodes.
+  // The images of the nodes, in cells of the nodes.
   const NodeMap<Dimension>& AtNodes() const { return this->There; }
   // From the index space of the one density to that of the other.
   Point<Dimension> At(const double* point) const;
   // The same from cells of the nodes.
   Point<Dimension> AtPlace(const Point<Dimension>& place) const;
-  // The same of a part of a cell, with what AtNodes interpolates there.
+  // The image of a part of a cell; `image` is what AtNodes interpolates there.
   Point<Dimension> AtSample(
     const CellSample<Dimension>& sample, const Point<Dimension>& image) const;
 
 private:
+  // Newton's method on F(y) = inverse map of y - x: the residual F, dF/dy, and |F|, all in cells.
   using Matrix = std::array<Point<Dimension>, Dimension>;
   struct Inverse
   {
     Point<Dimension> Residual;
     Matrix Jacobian;
-    double Size; // of the residual
+    double Size; // |Residual|
   };
 
   bool HasMass(const Point<Dimension>& image) const;

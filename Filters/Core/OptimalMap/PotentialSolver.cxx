@@ -21,11 +21,16 @@ namespace RectifiedTransport
 namespace
 {
 
+// Chunks of loops: 8192 nodes, which are 64 KiB of doubles and fit a core's cache.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-constexpr int coarseIterations = 3; // on all but the finest nodes
+// A coarse level only serves as the start of the next finer one, so few iterations suffice there.
+constexpr int coarseIterations = 3;
+// The weighted equation is solved by so many steps of preconditioned conjugate gradients. Its
+// weight is max(weightFloor, density), with densities of mean 1: smaller floors give a lower bound.
 constexpr int weightedIterations = 4;
 constexpr double weightFloor = 1.0;
 
+// |sides|^2, the largest cost 2 c(x, y) = |x - y|^2 in the box.
 template <int Dimension>
 double squaredDiagonal(const Point<Dimension>& sides)
 {
@@ -54,6 +59,7 @@ void checkSides(const Point<Dimension>& sides)
   }
 }
 
+// Whether the density's cells cover the whole box, [0, 1] along each axis.
 template <int Dimension>
 bool fillsBox(const BoxedDensity<Dimension>& density)
 {
@@ -65,18 +71,23 @@ bool fillsBox(const BoxedDensity<Dimension>& density)
   return fills;
 }
 
+// Whether the density is the uniform measure on the box. Its map to nodes is known, so its cells
+// need no memory.
 template <int Dimension>
 bool isUniformInBox(const BoxedDensity<Dimension>& density)
 {
   return density.Density.IsUniform() && fillsBox(density);
 }
 
+// Without voids the gradient of the potential is a map that mass determines everywhere. The
+// weighted equation raises the bound for such pairs only.
 template <int Dimension>
 bool hasMassEverywhere(const BoxedDensity<Dimension>& density)
 {
   return !density.Density.HasVoids() && fillsBox(density);
 }
 
+// The lattice of (cells + 1)^Dimension nodes over the box [0, lengths].
 template <int Dimension>
 NodeGrid<Dimension> gridOf(const GridSize<Dimension>& cells, const Point<Dimension>& lengths)
 {
@@ -88,6 +99,8 @@ NodeGrid<Dimension> gridOf(const GridSize<Dimension>& cells, const Point<Dimensi
   return grid;
 }
 
+// The affine map from the density's index space to cells of the nodes: Low is where cell 0 begins,
+// Sides are the sides of a cell.
 template <int Dimension>
 CellPlacement<Dimension> placementOn(
   const BoxedDensity<Dimension>& density, const GridSize<Dimension>& nodeCells)
@@ -103,7 +116,8 @@ CellPlacement<Dimension> placementOn(
   return placement;
 }
 
-// By a fixed number of partial sums, which the compiler may keep in any width of registers.
+// sum_i a_i b_i, by a fixed number of partial sums, which the compiler may keep in any width of
+// registers. So the bits do not depend on the instruction set.
 double sumOfProducts(const double* a, const double* b, std::int64_t count)
 {
   constexpr std::int64_t lanes = 8;
@@ -120,6 +134,8 @@ double sumOfProducts(const double* a, const double* b, std::int64_t count)
   return std::inner_product(a + i, a + count, b + i, sum);
 }
 
+// The same by chunks, whose sums are added in their order: the bits do not depend on the number of
+// threads.
 double sumOfProducts(const double* a, const double* b, std::int64_t count, Progress& progress)
 {
   return reduceChunks(
@@ -130,7 +146,9 @@ double sumOfProducts(const double* a, const double* b, std::int64_t count, Progr
     [](double all, double part) { return all + part; });
 }
 
-// In so many units of the nodes, about.
+// An estimate of an iteration's work for the progress, in values of nodes. Both half-steps map,
+// push forward and solve; a solution transforms each axis forwards and back; a conjugation is a
+// cost transform along each axis.
 template <int Dimension>
 std::int64_t unitsOfIteration(std::int64_t nodes, bool isWeighted)
 {
@@ -140,6 +158,8 @@ std::int64_t unitsOfIteration(std::int64_t nodes, bool isWeighted)
 
 } // namespace
 
+// What an iteration needs on nodes: the map and the push-forward, the residual, the ascent
+// direction P, and both potentials after a trial step.
 template <int Dimension>
 struct PotentialSolver<Dimension>::Scratch
 {
@@ -163,6 +183,8 @@ struct PotentialSolver<Dimension>::Scratch
   NodeValues NewOther;
 };
 
+// Rounding is what the sums of the dual may be wrong by: squared lengths in the box are at most the
+// squared diagonal, and 1e-13 of it is more than the errors of summing them.
 template <int Dimension>
 PotentialSolver<Dimension>::PotentialSolver(const BoxedDensity<Dimension>& source,
   const BoxedDensity<Dimension>& target, const Point<Dimension>& sides,
@@ -181,9 +203,10 @@ PotentialSolver<Dimension>::PotentialSolver(const BoxedDensity<Dimension>& sourc
 template <int Dimension>
 double PotentialSolver<Dimension>::BytesANode(int threads)
 {
+  // Doubles a node: 6 for potentials, hats and cells of both sides; Dimension for the map and 4 for
+  // residual, direction and trial potentials; the sums' arrays; 6 for the weighted equation.
   constexpr double real = sizeof(double);
   const int arrays = std::min(threads, mostArraysOfSums);
-  // Potentials, hats and cells of two sides, the scratch, and that of the weighted equation.
   return real * (6.0 + Dimension + 4.0 + arrays + 6.0);
 }
 
@@ -197,11 +220,15 @@ double PotentialSolver<Dimension>::MemoryForRefined(
   {
     count *= 2;
   }
+  // No refined bound is made on more nodes than the most.
   return numberOfCells<Dimension>(finer) > mostNodes
     ? 0.0
     : arrays * sizeof(double) * numberOfCorners<Dimension>(finer);
 }
 
+// Nested iteration: the finest nodes resolve the finer of both densities' cells, up to MostNodes,
+// and each coarser level has about half the cells along each axis. A cold start on fine nodes
+// stalls where much of the box is empty.
 template <int Dimension>
 void PotentialSolver<Dimension>::Solve(Progress& progress)
 {
@@ -222,12 +249,14 @@ void PotentialSolver<Dimension>::Solve(Progress& progress)
   const auto levels =
     nodeLevels<Dimension>(finestNodeCells<Dimension>(cellSides, this->Options.MostNodes));
   std::vector<double> costs;
+  // A level costs its cells times its iterations, and about one more iteration to begin.
   for (std::size_t level = 0; level < levels.size(); ++level)
   {
     const int iterations =
       level + 1 == levels.size() ? std::max(1, this->Options.LeastIterations) : coarseIterations;
     costs.push_back(numberOfCells<Dimension>(levels[level]) * (iterations + 1));
   }
+  // Measured shares of the time, in percent.
   Stages stages(progress, { { "cells", 3 }, { "potentials", 97 } });
   this->MakeCells(levels, stages["cells"]);
   NodeValues potential;
@@ -251,7 +280,8 @@ void PotentialSolver<Dimension>::Solve(Progress& progress)
   }
 }
 
-// The masses of cells on all levels, each from those on the next finer one.
+// Fills LevelCells: the mass of each cell between nodes, on all levels. The finest ones overlap the
+// density's own cells, the others sum those of the next finer level.
 template <int Dimension>
 void PotentialSolver<Dimension>::MakeCells(
   const std::vector<GridSize<Dimension>>& levels, Progress& progress)
@@ -277,8 +307,9 @@ void PotentialSolver<Dimension>::MakeCells(
   }
 }
 
-// Goes to finer nodes with the potential of those before. Coarse nodes have the masses of the cells
-// of the next level; only the finest ones, whose bound counts, have those of the density itself.
+// Goes to finer nodes: prolongs the potential of the level before, multilinearly, and makes it the
+// start here. Coarse nodes have hat masses from the cells of the next finer level. Only on the
+// finest nodes, whose bound counts, they are integrals of the density itself.
 template <int Dimension>
 void PotentialSolver<Dimension>::Begin(const std::vector<GridSize<Dimension>>& levels,
   std::size_t level, NodeValues potential, Progress& progress)
@@ -299,6 +330,7 @@ void PotentialSolver<Dimension>::Begin(const std::vector<GridSize<Dimension>>& l
     {
       side.Cells = std::move(this->LevelCells[i][level]);
     }
+    // mu_i = integral of the hat function Lambda_i over the density: the weights of the dual.
     if (isFinest)
     {
       side.Hats = hatMasses(given.Density, side.Placement, this->Nodes, progress);
@@ -309,10 +341,15 @@ void PotentialSolver<Dimension>::Begin(const std::vector<GridSize<Dimension>>& l
       const double* finer = isUniform ? nullptr : this->LevelCells[i][level + 1].data();
       side.Hats = hatMasses<Dimension>(finer, levels[level + 1], this->Nodes, progress);
     }
+    // Excess = sum_i mu_i |x_i|^2 - M2(mu), summed over both sides, with M2 the second moment about
+    // the origin. It is what lumping the mass at nodes adds to the cost, and what the bound must
+    // give up.
     if (isFinest)
     {
       this->Excess += lumpingExcess(given.Density, side.Placement, this->Nodes, progress);
     }
+    // For the uniform measure lumping adds h^2 / 6 along each axis; on coarse levels this only
+    // shifts the bound by a constant.
     for (int axis = 0; axis < Dimension && !isFinest; ++axis)
     {
       this->Excess += this->Nodes.Spacing[axis] * this->Nodes.Spacing[axis] / 6.0;
@@ -323,11 +360,13 @@ void PotentialSolver<Dimension>::Begin(const std::vector<GridSize<Dimension>>& l
   {
     this->Sides[0].Potential = prolong<Dimension>(potential, before, cells, progress);
   }
+  // The first level starts from 0: the identity is the map.
   else
   {
     std::fill_n(this->Sides[0].Potential.data(), nodes, 0.0);
   }
-  // Makes the potentials conjugate.
+  // Makes the potentials conjugate: psi = phi^c, phi = psi^c, with the c-transform phi^c(y) = min_x
+  // |x - y|^2 / 2 - phi(x).
   double* source = this->Sides[0].Potential.data();
   double* target = this->Sides[1].Potential.data();
   costTransform<Dimension>(this->Nodes, source, target, progress);
@@ -335,7 +374,9 @@ void PotentialSolver<Dimension>::Begin(const std::vector<GridSize<Dimension>>& l
   this->BoundNow = this->Dual(source, target, progress);
 }
 
-// The bound that conjugate potentials give.
+// The bound that conjugate potentials give by Kantorovich's duality, D = 2 (sum_i mu_i phi_i +
+// sum_j nu_j psi_j) - Excess <= W2^2. It holds whatever the nodal potential was before the
+// c-transforms: |y|^2 / 2 - psi is convex and so lies below its multilinear interpolant.
 template <int Dimension>
 double PotentialSolver<Dimension>::Dual(
   const double* source, const double* target, Progress& progress) const
@@ -346,9 +387,14 @@ double PotentialSolver<Dimension>::Dual(
   return 2.0 * sum - this->Excess;
 }
 
+// The back-and-forth method of Jacobs and Leger: each iteration ascends the dual in the source's
+// potential, then in the target's.
 template <int Dimension>
 void PotentialSolver<Dimension>::Iterate(Scratch& scratch, bool isFinest, Progress& progress)
 {
+  // Densities of mean 1 make the Laplacian the Hessian of the dual at the identity, so 1 is
+  // Newton's step there. Every level starts from it anew: steps of coarse levels do not suit finer
+  // ones.
   this->Steps = { 1.0, 1.0 };
   const int most = isFinest ? this->Options.MostIterations : coarseIterations;
   const int least = isFinest ? this->Options.LeastIterations : 0;
@@ -362,6 +408,8 @@ void PotentialSolver<Dimension>::Iterate(Scratch& scratch, bool isFinest, Progre
     const double before = this->BoundNow;
     this->HalfStep(scratch, 0, round);
     this->HalfStep(scratch, 1, round);
+    // Gains fall about geometrically. An iteration that gains less than a quarter of the tolerance
+    // is taken to leave less than the tolerance to all later ones.
     const double gain = this->BoundNow - before;
     goesOn =
       gain >= 0.25 * this->Options.Tolerance * std::abs(this->BoundNow) || iteration + 1 < least;
@@ -372,14 +420,17 @@ void PotentialSolver<Dimension>::Iterate(Scratch& scratch, bool isFinest, Progre
   }
 }
 
-// What is missing at the nodes to the masses of a side, when the map of the other side's potential
-// moves the other side's density.
+// The residual of a side, which is the gradient of the dual in its potential: r = mu - (T_psi)_#
+// nu, hat masses at the nodes less the push-forward of the other density by T_psi(y) = y - grad
+// psi(y). `scratch.Defect` holds it, a value a node, in shares of a whole mass of 1.
 template <int Dimension>
 void PotentialSolver<Dimension>::FindDefect(Scratch& scratch, int side, Progress& progress) const
 {
   const SolverSide<Dimension>& own = this->Sides[Index(side)];
   const SolverSide<Dimension>& other = this->Sides[Index(1 - side)];
   writeGradientMap<Dimension>(other.Potential.data(), scratch.Map, progress);
+  // A cell is pushed forward by samples, as many along an axis as it is stretched to cells. If only
+  // bounds are wanted and there are no voids, cells below the mean mass have half as many.
   SampleFineness fineness;
   if (this->Options.ForBounds && hasMassEverywhere(this->Given[Index(1 - side)]))
   {
@@ -388,19 +439,26 @@ void PotentialSolver<Dimension>::FindDefect(Scratch& scratch, int side, Progress
   }
   fineness = limitFineness(scratch.Map, other.CellsOrNull(), fineness, progress);
   pushForward<Dimension>(scratch.Map, other.CellsOrNull(), fineness, scratch.Sums, progress);
+  // Sums are in masses of mean 1 a cell, the hats in shares of the whole.
   const double share = 1.0 / static_cast<double>(this->Nodes.NumberOfCells());
   const double* hats = own.Hats.data();
   scratch.Sums.Write(scratch.Defect.data(), progress,
     [=](std::int64_t node, double mass) { return hats[node] - share * mass; });
 }
 
-// Moves the potential of a side along the solution p of Poisson's equation for the defect, by a
-// step that raises the bound, and makes both potentials conjugate again.
+// An ascent step of the dual in the potential of a side: phi <- phi + s p, where -Laplace p = r or,
+// weighted, -div(max(1, mu) grad p) = r, with natural boundaries. So p is the gradient in the H^-1
+// metric (Jacobs and Leger 2020). The step s is halved until the bound rises; then phi
+// and psi are conjugate again, which only raises it further.
 template <int Dimension>
 void PotentialSolver<Dimension>::HalfStep(Scratch& scratch, int side, Progress& progress)
 {
+  // 2^-8 reaches the steps of pairs whose mass is concentrated: these need s of about 1 / density.
   constexpr int halvings = 8;
-  // Of the bound's gain to what the slope promises: longer and shorter steps next time.
+  // The ratio of the bound's gain to s <gradient, p>, what the slope promises, adapts the next
+  // step: a ratio above `good` says that the dual is nearly linear so far and makes it longer, one
+  // below `poor` says that it curves and makes it shorter. 1.4 and .75 are about inverse, so that
+  // steps settle.
   constexpr double good = 0.6;
   constexpr double poor = 0.35;
   constexpr double longer = 1.4;
@@ -419,10 +477,13 @@ void PotentialSolver<Dimension>::HalfStep(Scratch& scratch, int side, Progress& 
   {
     scratch.Poisson.Solve(scratch.Defect.data(), p, progress);
   }
+  // The slope of the bound along p: dD/ds = 2 <p, r> at s = 0, at least 0 up to rounding.
   const double product =
     sumOfProducts(p, scratch.Defect.data(), this->Nodes.NumberOfNodes(), progress);
   const double slope = 2.0 * std::max(0.0, product);
   double& step = this->Steps[Index(side)];
+  // No attempt raises the bound: the potentials stay, as the bound has reached the accuracy of the
+  // nodes.
   for (int attempt = 0; attempt <= halvings; ++attempt)
   {
     double* moved = scratch.New.data();
@@ -431,6 +492,7 @@ void PotentialSolver<Dimension>::HalfStep(Scratch& scratch, int side, Progress& 
     const double length = step;
     progress.ForEach(this->Nodes.NumberOfNodes(), grain,
       [=](std::int64_t i) { moved[i] = potential[i] + length * p[i]; });
+    // For the moved potential phi: psi = phi^c, then phi = psi^c, which is at least the moved one.
     costTransform<Dimension>(this->Nodes, moved, movedOther, progress);
     costTransform<Dimension>(this->Nodes, movedOther, moved, progress);
     const double bound =
@@ -448,6 +510,8 @@ void PotentialSolver<Dimension>::HalfStep(Scratch& scratch, int side, Progress& 
   }
 }
 
+// The bound with each cell between nodes halved: the error of lumping falls by 4. The prolonged
+// potential of the source needs two c-transforms and no iteration.
 template <int Dimension>
 double PotentialSolver<Dimension>::RefinedBound(Progress& progress) const
 {
@@ -463,6 +527,8 @@ double PotentialSolver<Dimension>::RefinedBound(Progress& progress) const
   grid = gridOf<Dimension>(grid.Cells, this->Lengths);
   NodeValues potential =
     prolong<Dimension>(this->Sides[0].Potential, this->Nodes.Cells, grid.Cells, progress);
+  // D = 2 (sum_i mu_i phi_i + sum_j nu_j psi_j) - Excess, a side at a time: psi = phi^c replaces
+  // phi in the same array before the target is integrated, and phi = psi^c follows.
   double bound = -this->Rounding;
   for (const int side : { 1, 0 })
   {
@@ -470,9 +536,12 @@ double PotentialSolver<Dimension>::RefinedBound(Progress& progress) const
     const BoxedDensity<Dimension>& given = this->Given[Index(side)];
     const auto placement = placementOn<Dimension>(given, grid.Cells);
     bound +=
+      // integral of the potential's interpolant over the density, without hats at finer nodes in
+      // memory.
       2.0 * integrateOver<Dimension>(given.Density, placement, grid, potential.data(), progress);
     bound -= lumpingExcess(given.Density, placement, grid, progress);
   }
+  // Both bounds are certified, so the better one is as well.
   return std::max(bound, this->Bound());
 }
 

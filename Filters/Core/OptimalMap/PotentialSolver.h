@@ -20,7 +20,8 @@ namespace RectifiedTransport
 
 class Progress;
 
-// A density and the part of the box that its cells fill: fractions of the box's sides.
+// A density and the part of the box that its cells fill: from Low to High, in fractions of the
+// box's sides.
 template <int Dimension>
 struct BoxedDensity
 {
@@ -29,13 +30,16 @@ struct BoxedDensity
   Point<Dimension> High{};
 };
 
-// One of the two densities on the nodes.
+// One of the two densities on the nodes. All arrays have one value a node, but Cells has one a cell
+// between nodes.
 template <int Dimension>
 struct SolverSide
 {
-  CellPlacement<Dimension> Placement; // of its own cells
+  CellPlacement<Dimension> Placement; // where its own cells lie, in cells of the nodes
+  // mu_i = integral of the hat function of node i over the density, whose whole mass is 1.
   NodeValues Hats;
-  NodeValues Cells; // as of cellMasses; without memory if it is uniform in the box
+  NodeValues Cells; // as cellMasses writes them; empty if it is uniform in the box
+  // phi or psi, in squared lengths; c-conjugate to that of the other side after each step.
   NodeValues Potential;
 
   const double* CellsOrNull() const
@@ -44,8 +48,9 @@ struct SolverSide
   }
 };
 
-// Side 0 is the source, 1 the target. Lengths are such that the squared diagonal of the box is not
-// far from 1.
+// Maximizes the dual of the quadratic cost |x - y|^2 / 2 (Jacobs and Leger, "A fast approach to
+// optimal transport: the back-and-forth method", 2020). Side 0 is the source, 1 the target. Lengths
+// are such that the squared diagonal of the box is not far from 1.
 template <int Dimension>
 class PotentialSolver
 {
@@ -87,14 +92,17 @@ private:
   const std::array<BoxedDensity<Dimension>, 2> Given;
   const Point<Dimension> Lengths;
   const OptimalMapOptions Options;
+  // What rounding may add to the bound, in squared lengths.
   const double Rounding;
   bool IsWeighted;
-  std::array<std::vector<NodeValues>, 2> LevelCells; // of levels to come; none if uniform
+  std::array<std::vector<NodeValues>, 2>
+    LevelCells; // masses on the levels to come; none if uniform
 
-  // Of the present nodes.
+  // On the present level's nodes: the nodes themselves, both sides, and each side's step length.
   NodeGrid<Dimension> Nodes;
   std::array<SolverSide<Dimension>, 2> Sides;
   std::array<double, 2> Steps{};
+  // What lumping the masses at nodes adds to the cost, summed over both sides, in squared lengths.
   double Excess = 0.0;
   double BoundNow = 0.0;
   int FineIterations = 0;

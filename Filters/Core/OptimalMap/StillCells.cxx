@@ -17,18 +17,21 @@ namespace RectifiedTransport
 namespace
 {
 
+// Cells a chunk of parallel loops.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
-constexpr double leastSame = 1.0 - 2e-3; // of the larger of two masses that are the same
-constexpr double mostSlack = 0.02;       // of the squared distance of nodes
-constexpr std::size_t fewest = 16;       // cells of a part, unless voids are all about it
+// These tolerances bound the errors that a potential on nodes has in a part that truly stands
+// still.
+constexpr double leastSame = 1.0 - 2e-3; // ratio of two masses that count as the same
+constexpr double mostSlack = 0.02;       // ratio to the squared distance of nodes
+constexpr std::size_t fewest = 16;       // cells of a part, unless only voids surround it
 constexpr double mostMove = 0.2;         // in the mean of a part, in cells between nodes
 // What may cross a part's border, of its mass, and of that of the cells beyond: where more does,
 // these move far, and the part may move with them.
 constexpr double mostCrossing = 2e-4;
 constexpr double mostBeyond = 1.5;
 
-// Of the cells between nodes.
+// What a cell between nodes is found to be.
 enum Cell : unsigned char
 {
   Empty,
@@ -37,6 +40,7 @@ enum Cell : unsigned char
   Still
 };
 
+// The Euclidean norm.
 template <int Dimension>
 double lengthOf(const Point<Dimension>& vector)
 {
@@ -48,6 +52,7 @@ double lengthOf(const Point<Dimension>& vector)
   return std::sqrt(square);
 }
 
+// Sorts the cells between nodes: classifies each on its own, then decides about connected parts.
 template <int Dimension>
 class StillParts
 {
@@ -63,6 +68,9 @@ public:
     , Map(NodeMap<Dimension>::On(solver.Grid()))
     , Kinds(this->Nodes.Count())
   {
+    // With phi + psi = 0 the slack |x - x|^2 / 2 - phi - psi of a node and itself vanishes. Half a
+    // node's move m leaves a slack of about m^2 / 2, hence the square of the shortest spacing; the
+    // squared diagonal bounds what rounding leaves of potentials.
     const Point<Dimension>& spacing = this->Grid.Spacing;
     const double shortest = *std::min_element(spacing.begin(), spacing.end());
     constexpr double rounding = 1e-15;
@@ -79,7 +87,7 @@ public:
       return;
     }
     writeGradientMap<Dimension>(this->Potential, this->Map, this->Work);
-    smoothMap<Dimension>(this->Map, this->Work); // of its stairs
+    smoothMap<Dimension>(this->Map, this->Work); // removes the stairs that a potential on nodes has
     for (std::int64_t cell = 0; cell < count; ++cell)
     {
       if (kinds[cell] == MayBeStill)
@@ -92,11 +100,13 @@ public:
   // Whether the cells that a box, in cells between nodes, overlaps stand still.
   bool AreStill(const Point<Dimension>& low, const Point<Dimension>& high) const
   {
+    // A box that ends within 1e-6 of a face does not overlap the next cell.
     constexpr double rounding = 1e-6;
     LatticePart<Dimension> box;
     for (int axis = 0; axis < Dimension; ++axis)
     {
       const std::int64_t last = this->Grid.Cells[axis] - 1;
+      // The cells that the box overlaps, at least one along each axis.
       const auto begin = static_cast<std::int64_t>(std::floor(low[axis] + rounding));
       const auto end = static_cast<std::int64_t>(std::ceil(high[axis] - rounding));
       box.Low[axis] = std::clamp<std::int64_t>(begin, 0, last);
@@ -115,6 +125,7 @@ public:
 private:
   static constexpr int Corners = 1 << Dimension;
 
+  // Cells of a uniform density are not stored; each has the mean mass, 1.
   static double MassOf(const double* cells, std::int64_t cell) { return cells ? cells[cell] : 1.0; }
 
   // The node at the lowest corner.
@@ -136,6 +147,7 @@ private:
     return node;
   }
 
+  // A cell may stand still if both masses agree and one of its corners is next to its own image.
   void Classify()
   {
     this->Work.ForEach(this->Nodes.Count(), grain, [&](std::int64_t cell) {
@@ -148,7 +160,8 @@ private:
     });
   }
 
-  // The least that the two potentials are below the cost of a node to itself.
+  // The least slack -(phi + psi) of a corner and itself. The potentials' sum is at most c(x, x) =
+  // 0, and equals it where x is its own image.
   double SlackAbout(std::int64_t node) const
   {
     double least = -(this->Potential[node] + this->Other[node]);
@@ -160,7 +173,8 @@ private:
     return least;
   }
 
-  // The way that the map moves a cell, in cells.
+  // The displacement of a cell's centre by the map, the mean of the corners' images less the
+  // centre, in cells.
   Point<Dimension> MoveOf(const GridSize<Dimension>& place) const
   {
     const std::int64_t node = this->NodeOf(place);
@@ -177,11 +191,14 @@ private:
     return move;
   }
 
-  // Takes the connected part of a cell, and decides whether it stands still.
+  // Takes the connected part of a cell by breadth-first search over faces, and decides whether it
+  // stands still: it is large enough, moves little in the mean, and is closed.
   void Decide(std::int64_t cell)
   {
     constexpr std::size_t interval = 1 << 14; // cells between two polls
     unsigned char* kinds = this->Kinds.data();
+    // All of the part is marked Still at once, which keeps cells from entering the list twice, and
+    // is marked Moving again if it fails.
     this->Part.assign(1, cell);
     kinds[cell] = Still;
     double mass = 0.0;
@@ -205,10 +222,12 @@ private:
       {
         for (const std::int64_t to : { -step, step })
         {
+          // The box's border is closed: no mass crosses it.
           const bool isBorder = place[axis] == (to < 0 ? 0 : this->Grid.Cells[axis] - 1);
           const std::int64_t neighbour = isBorder ? own : own + to;
           if (kinds[neighbour] == Moving)
           {
+            // The mass that the displacement carries through this face, at most half of the cell's.
             crossing += ownMass * std::min(0.5, std::abs(move[axis]));
             beyond += MassOf(this->TargetCells, neighbour);
           }
@@ -221,6 +240,8 @@ private:
         step *= this->Grid.Cells[axis];
       }
     }
+    // A part is closed if little crosses its border, beside its own mass or beside what lies
+    // beyond. A small part next to other mass is no evidence.
     const bool isClosed = crossing <= std::max(mostCrossing * mass, mostBeyond * beyond);
     const bool isFew = this->Part.size() < fewest && beyond > 0.0;
     if (isFew || moved > mostMove * mass || !isClosed)
@@ -247,6 +268,7 @@ private:
 
 } // namespace
 
+// A target cell stands still if all cells between nodes that it overlaps do.
 template <int Dimension>
 StillCells<Dimension>::StillCells(const PotentialSolver<Dimension>& solver, int from,
   const CellDensity<Dimension>& target, Progress& progress)
@@ -265,6 +287,8 @@ StillCells<Dimension>::StillCells(const PotentialSolver<Dimension>& solver, int 
   const int found = reduceChunks(
     progress, target.NumberOfCells(), grain, none | all,
     [&](std::int64_t first, std::int64_t last) {
+      // Bits of what may hold of a chunk's cells; chunks are combined by "and". Cells without mass
+      // decide nothing.
       int ofChunk = none | all;
       for (std::int64_t cell = first; cell < last; ++cell)
       {
@@ -295,6 +319,7 @@ StillCells<Dimension>::StillCells(const PotentialSolver<Dimension>& solver, int 
   }
 }
 
+// Whether the target cell at a point of its index space stands still.
 template <int Dimension>
 bool StillCells<Dimension>::Have(const double* image) const
 {
@@ -308,6 +333,8 @@ bool StillCells<Dimension>::Have(const double* image) const
   return this->AreStill.data()[numberOfCellAt<Dimension>(image, this->Size)] != 0;
 }
 
+// Converts a point from one index space to the other and keeps it there if it stands still. It is
+// the identity in physical space.
 template <int Dimension>
 bool StillCells<Dimension>::Stay(const CellPlacement<Dimension>& from,
   const CellPlacement<Dimension>& to, const GridSize<Dimension>& size, double* point) const
@@ -346,6 +373,7 @@ bool StillCells<Dimension>::KeepBack(double* image) const
   return this->Stay(this->TargetPlacement, this->SourcePlacement, this->SourceSize, image);
 }
 
+// Sets images of points that stand still back after samples were finished.
 template <int Dimension>
 void StillCells<Dimension>::Return(const double* points, PointSpan<Dimension> images) const
 {
@@ -368,7 +396,7 @@ double StillCells<Dimension>::MemoryKept(const GridSize<Dimension>& target)
 template <int Dimension>
 double StillCells<Dimension>::MemoryFor(const GridSize<Dimension>& nodes)
 {
-  // A kind, and the list of a part; and a map.
+  // A kind and an entry of the part's list for each cell; and the images of the nodes.
   constexpr double each = 1.0 + sizeof(std::int64_t);
   return each * numberOfCells<Dimension>(nodes) +
     sizeof(double) * Dimension * numberOfCorners<Dimension>(nodes);

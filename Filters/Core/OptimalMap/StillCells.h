@@ -33,8 +33,8 @@ public:
   bool Keep(double* point) const;
   // The same back from the target's index space.
   bool KeepBack(double* image) const;
-  // Of points of the source's index space, one after the other, those that stand still become their
-  // images again.
+  // Finds the points that stand still among those of the source's index space, given one after the
+  // other, and writes their images again.
   void Return(const double* points, PointSpan<Dimension> images) const;
 
   // Bytes that an object keeps at most, and those that it takes besides while it is made.
@@ -42,13 +42,14 @@ public:
   static double MemoryFor(const GridSize<Dimension>& nodes);
 
 private:
-  // The point's place in the index space `to`, if it stands still.
+  // Whether a point stands still; then it becomes its place in the index space `to`.
   bool Stay(const CellPlacement<Dimension>& from, const CellPlacement<Dimension>& to,
     const GridSize<Dimension>& size, double* point) const;
+  // Whether the target cell at an image stands still.
   bool Have(const double* image) const;
 
   const GridSize<Dimension> SourceSize;
-  const GridSize<Dimension> Size; // of the target
+  const GridSize<Dimension> Size; // cells of the target
   const CellPlacement<Dimension> SourcePlacement;
   const CellPlacement<Dimension> TargetPlacement;
   bool All = false;

@@ -17,7 +17,7 @@ struct FaceWeights
 {
   const float* Weights[Dimension];
   std::int64_t Stride[Dimension];
-  const float* Inverse; // 1 / the sum over a cell's faces
+  const float* Inverse; // 1 / the sum of the weights of a cell's faces
 };
 
 template <int Dimension>

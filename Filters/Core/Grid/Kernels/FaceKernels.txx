@@ -15,6 +15,7 @@ namespace
 // Sums are taken in lanes, in the same order for every instruction set.
 constexpr int sumLanes = 16;
 
+// The sum of the lanes, in their order.
 RT_INLINE double addLanes(const double (&lanes)[sumLanes])
 {
   double sum = 0.0;
@@ -25,11 +26,12 @@ RT_INLINE double addLanes(const double (&lanes)[sumLanes])
   return sum;
 }
 
-// The sum of term(i), i in [first, last).
+// The sum of term(i), i in [first, last): lane l adds the terms with (i - first) % 16 = l.
 template <class Term>
 RT_INLINE double sumOf(std::int64_t first, std::int64_t last, const Term& term)
 {
   alignas(64) double lanes[sumLanes] = {};
+  // Whole groups of lanes are vectors; the rest adds to the first lanes.
   const std::int64_t whole = first + (last - first) / sumLanes * sumLanes;
   for (std::int64_t i = first; i < whole; i += sumLanes)
   {
@@ -46,7 +48,8 @@ RT_INLINE double sumOf(std::int64_t first, std::int64_t last, const Term& term)
   return addLanes(lanes);
 }
 
-// Minus (A x)_q.
+// Minus (A x)_q = sum over neighbours r of w_qr (x_r - x_q). Differences are taken in the type of
+// x, before they are rounded to floats.
 template <int Dimension, class Value>
 RT_INLINE float inflow(const FaceWeights<Dimension>& system, const Value* x, std::int64_t q)
 {
@@ -62,6 +65,7 @@ RT_INLINE float inflow(const FaceWeights<Dimension>& system, const Value* x, std
   return sum;
 }
 
+// output = b - A x, stored from index 0 on.
 template <int Dimension>
 void residual(const FaceWeights<Dimension>& given, const float* x, const float* b,
   std::int64_t first, std::int64_t last, float* __restrict output)
@@ -74,11 +78,13 @@ void residual(const FaceWeights<Dimension>& given, const float* x, const float* 
   }
 }
 
+// output = x + factor D^-1 (b - A x), a damped Jacobi step.
 template <int Dimension>
 void relax(const FaceWeights<Dimension>& given, const float* x, const float* b, float factor,
   std::int64_t first, std::int64_t last, float* __restrict output)
 {
   const FaceWeights<Dimension> system = given;
+  // From x = 0 the residual is b.
   if (!x)
   {
 #pragma omp simd
@@ -95,6 +101,7 @@ void relax(const FaceWeights<Dimension>& given, const float* x, const float* b, 
   }
 }
 
+// output = A x; returns x . A x, the curvature of conjugate gradients.
 template <int Dimension>
 double apply(const FaceWeights<Dimension>& given, const float* x, std::int64_t first,
   std::int64_t last, float* __restrict output)
@@ -107,6 +114,7 @@ double apply(const FaceWeights<Dimension>& given, const float* x, std::int64_t f
   });
 }
 
+// r = b - A x with x in double precision; returns |r|^2.
 template <int Dimension>
 double rest(const FaceWeights<Dimension>& given, const double* x, const float* b,
   std::int64_t first, std::int64_t last, float* __restrict r)
@@ -124,6 +132,7 @@ double dot(const float* a, const float* b, std::int64_t first, std::int64_t last
   return sumOf(first, last, [&](std::int64_t q) { return a[q] * b[q]; });
 }
 
+// x += alpha p in double precision, r -= alpha q; returns |r|^2.
 double advance(float factor, const float* p, const float* q, std::int64_t first, std::int64_t last,
   double* __restrict x, float* __restrict r)
 {
@@ -135,6 +144,7 @@ double advance(float factor, const float* p, const float* q, std::int64_t first,
   });
 }
 
+// p = z + beta p.
 void turn(float factor, const float* z, std::int64_t first, std::int64_t last, float* __restrict p)
 {
 #pragma omp simd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shares of the cells of one axis in its bins: the cells between nodes, or the nodes' hats.
+// How the cells along one axis overlap bins: the cells between nodes, or the nodes' hats.
 #ifndef RectifiedTransport_AxisShares_h
 #define RectifiedTransport_AxisShares_h
 
@@ -12,7 +12,7 @@
 namespace RectifiedTransport
 {
 
-// A few consecutive bins for each cell.
+// Each cell has its share in a few consecutive bins. Shares of a cell sum to 1.
 class AxisShares
 {
 public:
@@ -34,9 +34,12 @@ public:
       {
         const double a = std::max(from, static_cast<double>(bin));
         const double b = std::min(to, static_cast<double>(bin + 1));
+        // The overlap of the cell with the interval between two nodes, relative to the cell.
         const double share = to > from ? std::max(0.0, b - a) / (to - from) : 1.0;
         if (hats)
         {
+          // The integral of both hats over an interval is that at its middle, as they are linear
+          // there.
           const double middle = 0.5 * (a + b) - static_cast<double>(bin);
           shares[bin - first] += share * (1.0 - middle);
           shares[bin - first + 1] += share * middle;
@@ -50,7 +53,7 @@ public:
     this->Begin.push_back(this->Shares.size());
   }
 
-  // visit(bin, share) of a cell.
+  // Calls visit(bin, share) for the bins that a cell overlaps.
   template <class Visit>
   void ForBins(std::int64_t cell, const Visit& visit) const
   {

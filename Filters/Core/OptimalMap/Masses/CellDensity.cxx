@@ -16,10 +16,12 @@ namespace RectifiedTransport
 namespace
 {
 
+// Cells a chunk of parallel loops.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
 } // namespace
 
+// The uniform measure: each cell has the share 1 / cells, without an array.
 template <int Dimension>
 CellDensity<Dimension>::CellDensity(const GridSize<Dimension>& size)
   : Cells(size)
@@ -28,6 +30,8 @@ CellDensity<Dimension>::CellDensity(const GridSize<Dimension>& size)
 {
 }
 
+// Shares f_i / sum f, an array of one double a cell, axis 0 fastest. Reading, checking and summing
+// take one pass by chunks.
 template <int Dimension>
 CellDensity<Dimension>::CellDensity(const DensitySource<Dimension>& density, Progress& progress)
   : CellDensity(density.Size)
@@ -53,6 +57,8 @@ CellDensity<Dimension>::CellDensity(const DensitySource<Dimension>& density, Pro
   this->Voids = this->Voids || found.Minimum / total == 0.0;
 }
 
+// Replaces own shares by the other's where both are the same density in different precisions, so
+// that a map between them is exactly the identity.
 template <int Dimension>
 void CellDensity<Dimension>::TakeIfSame(const CellDensity& other, Progress& progress)
 {
@@ -62,6 +68,7 @@ void CellDensity<Dimension>::TakeIfSame(const CellDensity& other, Progress& prog
   }
   // One may have been kept as floats.
   constexpr double rounding = std::numeric_limits<float>::epsilon();
+  // The least normal double allows for shares that are denormal in one of them.
   constexpr double least = std::numeric_limits<double>::min();
   double* own = this->Shares.data();
   const double* shares = other.Shares.data();
@@ -81,25 +88,29 @@ void CellDensity<Dimension>::TakeIfSame(const CellDensity& other, Progress& prog
   }
 }
 
+// The number of the cell that holds a point, axis 0 fastest.
 template <int Dimension>
 std::int64_t CellDensity<Dimension>::CellOf(const double* point) const
 {
   return numberOfCellAt<Dimension>(point, this->Cells);
 }
 
+// The nearest cell with mass, in lengths between centres of cells.
 template <int Dimension>
 void CellDensity<Dimension>::MoveToMass(double* point, const Point<Dimension>& sides) const
 {
   const PlaceInCell<Dimension> place(point, {}, this->Cells);
   const GridSize<Dimension>& own = place.Cell;
   const double shortest = *std::min_element(sides.begin(), sides.end());
-  // Boxes of growing radius about the cell, until no cell beyond one can be nearer.
+  // Searches boxes of doubling radius about the cell. A found cell within the radius is the nearest
+  // one, as every cell beyond the box is farther than the radius.
   for (double radius = 2.0 * shortest;; radius *= 2.0)
   {
     LatticePart<Dimension> part;
     bool isAll = true;
     for (int axis = 0; axis < Dimension; ++axis)
     {
+      // The box must hold all cells within the radius, in whole cells along each axis.
       const double reach = std::ceil(radius / sides[axis]);
       const auto cells =
         static_cast<std::int64_t>(std::min(reach, static_cast<double>(this->Cells[axis])));

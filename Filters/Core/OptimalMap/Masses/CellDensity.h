@@ -16,12 +16,12 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Where a point is in its cell of the box of cells [low, high): the one that holds it or is nearest
-// to it. In another cell it goes to the same place, which keeps neighbours apart.
+// Where a point is in its cell of the box of cells [low, high), the one that holds it or is nearest
+// to it. A point that moves to another cell keeps its place in it, so that neighbours stay apart.
 template <int Dimension>
 struct PlaceInCell
 {
-  static constexpr double Inside = 0x1p-20; // of a cell: at least so far from its sides
+  static constexpr double Inside = 0x1p-20; // the least distance from a cell's sides, in cells
 
   PlaceInCell(const double* point, const GridSize<Dimension>& low, const GridSize<Dimension>& high)
   {

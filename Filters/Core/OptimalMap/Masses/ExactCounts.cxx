@@ -19,10 +19,11 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t fewest = 5;    // particles of a box that is halved
-constexpr double beyondVoid = 6.0;    // cells that a way to an empty cell counts more
+constexpr std::int64_t fewest = 5;    // particles: smaller boxes are not halved
+constexpr double beyondVoid = 6.0;    // cells: what a way to an empty cell counts in addition
 constexpr std::int64_t together = 64; // at least so many boxes are halved on one thread each
 
+// Particles are copied, as they are sorted by boxes; Number is their place in the results.
 template <int Dimension>
 struct Particle
 {
@@ -30,7 +31,7 @@ struct Particle
   std::int64_t Number;
 };
 
-// Particles [First, Last) are those in a box.
+// A box and its particles [First, Last) in the sorted array.
 template <int Dimension>
 struct BoxOfParticles
 {
@@ -41,12 +42,13 @@ struct BoxOfParticles
   std::int64_t Count() const { return this->Last - this->First; }
 };
 
-// A particle that may cross a plane, and how far it is from there.
+// A particle that may cross a plane, and its distance from there. Equal distances are ordered by
+// Number, so that the choice does not depend on threads.
 struct Candidate
 {
   double Distance;
-  std::int64_t Number; // of the particle
-  std::int64_t Place;  // in the order of the boxes
+  std::int64_t Number; // the particle's place in the results
+  std::int64_t Place;  // its place in the order of the boxes
 
   bool operator<(const Candidate& other) const
   {
@@ -55,7 +57,8 @@ struct Candidate
   }
 };
 
-// Halves boxes; several objects may work on different boxes.
+// Halves boxes and moves particles between the halves. Several objects may work on different boxes,
+// as their ranges of particles do not overlap.
 template <int Dimension>
 class Halving
 {
@@ -73,12 +76,13 @@ public:
 
   std::int64_t Moves() const { return this->MovesMade; }
 
+  // Counts in boxes of few particles are chance, so only their voids are emptied.
   static bool IsHalved(const Part& part)
   {
     return part.Count() >= fewest && part.Box.IsDivisible();
   }
 
-  // Moves particles between the halves until both have their shares.
+  // Moves particles across the plane until each half has its share of the particles, rounded.
   std::array<Part, 2> Halve(const Part& part)
   {
     const auto [low, high, axis] = this->Tree.Halves(part.Box);
@@ -86,7 +90,8 @@ public:
     std::int64_t middle = this->Divide(part.First, part.Last, axis, plane);
     const double lowMass = this->Tree.Mass(low);
     const double highMass = this->Tree.Mass(high);
-    // Both neighbours of the share will do, so that nothing moves because of rounding.
+    // n m_low / (m_low + m_high) is the share. Both integers next to it are exact enough, so that
+    // nothing moves because of rounding; an empty half must be empty.
     const double share = static_cast<double>(part.Count()) * lowMass / (lowMass + highMass);
     const auto least = highMass > 0.0 ? static_cast<std::int64_t>(std::floor(share)) : part.Count();
     const auto most = lowMass > 0.0 ? static_cast<std::int64_t>(std::ceil(share)) : 0;
@@ -104,7 +109,7 @@ public:
     return { Part{ low, part.First, middle }, Part{ high, middle, part.Last } };
   }
 
-  // Halves a box and its halves, to the end.
+  // Halves a box and its halves, depth first, to the end.
   void Finish(const Part& part)
   {
     if (!IsHalved(part))
@@ -119,13 +124,14 @@ public:
   }
 
 private:
-  // Particles below the plane before the others. Returns where these begin.
+  // Partitions particles [first, last): those below the plane come before the others. Returns where
+  // the others begin.
   std::int64_t Divide(std::int64_t first, std::int64_t last, int axis, double plane)
   {
     std::int64_t middle = first;
     for (std::int64_t i = first; i < last; ++i)
     {
-      // Without a branch: half of its predictions would fail.
+      // Swaps without a branch, as half of a branch's predictions would fail.
       const Particle<Dimension> particle = this->Particles[i];
       this->Particles[i] = this->Particles[middle];
       this->Particles[middle] = particle;
@@ -135,11 +141,14 @@ private:
     return middle;
   }
 
-  // Moves so many of the particles of a box to the box on the other side of a plane.
+  // Moves the `number` cheapest particles of a box across a plane into the box on the other side,
+  // each to its mirror image: then the density across the plane stays as smooth as it was.
   void Cross(
     const Part& from, std::int64_t number, int axis, double plane, const HalvingBox<Dimension>& to)
   {
-    // Particles are seldom far denser away from the plane.
+    // A layer that would hold the wanted number if the density were even, with a factor 4 and 8
+    // particles to spare: particles are seldom far denser away from the plane. If it holds too few,
+    // all of the box is searched.
     const auto reach = static_cast<double>(from.Box.High[axis] - from.Box.Low[axis]);
     const double near =
       reach * 4.0 * static_cast<double>(number + 8) / static_cast<double>(from.Count());
@@ -148,6 +157,7 @@ private:
       this->FindCandidates(from, number, axis, plane, to, std::numeric_limits<double>::infinity());
     }
     const auto last = this->Candidates.begin() + static_cast<std::ptrdiff_t>(number);
+    // The nearest `number` ones are chosen in linear time, without sorting them.
     if (last != this->Candidates.end())
     {
       std::nth_element(this->Candidates.begin(), last, this->Candidates.end(),
@@ -169,8 +179,9 @@ private:
     }
   }
 
-  // Those nearer than `near`. Returns whether they include the nearest `number` ones, also after
-  // what is added for voids.
+  // Lists the particles nearer than `near` to the plane, farther by beyondVoid if their mirror
+  // image is in a void. Returns whether these are sure to include the nearest `number` ones: only
+  // those that stay nearer than `near` with that addition count.
   bool FindCandidates(const Part& from, std::int64_t number, int axis, double plane,
     const HalvingBox<Dimension>& to, double near)
   {
@@ -193,6 +204,7 @@ private:
     return sure >= number;
   }
 
+  // The mirror image of a coordinate at the plane, kept inside of the box beyond it.
   static double Mirrored(double at, int axis, double plane, const HalvingBox<Dimension>& to)
   {
     constexpr double inside = PlaceInCell<Dimension>::Inside;
@@ -200,6 +212,7 @@ private:
       static_cast<double>(to.High[axis]) - inside);
   }
 
+  // Moves the particles of a box out of its empty cells.
   void LeaveVoids(const Part& part)
   {
     if (!this->Tree.Density().HasVoids())
@@ -218,6 +231,7 @@ private:
     }
   }
 
+  // Writes a moved particle to the results.
   void Keep(const Particle<Dimension>& particle)
   {
     std::copy(particle.At.begin(), particle.At.end(), this->Results[particle.Number]);
@@ -239,6 +253,8 @@ std::int64_t makeCountsExact(const CellDensity<Dimension>& density, const Point<
   PointSpan<Dimension> particles, Progress& progress)
 {
   using Part = BoxOfParticles<Dimension>;
+  // The work is a level of boxes at a time, then whole subtrees: both are independent of
+  // threads.
   const std::int64_t number = particles.size();
   const HalvingTree<Dimension> tree(density, sides, progress);
   LargeBuffer<Particle<Dimension>> sorted(number);
@@ -254,7 +270,8 @@ std::int64_t makeCountsExact(const CellDensity<Dimension>& density, const Point<
     });
   progress.Check();
 
-  // First one level of boxes after the other, until there are enough for all threads.
+  // One level of boxes after the other, until there are enough boxes for all threads. Larger boxes
+  // than `most` particles stay open.
   std::atomic<std::int64_t> moves{ 0 };
   const std::int64_t most = std::max<std::int64_t>(2048, number / (4 * together));
   std::vector<Part> open;
@@ -287,7 +304,8 @@ std::int64_t makeCountsExact(const CellDensity<Dimension>& density, const Point<
     }
   }
 
-  // Each of these is the work of its first particle.
+  // Each subtree counts as the work of its first particle, and ranges of particles become
+  // ranges of subtrees.
   std::sort(
     closed.begin(), closed.end(), [](const Part& a, const Part& b) { return a.First < b.First; });
   progress.For(number, most, [&](std::int64_t first, std::int64_t last) {
@@ -303,6 +321,7 @@ std::int64_t makeCountsExact(const CellDensity<Dimension>& density, const Point<
   return moves;
 }
 
+// The tree, the sorted copy, and in the worst case a candidate for each particle.
 template <int Dimension>
 double memoryForExactCounts(const GridSize<Dimension>& size, std::int64_t particles)
 {

@@ -17,15 +17,18 @@ namespace RectifiedTransport
 namespace
 {
 
+// The correction's nodes are two cells apart: samples are too few to resolve cells.
 constexpr int samplesCellsANode = 2;
 
-// Fewer samples are no image from which to correct masses.
+// Fewer samples say too little about the image's masses to correct them.
 bool areEnough(double samples, double cells)
 {
-  constexpr double least = 0.25; // a cell
+  constexpr double least = 0.25; // samples a cell
   return samples >= least * cells;
 }
 
+// First long moves by Poisson's equation, then short ones that make counts exact box by box, then
+// moves within cells that make places uniform.
 template <int Dimension>
 void finishAll(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
   PointSpan<Dimension> samples, Progress& progress)
@@ -43,6 +46,8 @@ void finishAll(const CellDensity<Dimension>& density, const Point<Dimension>& si
 
 } // namespace
 
+// Exact counts need all samples, so each rank gathers them, computes the same, and keeps its own
+// part.
 template <int Dimension>
 void finishSamples(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
   PointSpan<Dimension> samples, Progress& progress)
@@ -53,6 +58,7 @@ void finishSamples(const CellDensity<Dimension>& density, const Point<Dimension>
     finishAll<Dimension>(density, sides, samples, progress);
     return;
   }
+  // The place of each rank's coordinates in the gathered array.
   std::vector<std::int64_t> starts{ 0 };
   for (const std::int64_t count : gatherValues<std::int64_t>(ranks, samples.size() * Dimension))
   {
@@ -62,7 +68,6 @@ void finishSamples(const CellDensity<Dimension>& density, const Point<Dimension>
   const std::int64_t own = starts[static_cast<std::size_t>(ranks.Own())];
   std::copy_n(samples.data(), samples.size() * Dimension, all.data() + own);
   gatherParts(ranks, starts, all.data());
-  // Each computes the same.
   finishAll<Dimension>(density, sides, { all.data(), starts.back() / Dimension }, progress);
   std::copy_n(all.data() + own, samples.size() * Dimension, samples.data());
 }

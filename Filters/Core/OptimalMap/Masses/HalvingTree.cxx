@@ -13,9 +13,11 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t leafCells = 64; // halves of boxes up to this size are not kept
+// Boxes of at most so many cells are leaves, whose parts are not kept but summed anew.
+constexpr std::int64_t leafCells = 64; // cells
 
-// visit(first, last, cell): the numbers of the cells of each row of a box, and its first cell.
+// Calls visit(first, last, cell) for each row of a box along axis 0: the numbers [first, last) of
+// its cells, axis 0 fastest, and the place of its first cell.
 template <int Dimension, class Visit>
 void forRows(const HalvingBox<Dimension>& box, const GridSize<Dimension>& size, const Visit& visit)
 {
@@ -37,6 +39,8 @@ void forRows(const HalvingBox<Dimension>& box, const GridSize<Dimension>& size, 
 
 } // namespace
 
+// The state of a search for the nearest cell with mass: the best one so far, and its squared
+// distance.
 template <int Dimension>
 struct HalvingTree<Dimension>::Nearest
 {
@@ -45,6 +49,8 @@ struct HalvingTree<Dimension>::Nearest
   double Square = std::numeric_limits<double>::infinity();
 };
 
+// Nodes lie in preorder: a node's low half follows it, so that only the high half needs an index. A
+// uniform density needs no tree, as a box's mass is its number of cells.
 template <int Dimension>
 HalvingTree<Dimension>::HalvingTree(
   const CellDensity<Dimension>& density, const Point<Dimension>& sides, Progress& progress)
@@ -57,6 +63,7 @@ HalvingTree<Dimension>::HalvingTree(
   }
   this->Keep({ {}, density.Size() }, progress);
   const auto nodes = static_cast<std::int64_t>(this->Nodes.size());
+  // The leaves' masses are sums over their cells, on all threads.
   progress.Threads().For(nodes, 64, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last && !progress.IsCancelled(); ++i)
     {
@@ -69,6 +76,8 @@ HalvingTree<Dimension>::HalvingTree(
     progress.ShouldStop();
   });
   progress.Check();
+  // Inner masses are the sums of the two halves'. In preorder both halves come after their parent,
+  // hence backwards.
   for (std::size_t i = this->Nodes.size(); i-- > 0;)
   {
     Node& node = this->Nodes[i];
@@ -79,6 +88,7 @@ HalvingTree<Dimension>::HalvingTree(
   }
 }
 
+// Appends a box and, recursively, its halves.
 template <int Dimension>
 void HalvingTree<Dimension>::Keep(HalvingBox<Dimension> box, Progress& progress)
 {
@@ -92,18 +102,21 @@ void HalvingTree<Dimension>::Keep(HalvingBox<Dimension> box, Progress& progress)
     this->Nodes[own].High = static_cast<std::int64_t>(this->Nodes.size());
     this->Keep(halves.High, progress);
   }
+  // Polls for cancellation every 4096 nodes.
   if (own % 4096 == 0)
   {
     progress.Check();
   }
 }
 
+// The box of all cells, at the root if there is a tree.
 template <int Dimension>
 HalvingBox<Dimension> HalvingTree<Dimension>::Whole() const
 {
   return { {}, this->Cells.Size(), this->Nodes.empty() ? -1 : 0 };
 }
 
+// Halves a box at a whole cell across its longest side, in lengths; the low half has the odd cell.
 template <int Dimension>
 typename HalvingTree<Dimension>::Halved HalvingTree<Dimension>::Halves(
   const HalvingBox<Dimension>& box) const
@@ -130,6 +143,8 @@ typename HalvingTree<Dimension>::Halved HalvingTree<Dimension>::Halves(
   return halves;
 }
 
+// A kept box has its mass at hand; a part of a leaf is summed. A uniform density's masses are
+// numbers of cells, in units of a cell's share.
 template <int Dimension>
 double HalvingTree<Dimension>::Mass(const HalvingBox<Dimension>& box) const
 {
@@ -140,6 +155,7 @@ double HalvingTree<Dimension>::Mass(const HalvingBox<Dimension>& box) const
   return box.Node < 0 ? this->Sum(box) : this->Nodes[static_cast<std::size_t>(box.Node)].Mass;
 }
 
+// The sum of the shares of a box's cells, in the fixed order of the rows.
 template <int Dimension>
 double HalvingTree<Dimension>::Sum(const HalvingBox<Dimension>& box) const
 {
@@ -154,6 +170,7 @@ double HalvingTree<Dimension>::Sum(const HalvingBox<Dimension>& box) const
   return sum;
 }
 
+// The point keeps its place within the cell as far as it can (PlaceInCell).
 template <int Dimension>
 void HalvingTree<Dimension>::MoveToMass(
   Point<Dimension>& point, const HalvingBox<Dimension>& box) const
@@ -164,6 +181,8 @@ void HalvingTree<Dimension>::MoveToMass(
   place.MoveTo(nearest.Cell, point.data());
 }
 
+// Branch and bound: the half on the point's side comes first, and a half is left out if it is empty
+// or no nearer than the best cell so far.
 template <int Dimension>
 void HalvingTree<Dimension>::Search(const HalvingBox<Dimension>& box, Nearest& nearest) const
 {
@@ -184,6 +203,7 @@ void HalvingTree<Dimension>::Search(const HalvingBox<Dimension>& box, Nearest& n
   }
 }
 
+// Compares all cells with mass of a leaf or of a part of one.
 template <int Dimension>
 void HalvingTree<Dimension>::SearchCells(const HalvingBox<Dimension>& box, Nearest& nearest) const
 {
@@ -209,7 +229,8 @@ void HalvingTree<Dimension>::SearchCells(const HalvingBox<Dimension>& box, Neare
     });
 }
 
-// Between the centres of the nearest cells.
+// The squared distance between the centre of `cell` and that of the nearest cell of the box, in
+// squared lengths: 0 along an axis where the box overlaps the cell.
 template <int Dimension>
 double HalvingTree<Dimension>::SquaredDistance(
   const GridSize<Dimension>& cell, const HalvingBox<Dimension>& box) const
@@ -225,6 +246,8 @@ double HalvingTree<Dimension>::SquaredDistance(
   return square;
 }
 
+// A binary tree over leaves of at least leafCells / 2 cells has fewer than 4 nodes for each
+// leafCells cells.
 template <int Dimension>
 double HalvingTree<Dimension>::MemoryFor(const GridSize<Dimension>& size)
 {

@@ -19,7 +19,7 @@ struct HalvingBox
 {
   GridSize<Dimension> Low;
   GridSize<Dimension> High;
-  std::int64_t Node = -1; // of the tree, if it keeps the box
+  std::int64_t Node = -1; // its number in the tree, or -1 if the tree does not keep the box
 
   std::int64_t NumberOfCells() const
   {
@@ -33,9 +33,10 @@ struct HalvingBox
   bool IsDivisible() const { return this->NumberOfCells() > 1; }
 };
 
-// Boxes are halved at whole cells across their longest side. The tree keeps the masses of all boxes
-// but small ones and their parts, which it sums anew: masses are sums of shares, never differences,
-// so that those of empty boxes are exactly 0. Of a uniform density it keeps nothing.
+// A k-d tree of boxes that are halved at whole cells across their longest side. It keeps all
+// masses but those of small boxes and their parts, which are summed anew. Masses are sums of
+// shares, never differences, so that those of empty boxes are exactly 0. For a uniform density
+// nothing is kept.
 template <int Dimension>
 class HalvingTree
 {
@@ -51,9 +52,9 @@ public:
     int Axis; // across the plane between them
   };
   HalvingBox<Dimension> Whole() const;
-  // Of a box of more than one cell.
+  // Halves a box of more than one cell.
   Halved Halves(const HalvingBox<Dimension>& box) const;
-  // Its share, or that times any constant, the same one for all boxes.
+  // The box's share of the whole mass, times a constant that is the same for all boxes.
   double Mass(const HalvingBox<Dimension>& box) const;
   // Moves a point into the nearest cell with mass of a box that has some, as PlaceInCell does. The
   // tree leaves out what is empty; of equally near cells, this may take another one than
@@ -61,11 +62,11 @@ public:
   void MoveToMass(Point<Dimension>& point, const HalvingBox<Dimension>& box) const;
   const CellDensity<Dimension>& Density() const { return this->Cells; }
 
-  // Bytes, about.
+  // An estimate in bytes.
   static double MemoryFor(const GridSize<Dimension>& size);
 
 private:
-  // Its first half is the next one in the order.
+  // Its low half is the next node in the order.
   struct Node
   {
     HalvingBox<Dimension> Box;

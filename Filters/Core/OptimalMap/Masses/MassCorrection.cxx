@@ -15,14 +15,18 @@ namespace RectifiedTransport
 namespace
 {
 
-// More steps converge slowly. A lower floor needs more iterations and moves what stands still over
-// a faint background; a higher one leaves more error in thin parts.
+// The number of corrections, as more of them converge slowly. Each solves its equation by so many
+// steps of preconditioned conjugate gradients. A lower floor of the weight needs more steps and
+// moves what stands still over a faint background; a higher one leaves more error in thin parts.
 constexpr int steps = 2;
 constexpr int iterations = 6;
-constexpr double leastWeight = 0.3; // of the mean density
+constexpr double leastWeight = 0.3; // in units of the mean density
 
 } // namespace
 
+// Linearized mass balance: moving images by -grad q changes their density by div(target grad q),
+// which should remove the excess image - target. Hence -div(max(target, .3) grad q) = image -
+// target, whose solution moves mass down the gradient of q.
 template <int Dimension>
 MassCorrection<Dimension>::MassCorrection(const CellDensity<Dimension>& target,
   const Point<Dimension>& sides, int cellsANode, PointSpan<Dimension> images, const double* masses,
@@ -35,6 +39,8 @@ MassCorrection<Dimension>::MassCorrection(const CellDensity<Dimension>& target,
   {
     return;
   }
+  // The target's masses of the hats, and the same hats' masses of the images: their difference is
+  // the residual.
   const NodeValues wanted = hatMasses<Dimension>(target, this->Placement, grid, progress);
   const std::int64_t nodes = grid.NumberOfNodes();
   NodePoisson<Dimension> poisson(grid);
@@ -63,11 +69,13 @@ MassCorrection<Dimension>::MassCorrection(const CellDensity<Dimension>& target,
   }
 }
 
+// Moves one image, unless it ended in a void. The whole move is tried first, then halves of it.
 template <int Dimension>
 void MassCorrection<Dimension>::Step(const NodeMoves<Dimension>& moves, double* point) const
 {
   const Point<Dimension> at = this->Placement.ToNodes(point);
   const Point<Dimension> move = moves.At(at.data());
+  // A move that ends in a void even at an eighth is left out.
   for (const double part : { 1.0, 0.5, 0.25, 0.125 })
   {
     Point<Dimension> to;
@@ -84,6 +92,7 @@ void MassCorrection<Dimension>::Step(const NodeMoves<Dimension>& moves, double* 
   }
 }
 
+// Applies the moves of all steps, in their order.
 template <int Dimension>
 void MassCorrection<Dimension>::Move(double* point) const
 {
@@ -93,14 +102,16 @@ void MassCorrection<Dimension>::Move(double* point) const
   }
 }
 
-// Each move is undone by a fixed-point iteration.
+// Undoes each move by a fixed-point iteration, last move first: x with x + m(x) = y is the limit of
+// x <- y - m(x), which converges where |grad m| < 1, as it is for corrections of smooth maps.
 template <int Dimension>
 void MassCorrection<Dimension>::Undo(double* point) const
 {
   constexpr int most = 8;
-  constexpr double close = 1e-3; // of a node's cell
+  constexpr double close = 1e-3; // in cells of the nodes
   for (auto moves = this->Moves.rbegin(); moves != this->Moves.rend(); ++moves)
   {
+    // In cells of the nodes, where moves are given.
     const Point<Dimension> moved = this->Placement.ToNodes(point);
     Point<Dimension> before = moved;
     double change = 1.0;
@@ -121,6 +132,8 @@ void MassCorrection<Dimension>::Undo(double* point) const
   }
 }
 
+// The target's hats, excess and q, arrays for the deposit on all threads, the solver's memory, and
+// what is kept.
 template <int Dimension>
 double MassCorrection<Dimension>::MemoryFor(const GridSize<Dimension>& target, int cellsANode)
 {
@@ -129,6 +142,7 @@ double MassCorrection<Dimension>::MemoryFor(const GridSize<Dimension>& target, i
     NodePoisson<Dimension>::MemoryFor(grid, true) + MemoryKept(target, cellsANode);
 }
 
+// One vector a node for each step.
 template <int Dimension>
 double MassCorrection<Dimension>::MemoryKept(const GridSize<Dimension>& target, int cellsANode)
 {

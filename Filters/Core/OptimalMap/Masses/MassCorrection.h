@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves the images of a map so that their masses agree better with the target's: down the gradient
-// of q with -div(max(target, .3) grad q) = image - target, twice.
+// Moves the images of a map so that their masses agree better with the target's: two steps down the
+// gradient of q, where -div(max(target, .3) grad q) = image - target.
 #ifndef RectifiedTransport_MassCorrection_h
 #define RectifiedTransport_MassCorrection_h
 
@@ -46,7 +46,7 @@ private:
 
   const CellDensity<Dimension>& Target;
   CellPlacement<Dimension> Placement;
-  std::vector<NodeMoves<Dimension>> Moves; // of each step
+  std::vector<NodeMoves<Dimension>> Moves; // one for each step, at the nodes
 };
 
 } // namespace RectifiedTransport

@@ -17,8 +17,9 @@ namespace RectifiedTransport
 namespace
 {
 
-// From the last axis to the first: the means of a layer of nodes over a layer of cells, while they
-// are in the cache.
+// The integral of the interpolant over the density, sum_cells share sum_nodes w_node value: a
+// tensor product of AxisShares. From the last axis to the first it takes the mean of the layers of
+// nodes about a layer of cells, while these are in the cache.
 template <int Dimension>
 class Integral
 {
@@ -39,9 +40,12 @@ public:
     }
   }
 
+  // `values` has one value a node. Chunks of layers have a fixed size and are added in order, so
+  // that the bits do not depend on the number of threads.
   double Over(const double* values, Progress& progress) const
   {
     constexpr int last = Dimension - 1;
+    // Nodes a chunk: 256 KiB, which stay in the second-level cache.
     constexpr std::int64_t nodes = std::int64_t{ 1 } << 15;
     const std::int64_t grain = std::max<std::int64_t>(1, nodes / this->Grid.Stride(last));
     return reduceChunks(
@@ -58,9 +62,10 @@ public:
   }
 
 private:
-  using Means = std::array<std::vector<double>, Dimension>; // of layers across each axis
+  using Means = std::array<std::vector<double>, Dimension>; // the mean layer across each axis
 
-  // Of the cells [first, end) along an axis, in the layer of cells that begins at `cell`.
+  // The integral over the cells [first, end) along an axis, in the layer of cells that begins at
+  // `cell`. `values` are the nodes of a layer, means along the axes after Axis.
   template <int Axis>
   double Along(const double* values, std::int64_t cell, std::int64_t first, std::int64_t end,
     Means& means) const
@@ -86,6 +91,7 @@ private:
     return sum;
   }
 
+  // Whether a layer has any; those of a void need no mean.
   template <int Axis>
   bool HasMass(std::int64_t begin) const
   {
@@ -95,6 +101,7 @@ private:
         [](double share) { return share > 0.0; });
   }
 
+  // The mean over a cell along the axis of the layers of nodes about it, by their hats.
   template <int Axis>
   void TakeMean(const double* values, std::int64_t cell, std::vector<double>& mean) const
   {

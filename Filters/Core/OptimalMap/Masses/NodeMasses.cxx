@@ -27,12 +27,14 @@ struct CellValues
   double At(std::int64_t cell) const { return this->Values ? this->Values[cell] : this->Each; }
 };
 
-// Sums rows along axis 0 in bins.
+// Sums the cells of rows [first, last) along axis 0 in bins: bin b of a row gets sum_i share(i, b)
+// value_i.
 void sumRows(const AxisShares& shares, const CellValues& values, std::int64_t cells,
   std::int64_t bins, std::int64_t first, std::int64_t last, double* sums)
 {
   for (std::int64_t row = first; row < last; ++row)
   {
+    // A row's bins are its own, so rows may be summed on any thread.
     double* rowSums = sums + row * bins;
     std::fill_n(rowSums, bins, 0.0);
     for (std::int64_t cell = 0; cell < cells; ++cell)
@@ -43,13 +45,16 @@ void sumRows(const AxisShares& shares, const CellValues& values, std::int64_t ce
   }
 }
 
-// Sums the values of cells in bins, along one axis after the other. Rows, and parts of layers
-// across an axis, are independent.
+// Sums the values of cells in bins, along one axis after the other: the weight of a hat or cell is
+// the product of those along the axes. Bins are nodes with hats, else cells between nodes. Rows,
+// and parts of layers across an axis, are independent.
 template <int Dimension>
 NodeValues sumInBins(CellValues values, GridSize<Dimension> size,
   const CellPlacement<Dimension>& placement, const NodeGrid<Dimension>& grid, bool hats,
   Progress& progress)
 {
+  // A part of a layer has so many columns: 4 KiB, which stay in cache while the bins of a layer are
+  // summed.
   constexpr std::int64_t columns = 512;
   constexpr std::int64_t firstValues = std::int64_t{ 1 } << 18;
   NodeValues last;
@@ -57,6 +62,8 @@ NodeValues sumInBins(CellValues values, GridSize<Dimension> size,
   {
     const AxisShares shares(
       size[axis], placement.Low[axis], placement.Sides[axis], grid.Cells[axis], hats);
+    // Values lie as [after][cells][before]: `before` values along the axes already summed, and
+    // `after` layers of those still to come.
     std::int64_t before = 1;
     std::int64_t after = 1;
     for (int a = 0; a < Dimension; ++a)
@@ -67,6 +74,7 @@ NodeValues sumInBins(CellValues values, GridSize<Dimension> size,
     const std::int64_t bins = grid.Cells[axis] + (hats ? 1 : 0);
     NodeValues sums(before * bins * after);
     double* to = sums.data();
+    // Work is divided into layers after the axis, and each layer into parts of its columns.
     const std::int64_t parts = (before + columns - 1) / columns;
     const std::int64_t grain = axis == 0 ? std::max<std::int64_t>(1, 4096 / cells) : 1;
     progress.For(
@@ -89,6 +97,7 @@ NodeValues sumInBins(CellValues values, GridSize<Dimension> size,
           }
           for (std::int64_t cell = 0; cell < cells; ++cell)
           {
+            // A cell's columns are added to the few bins that it overlaps.
             const double* of = values.Values + (layer * cells + cell) * before + begin;
             shares.ForBins(cell, [&](std::int64_t bin, double share) {
               double* sum = layerSums + bin * before;
@@ -108,12 +117,14 @@ NodeValues sumInBins(CellValues values, GridSize<Dimension> size,
   return last;
 }
 
+// The shares of a density's cells, in an array or all the same.
 template <int Dimension>
 CellValues sharesOf(const CellDensity<Dimension>& density)
 {
   return { density.data(), density.IsUniform() ? density.Share(0) : 0.0 };
 }
 
+// Multiplies all values by a factor.
 void scale(NodeValues& values, double factor, Progress& progress)
 {
   double* all = values.data();
@@ -121,8 +132,8 @@ void scale(NodeValues& values, double factor, Progress& progress)
     values.size(), std::int64_t{ 1 } << 14, [=](std::int64_t i) { all[i] *= factor; });
 }
 
-// The density summed over all axes but one, for each axis, one after the other. By a fixed number
-// of parts of the rows.
+// The marginals: the density summed over all axes but one, for each axis, one array after the
+// other. At most 64 partial sums over rows keep the bits independent of threads.
 template <int Dimension>
 std::vector<double> marginalsOf(const CellDensity<Dimension>& density, Progress& progress)
 {
@@ -130,6 +141,7 @@ std::vector<double> marginalsOf(const CellDensity<Dimension>& density, Progress&
   const GridSize<Dimension>& size = density.Size();
   if (density.IsUniform())
   {
+    // Each cell of an axis has the same part of the mass.
     std::vector<double> sums;
     for (const std::int64_t cells : size)
     {
@@ -153,6 +165,8 @@ std::vector<double> marginalsOf(const CellDensity<Dimension>& density, Progress&
           sums[static_cast<std::size_t>(i)] += share;
           sum += share;
         }
+        // A row's sum goes to its own place along each other axis; `begin` is where that axis's
+        // array starts.
         std::int64_t begin = size[0];
         std::int64_t rest = row;
         for (int axis = 1; axis < Dimension; ++axis)
@@ -173,6 +187,7 @@ std::vector<double> marginalsOf(const CellDensity<Dimension>& density, Progress&
 
 } // namespace
 
+// mu_i = integral of hat function i over the density; the sum over all nodes is 1.
 template <int Dimension>
 NodeValues hatMasses(const CellDensity<Dimension>& density,
   const CellPlacement<Dimension>& placement, const NodeGrid<Dimension>& grid, Progress& progress)
@@ -184,6 +199,7 @@ template <int Dimension>
 NodeValues hatSums(const double* values, const GridSize<Dimension>& size,
   const NodeGrid<Dimension>& grid, Progress& progress)
 {
+  // The grid of values fills the box of the nodes, whatever their numbers.
   return sumInBins<Dimension>(CellValues{ values }, size,
     CellPlacement<Dimension>::Filling(size, grid.Cells), grid, true, progress);
 }
@@ -199,6 +215,7 @@ NodeValues hatMasses(const double* cells, const GridSize<Dimension>& size,
   return masses;
 }
 
+// Shares times the number of cells: masses of mean 1.
 template <int Dimension>
 NodeValues cellMasses(const CellDensity<Dimension>& density,
   const CellPlacement<Dimension>& placement, const NodeGrid<Dimension>& grid, Progress& progress)
@@ -216,13 +233,15 @@ NodeValues coarserCells(const double* cells, const GridSize<Dimension>& size,
   const CellValues values{ cells };
   NodeValues masses = sumInBins<Dimension>(
     values, size, CellPlacement<Dimension>::Filling(size, coarser.Cells), coarser, false, progress);
+  // Means of 1 on both grids: a coarse cell holds the sum of `all / coarser` fine ones.
   const double all = numberOfCells<Dimension>(size);
   scale(masses, static_cast<double>(coarser.NumberOfCells()) / all, progress);
   return masses;
 }
 
-// The hats keep masses and centroids, so that the excess is a sum over the axes of what each cell's
-// hats have about its centre.
+// sum_i mu_i |x_i|^2 - M2(density), in squared lengths. Hats keep masses and centroids, so that the
+// excess is a sum over axes and cells: the second moment of a cell's hats about its centre, less
+// side^2 / 12, that of a uniform cell.
 template <int Dimension>
 double lumpingExcess(const CellDensity<Dimension>& density,
   const CellPlacement<Dimension>& placement, const NodeGrid<Dimension>& grid, Progress& progress)

@@ -50,11 +50,12 @@ struct CellPlacement
     return moved;
   }
 
-  Point<Dimension> Low{};   // of the first cell, in cells of the nodes
-  Point<Dimension> Sides{}; // of each cell
+  Point<Dimension> Low{};   // low corner of the first cell, in cells of the nodes
+  Point<Dimension> Sides{}; // sides of a cell, in cells of the nodes
 };
 
-// The masses of the nodes' hat functions, which sum to 1.
+// The masses of the nodes' hat functions, mu_i = integral of Lambda_i over the density, which sum
+// to 1.
 template <int Dimension>
 NodeValues hatMasses(const CellDensity<Dimension>& density,
   const CellPlacement<Dimension>& placement, const NodeGrid<Dimension>& grid, Progress& progress);
@@ -70,8 +71,8 @@ template <int Dimension>
 NodeValues cellMasses(const CellDensity<Dimension>& density,
   const CellPlacement<Dimension>& placement, const NodeGrid<Dimension>& grid, Progress& progress);
 
-// The same of a density of these masses of the cells of a grid of this size, of mean 1, which fills
-// the box; null: all 1.
+// The hat masses of a piecewise constant density that fills the box, given by its cells' masses, of
+// mean 1, on a grid of this size; null: all are 1.
 template <int Dimension>
 NodeValues hatMasses(const double* cells, const GridSize<Dimension>& size,
   const NodeGrid<Dimension>& grid, Progress& progress);
@@ -81,7 +82,8 @@ template <int Dimension>
 NodeValues coarserCells(const double* cells, const GridSize<Dimension>& size,
   const NodeGrid<Dimension>& coarser, Progress& progress);
 
-// The second moment of the hats' masses less that of the density, in squared lengths.
+// The second moment of the lumped density less that of the density itself, in squared lengths:
+// sum_i mu_i |x_i|^2 - M2.
 template <int Dimension>
 double lumpingExcess(const CellDensity<Dimension>& density,
   const CellPlacement<Dimension>& placement, const NodeGrid<Dimension>& grid, Progress& progress);

@@ -15,12 +15,15 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t across = 8;  // cells of a slab
-constexpr int mostBins = 32;        // of a slab
-constexpr std::int64_t fewest = 16; // particles a bin: bins of fewer are merged
-constexpr double inside = 0x1p-20;  // of a cell: places stay so far from its sides
+// Places within cells are made uniform along each axis by equalizing their histogram. A cell alone
+// has too few particles for one, so neighbours share it: a slab is one cell thick along the axis
+// and 8 cells wide across it.
+constexpr std::int64_t across = 8;  // cells
+constexpr int mostBins = 32;        // bins a slab
+constexpr std::int64_t fewest = 16; // particles a bin; bins of fewer are merged
+constexpr double inside = 0x1p-20;  // in cells: places stay at least so far from a cell's sides
 
-// The slabs of an axis.
+// The slabs along an axis: numbers of slabs, and the place of a particle along the axis.
 template <int Dimension>
 class Slabs
 {
@@ -38,6 +41,7 @@ public:
 
   std::int64_t NumberOfSlabs() const { return this->Number; }
 
+  // The slab that holds a particle, axis 0 fastest.
   std::int64_t SlabOf(const double* particle) const
   {
     std::int64_t slab = 0;
@@ -48,7 +52,7 @@ public:
     }
     return slab;
   }
-  // In a cell, from 0 to 1.
+  // The particle's coordinate along the axis within its cell, from 0 to 1.
   double PlaceOf(const double* particle) const
   {
     const double at = particle[this->Axis];
@@ -72,7 +76,8 @@ private:
   std::int64_t Number = 1;
 };
 
-// A power of two, or 0 if there are too many slabs for so few particles.
+// The number of bins a slab, a power of two, or 0 if there are too many slabs for so few particles:
+// counts take at most 4 a particle, or a million if that is more.
 int binsFor(std::int64_t slabs, std::int64_t particles)
 {
   const std::int64_t most = std::max(4 * particles, std::int64_t{ 1 } << 20);
@@ -84,18 +89,22 @@ int binsFor(std::int64_t slabs, std::int64_t particles)
   return bins > 1 ? bins : 0;
 }
 
+// The bin of a place in [0, 1].
 int binOf(double place, int bins)
 {
   return std::min(static_cast<int>(place * bins), bins - 1);
 }
 
-// Where the ends of a slab's bins go: the cumulative distribution of the places. Of the differences
-// between halves, only what chance does not explain is kept.
+// Writes bins + 1 ends: where those of a slab's bins go, which is the cumulative distribution of
+// the places. It is found from halves of halves, like a Haar transform. The differences between
+// halves are shrunk by the factor 1 - parts / chi^2 (as by James and Stein), for chi^2 is about
+// `parts` if the differences are chance alone.
 void writeEnds(const std::int64_t* counts, int bins, double* ends)
 {
-  double* shares = ends + 1; // of the parts
+  double* shares = ends + 1; // each part's share of the particles, of those of the present level
   shares[0] = 1.0;
-  std::int64_t sums[2 * mostBins]; // of the parts of each level, the whole at 1
+  std::int64_t sums[2 * mostBins]; // each part's particles on all levels, the whole at 1, the
+                                   // halves of p at 2 p and 2 p + 1
   std::copy_n(counts, bins, sums + bins);
   for (int part = bins; part-- > 1;)
   {
@@ -104,7 +113,7 @@ void writeEnds(const std::int64_t* counts, int bins, double* ends)
   for (int parts = 1; parts < bins; parts *= 2)
   {
     double chiSquare = 0.0;
-    double differences[mostBins]; // of halves
+    double differences[mostBins]; // (low - high) / (low + high) for the two halves of each part
     for (int i = 0; i < parts; ++i)
     {
       const auto low = static_cast<double>(sums[2 * (parts + i)]);
@@ -114,6 +123,7 @@ void writeEnds(const std::int64_t* counts, int bins, double* ends)
     }
     const bool areEnough = sums[1] >= 2 * fewest * parts;
     const double kept = areEnough && chiSquare > parts ? 1.0 - parts / chiSquare : 0.0;
+    // Backwards, as part i's halves take the places 2 i and 2 i + 1 in the same array.
     for (int i = parts; i-- > 0;)
     {
       const double half = 0.5 * shares[i];
@@ -121,6 +131,7 @@ void writeEnds(const std::int64_t* counts, int bins, double* ends)
       shares[2 * i + 1] = half * (1.0 - kept * differences[i]);
     }
   }
+  // Ends are cumulative sums of shares, from 0 to exactly 1.
   ends[0] = 0.0;
   std::partial_sum(shares, shares + bins, shares);
   ends[bins] = 1.0;
@@ -128,6 +139,9 @@ void writeEnds(const std::int64_t* counts, int bins, double* ends)
 
 } // namespace
 
+// Each axis in turn: counts the particles of each bin, then moves each particle by the piecewise
+// linear map that takes bins to shares of the cell of the same size as theirs. This is histogram
+// equalization; it keeps particles in their cells.
 template <int Dimension>
 void spreadInCells(
   const GridSize<Dimension>& size, PointSpan<Dimension> particles, Progress& progress)
@@ -141,6 +155,7 @@ void spreadInCells(
     {
       continue;
     }
+    // Integer counts are the same for any number of threads.
     IntegerSums sums(slabs.NumberOfSlabs() * bins, number, progress);
     progress.For(number, std::int64_t{ 1 } << 13, [&](std::int64_t first, std::int64_t last) {
       const IntegerSums::Part part(sums);
@@ -171,6 +186,7 @@ void spreadInCells(
   }
 }
 
+// The most that an axis takes: first counts on several threads, then counts and ends.
 template <int Dimension>
 double memoryForSpreading(const GridSize<Dimension>& size, std::int64_t particles)
 {

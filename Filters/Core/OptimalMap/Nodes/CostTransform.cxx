@@ -22,16 +22,20 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr int blockLines = 8; // lines that are copied together: a cache line of each row of nodes
+constexpr int blockLines = 8; // are copied together: a cache line of each row of nodes
+// Values of the first piece of work, after which its pace sizes the others.
 constexpr std::int64_t firstSlice = std::int64_t{ 1 } << 19;
 
-// What lines along an axis have in common.
+// What lines along an axis have in common: h^2 (i - j)^2 / 2 for all displacements, and what the
+// changes between parabolas need.
 struct AxisCosts
 {
-  // `largest` is about the largest value.
+  // `largest` bounds the magnitude of values: rounding errors of changes are in proportion to it.
   AxisCosts(std::int64_t nodes, double spacing, double largest)
     : Nodes(static_cast<std::int32_t>(nodes))
     , Scale(1.0 / (spacing * spacing))
+    // A change is rounded up a little early, by the error of the values in squared cells, 4 ulps of
+    // the largest one, at most an eighth of a node.
     , Above(1.0 + std::min(0x1p-51 * largest * this->Scale, 0x1p-3))
     , Middles(nodes)
     , Ways(2 * nodes - 1)
@@ -42,27 +46,29 @@ struct AxisCosts
     {
       const double length = i;
       middle[i] = length + (this->Above - 0.5);
+      // The parabola h^2 d^2 / 2 at each displacement d from -(nodes - 1) on.
       way[i] = 0.5 * spacing * spacing * (length * length);
       way[-i] = way[i];
     }
   }
 
-  // Of a way of so many nodes.
+  // The cost of a displacement of d nodes is OfWays()[d], where d may be negative.
   const double* OfWays() const { return this->Ways.data() + (this->Nodes - 1); }
 
   std::int32_t Nodes;
-  double Scale; // from values to squared cells
-  // Changes (below) that differ by rounding must round alike: where a parabola serves many j, the
-  // transform of the result has all of these changes at the same j.
+  double Scale; // 1 / h^2: from values to squared cells
+  // 1 for rounding a change up by truncation, and a little more. Changes that differ by rounding
+  // must round alike: where a parabola serves many j, the c-transform of the result has all of
+  // these changes at the same j.
   double Above;
-  LargeBuffer<double> Middles; // between each node and the one before, plus Above
+  LargeBuffer<double> Middles; // the place between each node and the one before, plus Above
 
 private:
   LargeBuffer<double> Ways;
 };
 
-// Of Count lines, one after the other, with marks (see LineTransform). A function of its own, so
-// that all that the loop needs is in registers.
+// Writes the minima of Count lines, one after the other, from their marks (see LineTransform). It
+// is not inlined, so that all that the loop needs is in registers.
 template <int Sign, int Count>
 __attribute__((noinline)) void serve(const double* values, const std::int32_t* marks,
   const double* costs, std::ptrdiff_t nodes, double* result)
@@ -80,7 +86,9 @@ __attribute__((noinline)) void serve(const double* values, const std::int32_t* m
   }
 }
 
-// Finds for each j the i of the least a(i) + h^2 (i - j)^2 / 2, for lines of nodes.
+// The one-dimensional c-transform of lines of nodes, as a lower envelope of parabolas: finds for
+// each j the i of the least a(i) + h^2 (i - j)^2 / 2 in linear time (Felzenszwalb and Huttenlocher,
+// "Distance Transforms of Sampled Functions", 2012).
 //
 // A node y serves before a node x < y from a certain j on. Of consecutive nodes these changes need
 // to be in order, and then each j takes the last node whose change it has reached. Where a change
@@ -99,7 +107,7 @@ public:
   {
   }
 
-  // Of Sign times the finite values of lines, one after the other. `result` is other memory.
+  // Transforms lines, one after the other, of finite values times Sign. `result` is other memory.
   template <int Sign>
   void Transform(const double* values, double* result, std::int64_t lines)
   {
@@ -147,7 +155,8 @@ public:
   }
 
 private:
-  static constexpr int together = 2; // lines at a time: each step waits for the one before
+  static constexpr int together =
+    2; // lines at a time, as each step of a line waits for the one before
 
   static std::int32_t Rounded(double change, double most)
   {
@@ -155,7 +164,8 @@ private:
     return static_cast<std::int32_t>(change < most ? change : most);
   }
 
-  // The first j at which y serves before x < y.
+  // The first j at which y serves before x < y: a(y) + h^2 (y - j)^2 / 2 <= a(x) + h^2 (x - j)^2 /
+  // 2 from j = (a(y) - a(x)) / (h^2 (y - x)) + (x + y) / 2 on, rounded up.
   template <int Sign>
   std::int32_t ChangeBetween(const double* values, std::int32_t x, std::int32_t y) const
   {
@@ -163,7 +173,7 @@ private:
     return Rounded(slope + 0.5 * (static_cast<double>(x) + y) + this->Costs.Above, this->Nodes);
   }
 
-  // Between all neighbours. Returns whether they are in order.
+  // The changes between all neighbours, where y - x = 1. Returns whether they are in order.
   template <int Sign>
   bool FindChanges(const double* values)
   {
@@ -202,6 +212,7 @@ private:
     return inOrder;
   }
 
+  // Marks Count lines and then serves them in one loop, whose dependent steps overlap.
   template <int Sign, int Count>
   void TransformTogether(const double* values, double* result)
   {
@@ -213,6 +224,7 @@ private:
     serve<Sign, Count>(values, this->Marks.data(), this->Costs.OfWays(), nodes, result);
   }
 
+  // Most lines are in order at once: those of a potential that is nearly c-concave.
   template <int Sign>
   void MarkLine(const double* values, std::int32_t* marks)
   {
@@ -223,6 +235,8 @@ private:
     this->Mark(marks);
   }
 
+  // Repairs the changes that are out of order, as Graham's scan does for a convex hull: Before is
+  // the stack of nodes that still serve, as a linked list.
   template <int Sign>
   void DropNodes(const double* values)
   {
@@ -253,6 +267,8 @@ private:
     this->Before.data()[i] = before;
   }
 
+  // Writes each node at the first j that it serves. Of nodes with the same change the last one
+  // stays, which is the one that serves there.
   void Mark(std::int32_t* marks) const
   {
     const std::int32_t nodes = this->Nodes;
@@ -272,8 +288,8 @@ private:
   LargeBuffer<std::int32_t> Marks;  // the node that serves from j on; 0 for the same as before
 };
 
-// kernel(first, last) of lines, in ranges that are large enough to pay for their buffers, and
-// enough for some threads.
+// Calls kernel(first, last) for ranges of lines that are large enough to pay for their buffers, and
+// small enough that several threads get some.
 template <class Kernel>
 void forLines(const NodeLines& lines, Progress& progress, const Kernel& kernel)
 {
@@ -288,14 +304,15 @@ void forLines(const NodeLines& lines, Progress& progress, const Kernel& kernel)
     firstSlice);
 }
 
-// How many lines from one on are neighbours in memory.
+// How many lines from one on, at most blockLines, are neighbours in memory.
 int neighboursOf(const NodeLines& lines, std::int64_t line, std::int64_t last)
 {
   const std::int64_t rest = lines.Stride - line % lines.Stride;
   return static_cast<int>(std::min({ std::int64_t{ blockLines }, last - line, rest }));
 }
 
-// copy(place in lines one after the other, place in the grid) of all nodes of neighbouring lines.
+// Calls copy(place in lines one after the other, place in the grid) for all nodes of neighbouring
+// lines. Lines along axes 1 and 2 are strided; copying them in blocks uses each cache line whole.
 template <class Copy>
 void forNodes(const NodeLines& lines, int count, const Copy& copy)
 {
@@ -326,6 +343,9 @@ void copyToGrid(const T* from, const NodeLines& lines, int count, T* grid)
 
 } // namespace
 
+// phi^c(y) = min_x |x - y|^2 / 2 - phi(x) is separable: the minimum over x_0 of h_0^2 (i - j)^2 / 2
+// - phi, then along each other axis of the result, O(nodes) in all (Jacobs and Leger 2020, section
+// 4.1).
 template <int Dimension>
 void costTransform(
   const NodeGrid<Dimension>& grid, const double* from, double* to, Progress& progress)
@@ -335,6 +355,7 @@ void costTransform(
   const std::int64_t nodes = rows.Nodes;
   const AxisCosts rowCosts(nodes, grid.Spacing[0], largest);
   forLines(rows, progress, [&](std::int64_t first, std::int64_t last) {
+    // Along axis 0 lines are contiguous and need no copies, unless they are transformed in place.
     LineTransform transform(rowCosts);
     if (from != to)
     {
@@ -371,6 +392,8 @@ void costTransform(
   }
 }
 
+// The same minima with the nodes that attain them: along each axis the minimizer of a line's best
+// node is that node's own minimizer along the axes before.
 template <int Dimension>
 void costMinimizers(
   const NodeGrid<Dimension>& grid, const double* from, std::int64_t* minimizers, Progress& progress)
@@ -396,6 +419,7 @@ void costMinimizers(
         const int count = neighboursOf(lines, line, last);
         if (axis == 0)
         {
+          // Values are -phi; nodes without mass have infinity, so that they never serve.
           std::transform(from + begin, from + begin + nodes, in.begin(), std::negate<>());
           for (std::int64_t j = 0; j < nodes; ++j)
           {

@@ -28,8 +28,10 @@ inline std::int64_t toInteger(double scaled)
   return static_cast<std::int64_t>(scaled + (scaled < 0.0 ? -0.5 : 0.5));
 }
 
+// Arrays take 8 bytes a sum and thread, so that more of them cost more than waiting does.
 constexpr int mostArraysOfSums = 8;
 
+// Integer additions commute, unlike those of floats.
 class IntegerSums
 {
 public:
@@ -41,6 +43,7 @@ public:
   {
   }
 
+  // The number of arrays: clearing and adding up an array must be little beside its terms.
   static int ArraysFor(std::int64_t count, std::int64_t terms, int threads)
   {
     const std::int64_t most = std::clamp(threads, 1, mostArraysOfSums);
@@ -61,6 +64,7 @@ public:
     Part(const Part&) = delete;
     Part& operator=(const Part&) = delete;
 
+    // The array of this part; the thread adds to it without locks.
     std::int64_t* Values() const { return this->Own; }
 
   private:
@@ -84,7 +88,7 @@ public:
       visit(i, sum);
     });
   }
-  // The sums themselves, and no array any more.
+  // Adds the arrays up into the first one, returns it and keeps none.
   LargeBuffer<std::int64_t> Release(Progress& progress)
   {
     if (this->Arrays.empty())
@@ -111,6 +115,7 @@ public:
   }
 
 private:
+  // A free array, or a new one while there are fewer than Most.
   std::int64_t* Take()
   {
     std::unique_lock<std::mutex> lock(this->Mutex);
@@ -137,6 +142,7 @@ private:
 
   const std::int64_t Count;
   const int Most;
+  // Values of all arrays, and those that no part has.
   std::vector<LargeBuffer<std::int64_t>> Arrays;
   std::vector<std::int64_t*> Free;
   std::mutex Mutex;

@@ -13,19 +13,22 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t mostLines = 128; // that are smoothed together
+// So many neighbouring lines are smoothed together: their values of one node are 1 KiB of
+// contiguous memory, and the old values of the node before fit on the stack.
+constexpr std::int64_t mostLines = 128;
 
-// One coordinate of the map, of the lines [first, last) along axis 0 of all nodes.
+// Computes one coordinate of T = x - grad phi, in cells: T_i = i - (phi_{i+1} - phi_{i-1}) / (2
+// h^2), with one-sided differences at the ends, for lines along axis 0.
 struct Differences
 {
   const double* Potential;
   double* Images;
   std::int64_t Nodes;  // along axis 0
-  std::int64_t Stride; // of the coordinate's axis
+  std::int64_t Stride; // between neighbours along the coordinate's axis
   std::int64_t Cells;  // along this axis
-  double Scale;        // from a difference of potentials to cells
+  double Scale;        // 1 / h^2: one h of the derivative, one for lengths in cells
 
-  // Along axis 0.
+  // Along axis 0, where neighbours are adjacent in memory.
   void WriteAlong(std::int64_t first, std::int64_t last) const
   {
     const double half = 0.5 * this->Scale;
@@ -34,6 +37,7 @@ struct Differences
     {
       const double* p = this->Potential + line * n;
       double* out = this->Images + line * n;
+      // One-sided at the ends, where the potential has a neighbour on one side alone.
       out[0] = -(p[1] - p[0]) * this->Scale;
       for (std::int64_t i = 1; i + 1 < n; ++i)
       {
@@ -44,7 +48,7 @@ struct Differences
     }
   }
 
-  // Along another axis.
+  // Along another axis, where the neighbours of a line are lines, so that each line is one loop.
   void WriteAcross(std::int64_t first, std::int64_t last) const
   {
     for (std::int64_t line = first; line < last; ++line)
@@ -52,6 +56,7 @@ struct Differences
       const std::int64_t node = line * this->Nodes / this->Stride % (this->Cells + 1);
       const std::int64_t low = node > 0 ? this->Stride : 0;
       const std::int64_t high = node < this->Cells ? this->Stride : 0;
+      // A one-sided difference spans h, a central one 2 h.
       const double scale = low > 0 && high > 0 ? 0.5 * this->Scale : this->Scale;
       const double at = static_cast<double>(node);
       const double* p = this->Potential + line * this->Nodes;
@@ -64,6 +69,7 @@ struct Differences
     }
   }
 
+  // An image beyond the box would have left the convex domain.
   void Clamp(double* images) const
   {
     const double most = static_cast<double>(this->Cells);
@@ -74,7 +80,8 @@ struct Differences
   }
 };
 
-// So many lines beside each other, at most mostLines; the nodes of each are a stride apart.
+// Applies the stencil 1/4, 1/2, 1/4 in place to `lines` (at most mostLines) neighbouring lines,
+// whose nodes are a stride apart. `before` holds the old value of the node before.
 void smoothLines(double* values, std::int64_t nodes, std::int64_t stride, std::int64_t lines)
 {
   std::array<double, mostLines> before;
@@ -93,11 +100,13 @@ void smoothLines(double* values, std::int64_t nodes, std::int64_t stride, std::i
 
 } // namespace
 
+// A coordinate at a time, each over all lines along axis 0.
 template <int Dimension>
 void writeGradientMap(const double* potential, NodeMap<Dimension>& map, Progress& progress)
 {
   const NodeGrid<Dimension>& grid = map.Grid;
   const std::int64_t nodes = grid.Cells[0] + 1;
+  // Chunks of about 4096 nodes, in whole lines.
   const std::int64_t grain = std::max<std::int64_t>(1, 4096 / nodes);
   for (int axis = 0; axis < Dimension; ++axis)
   {
@@ -117,6 +126,7 @@ void writeGradientMap(const double* potential, NodeMap<Dimension>& map, Progress
   }
 }
 
+// The stencils of the axes commute, so the axes are smoothed one after the other.
 template <int Dimension>
 void smoothMap(NodeMap<Dimension>& map, Progress& progress)
 {
@@ -126,6 +136,7 @@ void smoothMap(NodeMap<Dimension>& map, Progress& progress)
     {
       const std::int64_t stride = map.Grid.Stride(axis);
       const std::int64_t nodes = map.Grid.Cells[axis] + 1;
+      // The lines along an axis form groups of `stride` neighbours, which are smoothed in blocks.
       const std::int64_t blocks = (stride + mostLines - 1) / mostLines;
       const std::int64_t all = images.size() / (nodes * stride) * blocks;
       const std::int64_t grain =
@@ -145,11 +156,13 @@ template decltype(smoothMap<3>) smoothMap<3>;
 template decltype(limitFineness<1>) limitFineness<1>;
 template decltype(limitFineness<2>) limitFineness<2>;
 template decltype(limitFineness<3>) limitFineness<3>;
+// A map that stretches needs many samples a cell. Their mean is estimated from every eighth row; if
+// it is too large, the samples along each axis become fewer by the factor's Dimension-th root.
 template <int Dimension>
 SampleFineness limitFineness(
   const NodeMap<Dimension>& map, const double* masses, SampleFineness fineness, Progress& progress)
 {
-  constexpr std::int64_t apart = 8; // rows
+  constexpr std::int64_t apart = 8; // take every eighth row for the estimate
   constexpr double most = 4.0;      // samples a cell
   constexpr int attempts = 4;       // as each cell has a sample, the first may be too many
   const std::int64_t cells = map.Grid.Cells[0];
@@ -167,6 +180,7 @@ SampleFineness limitFineness(
       });
     progress.Check();
     const double all = std::accumulate(counts.begin(), counts.end(), 0.0);
+    // The mean number of samples a cell, also over cells without mass.
     const double each = all / static_cast<double>(rows * cells);
     if (each <= most)
     {

@@ -23,7 +23,7 @@ struct NodeMap
   NodeGrid<Dimension> Grid;
   std::array<NodeValues, Dimension> Images; // a coordinate each, at the nodes
 
-  // With memory for the images, not initialised.
+  // A map with memory for the images, which are not initialised.
   static NodeMap On(const NodeGrid<Dimension>& grid)
   {
     NodeMap map;
@@ -35,6 +35,7 @@ struct NodeMap
     return map;
   }
 
+  // The multilinear interpolant of the images.
   Point<Dimension> At(const double* point) const
   {
     const HatsAt<Dimension> hats(point, this->Grid.Cells);
@@ -47,14 +48,16 @@ struct NodeMap
   }
 };
 
-// x - grad potential(x) at the nodes, by central differences, moved into the box; from and to
+// Writes x - grad potential(x) at the nodes, by central differences, clamped to the box; from and
+// to
 // physical lengths by the grid's spacing. Adds a unit of work for each node and axis. Throws
 // Cancelled. The map has memory already.
 template <int Dimension>
 void writeGradientMap(const double* potential, NodeMap<Dimension>& map, Progress& progress);
 
-// Averages the images of each node and its neighbours, with weights 1, 2, 1 along each axis: those
-// of a potential that is transformed on nodes form stairs. Nodes at the ends of an axis keep theirs
+// Smooths the images of each node and its neighbours by the weights 1/4, 1/2, 1/4 along each axis:
+// a potential that is transformed on nodes has a gradient that forms stairs. Nodes at the ends of
+// an axis keep theirs
 // along it. Adds units of work. Throws Cancelled.
 template <int Dimension>
 void smoothMap(NodeMap<Dimension>& map, Progress& progress);
@@ -66,7 +69,7 @@ struct CellSample
   std::int64_t Cell; // axis 0 fastest
   double Mass;
   GridSize<Dimension> Part;  // along each axis
-  GridSize<Dimension> Parts; // of the cell
+  GridSize<Dimension> Parts; // the number of parts of the cell along each axis
 
   // The middle of the part, in cells of the nodes.
   Point<Dimension> Place(const GridSize<Dimension>& cells) const
@@ -83,7 +86,8 @@ struct CellSample
   }
 };
 
-// Samples a cell of the nodes that a cell is stretched over along an axis, at least one a cell.
+// Samples for each cell of the nodes that a cell is stretched over along an axis; each cell has at
+// least one.
 struct SampleFineness
 {
   double Each = 1.0;
@@ -111,7 +115,8 @@ public:
     return grid.NumberOfCells() / grid.Cells[0];
   }
 
-  // visit(sample, image) of each sample of the row's cells with mass; `masses` are those of all
+  // Calls visit(sample, image) for each sample of the row's cells with mass; `masses` are those of
+  // all
   // cells, null if each has the mass 1.
   template <class Visit>
   void ForRow(std::int64_t row, const double* masses, const Visit& visit)
@@ -137,7 +142,7 @@ public:
     }
   }
 
-  // How many samples that would visit.
+  // How many samples ForRow would visit.
   double CountRow(std::int64_t row, const double* masses)
   {
     this->FindCorners(row);
@@ -154,7 +159,7 @@ public:
   }
 
 private:
-  static constexpr int Lines = 1 << (Dimension - 1); // of nodes about a row
+  static constexpr int Lines = 1 << (Dimension - 1); // lines of nodes about a row of cells
   static constexpr int MostSamples = 64;
 
   double* Middle(int axis) { return this->Scratch.data() + this->Nodes * Index(axis); }
@@ -162,6 +167,7 @@ private:
   double* Across() { return this->Middle(2 * Dimension); }
   static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
+  // Pointers to the images of the lines of nodes about a row of cells, a coordinate each.
   void FindCorners(std::int64_t row)
   {
     const GridSize<Dimension>& cells = this->Map.Grid.Cells;
@@ -181,6 +187,7 @@ private:
     }
   }
 
+  // The images of the cells' centres: means of the corners.
   void TakeMiddles()
   {
     constexpr double share = 1.0 / (1 << Dimension);
@@ -205,7 +212,8 @@ private:
     }
   }
 
-  // The longest extent of an edge's image, in any coordinate, of the edges along each axis.
+  // The extents of cells' images along each axis of the cell, in cells: the longest extent in any
+  // coordinate among the images of its edges along that axis.
   void MeasureExtents()
   {
     double* along = this->Extent(0);
@@ -248,10 +256,10 @@ private:
     }
   }
 
-  // The parts along each axis of a cell of the row. Returns how many these are.
+  // The number of parts along each axis of a cell of the row. Returns the product.
   int Divide(std::int64_t i, double mass, int (&parts)[3])
   {
-    constexpr double tolerance = 0.02; // of an extent just above a whole number
+    constexpr double tolerance = 0.02; // lets an extent just above a whole number have no part more
     const double fineness =
       mass < this->Fineness.LightMass ? this->Fineness.OfLightCells : this->Fineness.Each;
     int all = 1;
@@ -264,6 +272,8 @@ private:
     return all;
   }
 
+  // A cell's image is multilinear in its corners: along axis 0 samples are even steps from one face
+  // to the other, whose ends are interpolated once for all samples of a line.
   template <class Visit>
   void ForCell(std::int64_t i, std::int64_t cell, double mass, const Visit& visit)
   {
@@ -316,7 +326,8 @@ private:
     }
   }
 
-  // A coordinate of the image of a place on the face of cells between nodes i.
+  // A coordinate of the image of the place (y, z) on the face at node i of the row, by bilinear
+  // interpolation.
   double Across(std::int64_t i, int axis, double y, double z) const
   {
     const auto& corners = this->Corners[Index(axis)];

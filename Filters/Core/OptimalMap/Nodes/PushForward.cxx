@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a map makes of a density, as masses of nodes.
+// The push-forward T_# mu of a density by a map, as masses of the nodes' hats.
 #include "Core/OptimalMap/Nodes/NodeSums.h"
 
 #include "Core/Parallel/Progress.h"
@@ -10,11 +10,14 @@
 namespace RectifiedTransport
 {
 
+// Each cell is divided into samples as the map stretches it. A sample's mass goes to its image and
+// is deposited on the nodes about it by multilinear weights, the transpose of interpolation.
 template <int Dimension>
 void pushForward(const NodeMap<Dimension>& map, const double* cells, const SampleFineness& fineness,
   NodeSums<Dimension>& sums, Progress& progress)
 {
   const std::int64_t row = map.Grid.Cells[0];
+  // Rows a chunk: about 1024 cells.
   const std::int64_t rows = std::max<std::int64_t>(1, 1024 / row);
   constexpr std::int64_t firstCells = std::int64_t{ 1 } << 15;
   progress.For(
