@@ -14,9 +14,11 @@ namespace RectifiedTransport
 namespace
 {
 
+// Corners a chunk of parallel loops.
 constexpr std::int64_t grain = 1 << 13;
 
-// The masses of a flow's cells. The tables' differences are not exactly zero where there is none.
+// The masses of a flow's cells, as a density: differences of the tables. Rounding makes these not
+// exactly zero in empty cells, so HasMass decides there.
 template <int Dimension>
 class CellShares final : public DensityValues
 {
@@ -40,6 +42,7 @@ public:
         centre[axis] = low[axis] + 0.5;
         rest /= this->Flow.Size()[axis];
       }
+      // A share is the integral of the density over the cell over the whole mass.
       values[i] = this->Flow.HasMass(centre) ? this->Flow.Share(low, high) : 0.0;
     }
   }
@@ -48,7 +51,7 @@ private:
   const RectifiedFlow<Dimension>& Flow;
 };
 
-// Number `corner` of the corners of cells.
+// The place of corner number `corner`, axis 0 fastest, in index space.
 template <int Dimension>
 Point<Dimension> cornerAt(std::int64_t corner, const GridSize<Dimension>& size)
 {
@@ -83,17 +86,20 @@ AreaCorrection<Dimension>::AreaCorrection(const RectifiedFlow<Dimension>& flow,
   });
 }
 
-// moveBack(points, context) moves the corners, in place.
+// Moves the corners of all cells back to the uniform measure by moveBack(points, context), in
+// place, and equalizes the areas of their images. Cells' images should have area = mass.
 template <int Dimension>
 template <class MoveBack>
 void AreaCorrection<Dimension>::Make(const RectifiedFlow<Dimension>& flow,
   const EqualizeOptions& equalize, const Context& context, const MoveBack& moveBack)
 {
+  // Each rank does all of it, so that the correction is the same everywhere without communication.
   Context alone = context;
   alone.Group = &SoloRanks::Get();
   Progress progress(alone);
   Stages stages(progress, { { "corners", 2 }, { "map", 58 }, { "moves", 2 }, { "areas", 38 } });
   const auto count = static_cast<std::int64_t>(numberOfCorners<Dimension>(this->Size));
+  // Images of the corners, interleaved, in cells of the density's index space.
   LargeBuffer<double> corners(count * Dimension);
   const PointSpan<Dimension> images(corners.data(), count);
   stages["corners"].ForEach(count, grain, [&](std::int64_t i) {
@@ -102,6 +108,7 @@ void AreaCorrection<Dimension>::Make(const RectifiedFlow<Dimension>& flow,
   });
   moveBack(images, stages["map"]);
 
+  // Moves are sums of the passes' moves, which start at zero.
   this->Moves = LargeBuffer<float>(count * Dimension);
   stages["moves"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
     std::fill_n(this->Moves.data() + first * Dimension, (last - first) * Dimension, 0.0F);
@@ -115,6 +122,8 @@ FlowOptions AreaCorrection<Dimension>::Resolve(
   const RectifiedFlow<Dimension>& flow, FlowOptions options, const Context& context)
 {
   const FlowOptions usual;
+  // Options that give the same points must compare equal: steps are made explicit, and what the
+  // integrator does not use gets its default.
   if (options.NumberOfSteps == 0 && options.Integrator != Integrator::Adaptive)
   {
     Context alone = context;
@@ -125,6 +134,7 @@ FlowOptions AreaCorrection<Dimension>::Resolve(
   options.LeastSteps = usual.LeastSteps;
   if (options.Integrator == Integrator::Adaptive)
   {
+    // The adaptive integrator has no steps to choose, so any number serves that asks for no choice.
     options.NumberOfSteps = 1; // no measurement
   }
   else
@@ -135,6 +145,8 @@ FlowOptions AreaCorrection<Dimension>::Resolve(
   return options;
 }
 
+// Adds the move of a point of the density: the multilinear interpolant of the moves of its cell's
+// corners, in cells.
 template <int Dimension>
 void AreaCorrection<Dimension>::Correct(const double* point, double* image) const
 {
@@ -143,6 +155,7 @@ void AreaCorrection<Dimension>::Correct(const double* point, double* image) cons
   for (int axis = 0; axis < Dimension; ++axis)
   {
     const auto side = static_cast<double>(this->Size[axis]);
+    // The cell that holds the point, clamped to the box, and the place in it from 0 to 1.
     const double x = std::min(std::max(point[axis], 0.0), side);
     cell[axis] = std::min(static_cast<std::int64_t>(x), this->Size[axis] - 1);
     rest[axis] = x - static_cast<double>(cell[axis]);
@@ -155,6 +168,7 @@ void AreaCorrection<Dimension>::Correct(const double* point, double* image) cons
     for (int axis = Dimension; axis-- > 0;)
     {
       const int isHigh = corner >> axis & 1;
+      // Bit a of the corner's number says which side it is on along axis a.
       weight *= isHigh ? rest[axis] : 1.0 - rest[axis];
       number = number * (this->Size[axis] + 1) + cell[axis] + isHigh;
     }
@@ -170,6 +184,7 @@ void AreaCorrection<Dimension>::Correct(const double* point, double* image) cons
   }
 }
 
+// The corners in doubles and their moves in floats, besides what equalizeAreas takes.
 template <int Dimension>
 double AreaCorrection<Dimension>::MemoryFor(const GridSize<Dimension>& size)
 {

@@ -19,11 +19,11 @@ template <int Dimension>
 class AreaCorrection
 {
 public:
-  // Of a flow with whole tables. Not collective: every rank that calls it gets the same bits.
+  // Corrects a flow with whole tables. Not collective: every rank that calls it gets the same bits.
   // Throws std::invalid_argument, std::bad_alloc and Cancelled.
   AreaCorrection(const RectifiedFlow<Dimension>& flow, const FlowOptions& options,
     const EqualizeOptions& equalize = {}, const Context& context = Context());
-  // The same of another map from the uniform measure to the flow's density.
+  // The same for another map from the uniform measure to the flow's density.
   AreaCorrection(const RectifiedFlow<Dimension>& flow, const PointTransport<Dimension>& map,
     const EqualizeOptions& equalize = {}, const Context& context = Context());
 
@@ -57,7 +57,7 @@ private:
 
   const GridSize<Dimension> Size;
   EqualizeReport Found;
-  LargeBuffer<float> Moves; // of the corners, interleaved
+  LargeBuffer<float> Moves; // moves of the corners, interleaved, in cells
 };
 
 } // namespace RectifiedTransport

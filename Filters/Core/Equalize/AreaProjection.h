@@ -43,7 +43,7 @@ public:
       this->Lattice.CornerRows(), progress, [this](std::int64_t row) { this->FindMobility(row); });
   }
 
-  // Changes the moves of the lattice. Units of progress: twice the
+  // A sweep over all cells, which changes the moves of the lattice. Units of progress: twice the
   // rows of corners, with states three times.
   void Sweep(Progress& progress)
   {
@@ -51,7 +51,7 @@ public:
     this->Lattice.TakeNextMoves();
   }
 
-  // Only of the cells with this bit in their states, which are in active rows.
+  // A sweep only over the cells that have this bit in their states, in active rows.
   void Sweep(
     const unsigned char* states, unsigned char bit, const ActiveRows& active, Progress& progress)
   {
@@ -70,8 +70,8 @@ public:
   }
 
 private:
-  // The least target of the cells of a corner: a move that suits a large cell could fold a small
-  // one beside it.
+  // A corner's mobility m is the least target of its cells: a move that suits a large cell could
+  // fold a small one beside it. Hence small cells' corners move less.
   void FindMobility(std::int64_t cornerRow)
   {
     constexpr float leastMobility = 1e-6F;
@@ -101,6 +101,7 @@ private:
     }
   }
 
+  // Multipliers of a row of cells, from their areas with the present moves.
   void FindMultipliers(
     std::int64_t cellRow, typename CornerLattice<Dimension>::Rows& rows, std::vector<double>& areas)
   {
@@ -118,6 +119,7 @@ private:
       this->Multipliers.data() + cellRow * cells);
   }
 
+  // The next moves of a row of corners. Corners on a side of the box stay on it.
   void Project(
     std::int64_t cornerRow, typename CornerLattice<Dimension>::Rows& rows, const float* none)
   {
@@ -141,7 +143,8 @@ private:
     this->Lattice.KeepOnSides(cornerRow, row.After);
   }
 
-  // `active` null: all rows, and all cells of theirs.
+  // Two loops with a barrier between them: multipliers of all cells first, then the moves of
+  // corners, which read their cells'. `active` null: all rows, and all of their cells.
   void SweepRows(
     const ActiveRows* active, const unsigned char* states, unsigned char bit, Progress& progress)
   {
@@ -184,8 +187,8 @@ private:
   CornerLattice<Dimension>& Lattice;
   const EqualizeKernels<Dimension> Kernels;
   const float* Targets = nullptr;
-  LargeBuffer<float> Mobility;    // of the corners
-  LargeBuffer<float> Multipliers; // of the cells
+  LargeBuffer<float> Mobility;    // mobility of the corners
+  LargeBuffer<float> Multipliers; // multipliers of the cells
 };
 
 } // namespace RectifiedTransport

@@ -21,6 +21,8 @@ namespace RectifiedTransport
 // Numbers of rows of cells about a row of corners, [offset1 + 2 * offset2]; -1 if there is none.
 using RowsAbout = std::array<std::int64_t, 4>;
 
+// Images are doubles, interleaved, axis 0 fastest; moves are floats, one array a coordinate, as the
+// kernels read them. NextMoves receives what a sweep writes.
 template <int Dimension>
 class CornerLattice
 {
@@ -50,11 +52,13 @@ public:
     return { row % rows, row / rows };
   }
 
+  // The row's number from its place.
   std::int64_t NumberOf(const std::array<std::int64_t, 2>& place, int added) const
   {
     return place[1] * (this->CellCounts[1] + added) + place[0];
   }
 
+  // The rows of cells that touch a row of corners.
   RowsAbout CellRowsAbout(std::int64_t cornerRow) const
   {
     const std::array<std::int64_t, 2> place = this->PlaceOf(cornerRow, 1);
@@ -74,12 +78,12 @@ public:
   void ForRanges(std::int64_t rows, Progress& progress, RangeKernel kernel) const
   {
     constexpr std::int64_t grainCells = 1 << 13;
-    constexpr std::int64_t firstCells = 1 << 16; // of a slice: a few milliseconds
+    constexpr std::int64_t firstCells = 1 << 16; // cells of a slice: a few milliseconds
     const std::int64_t columns = this->CellCounts[0];
     progress.For(rows, std::max<std::int64_t>(grainCells / columns, 1), kernel,
       std::max<std::int64_t>(firstCells / columns, 1));
   }
-  // work(row) for each of them.
+  // Calls work(row) for each row.
   template <class Work>
   void ForRows(std::int64_t rows, Progress& progress, const Work& work) const
   {
@@ -91,8 +95,10 @@ public:
     });
   }
 
+  // The moves of all corners along an axis.
   float* Moves(int axis) { return this->Move[axis].data(); }
   float* NextMoves(int axis) { return this->NextMove[axis].data(); }
+  // The next moves become the moves, of all rows or of one.
   void TakeNextMoves()
   {
     for (int axis = 0; axis < Dimension; ++axis)
@@ -154,7 +160,7 @@ public:
   class Rows
   {
   public:
-    // With the corners' moves or without.
+    // The corners are moved by their moves if `moved`.
     Rows(const CornerLattice& lattice, bool moved)
       : Lattice(lattice)
       , Moved(moved)
@@ -248,12 +254,14 @@ public:
     CellRow<Dimension> Found;
   };
 
+  // Two arrays of moves.
   static double Memory(const GridSize<Dimension>& cells)
   {
     return 2.0 * Dimension * numberOfCorners<Dimension>(cells) * sizeof(float);
   }
 
 private:
+  // Rows along axis 0 of cells, or of corners (added = 1).
   std::int64_t RowCount(int added) const
   {
     std::int64_t count = 1;
@@ -264,7 +272,7 @@ private:
     return count;
   }
 
-  // Along axes 1 and 2.
+  // The last corner's place along axes 1 and 2.
   std::array<std::int64_t, 2> LastCorner() const
   {
     return { this->CellCounts[1], Dimension == 3 ? this->CellCounts[Dimension - 1] : 0 };

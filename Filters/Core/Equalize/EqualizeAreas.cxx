@@ -17,15 +17,21 @@ namespace RectifiedTransport
 namespace
 {
 
+// Cells a chunk of parallel loops.
 constexpr std::int64_t grainCells = 1 << 13;
+// Conjugate gradients stop by the tolerance after some iterations; this bounds them for degenerate
+// images.
 constexpr int mostIterations = 50;
-constexpr int sweeps = 2; // of projections after each linear system
+constexpr int sweeps = 2; // projections after each linear system
 
-// The moves of a pass that makes nothing better are halved so often, at most. Then so many sweeps
-// of projections take their place: beside thin cells the equation may move all corners too far.
+// The moves of a pass that does not reduce the errors are halved up to mostHalvings times. Then
+// sweepsAlone sweeps of projections take their place: beside thin cells the equation may move all
+// corners too far.
 constexpr int mostHalvings = 3;
 constexpr int sweepsAlone = 8;
 
+// The passes of the correction in 2D and 3D. Arrays of cells are floats, axis 0 fastest; the mean
+// mass and area of a cell are 1.
 template <int Dimension>
 class Equalization
 {
@@ -45,6 +51,9 @@ public:
   {
   }
 
+  // A pass: find the areas that are missing, solve -div grad p = mass - area on the images of
+  // cells, fit the corners' moves to the fluxes, project them on the cells' areas, and limit them
+  // so that no cell folds. It is applied only if it lowers the error without folding further cells.
   EqualizeReport Run(const EqualizeOptions& options, float* moves)
   {
     EqualizeReport report;
@@ -55,6 +64,8 @@ public:
       Stages stages(passes[pass],
         { { "areas", 10 }, { "levels", 10 }, { "potential", 50 }, { "moves", 5 },
           { "projections", 10 }, { "limits", 10 }, { "corners", 5 } });
+      // Areas before the pass, and the sums that the pass must improve.
+      // The masses are read in the first pass alone; areas change with the corners.
       const AreaSums found = this->Measure(pass == 0, stages["areas"]);
       if (pass == 0)
       {
@@ -62,20 +73,25 @@ public:
         report.FoldedAfter = found.Folded;
       }
       stages["levels"].Expect(3 * cells);
+      // The potential p of the missing areas, to a residual within the tolerance.
       this->Center(found.Missing, stages["levels"]);
       this->System.Prepare(stages["levels"]);
       const FaceSolution solution =
         this->System.Solve(options.Tolerance, mostIterations, stages["potential"]);
       report.Iterations += solution.Iterations;
       report.Residual = std::max(report.Residual, solution.Residual);
+      // Moves of the order of the wavelengths that the equation resolves, then projections for what
+      // is left on the scale of cells.
       this->FindMoves(stages["moves"]);
       Progress& projections =
         stages["projections"].Expect((2 * sweeps + 1) * this->Lattice.CornerRows());
       this->Projection.SetTargets(this->Targets.data(), projections);
       this->Sweep(sweeps, projections);
+      // A pass must lower the sum of squared errors and must not fold further cells.
       const auto isBetter = [&found](const AreaSums& moved) {
         return moved.Folded <= found.Folded && moved.Error < found.Error;
       };
+      // Limits change the moves, so each trial starts from the moves that the last one left.
       Rounds trials(stages["limits"], 1);
       const auto apply = [&]() {
         return this->Limits.Apply(
@@ -108,6 +124,7 @@ public:
   }
 
 private:
+  // Cimmino's projections on the areas of all cells.
   void Sweep(int count, Progress& progress)
   {
     for (int sweep = 0; sweep < count; ++sweep)
@@ -116,6 +133,7 @@ private:
     }
   }
 
+  // Projections alone start from no moves.
   void ClearMoves(Progress& progress)
   {
     const std::int64_t count = this->Lattice.CornersOfRow();
@@ -127,7 +145,8 @@ private:
     });
   }
 
-  // Areas, the weights of faces, and the right-hand side: minus the missing areas.
+  // Computes areas, the weights of faces, and the right-hand side: area - mass, minus the missing
+  // area. Returns the sums over rows.
   AreaSums Measure(bool isFirst, Progress& progress)
   {
     this->Lattice.ForRanges(
@@ -150,8 +169,8 @@ private:
     return this->Limits.SumOfRows();
   }
 
-  // Masses in units in which the mean of a cell is one. A float keeps no more than the area of a
-  // cell needs, but it keeps that a cell has mass.
+  // Masses in units in which the mean of a cell is one. A float keeps an area to 1e-7, more than
+  // the correction reaches, and at least the fact that a cell has mass.
   void ReadTargets(std::int64_t row, std::vector<double>& masses)
   {
     constexpr double least = std::numeric_limits<float>::min();
@@ -164,6 +183,7 @@ private:
     }
   }
 
+  // Keeps each cell's state before the moves, and writes its right-hand side.
   void WriteRow(std::int64_t row, const double* areas)
   {
     const std::int64_t from = row * this->Size[0];
@@ -176,6 +196,7 @@ private:
     }
   }
 
+  // The weights |face| / |distance of centres| of the cells' upper faces, 0 on the box's sides.
   void WriteWeights(std::int64_t row, const CellRow<Dimension>& corners)
   {
     float* weights[Dimension];
@@ -183,6 +204,7 @@ private:
     {
       weights[axis] = this->System.Weights(axis) + row * this->Size[0];
     }
+    // The kernel writes the weights of the upper faces of a row of cells along all axes.
     this->Kernels.Weights(corners, weights);
     const std::array<std::int64_t, 2> place = this->Lattice.PlaceOf(row, 0);
     for (int axis = 1; axis < Dimension; ++axis)
@@ -194,7 +216,8 @@ private:
     }
   }
 
-  // The images fill the box but for rounding, and the system is solvable if nothing is missing.
+  // Makes the sum of the right-hand side 0, as a system without flux at the border needs: images
+  // fill the box but for rounding, so the mean that is taken away is small.
   void Center(double missing, Progress& progress)
   {
     const std::int64_t cells = this->Targets.size();
@@ -203,6 +226,7 @@ private:
     progress.ForEach(cells, grainCells, [&](std::int64_t q) { right[q] += mean; });
   }
 
+  // The corners' moves, from the fluxes w (p_q - p_r) through the faces about each.
   void FindMoves(Progress& progress)
   {
     this->Lattice.ForRanges(
@@ -215,6 +239,7 @@ private:
       });
   }
 
+  // The rows of corners, weights and potential about a row of corners, for the kernel.
   void FindMovesOf(std::int64_t cornerRow, const PointRow<Dimension>* corners)
   {
     const std::int64_t cell =
@@ -222,6 +247,8 @@ private:
     CornerRow<Dimension> row;
     std::copy_n(corners, CornerLattice<Dimension>::RowsOfCell, row.Corners);
     row.Cells = this->Size[0];
+    // Pointers at the cell of which the row's first corner is the low one; margins of zeros allow
+    // reading beyond the border.
     row.Potential = this->System.Solution() + cell;
     std::int64_t stride = 1;
     for (int axis = 0; axis < Dimension; ++axis)
@@ -247,7 +274,8 @@ private:
   Progress Work;
 };
 
-// Along a line, the corners are the sums of the masses before them.
+// In 1D the exact map is monotone: the images of corners are the sums of the masses before them,
+// x_i = cells / total sum_{j < i} f_j.
 EqualizeReport sumMasses(const DensityValues& density, std::int64_t cells, double total,
   PointSpan<1> corners, const Context& context, float* moves)
 {
@@ -263,6 +291,7 @@ EqualizeReport sumMasses(const DensityValues& density, std::int64_t cells, doubl
   report.Passes = 1;
   Progress progress(context);
   progress.Expect(cells);
+  // A chunk of masses at a time, as a density may be read from elsewhere.
   std::vector<double> masses(static_cast<std::size_t>(std::min(cells, grainCells)));
   const double perMass = static_cast<double>(cells) / total;
   double before = 0.0;
@@ -275,6 +304,7 @@ EqualizeReport sumMasses(const DensityValues& density, std::int64_t cells, doubl
       for (std::int64_t i = 0; i < count; ++i)
       {
         before += perMass * masses[static_cast<std::size_t>(i)];
+        // The last corner is the box's end, whatever rounding made of the sum.
         const bool isLast = begin + i + 1 == cells;
         const auto side = static_cast<double>(cells);
         place(begin + i + 1, isLast ? side : std::min(before, side));

@@ -18,14 +18,14 @@ namespace RectifiedTransport
 struct EqualizeOptions
 {
   int Passes = 2; // at most: a pass that does not make the errors smaller is not applied
-  // Of each pass's linear system: the residual relative to the right-hand side.
+  // The residual of each pass's linear system, relative to the right-hand side.
   double Tolerance = 0.05;
 };
 
 struct EqualizeReport
 {
   int Passes = 0;        // those that made the errors smaller; no further one was tried
-  int Iterations = 0;    // of all passes' linear systems
+  int Iterations = 0;    // in all passes' linear systems
   double Residual = 0.0; // the largest of them, relative; may be above the Tolerance
   // Cells with mass whose images have no positive area: they never become more.
   std::int64_t FoldedBefore = 0;

@@ -15,13 +15,13 @@
 namespace RectifiedTransport
 {
 
-// Of cells, whose masses have the mean one.
+// Sums over cells, whose masses have the mean one.
 struct AreaSums
 {
-  double Missing = 0.0; // mass - area
-  double Error = 0.0;
+  double Missing = 0.0;    // mass - area
+  double Error = 0.0;      // sum of squared relative errors, each at most one
   std::int64_t Folded = 0; // with mass, but without a positive area
-  std::int64_t Failed = 0; // those that a move takes too much of the area of
+  std::int64_t Failed = 0; // cells that lose too much of their area by a move
 };
 
 inline AreaSums operator+(const AreaSums& a, const AreaSums& b)
@@ -45,7 +45,7 @@ public:
     this->Active.OfCorners.resize(static_cast<std::size_t>(lattice.CornerRows()));
   }
 
-  // Before the moves, for each row of cells: what they shall keep.
+  // Before the moves, for each row of cells: writes what area each shall keep, and the row's sums.
   void Guard(std::int64_t cellRow, const float* targets, const double* areas)
   {
     const std::int64_t cells = this->Lattice.Cells()[0];
@@ -62,6 +62,7 @@ public:
     this->RowSums[static_cast<std::size_t>(cellRow)] = sums;
   }
 
+  // In the order of rows, so that the bits do not depend on threads.
   AreaSums SumOfRows() const
   {
     AreaSums sum;
@@ -72,9 +73,10 @@ public:
     return sum;
   }
 
-  // Changes the moves, until every cell keeps enough, or no more than `folded` cells are folded.
-  // `targets` are those of all cells. Returns the sums of the moved cells; `limited` becomes at
-  // least the number of cells that needed it.
+  // Changes the moves until every cell keeps enough, or no more than `folded` cells are folded.
+  // Failed cells are projected first, which moves their neighbours as well; then their corners'
+  // moves are halved, and at last set to zero. `targets` are those of all cells. Returns the sums
+  // over the moved cells; `limited` becomes at least the number of those that needed it.
   AreaSums Apply(
     const float* targets, std::int64_t folded, std::int64_t& limited, Progress& progress)
   {
@@ -105,6 +107,7 @@ public:
     }
   }
 
+  // A shorter step of the pass along the same moves.
   void HalveMoves(Progress& progress)
   {
     const std::int64_t count = this->Lattice.CornersOfRow();
@@ -119,6 +122,7 @@ public:
       });
   }
 
+  // A state and a float for each cell, and the sums of rows.
   static double Memory(const GridSize<Dimension>& size)
   {
     return numberOfCells<Dimension>(size) * (sizeof(unsigned char) + sizeof(float)) +
@@ -141,7 +145,8 @@ private:
     Failed = 2   // does not keep the least part of it
   };
 
-  // The square of the error of an area is relative, but for thin cells, and at most one.
+  // The squared relative error of an area, with a floor for the mass of thin cells, and at most
+  // one, so that a few folded cells do not hide the others.
   static AreaSums sumsOf(double mass, double area)
   {
     const double error = (mass - area) / std::max(mass, leastOfMean);
@@ -149,7 +154,7 @@ private:
     return { mass - area, square, mass > 0.0 && !(area > 0.0) ? 1 : 0, 0 };
   }
 
-  // Of active rows of cells, after the moves.
+  // Measures active rows of cells, after the moves.
   void Measure(const float* targets, Progress& progress)
   {
     this->Lattice.ForRanges(
@@ -169,6 +174,7 @@ private:
       });
   }
 
+  // A row's cells: which of the guarded ones fail, and the sums.
   AreaSums Judge(std::int64_t cellRow, const float* targets, const double* areas)
   {
     const std::int64_t cells = this->Lattice.Cells()[0];
@@ -186,7 +192,8 @@ private:
     return sums;
   }
 
-  // The rows of corners of failed cells, and the rows of cells about them.
+  // Marks the rows of corners of failed cells, and the rows of cells about them: nothing else can
+  // change.
   void ActivateRows()
   {
     std::fill(
@@ -219,6 +226,7 @@ private:
     });
   }
 
+  // A corner of any failed cell is shortened.
   void ShortenRow(std::int64_t cornerRow, float factor)
   {
     const std::int64_t cells = this->Lattice.Cells()[0];

@@ -11,6 +11,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// All threads of OpenMP, as the host program has set them.
 const Executor& defaultExecutor()
 {
   static const OpenMPExecutor executor;
@@ -24,6 +25,7 @@ Context::Context()
 {
 }
 
+// Without further settings there is one rank.
 Context::Context(
   const Executor& threads, std::function<void(double)> report, std::function<bool()> isCancelled)
   : Threads(&threads)

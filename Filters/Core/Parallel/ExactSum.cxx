@@ -11,17 +11,23 @@ namespace RectifiedTransport
 namespace
 {
 
+// A double is mantissa * 2^(exponent), with the lowest bit at 2^-1074 for subnormal numbers.
 constexpr int mantissaBits = 52;
 constexpr int lowestExponent = -1074;
+// Parts of terms are below 2^33, so that 2^30 of them fit a signed word of 64 bits; then carries
+// are due.
 constexpr std::int64_t mostTerms = std::int64_t{ 1 } << 30;
 
 } // namespace
 
+// Adds the term's 53 bits at their place in a fixed-point number that spans all doubles (Kulisch's
+// accumulator). Nothing is rounded, so that sums do not depend on the order of the terms.
 void ExactSum::Add(double term)
 {
   std::uint64_t bits = 0;
   std::memcpy(&bits, &term, sizeof(bits));
   const auto exponent = static_cast<int>(bits >> mantissaBits & 0x7ff);
+  // Infinities and NaN are summed as doubles: what their sum is does not depend on the order.
   if (exponent == 0x7ff)
   {
     this->NotFinite += term;
@@ -29,7 +35,7 @@ void ExactSum::Add(double term)
   }
   constexpr std::uint64_t implicit = std::uint64_t{ 1 } << mantissaBits;
   const std::uint64_t mantissa = (bits & (implicit - 1)) | (exponent > 0 ? implicit : 0);
-  const int place = exponent > 0 ? exponent - 1 : 0; // of the lowest bit
+  const int place = exponent > 0 ? exponent - 1 : 0; // place of the mantissa's lowest bit
   const auto word = static_cast<std::size_t>(place / WordBits);
   const int shift = place % WordBits;
   constexpr std::uint64_t mask = 0xffffffff;
@@ -38,6 +44,7 @@ void ExactSum::Add(double term)
   const std::int64_t parts[3] = { static_cast<std::int64_t>(low & mask),
     static_cast<std::int64_t>((low >> WordBits) + (high & mask)),
     static_cast<std::int64_t>(high >> WordBits) };
+  // Negates the parts without a branch: x ^ -1 = -x - 1.
   const std::int64_t sign = static_cast<std::int64_t>(bits) >> 63; // 0 or -1
   for (std::size_t i = 0; i < 3; ++i)
   {
@@ -49,6 +56,7 @@ void ExactSum::Add(double term)
   }
 }
 
+// Adds two sums; both are carried first, so that words do not overflow.
 void ExactSum::Add(const ExactSum& other)
 {
   ExactSum carried = other;
@@ -62,7 +70,8 @@ void ExactSum::Add(const ExactSum& other)
   this->Terms = 1;
 }
 
-// All words but the last are from 0 to 2^32 - 1 then; the last has the sign.
+// Carries what exceeds 32 bits of each word into the next one. Afterwards all words but the last
+// are from 0 to 2^32 - 1; the last one has the sign.
 void ExactSum::Carry()
 {
   for (std::size_t i = 0; i + 1 < Words; ++i)
@@ -74,6 +83,7 @@ void ExactSum::Carry()
   this->Terms = 0;
 }
 
+// The double nearest to the exact sum.
 double ExactSum::Value() const
 {
   if (this->NotFinite != 0.0)
@@ -82,6 +92,7 @@ double ExactSum::Value() const
   }
   ExactSum rest = *this;
   rest.Carry();
+  // The magnitude of a negative sum: its words negated and carried again.
   const bool isNegative = rest.Word.back() < 0;
   if (isNegative)
   {
@@ -96,8 +107,8 @@ double ExactSum::Value() const
   {
     --top;
   }
-  // 64 bits of the sum from its highest one on, where the lowest one stands for all below: one
-  // rounding to a double.
+  // The 64 bits of the sum from its highest one on are rounded to a double once. Their lowest bit
+  // is set if anything below is not 0 (a sticky bit), so that ties are those of the exact sum.
   const auto wordAt = [&rest](int word) {
     return word < 0 ? std::uint64_t{ 0 }
                     : static_cast<std::uint64_t>(rest.Word[static_cast<std::size_t>(word)]);

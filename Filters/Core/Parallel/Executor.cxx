@@ -14,6 +14,7 @@
 namespace RectifiedTransport
 {
 
+// Chunks of `grain`, as with threads: kernels that sum by chunks have the same bits.
 void SerialExecutor::For(std::int64_t count, std::int64_t grain, RangeKernel kernel) const
 {
   for (std::int64_t first = 0; first < count; first += grain)
@@ -35,6 +36,8 @@ void OpenMPExecutor::For(std::int64_t count, std::int64_t grain, RangeKernel ker
   SerialExecutor().For(count, grain, kernel);
 }
 
+// One thread in a parallel region, whose threads are all at work, and in a child of fork(), where
+// the team's threads do not exist.
 int OpenMPExecutor::Concurrency() const
 {
 #ifdef _OPENMP

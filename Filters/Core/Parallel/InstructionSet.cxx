@@ -11,6 +11,8 @@ namespace RectifiedTransport
 namespace
 {
 
+// The widest set, or a narrower one that the environment asks for, for tests and measurements. All
+// sets compute the same bits.
 InstructionSet chooseInstructionSet()
 {
   const InstructionSet widest = widestInstructionSet();
@@ -33,6 +35,8 @@ const char* nameOf(InstructionSet set)
   return names[static_cast<int>(set)];
 }
 
+// AVX512 needs F for the vectors, DQ for conversions of 64-bit integers, and VL for shorter
+// vectors. Machines that are not x86 compile the SSE2 set's source for their own vectors.
 InstructionSet widestInstructionSet()
 {
 #ifdef RECTIFIEDTRANSPORT_X86
@@ -47,6 +51,7 @@ InstructionSet widestInstructionSet()
   return InstructionSet::SSE2;
 }
 
+// Chosen once, at the first use.
 InstructionSet instructionSet()
 {
   static const InstructionSet chosen = chooseInstructionSet();

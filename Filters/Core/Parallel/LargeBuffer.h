@@ -25,10 +25,10 @@ namespace RectifiedTransport
 
 constexpr std::size_t hugePageBytes = std::size_t{ 1 } << 21;
 
-// Of so many bytes, those that lie on huge pages, a multiple of these. The system clears a page
-// whole, and counts all of it as used. Hence a rest lies on one of them only if it takes a good
-// part of the page, and what it leaves unused is little beside all bytes: buffers of a megabyte
-// that are kept by the hundred would take twice their size.
+// How many of so many bytes lie on huge pages, a multiple of these. The system clears a page whole
+// and counts all of it as used. Hence a rest lies on one of them only if it takes a good part of
+// the page, and what it leaves unused is little beside all bytes: buffers of a megabyte that are
+// kept by the hundred would take twice their size.
 constexpr std::size_t bytesOnHugePages(std::size_t bytes)
 {
   // From this part of a huge page on, clearing it is faster than clearing the small pages.

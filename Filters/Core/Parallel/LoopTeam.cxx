@@ -14,7 +14,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// Waits for what comes at once, for some ten microseconds. Returns whether it came.
+// Spins for some ten microseconds until something comes, which is faster than to sleep if it comes
+// at once. Returns whether it came.
 template <class Test>
 bool spin(const Test& hasCome)
 {
@@ -36,6 +37,8 @@ bool spin(const Test& hasCome)
 
 } // namespace
 
+// One parallel loop. Its ranges are numbers that threads take one after the other, so that fast
+// threads take more of them.
 class LoopTeam::Loop
 {
 public:
@@ -45,6 +48,7 @@ public:
     , Grain(grain)
     , Kernel(kernel)
   {
+    // The caller's rounding mode and exceptions hold on all threads.
     std::fegetenv(&this->Arithmetic);
   }
 
@@ -66,14 +70,14 @@ public:
     }
   }
 
-  // The same on another thread.
+  // The same on another thread, in the caller's floating-point environment.
   void Help()
   {
     std::fesetenv(&this->Arithmetic);
     this->Work();
   }
 
-  int Places; // for others, guarded by the team's mutex
+  int Places; // for helpers, guarded by the team's mutex
   std::atomic<int> Inside{ 0 };
   Loop* Following = nullptr;
   KernelFailure Failure;
@@ -82,7 +86,7 @@ private:
   const std::int64_t Count;
   const std::int64_t Grain;
   const RangeKernel& Kernel;
-  std::fenv_t Arithmetic; // the caller's
+  std::fenv_t Arithmetic; // the caller's floating-point environment
   std::atomic<std::int64_t> Next{ 0 };
 };
 
@@ -93,6 +97,8 @@ LoopTeam& LoopTeam::Get()
   return *team;
 }
 
+// The caller puts the loop on a list where threads of the team join it, works itself, and returns
+// when all have left it. Kernels may run loops of their own: those are further entries of the list.
 void LoopTeam::Run(int threads, std::int64_t count, std::int64_t grain, const RangeKernel& kernel)
 {
   Loop loop(threads, count, grain, kernel);
@@ -109,6 +115,7 @@ void LoopTeam::Run(int threads, std::int64_t count, std::int64_t grain, const Ra
     this->Begun.notify_one();
   }
   loop.Work();
+  // No thread joins any more; those inside finish their ranges.
   this->Remove(loop);
   const auto isLeft = [&loop]() { return loop.Inside.load(std::memory_order_acquire) == 0; };
   if (!spin(isLeft))
@@ -119,9 +126,9 @@ void LoopTeam::Run(int threads, std::int64_t count, std::int64_t grain, const Ra
   loop.Failure.Rethrow();
 }
 
-// More threads are a further region, so that nobody waits for loops that run: their kernels may
-// wait for what the caller holds. Returns when the threads are there: OpenMP ends the program where
-// memory is too short for them, which is no surprise at the first loop.
+// Adds threads by a further parallel region, so that nobody waits for loops that run: their kernels
+// may wait for what the caller holds. Returns when the threads are there: OpenMP ends the program
+// where memory is too short for them, which is no surprise at the first loop.
 void LoopTeam::Grow(int threads, std::unique_lock<std::mutex>& lock)
 {
   if (threads <= this->Size)
@@ -140,6 +147,8 @@ void LoopTeam::Grow(int threads, std::unique_lock<std::mutex>& lock)
   this->Grown.wait(lock, [&]() { return this->Started >= threads; });
 }
 
+// A thread of its own opens the region and keeps it open, as OpenMP's threads exist for the time of
+// a region.
 void LoopTeam::Host(int more)
 {
 #pragma omp parallel num_threads(more + 1)
@@ -157,6 +166,8 @@ void LoopTeam::Host(int more)
   }
 }
 
+// The life of a thread of the team: joins loops while there are any, spins for a while, then sleeps
+// until the list changes.
 void LoopTeam::Serve()
 {
   std::unique_lock<std::mutex> lock(this->Mutex);
@@ -185,6 +196,7 @@ void LoopTeam::Serve()
   }
 }
 
+// The latest loop first: inner loops are short, and outer ones wait for them.
 LoopTeam::Loop* LoopTeam::Join()
 {
   for (Loop* loop = this->First; loop; loop = loop->Following)
@@ -199,6 +211,7 @@ LoopTeam::Loop* LoopTeam::Join()
   return nullptr;
 }
 
+// Takes a loop off the list, wherever it is by now.
 void LoopTeam::Remove(Loop& loop)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);

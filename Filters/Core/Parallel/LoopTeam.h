@@ -44,7 +44,7 @@ private:
   std::condition_variable Grown;
   std::condition_variable Left; // a loop, by its last thread
   std::condition_variable Never;
-  Loop* First = nullptr; // of those that threads may join
+  Loop* First = nullptr; // the list of loops that threads may join
   // Counts loops; those that spin read it.
   std::atomic<unsigned> Changes{ 0 };
   // How many threads there are to be, and are, with the one that calls.

@@ -12,6 +12,7 @@ Progress::Progress(Context context)
 {
 }
 
+// A context for a part of the work, which reports to this object.
 Progress::operator Context()
 {
   Context part(
@@ -22,6 +23,7 @@ Progress::operator Context()
   return part;
 }
 
+// Several loops share these units; the fraction starts at 0 again.
 Progress& Progress::Expect(std::int64_t units)
 {
   this->Units = std::max<std::int64_t>(units, 1);
@@ -33,17 +35,21 @@ Progress& Progress::Expect(std::int64_t units)
   return *this;
 }
 
+// Work with threads, in slices between which progress is reported and cancellation polled.
 void Progress::For(std::int64_t count, std::int64_t grain, RangeKernel kernel, std::int64_t units)
 {
   this->Run(*this->Parent.Threads, count, grain, kernel, units);
 }
 
+// The same on this thread, in order.
 void Progress::ForInOrder(
   std::int64_t count, std::int64_t grain, RangeKernel kernel, std::int64_t units)
 {
   this->Run(SerialExecutor(), count, grain, kernel, units);
 }
 
+// A slice takes about sliceSeconds: its size follows the pace of the slice before, so that loops of
+// any speed are polled about equally often.
 void Progress::Run(const Executor& executor, std::int64_t count, std::int64_t grain,
   const RangeKernel& kernel, std::int64_t units)
 {
@@ -72,6 +78,7 @@ void Progress::Run(const Executor& executor, std::int64_t count, std::int64_t gr
   }
 }
 
+// Whole chunks, so that the division into chunks does not depend on the pace.
 std::int64_t Progress::NextSlice(std::int64_t smallest)
 {
   this->SliceUnits = std::max(this->SliceUnits / smallest, std::int64_t{ 1 }) * smallest;
@@ -81,11 +88,13 @@ std::int64_t Progress::NextSlice(std::int64_t smallest)
 
 void Progress::EndSlice(std::int64_t units)
 {
-  constexpr double sliceSeconds = 0.03;
+  constexpr double sliceSeconds =
+    0.03; // seconds: often enough for an abort, seldom enough to cost nothing
   this->Done += units;
   this->Report(std::min(static_cast<double>(this->Done) / static_cast<double>(this->Units), 1.0));
   this->Poll();
   const double seconds = std::chrono::duration<double>(Clock::now() - this->SliceStart).count();
+  // The pace may change by at most a factor 4 from slice to slice, which damps interruptions.
   const double factor = std::min(std::max(sliceSeconds / std::max(seconds, 1e-9), 0.25), 4.0);
   this->SliceUnits = static_cast<std::int64_t>(
     std::min(static_cast<double>(units) * factor, static_cast<double>(this->Units)) + 1.0);
@@ -97,6 +106,7 @@ void Progress::EndSlice(std::int64_t units)
 
 void Progress::Add(std::int64_t units)
 {
+  // Units between two reports of loops that count for themselves.
   constexpr std::int64_t interval = std::int64_t{ 1 } << 16;
   this->Pending += units;
   if (this->Pending >= interval)
@@ -105,6 +115,7 @@ void Progress::Add(std::int64_t units)
   }
 }
 
+// One thread polls at a time, the others read the flag.
 bool Progress::ShouldStop()
 {
   if (this->Parent.IsCancelled && !this->IsPolling.test_and_set(std::memory_order_acquire))
@@ -115,6 +126,7 @@ bool Progress::ShouldStop()
   return this->IsCancelled();
 }
 
+// Hosts take reports on the thread that called alone.
 void Progress::ReportFrom(double fraction)
 {
   if (std::this_thread::get_id() == this->Caller)

@@ -30,8 +30,8 @@ public:
   // goes back. Must not outlive this object.
   operator Context(); // NOLINT: whoever runs a computation decides what is reported
 
-  // The loops that follow are parts of so many units of work together. Without it each loop is all
-  // of the work. Returns this object.
+  // The loops that follow are parts of so many units of work together. Without it each loop counts
+  // as the whole work. Returns this object.
   Progress& Expect(std::int64_t units);
 
   // Runs a kernel over [0, count), in ranges of `grain`, as all of the work, or as `count` of the
@@ -112,7 +112,7 @@ private:
   bool HasUnits = false; // otherwise each loop sets them
   std::int64_t Done = 0;
   std::int64_t SliceUnits = 0;
-  std::int64_t Pending = 0; // of Add
+  std::int64_t Pending = 0; // units that Add has not reported yet
   Clock::time_point SliceStart = Clock::now();
   std::atomic_flag IsPolling = ATOMIC_FLAG_INIT;
   std::atomic<bool> Stop{ false };

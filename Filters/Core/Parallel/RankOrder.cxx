@@ -13,6 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// The least and largest key of some elements, and their number.
 struct KeyRange
 {
   std::int64_t Least = std::numeric_limits<std::int64_t>::max();
@@ -20,7 +21,8 @@ struct KeyRange
   std::int64_t Count = 0;
 };
 
-// The keys of all ranks.
+// What all ranks know about the keys of all: one small gather. Without keys on every rank with
+// elements, elements keep their order by ranks.
 struct AllKeys
 {
   AllKeys(std::int64_t count, const std::int64_t* keys, const Ranks& ranks)
@@ -49,10 +51,12 @@ struct AllKeys
   std::int64_t Before = 0; // elements of lower ranks
 };
 
-// Which rank sorts a key: ascending with the key.
+// Which rank sorts a key: equal intervals of the range, ascending with the key. This is a bucket
+// sort over ranks; keys of Morton order are spread evenly enough.
 class Sorters
 {
 public:
+  // Unsigned differences do not overflow.
   Sorters(const KeyRange& range, int ranks)
     : Least(static_cast<std::uint64_t>(range.Least))
     , Span(static_cast<double>(static_cast<std::uint64_t>(range.Largest) - this->Least) + 1.0)
@@ -72,16 +76,18 @@ private:
   int Count;
 };
 
+// A key at its sorter, and where it came from.
 struct SortedKey
 {
   std::int64_t Key;
-  std::size_t Rank; // that sent it
+  std::size_t Rank; // the rank that sent it
   std::size_t Number;
 };
 
-using Lists = std::vector<std::vector<std::int64_t>>; // of each rank
+using Lists = std::vector<std::vector<std::int64_t>>; // a list for each rank
 
-// The places among the keys of all ranks, of those that each rank sent here.
+// The places, among the keys of all ranks, of those that each rank sent here: this rank's keys
+// follow those of all lower sorters.
 Lists placesOf(const Lists& keys, const Ranks& ranks, Progress& progress)
 {
   std::vector<SortedKey> sorted;
@@ -108,7 +114,8 @@ Lists placesOf(const Lists& keys, const Ranks& ranks, Progress& progress)
   return places;
 }
 
-// The places of this rank's elements among those of all.
+// The places of this rank's elements among those of all. Keys go to their sorters and places come
+// back: two all-to-all exchanges.
 std::vector<std::int64_t> findPlaces(
   std::int64_t count, const std::int64_t* keys, const Ranks& ranks, Progress& progress)
 {
@@ -130,6 +137,7 @@ std::vector<std::int64_t> findPlaces(
   }
   const Lists answers =
     exchangeValues(ranks, placesOf(exchangeValues(ranks, std::move(given)), ranks, progress));
+  // Answers come in the order of the questions.
   std::vector<std::size_t> taken(answers.size());
   for (std::size_t i = 0; i < places.size(); ++i)
   {
@@ -141,6 +149,9 @@ std::vector<std::int64_t> findPlaces(
 
 } // namespace
 
+// Elements in the order of their keys are divided into chunks of `grain`, and each rank receives
+// the elements of its share of the chunks. The chunks, and hence sums by chunks, are the same for
+// any number of ranks.
 RankOrder::RankOrder(std::int64_t count, const std::int64_t* keys, std::int64_t grain,
   const Ranks& ranks, Progress& progress)
   : Group(ranks)
@@ -158,6 +169,7 @@ RankOrder::RankOrder(std::int64_t count, const std::int64_t* keys, std::int64_t 
     this->Receiver.push_back(RankShare::Of(place / grain, chunks, ranks.Count()));
     given[static_cast<std::size_t>(this->Receiver.back())].push_back(place);
   }
+  // Where in its share this rank puts what it receives.
   this->Slots = exchangeValues(ranks, std::move(given));
   for (std::vector<std::int64_t>& slots : this->Slots)
   {

@@ -15,6 +15,8 @@ ProgressPart::ProgressPart(Progress& whole)
 {
 }
 
+// A part's fractions map linearly to [begin, end] of the whole. It takes threads, ranks and
+// cancellation from the whole.
 Progress& ProgressPart::Begin(double begin, double end)
 {
   Context part = this->Whole;
@@ -29,6 +31,7 @@ Stages::Stages(Progress& whole, std::initializer_list<Stage> stages)
 {
 }
 
+// A stage begins where the weights of those before it end. Asked for again, it goes on.
 Progress& Stages::operator[](const char* name)
 {
   const auto found = std::find_if(this->All.begin(), this->All.end(),
@@ -44,6 +47,7 @@ Progress& Stages::operator[](const char* name)
   this->Begun = &*found;
   const auto add = [](double sum, const Stage& stage) { return sum + stage.Weight; };
   const double before = std::accumulate(this->All.begin(), found, 0.0, add);
+  // If all weights from here on are 0, nothing of the work is left to divide.
   const double all = std::accumulate(found, this->All.end(), before, add);
   return all > 0.0 ? this->Begin(before / all, (before + found->Weight) / all)
                    : this->Begin(0.0, 1.0);
@@ -55,6 +59,7 @@ Parts::Parts(Progress& whole, std::int64_t count)
 {
 }
 
+// Weights become cumulative sums, the ends of the parts.
 Parts::Parts(Progress& whole, const std::vector<double>& weights)
   : ProgressPart(whole)
   , Count(static_cast<std::int64_t>(weights.size()))
@@ -63,6 +68,7 @@ Parts::Parts(Progress& whole, const std::vector<double>& weights)
   std::partial_sum(weights.begin(), weights.end(), this->Ends.begin());
 }
 
+// Part i covers [end(i - 1), end(i)] of the sum of weights.
 Progress& Parts::operator[](std::int64_t i)
 {
   const auto endOf = [this](std::int64_t part) {
@@ -80,6 +86,8 @@ Rounds::Rounds(Progress& whole, int usual)
 {
 }
 
+// The number of rounds is not known: after n rounds n / (n + Usual) of the work counts as done,
+// which rises towards 1 and is 1/2 after the usual number.
 Progress& Rounds::Next()
 {
   const auto left = [this](int rounds) { return this->Usual / (rounds + this->Usual); };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Areas of the images of cells, and weights of their faces. Included by EqualizeKernels.txx.
 
+// The area of a quadrilateral is half the cross product of its diagonals, exact for bilinear
+// images.
 void rowAreas2D(const CellRow<2>& row, double* areas)
 {
   const double* x0 = row.Corners[0].X[0];
@@ -15,6 +17,7 @@ void rowAreas2D(const CellRow<2>& row, double* areas)
   }
 }
 
+// The determinant of three vectors, the volume of their parallelepiped.
 RT_INLINE double determinant(
   double ax, double ay, double az, double bx, double by, double bz, double cx, double cy, double cz)
 {
@@ -67,12 +70,14 @@ void rowAreas3D(const CellRow<3>& row, double* areas)
   }
 }
 
-// A weight is bounded: images may be degenerate, and any weights lead to the areas.
+// A weight is bounded: images may be degenerate, and the solution leads to the right areas whatever
+// the weights are, as fluxes balance the missing areas.
 constexpr float largestWeight = 8.0F;
 constexpr float leastWeight = 1e-5F;
-constexpr float leastSquare = 1e-6F; // of the distance of centres
+constexpr float leastSquare = 1e-6F; // least squared distance of centres, in squared cells
 
-// w = |face| / |distance of the centres|, from their squares.
+// w = |face| / |distance of the centres|, the conductance of the finite volume method, from their
+// squares.
 RT_INLINE float weightOf(float face, float distance)
 {
   const float square = face / (distance > leastSquare ? distance : leastSquare);
@@ -81,6 +86,8 @@ RT_INLINE float weightOf(float face, float distance)
   return bounded < largestWeight ? bounded : largestWeight;
 }
 
+// The weights of the cells' upper faces along both axes. Centres are means of four corners, so that
+// sums of differences are four times their distance, hence the factor 1/16.
 void rowWeights2D(const CellRow<2>& row, float* const* weights)
 {
   const std::int64_t cells = row.Cells;
@@ -101,6 +108,7 @@ void rowWeights2D(const CellRow<2>& row, float* const* weights)
     const auto dy = static_cast<float>((y0[i + 2] - y0[i]) + (y1[i + 2] - y1[i]));
     along0[i] = weightOf(ex * ex + ey * ey, 0.0625F * (dx * dx + dy * dy));
   }
+  // The last face along axis 0 is on the box's side.
   along0[cells - 1] = 0.0F;
 #pragma omp simd
   for (std::int64_t i = 0; i < cells; ++i)
@@ -113,11 +121,13 @@ void rowWeights2D(const CellRow<2>& row, float* const* weights)
   }
 }
 
+// Sums of eight corners' differences are eight times the distance of the centres.
 RT_INLINE float weightAcross(const Vector3& face, const Vector3& eightTimesDistance)
 {
   return weightOf(squareOf(face), 0.015625F * squareOf(eightTimesDistance));
 }
 
+// In 3D a face's area vector is half the cross product of its diagonals.
 void rowWeights3D(const CellRow<3>& row, float* const* weights)
 {
   const std::int64_t cells = row.Cells;

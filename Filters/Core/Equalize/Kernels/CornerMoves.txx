@@ -2,7 +2,9 @@
 // Moves of corners: those that fit fluxes, and projections on areas. Included by
 // EqualizeKernels.txx.
 
-// The normal equations of u . n = flux / |face| for the unit normals n of the faces at a corner.
+// A corner's move u should carry the flux through each face at the corner: u . n = flux / |face|
+// for the unit normals n, in the least squares sense. These are its normal equations (sum n n^T) u
+// = sum n flux / |face|.
 struct Normal2
 {
   float XX = 0.0F;
@@ -12,6 +14,8 @@ struct Normal2
   float Y = 0.0F;
 };
 
+// Adds an edge whose normal (nx, ny) has the edge's length: n n^T / |n|^2, and n flux / |n|^2. The
+// 1e-12 keeps edges without length from dividing by 0.
 RT_INLINE void addEdge(float nx, float ny, float flux, Normal2& sum)
 {
   const float square = nx * nx + ny * ny + 1e-12F;
@@ -23,9 +27,10 @@ RT_INLINE void addEdge(float nx, float ny, float flux, Normal2& sum)
   sum.Y += ny * (flux * inverse);
 }
 
-// Faces that are all parallel leave one direction free.
+// Faces that are all parallel leave one direction free; this Tikhonov term chooses no move in it.
 constexpr float regular = 1e-3F;
 
+// The least squares move of a corner, from the four edges at it.
 RT_INLINE void cornerMove2D(const CornerRow<2>& row, std::int64_t i, bool hasLeft, bool hasRight)
 {
   const double* xb = row.Corners[0].X[0];
@@ -55,6 +60,7 @@ RT_INLINE void cornerMove2D(const CornerRow<2>& row, std::int64_t i, bool hasLef
     addEdge(static_cast<float>(y[i] - y[i + 1]), static_cast<float>(x[i + 1] - x[i]),
       w1[i - s] * static_cast<float>(p[i] - p[i - s]), sum);
   }
+  // The solution of the 2 x 2 system by Cramer's rule.
   const float xx = sum.XX + regular;
   const float yy = sum.YY + regular;
   const float inverse = 1.0F / (xx * yy - sum.XY * sum.XY);
@@ -62,6 +68,7 @@ RT_INLINE void cornerMove2D(const CornerRow<2>& row, std::int64_t i, bool hasLef
   row.Moves[1][i] = (sum.Y * xx - sum.X * sum.XY) * inverse;
 }
 
+// The first and last corners lack a neighbour; between them the loop has no branches.
 void rowMoves2D(const CornerRow<2>& row)
 {
   cornerMove2D(row, 0, false, true);
@@ -73,6 +80,7 @@ void rowMoves2D(const CornerRow<2>& row)
   cornerMove2D(row, row.Cells, true, false);
 }
 
+// The same in 3D: six entries of the symmetric matrix and the right-hand side.
 struct Normal3
 {
   float XX = 0.0F;
@@ -86,6 +94,7 @@ struct Normal3
   float Z = 0.0F;
 };
 
+// Adds a face with area vector n.
 RT_INLINE void addFace(const Vector3& n, float flux, Normal3& sum)
 {
   const float square = squareOf(n) + 1e-12F;
@@ -102,6 +111,7 @@ RT_INLINE void addFace(const Vector3& n, float flux, Normal3& sum)
   sum.Z += n.Z * scaled;
 }
 
+// The least squares move of a corner, from the twelve faces at it.
 RT_INLINE void cornerMove3D(const CornerRow<3>& row, std::int64_t i, bool hasLeft, bool hasRight)
 {
   const PointRow<3>* r = row.Corners;
@@ -129,7 +139,7 @@ RT_INLINE void cornerMove3D(const CornerRow<3>& row, std::int64_t i, bool hasLef
     {
       continue;
     }
-    const std::int64_t low = i - 1 + side; // along axis 0
+    const std::int64_t low = i - 1 + side; // the cell along axis 0
 #pragma GCC unroll 2
     for (int a = 0; a < 2; ++a)
     {
@@ -156,6 +166,8 @@ RT_INLINE void cornerMove3D(const CornerRow<3>& row, std::int64_t i, bool hasLef
   const double xx = static_cast<double>(sum.XX + regular);
   const double yy = static_cast<double>(sum.YY + regular);
   const double zz = static_cast<double>(sum.ZZ + regular);
+  // The adjugate of the symmetric matrix, whose product with the right-hand side is divided by the
+  // determinant.
   const double cxx = yy * zz - yz * yz;
   const double cxy = xz * yz - xy * zz;
   const double cxz = xy * yz - xz * yy;
@@ -182,7 +194,8 @@ void rowMoves3D(const CornerRow<3>& row)
   cornerMove3D(row, row.Cells, true, false);
 }
 
-// A projection shrinks no cell by more than a half.
+// The change of area that a projection aims at: it shrinks no cell by more than a half, which could
+// fold it.
 RT_INLINE double boundedChange(double target, double area)
 {
   const double change = target - area;
@@ -190,12 +203,15 @@ RT_INLINE double boundedChange(double target, double area)
   return change > least ? change : least;
 }
 
+// Keeps cells without any extent from dividing by 0.
 constexpr double leastGradient = 1e-20;
-// Under-relaxation: cells share corners.
+// Under-relaxation: a corner takes the sum of its cells' projections, up to 4 in 2D and 8 in 3D.
 constexpr double relaxation2D = 0.5;
 constexpr double relaxation3D = 0.3;
 
-// The gradients by the corners are half of the other diagonal, turned.
+// Multipliers lambda = relaxation (target - area) / sum_c m_c |grad_c area|^2: moving each corner c
+// by lambda m_c grad_c area changes the area by about what it lacks. In 2D the gradient by a corner
+// is half of the other diagonal, turned by 90 degrees.
 void rowMultipliers2D(const CellRow<2>& row, const float* const* mobilities, const double* areas,
   const float* targets, float* multipliers)
 {
@@ -221,6 +237,7 @@ void rowMultipliers2D(const CellRow<2>& row, const float* const* mobilities, con
   }
 }
 
+// A corner's new move: the sum of its four cells' projections, lambda m grad area.
 RT_INLINE void project2D(const ProjectedRow<2>& row, std::int64_t i, bool hasLeft, bool hasRight)
 {
   const double* xb = row.Corners[0].X[0];
@@ -252,6 +269,7 @@ RT_INLINE void project2D(const ProjectedRow<2>& row, std::int64_t i, bool hasLef
   row.After[1][i] = row.Before[1][i] + factor * moveY;
 }
 
+// As rowMoves2D.
 void rowProject2D(const ProjectedRow<2>& row)
 {
   project2D(row, 0, false, true);
@@ -263,8 +281,8 @@ void rowProject2D(const ProjectedRow<2>& row)
   project2D(row, row.Cells, true, false);
 }
 
-// Of a parallelepiped with the cell's mean edges, whose gradients are a quarter of the sum of three
-// faces.
+// The same in 3D, for the parallelepiped that has the cell's mean edges: the gradients of its
+// volume are a quarter of the sum of three faces.
 void rowMultipliers3D(const CellRow<3>& row, const float* const* mobilities, const double* areas,
   const float* targets, float* multipliers)
 {
@@ -294,6 +312,7 @@ void rowMultipliers3D(const CellRow<3>& row, const float* const* mobilities, con
   }
 }
 
+// sum += factor a x b.
 RT_INLINE void addCross(const Vector3& a, const Vector3& b, float factor, Vector3& sum)
 {
   sum.X += factor * (a.Y * b.Z - a.Z * b.Y);
@@ -301,9 +320,9 @@ RT_INLINE void addCross(const Vector3& a, const Vector3& b, float factor, Vector
   sum.Z += factor * (a.X * b.Y - a.Y * b.X);
 }
 
-// The gradient of a cell by its corner c is near a quarter of the outward faces of the tetrahedron
-// of c's edges, e1 x e2 + e2 x e0 + e0 x e1, with a minus sign where c is on the low sides: each
-// product of two edges belongs to the two cells on both sides.
+// The gradient of a cell's volume by its corner c is near a quarter of the outward faces of the
+// tetrahedron that c's edges span, e1 x e2 + e2 x e0 + e0 x e1, with a minus sign where c is on the
+// low sides. Each product of two edges belongs to the two cells on both sides.
 RT_INLINE void project3D(const ProjectedRow<3>& row, std::int64_t i, bool hasLeft, bool hasRight)
 {
   const PointRow<3>* r = row.Corners;
@@ -342,6 +361,7 @@ RT_INLINE void project3D(const ProjectedRow<3>& row, std::int64_t i, bool hasLef
   row.After[2][i] = row.Before[2][i] + factor * move.Z;
 }
 
+// As rowMoves3D.
 void rowProject3D(const ProjectedRow<3>& row)
 {
   project3D(row, 0, false, true);

@@ -38,7 +38,7 @@ struct CornerRow
   // along each axis, and the potential. A flux is a weight times a difference of the potential.
   const float* Weights[Dimension];
   const double* Potential;
-  std::int64_t Stride[Dimension]; // of cells
+  std::int64_t Stride[Dimension]; // distance of neighbouring cells along each axis
   float* Moves[Dimension];        // output, a corner each
 };
 
@@ -50,7 +50,7 @@ struct ProjectedRow
   PointRow<Dimension> Corners[Dimension == 2 ? 3 : 9];
   std::int64_t Cells;
   const float* Multipliers[Dimension == 2 ? 2 : 4];
-  const float* Mobility;          // of the corners
+  const float* Mobility;          // one for each corner
   const float* Before[Dimension]; // moves of the corners
   float* After[Dimension];        // output
 };

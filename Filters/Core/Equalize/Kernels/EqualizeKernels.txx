@@ -18,6 +18,7 @@ struct Vector3
   float Z;
 };
 
+// Point i of row a less point j of row b, subtracted in doubles.
 RT_INLINE Vector3 difference(
   const PointRow<3>& a, std::int64_t i, const PointRow<3>& b, std::int64_t j)
 {
