@@ -13,6 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// OpenCL's names have no common use of capitals.
 std::string lowerCase(std::string text)
 {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -20,6 +21,7 @@ std::string lowerCase(std::string text)
   return text;
 }
 
+// For messages: the names in quotes.
 std::string namesOf(const std::vector<FoundDevice>& devices)
 {
   std::string names;
@@ -30,7 +32,8 @@ std::string namesOf(const std::vector<FoundDevice>& devices)
   return names;
 }
 
-// Compilers of drivers end the program when memory runs out.
+// Compilers of drivers end the program when memory runs out, so 256 MiB must be free before one is
+// called.
 bool hasMemoryToCompile()
 {
   constexpr std::size_t enough = std::size_t{ 1 } << 28;
@@ -42,6 +45,8 @@ bool hasMemoryToCompile()
 
 } // namespace
 
+// See DeviceList.h: devices of the name that lack nothing are tried in order, from `number` on,
+// until one passes its self-test. The first fault is the one that is reported.
 std::shared_ptr<Device> openDevice(
   const std::string& name, int number, const std::vector<std::shared_ptr<Device>>& open)
 {
@@ -57,6 +62,7 @@ std::shared_ptr<Device> openDevice(
   {
     throw DeviceError("There is no OpenCL on this machine (libOpenCL.so.1, of a driver's package)");
   }
+  // Drivers may come and go, so the devices are listed at each call.
   const std::vector<FoundDevice> devices = findDevices();
   if (devices.empty())
   {
@@ -80,7 +86,7 @@ std::shared_ptr<Device> openDevice(
       reason = "The device '" + description.Name + "' " + description.Lacks;
     }
   }
-  // Processors come last, and are not counted beside others.
+  // Processors come last and are not counted beside others: a GPU is what users mean by a device.
   const auto processors = std::stable_partition(complete.begin(), complete.end(),
     [](const FoundDevice& found) { return (found.Type & CL_DEVICE_TYPE_CPU) == 0; });
   const auto others = static_cast<std::size_t>(processors - complete.begin());
@@ -89,6 +95,7 @@ std::shared_ptr<Device> openDevice(
   {
     const FoundDevice& found =
       complete[i < counted ? (static_cast<std::size_t>(number) + i) % counted : i];
+    // A device stays open for all runs, as opening and testing it takes a second or so.
     const auto known =
       std::find_if(open.begin(), open.end(), [&found](const std::shared_ptr<Device>& device) {
         return device->Is(found) && !device->IsLost();
@@ -99,6 +106,7 @@ std::shared_ptr<Device> openDevice(
     }
     try
     {
+      // A device is used only if its arithmetic has the bits of the processor's.
       auto device = std::make_shared<Device>(found);
       checkDevice(*device);
       return device;
@@ -113,12 +121,14 @@ std::shared_ptr<Device> openDevice(
       : reason);
 }
 
+// Memory counts as taken until the driver has it back.
 void DeviceRelease::operator()(cl_mem memory) const
 {
   this->Owner->Release(this->Owner->Cl.clReleaseMemObject, memory);
   this->Owner->Taken -= this->Bytes;
 }
 
+// An event's end must be waited for: its transfer uses the host's memory.
 void DeviceRelease::operator()(cl_event event) const
 {
   this->Owner->Cl.clWaitForEvents(1, &event);
@@ -135,6 +145,7 @@ void DeviceRelease::operator()(cl_program program) const
   this->Owner->Release(this->Owner->Cl.clReleaseProgram, program);
 }
 
+// Waits and takes the event's status, so that a fault of the transfer is not lost.
 void DeviceTransfer::Wait()
 {
   if (this->Event)
@@ -147,6 +158,7 @@ void DeviceTransfer::Wait()
   }
 }
 
+// A buffer's argument is its handle.
 void DeviceKernel::Set(cl_uint number, const DeviceBuffer& buffer)
 {
   const cl_mem memory = buffer.Memory.get();
@@ -160,6 +172,8 @@ void DeviceKernel::SetBytes(cl_uint number, std::size_t bytes, const void* value
     "takes no argument " + std::to_string(number) + " of the kernel " + this->Name);
 }
 
+// Each run makes its own kernels: arguments belong to the kernel object, which is not safe for
+// several threads.
 DeviceKernel DeviceProgram::NewKernel(const std::string& name) const
 {
   Device* const owner = this->Program.get_deleter().Owner;
@@ -172,12 +186,14 @@ DeviceKernel DeviceProgram::NewKernel(const std::string& name) const
   return kernel;
 }
 
+// Two queues: kernels, and transfers beside them. Each runs in order.
 Device::Device(const FoundDevice& found)
   : Cl(*OpenCL::Loaded())
   , Found(found)
 {
   this->Cl.clGetDeviceInfo(found.Id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof(this->LargestBuffer),
     &this->LargestBuffer, nullptr);
+  // A context of this platform and this device alone.
   const cl_context_properties ofPlatform[] = { CL_CONTEXT_PLATFORM,
     reinterpret_cast<cl_context_properties>(found.Platform), 0 };
   cl_int code = CL_SUCCESS;
@@ -186,6 +202,7 @@ Device::Device(const FoundDevice& found)
   for (cl_command_queue* queue : { &this->Queue, &this->Transfers })
   {
     *queue = this->Cl.clCreateCommandQueue(this->Context, found.Id, 0, &code);
+    // The destructor does not run for an object whose constructor throws.
     if (code != CL_SUCCESS)
     {
       this->Close();
@@ -194,6 +211,7 @@ Device::Device(const FoundDevice& found)
   }
 }
 
+// What is kept holds buffers of this device, so it goes before the context does.
 Device::~Device()
 {
   this->Kept.clear();
@@ -210,6 +228,7 @@ void Device::Close()
   this->Release(this->Cl.clReleaseContext, this->Context);
 }
 
+// `kept` then holds what was there before, which is destroyed after the lock.
 void Device::Keep(const void* owner, std::shared_ptr<void> kept)
 {
   const std::lock_guard<std::mutex> lock(this->KeptMutex);
@@ -218,7 +237,7 @@ void Device::Keep(const void* owner, std::shared_ptr<void> kept)
 
 void Device::Forget(const void* owner)
 {
-  std::shared_ptr<void> kept; // goes after the lock
+  std::shared_ptr<void> kept; // destroyed after the lock: its destructor may take other locks
   const std::lock_guard<std::mutex> lock(this->KeptMutex);
   const auto found = this->Kept.find(owner);
   if (found != this->Kept.end())
@@ -228,6 +247,8 @@ void Device::Forget(const void* owner)
   }
 }
 
+// Errors of running work mean that the context is unusable from now on, except for a lack of
+// memory.
 void Device::RequireWork(cl_int code, const std::string& what) const
 {
   if (code != CL_SUCCESS && code != CL_MEM_OBJECT_ALLOCATION_FAILURE &&
@@ -239,6 +260,7 @@ void Device::RequireWork(cl_int code, const std::string& what) const
   this->Require(code, what);
 }
 
+// An error of a call, with OpenCL's number, as texts for them are not part of OpenCL.
 void Device::Require(cl_int code, const std::string& what) const
 {
   if (code != CL_SUCCESS)
@@ -257,6 +279,7 @@ void Device::RequireMemoryToCompile() const
   }
 }
 
+// The first line of the compiler's log goes into the message.
 DeviceProgram Device::Build(const std::vector<std::string>& sources, const std::string& options)
 {
   this->RequireMemoryToCompile();
@@ -274,6 +297,7 @@ DeviceProgram Device::Build(const std::vector<std::string>& sources, const std::
   code = this->Cl.clBuildProgram(made, 1, &this->Found.Id, options.c_str(), nullptr, nullptr);
   if (code != CL_SUCCESS)
   {
+    // The compiler's log names what it did not accept.
     const std::string log = infoText([&](std::size_t size, void* text, std::size_t* needed) {
       return this->Cl.clGetProgramBuildInfo(
         made, this->Found.Id, CL_PROGRAM_BUILD_LOG, size, text, needed);
@@ -283,18 +307,21 @@ DeviceProgram Device::Build(const std::vector<std::string>& sources, const std::
   return program;
 }
 
+// Callers hold Mutex(), so the programs need no lock of their own.
 const DeviceProgram& Device::Program(
   const std::string& name, const std::function<DeviceProgram()>& make)
 {
   auto found = this->Programs.find(name);
   if (found == this->Programs.end())
   {
+    // An exception of make() keeps nothing, and the next caller tries again.
     found = this->Programs.emplace(name, make()).first;
   }
   return found->second;
 }
 
-// Drivers promise more than they have, and fail later: what is asked for is counted first.
+// Drivers promise more memory than they have, and fail later: what is asked for is compared with
+// what is left first.
 DeviceBuffer Device::Allocate(std::size_t bytes, const std::string& what)
 {
   const std::uint64_t most = std::min(this->LargestBuffer, this->MemoryLeft());
@@ -305,6 +332,7 @@ DeviceBuffer Device::Allocate(std::size_t bytes, const std::string& what)
   }
   DeviceBuffer buffer;
   cl_int code = CL_SUCCESS;
+  // OpenCL has no buffers of 0 bytes.
   const cl_mem memory = this->Cl.clCreateBuffer(
     this->Context, CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 1), nullptr, &code);
   this->Require(code, "has too little memory for " + what);
@@ -313,6 +341,7 @@ DeviceBuffer Device::Allocate(std::size_t bytes, const std::string& what)
   return buffer;
 }
 
+// Blocking, in the queue of the kernels: after those before it.
 void Device::Write(const DeviceBuffer& to, const void* from, std::size_t bytes, std::size_t offset)
 {
   if (bytes > 0)
@@ -335,6 +364,7 @@ void Device::Read(const DeviceBuffer& from, void* to, std::size_t bytes, std::si
   }
 }
 
+// Not blocking, in the queue of transfers: it overlaps with kernels.
 DeviceTransfer Device::StartWrite(const DeviceBuffer& to, const void* from, std::size_t bytes)
 {
   cl_event event = nullptr;
@@ -355,6 +385,7 @@ DeviceTransfer Device::StartRead(const DeviceBuffer& from, void* to, std::size_t
   return this->Begun(event);
 }
 
+// A transfer starts when its queue is flushed, not when it is enqueued.
 DeviceTransfer Device::Begun(cl_event event)
 {
   DeviceTransfer transfer;
@@ -363,6 +394,7 @@ DeviceTransfer Device::Begun(cl_event event)
   return transfer;
 }
 
+// Begins to run what is enqueued, without waiting.
 void Device::Start()
 {
   this->RequireWork(this->Cl.clFlush(this->Queue), "does not start its work");
@@ -373,6 +405,8 @@ void Device::Run(const DeviceKernel& kernel, std::size_t items, std::size_t grou
   this->RunGrid(kernel, { items, 1, 1 }, group);
 }
 
+// Work items are filled up to whole groups along the first axis; kernels compare their number with
+// the count.
 void Device::RunGrid(
   const DeviceKernel& kernel, std::array<std::size_t, 3> items, std::size_t group)
 {
@@ -381,12 +415,13 @@ void Device::RunGrid(
   {
     return;
   }
-  // Drivers compile kernels when they run for the first time, too.
+  // Drivers may compile a kernel when it runs for the first time, too.
   if (this->Started.count(kernel.Name) == 0)
   {
     this->RequireMemoryToCompile();
     this->Started.insert(kernel.Name);
   }
+  // Groups are rows of items along the first axis.
   const std::size_t groups[3] = { group, 1, 1 };
   this->RequireWork(this->Cl.clEnqueueNDRangeKernel(this->Queue, kernel.Kernel.get(), 3, nullptr,
                       items.data(), groups, 0, nullptr, nullptr),
@@ -394,6 +429,7 @@ void Device::RunGrid(
   ++this->Done.Kernels;
 }
 
+// Waits for all kernels.
 void Device::Finish()
 {
   this->RequireWork(this->Cl.clFinish(this->Queue), "did not finish its work");

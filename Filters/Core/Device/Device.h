@@ -31,7 +31,7 @@ struct FoundDevice
   cl_device_type Type; // which may be a processor
   DeviceDescription Description;
 };
-// As listDevices.
+// All devices of all platforms, in the order of listDevices.
 std::vector<FoundDevice> findDevices();
 
 class Device;
@@ -67,7 +67,7 @@ private:
 class DeviceTransfer
 {
 public:
-  // Until its end. Throws DeviceError.
+  // Waits for its end. Throws DeviceError.
   void Wait();
 
 private:
@@ -153,13 +153,13 @@ public:
   // `what` is for messages. The memory is not set.
   DeviceBuffer Allocate(std::size_t bytes, const std::string& what);
 
-  // They wait until it is done.
+  // Both wait for the end of the transfer.
   void Write(const DeviceBuffer& to, const void* from, std::size_t bytes, std::size_t offset = 0);
   void Read(const DeviceBuffer& from, void* to, std::size_t bytes, std::size_t offset = 0);
-  // The same, begun: beside the kernels, but one after the other.
+  // These begin the same transfers, which run beside the kernels and one after the other.
   DeviceTransfer StartWrite(const DeviceBuffer& to, const void* from, std::size_t bytes);
   DeviceTransfer StartRead(const DeviceBuffer& from, void* to, std::size_t bytes);
-  // Whole groups of a number of items, at least as many as `items`; does not wait.
+  // Runs whole groups of a number of items, at least as many as `items`, without waiting.
   void Run(const DeviceKernel& kernel, std::size_t items, std::size_t group = 64);
   // The same for a grid of items: whole groups along its first axis.
   void RunGrid(
@@ -173,7 +173,7 @@ private:
   friend struct DeviceRelease;
   friend class DeviceTransfer;
   void Require(cl_int code, const std::string& what) const;
-  // Of its work: what fails there is lost, unless it is memory.
+  // The same for its work: a device that fails there is lost, unless it lacks memory.
   void RequireWork(cl_int code, const std::string& what) const;
   // What the driver of a parent has made is left to it.
   template <class Handle>
@@ -199,7 +199,7 @@ private:
   std::timed_mutex InUse;
   std::atomic<bool> HasFailed{ false };
   std::map<std::string, DeviceProgram> Programs;
-  std::mutex KeptMutex; // of the next, no other is locked within
+  std::mutex KeptMutex; // guards Kept; no other mutex is locked within
   std::map<const void*, std::shared_ptr<void>> Kept;
   std::set<std::string> Started; // names of kernels
 };

@@ -16,7 +16,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// Each of these is computed by the function with its number below, too.
+// The operations that flows use, by the fault that other bits of them mean. resultsOf computes the
+// same on the processor, in the same order as the kernel below.
 constexpr std::array<const char*, 6> ofDoubles = { "rounds a * b + c once instead of twice",
   "divides inexactly", "takes square roots inexactly", "converts doubles to integers otherwise",
   "converts doubles to floats otherwise", "rounds doubles down otherwise" };
@@ -63,12 +64,14 @@ __kernel void ofFloats(__global const float* numbers, __global float* results, l
 
 constexpr std::size_t count = 1024;
 
+// Three operands a, b and c.
 template <class T>
 struct Numbers
 {
   T Of[3];
 };
 
+// The operands of all comparisons, from -1 to 1, the same on every machine.
 template <class T>
 std::vector<Numbers<T>> someNumbers()
 {
@@ -81,12 +84,14 @@ std::vector<Numbers<T>> someNumbers()
   {
     each.Of[0] = next();
     each.Of[1] = next();
-    // Half of them such that the sum is the error of the product, if that is not rounded.
+    // Half of the sums a b + c are 0 if the product is rounded, and its rounding error if the
+    // device contracts them to a fused multiply-add.
     each.Of[2] = random() % 2 == 0 ? next() : -(each.Of[0] * each.Of[1]);
   }
   return numbers;
 }
 
+// The right results: the standard demands them of every IEEE 754 processor without contraction.
 std::array<double, 6> resultsOf(const Numbers<double>& numbers)
 {
   const auto [a, b, c] = numbers.Of;
@@ -101,6 +106,8 @@ std::array<float, 2> resultsOf(const Numbers<float>& numbers)
   return { a * b + c, a * 1e-30F * b * 1e-10F };
 }
 
+// Runs a kernel on all operands and compares every bit; a fault names the first operation that
+// differs.
 template <class T, std::size_t N>
 void compare(Device& device, const DeviceProgram& built, const std::string& kernel,
   const std::array<const char*, N>& faults)
@@ -129,6 +136,7 @@ void compare(Device& device, const DeviceProgram& built, const std::string& kern
 
 } // namespace
 
+// `before` stands in front of the program, so that a test can break the device's arithmetic.
 void checkDevice(Device& device, const std::string& before)
 {
   const DeviceProgram built = device.Build({ before, program });

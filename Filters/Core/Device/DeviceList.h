@@ -22,15 +22,16 @@ struct DeviceDescription
   std::string Lacks;        // what it cannot do that is needed; empty if nothing is known to be
 };
 
-// In the order of the driver; empty if there is no driver, or if this library was built without
+// Lists the devices in the order of the driver; empty if there is no driver, or if this library was
+// built without
 // OpenCL. Does not throw anything but std::bad_alloc.
 std::vector<DeviceDescription> listDevices();
 
-// Of the devices whose names contain a text, in any case of letters, and that lack nothing, those
-// that are no processors first: number `number` from 0 modulo the count of those, or the next one
-// that passes the self-test of DeviceCheck.h. A device in `open` is returned as it is. Throws
-// DeviceError: no driver, no such device, one that lacks something or computes other bits than
-// processors.
+// Opens the device of number `number`, from 0 and modulo their count, among the devices whose names
+// contain a text, in any case of letters, and that lack nothing. Those that are no processors are
+// counted alone if there are any. If it fails the self-test of DeviceCheck.h, the next one is
+// tried. A device in `open` is returned as it is. Throws DeviceError: no driver, no such device,
+// one that lacks something or computes other bits than
 std::shared_ptr<Device> openDevice(
   const std::string& name, int number = 0, const std::vector<std::shared_ptr<Device>>& open = {});
 

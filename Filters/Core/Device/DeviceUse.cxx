@@ -9,6 +9,7 @@
 namespace RectifiedTransport
 {
 
+// A fault is no error of the run: it is kept as the reason, and processors do the work.
 DeviceUse DeviceUse::Open(const std::string& name)
 {
   try
@@ -21,6 +22,8 @@ DeviceUse DeviceUse::Open(const std::string& name)
   }
 }
 
+// Runs take turns on a device. A run that waits polls for an abort every 20 ms, below what a user
+// notices.
 bool DeviceUse::Run(
   const std::function<void(Device&)>& function, const std::function<bool()>& shouldStop)
 {
@@ -41,11 +44,13 @@ bool DeviceUse::Run(
   {
     if (this->Opened->IsLost())
     {
+      // It may have been lost to another run while this one waited.
       throw DeviceError("The device '" + this->Opened->Description().Name + "' was lost");
     }
     function(*this->Opened);
     return true;
   }
+  // A lost device serves no run any more; after other errors it may serve the next one.
   catch (const LostDevice& error)
   {
     this->Opened->MarkLost();

@@ -13,7 +13,8 @@ namespace RectifiedTransport
 
 class Device;
 
-// Of one run, on one thread; a device may be used by many. The processor does what the device does
+// The use of a device by one run, on one thread; a device may serve many runs. The processor does
+// what the device does
 // not do, with the same bits.
 class DeviceUse
 {

@@ -7,6 +7,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// A number that OpenCL reports about a device; 0 if the driver does not know the question.
 template <class T>
 T numberOf(const OpenCL& cl, cl_device_id device, cl_device_info what)
 {
@@ -22,7 +23,8 @@ std::string textOf(const OpenCL& cl, cl_device_id device, cl_device_info what)
   });
 }
 
-// What OpenCL leaves to devices, and bits need.
+// What OpenCL leaves to devices and equal bits need: doubles and floats that round to nearest, with
+// infinities, NaN and subnormal numbers. Empty if the device lacks nothing.
 std::string lacksOf(const OpenCL& cl, cl_device_id device)
 {
   constexpr cl_device_fp_config exact = CL_FP_ROUND_TO_NEAREST | CL_FP_INF_NAN | CL_FP_DENORM;
@@ -52,6 +54,7 @@ std::string lacksOf(const OpenCL& cl, cl_device_id device)
   return "";
 }
 
+// Asks the driver for all that a user sees and a choice needs.
 FoundDevice describe(const OpenCL& cl, cl_platform_id platform, cl_device_id device)
 {
   const std::string version = infoText([&](std::size_t size, void* text, std::size_t* needed) {
@@ -75,6 +78,7 @@ std::vector<FoundDevice> findDevices()
     return found;
   }
   std::vector<cl_platform_id> platforms(platformCount);
+  // Two calls of each list: the count first, then the entries.
   cl->clGetPlatformIDs(platformCount, platforms.data(), nullptr);
   for (const cl_platform_id platform : platforms)
   {

@@ -17,12 +17,14 @@ namespace RectifiedTransport
 namespace
 {
 
+// Seeds a chunk of parallel loops.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 
 // Why an optimal map does not serve whose masses of blocks have this error; empty if it does.
 std::string unresolvedText(double massError)
 {
-  constexpr double most = 0.1;
+  constexpr double most =
+    0.1; // a relative L2 error of 10 %: nodes that resolve the target have some hundredths
   if (!(massError > most))
   {
     return {};
@@ -34,12 +36,14 @@ std::string unresolvedText(double massError)
     "helps, for example by Resample To Image)";
 }
 
+// Reads an end's values, with its box, for the optimal map.
 template <int Dimension>
 PlacedDensity<Dimension> read(const PlanEnd<Dimension>& end, const Context& context)
 {
   return { end.Read(context), end.Low, end.High };
 }
 
+// Ends whose values are read again when they are needed may go meanwhile.
 template <int Dimension>
 void release(const PlanEnd<Dimension>& end)
 {
@@ -49,7 +53,8 @@ void release(const PlanEnd<Dimension>& end)
   }
 }
 
-// Moves points of the index space of one box to that of another one, whose points correspond.
+// Moves a point of the index space of one box to that of another one: their unit boxes correspond.
+// The clamp guards the upper face against rounding.
 template <int Dimension>
 void rescale(const double* point, const GridSize<Dimension>& from, const GridSize<Dimension>& to,
   double* scaled)
@@ -62,8 +67,8 @@ void rescale(const double* point, const GridSize<Dimension>& from, const GridSiz
   }
 }
 
-// visit(number, place in the positions) of all seeds, in a fixed order. Lattices may leave gaps
-// between the positions of their parts.
+// Calls visit(number, place in the positions) for all seeds, in a fixed order. Lattices may leave
+// gaps between the positions of their parts.
 template <int Dimension, class Visit>
 void forPositions(
   const FlowSeeds<Dimension>& seeds, std::int64_t count, Progress& progress, const Visit& visit)
@@ -83,6 +88,7 @@ void forPositions(
   }
 }
 
+// The number of seeds of this rank.
 template <int Dimension>
 std::int64_t countOf(const FlowSeeds<Dimension>& seeds)
 {
@@ -108,6 +114,7 @@ PlanEnd<Dimension>::PlanEnd(const PlacedDensity<Dimension>& density)
 {
 }
 
+// Lengths in units of about the grid's diagonal keep squared distances in the range of doubles.
 template <int Dimension>
 PlanEnd<Dimension> PlanEnd<Dimension>::On(const ImageGrid& grid)
 {
@@ -122,10 +129,13 @@ PlanEnd<Dimension> PlanEnd<Dimension>::On(const ImageGrid& grid)
   return end;
 }
 
+// The corners of a grid's box in lengths of another box, by physical coordinates. A corner that is
+// a face of the box up to rounding is set exactly there, as the solver asks whether a density fills
+// its box.
 template <int Dimension>
 PlanEnd<Dimension> PlanEnd<Dimension>::In(const ImageGrid& box, const ImageGrid& grid)
 {
-  constexpr double rounding = 1e-9; // of the sides
+  constexpr double rounding = 1e-9; // relative to the sides
   const LengthScale scale(box);
   const Point<Dimension> lengths = box.Lengths<Dimension>();
   const GridSize<Dimension> cells = box.Size<Dimension>();
@@ -162,6 +172,8 @@ TransportPlan<Dimension>::TransportPlan(PlanEnd<Dimension> source, PlanEnd<Dimen
 {
 }
 
+// Solves the map that is needed, unless it is given. A map that does not resolve the target is kept
+// for its bound alone; flows then move the points.
 template <int Dimension>
 TransportPlan<Dimension>::TransportPlan(std::array<std::optional<PlanEnd<Dimension>>, 2> ends,
   const PlanOptions& options, Map map, const Context& context)
@@ -181,6 +193,7 @@ TransportPlan<Dimension>::TransportPlan(std::array<std::optional<PlanEnd<Dimensi
     this->Optimal = Solve(
       this->Ends[0] ? &*this->Ends[0] : nullptr, *this->Ends[1], options.Optimal, stages["map"]);
   }
+  // The bound is certified whether or not the map resolves the target.
   this->Bound = this->Optimal->LowerBound();
   if (options.IsOptimal)
   {
@@ -188,6 +201,7 @@ TransportPlan<Dimension>::TransportPlan(std::array<std::optional<PlanEnd<Dimensi
   }
 }
 
+// The values are only needed until the map has its own copy, and are released before the long part.
 template <int Dimension>
 typename TransportPlan<Dimension>::Map TransportPlan<Dimension>::Solve(
   const PlanEnd<Dimension>* source, const PlanEnd<Dimension>& target,
@@ -199,6 +213,7 @@ typename TransportPlan<Dimension>::Map TransportPlan<Dimension>::Solve(
   std::shared_ptr<OptimalMap<Dimension>> map;
   if (source)
   {
+    // Both densities are in memory until the map has its own shares of cells.
     const PlacedDensity<Dimension> from = read(*source, stages["source"]);
     const PlacedDensity<Dimension> to = read(target, stages["target"]);
     map = std::make_shared<OptimalMap<Dimension>>(from, to, options, stages["set-up"]);
@@ -219,6 +234,7 @@ typename TransportPlan<Dimension>::Map TransportPlan<Dimension>::Solve(
   return map;
 }
 
+// Two threads may need the same flow: the first one makes it, under the lock.
 template <int Dimension>
 const RectifiedFlow<Dimension>& TransportPlan<Dimension>::FlowOf(
   std::size_t end, const Context& context) const
@@ -233,6 +249,7 @@ const RectifiedFlow<Dimension>& TransportPlan<Dimension>::FlowOf(
   return *density.Flow;
 }
 
+// Frees the optimal map first, so that both are never in memory together.
 template <int Dimension>
 void TransportPlan<Dimension>::MakeFlows(const Context& context)
 {
@@ -243,12 +260,15 @@ void TransportPlan<Dimension>::MakeFlows(const Context& context)
   this->Optimal = nullptr;
   Progress progress(context);
   Parts parts(progress, 2);
+  // The uniform measure has no flow of its own.
   for (std::size_t end = this->Ends[0] ? 0 : 1; end < 2; ++end)
   {
     this->FlowOf(end, parts[static_cast<std::int64_t>(end)]);
   }
 }
 
+// Without a source density one flow moves the points; between two densities there are two on the
+// way.
 template <int Dimension>
 std::vector<FlowReport> TransportPlan<Dimension>::Move(FlowDirection direction,
   const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions, const Context& context) const
@@ -263,11 +283,14 @@ std::vector<FlowReport> TransportPlan<Dimension>::Move(FlowDirection direction,
   {
     return this->MoveByFlows(isForward ? 0 : 1, seeds, positions, context);
   }
+  // From the uniform measure the target's flow is the map itself.
   const RectifiedFlow<Dimension>& flow = this->FlowOf(1, context);
   return { isForward ? flow.Forward(seeds, positions, this->Chosen.Flow, context)
                      : flow.Backward(seeds, positions, this->Chosen.Flow, context) };
 }
 
+// Composition through the uniform measure (Section 3.4): back to it by the first flow, to the other
+// unit box, and on by the second.
 template <int Dimension>
 std::vector<FlowReport> TransportPlan<Dimension>::MoveByFlows(std::size_t from,
   const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions, const Context& context) const
@@ -277,7 +300,9 @@ std::vector<FlowReport> TransportPlan<Dimension>::MoveByFlows(std::size_t from,
   const RectifiedFlow<Dimension>& first = this->FlowOf(from, stages["back"]);
   const RectifiedFlow<Dimension>& second = this->FlowOf(1 - from, stages["back"]);
   const FlowOptions& options = this->Chosen.Flow;
+  // The first flow's images of the seeds are points of the uniform measure on its box.
   const FlowReport back = first.Backward(seeds, positions, options, stages["back"]);
+  // Starts of the second flow, a point for each seed of this rank.
   const std::int64_t count = countOf(seeds);
   // Positions of a lattice may have gaps, and points of an array have none.
   LargeBuffer<double> between(seeds.IsLattice() ? count * Dimension : 0);
@@ -297,6 +322,7 @@ std::vector<FlowReport> TransportPlan<Dimension>::MoveByFlows(std::size_t from,
   return { back, forth };
 }
 
+// The last report is that of the flow that ends at the target.
 template <int Dimension>
 FlowReport TransportPlan<Dimension>::Forward(
   const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions, const Context& context) const
@@ -311,6 +337,8 @@ FlowReport TransportPlan<Dimension>::Backward(
   return this->Move(FlowDirection::Backward, points, positions, context).back();
 }
 
+// A point of the source's index space in that of the target: both boxes lie in the same physical
+// space.
 template <int Dimension>
 Point<Dimension> TransportPlan<Dimension>::ToTarget(const Point<Dimension>& point) const
 {
@@ -319,6 +347,8 @@ Point<Dimension> TransportPlan<Dimension>::ToTarget(const Point<Dimension>& poin
   Point<Dimension> there;
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // Index space to fractions of the source's box, to lengths, and back into the target's index
+    // space.
     const double part = point[axis] / static_cast<double>(from.Size[axis]);
     const double length = from.Low[axis] + part * (from.High[axis] - from.Low[axis]);
     there[axis] =
@@ -327,6 +357,8 @@ Point<Dimension> TransportPlan<Dimension>::ToTarget(const Point<Dimension>& poin
   return there;
 }
 
+// From the uniform measure, intermediate positions are the flow's own; between two densities they
+// are (1 - t) x + t T(x), as by displacement interpolation.
 template <int Dimension>
 FlowReport TransportPlan<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds,
   const std::vector<double>& times, PointSpan<Dimension> positions, const Context& context) const

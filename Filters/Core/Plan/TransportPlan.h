@@ -65,7 +65,7 @@ struct PlanEnd
   static PlanEnd In(const ImageGrid& box, const ImageGrid& grid);
 
   GridSize<Dimension> Size{};
-  Point<Dimension> Low{}; // corners of its box, in lengths
+  Point<Dimension> Low{}; // low corner of its box, in lengths
   Point<Dimension> High{};
   // Called where something has to be made: returns the density, which stays until Release.
   std::function<DensitySource<Dimension>(const Context&)> Read;
