@@ -106,7 +106,7 @@ template <int Dimension>
 class AdvectionJob
 {
 public:
-  // Of valid options with steps.
+  // The options are valid and have steps.
   AdvectionJob(const TableView<Dimension>& tables, AdvectionKind kind, const FlowOptions& options)
     : Kind(kind)
     , Refinement(firstRefinement(options, kind))
@@ -133,7 +133,7 @@ public:
 
   FlowJob<Dimension> Job;
   const AdvectionKind Kind;
-  const int Refinement; // of NumberOfSteps
+  const int Refinement; // Steps is NumberOfSteps times two to this power
 
 private:
   std::vector<StepWeights> Weights;

@@ -71,6 +71,7 @@ public:
     : Job(job)
     , Number(static_cast<std::size_t>(count))
   {
+    // Ends stay in this object, so that the seeds may be the output.
     this->Job.Output = this->Ends;
     this->Particles.Index.resize(this->Number.size());
     this->Particles.Seeds.resize(this->Number.size() * Dimension);
@@ -113,6 +114,7 @@ private:
     Point<Dimension> middle;
     for (int axis = 0; axis < Dimension; ++axis)
     {
+      // Points on the high face belong to the last cell.
       const double last = this->Job.Tables.Size[axis] - 1.0;
       middle[axis] = std::min(std::floor(point[axis]), last) + 0.5;
     }
@@ -120,7 +122,7 @@ private:
   }
 
   FlowJob<Dimension> Job;
-  std::vector<std::int64_t> Number; // of each particle's cell in the output
+  std::vector<std::int64_t> Number; // each particle's cell in the output
   WaitingParticles<Dimension> Particles;
   double Ends[rangeBlocks * BlockSize * Dimension];
 };
@@ -214,6 +216,7 @@ public:
         WaitingParticles<Dimension>& those = left[static_cast<std::size_t>(first / this->Grain)];
         for (; first < last && !this->Work.ShouldStop(); first += BlockSize)
         {
+          // A block of lanes, with copies of its seeds.
           std::int64_t index[BlockSize];
           double seeds[BlockSize * Dimension];
           bool isUnresolved[BlockSize] = {};

@@ -17,7 +17,7 @@
 namespace RectifiedTransport
 {
 
-// All throw std::invalid_argument.
+// All throw std::invalid_argument. Times ascend from 0 to 1.
 inline void check(const std::vector<double>& times)
 {
   if (times.empty())
@@ -36,6 +36,8 @@ inline void check(const std::vector<double>& times)
   }
 }
 
+// Memory for exactly the positions that are expected; a double holds counts that may exceed 64
+// bits.
 inline void checkCount(std::int64_t positions, double expected)
 {
   if (static_cast<double>(positions) != expected)
@@ -45,6 +47,7 @@ inline void checkCount(std::int64_t positions, double expected)
   }
 }
 
+// A grid's cells along each axis are from 1 to 2^30, so that sums of integers stay exact.
 template <int Dimension>
 void check(const GridSize<Dimension>& size, const char* what)
 {
@@ -58,6 +61,7 @@ void check(const GridSize<Dimension>& size, const char* what)
   }
 }
 
+// A part of a lattice is inside of it, and its positions are within the memory.
 template <int Dimension>
 void check(const LatticeParts<Dimension>& parts, const LatticePart<Dimension>& part,
   const GridSize<Dimension>& lattice, std::int64_t positions)
@@ -87,6 +91,7 @@ void check(const LatticeParts<Dimension>& parts, const LatticePart<Dimension>& p
   }
 }
 
+// Checks the seeds of a lattice and returns the order in which they are advected.
 template <int Dimension>
 LatticeOrder<Dimension> checkedOrder(
   const FlowSeeds<Dimension>& seeds, const GridSize<Dimension>& size, std::int64_t positions)

@@ -248,8 +248,8 @@ private:
   GridSize<Dimension> Nodes;             // along each axis
   GridSize<Dimension> Stride;            // in nodes
   float InverseDeviation[Dimension];     // 1 / cells
-  std::vector<double> Places[Dimension]; // of the nodes along each axis, in cells
-  std::vector<unsigned char> Marks;      // of the nodes
+  std::vector<double> Places[Dimension]; // places of nodes along each axis, in cells
+  std::vector<unsigned char> Marks;      // one for each node
 };
 
 } // namespace

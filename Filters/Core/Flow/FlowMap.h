@@ -33,8 +33,8 @@ class FlowMap
 public:
   // Makes all levels of a shape, on a device if one is given and serves. Forward, it stops at
   // the first level whose share of bad cells is larger than the share of the steps that it saves.
-  // The job gives the tables, the direction, the steps and their weights. Collective on the ranks
-  // of the context. Throws std::bad_alloc and Cancelled.
+  // The job gives the tables, the direction, the steps and their weights. Collective on
+  // the context's ranks. Throws std::bad_alloc and Cancelled.
   FlowMap(const FlowMapShape<Dimension>& shape, const FlowJob<Dimension>& job,
     const Context& context, const DeviceNodes<Dimension>& onDevice = {});
   FlowMap(const FlowMap&) = delete;

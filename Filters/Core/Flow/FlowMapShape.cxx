@@ -19,11 +19,11 @@ template <int Dimension>
 struct Constants
 {
   static constexpr double Steps = 0.95;    // of particles that hand over, a NumberOfSteps
-  static constexpr double Error = 1.2;     // of the interpolation, times NumberOfSteps^2 / size
-  static constexpr double LeastRatio = 5;  // of the width of the box to the spacing
-  static constexpr double LeastCells = 40; // of the coarsest lattice: paths start with kinks
-  // Times, in velocity evaluations of particles: of an interpolation, and of an evaluation of a
-  // node, as nodes lie far apart.
+  static constexpr double Error = 1.2;     // the interpolation's, times NumberOfSteps^2 / size
+  static constexpr double LeastRatio = 5;  // width of the box over the spacing
+  static constexpr double LeastCells = 40; // in the coarsest lattice: paths start with kinks
+  // Times of an interpolation, and of an evaluation of a node, as nodes lie far apart. Both are in
+  // velocity evaluations of particles.
   static constexpr double Interpolation = 1.2;
   static constexpr double Node = 1.3;
   static constexpr double Particles = 0.1; // a grid cell, for which levels are chosen, forwards
@@ -116,7 +116,7 @@ public:
     return static_cast<int>(first - this->Spacings.begin());
   }
 
-  // Of the box at a hand-over.
+  // The mean width of the box at a hand-over, W = S s / (1 - s), in cells.
   double Width(int handOver) const
   {
     const double rest = this->Rest(handOver);

@@ -19,7 +19,7 @@ struct FlowMapShape
   {
     int HandOver;              // steps of particles between it and time 1
     double TimeLeft;           // until time 1
-    GridSize<Dimension> Cells; // of the lattice, between its nodes
+    GridSize<Dimension> Cells; // cells of the lattice, between its nodes
     Point<Dimension> Layers;   // see LatticeAxis
     double Cost;               // in velocity evaluations of particles
   };
@@ -36,18 +36,18 @@ struct FlowMapShape
 
   // Whether particles take less time with the map, including the time to make it.
   bool PaysFor(double particles) const;
-  // In velocity evaluations: with the map, including those to make it, if it does not serve a share
-  // of the particles. There are levels.
+  // The cost with the map, in velocity evaluations, including those to make it, if it does not
+  // serve this share of the particles (`bad`). There are levels.
   double CostWith(double particles, double bad) const;
 
-  int NumberOfSteps; // of particles without a map
+  int NumberOfSteps; // the steps of particles without a map
   int MapSteps;
-  int Steps; // of particles that hand over: fewer, as the lattices' are finer
+  int Steps; // the steps of particles that hand over: fewer, as the lattices' are finer
   FlowDirection Direction;
   std::vector<Level> Levels; // wider spacings first
   // In cells, along each axis: lattice cells that deviate more from cubics are bad.
   Point<Dimension> Deviation{};
-  double Cost = 0.0; // of all levels
+  double Cost = 0.0; // the sum over all levels
 
 private:
   double Saved() const; // evaluations of a particle in a good cell

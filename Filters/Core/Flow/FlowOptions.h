@@ -42,15 +42,15 @@ enum class FlowDirection
 struct FlowOptions
 {
   static constexpr int MaximumNumberOfSteps = 10000;
-  // Of those that NumberOfSteps 0 stands for.
+  // The range of what NumberOfSteps 0 stands for.
   static constexpr int FewestSteps = 32;
   static constexpr int MostSteps = 4096;
   // With this AreaTolerance, 0 steps cost at most 8 times as much as LeastSteps.
   static constexpr double UsualTolerance = 0.02;
 
   RectifiedTransport::Integrator Integrator = RectifiedTransport::Integrator::Multistep;
-  // Of the fixed-step methods, up to 10000; 0: as many as AreaTolerance asks, by the density, the
-  // direction and Particles (AutomaticSteps.h).
+  // The number of steps of the fixed-step methods, up to 10000; 0: as many as AreaTolerance asks,
+  // by the density, the direction and Particles (AutomaticSteps.h).
   int NumberOfSteps = 0;
   // With 0 steps: the largest error, up to 1, of the area (backward) or mass (forward) of blocks,
   // for 99.9 % of them, relative to their mass or 5 % of the mean block's. Of blocks of 4^d cells,

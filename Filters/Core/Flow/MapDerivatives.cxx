@@ -11,12 +11,15 @@ template <int Dimension>
 void MapDerivatives<Dimension>::Write(
   std::int64_t first, std::int64_t last, double* divergences, double* determinants) const
 {
+  // Central differences of positions inside, one-sided ones at the lattice's border: J = dT/dx, div
+  // (T - x) = trace(J) - dimension, and det J, the ratio of volumes.
   using Vector = Eigen::Map<const Eigen::Matrix<double, 1, Dimension>>;
   GridSize<Dimension> stride;
   std::int64_t cells = 1;
   for (int axis = 0; axis < Dimension; ++axis)
   {
     stride[axis] = cells;
+    // Positions lie in `Within`, axis 0 fastest.
     cells *= this->Within.Cells[axis];
   }
   GridSize<Dimension> cell = this->Part.CellOf(first);
@@ -29,6 +32,7 @@ void MapDerivatives<Dimension>::Write(
     double divergence = 0.0;
     for (int axis = 0; axis < Dimension; ++axis)
     {
+      // Along an axis of one cell there is no difference; the identity stands.
       const bool below = cell[axis] > 0;
       const bool above = cell[axis] + 1 < this->Lattice[axis];
       if (below || above)

@@ -14,6 +14,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Cells a chunk of parallel loops.
 constexpr std::int64_t chunk = 4096;
 
 void checkCount(std::int64_t count, double expected)
@@ -27,6 +28,8 @@ void checkCount(std::int64_t count, double expected)
 
 } // namespace
 
+// One displacement for each cell of `part` of the lattice; `within` is the part whose positions are
+// given.
 template <int Dimension>
 MapDisplacement<Dimension>::MapDisplacement(const ImageGrid& grid,
   const GridSize<Dimension>& lattice, const LatticePart<Dimension>& part,
@@ -45,6 +48,8 @@ MapDisplacement<Dimension>::MapDisplacement(const ImageGrid& grid,
   checkCount(positions.size(), numberOfCells<Dimension>(within.Cells));
 }
 
+// The displacements of cells [first, last) of the part, and the sums of those that are `counted`:
+// overlapping parts of several ranks count each cell once.
 template <int Dimension>
 void MapDisplacement<Dimension>::Write(std::int64_t first, std::int64_t last,
   const LatticePart<Dimension>& counted, PointSpan<3> displacements, DisplacementSums& sums,
@@ -60,8 +65,8 @@ void MapDisplacement<Dimension>::Count(DisplacementSums& sums, Progress& progres
   sums.Add(this->Sum(0, this->Part.Count(), this->Part, nullptr, progress));
 }
 
-// Sums those of the part's cells [first, last), and writes the displacements where that is not
-// null.
+// sum w |d|^2 and sum w over the part's cells [first, last), in exact sums, so that the bits do not
+// depend on threads or ranks. Writes the displacements d unless the pointer is null.
 template <int Dimension>
 DisplacementSums MapDisplacement<Dimension>::Sum(std::int64_t first, std::int64_t last,
   const LatticePart<Dimension>& counted, double* displacements, Progress& progress) const
@@ -70,6 +75,7 @@ DisplacementSums MapDisplacement<Dimension>::Sum(std::int64_t first, std::int64_
     progress, last - first, chunk, [&](std::int64_t b, std::int64_t e, DisplacementSums& found) {
       for (std::int64_t i = first + b; i < first + e; ++i)
       {
+        // Without an output the displacement is local.
         double local[3];
         double* displacement = displacements ? displacements + 3 * i : local;
         const GridSize<Dimension> cell = this->Part.CellOf(i);
@@ -84,25 +90,29 @@ DisplacementSums MapDisplacement<Dimension>::Sum(std::int64_t first, std::int64_
     });
 }
 
+// A cell's share of the mean squared displacement, w |d|^2 / sum w.
 template <int Dimension>
 void MapDisplacement<Dimension>::WriteCosts(const double* displacements,
   const DisplacementSums& sums, double* costs, Progress& progress) const
 {
   const double all = sums.Weight.Value();
   progress.ForEach(this->Part.Count(), chunk, [&](std::int64_t i) {
+    // Shares of all counted cells sum to 1, and costs to the mean square.
     const double share = this->WeightOf(this->Part.CellOf(i)) / all;
     const double square = this->Scale.SquareInUnits(displacements + 3 * i);
     costs[i] = this->Scale.SquareFromUnits(share * square);
   });
 }
 
+// The transport cost sum w |d|^2 / sum w, in squared physical lengths.
 template <int Dimension>
 double MapDisplacement<Dimension>::MeanSquare(const DisplacementSums& sums) const
 {
+  // Squares are summed in units that do not overflow.
   return this->Scale.CostFromUnits(sums.Cost.Value() / sums.Weight.Value());
 }
 
-// May write where the position was.
+// d = position - centre of the cell, as a physical vector. It may overwrite the position.
 template <int Dimension>
 void MapDisplacement<Dimension>::Displace(
   const GridSize<Dimension>& cell, double* displacement) const
@@ -116,6 +126,7 @@ void MapDisplacement<Dimension>::Displace(
   this->Grid.template VectorToPhysical<Dimension>(moved, displacement);
 }
 
+// The mass of a cell under the density, or 1 for the uniform measure.
 template <int Dimension>
 double MapDisplacement<Dimension>::WeightOf(const GridSize<Dimension>& cell) const
 {
@@ -127,6 +138,7 @@ double MapDisplacement<Dimension>::WeightOf(const GridSize<Dimension>& cell) con
   Point<Dimension> high;
   for (int a = 0; a < Dimension; ++a)
   {
+    // The lattice's cell in the density's index space.
     low[a] = static_cast<double>(cell[a]) * this->Step[a];
     high[a] = static_cast<double>(cell[a] + 1) * this->Step[a];
   }

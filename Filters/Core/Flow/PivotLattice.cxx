@@ -34,6 +34,7 @@ std::int64_t power(std::int64_t base)
 template <int Dimension>
 std::int64_t integerRoot(std::int64_t value)
 {
+  // The floating-point root may be off by one, so integers correct it.
   auto guess = static_cast<std::int64_t>(root<Dimension>(static_cast<double>(value)));
   while (power<Dimension>(guess + 1) <= value)
   {
@@ -55,6 +56,7 @@ Point<Dimension> placeInCell(std::int64_t i, std::int64_t count)
   Point<Dimension> place;
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // Additions of steps wrap modulo 2^64, which is modulo 1 of the unit interval.
     const auto halfSteps = static_cast<std::uint64_t>(2 * i - (count - 1));
     place[axis] = unitReal(half + halfSteps * (lowDiscrepancyStep<Dimension>(axis) / 2));
   }
@@ -67,6 +69,8 @@ template <int Dimension>
 PivotLattice<Dimension> pivotLattice(const GridSize<Dimension>& grid, std::int64_t perCell)
 {
   PivotLattice<Dimension> samples{ grid, {} };
+  // k^Dimension particles a cell are a lattice of k times as many cells; other numbers take one
+  // lattice of the grid for each place in a cell.
   const std::int64_t side = integerRoot<Dimension>(perCell);
   if (power<Dimension>(side) == perCell)
   {
@@ -97,6 +101,7 @@ FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
       std::to_string(last - 1) + ", but the pivot has " + std::to_string(particles) + " particles");
   }
   const auto places = static_cast<std::int64_t>(pivot.Places.size());
+  // Particles are numbered place by place.
   const std::int64_t each = places > 0 ? particles / places : 0;
   // All places take the same way, as the particles of one run do.
   check(options);
@@ -107,6 +112,7 @@ FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   FlowOptions same = options;
   if (choosesSteps)
   {
+    // The steps and the flow map are those for all particles, whatever part this call asks for.
     same.Particles = static_cast<double>(particles);
     const StepChoice choice = flow.ChooseSteps(same, FlowDirection::Forward, stages["steps"]);
     same = choice.Of(same);
@@ -118,6 +124,8 @@ FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   Parts parts(stages["particles"], places);
   for (std::int64_t place = 0; place < places; ++place)
   {
+    // The particles [low, high) of this place's lattice that are in [first, last). Advections are
+    // collective, so ranks without any of them take part.
     const std::int64_t low = std::clamp<std::int64_t>(first - place * each, 0, each);
     const std::int64_t high = std::clamp<std::int64_t>(last - place * each, 0, each);
     if (low == high && !progress.Group().AreSeveral())
@@ -130,6 +138,7 @@ FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
       { partsOf<Dimension>(pivot.Lattice, low, high - low),
         LatticePart<Dimension>::WholeOf(pivot.Lattice), low },
       pivot.Places[static_cast<std::size_t>(place)]);
+    // Reports add up; the step choice is that of all places.
     const FlowReport moved = flow.Forward(seeds, part, same, parts[place]);
     report.Redone += moved.Redone;
     report.MovedToMass += moved.MovedToMass;

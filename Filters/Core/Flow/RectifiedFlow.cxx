@@ -23,6 +23,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Tiles are blocks of 2D or 3D grids; lines are small enough for whole tables.
 constexpr const char* noTiles = "a density of one axis has no tiles, it needs whole tables";
 
 } // namespace
@@ -34,6 +35,8 @@ RectifiedFlow<Dimension>::RectifiedFlow(
 {
 }
 
+// The tables of the density decide what the engine is: summed-area tables of the whole grid, or
+// tables a tile at a time.
 template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(const DensitySource<Dimension>& density, FlowTables tables,
   const Context& context, const TileLimits& limits)
@@ -56,6 +59,8 @@ RectifiedFlow<Dimension>::RectifiedFlow(const DensitySource<Dimension>& density,
   }
 }
 
+// A time series: the tables of the next density are made in the memory of the previous ones, which
+// saves the time that the system takes to clear pages.
 template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(
   const DensitySource<Dimension>& density, RectifiedFlow&& previous, const Context& context)
@@ -64,6 +69,7 @@ RectifiedFlow<Dimension>::RectifiedFlow(
 {
   check<Dimension>(density.Size, "a density");
   TableMemory memory;
+  // The previous flow is empty afterwards.
   if (const std::unique_ptr<FlowEngine<Dimension>> engine = std::move(previous.Engine))
   {
     memory = engine->ReleaseMemory();
@@ -93,6 +99,7 @@ const DensitySummary& RectifiedFlow<Dimension>::Summary() const
   return this->Engine->Summary();
 }
 
+// M = the density's centroid, in cells: the straight start of all paths ends on the way to it.
 template <int Dimension>
 Point<Dimension> RectifiedFlow<Dimension>::Centroid() const
 {
@@ -107,8 +114,8 @@ std::int64_t RectifiedFlow<Dimension>::MemorySize() const
   return this->Engine->MemorySize();
 }
 
-// One record for each node of each level, where a level has a fixed share of the nodes of the finer
-// one.
+// One record of doubles for each node of each level. Each coarse level has 2^-(Dimension
+// levelShift) of the nodes of the finer one, so that all levels together are a geometric series.
 template <int Dimension>
 double RectifiedFlow<Dimension>::MemoryFor(const GridSize<Dimension>& size)
 {
@@ -121,6 +128,7 @@ double RectifiedFlow<Dimension>::MemoryFor(const GridSize<Dimension>& size)
   return nodes * levels * TableView<Dimension>::Record * sizeof(double);
 }
 
+// An estimate of the bytes of a run by tiles, with its particles.
 template <int Dimension>
 double RectifiedFlow<Dimension>::TiledMemoryFor(const GridSize<Dimension>& size,
   const FlowOptions& options, FlowDirection direction, double particles, bool isLattice,
@@ -151,12 +159,14 @@ double RectifiedFlow<Dimension>::TiledSharesMemoryFor(const GridSize<Dimension>&
   }
 }
 
+// Replaces the density that tiles are read from; whole tables hold it already.
 template <int Dimension>
 void RectifiedFlow<Dimension>::SetDensity(const DensitySource<Dimension>& density)
 {
   this->Engine->SetDensity(density);
 }
 
+// Tells a tiled flow which boxes Share will be asked for, so that it sums their tiles once.
 template <int Dimension>
 void RectifiedFlow<Dimension>::PrepareShares(
   const GridSize<Dimension>& low, const GridSize<Dimension>& high) const
@@ -170,6 +180,8 @@ bool RectifiedFlow<Dimension>::HasMass(const Point<Dimension>& point) const
   return hasMass<Dimension>(this->Engine->View(), point);
 }
 
+// The share of the whole mass in the box [low, high]: differences of 2^Dimension entries of the
+// interpolated table.
 template <int Dimension>
 double RectifiedFlow<Dimension>::Share(
   const Point<Dimension>& low, const Point<Dimension>& high) const
@@ -177,6 +189,8 @@ double RectifiedFlow<Dimension>::Share(
   return this->Engine->Share(low, high);
 }
 
+// The inverse of Share for boxes that grow about a centre with the given aspect: the share is
+// monotone in the size, so false position and bisection find it (BoxShare.h).
 template <int Dimension>
 double RectifiedFlow<Dimension>::MeasureOfShare(
   const Point<Dimension>& centre, const Point<Dimension>& aspect, double share) const
@@ -192,6 +206,8 @@ void RectifiedFlow<Dimension>::MeasuresOfShares(ConstPointSpan<Dimension> centre
   this->Engine->MeasuresOfShares(centres, aspect, shares, measures, context);
 }
 
+// NumberOfSteps 0: as many steps as AreaTolerance asks, found by probes of the flow
+// (AutomaticSteps.h). A choice is kept for each set of options, and all ranks take the same one.
 template <int Dimension>
 StepChoice RectifiedFlow<Dimension>::ChooseSteps(
   const FlowOptions& options, FlowDirection direction, const Context& context) const
@@ -201,7 +217,8 @@ StepChoice RectifiedFlow<Dimension>::ChooseSteps(
     [&]() { return chooseSteps<Dimension>(*this->Engine, options, direction, context); });
 }
 
-// run(options, context) with the steps that are asked for.
+// Calls run(options, context) with the steps that are asked for or chosen. Collective if steps are
+// chosen: a rank without particles takes part, and nothing is chosen if no rank has any.
 template <int Dimension>
 template <class Run>
 FlowReport RectifiedFlow<Dimension>::RunWithSteps(const FlowOptions& options,
@@ -215,6 +232,7 @@ FlowReport RectifiedFlow<Dimension>::RunWithSteps(const FlowOptions& options,
   FlowOptions chosen = options;
   if (choosesSteps)
   {
+    // All ranks decide alike, as choosing is collective.
     const bool hasParticles = !onAllRanks(*context.Group, particles == 0.0);
     choice = hasParticles ? this->ChooseSteps(options, direction, stages["steps"]) : choice;
     chosen = choice.Of(options);
@@ -225,6 +243,7 @@ FlowReport RectifiedFlow<Dimension>::RunWithSteps(const FlowOptions& options,
   return report;
 }
 
+// From the uniform measure at t = 0 to the density at t = 1: dx/dt = (m(x, t) - x) / (1 - t).
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::Forward(const FlowSeeds<Dimension>& seeds,
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
@@ -235,6 +254,7 @@ FlowReport RectifiedFlow<Dimension>::Forward(const FlowSeeds<Dimension>& seeds,
     });
 }
 
+// The same equation from t = 1 to 0, density to uniform.
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::Backward(const FlowSeeds<Dimension>& points,
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
@@ -245,11 +265,14 @@ FlowReport RectifiedFlow<Dimension>::Backward(const FlowSeeds<Dimension>& points
     });
 }
 
+// One run gives the positions at all times, by Hermite interpolation within steps.
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds,
   const std::vector<double>& times, PointSpan<Dimension> positions, const FlowOptions& options,
   const Context& context) const
 {
+  // A whole lattice, or an array, has a position for each seed and time; parts of lattices are
+  // checked with their seeds.
   check(times);
   if (!seeds.IsLattice() || seeds.IsWholeLattice())
   {
@@ -261,6 +284,8 @@ FlowReport RectifiedFlow<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds
     });
 }
 
+// Writes the cell of the target where each seed ends. No steps are chosen: 0 means the fewest, of
+// which the first pass takes a multiple (firstRefinement).
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::ForwardToCells(const FlowSeeds<Dimension>& seeds,
   std::int64_t* cells, const FlowOptions& options, const Context& context) const
@@ -272,12 +297,14 @@ FlowReport RectifiedFlow<Dimension>::ForwardToCells(const FlowSeeds<Dimension>& 
   return report;
 }
 
+// The one-off function: the tables and their memory do not outlive it.
 template <int Dimension>
 std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& density,
   const FlowSeeds<Dimension>& seeds, const FlowOptions& options, const Context& context)
 {
   Progress progress(context);
   Stages stages(progress, { { "tables", 1 }, { "particles", 9 } });
+  // The tables are released when the points are there.
   const RectifiedFlow<Dimension> flow(density, stages["tables"]);
   std::vector<Point<Dimension>> positions(static_cast<std::size_t>(seeds.Count()));
   flow.Forward(seeds, positions, options, stages["particles"]);

@@ -68,8 +68,8 @@ public:
 
   const GridSize<Dimension>& Size() const { return this->Cells; }
   double Total() const;                  // sum of the density over the cells
-  const DensitySummary& Summary() const; // of the density's values
-  Point<Dimension> Centroid() const;     // of the density
+  const DensitySummary& Summary() const; // sums and extremes of the density's values
+  Point<Dimension> Centroid() const;     // the density's, in index space
   std::int64_t MemorySize() const;       // bytes that the tables and the kept flow maps hold
   // About the bytes of the tables of a density, before they are made. Flow maps are at most half as
   // large in each direction.
@@ -93,8 +93,8 @@ public:
   // holds a share of the mass; the sides of the box are in proportion to `aspect`.
   double MeasureOfShare(
     const Point<Dimension>& centre, const Point<Dimension>& aspect, double share) const;
-  // The same for many points and their shares, which may be in the memory of the measures. Of a
-  // flow with tiles, too: the measures of boxes that reach far beyond a tile are interpolated.
+  // The same for many points and their shares, which may be in the memory of the measures. With
+  // tiles, too: then the measures of boxes that reach far beyond a tile are interpolated.
   // Collective, for a density on ranks, each rank for its own points. Throws std::bad_alloc and
   // Cancelled.
   void MeasuresOfShares(ConstPointSpan<Dimension> centres, const Point<Dimension>& aspect,

@@ -12,6 +12,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Messages continue "Tables is Tiled, which".
 constexpr const char* oneAxis = "takes densities of two or three axes";
 
 // Why tiles do not serve; empty if they do.
@@ -71,6 +72,7 @@ TableChoice chooseTables(TableSetting setting, const GridSize<D>& size, const Ta
   {
     return {};
   }
+  // The estimate of memory is made only if tiles are taken.
   return choose<D>(setting, size, refusal<D>(size, use), [&]() {
     return RectifiedFlow<D>::TiledMemoryFor(
       size, use.Options, use.Direction, use.Particles, use.IsLattice);

@@ -35,7 +35,7 @@ constexpr const char* EqualAreas = "equal areas (EqualizeAreas)";
 struct TableChoice
 {
   FlowTables Tables = FlowTables::Whole;
-  MemoryPlan Memory; // of tiles, to check before the work
+  MemoryPlan Memory; // for tiles, to check before the work
 };
 
 // The tables of a density of this size. Auto means tiles above 2^26 grid cells if they support the

@@ -18,6 +18,7 @@ void writeWeightedMean(const std::vector<WeightedPositions>& parts, std::int64_t
   {
     const std::int64_t count = std::min(block, end - begin);
     double* sum = mean.data() + begin;
+    // The first part with a weight initializes the sum, so the output need not be cleared.
     bool isFirst = true;
     for (const WeightedPositions& part : parts)
     {
@@ -51,6 +52,7 @@ void writeWeightedMean(const std::vector<WeightedPositions>& parts, std::int64_t
 void writeWeightedMean(
   const std::vector<WeightedPositions>& parts, PointSpan<3> mean, const Context& context)
 {
+  // Points a chunk.
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   Progress progress(context);
   progress.For(mean.size(), grain,

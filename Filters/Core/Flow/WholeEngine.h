@@ -32,6 +32,7 @@ public:
   {
     if (progress.Device())
     {
+      // A device sums its own tables from the values, which are less to transfer.
       this->OnDevice.MakeTables(*progress.Device(), density, this->Tables, progress);
     }
   }
@@ -59,6 +60,7 @@ public:
     PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) override
   {
     const auto each = static_cast<std::int64_t>(times.size());
+    // There are `each` positions for a seed.
     ParticleSource<Dimension> source(seeds, this->Size, positions.size() / each);
     return this->Run(AdvectionKind::Forward, source, times.front(), options, context,
       [&](AdvectionRun<Dimension>& run) { return run.Advect(source, positions, times); });
@@ -85,6 +87,7 @@ public:
   void MeasuresOfShares(ConstPointSpan<Dimension> centres, const Point<Dimension>& aspect,
     const double* shares, double* measures, const Context& context) override
   {
+    // Boxes a chunk.
     constexpr std::int64_t grain = 256;
     Progress progress(context);
     progress.ForEach(

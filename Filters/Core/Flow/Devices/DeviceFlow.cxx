@@ -40,6 +40,7 @@ struct KeptOnDevice
   Map Maps[2]; // forward and backward
   const std::shared_ptr<DeviceWeights> Weights = std::make_shared<DeviceWeights>();
 
+  // The tables on this device, copied once: later runs find them there.
   std::shared_ptr<const DeviceTables<Dimension>> TablesOn(
     Device& device, const TableView<Dimension>& tables)
   {
@@ -50,6 +51,7 @@ struct KeptOnDevice
     return this->Tables;
   }
 
+  // The copy of the flow map. Another map of the same direction replaces it.
   std::shared_ptr<const DeviceMap<Dimension>> MapOn(
     Device& device, const std::shared_ptr<const FlowMap<Dimension>>& map, bool backward)
   {
@@ -114,6 +116,8 @@ private:
     return true;
   }
 
+  // Seeds of a particle source: filled by blocks, in the source's order, and positions scattered
+  // back to their places.
   bool RunParticles(const ParticleSource<Dimension>& source, std::int64_t first, std::int64_t count,
     double* positions, FlowReport& counts, Progress& progress)
   {
@@ -135,6 +139,7 @@ private:
     KernelReport report;
     if (!this->Use.Run(
           [&](Device&) {
+            // Seeds of the next part are read and transferred while kernels move this one.
             const auto transfer = this->Kernels->FromPoints(points);
             const auto prepare = [&](std::int64_t begin, std::int64_t length,
                                    const DeviceBuffer& seeds) {
@@ -182,7 +187,7 @@ private:
   const AdvectionJob<Dimension>& Job;
   const std::unique_ptr<KernelRun<Dimension>> Kernels;
   const bool IsGpu;
-  // Of the particles of one call: the places of their results, and their seeds, then positions.
+  // The particles of one call: the places of their results, and their seeds, then positions.
   std::vector<std::int64_t> Index;
   std::vector<double> Points;
 };
@@ -203,6 +208,7 @@ public:
   std::shared_ptr<KeptOnDevice<Dimension>> On(Device& device)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
+    // Another device, or one that has forgotten this flow, starts with nothing kept.
     std::shared_ptr<KeptOnDevice<Dimension>> kept = this->Kept.lock();
     if (!kept || this->Where.lock().get() != &device)
     {
@@ -216,6 +222,7 @@ public:
   }
 
 private:
+  // Lets the device forget what it keeps for this flow.
   void Leave()
   {
     if (const std::shared_ptr<Device> device = this->Where.lock())
@@ -225,7 +232,7 @@ private:
     this->Where.reset();
   }
 
-  std::mutex Mutex; // of the next: flows run on several threads
+  std::mutex Mutex; // guards Where and Kept: flows run on several threads
   std::weak_ptr<Device> Where;
   std::weak_ptr<KeptOnDevice<Dimension>> Kept;
 };
@@ -247,6 +254,7 @@ void DeviceFlow<Dimension>::MakeTables(DeviceUse& use, const DensitySource<Dimen
   {
     // Else those of the processor are copied when they are needed: this is not collective, and
     // devices sum along an axis in one run of a kernel, and have no more groups of items.
+    // Drivers limit the groups along an axis to 65535.
     constexpr std::int64_t longest = 65535;
     if (!use.Serves() || density.IsDistributed() ||
       *std::max_element(density.Size.begin(), density.Size.end()) >= longest)
@@ -255,8 +263,11 @@ void DeviceFlow<Dimension>::MakeTables(DeviceUse& use, const DensitySource<Dimen
     }
     const auto cells = static_cast<std::int64_t>(numberOfCells<Dimension>(density.Size));
     const std::shared_ptr<const DensityValues> source = density.Whole();
+    // The same scaling as for the processor's tables, so that sums have the same bits.
     const ScaledDensity given(*source, scalingOf(tables.Summary().Maximum));
     const auto stops = stopsOf(progress);
+    // Values are transferred 8 MiB at a time: the density may be of any type, and its doubles are
+    // never all in memory.
     const std::int64_t most = std::min(cells, std::int64_t{ 1 } << 20);
     std::vector<double> part(static_cast<std::size_t>(most));
     DeviceBuffer values;
@@ -307,12 +318,14 @@ std::unique_ptr<DeviceAdvection<Dimension>> DeviceFlow<Dimension>::Begin(DeviceU
   const AdvectionJob<Dimension>& job, std::shared_ptr<const FlowMap<Dimension>> map,
   Progress& progress)
 {
+  // Null if the device does not serve: the reason is in `use`.
   std::unique_ptr<DeviceAdvection<Dimension>> advection;
   if constexpr (Dimension > 1)
   {
     use.Run(
       [&](Device& device) {
         const auto kept = this->Kept->On(device);
+        // Tables and maps are transferred once; later runs on the same device find them.
         auto tables = kept->TablesOn(device, job.Job.Tables);
         advection = std::make_unique<Advection<Dimension>>(use, job,
           std::make_unique<KernelRun<Dimension>>(device, flowProgram(device, Dimension), job,
@@ -334,6 +347,7 @@ DeviceNodes<Dimension> DeviceFlow<Dimension>::BeginNodes(
              const FlowMapLevel<Dimension>& level, std::int64_t first, std::int64_t count,
              unsigned char* marks, Progress& progress) -> std::int64_t {
       const auto stops = stopsOf(progress);
+      // -1 says that the device failed; the processor then makes all nodes of the level.
       std::unique_ptr<NodeRun<Dimension>> run;
       if (!use.Run(
             [&](Device& device) {

@@ -11,19 +11,24 @@ namespace RectifiedTransport
 namespace
 {
 
+// Names the arrays in messages about too little memory.
 constexpr const char* what = "the tables";
 
+// At least one number, as OpenCL has no empty buffers.
 std::size_t bytesOf(std::int64_t doubles)
 {
   return static_cast<std::size_t>(std::max<std::int64_t>(doubles, 1)) * sizeof(double);
 }
 
+// Every (2^(level levelShift))-th node, and the last one: (cells - 1) / spacing + 2 along an axis,
+// with the division rounded down.
 template <int Dimension>
 std::int64_t nodesAlong(const TableView<Dimension>& tables, int level, int axis)
 {
   return ((tables.Cells[axis] - 1) >> (level * levelShift)) + 2;
 }
 
+// The bits of rows of cells with mass, by 64 in a word; empty if there are no voids.
 template <int Dimension>
 DeviceBuffer uploadOccupied(Device& device, const TableView<Dimension>& tables)
 {
@@ -35,7 +40,7 @@ DeviceBuffer uploadOccupied(Device& device, const TableView<Dimension>& tables)
   return upload(device, tables.Occupied, words, what);
 }
 
-// Where the coarse levels begin.
+// Where the coarse levels begin: after the finest one, in the same array.
 template <int Dimension>
 const double* coarseNodes(const TableView<Dimension>& tables)
 {
@@ -44,6 +49,7 @@ const double* coarseNodes(const TableView<Dimension>& tables)
 
 } // namespace
 
+// The end of the last level's nodes.
 template <int Dimension>
 const double* endOfNodes(const TableView<Dimension>& tables)
 {
@@ -53,6 +59,8 @@ const double* endOfNodes(const TableView<Dimension>& tables)
     tables.Levels[level].Stride[last] * nodesAlong<Dimension>(tables, level, last);
 }
 
+// Copies the tables of the processor; the levels are two buffers, as one buffer may be limited to a
+// quarter of the device's memory.
 template <int Dimension>
 DeviceTables<Dimension>::DeviceTables(Device& device, const TableView<Dimension>& tables)
 {
@@ -63,6 +71,8 @@ DeviceTables<Dimension>::DeviceTables(Device& device, const TableView<Dimension>
   this->Occupied = uploadOccupied<Dimension>(device, tables);
 }
 
+// Sums the tables on the device from the cells' values, which are far less to transfer than tables:
+// one number a cell in place of four doubles a node.
 template <int Dimension>
 DeviceTables<Dimension>::DeviceTables(Device& device, const DeviceProgram& program,
   const TableView<Dimension>& tables, const DeviceBuffer& values)
@@ -74,10 +84,13 @@ DeviceTables<Dimension>::DeviceTables(Device& device, const DeviceProgram& progr
   this->Sum(device, program, tables, values);
 }
 
+// Prefix sums in the order of the processor's loops, so that each addition has the same operands
+// and the bits agree. Chains of sums are independent of each other; each work item follows one.
 template <int Dimension>
 void DeviceTables<Dimension>::Sum(Device& device, const DeviceProgram& program,
   const TableView<Dimension>& tables, const DeviceBuffer& values)
 {
+  // The grid is cut into strips, whose sums give each strip's start before it is summed.
   TableShape shape{};
   std::copy_n(tables.Cells, Dimension, shape.Cells);
   shape.Stride1 = tables.Levels[0].Stride[1];
@@ -94,6 +107,8 @@ void DeviceTables<Dimension>::Sum(Device& device, const DeviceProgram& program,
   };
   if constexpr (Dimension == 2)
   {
+    // In 2D: the sums of each strip of each row, their prefix along the row, the rows with both
+    // moments, then columns.
     const DeviceBuffer sums = device.Allocate(rows * strips * 2 * sizeof(double), what);
     run("sumStrips", { rows, strips, 1 }, values, sums);
     run("sumBefore", { rows, 1, 1 }, sums);
@@ -103,6 +118,8 @@ void DeviceTables<Dimension>::Sum(Device& device, const DeviceProgram& program,
   }
   else
   {
+    // In 3D: the same with four sums a column of a strip (mass and three moments), then along axis
+    // 2.
     const DeviceBuffer before =
       device.Allocate(slices * strips * columns * 4 * sizeof(double), what);
     run("sumStrips", { columns, strips, slices }, values, before);
@@ -111,8 +128,9 @@ void DeviceTables<Dimension>::Sum(Device& device, const DeviceProgram& program,
     run("sumRows", { rows, slices, 1 }, values, this->Fine);
     run("sumColumns", { columns, strips, slices }, before, this->Fine);
     run("sumSlices", { columns + 1, rows + 1, 1 }, this->Fine);
-    device.Finish();
+    device.Finish(); // the buffers of sums must not go while kernels read them
   }
+  // Coarse levels are copies of the finest level's nodes: their sums are exact.
   DeviceKernel copy = program.NewKernel("copyLevel");
   for (int level = 1; level < tables.LevelCount; ++level)
   {

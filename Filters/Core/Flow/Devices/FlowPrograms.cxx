@@ -17,12 +17,13 @@ namespace RectifiedTransport
 namespace
 {
 
+// One program for each dimension, under this name in the device.
 std::string nameOfProgram(int dimension)
 {
   return "flow in " + std::to_string(dimension) + "D";
 }
 
-// Random numbers from 0 to 1, the same everywhere.
+// Random numbers from 0 to 1, the same on every machine: 52 bits are exact in a double.
 std::vector<double> someNumbers(std::int64_t count)
 {
   std::mt19937_64 random(1);
@@ -34,13 +35,16 @@ std::vector<double> someNumbers(std::int64_t count)
   return numbers;
 }
 
+// The fault: a device whose bits differ is not used at all.
 [[noreturn]] void refuse(const Device& device, int dimension, const std::string& does)
 {
   throw DeviceError("The device '" + device.Description().Name + "' " + does +
     " differently from a processor, in " + std::to_string(dimension) + " dimensions");
 }
 
-// Two levels of tables; in one corner there is no mass.
+// The self-test of a flow program: tables and particles of a small density, whose bits must be
+// those of the processor. The density has two levels of tables, sides that differ, and a void in
+// one corner.
 template <int Dimension>
 class TestFlow
 {
@@ -55,11 +59,13 @@ public:
       bool isEmpty = true;
       for (int axis = 0; axis < Dimension; ++axis)
       {
+        // 20 of 64 cells along each axis are empty.
         isEmpty = isEmpty && rest % this->Size[axis] < 20;
         rest /= this->Size[axis];
       }
       this->Values[cell] = isEmpty ? 0.0 : this->Values[cell];
     }
+    // Seeds in the box of the cells along axis 1, the shorter side.
     for (double& coordinate : this->Seeds)
     {
       coordinate *= static_cast<double>(this->Size[1]);
@@ -68,10 +74,12 @@ public:
 
   void Compare(Device& device, const DeviceProgram& program)
   {
+    // The processor's result, on this thread alone.
     const SerialExecutor serial;
     Progress progress(serial);
     const SummedAreaTables<Dimension> tables(
       DensityArray<Dimension, double>(this->Values.data(), this->Size), progress);
+    // The last node's record is the end of all chains of sums: any other bit before it shows there.
     const auto made = std::make_shared<const DeviceTables<Dimension>>(
       device, program, tables.View(), upload(device, this->Values, "a test"));
     std::vector<double> last(4);
@@ -83,14 +91,17 @@ public:
     {
       refuse(device, Dimension, "sums tables");
     }
+    // The fewest steps that users get, all of them from the seeds.
     FlowOptions options;
     options.NumberOfSteps = FlowOptions::FewestSteps;
     options.Maps = FlowMaps::Off;
     for (const AdvectionKind kind : { AdvectionKind::Forward, AdvectionKind::Backward })
     {
+      // What the processor computes is right by definition.
       std::vector<double> right(this->Seeds.size());
       ParticleSource<Dimension> source(
         ConstPointSpan<Dimension>(this->Seeds.data(), count), this->Size, count);
+      // The same job for the processor and for the device.
       const AdvectionJob<Dimension> job(tables.View(), kind, options);
       AdvectionRun<Dimension>(job, progress)
         .Advect(source, PointSpan<Dimension>(right.data(), count));
@@ -100,6 +111,7 @@ public:
       const KernelReport report =
         run.Run(count, run.FromPoints(this->Seeds.data()), found.data(), progress);
       Counters moved;
+      // Particles that the device leaves unresolved go to the nearest mass, as in a run.
       for (const std::uint32_t particle : report.Unresolved)
       {
         moveToMass<Dimension>(tables.View(), found.data() + particle * Dimension, moved);
@@ -137,6 +149,7 @@ private:
   std::vector<double> Seeds;
 };
 
+// The size of a particle's state must be what the host allocates; then both sides are compared.
 template <int Dimension>
 void checkProgram(Device& device, const DeviceProgram& program)
 {
@@ -164,12 +177,15 @@ void checkFlowProgram(Device& device, const DeviceProgram& program, int dimensio
   checkProgram<3>(device, program);
 }
 
+// The program is compiled from the sources that the processor's kernels include, with the dimension
+// as a macro.
 DeviceProgram buildFlowProgram(Device& device, int dimension, const std::string& options)
 {
   return device.Build(
     flowProgramTexts(), "-cl-std=CL1.2 -D RT_D=" + std::to_string(dimension) + " " + options);
 }
 
+// The program of this device, built and tested when it is first asked for.
 const DeviceProgram& flowProgram(Device& device, int dimension)
 {
   return device.Program(nameOfProgram(dimension), [&]() {
@@ -179,6 +195,7 @@ const DeviceProgram& flowProgram(Device& device, int dimension)
   });
 }
 
+// For tests and measurements: the same without the self-test.
 const DeviceProgram& untestedFlowProgram(Device& device, int dimension)
 {
   return device.Program(

@@ -12,9 +12,11 @@ namespace RectifiedTransport
 namespace
 {
 
+// Items of a work group; counts of unresolved particles are made by groups.
 constexpr std::uint32_t groupSize = RT_GROUP;
-// A kernel takes at most so many steps, and so many of all its particles: more would keep an abort,
-// or a watchdog, waiting. Slow GPUs do these in some 100 ms, OpenCL on a processor the others.
+// A kernel takes at most mostSteps steps, and so many of all its particles together: longer kernels
+// would keep an abort waiting, or a watchdog, which some systems have at 2 s. Slow GPUs do
+// workOfGpu steps in some 100 ms, OpenCL on a processor workOfOthers.
 constexpr std::int64_t mostSteps = 512;
 constexpr std::int64_t workOfGpu = std::int64_t{ 1 } << 23;
 constexpr std::int64_t workOfOthers = std::int64_t{ 1 } << 18;
@@ -25,14 +27,18 @@ std::int64_t stepsAtOnce(const Device& device, std::int64_t particles)
 {
   constexpr std::int64_t fewest = 8; // states are stored between runs
   const std::int64_t work = device.IsGpu() ? workOfGpu : workOfOthers;
-  return std::clamp(work / particles, fewest, mostSteps);
+  return std::clamp(work / particles, fewest,
+    mostSteps); // storing and loading states between runs is little beside 8 steps
 }
 
+// All levels' records and marks lie in one buffer each, one level after the other; the level inputs
+// hold where each begins.
 template <int Dimension>
 DeviceMap<Dimension>::DeviceMap(Device& device, const FlowMapView<Dimension>& map, bool backward)
   : Steps(map.Steps)
   , LevelCount(map.LevelCount)
 {
+  // Floats a node: position and velocities at the hand-over, fewer backward.
   const std::int64_t record =
     backward ? FlowMapLevel<Dimension>::BackwardRecord : FlowMapLevel<Dimension>::ForwardRecord;
   std::vector<MapLevelInput> levels;
@@ -57,6 +63,7 @@ DeviceMap<Dimension>::DeviceMap(Device& device, const FlowMapView<Dimension>& ma
   forLevels([&](const FlowMapLevel<Dimension>& level, std::int64_t, std::int64_t) {
     levels.push_back(mapLevelInput<Dimension>(level, records, marks));
   });
+  // Records are floats and marks are bytes: bad cells, from which a particle starts at its seed.
   this->Levels = upload(device, levels, "a flow map");
   this->Records = device.Allocate(static_cast<std::size_t>(records) * sizeof(float), "a flow map");
   this->Bad = device.Allocate(static_cast<std::size_t>(marks), "a flow map");
@@ -68,6 +75,7 @@ DeviceMap<Dimension>::DeviceMap(Device& device, const FlowMapView<Dimension>& ma
   });
 }
 
+// Inputs that do not change between passes are transferred once.
 template <int Dimension>
 KernelRun<Dimension>::KernelRun(Device& device, const DeviceProgram& program,
   const AdvectionJob<Dimension>& job, std::shared_ptr<const DeviceTables<Dimension>> tables,
@@ -85,21 +93,25 @@ KernelRun<Dimension>::KernelRun(Device& device, const DeviceProgram& program,
   , KeepKernel(program.NewKernel("keepUnresolved"))
   , MostOfPart(mostOfPart)
 {
+  // Tables' shape, direction, tolerance and other numbers of the job.
   const FlowInput input = flowInput<Dimension>(job.Job);
   this->Input = upload(device, &input, 1, "an advection");
   this->Total = device.Allocate(sizeof(PassCounts), "an advection");
   this->States = device.Allocate(sizeof(double), "an advection");
 }
 
+// The weights of so many graded steps in one direction. Few steps are those of nearly all runs, so
+// their weights stay on the device.
 std::shared_ptr<const DeviceBuffer> DeviceWeights::Of(
   Device& device, std::int64_t steps, FlowDirection direction)
 {
-  constexpr std::int64_t mostKept = std::int64_t{ 1 } << 14; // 1 MiB
+  constexpr std::int64_t mostKept = std::int64_t{ 1 } << 14; // steps: 1 MiB
   const auto found = this->Kept.find({ steps, direction });
   if (found != this->Kept.end())
   {
     return found->second;
   }
+  // The host computes the weights, so that they have its bits.
   const std::vector<StepWeights> weights = multistepWeightsOf(steps, direction);
   auto made = std::make_shared<const DeviceBuffer>(upload(device, weights, "weights of steps"));
   if (steps <= mostKept)
@@ -115,6 +127,8 @@ std::shared_ptr<const DeviceBuffer> KernelRun<Dimension>::WeightsOf(std::int64_t
   return this->OfSteps->Of(this->Owner, steps, directionOf(this->Job.Kind));
 }
 
+// Buffers for so many particles: seeds and positions in two sets if transfers overlap with kernels,
+// a status and two lists for compaction.
 template <int Dimension>
 void KernelRun<Dimension>::MakeRoom(std::int64_t count, bool hasTwoSets)
 {
@@ -124,7 +138,7 @@ void KernelRun<Dimension>::MakeRoom(std::int64_t count, bool hasTwoSets)
   }
   const auto particles = static_cast<std::size_t>(count);
   const auto allocate = [&](DeviceBuffer& buffer, std::size_t bytes) {
-    buffer = {}; // before the new one
+    buffer = {}; // frees the old one before the new one is allocated
     buffer = this->Owner.Allocate(bytes, "particles");
   };
   for (int set = 0; set < (hasTwoSets ? 2 : 1); ++set)
@@ -140,6 +154,7 @@ void KernelRun<Dimension>::MakeRoom(std::int64_t count, bool hasTwoSets)
   this->HasTwoSets = hasTwoSets;
 }
 
+// Starts the transfer of a part of the seeds.
 template <int Dimension>
 typename KernelRun<Dimension>::Prepare KernelRun<Dimension>::FromPoints(const double* points)
 {
@@ -149,6 +164,7 @@ typename KernelRun<Dimension>::Prepare KernelRun<Dimension>::FromPoints(const do
   };
 }
 
+// Makes seeds on the device from their numbers: nothing is transferred.
 template <int Dimension>
 typename KernelRun<Dimension>::Prepare KernelRun<Dimension>::FromLattice(
   const LatticeOrder<Dimension>& lattice, std::int64_t begin)
@@ -168,12 +184,15 @@ typename KernelRun<Dimension>::Prepare KernelRun<Dimension>::FromLattice(
   };
 }
 
+// Double buffering: while kernels advect a part in one set of buffers, the seeds of the next part
+// and the positions of the last one are transferred in the other.
 template <int Dimension>
 KernelReport KernelRun<Dimension>::Run(
   std::int64_t count, const Prepare& prepare, double* positions, Progress& progress)
 {
   const std::int64_t most = std::min(count, this->MostOfPart);
   this->MakeRoom(most, count > most);
+  // The last part may be shorter.
   const auto lengthAt = [&](std::int64_t first) { return std::min(most, count - first); };
   KernelReport report;
   DeviceTransfer toDevice[2];
@@ -186,9 +205,12 @@ KernelReport KernelRun<Dimension>::Run(
   for (std::int64_t first = 0; first < count && !progress.ShouldStop(); first += most)
   {
     const int set = this->Set;
+    // This set's seeds must be there, and its positions of the part before the last one must be
+    // away.
     toDevice[set].Wait();
     fromDevice[set].Wait();
     const std::int64_t next = first + most;
+    // Called while the first kernel of this part runs.
     const auto meanwhile = [&]() {
       if (next < count)
       {
@@ -206,6 +228,7 @@ KernelReport KernelRun<Dimension>::Run(
     report.Redone += part.Redone;
     for (const std::uint32_t particle : part.Unresolved)
     {
+      // Numbers within the part become numbers within the run.
       report.Unresolved.push_back(static_cast<std::uint32_t>(first) + particle);
     }
     this->Set = 1 - set;
@@ -217,6 +240,8 @@ KernelReport KernelRun<Dimension>::Run(
   return report;
 }
 
+// Cuts the steps into pieces that take bounded time. Between pieces a particle's state waits in
+// memory: position, velocities and flags.
 template <int Dimension>
 template <class RunPiece>
 void KernelRun<Dimension>::ForPieces(
@@ -238,14 +263,17 @@ void KernelRun<Dimension>::ForPieces(
   }
 }
 
+// Runs passes `pass` to `lastPass` of all listed particles. Passes below 0 start from a level of
+// the flow map, pass k >= 0 from the seed with Steps 2^k steps.
 template <int Dimension>
 void KernelRun<Dimension>::RunPass(int pass, int lastPass, std::uint32_t count, Progress& progress)
 {
   const DeviceMap<Dimension>* map = this->Map.get();
+  // Pass k takes 2^k times the job's steps.
   const std::int64_t steps = this->Job.Job.Steps << std::max(lastPass, 0);
   const auto weights = this->WeightsOf(steps);
   const auto ofMap = map ? this->WeightsOf(map->Steps) : weights;
-  const DeviceBuffer& none = this->Total; // in place of what is not read
+  const DeviceBuffer& none = this->Total; // stands for buffers that the kernel does not read
   const auto run = [&](std::int64_t first, std::int64_t last) {
     this->AdvectKernel.With(this->Input, this->Tables->Fine, this->Tables->Coarse,
       this->Tables->Occupied, cl_long{ map ? map->Steps : 0 }, cl_long{ map ? map->LevelCount : 0 },
@@ -264,10 +292,12 @@ void KernelRun<Dimension>::RunPass(int pass, int lastPass, std::uint32_t count, 
   this->ForPieces(steps, count, progress, run);
 }
 
-// Counts the unresolved, which become the list of the next pass.
+// Counts the unresolved particles and lists them, in order, for the next pass: counts of groups,
+// their prefix sums, then stable compaction.
 template <int Dimension>
 std::uint32_t KernelRun<Dimension>::CountPass(std::uint32_t count, KernelReport& report)
 {
+  // A count for each work group, and their sum, in an order that does not depend on the device.
   const std::uint32_t groups = (count + groupSize - 1) / groupSize;
   this->Owner.Run(
     this->CountKernel.With(this->Status, cl_uint{ count }, this->Counts), count, groupSize);
@@ -288,8 +318,9 @@ std::uint32_t KernelRun<Dimension>::CountPass(std::uint32_t count, KernelReport&
   return left;
 }
 
-// Passes from the map and from the seeds in the job's steps in one run of the kernel, where these
-// are few; then those with more steps, of the particles that are left.
+// Runs passes until no particle is unresolved. Passes from the map and pass 0 take one run of the
+// kernel, if the steps are few; then those with 2^k times as many steps take the particles that are
+// left, as in the redo rule for voids.
 template <int Dimension>
 template <class Meanwhile>
 KernelReport KernelRun<Dimension>::RunForward(
@@ -297,6 +328,7 @@ KernelReport KernelRun<Dimension>::RunForward(
 {
   KernelReport report;
   this->IsListed = false;
+  // Pass -l starts at level l - 1 of the map: the finest level comes first.
   const int levels = this->Map ? this->Map->LevelCount : 0;
   std::uint32_t left = count;
   for (int pass = -levels; pass <= this->Job.LastPass() && left > 0 && !progress.ShouldStop();)
@@ -313,7 +345,7 @@ KernelReport KernelRun<Dimension>::RunForward(
     report.Redone += lastPass == 0 ? left : 0;
     pass = lastPass + 1;
   }
-  if (this->IsListed) // else none is left, or all was stopped
+  if (this->IsListed) // otherwise none is left, or all was stopped
   {
     report.Unresolved.resize(left);
     this->Owner.Read(this->Lists[0], report.Unresolved.data(), left * sizeof(std::uint32_t));
@@ -321,6 +353,7 @@ KernelReport KernelRun<Dimension>::RunForward(
   return report;
 }
 
+// Backward there is one pass: a point in a void keeps its place in the box.
 template <int Dimension>
 template <class Meanwhile>
 KernelReport KernelRun<Dimension>::RunBackward(
@@ -328,6 +361,7 @@ KernelReport KernelRun<Dimension>::RunBackward(
 {
   KernelReport report;
   const DeviceMap<Dimension>* map = this->Map.get();
+  // With a map the path ends at the hand-over, from where the map gives the seed.
   const std::int64_t steps = map ? map->Steps : this->Job.Job.Steps;
   const auto weights = this->WeightsOf(steps);
   const DeviceBuffer& none = this->Total;

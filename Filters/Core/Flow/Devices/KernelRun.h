@@ -20,7 +20,7 @@
 namespace RectifiedTransport
 {
 
-// A flow map.
+// A copy of a flow map on a device.
 template <int Dimension>
 class DeviceMap
 {
@@ -28,14 +28,14 @@ public:
   // Copies that of the processor. Throws DeviceError.
   DeviceMap(Device& device, const FlowMapView<Dimension>& map, bool backward);
 
-  const std::int64_t Steps; // of particles that hand over
+  const std::int64_t Steps; // the number of steps of particles that hand over
   const int LevelCount;
   DeviceBuffer Levels;
   DeviceBuffer Records;
   DeviceBuffer Bad;
 };
 
-// The weights of steps, which all runs share.
+// The weights of steps on a device, which all runs share.
 class DeviceWeights
 {
 public:
@@ -116,18 +116,18 @@ private:
   DeviceKernel SumKernel;
   DeviceKernel KeepKernel;
   const std::int64_t MostOfPart; // particles
-  // Of as many particles as there were in any part. While kernels run on a set of seeds and
-  // positions, others are transferred.
+  // The buffers have room for as many particles as there were in any part. While kernels run on one
+  // set of seeds and positions, the other set is transferred.
   std::int64_t Room = 0;
   bool HasTwoSets = false;
   DeviceBuffer Seeds[2];
   DeviceBuffer Positions[2];
-  int Set = 0; // of the part that runs
+  int Set = 0; // the set of the part that runs
   DeviceBuffer Status;
   DeviceBuffer Lists[2];
-  DeviceBuffer Counts; // of groups
+  DeviceBuffer Counts; // one for each group
   DeviceBuffer Total;
-  DeviceBuffer States; // of particles whose steps are cut
+  DeviceBuffer States; // states of particles whose steps are cut into pieces
   bool IsListed = false;
 };
 

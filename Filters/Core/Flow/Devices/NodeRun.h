@@ -23,7 +23,7 @@ template <int Dimension>
 class NodeRun
 {
 public:
-  // Of the levels that the map has so far, which are copied. Throws DeviceError.
+  // Copies the levels that the map has so far. Throws DeviceError.
   NodeRun(Device& device, const DeviceProgram& program, const FlowJob<Dimension>& job,
     std::shared_ptr<const DeviceTables<Dimension>> tables, const FlowMapView<Dimension>& map,
     const FlowMapLevel<Dimension>& level)
@@ -39,11 +39,14 @@ public:
   {
     const FlowInput input = flowInput<Dimension>(job);
     this->Input = upload(device, &input, 1, what);
+    // Backward, times fall from 1 - G(step) to 0.
     const auto timeOf = [&](std::int64_t step) {
       return step < map.Steps ? 1.0 - grading(step, map.Steps) : 0.0;
     };
     std::vector<StepWeights> weights;
     std::vector<NodeSteps> steps;
+    // A node starts from the finest earlier level with a good cell at its seed, or from the seed
+    // (-1). Each has weights of its own.
     for (int parent = -1; parent < map.LevelCount; ++parent)
     {
       const std::vector<StepWeights> own =
@@ -106,6 +109,7 @@ public:
     std::int64_t evaluations = 0;
     for (std::size_t i = 0; i < nodes; ++i)
     {
+      // A status holds twice the evaluations, and whether the node is bad.
       evaluations += this->Counts[i] / 2;
     }
     return evaluations;
@@ -116,7 +120,7 @@ private:
 
   Device& Owner;
   const FlowMapLevel<Dimension> Level;
-  const std::int64_t Steps; // of particles
+  const std::int64_t Steps; // the number of steps of particles
   const int LevelCount;
   const std::int64_t Record; // floats
   const std::shared_ptr<const DeviceTables<Dimension>> Tables;
@@ -128,7 +132,7 @@ private:
   DeviceBuffer StepsOfNodes;
   DeviceBuffer Places;
   std::int64_t Fewest = 0;
-  // Of the nodes of a run.
+  // Buffers for the nodes of a run.
   std::int64_t Room = 0;
   DeviceBuffer Records;
   DeviceBuffer Marks;

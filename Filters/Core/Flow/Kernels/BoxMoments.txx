@@ -35,7 +35,7 @@ struct BoxLanes
   alignas(64) std::int32_t Level[BlockSize];                   // of the tables
 
   alignas(64) Lanes Mass;                          // integral of f, the density, over the box
-  alignas(64) double Moment[Dimension][BlockSize]; // of y_a f
+  alignas(64) double Moment[Dimension][BlockSize]; // integral of y_a f
 };
 
 // A number as a type, for lambdas: each value of the faces gets code of its own, without branches.
@@ -162,7 +162,7 @@ RT_INLINE void sumBox(const TableView<2>& tables, BoxLanes<2>& boxes, int lane)
 // linear weight of its own, q for the moment along this axis and r for the others.
 struct FineAxis
 {
-  Vector4 Weights[2]; // of the sides' second nodes
+  Vector4 Weights[2]; // weights of the sides' second nodes
   std::int64_t Offset[2];
   std::int64_t Stride;
 };
@@ -339,8 +339,8 @@ RT_INLINE void sumBox(const TableView<3>& tables, BoxLanes<3>& boxes, int lane)
 }
 
 // Boxes on the finest level have nodes far apart in memory and out of the caches, at addresses
-// known before they are summed. In 3D there are so many that prefetching pays only where the boxes
-// of neighbouring lanes have none in common.
+// known before they are summed. In 3D there are so many that prefetching pays only where
+// neighbouring lanes' boxes have none in common.
 template <int Dimension>
 constexpr int prefetchDistance = Dimension == 2 ? 12 : 8;
 
@@ -350,8 +350,8 @@ RT_INLINE bool shouldPrefetch(const TableView<Dimension>& tables, bool sparse)
   return tables.BeyondCaches && (Dimension == 2 || sparse);
 }
 
-// The pairs of nodes along axis 0 around both sides of a box, in the rows and planes around those
-// of the axes from Axis down.
+// Prefetches the pairs of nodes along axis 0 around both sides of a box, in the rows and planes
+// around its sides along the axes from Axis down.
 template <int Dimension, int Axis>
 RT_INLINE void prefetchPairs(const TableView<Dimension>& tables, const BoxLanes<Dimension>& boxes,
   int lane, const double* nodes)

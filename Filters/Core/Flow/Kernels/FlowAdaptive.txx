@@ -47,8 +47,8 @@ RT_INLINE double cellMass(const TableView<Dimension>& tables, const std::int64_t
 
 // The end point of a particle whose box is at most one cell wide: exact where the box crosses at
 // most one plane of the grid, else axis by axis with marginal densities. The box [a, b] is the one
-// before clipping: outside of the domain the density is 0. With f-, f+ the densities on both sides
-// of plane k, alpha = a - k, beta = b - k and
+// before clipping: outside of the domain the density is 0. Let f-, f+ be the densities on both
+// sides of plane k, alpha = a - k, beta = b - k and
 //   g = (f+ beta^2 - f- alpha^2) / (2 (beta - alpha)),
 // x(1) = k + g / f+ if g > 0, else k + g / f-.
 template <int Dimension>
@@ -58,7 +58,7 @@ RT_INLINE void finishInCells(const TableView<Dimension>& tables, const LaneVecto
   std::int64_t first[Dimension];
   double from[Dimension];
   double to[Dimension];
-  double length[Dimension][2]; // of the box in the two cells that it overlaps
+  double length[Dimension][2]; // the box's in both cells that it overlaps
   for (int axis = 0; axis < Dimension; ++axis)
   {
     const double size = tables.Size[axis];
@@ -125,10 +125,10 @@ struct AdaptiveLanes
   bool Active[BlockSize];                       // not finished
 };
 
-// Predictor positions at Time + Step, by the weights of AdamsWeights.h for each lane's own ratios
-// of times: of order 3 with two velocities before the newest one, 2 with one (Adams-Bashforth 2), 1
-// with none (Euler). Times that are not there yet are replaced by those of even steps, to divide
-// by.
+// Predictor positions at Time + Step, by the weights of AdamsWeights.h for each lane's own time
+// ratios. With two velocities before the newest one the order is 3; with one it is 2
+// (Adams-Bashforth 2), with none 1 (Euler). Ratios to times that are not there yet are those of
+// even steps, so that divisions are safe.
 template <int Dimension>
 RT_INLINE void predictAdaptive(
   const FlowJob<Dimension>& job, AdaptiveLanes<Dimension>& lanes, double direction)

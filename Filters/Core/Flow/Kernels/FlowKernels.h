@@ -23,9 +23,9 @@ constexpr int BlockSize = 64;
 struct StepWeights
 {
   double Time;         // at the step's end
-  double Length;       // of the step
-  double Predictor[3]; // of the velocities at the step's start and the two steps before
-  double Corrector[3]; // of the velocities at the step's end, its start and the step before
+  double Length;       // the step's length
+  double Predictor[3]; // for the velocities at the step's start and the two steps before
+  double Corrector[3]; // for the velocities at the step's end, its start and the step before
 };
 
 // sin^2(pi/2 * step / steps) from basic operations alone: the library's sine may differ in the
@@ -67,9 +67,9 @@ struct FlowJob
   bool Sparse = false;        // neighbouring particles have few table nodes in common
   double Tolerance;           // of Adaptive: the error of a step, in cells
   std::int64_t Steps;         // N, of pass 0
-  const StepWeights* Weights; // of Multistep with `Steps` steps, else null
+  const StepWeights* Weights; // for Multistep with `Steps` steps, else null
   double CoarseRatio;         // least width of a box in cells of the level that is used
-  const FlowMapView<Dimension>* Map = nullptr; // of the same steps and direction; Multistep only
+  const FlowMapView<Dimension>* Map = nullptr; // with the same steps and direction; Multistep only
   // Forwards, passes before 0 take particles from their states at the hand-over, which are given in
   // place of their seeds: position and the last three velocities, 4 * Dimension numbers a particle.
   bool FromStates = false;

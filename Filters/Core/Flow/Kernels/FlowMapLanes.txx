@@ -8,9 +8,9 @@
 template <int Dimension>
 struct StencilLanes
 {
-  alignas(64) float Weights[Dimension][4][BlockSize];   // of the four nodes of each axis
-  alignas(64) std::int32_t First[Dimension][BlockSize]; // of the four nodes
-  alignas(64) std::int32_t Cell[Dimension][BlockSize];  // of the lattice, that the particle is in
+  alignas(64) float Weights[Dimension][4][BlockSize];   // for the four nodes of each axis
+  alignas(64) std::int32_t First[Dimension][BlockSize]; // number of the first of the four nodes
+  alignas(64) std::int32_t Cell[Dimension][BlockSize];  // the lattice's, that the particle is in
 };
 
 // The four nodes around each particle; next to the ends of an axis, its first or last four.
@@ -63,7 +63,7 @@ template <int N, int Dimension>
 class RecordInterpolation
 {
 public:
-  // Of records that are `record` floats apart.
+  // The records are `record` floats apart.
   RecordInterpolation(const FlowMapLevel<Dimension>& level, const LaneVectors<Dimension>& positions,
     const StencilLanes<Dimension>& stencils, int record = N)
     : Level(level)
@@ -147,7 +147,7 @@ private:
   std::int64_t Strides[Dimension]; // in floats
   bool SharesRow[BlockSize];       // with the lane before
   Vector<N, float> Columns[4];
-  std::int32_t First = 0; // of the columns
+  std::int32_t First = 0; // number of the first column
   int Last = -2;          // lane
 };
 

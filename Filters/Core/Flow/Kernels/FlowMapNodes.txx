@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nodes of a flow map's lattices: their seeds, forward, are taken to a hand-over in the steps
-// of FlowMultistep.txx; backward the particles that are at the nodes at the hand-over are taken to
+// The nodes of a flow map's lattices. Forward, their seeds are taken to a hand-over by the steps in
+// FlowMultistep.txx; backward, the particles that are at the nodes at the hand-over are taken to
 // their seeds. Included by FlowKernels.txx.
 
 // Marks the lanes whose box was empty at the last velocity.
@@ -234,8 +234,8 @@ std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
   {
     active[i] = i < block.Count;
   }
-  // Lanes that met an empty box before they are done. Finished ones are not computed: their Void is
-  // of an earlier step.
+  // Marks lanes that met an empty box before they are done. Finished ones are not computed: their
+  // Void is that of an earlier step.
   const auto markActive = [&]() {
     for (int i = 0; i < block.Count; ++i)
     {

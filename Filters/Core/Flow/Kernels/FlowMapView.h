@@ -38,7 +38,7 @@ struct LatticeAxis
 {
   double Size;
   double Layer;
-  double Length; // of u: Size + 2 Layer
+  double Length; // the range of u: Size + 2 Layer
   double InverseSpacing;
   std::int64_t Cells;
 };
@@ -68,7 +68,7 @@ struct FlowMapView
 
   FlowMapLevel<Dimension> Levels[MaximumLevels];
   int LevelCount = 0;
-  // Of the particles that hand over.
+  // The steps, and their weights, that particles take from the hand-over.
   std::int64_t Steps;
   const StepWeights* Weights;
 };

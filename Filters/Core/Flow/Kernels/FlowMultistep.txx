@@ -50,7 +50,7 @@ public:
     , Known(pass > 0 ? nullptr : job.Weights)
   {
   }
-  // Of particles that hand over.
+  // The weights of particles that hand over.
   explicit RunWeights(const FlowMapView<Dimension>& map)
     : Steps(map.Steps)
     , Known(map.Weights)
@@ -65,7 +65,7 @@ public:
   const std::int64_t Steps; // N
 
 private:
-  const StepWeights* Known; // of all steps, or null
+  const StepWeights* Known; // weights of all steps, or null
 };
 
 // The predictor of a step: leaves the positions at its end in Trial, the velocity there in V[3],

@@ -32,6 +32,7 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
   for (int i = 0; i < BlockSize; ++i)
   {
     invertTimes(t[i], &lanes.InverseTime[i], &lanes.InverseRest[i]);
+    // Wider than any domain: the minimum over the axes follows.
     lanes.Narrowest[i] = 1e300;
   }
   for (int axis = 0; axis < Dimension; ++axis)
@@ -47,6 +48,7 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
       for (int i = 0; i < BlockSize; ++i)
       {
         findSides(position[i], size, lanes.InverseTime[i], &from[i], &to[i], &centre[i]);
+        // Clamped first, so that truncation rounds to the nearest node.
         from[i] = truncated(smaller(from[i], size) + 0.5);
         to[i] = truncated(larger(to[i], 0.0) + 0.5);
         // Whole cells need nodes of the finest level.
@@ -113,6 +115,7 @@ RT_INLINE void findUnevenNodes(
         nodes.NodeBelow[static_cast<std::int64_t>(smaller(plane, size - 1.0))];
       const double below = nodes.Places[node];
       const double width = nodes.Places[node + 1] - below;
+      // r = (x - x_i) / h, the place between the nodes, which interpolation is linear in.
       const double place = (plane - below) / width;
       boxes.Place[axis][side][i] = place;
       boxes.QuadraticWeight[axis][side][i] = quadraticWeightAt(place, width);
@@ -134,8 +137,8 @@ RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimens
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
-    // Sides on the faces of what the tables cover need fewer nodes (BoxMoments.txx). The high face
-    // of axis 0 has no case of its own in 2D and 3D.
+    // Sides on the faces of what the tables cover need fewer nodes (BoxMoments.txx). In 2D and 3D
+    // the high face of axis 0 has no case of its own.
     const std::int64_t low = from[i] <= lowest ? RT_LOW_FACE : RT_NO_FACE;
     const std::int64_t high =
       (Dimension == 1 || axis > 0) && to[i] >= size ? RT_HIGH_FACE : RT_NO_FACE;
@@ -182,6 +185,7 @@ RT_INLINE void findNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
     }
     return;
   }
+  // The level is the coarsest one whose cells are at most 1 / CoarseRatio of the narrowest side.
   const double inverseRatio = 1.0 / job.CoarseRatio;
   const double widest =
     static_cast<double>(std::int64_t{ 1 } << ((job.Tables.LevelCount - 1) * levelShift));

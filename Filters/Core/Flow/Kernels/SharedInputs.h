@@ -13,7 +13,8 @@ namespace RectifiedTransport
 
 static_assert(sizeof(StepWeights) == 8 * sizeof(double), "the kernels' StepWeights has no gaps");
 
-// Of whole tables. The levels but the finest lie one after the other, as in the tables.
+// The input of kernels that read whole tables. The levels but the finest lie one after the other,
+// as in the tables.
 template <int Dimension>
 FlowInput flowInput(const FlowJob<Dimension>& job)
 {

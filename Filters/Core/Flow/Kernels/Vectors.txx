@@ -26,7 +26,7 @@ struct Vector
 {
   static constexpr int Size = static_cast<int>(sizeof(Value));
   static constexpr int Lanes =
-    N * Size < widestRegister ? N : widestRegister / Size; // of a register
+    N * Size < widestRegister ? N : widestRegister / Size; // values a register
   static constexpr int Registers = N / Lanes;
   using Register = typename RegisterOf<Value, Lanes * Size>::Type;
 

@@ -30,6 +30,7 @@ template <int Dimension>
 std::int64_t ParticleOrder<Dimension>::Sort(
   ConstPointSpan<Dimension> points, std::int64_t first, std::int64_t count, int particlesPerTile)
 {
+  // The bounding box of the points; the tiles divide it.
   std::array<double, Dimension> low;
   std::array<double, Dimension> high;
   low.fill(std::numeric_limits<double>::max());
@@ -69,6 +70,8 @@ std::int64_t ParticleOrder<Dimension>::Sort(
     measure *= std::max((high[axis] - low[axis]) / std::max(widest, 1e-300), 1e-6);
   }
   const double tiles = std::max(1.0, static_cast<double>(count) / particlesPerTile);
+  // The side of a cube of 1 / tiles of the box's measure. Flat boxes count as 1e-6 of the widest
+  // side, so that the measure is not 0.
   const double tileSize = widest * std::pow(measure / tiles, 1.0 / Dimension);
   // The tiles of all axes together are numbered with at most this many bits.
   constexpr int bitBudget = 21;
@@ -87,6 +90,7 @@ std::int64_t ParticleOrder<Dimension>::Sort(
     keys[axis].resize(static_cast<std::size_t>(number));
     for (std::size_t tile = 0; tile < keys[axis].size(); ++tile)
     {
+      // The code of a tile is the "or" of its axes' parts.
       keys[axis][tile] = spreadBits<Dimension>(static_cast<std::uint32_t>(tile)) << axis;
       largest |= keys[axis][tile];
     }
@@ -108,6 +112,7 @@ std::int64_t ParticleOrder<Dimension>::Sort(
     this->Tile[i] = key;
     ++this->Start[key + 1];
   }
+  // A counting sort by tiles, in Morton order, which is stable.
   for (std::size_t tile = 1; tile < this->Start.size(); ++tile)
   {
     this->Start[tile] += this->Start[tile - 1];

@@ -70,6 +70,7 @@ struct Measured
 // Between two measured errors, by a power of the number of steps.
 double errorBetween(const Measured& few, const Measured& many, int steps)
 {
+  // Errors of 0 have no logarithm; this one is below any tolerance.
   constexpr double least = 1e-9;
   const double logOfFew = naturalLogarithm(std::max(few.Error, least));
   const double logOfMany = naturalLogarithm(std::max(many.Error, least));
@@ -142,6 +143,8 @@ public:
     {
       return {};
     }
+    // Richardson's idea: the difference of images in N and 2 N steps is about the error of N. N
+    // doubles until that of nearly all blocks is within the tolerance.
     Images coarse = this->Move(FlowOptions::FewestSteps);
     // The error of photographs with the fewest steps is below.
     const double smooth = this->IsBackward() ? 3.0 : 0.3;
@@ -156,6 +159,8 @@ public:
       {
         std::vector<std::size_t> worst = this->KeepWorst(errors, (errors.size() + 1) / 2);
         this->Worse = this->Used;
+        // Further comparisons take the worst blocks alone: errors of others are smaller, and fall
+        // too.
         constexpr std::size_t compared = 256;
         worst.resize(std::min(compared, worst.size()));
         this->Used.resize(worst.size());
@@ -178,7 +183,7 @@ public:
   }
 
 private:
-  using Images = std::vector<Point<Dimension>>; // of the points of all blocks in use
+  using Images = std::vector<Point<Dimension>>; // the points of all blocks in use
 
   bool IsBackward() const { return this->Direction == FlowDirection::Backward; }
   bool IsMap() const { return this->IsBackward() || this->Options.Particles == 0.0; }
@@ -192,6 +197,7 @@ private:
     {
       return;
     }
+    // Low-discrepancy places of the uniform measure go to where the mass is.
     Images places;
     for (std::int64_t number = 0; number < 2 * wanted; ++number)
     {
@@ -206,6 +212,7 @@ private:
     this->Probes.AddAbout(places, this->Parts.Next());
   }
 
+  // The points on the surfaces of blocks, block by block.
   Images PointsOf(const std::vector<std::size_t>& blocks) const
   {
     Images points;
@@ -250,7 +257,8 @@ private:
     gatherParts(ranks, shareStarts(count, Dimension, ranks), points.front().data());
   }
 
-  // Of the blocks in use.
+  // The relative errors of the blocks in use: the mass (or area) that their surfaces sweep between
+  // images in few and in more steps, over the block's weight.
   std::vector<double> ErrorsOf(const Images& coarse, const Images& fine) const
   {
     const SweptMass<Dimension> mass(this->Engine.View(), this->Surface, this->IsBackward());
@@ -290,6 +298,7 @@ private:
     return order;
   }
 
+  // The images of some of the blocks.
   Images Select(const Images& images, const std::vector<std::size_t>& blocks) const
   {
     Images of;
@@ -311,6 +320,8 @@ private:
       this->Size, options, this->Direction, mapStepsFor<Dimension>(options));
   }
 
+  // The most steps that the usual tolerance may choose, so that choosing and advecting stay within
+  // the budget. Another tolerance is a wish for accuracy and has no such limit.
   int MostSteps(const FlowOptions& options, bool isSmooth) const
   {
     if (options.AreaTolerance != FlowOptions::UsualTolerance)
@@ -324,6 +335,7 @@ private:
       std::size_t points = this->Distinct(this->PointsOf(this->Worse)).Places().size();
       for (const Judgement& judgement : judgements)
       {
+        // A judgement moves its points with the chosen steps and with `Factor` times as many.
         choosing.Judged += static_cast<double>((judgement.Factor + 1) * points);
         const BlockSurface<Dimension> next(2 * judgement.Parts);
         points = judgement.Kept * (this->Worst() + 1) * next.Count();
@@ -346,6 +358,7 @@ private:
     }
     else if (now.Error <= tolerance || most <= now.Steps)
     {
+      // The least number between the last two whose interpolated error keeps the tolerance.
       choice.NumberOfSteps = before.Steps;
       do
       {
@@ -401,12 +414,15 @@ private:
     this->TakeMore(choice, most);
   }
 
+  // Flow maps need no more steps than give their smooth part; 0: as many as particles.
   void TakeMapSteps(StepChoice& choice, const FlowOptions& options) const
   {
     const int mapSteps = mapStepsFor<Dimension>(options);
     choice.MapSteps = mapSteps < choice.NumberOfSteps ? mapSteps : 0;
   }
 
+  // What a warning needs to say if the tolerance is not kept: how many steps would, and at what
+  // cost.
   void Complete(StepChoice& choice, const FlowOptions& options) const
   {
     this->TakeMapSteps(choice, options);

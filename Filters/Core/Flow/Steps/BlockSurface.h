@@ -17,7 +17,7 @@ template <int Dimension>
 class BlockSurface
 {
 public:
-  static constexpr int SideCorners = 1 << (Dimension - 1); // of a part of a side
+  static constexpr int SideCorners = 1 << (Dimension - 1); // corners of a part of a side
 
   struct Part
   {
@@ -35,11 +35,13 @@ public:
     {
       all *= parts + 1;
     }
+    // Numbers of the surface's points among the lattice's nodes.
     std::vector<std::size_t> numbers(static_cast<std::size_t>(all));
     for (int node = 0; node < all; ++node)
     {
       const std::array<int, Dimension> place = this->PlaceOf(node);
       numbers[static_cast<std::size_t>(node)] = this->Places.size();
+      // A node with any coordinate at an end is on the surface.
       for (const int i : place)
       {
         if (i == 0 || i == parts)

@@ -63,6 +63,7 @@ public:
   {
     std::copy_n(engine.View().Cells, Dimension, this->Size.begin());
     const bool isAll = this->Plan.SideBySide[0] > 0;
+    // Some tries fall in voids and do not count.
     const std::int64_t tries = isAll ? 1 : 8; // a wanted block
     this->Draw(
       tries * this->WantedBlocks(),
@@ -108,7 +109,7 @@ public:
 private:
   // A share of the mass above the rounding of the tables.
   static constexpr double leastShare = 2e-15;
-  static constexpr double margin = 0.125; // of a block's side, where its border is left out
+  static constexpr double margin = 0.125; // in sides of a block: its border is left out
 
   // Blocks of numbers [0, count), each rank every so many-th, until as many count as are wanted.
   template <class MakeBlock>
@@ -139,6 +140,7 @@ private:
     }
   }
 
+  // The block of the plan's size with this low corner.
   ProbeBlock<Dimension> BlockAt(const Point<Dimension>& low) const
   {
     ProbeBlock<Dimension> block;
@@ -159,6 +161,8 @@ private:
       return;
     }
     this->LeaveOutBorders(block);
+    // Forward, areas become masses: errors are relative to the block's volume, its mass under the
+    // uniform measure.
     block.Weight = boxVolume<Dimension>(block.Low, block.High);
   }
 
@@ -189,6 +193,7 @@ private:
       cornersWithMass |= hasMass ? cornersOf<Dimension>(block, from, to) : 0;
     });
     constexpr int corners = 1 << Dimension;
+    // A block counts if all its cells have mass, or if every corner touches one that has.
     block.Counts = isFull || cornersWithMass == (1 << corners) - 1;
     for (int axis = 0; axis < Dimension && isFull && !isSurrounded; ++axis)
     {

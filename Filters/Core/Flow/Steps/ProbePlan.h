@@ -29,8 +29,8 @@ inline double particlesThatShow(double part)
 template <int Dimension>
 struct ProbePlan
 {
-  // Of a map, forward or backward: blocks of 4 cells along each axis, all that lie side by side, or
-  // some where those are too many.
+  // For a map, forward or backward: blocks of 4 cells along each axis, all that lie side by side,
+  // or some where those are too many.
   explicit ProbePlan(const GridSize<Dimension>& size)
     : Side(smallestBlock(size))
   {
@@ -47,14 +47,15 @@ struct ProbePlan
       this->Blocks = all;
       return;
     }
-    // Of a symmetric density the images of a place show the same, and in 3D there are many.
+    // Images of a place under a density's symmetry show the same, and in 3D there are many.
     constexpr double each = Dimension == 3 ? 4.0 : 1.0;
     this->SideBySide = {};
     this->Take(each * this->BlocksOf(size));
   }
 
-  // Of so many particles that go forward: blocks in which they show an error of the tolerance. None
-  // if there are fewer than two, or so few particles that looking would take longer than they do.
+  // For so many particles that go forward: blocks in which they show an error of the tolerance.
+  // None if there are fewer than two, or so few particles that looking would take longer than they
+  // do.
   ProbePlan(const GridSize<Dimension>& size, double particles, double tolerance)
     : Side(blockOf(particlesThatShow(tolerance) * numberOfCells<Dimension>(size) / particles, size))
   {
@@ -81,8 +82,8 @@ struct ProbePlan
     }
   }
 
-  GridSize<Dimension> Side; // of a block, in cells
-  int Parts = 1;            // of its sides, along an edge, between the points that are moved
+  GridSize<Dimension> Side; // side of a block, in cells
+  int Parts = 1;            // parts of a block's edge between the points that are moved
   std::int64_t Blocks = 0;  // a multiple of SymmetricPlace's Images, but of those side by side
   GridSize<Dimension> SideBySide{}; // how many lie so along each axis; 0: blocks are spread
 

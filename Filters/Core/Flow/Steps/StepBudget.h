@@ -20,8 +20,8 @@ template <int Dimension>
 class StepBudget
 {
 public:
-  // Of as many particles as the options say; of a map, or backward, of one a cell and of fewer.
-  // Flow maps are as exact as `mapSteps` steps.
+  // The budget for as many particles as the options say; for a map, or backward, for one a cell and
+  // for fewer. Flow maps are as exact as `mapSteps` steps.
   StepBudget(const GridSize<Dimension>& size, const FlowOptions& options, FlowDirection direction,
     int mapSteps)
     : Size(size)

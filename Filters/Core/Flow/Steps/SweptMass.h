@@ -47,6 +47,7 @@ public:
         swept[corner] = before[side.Points[corner]];
         swept[corner + side.Points.size()] = after[side.Points[corner]];
       }
+      // An odd number of exchanges of axes, and a low side, each change the sign.
       const bool isTurned = (Dimension - 1 - side.Axis) % 2 != (side.IsHigh ? 0 : 1);
       mass += (isTurned ? -1.0 : 1.0) * this->Swept(swept);
     }
@@ -56,6 +57,7 @@ public:
 private:
   using Corners = std::array<Point<Dimension>, 1 << Dimension>;
 
+  // The mass, or area, that a part of a side sweeps over between both places.
   double Swept(const Corners& corners) const
   {
     if (this->IsArea)
@@ -73,6 +75,7 @@ private:
   // The integral over an edge of the mass below it along axis 0, which is linear in each cell.
   double Below(const Point<Dimension>& from, const Point<Dimension>& to) const
   {
+    // Where the edge crosses the grid's planes, in parts of its length.
     std::vector<double> cuts{ 0.0, 1.0 };
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -88,6 +91,7 @@ private:
     double sum = 0.0;
     for (std::size_t i = 1; i < cuts.size(); ++i)
     {
+      // The midpoint rule is exact for what is linear between cuts.
       const double middle = 0.5 * (cuts[i - 1] + cuts[i]);
       const double y = from[1] + middle * (to[1] - from[1]);
       const double row = std::min(std::floor(y), this->Tables.Size[1] - 1.0);
@@ -111,6 +115,8 @@ private:
       {
         for (int from = 0; from < 1 << Dimension; ++from)
         {
+          // Pieces divide the side alone, so a corner of a piece mixes corners of the same end of
+          // the way.
           double weight = (corner ^ from) >> (Dimension - 1) == 0 ? 1.0 : 0.0;
           for (int axis = 0, rest = piece; axis < Dimension - 1; ++axis, rest /= pieces)
           {
@@ -142,6 +148,7 @@ private:
         low[axis] = std::min(low[axis], point[axis]);
         high[axis] = std::max(high[axis], point[axis]);
       }
+      // Widens the box about its middle to a cell, within the domain.
       const double missing = std::max(0.0, 1.0 - (high[axis] - low[axis]));
       low[axis] = std::max(0.0, low[axis] - 0.5 * missing);
       high[axis] = std::min(this->Tables.Size[axis], high[axis] + 0.5 * missing);

@@ -141,8 +141,8 @@ private:
 
   GridSize<Dimension> Size{};                     // of the grid, in cells
   GridSize<Dimension> HaloCells{};                // on either side of a tile
-  GridSize<Dimension> Counts{};                   // of tiles along each axis
-  std::vector<std::int32_t> TileBelow[Dimension]; // of each grid cell
+  GridSize<Dimension> Counts{};                   // tiles along each axis
+  std::vector<std::int32_t> TileBelow[Dimension]; // for each grid cell
 };
 
 } // namespace RectifiedTransport

@@ -105,7 +105,7 @@ public:
   }
 
 private:
-  std::vector<std::int64_t> Starts; // of each tile in Items, and one for the end
+  std::vector<std::int64_t> Starts; // where each tile begins in Items, and the end
   std::vector<Item> Items;
 };
 

@@ -24,8 +24,8 @@ class TileLanes
 public:
   static constexpr int StateSize = 4 * Dimension; // position and three velocities
 
-  // Of the resolved particles, or of all if these are kept, the positions are written; the others
-  // are added to those that are left. The job is on the tile's tables.
+  // Writes the positions of the resolved particles, or of all if these are kept; the others are
+  // added to those that are left. The job is on the tile's tables.
   TileLanes(const FlowJob<Dimension>& job, int pass, bool isKept, PointSpan<Dimension> positions,
     ParticleMask& left, std::atomic<std::int64_t>& evaluations)
     : Job(job)

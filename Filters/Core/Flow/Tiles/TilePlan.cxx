@@ -216,9 +216,9 @@ double TilePlan<Dimension>::MemorySize(double particles, bool isLattice) const
   constexpr double bits = 1.0 / 8.0;
   constexpr double sorted = 20.0;      // bytes a particle of an array
   constexpr double entries = 2 * 48.0; // a block: most are in one or two tiles, listed twice
-  // Of a particle that no map serves: its number and record, and three lists.
+  // A particle that no map serves has its number and record, and three lists.
   constexpr double noted = 40.0;
-  constexpr double node = 16.0; // of a map that is made, besides its record
+  constexpr double node = 16.0; // a node of a map that is made, besides its record
   const bool isForward = this->Shape.Direction == FlowDirection::Forward;
   using Level = FlowMapLevel<Dimension>;
   const double record =

@@ -61,8 +61,8 @@ struct TilePlan
 private:
   GridTiles<Dimension> ChooseTiles(const TileLimits& limits) const;
 
-  GridSize<Dimension> Strides; // of the graded tables
-  double InverseTime = 1.0;    // of box centres
+  GridSize<Dimension> Strides; // strides of the graded tables
+  double InverseTime = 1.0;    // for box centres
 };
 
 } // namespace RectifiedTransport

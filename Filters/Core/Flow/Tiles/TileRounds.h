@@ -44,7 +44,7 @@ public:
     return this->Density.IsDistributed() ? !onAllRanks(this->Group, !condition) : condition;
   }
 
-  // Of the tile that is worked on.
+  // The tables of the tile that is worked on.
   const TableView<Dimension>& Tables() const { return this->Tile.View(); }
 
   // Makes the tables of each tile with items, and lets `task` do what is to be done on them. A task
@@ -150,8 +150,8 @@ private:
     }
   }
 
-  // The tiles of every rank, from the numbers of items that all have in each: one gather. The cost
-  // of a tile's tables is that of its largest possible size, in items.
+  // The tiles of every rank, from the numbers of items that all have in each: one gather. A tile's
+  // tables cost as much as those of its largest possible size, in items.
   template <class Item>
   std::vector<std::vector<TileUnit>> Schedule(
     const ByTile<Item>& items, double cell, const Ranks& ranks) const

@@ -19,8 +19,8 @@ std::int64_t sumOf(const std::vector<TileVisit>& visits)
     [](std::int64_t sum, const TileVisit& visit) { return sum + visit.Count(); });
 }
 
-// A greedy schedule: each rank keeps its own items as far as their tables pay, the rest, by tiles
-// of the most items first, goes to the ranks of least cost. Costs are in the time of an item. All
+// A greedy schedule: each rank keeps its own items as far as their tables pay, and the rest goes to
+// the ranks of least cost, tiles with the most items first. Costs are in the time of an item. All
 // ties are broken by numbers, so that every rank computes the same schedule.
 class Scheduling
 {
@@ -30,7 +30,7 @@ public:
     : CostOfTables(costOfTables)
     , Units(counts.size())
   {
-    constexpr double uneven = 1.125; // of a rank's items to its part of all
+    constexpr double uneven = 1.125; // a rank's items over its part of all
     // A visit costs about a fourth of what tables of its own would for that many items.
     constexpr double worthwhile = 4.0;
     std::int64_t all = 0;

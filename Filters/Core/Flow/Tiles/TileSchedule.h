@@ -16,7 +16,7 @@ struct TileCount
   std::int64_t Items;
 };
 
-// Of a rank's items in a tile those of the numbers [First, End).
+// The items with numbers [First, End) among those of a rank in a tile.
 struct TileVisit
 {
   int From;

@@ -67,7 +67,7 @@ public:
     this->GiveParticles(item, give);
   }
 
-  // Of the particles that a rank sent: where each ends, and a byte that says whether it is
+  // Returns where each of the particles that a rank sent ends, and a byte that says whether it is
   // unresolved.
   Bytes Serve(Bytes visitors, Progress& progress)
   {

@@ -28,7 +28,7 @@ public:
   // Items are particles, or parts of blocks.
   static constexpr std::int64_t ParticlesOfItem = std::is_integral_v<Item> ? 1 : BlockSize;
 
-  // Of the items of this rank; `units` are those of all ranks.
+  // Takes the items of this rank; `units` are those of all ranks.
   TileVisitors(const ByTile<Item>& items, const std::vector<std::vector<TileUnit>>& units,
     std::size_t round, const Ranks& ranks)
     : Items(items)
@@ -130,11 +130,11 @@ private:
   };
 
   const ByTile<Item>& Items;
-  std::vector<std::vector<Run>> Runs; // of items, for each rank
+  std::vector<std::vector<Run>> Runs; // runs of items, for each rank
   const std::int64_t Most;            // items at a time for a rank
   std::int64_t Longest = 0;           // items of a rank for another one
   std::int64_t Done = 0;
-  std::vector<std::vector<Place>> Places; // of those that are away
+  std::vector<std::vector<Place>> Places; // places of those that are away
 };
 
 } // namespace RectifiedTransport

@@ -17,7 +17,7 @@
 namespace RectifiedTransport
 {
 
-// Of two or three axes: densities of one are not cut in tiles.
+// For two or three axes: densities of one are not cut in tiles.
 template <int Dimension>
 class TiledEngine final : public FlowEngine<Dimension>
 {
@@ -37,6 +37,7 @@ public:
   void SetDensity(const DensitySource<Dimension>& density) override { this->Density = density; }
   void PrepareShares(const GridSize<Dimension>& low, const GridSize<Dimension>& high) override
   {
+    // For a distributed density the part is gathered once for many boxes.
     this->Prepared = this->Density.Part(low, high);
   }
   static double MemoryFor(const GridSize<Dimension>& size, const FlowOptions& options,
@@ -70,6 +71,7 @@ public:
   {
     const std::shared_ptr<const DensityValues> values =
       this->Density.IsDistributed() ? this->Prepared : this->Density.Whole();
+    // Sums the values of the cells in the box, as there is no whole table.
     return densityIn<Dimension>({ this->Size, *values }, low, high) / this->Summary().Total;
   }
 
@@ -87,6 +89,7 @@ public:
   FlowReport Advect(AdvectionKind kind, const FlowSeeds<Dimension>& seeds,
     PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) override
   {
+    // Particles are sorted by chunks, which bounds their memory.
     ParticleSource<Dimension> source(
       seeds, this->Size, positions.size(), TilePlan<Dimension>::SortedParticles);
     const AdvectionJob<Dimension> shared(this->View(), kind, options);

@@ -29,7 +29,7 @@ GridTiles<Dimension> tilesForShares(
   const GridSize<Dimension>& size, const Point<Dimension>& aspect, const TileLimits& limits)
 {
   const GridSize<Dimension> strides = gradedStrides<Dimension>(size, limits);
-  double half = 0.0; // of the sides of the boxes that are wide enough, over the aspect
+  double half = 0.0; // half sides of the boxes that are wide enough, over the aspect
   for (int axis = 0; axis < Dimension; ++axis)
   {
     if (strides[axis] > 1)
@@ -65,6 +65,7 @@ public:
   {
   }
 
+  // Boxes are sorted by tiles, and each tile's tables are made once for all of its boxes.
   void Run(ConstPointSpan<Dimension> centres, const double* shares, double* measures)
   {
     Stages stages(this->Work, { { "sort", 5 }, { "boxes", 95 } });
@@ -82,7 +83,7 @@ public:
 
 private:
   static constexpr std::int64_t grain = 256;        // boxes a range
-  static constexpr std::int64_t units = 16 * grain; // of the first slice
+  static constexpr std::int64_t units = 16 * grain; // boxes in the first slice
 
   // What TileRounds does with the tables of a tile.
   struct Solution
@@ -113,6 +114,8 @@ private:
       values[Dimension] = this->Shares[item];
       give(values, item, item);
     }
+    // Boxes of other ranks with a centre in this tile, as Dimension + 1 doubles each; returns a
+    // measure for each.
     Bytes Serve(Bytes visitors, Progress& progress)
     {
       const std::vector<double> values = fromBytes<double>(visitors);
@@ -126,6 +129,7 @@ private:
         units);
       return toBytes(found);
     }
+    // Writes what another rank found.
     void Take(const char* reply, std::int64_t index, std::int64_t)
     {
       std::memcpy(this->Measures + index, reply, sizeof(double));
@@ -145,6 +149,7 @@ private:
     return point;
   }
 
+  // The measure by the tile's tables, or by the graded ones if the box is wide.
   double MeasureOf(const double* centre, double share) const
   {
     return measureOfShare<Dimension>(

@@ -8,6 +8,7 @@
   long mapSteps, long levelCount, __constant MapLevelInput *levels, __global const float *records, \
     __global const uchar *bad
 
+// Structures of pointers cannot be arguments of kernels: they are made here.
 TableInput tablesOf(RT_TABLES)
 {
   TableInput tables;
@@ -29,6 +30,7 @@ MapInput mapOf(RT_MAP)
   return map;
 }
 
+// Points are interleaved.
 void readPoint(__global const double* points, size_t i, double* x)
 {
   for (int axis = 0; axis < RT_D; ++axis)
@@ -98,6 +100,7 @@ __kernel __attribute__((reqd_work_group_size(64, 1, 1))) void advectForward(RT_T
   {
     s = states[i];
   }
+  // Passes from levels of the map, the finest first, until one has a good cell; then from the seed.
   int isLeft = 1;
   for (; pass <= lastPass && isLeft; ++pass)
   {
@@ -108,6 +111,7 @@ __kernel __attribute__((reqd_work_group_size(64, 1, 1))) void advectForward(RT_T
     if (first == 0)
     {
       placeParticle(&tables, seed, &s);
+      // In a bad cell of this level nothing is read, and the next pass tries a wider one.
       s.IsUnresolved = fromMap && !enterMap(&tables, &map, -1 - pass, &s);
       if (s.IsUnresolved)
       {
@@ -180,6 +184,7 @@ __kernel __attribute__((reqd_work_group_size(RT_GROUP, 1, 1))) void countUnresol
   const uint own = i < count ? status[i] : 0;
   evaluations[at] = own >> 1;
   unresolved[at] = own & 1;
+  // A tree of additions in local memory.
   for (uint width = RT_GROUP / 2; width > 0; width /= 2)
   {
     barrier(CLK_LOCAL_MEM_FENCE);
@@ -204,6 +209,7 @@ __kernel __attribute__((reqd_work_group_size(RT_GROUP, 1, 1))) void sumCounts(
   __local ulong evaluations[RT_GROUP];
   __local ulong unresolved[RT_GROUP];
   const uint at = get_local_id(0);
+  // Each item scans a share of the groups, from the sum of the shares before it.
   const uint share = (groups + RT_GROUP - 1) / RT_GROUP;
   const uint begin = min(at * share, groups);
   const uint end = min(begin + share, groups);
@@ -252,6 +258,8 @@ __kernel __attribute__((reqd_work_group_size(RT_GROUP, 1, 1))) void keepUnresolv
   barrier(CLK_LOCAL_MEM_FENCE);
   if (own)
   {
+    // The place of an unresolved particle: those of the groups before, and those before it in its
+    // group. The order of the list is kept.
     uint place = (uint)counts[get_group_id(0)].Unresolved;
     for (uint k = 0; k < at; ++k)
     {

@@ -31,6 +31,7 @@ __kernel RT_GROUP64 void sumStrips(
   const long start = strip * RT_STRIP_CELLS;
   const long count = min((long)RT_STRIP_CELLS, s.Cells[0] - start);
   __global const double* cells = values + row * s.Cells[0] + start;
+  // Eight lanes, as the processor's vectors sum; they are added in pairs below.
   double sum[8];
   double moment[8];
   for (int lane = 0; lane < 8; ++lane)
@@ -69,6 +70,8 @@ __kernel RT_GROUP64 void sumBefore(
     const double2 found = sums[row * s.Strips + strip];
     sums[row * s.Strips + strip] = (double2)(sum, moment);
     sum += found.x;
+    // A strip's moment is about its own low face: moving it to the grid's adds the face's place
+    // times the mass.
     moment += found.y + found.x * (double)(strip * RT_STRIP_CELLS);
   }
 }
@@ -157,6 +160,7 @@ __kernel RT_GROUP64 void sumAlong(
   }
   double sum = 0.0;
   double moment = 0.0;
+  // Mass, moment along axis 0 and moment along axis 1, up to each column.
   double momentAcross = 0.0;
   for (long i = 0; i < s.Cells[0]; ++i)
   {
@@ -254,6 +258,8 @@ __kernel RT_GROUP64 void sumSlices(
     __global double* node = first + (k + 1) * s.Stride2;
     if (i > 0 && row > 0)
     {
+      // The fourth entry is the mass until here; times the slice's centre it is the moment along
+      // axis 2.
       sum = sum + loadRecord(node) * (double4)(1.0, 1.0, 1.0, (double)k + 0.5);
     }
     storeRecord(node, sum);

@@ -29,8 +29,8 @@ RT_FUNCTION Real4 sumRow(RT_GLOBAL const double* low, RT_GLOBAL const double* hi
   return isOnLowFace ? RT_ADD_HALVES(sum) : RT_ADD_HALVES(sum - RT_LOAD8(low) * *lowWeights);
 }
 
-// Weights of the nodes {below, above} a side: {1 - r, r} of the entries E, E_0 and E_1, and {-b, b}
-// of the repeated E, which gives Q_0[E] = b (E_i+1 - E_i) in the same product.
+// Weights of the nodes {below, above} a side: {1 - r, r} for the entries E, E_0 and E_1, and {-b,
+// b} for the repeated E, which gives Q_0[E] = b (E_i+1 - E_i) in the same product.
 RT_FUNCTION Real8 pairWeights(double place, double quadraticWeight)
 {
   const Real4 second = RT_FILL4_BUT(3, place, quadraticWeight);

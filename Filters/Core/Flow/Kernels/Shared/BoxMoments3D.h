@@ -9,7 +9,7 @@
 // own: q for the moment along the axis and r for the others.
 typedef struct
 {
-  Real4 Weights[2]; // of the sides' second nodes
+  Real4 Weights[2]; // weights of the sides' second nodes
   Int64 Offset[2];
   Int64 Stride;
 } FineAxis;
@@ -21,6 +21,8 @@ RT_FUNCTION Real8 finePairWeights(double place, double momentWeight)
   return RT_JOIN(RT_FILL4(1.0) - second, second);
 }
 
+// The sum over the nodes of a plane across axis 2: both sides of axis 0 in the rows about both
+// sides of axis 1, high less low. Faces of the domain need fewer rows.
 RT_FUNCTION Real4 sumFinePlane(RT_GLOBAL const double* low, RT_GLOBAL const double* high,
   const FineAxis* axis1, int isOnLowFace0, int faces1, const Real8* lowWeights,
   const Real8* highWeights)
@@ -53,6 +55,7 @@ RT_FUNCTION void sumFineBox3D(RT_GLOBAL const double* low, RT_GLOBAL const doubl
 {
   const Real8 lowWeights = finePairWeights(lowPlace, lowMomentWeight);
   const Real8 highWeights = finePairWeights(highPlace, highMomentWeight);
+  // High side less low side, each interpolated between two planes of nodes.
   const Int64 upper = axis2->Offset[1];
   const Int64 upperNext = upper + axis2->Stride;
   Real4 sum = sumFinePlane(
@@ -88,7 +91,7 @@ typedef struct
   Real8 Quadratic2;
 } PairSums;
 
-// Of one row along axis 1: Quadratic2 is not set.
+// Sums one row along axis 1; Quadratic2 is not set.
 RT_FUNCTION void sumPairRow(
   RT_GLOBAL const double* nodes, const BoxAxis* axis1, int faces1, PairSums* sums)
 {
@@ -127,6 +130,8 @@ RT_FUNCTION void sumPairSide(RT_GLOBAL const double* nodes, const BoxAxis* axis1
   sums->Quadratic2 = step * axis2->QuadraticWeight[side];
 }
 
+// High side less low side along axis 2. A side on a high face is a plane of nodes itself; one on a
+// low face adds 0.
 RT_FUNCTION void sumPair(RT_GLOBAL const double* nodes, const BoxAxis* axis1, const BoxAxis* axis2,
   int faces1, int faces2, PairSums* sums)
 {
@@ -149,6 +154,7 @@ RT_FUNCTION void sumPair(RT_GLOBAL const double* nodes, const BoxAxis* axis1, co
   }
 }
 
+// {1 - r, r} for all four entries of the records of a pair.
 RT_FUNCTION Real8 linearPairWeights(double place)
 {
   return RT_JOIN(RT_FILL4(1.0 - place), RT_FILL4(place));

@@ -59,7 +59,7 @@ typedef struct
 } StepWeights;
 #endif
 
-// Of a pass over particles, or of a group of RT_GROUP of them.
+// The counts of a pass over particles, or over a group of RT_GROUP of them.
 #define RT_GROUP 256
 typedef struct
 {
@@ -78,7 +78,7 @@ typedef struct
 // What the nodes of a level of a flow map take from a coarser one, or from scratch.
 typedef struct
 {
-  Int64 First; // of their weights
+  Int64 First; // number of the first of their weights
   Int64 Steps;
   double Begin; // backward: the times between which these lead
   double End;

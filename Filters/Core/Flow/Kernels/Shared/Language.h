@@ -30,7 +30,7 @@ using Float4 = Vector<4, float>;
 #define RT_JOIN(first, second) joinVectors((first), (second))
 #define RT_ADD_HALVES(vector) addHalves(vector)
 
-// Of values from 0 to 2^31.
+// Rounds values from 0 to 2^31 down.
 RT_FUNCTION double truncated(double value)
 {
 #if defined(__SSE4_1__)

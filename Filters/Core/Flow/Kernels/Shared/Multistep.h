@@ -54,8 +54,8 @@ RT_FUNCTION double centreOfBox(double x, double middle, double inverseTime)
 }
 
 // A box so small that it may count as empty though it is not is no sign of a void; where it is in
-// one, the particle ends in an empty cell. That is of this part of the density's largest value, and
-// of the box's volume.
+// one, the particle ends in an empty cell. Such a box has less than this part of its volume times
+// the density's largest value.
 #define RT_LEAST_PART 1e-3
 
 // Backwards: whether a box has become the whole domain along an axis, a <= 0 and b >= S before

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One node of a flow map's lattice (FlowMapNodes.txx): forward its seed is taken to the hand-over
-// of its level, backward the particle that is there to its seed.
+// One node of a flow map's lattice (FlowMapNodes.txx). Forward, its seed is taken to its level's
+// hand-over; backward, the particle that is there then is taken to its seed.
 #ifndef RectifiedTransport_Node_h
 #define RectifiedTransport_Node_h
 

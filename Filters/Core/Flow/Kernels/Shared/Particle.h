@@ -18,7 +18,7 @@ typedef struct
 
 typedef struct
 {
-  Int64 Steps; // of particles that hand over
+  Int64 Steps; // the steps of particles that hand over
   Int64 LevelCount;
   RT_CONSTANT const MapLevelInput* Levels;
   RT_GLOBAL const float* Records;
@@ -33,7 +33,7 @@ typedef struct
   double Start;      // time at which the graded interval begins
   Int32 IsDone;      // End is known
   Int32 IsUnresolved;
-  Int32 Evaluations; // of the velocity
+  Int32 Evaluations; // velocity evaluations so far
 } ParticleState;
 
 typedef struct
@@ -55,6 +55,7 @@ typedef struct
   int Faces[RT_D];
 } BoxNodes;
 
+// The mass and moments of a box on a level of the tables (Eqs. 10 and 11 of the paper need both).
 RT_FUNCTION void sumTables(
   const TableInput* tables, Int32 level, const BoxNodes* box, double* mass, double* moments)
 {
@@ -108,6 +109,7 @@ RT_FUNCTION void findVelocity(const TableInput* tables, const double* x, double 
   RT_CONSTANT const FlowInput* input = tables->Input;
   double inverseRest;
   double centre[RT_D];
+  // The narrowest side chooses the level of the tables.
   double narrowest = 1e300;
   BoxNodes sides;
   invertTimes(t, &box->InverseTime, &inverseRest);
@@ -152,6 +154,7 @@ RT_FUNCTION void findVelocity(const TableInput* tables, const double* x, double 
   {
     const double value = velocityInBox(x[axis], t, 0.5 * input->Size[axis], box->From[axis],
       box->To[axis], centre[axis], moments[axis], box->InverseMass, box->IsVoid, inverseRest);
+    // In a void a forward particle keeps its last velocity; backward it keeps its place in the box.
     v[axis] = box->IsVoid > 0.0 && !input->Backward ? held[axis] : value;
   }
 }
@@ -193,6 +196,7 @@ RT_FUNCTION void takeStep(const TableInput* tables, const double* p, const doubl
   }
 }
 
+// A step with the common weights of the graded times.
 RT_FUNCTION void takeGradedStep(const TableInput* tables, RT_GLOBAL const StepWeights* weights,
   double span, double time, ParticleState* s, ParticleBox* box)
 {
@@ -262,6 +266,7 @@ RT_FUNCTION int readMap(
   {
     return 0;
   }
+  // Cubic Lagrange interpolation, axis by axis, from 4^RT_D nodes.
   const Int64 stride1 = record * (level->Cells[0] + 1);
   for (int part = 0; part < parts; ++part)
   {
@@ -328,6 +333,7 @@ RT_FUNCTION void stepForward(const TableInput* tables, RT_GLOBAL const StepWeigh
 {
   RT_CONSTANT const FlowInput* input = tables->Input;
   const double span = 1.0 - s->Start;
+  // The last step of all is implicit and closed (finishForward).
   const Int64 end = last < steps - 1 ? last : steps - 1;
   for (Int64 step = first; step < end && !s->IsDone && !(mayGiveUp && s->IsUnresolved); ++step)
   {
@@ -339,6 +345,8 @@ RT_FUNCTION void stepForward(const TableInput* tables, RT_GLOBAL const StepWeigh
       mostMass *= box.To[axis] - box.From[axis];
     }
     s->IsUnresolved |= mostMass > input->VoidMass && box.IsVoid > 0.0;
+    // Where the box's mass is its volume times the largest value, it is uniformly full: then the
+    // rest of the path is known, as x(1) is the box's centre.
     if (input->HasEmptyCells && 3 * step >= steps)
     {
       double mass = input->Largest;

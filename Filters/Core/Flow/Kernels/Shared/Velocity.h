@@ -95,8 +95,8 @@ RT_FUNCTION void findMomentWeights(double lowNode, double lowPlace, double highN
 
 // v = (c - S/2) + (m - c) / (1 - t) with m the box's centre of mass, clamped to the box, and c the
 // centre of the unclipped box; for t < 1/2, where c grows without bound, (m - x) / (1 - t). In
-// exact arithmetic the mean of Eq. (11) lies in the box. A nearly empty box magnifies the rounding
-// of the sums: the clamp bounds that, and with it the velocity. Empty boxes keep their place in the
+// exact arithmetic the mean of Eq. (11) lies in the box. A nearly empty box magnifies rounding in
+// the sums: the clamp bounds that, and with it the velocity. Empty boxes keep their place in the
 // box (m = c).
 RT_FUNCTION double velocityInBox(double x, double t, double middle, double from, double to,
   double centre, double moment, double inverseMass, double isVoid, double inverseRest)
