@@ -324,6 +324,7 @@ const DeviceProgram& Device::Program(
 // what is left first.
 DeviceBuffer Device::Allocate(std::size_t bytes, const std::string& what)
 {
+  // One buffer may be limited to a quarter of the memory.
   const std::uint64_t most = std::min(this->LargestBuffer, this->MemoryLeft());
   if (bytes > most)
   {

@@ -62,6 +62,7 @@ __kernel void ofFloats(__global const float* numbers, __global float* results, l
 }
 )";
 
+// Triples of operands: any unit that rounds otherwise shows in some of them.
 constexpr std::size_t count = 1024;
 
 // Three operands a, b and c.
@@ -125,6 +126,7 @@ void compare(Device& device, const DeviceProgram& built, const std::string& kern
     const std::array<T, N> right = resultsOf(numbers[i]);
     for (std::size_t k = 0; k < N; ++k)
     {
+      // Bits, not values: 0 and -0 differ, and NaN equals itself.
       if (std::memcmp(&right[k], &found[i][k], sizeof(T)) != 0)
       {
         throw DeviceError("The device '" + device.Description().Name + "' " + faults[k] +

@@ -27,6 +27,7 @@ void* find(const char* name)
 #endif
 }
 
+// The functions of OpenCL, found once in this process; a child of fork() must not use them.
 struct Loading
 {
   OpenCL Functions;

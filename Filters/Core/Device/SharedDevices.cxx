@@ -20,6 +20,7 @@ std::shared_ptr<Device> findOrOpen(const std::string& name, int number)
   static std::vector<std::weak_ptr<Device>> entries;
   // Held while a device is opened: who asks for it meanwhile gets the same one.
   const std::lock_guard<std::mutex> lock(mutex);
+  // Weak entries: a device closes when its last user lets it go.
   std::vector<std::shared_ptr<Device>> open;
   for (const std::weak_ptr<Device>& entry : entries)
   {
@@ -45,6 +46,7 @@ DeviceUse KeptDevice::Begin(const std::string& name, int number)
   {
     return DeviceUse(this->Opened);
   }
+  // The old device goes before the new one takes memory.
   this->Release();
   try
   {
@@ -64,6 +66,7 @@ std::vector<std::string> deviceNames()
   std::vector<std::string> names;
   for (const DeviceDescription& device : listDevices())
   {
+    // A name stands once, however many devices have it.
     if (device.Lacks.empty() && std::find(names.begin(), names.end(), device.Name) == names.end())
     {
       names.push_back(device.Name);

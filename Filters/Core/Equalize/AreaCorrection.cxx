@@ -128,6 +128,7 @@ FlowOptions AreaCorrection<Dimension>::Resolve(
   {
     Context alone = context;
     alone.Group = &SoloRanks::Get();
+    // Steps are chosen for the way back, which the corners take.
     options = flow.ChooseSteps(options, FlowDirection::Backward, alone).Of(options);
   }
   options.AreaTolerance = usual.AreaTolerance;

@@ -90,6 +90,7 @@ public:
       this->Measure(targets, part);
       const AreaSums moved = this->SumOfRows();
       limited = std::max(limited, moved.Failed);
+      // Cells that failed without folding may stay so once projections have not helped.
       const bool mayStay = round >= projections && moved.Folded <= folded;
       if (moved.Failed == 0 || mayStay || round == mostRounds)
       {

@@ -155,6 +155,7 @@ public:
     this->Map = std::move(map);
     const bool hasLevels = this->Map->View().LevelCount > 0;
     this->Job.Map = hasLevels ? &this->Map->View() : nullptr;
+    // Passes below 0 start from levels of the map, the finest one first.
     this->First = hasLevels ? -this->Job.Map->LevelCount : 0;
   }
 

@@ -81,6 +81,7 @@ void check(const LatticeParts<Dimension>& parts, const LatticePart<Dimension>& p
   {
     return;
   }
+  // The first and the last cell of a part have its least and greatest place in memory.
   const std::int64_t first = parts.IndexOf(part.Low);
   const std::int64_t last = parts.IndexOf(part.CellOf(part.Count() - 1));
   if (!parts.Within.Contains(part) || first < 0 || last >= positions)

@@ -117,6 +117,7 @@ template <int Dimension>
 void MapDisplacement<Dimension>::Displace(
   const GridSize<Dimension>& cell, double* displacement) const
 {
+  // In index space first, where the lattice's points are known exactly.
   double moved[Dimension];
   const double* position = this->Positions[this->Within.NumberOf(cell)];
   for (int a = 0; a < Dimension; ++a)

@@ -58,6 +58,7 @@ Point<Dimension> placeInCell(std::int64_t i, std::int64_t count)
   {
     // Additions of steps wrap modulo 2^64, which is modulo 1 of the unit interval.
     const auto halfSteps = static_cast<std::uint64_t>(2 * i - (count - 1));
+    // x_i = 1/2 + (i - (count - 1) / 2) a mod 1, with the recurrence's step a along this axis.
     place[axis] = unitReal(half + halfSteps * (lowDiscrepancyStep<Dimension>(axis) / 2));
   }
   return place;
@@ -78,6 +79,7 @@ PivotLattice<Dimension> pivotLattice(const GridSize<Dimension>& grid, std::int64
     {
       cells *= side;
     }
+    // One particle at the centre of each of the smaller cells.
     samples.Places.push_back(cellCentre<Dimension>());
     return samples;
   }

@@ -77,6 +77,7 @@ public:
 
   double Share(const Point<Dimension>& low, const Point<Dimension>& high) const override
   {
+    // By inclusion and exclusion over the corners of the box.
     return boxShare<Dimension>(this->View(), low, high);
   }
   double MeasureOfShare(
@@ -115,6 +116,8 @@ private:
     Stages stages(progress,
       { { "map", shape ? shape->Cost : 0.0 },
         { "particles", shape ? particles * shape->Levels.back().HandOver : 1.0 } });
+    // A map is kept for runs with the same shape; `isNew` says whether its evaluations are part of
+    // this run.
     std::shared_ptr<const FlowMap<Dimension>> map;
     bool isNew = false;
     if (shape)

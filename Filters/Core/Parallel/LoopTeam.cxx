@@ -123,6 +123,7 @@ void LoopTeam::Run(int threads, std::int64_t count, std::int64_t grain, const Ra
     std::unique_lock<std::mutex> lock(this->Mutex);
     this->Left.wait(lock, isLeft);
   }
+  // The first exception of any thread's kernel goes to the caller.
   loop.Failure.Rethrow();
 }
 

@@ -159,6 +159,7 @@ RankOrder::RankOrder(std::int64_t count, const std::int64_t* keys, std::int64_t 
   const std::vector<std::int64_t> places = findPlaces(count, keys, ranks, progress);
   const std::int64_t all = sumOverRanks(ranks, count);
   const std::int64_t chunks = (all + grain - 1) / grain;
+  // Ranks share whole chunks, nearly evenly.
   const RankShare share(chunks, ranks);
   const std::int64_t first = share.First * grain;
   this->ShareCount = std::min(all, first + share.Count * grain) - std::min(all, first);

@@ -197,6 +197,8 @@ TransportPlan<Dimension>::TransportPlan(std::array<std::optional<PlanEnd<Dimensi
   this->Bound = this->Optimal->LowerBound();
   if (options.IsOptimal)
   {
+    // The error of masses needs the map's images, so it is only measured if the map is to move
+    // points.
     this->Text = unresolvedText(this->Optimal->MassError(stages["check"]));
   }
 }
@@ -273,6 +275,7 @@ template <int Dimension>
 std::vector<FlowReport> TransportPlan<Dimension>::Move(FlowDirection direction,
   const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions, const Context& context) const
 {
+  // Reports are those of the flows on the way, in its order.
   const bool isForward = direction == FlowDirection::Forward;
   if (this->IsOptimal())
   {

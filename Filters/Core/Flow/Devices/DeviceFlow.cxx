@@ -27,7 +27,8 @@ std::function<bool()> stopsOf(Progress& progress)
   return [&progress]() { return progress.ShouldStop(); };
 }
 
-// What a device has of one flow.
+// What a device keeps of one flow: its tables, a copy of its flow map in each direction, and
+// weights of steps.
 template <int Dimension>
 struct KeptOnDevice
 {
@@ -79,7 +80,8 @@ public:
   {
   }
 
-  // GPUs take many in the time of few.
+  // The fewest particles of a call: a GPU takes 32768 of them in about the time of few, an OpenCL
+  // processor needs no more than fill its work groups.
   std::int64_t FewestParticles() const override
   {
     return std::int64_t{ 1 } << (this->IsGpu ? 15 : 12);
@@ -96,11 +98,13 @@ public:
 private:
   static constexpr std::int64_t grain = 32 * BlockSize;
 
-  // Neither are seeds transferred, nor positions put in order.
+  // A whole lattice is advected in its own order: its seeds are made on the device, and its
+  // positions come back in their places.
   bool RunLattice(const LatticeOrder<Dimension>& lattice, std::int64_t first, std::int64_t count,
     double* positions, FlowReport& counts, Progress& progress)
   {
     KernelReport report;
+    // Particle `first` and those after it have contiguous positions.
     double* own = positions + first * Dimension;
     if (!this->Use.Run(
           [&](Device&) {
@@ -125,7 +129,7 @@ private:
     this->Index.resize(static_cast<std::size_t>(count));
     this->Points.resize(static_cast<std::size_t>(count * Dimension));
     double* const points = this->Points.data();
-    // Read when a part of them is needed: the device works meanwhile.
+    // Seeds are read when their part of them is needed: the device works meanwhile.
     const auto fill = [&](std::int64_t begin, std::int64_t length) {
       threads.For(length, grain, [&](std::int64_t from, std::int64_t to) {
         for (; from < to; from += BlockSize)
@@ -156,6 +160,7 @@ private:
       for (; from < to; ++from)
       {
         std::copy_n(this->Points.data() + from * Dimension, Dimension,
+          // Index says where in the output each particle of the sorted order belongs.
           positions + this->Index[static_cast<std::size_t>(from)] * Dimension);
       }
     });
@@ -164,7 +169,8 @@ private:
     return true;
   }
 
-  // Moves those to the nearest mass that no pass has resolved; place(i) is the position of one.
+  // Moves the particles that no pass has resolved to the nearest mass; place(i) is the position of
+  // particle i. Their number is small, so the processor does it.
   template <class Place>
   void Finish(
     const KernelReport& report, FlowReport& counts, Progress& progress, const Place& place)
@@ -216,6 +222,7 @@ public:
       kept = std::make_shared<KeptOnDevice<Dimension>>();
       device.Keep(this, kept);
       this->Kept = kept;
+      // Weak references: a flow keeps neither the device open nor its own copies alive.
       this->Where = device.weak_from_this();
     }
     return kept;
@@ -252,9 +259,9 @@ void DeviceFlow<Dimension>::MakeTables(DeviceUse& use, const DensitySource<Dimen
 {
   if constexpr (Dimension > 1)
   {
-    // Else those of the processor are copied when they are needed: this is not collective, and
-    // devices sum along an axis in one run of a kernel, and have no more groups of items.
-    // Drivers limit the groups along an axis to 65535.
+    // Distributed densities would make this collective, so the processor's tables are copied when
+    // they are needed. So they are for long axes: a device sums along an axis in one run of a
+    // kernel, and drivers limit the groups along an axis to 65535.
     constexpr std::int64_t longest = 65535;
     if (!use.Serves() || density.IsDistributed() ||
       *std::max_element(density.Size.begin(), density.Size.end()) >= longest)
@@ -310,6 +317,8 @@ void DeviceFlow<Dimension>::MakeTables(DeviceUse& use, const DensitySource<Dimen
 template <int Dimension>
 bool DeviceFlow<Dimension>::Serves(AdvectionKind kind, const FlowOptions& options)
 {
+  // Devices have the multistep method on interpolated tables alone; its bits are those of the
+  // processor.
   return Dimension > 1 && kind != AdvectionKind::ForwardToCells && takesFlowMaps(options);
 }
 
@@ -325,7 +334,6 @@ std::unique_ptr<DeviceAdvection<Dimension>> DeviceFlow<Dimension>::Begin(DeviceU
     use.Run(
       [&](Device& device) {
         const auto kept = this->Kept->On(device);
-        // Tables and maps are transferred once; later runs on the same device find them.
         auto tables = kept->TablesOn(device, job.Job.Tables);
         advection = std::make_unique<Advection<Dimension>>(use, job,
           std::make_unique<KernelRun<Dimension>>(device, flowProgram(device, Dimension), job,
@@ -362,12 +370,13 @@ DeviceNodes<Dimension> DeviceFlow<Dimension>::BeginNodes(
       std::int64_t evaluations = 0;
       for (std::int64_t done = 0; done < count && use.Serves();)
       {
-        // No others wait for the device while progress is reported.
+        // The device is free for others while progress is reported.
         const std::int64_t slice = std::min(count - done, progress.NextSlice(run->FewestNodes()));
         use.Run([&](Device&) { evaluations += run->Run(first + done, slice, marks); }, stops);
         done += slice;
         progress.EndSlice(slice);
       }
+      // After a fault the marks of nodes made so far are not used.
       return use.Serves() ? evaluations : -1;
     };
   }

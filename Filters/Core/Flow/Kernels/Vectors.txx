@@ -11,7 +11,7 @@ constexpr int widestRegister = 32;
 constexpr int widestRegister = 16;
 #endif
 
-// A register of so many bytes of Values.
+// The type of a register of Bytes bytes that holds numbers of type Value.
 template <class Value, int Bytes>
 struct RegisterOf
 {
@@ -124,7 +124,7 @@ RT_INLINE Vector4 makeVector(double a, double b, double c, double d)
 #endif
 }
 
-// Four times `value`, but `other` in lane Lane.
+// {value, value, value, value}, but `other` in lane Lane.
 template <int Lane>
 RT_INLINE Vector4 fillVector(double value, double other)
 {

@@ -47,6 +47,7 @@ std::int64_t ParticleOrder<Dimension>::Sort(
       check += x - x; // not a number from the first value that is not finite
     }
   }
+  // Only if there is one is the first such particle looked for; its number is returned.
   if (!(check == 0.0))
   {
     for (std::int64_t i = 0; i < count * Dimension; ++i)
@@ -74,6 +75,7 @@ std::int64_t ParticleOrder<Dimension>::Sort(
   // side, so that the measure is not 0.
   const double tileSize = widest * std::pow(measure / tiles, 1.0 / Dimension);
   // The tiles of all axes together are numbered with at most this many bits.
+  // The counting sort's array then has at most 2^21 + 1 numbers, 16 MiB.
   constexpr int bitBudget = 21;
   std::array<double, Dimension> perUnit;
   std::array<double, Dimension> lastTile;
@@ -119,6 +121,7 @@ std::int64_t ParticleOrder<Dimension>::Sort(
   }
   for (std::int64_t i = 0; i < count; ++i)
   {
+    // Start[t] is where the next particle of tile t goes.
     this->Sorted[this->Start[this->Tile[i]]++] = first + i;
   }
   return -1;

@@ -158,6 +158,7 @@ public:
       if (before.Steps == 0 && !isKept)
       {
         std::vector<std::size_t> worst = this->KeepWorst(errors, (errors.size() + 1) / 2);
+        // The half with larger errors is what a judgement looks at again.
         this->Worse = this->Used;
         // Further comparisons take the worst blocks alone: errors of others are smaller, and fall
         // too.

@@ -60,6 +60,7 @@ public:
   std::size_t Count() const { return this->Places.size(); }
   const std::vector<Part>& Sides() const { return this->AllParts; }
 
+  // The point with this number on the surface of the box [low, high].
   Point<Dimension> At(
     std::size_t number, const Point<Dimension>& low, const Point<Dimension>& high) const
   {
@@ -73,6 +74,7 @@ public:
   }
 
 private:
+  // A node's place in the lattice of (parts + 1)^Dimension nodes.
   std::array<int, Dimension> PlaceOf(int node) const
   {
     std::array<int, Dimension> place;
@@ -84,7 +86,8 @@ private:
     return place;
   }
 
-  // Those whose lowest corner is a node.
+  // Adds the parts of sides whose lowest corner is this node. A part lies across an axis where the
+  // node is at an end of it, and has 2^(Dimension - 1) corners.
   void AddPartsAt(int node, const std::vector<std::size_t>& numbers)
   {
     const std::array<int, Dimension> place = this->PlaceOf(node);

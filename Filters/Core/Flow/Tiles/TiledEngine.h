@@ -56,6 +56,7 @@ public:
     }
     for (; fixed.NumberOfSteps <= last; fixed.NumberOfSteps *= 2)
     {
+      // The most memory of any of these numbers of steps: a plan's hand-over depends on them.
       most = std::max(
         most, PlanFor(size, fixed, direction, particles, limits).MemorySize(particles, isLattice));
     }

@@ -91,6 +91,8 @@ __kernel __attribute__((reqd_work_group_size(64, 1, 1))) void advectForward(RT_T
   }
   const TableInput tables = tablesOf(input, fine, coarse, occupied);
   const MapInput map = mapOf(mapSteps, levelCount, levels, records, bad);
+  // The particle's number in the seeds and positions; states and status have one entry for each
+  // item.
   const size_t particle = isListed ? list[i] : i;
   double seed[RT_D];
   readPoint(seeds, particle, seed);
@@ -124,6 +126,7 @@ __kernel __attribute__((reqd_work_group_size(64, 1, 1))) void advectForward(RT_T
       }
     }
     stepForward(&tables, w, all, begin, fromMap ? all : last, mayGiveUp, &s);
+    // A piece of the steps ends here; the next run of the kernel goes on from the state.
     if (!fromMap && last < all)
     {
       states[i] = s;
@@ -159,6 +162,7 @@ __kernel __attribute__((reqd_work_group_size(64, 1, 1))) void advectBackward(RT_
     double point[RT_D];
     readPoint(points, i, point);
     s.Evaluations = 0;
+    // At time 1 the velocity is x - S/2, and the seed is found on the way back.
     placeParticle(&tables, point, &s);
     leaveEnd(&tables, &s);
   }
@@ -181,6 +185,7 @@ __kernel __attribute__((reqd_work_group_size(RT_GROUP, 1, 1))) void countUnresol
   __local ulong unresolved[RT_GROUP];
   const uint at = get_local_id(0);
   const uint i = get_global_id(0);
+  // Items beyond the count add nothing.
   const uint own = i < count ? status[i] : 0;
   evaluations[at] = own >> 1;
   unresolved[at] = own & 1;

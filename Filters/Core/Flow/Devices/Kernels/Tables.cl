@@ -11,6 +11,7 @@ void storeRecord(__global double* node, double4 record)
   *(__global double4*)node = record;
 }
 
+// Loads a node's record at once; records are aligned to 32 bytes.
 double4 loadRecord(__global const double* node)
 {
   return *(__global const double4*)node;
@@ -92,6 +93,7 @@ __kernel RT_GROUP64 void sumRows(
   double moment = sums[row * s.Strips + strip].y;
   double centre = (double)start + 0.5;
   const double across = (double)row + 0.5;
+  // Node i + 1 of row + 1 holds the sum up to cell i of the row.
   __global double* node = nodes + (row + 1) * s.Stride1;
   for (long i = start; i < end; ++i)
   {
@@ -230,6 +232,7 @@ __kernel RT_GROUP64 void sumColumns(
   {
     return;
   }
+  // Starts from the sum of the strips before, so that strips are independent.
   double4 column = loadRecord(before + ((k * s.Strips + strip) * s.Cells[0] + i) * 4);
   const long last = min((strip + 1) * RT_STRIP_ROWS, s.Cells[1]);
   for (long row = strip * RT_STRIP_ROWS; row < last; ++row)
@@ -280,6 +283,7 @@ __kernel RT_GROUP64 void copyLevel(
   {
     return;
   }
+  // The last node of an axis is at its end, whatever the level's spacing.
   const long from = 4 * min(i << shift, s.Cells[0]) + min(j << shift, s.Cells[1]) * s.Stride1 +
     (RT_D == 3 ? min(k << shift, s.Cells[2]) * s.Stride2 : 0);
   storeRecord(coarse + offset + k * stride2 + j * stride1 + 4 * i, loadRecord(nodes + from));

@@ -11,8 +11,8 @@
 typedef struct
 {
   RT_CONSTANT const FlowInput* Input;
-  RT_GLOBAL const double* Fine;
-  RT_GLOBAL const double* Coarse;
+  RT_GLOBAL const double* Fine;     // records of the finest level, 4 doubles a node
+  RT_GLOBAL const double* Coarse;   // records of all other levels
   RT_GLOBAL const Bits64* Occupied; // read if there are empty cells
 } TableInput;
 
@@ -21,13 +21,13 @@ typedef struct
   Int64 Steps; // the steps of particles that hand over
   Int64 LevelCount;
   RT_CONSTANT const MapLevelInput* Levels;
-  RT_GLOBAL const float* Records;
-  RT_GLOBAL const Byte* Bad;
+  RT_GLOBAL const float* Records; // those of all levels, one level after the other
+  RT_GLOBAL const Byte* Bad;      // 1 for a lattice cell that must not be interpolated
 } MapInput;
 
 typedef struct
 {
-  double X[RT_D];
+  double X[RT_D];    // position in cells
   double V[3][RT_D]; // the last velocities, newest first
   double End[RT_D];  // x(1), or backwards the seed, once it is known
   double Start;      // time at which the graded interval begins
@@ -38,21 +38,21 @@ typedef struct
 
 typedef struct
 {
-  double From[RT_D];
-  double To[RT_D];
-  double InverseTime;
-  double InverseMass;
-  double IsVoid; // 1 or 0
+  double From[RT_D];  // a, the low corner of the clipped box
+  double To[RT_D];    // b, the high corner
+  double InverseTime; // 1 / t
+  double InverseMass; // 1 / the integral of f over the box
+  double IsVoid;      // 1 or 0
 } ParticleBox;
 
 // The sides of a box among the nodes of a level. [axis][0] is the low side, [axis][1] the high one.
 typedef struct
 {
-  double Node[RT_D][2]; // below the side
-  double Place[RT_D][2];
-  double QuadraticWeight[RT_D][2];
-  double MomentWeight[RT_D][2]; // in 3D
-  int Faces[RT_D];
+  double Node[RT_D][2];            // below the side
+  double Place[RT_D][2];           // r, from 0 to 1 between the nodes
+  double QuadraticWeight[RT_D][2]; // b = -(h/2) r (1 - r)
+  double MomentWeight[RT_D][2];    // in 3D
+  int Faces[RT_D];                 // bits: whether the sides are on faces of the domain
 } BoxNodes;
 
 // The mass and moments of a box on a level of the tables (Eqs. 10 and 11 of the paper need both).
@@ -127,6 +127,7 @@ RT_FUNCTION void findVelocity(const TableInput* tables, const double* x, double 
   findLevel(narrowest, input->InverseRatio, input->Widest, &width, &inverseWidth, &level);
   for (int axis = 0; axis < RT_D; ++axis)
   {
+    // A level whose cells do not divide the domain has a narrower last cell.
     const int even = input->EvenLevels[axis] != 0;
     double last;
     double lastWidth;
@@ -148,6 +149,7 @@ RT_FUNCTION void findVelocity(const TableInput* tables, const double* x, double 
   double mass;
   double moments[RT_D];
   sumTables(tables, level, &sides, &mass, moments);
+  // Rounding of the sums alone is a mass up to VoidMass.
   box->IsVoid = mass > input->VoidMass ? 0.0 : 1.0;
   box->InverseMass = 1.0 / mass;
   for (int axis = 0; axis < RT_D; ++axis)
@@ -190,6 +192,7 @@ RT_FUNCTION void takeStep(const TableInput* tables, const double* p, const doubl
   {
     s->X[axis] = advance(s->X[axis], span, length, c[0], c[1], c[2], newest[axis], s->V[0][axis],
       s->V[1][axis], input->Size[axis]);
+    // The newest velocity moves to the front of the history.
     s->V[2][axis] = s->V[1][axis];
     s->V[1][axis] = s->V[0][axis];
     s->V[0][axis] = newest[axis];
@@ -233,6 +236,7 @@ RT_FUNCTION void leaveSeed(const TableInput* tables, ParticleState* s)
   for (int axis = 0; axis < RT_D; ++axis)
   {
     const double centroid = tables->Input->Centroid[axis];
+    // t* = min over axes: the first time at which a side of the box leaves its face.
     time = smaller(time, endOfStraightStart(s->X[axis], tables->Input->Size[axis], centroid));
     s->V[0][axis] = centroid - s->X[axis];
   }
@@ -309,6 +313,7 @@ RT_FUNCTION int enterMap(const TableInput* tables, const MapInput* map, int leve
   float state[4 * RT_D];
   for (int part = 0; part < RT_D; ++part)
   {
+    // A record is the position and three velocities, RT_D floats each.
     state[4 * part] = RT_ENTRY(parts[part], 0);
     state[4 * part + 1] = RT_ENTRY(parts[part], 1);
     state[4 * part + 2] = RT_ENTRY(parts[part], 2);
@@ -339,6 +344,7 @@ RT_FUNCTION void stepForward(const TableInput* tables, RT_GLOBAL const StepWeigh
   {
     ParticleBox box;
     takeGradedStep(tables, weights + step, span, s->Start + span * weights[step].Time, s, &box);
+    // A box of less mass than this may count as empty by rounding alone.
     double mostMass = RT_LEAST_PART * input->Largest;
     for (int axis = 0; axis < RT_D; ++axis)
     {
@@ -383,6 +389,7 @@ RT_FUNCTION int isInMass(const TableInput* tables, const double* x)
   {
     row = row * input->Cells[axis] + cell[axis];
   }
+  // A bit for each cell, 64 in a word, rows along axis 0.
   const Bits64 word = tables->Occupied[row * input->WordsPerRow + (cell[0] >> 6)];
   return (int)((word >> (cell[0] & 63)) & 1);
 }
@@ -394,6 +401,7 @@ RT_FUNCTION void finishForward(
   for (int axis = 0; axis < RT_D; ++axis)
   {
     const double size = tables->Input->Size[axis];
+    // x(1) in closed form, from the implicit last step (closedEnd).
     const double end = s->IsDone
       ? s->End[axis]
       : closedEnd(s->X[axis], 1.0 - s->Start, last->Length, last->Corrector[0], last->Corrector[1],
@@ -425,6 +433,7 @@ RT_FUNCTION void finishWhole(const TableInput* tables, double time, ParticleStat
   {
     for (int axis = 0; axis < RT_D; ++axis)
     {
+      // x0 = (x - t M) / (1 - t): the path is straight while the box is the whole domain.
       s->End[axis] = seedBefore(s->X[axis], time, input->Size[axis], input->Centroid[axis]);
     }
     s->IsDone = 1;
