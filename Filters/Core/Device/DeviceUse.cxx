@@ -44,7 +44,7 @@ bool DeviceUse::Run(
   {
     if (this->Opened->IsLost())
     {
-      // It may have been lost to another run while this one waited.
+      // Another run may have lost the device while this one waited.
       throw DeviceError("The device '" + this->Opened->Description().Name + "' was lost");
     }
     function(*this->Opened);

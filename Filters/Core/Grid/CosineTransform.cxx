@@ -62,8 +62,8 @@ void CosineLines::Transform()
   const std::int64_t cells = this->Cells;
   const std::int64_t middle = cells / 2;
   Complex* f = this->Line.data();
-  Complex odd = Lanes(0.5) *
-    (f[0] - f[cells]); // half of X(1), which the recursion of the odd terms starts from
+  // Half of X(1), which the recursion of the odd terms starts from.
+  Complex odd = Lanes(0.5) * (f[0] - f[cells]);
   f[0] = Lanes(0.5) * (f[0] + f[cells]);
   for (std::int64_t j = 1; j < middle; ++j)
   {

@@ -94,8 +94,8 @@ private:
   FaceKernels<Dimension> Kernels;
   std::vector<Level> Levels;
   CellArray<Dimension> Given; // the right-hand side
-  CellArray<Dimension, double>
-    Found; // in doubles: differences of neighbours are far smaller than values
+  // In doubles, as differences of neighbours are far smaller than values.
+  CellArray<Dimension, double> Found;
   CellArray<Dimension> Search;
 };
 

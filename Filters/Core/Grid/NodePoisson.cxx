@@ -277,8 +277,8 @@ struct NodePoisson<Dimension>::Implementation
         line /= nodes;
       }
       others[i] = sum;
-      atZero[i] =
-        sum > 0.0 ? sum : std::numeric_limits<double>::infinity(); // divides the mean away: it is 0
+      // Infinity divides the mean away: it is 0.
+      atZero[i] = sum > 0.0 ? sum : std::numeric_limits<double>::infinity();
     }
     const Lanes scale(1.0 / (1 << Dimension));
     const Lanes real = Lanes::Load(others);

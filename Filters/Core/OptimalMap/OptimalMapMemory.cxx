@@ -63,8 +63,8 @@ template <int Dimension>
 double OptimalMap<Dimension>::MemoryForSamples(
   const GridSize<Dimension>& target, const OptimalMapUse& use)
 {
-  constexpr double starts =
-    Dimension * sizeof(double); // the samples' starts, kept where some stand still
+  // The samples' starts, which are kept where some stand still.
+  constexpr double starts = Dimension * sizeof(double);
   return use.Samples > 0.0
     ? starts * use.Samples + memoryForFinishing<Dimension>(target, use.Samples, use.OnSeveralRanks)
     : 0.0;

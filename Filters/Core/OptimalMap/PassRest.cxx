@@ -93,9 +93,9 @@ private:
       const double scale =
         this->Shares.Sides[axis] * this->Shares.Sides[axis] / this->Shares.SquaredDiagonal;
       const double way = sign * static_cast<double>(cells[axis]);
-      const double before = share *
-        static_cast<double>(got[1 + axis]) *          // the first moment, in cells
-        static_cast<double>(this->Shares.Size[axis]); // in cells
+      // The first moment of the mass that goes on, in cells.
+      const double before =
+        share * static_cast<double>(got[1 + axis]) * static_cast<double>(this->Shares.Size[axis]);
       cost += scale * way * (2.0 * before + way * static_cast<double>(mass));
     }
     this->Sum.Add(cost);

@@ -35,8 +35,8 @@ bool solve(const std::array<Point<Dimension>, Dimension>& matrix, const Point<Di
 {
   using Square = Eigen::Matrix<double, Dimension, Dimension, Eigen::DontAlign>;
   using Column = Eigen::Matrix<double, Dimension, 1, Eigen::DontAlign>;
-  constexpr double raise =
-    1e-9; // added to the diagonal, small beside the derivatives of a map, which are about 1
+  // Added to the diagonal; small beside the derivatives of a map, which are about 1.
+  constexpr double raise = 1e-9;
   Square square;
   for (int row = 0; row < Dimension; ++row)
   {
@@ -219,8 +219,8 @@ template <int Dimension>
 Point<Dimension> PointMap<Dimension>::LeastCost(
   const Point<Dimension>& place, const Point<Dimension>& image) const
 {
-  constexpr double inside =
-    0.02; // in parts of a cell: the least distance from its sides, so that rounding cannot leave it
+  // In parts of a cell: the least distance from its sides, so that rounding cannot leave it.
+  constexpr double inside = 0.02;
   const NodeGrid<Dimension>& grid = this->There.Grid;
   const CellPlace<Dimension> at(place.data(), grid.Cells);
   Point<Dimension> best = image;

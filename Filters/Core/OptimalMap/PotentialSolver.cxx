@@ -348,8 +348,8 @@ void PotentialSolver<Dimension>::Begin(const std::vector<GridSize<Dimension>>& l
     {
       this->Excess += lumpingExcess(given.Density, side.Placement, this->Nodes, progress);
     }
-    // For the uniform measure lumping adds h^2 / 6 along each axis; on coarse levels this only
-    // shifts the bound by a constant.
+    // Lumping a density that is constant in cells between nodes adds h^2 / 6 along each axis. On
+    // coarse levels this estimate only shifts the bound by a constant.
     for (int axis = 0; axis < Dimension && !isFinest; ++axis)
     {
       this->Excess += this->Nodes.Spacing[axis] * this->Nodes.Spacing[axis] / 6.0;
@@ -447,9 +447,10 @@ void PotentialSolver<Dimension>::FindDefect(Scratch& scratch, int side, Progress
 }
 
 // An ascent step of the dual in the potential of a side: phi <- phi + s p, where -Laplace p = r or,
-// weighted, -div(max(1, mu) grad p) = r, with natural boundaries. So p is the gradient in the H^-1
-// metric (Jacobs and Leger 2020). The step s is halved until the bound rises; then phi
-// and psi are conjugate again, which only raises it further.
+// weighted, -div(max(1, mu) grad p) = r, with natural boundaries. So p is the gradient of the dual
+// in the homogeneous Sobolev space H^1 (Jacobs and Leger 2020), not in L^2, whose gradient r would
+// allow short steps alone on fine nodes. Then phi and psi are made conjugate, which can only raise
+// the dual. The step s is halved until the bound is above the one before.
 template <int Dimension>
 void PotentialSolver<Dimension>::HalfStep(Scratch& scratch, int side, Progress& progress)
 {
@@ -482,8 +483,7 @@ void PotentialSolver<Dimension>::HalfStep(Scratch& scratch, int side, Progress& 
     sumOfProducts(p, scratch.Defect.data(), this->Nodes.NumberOfNodes(), progress);
   const double slope = 2.0 * std::max(0.0, product);
   double& step = this->Steps[Index(side)];
-  // No attempt raises the bound: the potentials stay, as the bound has reached the accuracy of the
-  // nodes.
+  // If no attempt raises the bound, the potentials stay: it has reached the accuracy of the nodes.
   for (int attempt = 0; attempt <= halvings; ++attempt)
   {
     double* moved = scratch.New.data();

@@ -95,8 +95,8 @@ private:
   // What rounding may add to the bound, in squared lengths.
   const double Rounding;
   bool IsWeighted;
-  std::array<std::vector<NodeValues>, 2>
-    LevelCells; // masses on the levels to come; none if uniform
+  // Masses on the levels to come; none if uniform.
+  std::array<std::vector<NodeValues>, 2> LevelCells;
 
   // On the present level's nodes: the nodes themselves, both sides, and each side's step length.
   NodeGrid<Dimension> Nodes;

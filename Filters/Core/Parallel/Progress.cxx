@@ -88,8 +88,8 @@ std::int64_t Progress::NextSlice(std::int64_t smallest)
 
 void Progress::EndSlice(std::int64_t units)
 {
-  constexpr double sliceSeconds =
-    0.03; // seconds: often enough for an abort, seldom enough to cost nothing
+  // Often enough for an abort, seldom enough to cost nothing.
+  constexpr double sliceSeconds = 0.03;
   this->Done += units;
   this->Report(std::min(static_cast<double>(this->Done) / static_cast<double>(this->Units), 1.0));
   this->Poll();

@@ -23,8 +23,8 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 // Why an optimal map does not serve whose masses of blocks have this error; empty if it does.
 std::string unresolvedText(double massError)
 {
-  constexpr double most =
-    0.1; // a relative L2 error of 10 %: nodes that resolve the target have some hundredths
+  // A relative L2 error of 10 %: nodes that resolve the target have some hundredths.
+  constexpr double most = 0.1;
   if (!(massError > most))
   {
     return {};

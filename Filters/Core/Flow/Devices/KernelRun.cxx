@@ -25,10 +25,9 @@ constexpr std::int64_t workOfOthers = std::int64_t{ 1 } << 18;
 
 std::int64_t stepsAtOnce(const Device& device, std::int64_t particles)
 {
-  constexpr std::int64_t fewest = 8; // states are stored between runs
+  constexpr std::int64_t fewest = 8; // steps: storing a state between runs is little beside them
   const std::int64_t work = device.IsGpu() ? workOfGpu : workOfOthers;
-  return std::clamp(work / particles, fewest,
-    mostSteps); // storing and loading states between runs is little beside 8 steps
+  return std::clamp(work / particles, fewest, mostSteps);
 }
 
 // All levels' records and marks lie in one buffer each, one level after the other; the level inputs

@@ -74,8 +74,7 @@ std::int64_t ParticleOrder<Dimension>::Sort(
   // The side of a cube of 1 / tiles of the box's measure. Flat boxes count as 1e-6 of the widest
   // side, so that the measure is not 0.
   const double tileSize = widest * std::pow(measure / tiles, 1.0 / Dimension);
-  // The tiles of all axes together are numbered with at most this many bits.
-  // The counting sort's array then has at most 2^21 + 1 numbers, 16 MiB.
+  // The counting sort's array then has at most 2^21 + 2 numbers of 4 bytes, 8 MiB.
   constexpr int bitBudget = 21;
   std::array<double, Dimension> perUnit;
   std::array<double, Dimension> lastTile;

@@ -155,8 +155,8 @@ public:
   }
 
 private:
-  static constexpr int together =
-    2; // lines at a time, as each step of a line waits for the one before
+  // Lines at a time, as each step of a line waits for the one before.
+  static constexpr int together = 2;
 
   static std::int32_t Rounded(double change, double most)
   {
