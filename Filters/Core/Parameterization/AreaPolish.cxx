@@ -16,9 +16,12 @@ namespace RectifiedTransport
 namespace
 {
 
+// A region has at most so many points: a factorization of its Gauss-Newton matrix stays in the
+// cache, and there are enough regions for all threads.
 constexpr std::int64_t tilePoints = 5000;
-constexpr int steps = 3;             // of a region in a sweep
-constexpr double leastShare = 1e-13; // of the area, that weighs; smaller ones have no accuracy
+constexpr int steps = 3; // Gauss-Newton steps on a region in a sweep
+// Triangles with smaller shares weigh as this one: their areas have no accuracy.
+constexpr double leastShare = 1e-13;
 
 using Cotangents = std::array<double, 3>;
 
@@ -31,6 +34,8 @@ double firstRoot(double c0, double c1, double c2)
   {
     return none;
   }
+  // The stable form of the quadratic's roots, q / c2 and c0 / q: no difference of nearly equal
+  // numbers. q / 0 is no root.
   const double q = -0.5 * (c1 + std::copysign(std::sqrt(discriminant), c1));
   double root = none;
   for (const double candidate : { q / c2, c0 / q })
@@ -43,16 +48,25 @@ double firstRoot(double c0, double c1, double c2)
   return root;
 }
 
+// Gauss-Newton steps on the points of one region, with all others fixed. The energy is E(u) = sum
+// over triangles of (A(u) - s)^2 / s, plus nu u^T K u: A is the area in the square, s the share of
+// the surface's area, u the positions, K the surface's cotangent matrix. A step d solves (J^T W J +
+// (mu + nu) K) d = -J^T W (A - s) - nu K u, where J has the gradients of the areas and W = diag(1 /
+// s). mu K is Levenberg-Marquardt damping with the Dirichlet form in the place of the identity: it
+// resists shear and lets a region move as a whole.
 class TilePolish
 {
 public:
   TilePolish(const MapParts& parts, LocalMap& map, bool isFirst)
     : Map(map)
+    // The first sweep starts from the flow's result, whose triangles are sheared: there the
+    // Dirichlet form smooths as well (nu = 1e-2). Later sweeps only damp.
     , Damping(isFirst ? 1e-2 : 1e-3)
     , Smoothing(isFirst ? 1e-2 : 0.0)
   {
     for (std::size_t t = 0; t < map.NumberOfTriangles(); ++t)
     {
+      // The three values of the surface's cotangent matrix for each triangle.
       this->Weights.push_back(cotangentsOf(parts.Disk, map.IdOf(t)));
     }
   }
@@ -77,7 +91,9 @@ public:
   }
 
 private:
-  // Weights of the sides in the Dirichlet form of a triangle, those of very thin ones bounded.
+  // The weights of the sides in the Dirichlet form of a triangle, cot(angle opposite) / 2. Twice
+  // the area, their denominator, is taken as at least 0.02 of the two sides' squares: a needle's
+  // weights would otherwise outweigh everything else.
   static Cotangents cotangentsOf(const DiskMesh& disk, std::int64_t triangle)
   {
     constexpr double thinnest = 0.02;
@@ -92,11 +108,15 @@ private:
     Cotangents cotangents;
     for (std::size_t i = 0; i < 3; ++i)
     {
+      // The dot product of the two sides that meet opposite to side i, by twice the area: a
+      // cotangent.
       cotangents[i] = 0.5 * (point(i) - point(i + 2)).dot(point(i + 1) - point(i + 2)) / twiceArea;
     }
     return cotangents;
   }
 
+  // 1 / s makes the terms the squares of relative deviations, weighted by area. A triangle on one
+  // side of the square cannot get an area; it must not pull on its neighbours.
   double WeightOf(std::size_t triangle) const
   {
     return this->Map.IsCollapsed(triangle)
@@ -104,6 +124,7 @@ private:
       : 1.0 / std::max(this->Map.ShareOf(triangle), leastShare);
   }
 
+  // E at any positions of the region's points, for the line search.
   double Energy(const std::vector<Point<2>>& positions) const
   {
     double energy = 0.0;
@@ -123,6 +144,7 @@ private:
     return energy;
   }
 
+  // The normal equations at the current positions; their pattern does not change from step to step.
   void Assemble(LocalSystem& system) const
   {
     const std::vector<Point<2>>& positions = this->Map.Positions();
@@ -135,6 +157,8 @@ private:
       const double missing = this->Map.AreaOf(t, positions) - this->Map.ShareOf(t);
       TriangleMatrix matrix;
       TriangleVector right;
+      // The area term contributes (1 / s) g g^T and -(1 / s) (A - s) g, g the gradient of the area
+      // by the corners' six coordinates.
       for (std::size_t i = 0; i < 6; ++i)
       {
         right[i] = -weight * missing * gradient[i];
@@ -143,6 +167,8 @@ private:
           matrix[i][j] = weight * gradient[i] * gradient[j];
         }
       }
+      // The Dirichlet form has w ((a - b)^2) for each side, so that w goes to the diagonal, -w
+      // beside it. The right side has only the smoothing's part: damping has no gradient at d = 0.
       for (std::size_t i = 0; i < 3; ++i)
       {
         const std::size_t next = (i + 1) % 3;
@@ -170,8 +196,11 @@ private:
   // half of it: the energy decides further.
   double LargestStep(const std::vector<double>& solution) const
   {
-    constexpr double healthy = 0.2; // area by share
+    constexpr double healthy = 0.2; // area by share; smaller ones have to move
+    // A triangle may lose this part of its area in a step; beyond it, the linear model of areas
+    // fails.
     constexpr double loss = 0.9;
+    // Without this floor, a few thin triangles would stop the whole region.
     constexpr double least = 0.5;
     const std::vector<Point<2>>& positions = this->Map.Positions();
     double step = 1.0;
@@ -196,6 +225,8 @@ private:
       const auto cross = [](const Point<2>& a, const Point<2>& b) {
         return a[0] * b[1] - a[1] * b[0];
       };
+      // The area along the step is cross(e + s d, f + s g) / 2, a quadratic in s. It loses the part
+      // `loss` where loss cross(e, f) + s (cross(e, g) + cross(d, f)) + s^2 cross(d, g) = 0.
       const Point<2> e = side(corners[1]);
       const Point<2> f = side(corners[2]);
       const Point<2> d = change(corners[1]);
@@ -205,13 +236,15 @@ private:
     return std::max(step, least);
   }
 
+  // The trust region by damping: mu falls by 4 after a full step, grows by 4 after a short one, by
+  // 10 if the energy does not fall along the direction.
   void Step(const std::vector<double>& solution)
   {
     constexpr int halvings = 10;
     constexpr double easier = 0.25;
     constexpr double harder = 4.0;
     constexpr double leastDamping = 1e-4;
-    constexpr double fade = 0.3; // of the smoothing
+    constexpr double fade = 0.3; // the factor of the smoothing after a step
     const double step = this->Map.Descend(solution, this->LargestStep(solution), halvings,
       [this](const std::vector<Point<2>>& positions) { return this->Energy(positions); });
     if (step == 0.0)
@@ -219,6 +252,7 @@ private:
       this->Damping *= 10.0;
       return;
     }
+    // 0.24: less than a quarter of the direction was taken. 0.99: all of it, but for rounding.
     if (step < 0.24)
     {
       this->Damping *= harder;
@@ -231,9 +265,9 @@ private:
   }
 
   LocalMap& Map;
-  std::vector<Cotangents> Weights;
-  double Damping;
-  double Smoothing;
+  std::vector<Cotangents> Weights; // by triangles of the region
+  double Damping;                  // mu, without a unit
+  double Smoothing;                // nu, without a unit
 };
 
 } // namespace
@@ -242,6 +276,8 @@ void polishAreas(
   const MapParts& parts, int sweep, std::vector<Point<2>>& positions, const Context& context)
 {
   Progress progress(context);
+  // Regions of a group have no triangle in common, so they can move at the same time; the groups
+  // follow each other. The result does not depend on the number of threads.
   const auto groups = makeRegions(parts.Disk, positions, tilePoints, sweep);
   Parts stages(progress, static_cast<std::int64_t>(groups.size()));
   std::int64_t number = 0;

@@ -18,6 +18,8 @@ namespace RectifiedTransport
 namespace
 {
 
+// The backward flow from the density of the surface's area in the square to the uniform one (paper,
+// Section 5.4).
 class AreaFlow
 {
 public:
@@ -36,11 +38,14 @@ public:
     const GridSize<2> size{ this->Resolution, this->Resolution };
     Stages stages(
       progress, { { "masses", 30 }, { "tables", 10 }, { "map", 55 }, { "positions", 5 } });
+    // The density of a cell is the area of the surface that the conformal map puts there; the map
+    // is linear on each triangle, so that a triangle's area is spread evenly over its image.
     rasterizeMass({ positions, this->Disk.Triangle(0), this->Disk.AreaShares(),
                     this->Disk.NumberOfTriangles() },
       size, this->Masses.data(), stages["masses"]);
     const DensityArray<2, double> density(this->Masses.data(), size);
     const RectifiedFlow<2> flow(density, stages["tables"]);
+    // The flow works in index space: a cell has the width 1.
     const auto cells = static_cast<double>(this->Resolution);
     for (std::size_t i = 0; i < positions.size(); ++i)
     {
@@ -62,6 +67,7 @@ public:
     {
       for (std::size_t axis = 0; axis < 2; ++axis)
       {
+        // A point on a side keeps that coordinate; only its place along the side changes.
         positions[i][axis] =
           this->IsOnSide(i, axis) ? this->Square.Positions[i][axis] : positions[i][axis] / cells;
       }
@@ -83,14 +89,15 @@ private:
   const DiskMesh& Disk;
   const SquareMap& Square;
   const std::int64_t Resolution;
-  LargeBuffer<double> Masses;
+  LargeBuffer<double> Masses; // shares of the surface's area by cells, axis 0 fastest
 };
 
+// An upper limit for surfaces that never reach the goal: most need 2 to 5 sweeps.
 constexpr int mostSweeps = 24;
-constexpr int sweepsBeforeFlips = 5; // that flips alone are a reason for
-constexpr int sweepsBeforeFlow = 3;
-constexpr int mostRings = 14;    // of triangles around flipped ones that the repair may move
-constexpr double distant = 0.05; // of 95 % of the area: the flow is better at it than sweeps
+constexpr int sweepsBeforeFlips = 5; // up to which flips alone are a reason to go on
+constexpr int sweepsBeforeFlow = 3;  // another flow may follow after every third sweep
+constexpr int mostRings = 14;        // rings of triangles around flipped ones, in the last repair
+constexpr double distant = 0.05; // deviation of 95 % of the area where a flow is better than sweeps
 
 // The root mean square to be reached: small, and small beside what a conformal map has.
 double goalFor(const MapDistortion& conformal)
@@ -102,6 +109,7 @@ double goalFor(const MapDistortion& conformal)
   return std::clamp(part * conformal.AreaRootMeanSquare, smallest, largest);
 }
 
+// The goals for the median deviation and for 95 % of the area are those of the header.
 bool isNear(const MapDistortion& distortion, double goal)
 {
   return distortion.AreaMedian < 0.01 && distortion.Area95 < 0.03 &&
@@ -128,6 +136,8 @@ AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& confo
     { { "distortion", 2 }, { "flow", 39 }, { "distortion of flow", 1 },
       { "sweeps", options.Polish ? 49.0 : 0.0 }, { "flips", options.Polish ? 9.0 : 0.0 } });
   measure(stages["distortion"]);
+  // Collapsed triangles miss their whole share s: their deviation |0 - 1| alone makes the root mean
+  // square sqrt(sum of s), which no sweep can undercut.
   const CollapsedTriangles collapsed = findCollapsed(disk, conformal);
   const double goal = std::hypot(goalFor(map.Distortion), std::sqrt(collapsed.AreaShare));
   AreaFlow flow(disk, conformal, options.Resolution);
@@ -148,6 +158,7 @@ AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& confo
     Rounds sweeps(stages["sweeps"], 2);
     for (; map.Sweeps < mostSweeps && !isDone(); ++map.Sweeps)
     {
+      // Sweeps move points within regions. Mass that is missing far away needs a global flow.
       const bool flows =
         map.Sweeps > 0 && map.Sweeps % sweepsBeforeFlow == 0 && map.Distortion.Area95 > distant;
       Stages sweep(
@@ -161,6 +172,7 @@ AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& confo
       measure(sweep["distortion"]);
     }
     Rounds repairs(stages["flips"], 1);
+    // Larger patches are tried only while flips are left: they distort more of the map.
     for (int rings = 2; rings <= mostRings && map.Distortion.Flipped > collapsed.Count; ++rings)
     {
       Stages repair(repairs.Next(), { { "flips", 10 }, { "distortion", 1 } });

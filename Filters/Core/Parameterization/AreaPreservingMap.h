@@ -31,8 +31,8 @@ struct AreaPreservingMap
 {
   std::vector<Point<2>> Positions; // by points, in [0,1]^2
   MapDistortion Distortion;
-  int Flows = 0;  // of the area density to the uniform one; 0 if the conformal map keeps areas
-  int Sweeps = 0; // of the polish
+  int Flows = 0;  // number of flows to the uniform density; 0 if the conformal map keeps areas
+  int Sweeps = 0; // number of sweeps of the polish
 };
 
 // Transports the area density of the surface in the unit square to the uniform one, and the points

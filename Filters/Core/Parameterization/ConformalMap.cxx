@@ -18,11 +18,12 @@ namespace
 
 constexpr unsigned char onVertical = 1;
 constexpr unsigned char onHorizontal = 2;
-// Of larger surfaces the number of values of a factor passes what Eigen's indices hold.
+// On larger surfaces, the number of values of a factor passes what Eigen's indices hold.
 constexpr std::int64_t mostPoints = std::int64_t{ 1 } << 24;
 
-// Calls visit(a, b, weight) for each side between two different points, which is part of the weight
-// of their edge.
+// Calls visit(a, b, weight) for each side between two different points. The weight of an edge in
+// the cotangent Laplacian is (cot alpha + cot beta) / 2, alpha and beta being the angles opposite
+// to it; each of its two sides has one of the terms.
 template <class Visit>
 void visitSides(const IntrinsicTriangles& triangles, const Visit& visit)
 {
@@ -42,7 +43,9 @@ void visitSides(const IntrinsicTriangles& triangles, const Visit& visit)
   }
 }
 
-// Makes `values` harmonic where they are not known.
+// Makes `values` harmonic where they are not known: for each unknown point i, sum over its edges of
+// w_ij (u_i - u_j) = 0. These are the conditions for the least Dirichlet energy of linear finite
+// elements, with no normal derivative on the boundary where nothing is prescribed.
 class HarmonicProblem
 {
 public:
@@ -78,7 +81,8 @@ public:
         throw std::invalid_argument("has triangles that are too thin for a conformal map");
       }
     }
-    // The second solution is of what rounding left of the first.
+    // Iterative refinement: each solution is that of the residual. The first, from values of 0, is
+    // the solution itself; the second is of what rounding left.
     constexpr int refinements = 2;
     for (int i = 0; i < refinements; ++i)
     {
@@ -97,7 +101,7 @@ public:
   }
 
 private:
-  // On any thread.
+  // Unlike Progress::Check, this may be called on any thread.
   static void check(Progress& progress)
   {
     if (progress.ShouldStop())
@@ -106,6 +110,8 @@ private:
     }
   }
 
+  // The lower triangle of the Laplacian on the unknowns: w_ij summed on the diagonal, -w_ij beside
+  // it. Known values are in the residual.
   SparseCholesky::Matrix MakeMatrix() const
   {
     std::vector<double> diagonal(static_cast<std::size_t>(this->Count), 0.0);
@@ -135,6 +141,7 @@ private:
     return matrix;
   }
 
+  // -sum over j of w_ij (u_i - u_j) for each unknown i: what flows out of it at present.
   SparseCholesky::Vector Residual() const
   {
     SparseCholesky::Vector residual = SparseCholesky::Vector::Zero(this->Count);
@@ -155,9 +162,10 @@ private:
   const IntrinsicTriangles& Triangles;
   std::vector<double>& Values;
   std::vector<int> Unknowns; // by points; -1 where the value is known
-  int Count = 0;
+  int Count = 0;             // number of unknowns
 };
 
+// sum over edges of w_ij (u_i - u_j)^2: twice the energy, as only a ratio of two is needed.
 double dirichletEnergy(const IntrinsicTriangles& triangles, const std::vector<double>& values)
 {
   double energy = 0.0;
@@ -174,10 +182,14 @@ void placeSides(const DiskMesh& disk, const SquareCorners& corners, SquareMap& m
   const std::vector<std::int64_t>& loop = disk.Boundary();
   const auto start = std::find(loop.begin(), loop.end(), corners[0]) - loop.begin();
   std::size_t side = 0;
+  // The first corner comes again at the end (<=): the last side ends there, in the last corner's
+  // place.
   for (std::size_t i = 0; i <= loop.size(); ++i)
   {
     const std::int64_t id = loop[(static_cast<std::size_t>(start) + i) % loop.size()];
     const auto point = static_cast<std::size_t>(id);
+    // Sides 0 to 3 are lower, right, upper, left. A horizontal side prescribes y (values[1]), a
+    // vertical one x.
     const auto put = [&](std::size_t on) {
       const bool horizontal = on % 2 == 0; // the lower and the upper side
       map.OnSides[point] |= horizontal ? onHorizontal : onVertical;
@@ -207,6 +219,7 @@ ConformalMap mapConformally(
   }
   const auto points = static_cast<std::size_t>(disk.NumberOfPoints());
   Progress progress(context);
+  // The aspect ratio follows below.
   ConformalMap map{ { {}, std::vector<unsigned char>(points, 0), corners }, 1.0 };
   std::array<std::vector<double>, 2> values;
   values.fill(std::vector<double>(points, 0.0));
@@ -215,6 +228,8 @@ ConformalMap mapConformally(
   Stages stages(progress, { { "triangles", 1 }, { "solution", 9 } });
   const IntrinsicTriangles triangles = triangulateDelaunay(disk, stages["triangles"]);
   Progress& solution = stages["solution"];
+  // u has the values 0 and 1 on the left and the right side, v on the lower and the upper side;
+  // elsewhere they are free.
   const auto solve = [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t axis = first; axis < last; ++axis)
     {
@@ -227,7 +242,8 @@ ConformalMap mapConformally(
         .Solve(solution, { begin, begin + 0.5 });
     }
   };
-  // Large problems one after the other on this thread, which reports; memory is that of one.
+  // Large problems are solved one after the other on this thread, which reports: memory is that of
+  // one factor. Below, two threads have one axis each.
   constexpr std::size_t large = 100000;
   if (points > large)
   {
@@ -239,13 +255,16 @@ ConformalMap mapConformally(
   }
 
   map.Square.Positions.resize(points);
+  // Values are within 0 and 1 by the maximum principle, up to rounding and weights that are
+  // negative.
   for (std::size_t i = 0; i < points; ++i)
   {
     map.Square.Positions[i] = { std::clamp(values[0][i], 0.0, 1.0),
       std::clamp(values[1][i], 0.0, 1.0) };
   }
-  // The energies of a conformal map to a rectangle are its area; scaled to the unit square, they
-  // are in proportion to the squares of the scales.
+  // A conformal map onto a rectangle of width a and height 1 has u = x / a and v = y. Their
+  // energies over the rectangle are 1 / a^2 and 1 times its area a, and Dirichlet energies are
+  // conformal invariants: E(v) / E(u) = a^2.
   map.AspectRatio =
     std::sqrt(dirichletEnergy(triangles, values[1]) / dirichletEnergy(triangles, values[0]));
   return map;

@@ -22,6 +22,8 @@ SquareCorners CornerSettings::Of(const RepairedDisk& disk) const
   {
     return chooseCorners(disk.Mesh());
   }
+  // The given points' numbers become those of the repaired mesh, which may have merged or dropped
+  // some.
   std::vector<std::int64_t> corners;
   for (const std::int64_t point : this->Points)
   {

@@ -17,9 +17,10 @@ namespace RectifiedTransport
 namespace
 {
 
+// Above this, factorizations are dear: 3 iterations must do.
 constexpr std::int64_t manyPoints = std::int64_t{ 1 } << 17;
 
-// The boundary points of each side, at equal speed on the surface.
+// Puts the boundary points of each side on it, spaced in proportion to the lengths on the surface.
 void placeByLength(const DiskMesh& disk, const SquareMap& square, std::vector<Point<2>>& positions)
 {
   const std::vector<std::int64_t>& loop = disk.Boundary();
@@ -50,20 +51,23 @@ void placeByLength(const DiskMesh& disk, const SquareMap& square, std::vector<Po
   }
 }
 
+// An edge of the graph whose barycentric embedding is sought, with a weight above 0.
 struct WeightedEdge
 {
   std::int64_t Ends[2];
   double Weight;
 };
 
-// The edges that have an inner point.
+// Finds the edges that have an inner point: those of the boundary are fixed at both ends.
 std::vector<WeightedEdge> findEdges(
   const DiskMesh& disk, const std::vector<int>& unknowns, Progress& progress)
 {
   // Positive weights keep points inside of their neighbours; large ones would hide all others.
   constexpr double least = 0.1;
   constexpr double most = 1e3;
+  // The weights to begin with are the cotangent weights (cot alpha + cot beta) / 2, clamped.
   const TriangleSurface surface = disk.Surface();
+  // The cotangent of the angle opposite to a side: dot product by cross product of the sides there.
   const auto cotangent = [&](std::int64_t side) {
     const auto corner = [&](std::int64_t at) {
       return Eigen::Map<const Eigen::Vector3d>(surface.Points[surface.Triangles[at]]);
@@ -82,6 +86,7 @@ std::vector<WeightedEdge> findEdges(
       unknowns[static_cast<std::size_t>(a)] >= 0 || unknowns[static_cast<std::size_t>(b)] >= 0;
     if (isInner && other > side)
     {
+      // `other > side` takes each edge once, and drops the boundary, where it is -1.
       const double weight = 0.5 * (cotangent(side) + cotangent(other));
       edges.push_back({ { a, b }, std::clamp(weight, least, most) });
     }
@@ -90,6 +95,9 @@ std::vector<WeightedEdge> findEdges(
   return edges;
 }
 
+// The positions x_i of inner points with sum over j of w_ij (x_i - x_j) = 0: each is the weighted
+// mean of its neighbours. Boundary points stay on the square, which is convex; Tutte's theorem then
+// says that no triangle is flipped.
 class Embedding
 {
 public:
@@ -114,6 +122,8 @@ public:
   const std::vector<Point<2>>& Result() const { return this->Positions; }
 
   // Returns false if the weights differ by too much for numbers of this precision.
+  // The pattern is the same for all weights, so that its analysis serves all iterations. x and y
+  // share a factor.
   bool Solve(Progress& progress)
   {
     const SparseCholesky::Matrix matrix = this->MakeMatrix();
@@ -135,6 +145,8 @@ public:
       {
         if (this->Unknowns[point] >= 0)
         {
+          // Solutions are convex combinations of values in [0,1]; clamping removes what rounding
+          // adds.
           this->Positions[point][axis] =
             std::clamp(solution[this->Unknowns[point]].Value, 0.0, 1.0);
         }
@@ -143,9 +155,13 @@ public:
     return true;
   }
 
+  // Multiplies each weight by the geometric mean of its ends' stretches. The stretch of a point is
+  // the area of its triangles in the square by that on the surface: where triangles are too large,
+  // stiffer edges contract them; where they are squeezed, softer ones let them grow.
   void ChangeWeights(Progress& progress)
   {
-    constexpr double most = 1e3; // of one change
+    // The largest factor, and the inverse of the least: one iteration must not change more.
+    constexpr double most = 1e3;
     std::vector<double> images(this->Positions.size(), 0.0);
     std::vector<double> areas(this->Positions.size(), 0.0);
     for (std::int64_t t = 0; t < this->Disk.NumberOfTriangles(); ++t)
@@ -170,11 +186,13 @@ public:
   }
 
 private:
+  // The unknown of a point; -1 on the boundary.
   int UnknownOf(std::int64_t point) const
   {
     return this->Unknowns[static_cast<std::size_t>(point)];
   }
 
+  // The lower triangle of the weighted Laplacian: sums of weights on the diagonal, -w_ij beside it.
   SparseCholesky::Matrix MakeMatrix() const
   {
     std::vector<Eigen::Triplet<InterruptibleReal>> entries;
@@ -200,6 +218,8 @@ private:
     return matrix;
   }
 
+  // The boundary's part of the equations: sum of w_ij x_j over the neighbours j whose places are
+  // known.
   SparseCholesky::Vector RightSide(std::size_t axis) const
   {
     SparseCholesky::Vector right = SparseCholesky::Vector::Zero(this->Count);
@@ -231,7 +251,7 @@ private:
 
 double areaUnevenness(const DiskMesh& disk, const std::vector<Point<2>>& positions)
 {
-  constexpr double smallest = 1e-10; // also where triangles are flipped
+  constexpr double smallest = 1e-10; // smallest ratio of areas, also for flipped triangles
   double sum = 0.0;
   for (std::int64_t t = 0; t < disk.NumberOfTriangles(); ++t)
   {
@@ -244,7 +264,7 @@ double areaUnevenness(const DiskMesh& disk, const std::vector<Point<2>>& positio
 
 SquareMap embedEvenly(const DiskMesh& disk, const SquareMap& conformal, const Context& context)
 {
-  constexpr double enough = 0.95; // of the unevenness before; else it is the last iteration
+  constexpr double enough = 0.95; // the largest unevenness, by that before, after which it goes on
   const int most = disk.NumberOfPoints() <= manyPoints ? 12 : 3;
   Progress progress(context);
   SquareMap best = conformal;
@@ -252,6 +272,7 @@ SquareMap embedEvenly(const DiskMesh& disk, const SquareMap& conformal, const Co
   Stages stages(progress, { { "edges", 5 }, { "iterations", 95 } });
   Embedding embedding(disk, conformal, best.Positions, stages["edges"]);
   Parts iterations(stages["iterations"], most);
+  // Weights that follow the stretch need not converge; the most even embedding is kept.
   double least = HUGE_VAL;
   for (int i = 0; i < most && embedding.HasUnknowns(); ++i)
   {

@@ -25,9 +25,9 @@ namespace RectifiedTransport
 SquareMap embedEvenly(
   const DiskMesh& disk, const SquareMap& conformal, const Context& context = Context());
 
-// How far a map is from one that keeps areas: the root mean square of the logarithm of the change
-// of areas, over the surface. Areas in the square are taken as at least 1e-10 of those on the
-// surface. The angles of the map that keeps areas are worse where this is large.
+// How far a map is from one that keeps areas: sqrt(sum over triangles of s log(A / s)^2), where s
+// is the share of the surface's area and A the area in the square, taken as at least 1e-10 s. The
+// angles of the area-preserving map are worse where this is large.
 double areaUnevenness(const DiskMesh& disk, const std::vector<Point<2>>& positions);
 
 } // namespace RectifiedTransport

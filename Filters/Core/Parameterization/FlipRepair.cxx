@@ -14,12 +14,13 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::size_t largestPatch = 8000; // points; larger ones are no matter of a few flips
+constexpr std::size_t largestPatch = 8000; // points; larger ones are more than a few flips
 constexpr int mostSteps = 60;
 
-using Patch = std::vector<std::int64_t>; // ascending points
+using Patch = std::vector<std::int64_t>; // ascending ids of points
 
-// Not a collapsed one: there is nothing to repair.
+// A collapsed triangle does not count as flipped: no move of its points along their side gives it
+// an area.
 bool isFlipped(const MapParts& parts, std::int64_t t, const std::vector<Point<2>>& positions)
 {
   const auto position = [&](int i) {
@@ -29,7 +30,7 @@ bool isFlipped(const MapParts& parts, std::int64_t t, const std::vector<Point<2>
     !isCollapsed(parts.Disk, parts.Square, t);
 }
 
-// The points of the triangles about those of a patch.
+// Adds the points of the triangles about those of a patch.
 void addRing(const MapParts& parts, std::vector<unsigned char>& isIn, Patch& points)
 {
   const std::size_t count = points.size();
@@ -44,7 +45,8 @@ void addRing(const MapParts& parts, std::vector<unsigned char>& isIn, Patch& poi
   }
 }
 
-// The parts of a set of points that no triangles join, found by clearing `isIn`.
+// The connected components of a set of points, by breadth first over triangles. Clears `isIn`. Each
+// patch can then be repaired on its own.
 std::vector<Patch> separate(
   const MapParts& parts, std::vector<unsigned char>& isIn, const Patch& points)
 {
@@ -72,7 +74,10 @@ std::vector<Patch> separate(
   return patches;
 }
 
-// What the energy squares, where q = area / share of a triangle in the map.
+// The residual whose square is the energy, where q = area / share of a triangle in the map: q - 1
+// below 1, log q above. Both have the value 0 and the slope 1 at q = 1. The logarithm lets large
+// triangles give area to flipped ones at little cost; a flipped triangle (q <= 0) has no logarithm,
+// and is pulled linearly.
 double residualOf(double q)
 {
   return q < 1.0 ? q - 1.0 : std::log(q);
@@ -88,6 +93,8 @@ std::int64_t countFlipped(const LocalMap& map)
   return count;
 }
 
+// sum of r(q_t)^2 over the triangles of a patch. All weigh the same, whatever their area: a flip of
+// a tiny triangle counts as one of a large one.
 double energyOf(const LocalMap& map, const std::vector<Point<2>>& positions)
 {
   double energy = 0.0;
@@ -102,6 +109,8 @@ double energyOf(const LocalMap& map, const std::vector<Point<2>>& positions)
   return energy;
 }
 
+// Gauss-Newton: matrix J^T J and right side -J^T r, where the row of a triangle in J is r'(q) /
+// share times the gradient of its area.
 void assemble(const LocalMap& map, LocalSystem& system)
 {
   system.Clear();
@@ -112,6 +121,7 @@ void assemble(const LocalMap& map, LocalSystem& system)
       continue;
     }
     const double q = map.AreaOf(t, map.Positions()) / map.ShareOf(t);
+    // r'(q) = 1 below 1 and 1 / q above, by the chain rule over the share.
     const double slope = (q < 1.0 ? 1.0 : 1.0 / q) / map.ShareOf(t);
     TriangleVector gradient = map.AreaGradient(t);
     TriangleVector right;
@@ -132,9 +142,11 @@ void assemble(const LocalMap& map, LocalSystem& system)
   }
 }
 
-// Returns whether fewer triangles of a patch are flipped then.
+// Levenberg-Marquardt steps, (J^T J + damping diag(J^T J)) d = -J^T r, until no triangle of the
+// patch is flipped. Returns whether there are fewer than before.
 bool repairPatch(LocalMap& map, Progress& progress)
 {
+  // Beyond this damping, steps are shorter than what could turn a triangle over.
   constexpr double mostDamping = 1e6;
   constexpr double leastDamping = 1e-6;
   constexpr double less = 1.0 / 3.0;
@@ -154,6 +166,7 @@ bool repairPatch(LocalMap& map, Progress& progress)
     system.Damp(damping);
     const bool isBetter =
       system.Solve(solution, progress) && map.Descend(solution, 1.0, halvings, energy) > 0.0;
+    // The damping falls threefold after a step that lowers the energy, grows tenfold otherwise.
     damping = isBetter ? std::max(leastDamping, less * damping) : 10.0 * damping;
   }
   return countFlipped(map) < before;
@@ -165,6 +178,7 @@ void repairFlips(
   const MapParts& parts, int rings, std::vector<Point<2>>& positions, const Context& context)
 {
   Progress progress(context);
+  // The points of flipped triangles, then `rings` times those around them.
   std::vector<unsigned char> isIn(positions.size(), 0);
   Patch points;
   for (std::int64_t t = 0; t < parts.Disk.NumberOfTriangles(); ++t)
@@ -187,6 +201,8 @@ void repairFlips(
     addRing(parts, isIn, points);
   }
   const std::vector<Patch> patches = separate(parts, isIn, points);
+  // Patches share no triangle with points of another one that move, and can be repaired at the same
+  // time.
   progress.ForEach(
     static_cast<std::int64_t>(patches.size()), 1,
     [&](std::int64_t i) {

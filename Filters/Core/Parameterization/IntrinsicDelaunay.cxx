@@ -24,9 +24,12 @@ using Sides = std::array<double, 3>;
 // cotangents finite.
 double areaTimesFour(Sides sides)
 {
+  // The area is at least 1e-14 / 4 of the longest side's square: cotangents are at most about 1e14.
   constexpr double least = 1e-14;
   std::sort(sides.begin(), sides.end());
   const auto [c, b, a] = sides;
+  // Heron's formula for 16 area^2 with sides a >= b >= c, in the order of operations that Kahan
+  // gives: the parentheses must stay.
   const double square = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
   return std::max(std::sqrt(std::max(square, 0.0)), least * a * a);
 }
@@ -36,6 +39,7 @@ double square(double value)
   return value * value;
 }
 
+// Lawson's algorithm: flips edges that are not Delaunay, and looks again at those around them.
 class DelaunayRun
 {
 public:
@@ -57,6 +61,7 @@ public:
         this->Others.data()[side] = disk.Edges().Other(side);
       }
     }
+    // Lengths alone count from here on; positions in space are no longer needed.
     this->Mollify(disk.NumberOfTriangles());
   }
 
@@ -82,11 +87,15 @@ public:
         {
           const std::int64_t other = this->Others.data()[side];
           this->Flip(side, other);
+          // A flip can only make the four outer edges of the two triangles violate the condition.
+          // Two sides of each suffice: f is then (c, a, d) and g is (d, b, c), whose sides 0 and 1
+          // are these.
           for (const std::int64_t triangle : { side / 3, other / 3 })
           {
             stack.push_back(3 * triangle);
             stack.push_back(3 * triangle + 1);
           }
+          // Polled every so many flips: one start may cause long chains.
           if (++flips % polled == 0)
           {
             progress.Check();
@@ -100,11 +109,14 @@ private:
   std::array<std::int64_t, 3>& Points(std::int64_t t) { return this->Triangles.Points.data()[t]; }
   Sides& Lengths(std::int64_t t) { return this->Triangles.Lengths.data()[t]; }
 
+  // Adds the same length to all sides so that every triangle has l_i + l_j - l_k > 0 with a margin
+  // (Sharp and Crane 2020). Nothing changes for surfaces that have it already.
   void Mollify(std::int64_t count)
   {
-    constexpr double margin = 1e-12; // of the mean length
+    constexpr double margin = 1e-12; // margin by the mean length
     double sum = 0.0;
-    double excess = -std::numeric_limits<double>::infinity(); // of a side over the other two
+    // The most by which a side exceeds the sum of the other two.
+    double excess = -std::numeric_limits<double>::infinity();
     for (std::int64_t t = 0; t < count; ++t)
     {
       const Sides& l = this->Lengths(t);
@@ -121,6 +133,9 @@ private:
     }
   }
 
+  // An edge is Delaunay if the angles opposite to it sum to at most pi: cot alpha + cot beta >= 0.
+  // A sum that rounding alone makes negative must not flip to and fro. Boundary edges, and those
+  // between two sides of one triangle, cannot flip.
   bool IsDelaunay(std::int64_t side)
   {
     constexpr double rounding = 1e-10;
@@ -129,6 +144,7 @@ private:
     {
       return true;
     }
+    // The angle opposite to side i of a triangle is at the corner that the side does not have.
     const double a = this->Triangles.Cotangents(side / 3)[static_cast<std::size_t>(side % 3)];
     const double b = this->Triangles.Cotangents(other / 3)[static_cast<std::size_t>(other % 3)];
     return a + b >= -rounding * (1.0 + std::abs(a) + std::abs(b));
@@ -141,6 +157,7 @@ private:
     const std::int64_t g = other / 3;
     const auto i = static_cast<std::size_t>(side % 3);
     const auto j = static_cast<std::size_t>(other % 3);
+    // Triangle f is (a, b, c), and g is (b, a, d) from its side j on; they share the edge ab.
     const std::int64_t a = this->Points(f)[i];
     const std::int64_t b = this->Points(f)[(i + 1) % 3];
     const std::int64_t c = this->Points(f)[(i + 2) % 3];
@@ -157,6 +174,7 @@ private:
     const double dy = -areaTimesFour({ ab, ad, db }) / (2.0 * ab);
     const double cd = std::hypot(cx - dx, cy - dy);
 
+    // The new edge is cd, the diagonal of the two triangles unfolded into the plane.
     flipEdge(this->Others.data(), side, other);
     this->Points(f) = { c, a, d };
     this->Lengths(f) = { ca, ad, cd };
@@ -170,6 +188,7 @@ private:
 
 } // namespace
 
+// cot(angle opposite to l_i) = (l_j^2 + l_k^2 - l_i^2) / (4 area), by the law of cosines.
 std::array<double, 3> IntrinsicTriangles::Cotangents(std::int64_t triangle) const
 {
   const Sides& l = this->Lengths.data()[triangle];

@@ -17,8 +17,9 @@ namespace RectifiedTransport
 // sides.
 struct IntrinsicTriangles
 {
+  // Three point ids a triangle.
   LargeBuffer<std::array<std::int64_t, 3>> Points;
-  LargeBuffer<std::array<double, 3>> Lengths; // of side i, from corner i to the next
+  LargeBuffer<std::array<double, 3>> Lengths; // by triangles; side i is from corner i to the next
 
   // The cotangents of the angles opposite to the sides.
   std::array<double, 3> Cotangents(std::int64_t triangle) const;

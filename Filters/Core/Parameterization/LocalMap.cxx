@@ -9,6 +9,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Makes values ascending, each once.
 void sortOnce(std::vector<std::int64_t>& values)
 {
   std::sort(values.begin(), values.end());
@@ -17,12 +18,15 @@ void sortOnce(std::vector<std::int64_t>& values)
 
 } // namespace
 
+// A side of the square fixes one coordinate. Three points that are bound to the same value of it
+// stay collinear, whatever the polish does.
 bool isCollapsed(const DiskMesh& disk, const SquareMap& square, std::int64_t triangle)
 {
   const std::int64_t* points = disk.Triangle(triangle);
   for (std::size_t axis = 0; axis < 2; ++axis)
   {
     const double first = square.Positions[static_cast<std::size_t>(points[0])][axis];
+    // Bit 0 is for x, bit 1 for y; opposite sides have the same bit but other coordinates, 0 and 1.
     if (std::all_of(points, points + 3, [&](std::int64_t point) {
           const auto i = static_cast<std::size_t>(point);
           return (square.OnSides[i] >> axis & 1) != 0 && square.Positions[i][axis] == first;
@@ -48,6 +52,7 @@ CollapsedTriangles findCollapsed(const DiskMesh& disk, const SquareMap& square)
   return collapsed;
 }
 
+// The inverse of the triangles' list of corners: by points, ascending triangles.
 PointTriangles::PointTriangles(const DiskMesh& disk)
   : Disk(disk)
 {
@@ -59,6 +64,8 @@ PointTriangles::PointTriangles(const DiskMesh& disk)
   });
 }
 
+// The triangles of the part are all those with a point that may move: the energy of the others is
+// constant. Their remaining corners are fixed.
 LocalMap::LocalMap(const MapParts& parts, const std::vector<std::int64_t>& points,
   const std::vector<Point<2>>& positions)
 {
@@ -73,6 +80,8 @@ LocalMap::LocalMap(const MapParts& parts, const std::vector<std::int64_t>& point
   {
     this->Points.insert(this->Points.end(), parts.Disk.Triangle(id), parts.Disk.Triangle(id) + 3);
   }
+  // Local numbers of points are their ranks in the ascending ids, so that a binary search finds
+  // them.
   sortOnce(this->Points);
 
   for (const std::int64_t point : this->Points)
@@ -80,6 +89,8 @@ LocalMap::LocalMap(const MapParts& parts, const std::vector<std::int64_t>& point
     const auto global = static_cast<std::size_t>(point);
     const bool isFree = std::binary_search(points.begin(), points.end(), point);
     const unsigned char sides = parts.Square.OnSides[global];
+    // A point has 2 unknowns inside, 1 on a side (its place along it), 0 at a corner or if it is
+    // fixed. -1 stands for a coordinate that is fixed.
     this->IsFree.push_back(isFree);
     this->UnknownsOf.emplace_back();
     for (std::size_t axis = 0; axis < 2; ++axis)
@@ -106,6 +117,7 @@ LocalMap::LocalMap(const MapParts& parts, const std::vector<std::int64_t>& point
 
 LocalSystem LocalMap::MakeSystem() const
 {
+  // The places of each triangle's six coordinates among the unknowns: x and y of corner 0, 1, 2.
   std::vector<TriangleUnknowns> triangles;
   triangles.reserve(this->Corners.size());
   for (const std::array<int, 3>& corners : this->Corners)
@@ -118,6 +130,8 @@ LocalSystem LocalMap::MakeSystem() const
   return { std::move(triangles), this->Unknowns };
 }
 
+// A = ((b - a) x (c - a)) / 2 has the gradient by a corner of half the opposite side, turned by a
+// quarter: dA/dx_i = -(y_to - y_from) / 2, dA/dy_i = (x_to - x_from) / 2.
 TriangleVector LocalMap::AreaGradient(std::size_t triangle) const
 {
   TriangleVector gradient;
@@ -132,6 +146,7 @@ TriangleVector LocalMap::AreaGradient(std::size_t triangle) const
   return gradient;
 }
 
+// Coordinates that are fixed do not move.
 Point<2> LocalMap::MoveOf(int corner, const std::vector<double>& solution) const
 {
   Point<2> move{ 0.0, 0.0 };
@@ -143,6 +158,7 @@ Point<2> LocalMap::MoveOf(int corner, const std::vector<double>& solution) const
   return move;
 }
 
+// x + step d, clamped to the square: points inside must not pass its sides.
 void LocalMap::Move(
   const std::vector<double>& solution, double step, std::vector<Point<2>>& moved) const
 {
@@ -157,6 +173,7 @@ void LocalMap::Move(
   }
 }
 
+// Only free points are written. Fixed ones may belong to another thread's region.
 void LocalMap::Store(std::vector<Point<2>>& positions) const
 {
   for (std::size_t corner = 0; corner < this->Points.size(); ++corner)

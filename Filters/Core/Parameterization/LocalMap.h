@@ -62,7 +62,7 @@ bool isCollapsed(const DiskMesh& disk, const SquareMap& square, std::int64_t tri
 struct CollapsedTriangles
 {
   std::int64_t Count = 0;
-  double AreaShare = 0.0; // of the surface
+  double AreaShare = 0.0; // their share of the surface's area
 };
 
 CollapsedTriangles findCollapsed(const DiskMesh& disk, const SquareMap& square);
@@ -86,7 +86,7 @@ inline double imageArea(
 class LocalMap
 {
 public:
-  // `points` may move; ascending.
+  // `points` are ascending and may move; the other corners of their triangles are fixed.
   LocalMap(const MapParts& parts, const std::vector<std::int64_t>& points,
     const std::vector<Point<2>>& positions);
 
@@ -142,15 +142,15 @@ private:
   // Positions moved by `step` times a solution, kept in the square.
   void Move(const std::vector<double>& solution, double step, std::vector<Point<2>>& moved) const;
 
-  std::vector<std::int64_t> Points; // by corners
-  std::vector<std::array<int, 2>> UnknownsOf;
-  std::vector<std::int64_t> Ids;
-  std::vector<double> Shares;
-  std::vector<std::array<int, 3>> Corners;
+  std::vector<std::int64_t> Points;           // global ids by corners, ascending
+  std::vector<std::array<int, 2>> UnknownsOf; // unknowns of x and y, by corners; -1 if fixed
+  std::vector<std::int64_t> Ids;              // global ids by triangles, ascending
+  std::vector<double> Shares;                 // parts of the surface's area, by triangles
+  std::vector<std::array<int, 3>> Corners;    // local numbers, by triangles
   std::vector<unsigned char> Collapsed;
   std::vector<unsigned char> IsFree;
-  std::vector<Point<2>> Current;
-  int Unknowns = 0;
+  std::vector<Point<2>> Current; // positions by corners, in [0,1]^2
+  int Unknowns = 0;              // number of unknowns
 };
 
 } // namespace RectifiedTransport

@@ -12,8 +12,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// Calls visit(row, column, k, i, j) for the k-th pair of corners' coordinates i >= j of a triangle
-// whose values are both unknown, row >= column.
+// Calls visit(row, column, k, i, j) for the k-th pair i >= j of a triangle's six coordinates if
+// both are unknown. Only the lower triangle of the matrix is stored: row >= column.
 template <class Visit>
 void visitPairs(const TriangleUnknowns& unknowns, const Visit& visit)
 {
@@ -38,7 +38,7 @@ LocalSystem::LocalSystem(std::vector<TriangleUnknowns> triangles, int unknowns)
   , Matrix(unknowns, unknowns)
   , Right(unknowns)
 {
-  // The rows of each column, each once.
+  // The pattern in compressed columns: the rows of each column, ascending, each once.
   Bins<int> rows;
   rows.Fill(static_cast<std::size_t>(unknowns), [this](const auto& add) {
     for (const TriangleUnknowns& triangle : this->Triangles)
@@ -63,6 +63,8 @@ LocalSystem::LocalSystem(std::vector<TriangleUnknowns> triangles, int unknowns)
   std::copy_n(once.begin(), count, this->Matrix.innerIndexPtr());
   std::fill_n(this->Matrix.valuePtr(), count, InterruptibleReal(0.0));
 
+  // A table of where each triangle's 21 products go makes the assembly of every step a mere
+  // addition, without searches.
   const int* inner = this->Matrix.innerIndexPtr();
   for (std::size_t triangle = 0; triangle < this->Triangles.size(); ++triangle)
   {
@@ -71,6 +73,8 @@ LocalSystem::LocalSystem(std::vector<TriangleUnknowns> triangles, int unknowns)
         std::lower_bound(inner + outer[column], inner + outer[column + 1], row) - inner);
     });
   }
+  // The fill-reducing order and the elimination tree depend on the pattern alone, which all steps
+  // share.
   this->Factor.Analyze(this->Matrix);
 }
 

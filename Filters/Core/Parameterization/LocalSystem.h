@@ -22,19 +22,22 @@ using TriangleMatrix = std::array<TriangleVector, 6>; // symmetric
 class LocalSystem
 {
 public:
+  // `triangles` have the unknowns of each triangle's corners, 0 to unknowns - 1.
   LocalSystem(std::vector<TriangleUnknowns> triangles, int unknowns);
 
+  // Makes the matrix and the right side 0.
   void Clear();
+  // Adds the term of a triangle to the matrix and the right side, except in fixed coordinates.
   void Add(std::size_t triangle, const TriangleMatrix& matrix, const TriangleVector& right);
-  // Adds `part` of each diagonal value to it.
+  // Adds `part` of each diagonal value to it: Levenberg-Marquardt damping with Marquardt's scaling.
   void Damp(double part);
   // Writes the solution by unknowns. Returns false if there is none. Throws Cancelled.
   bool Solve(std::vector<double>& solution, Progress& progress);
 
 private:
   std::vector<TriangleUnknowns> Triangles;
-  std::vector<std::array<int, 21>> Places; // in the matrix's values, of each lower triangle
-  SparseCholesky::Matrix Matrix;
+  std::vector<std::array<int, 21>> Places; // in the matrix's values, by triangles and pairs
+  SparseCholesky::Matrix Matrix;           // lower triangle, compressed columns
   SparseCholesky::Vector Right;
   SparseCholesky Factor;
 };

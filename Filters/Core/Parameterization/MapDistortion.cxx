@@ -19,6 +19,7 @@ namespace
 
 using Vector2 = Eigen::Vector2d;
 
+// What is summed over the triangles; the first two are weighted by area.
 struct Sums
 {
   double Square;
@@ -27,6 +28,7 @@ struct Sums
   std::int64_t FlippedNeedles;
 };
 
+// A needle's height is within rounding of coarse input: its flip says nothing about the map.
 bool isNeedle(const TriangleSurface& surface, std::int64_t triangle)
 {
   const std::int64_t* corners = surface.Triangles + 3 * triangle;
@@ -35,7 +37,8 @@ bool isNeedle(const TriangleSurface& surface, std::int64_t triangle)
   return shape.Height < MapDistortion::NeedleHeight * shape.Length;
 }
 
-// The value that the given parts of the weight do not pass, of pairs of a value and its weight.
+// The weighted quantile of ascending pairs of a value and its weight: the least value at which the
+// weights up to it reach `part`. The weights sum to 1.
 double quantile(const std::vector<std::pair<double, double>>& ascending, double part)
 {
   double sum = 0.0;
@@ -74,7 +77,8 @@ TriangleDistortion distortionOf(
   const Vector2 second = image(2) - image(0);
   const double determinant = first[0] * second[1] - first[1] * second[0];
 
-  // The map's derivative in a frame of the triangle's plane, along its first side and across.
+  // The map's derivative F = (x y) in an orthonormal frame of the triangle's plane, along its first
+  // side and across: the images of the frame's vectors.
   const Eigen::Vector3d base = point(1) - point(0);
   const Eigen::Vector3d other = point(2) - point(0);
   const double length = base.norm();
@@ -84,7 +88,8 @@ TriangleDistortion distortionOf(
   const Vector2 y = (second - x * along) / across;
   const double sum = x.squaredNorm() + y.squaredNorm();
   const double twice = 2.0 * std::abs(x[0] * y[1] - x[1] * y[0]);
-  // The singular values s1 >= s2 have s1^2 + s2^2 = sum and 2 s1 s2 = twice.
+  // The singular values s1 >= s2 of F have s1^2 + s2^2 = |F|^2 = sum and 2 s1 s2 = 2 |det F| =
+  // twice. So s1^2 is the larger root of z^2 - sum z + twice^2 / 4, and s1 / s2 = s1^2 / (s1 s2).
   const double larger = 0.5 * (sum + std::sqrt(std::max(0.0, (sum - twice) * (sum + twice))));
   const double angle = 2.0 * larger / twice;
 
@@ -106,6 +111,7 @@ MapDistortion measureDistortion(
   const MeasuredTriangles& triangles, ConstPointSpan<2> positions, const Context& context)
 {
   const std::int64_t count = triangles.Surface.NumberOfTriangles;
+  // A fixed grain makes the order of sums independent of the number of threads.
   constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
   Progress progress(context);
   std::vector<std::pair<double, double>> deviations(static_cast<std::size_t>(count));

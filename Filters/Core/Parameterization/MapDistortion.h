@@ -13,6 +13,7 @@
 namespace RectifiedTransport
 {
 
+// Triangles without area in the square would have an infinite distortion and make the mean useless.
 constexpr double MaximumAngleDistortion = 1e3;
 
 struct TriangleDistortion
@@ -43,12 +44,13 @@ TriangleDistortion distortionOf(
 // deviation of an area distortion q is |q - 1|.
 struct MapDistortion
 {
-  double AreaRootMeanSquare; // of the deviation
-  double AreaMedian;         // of the deviation
+  double AreaRootMeanSquare; // root mean square of the deviation
+  double AreaMedian;         // median deviation
   double Area95;             // 95 % of the surface deviates by no more
-  double AngleMean;
-  std::int64_t Flipped; // number of triangles
-  // Of these, triangles lower than NeedleHeight times their longest sides.
+  double AngleMean;          // mean of the quotients of the singular values
+  std::int64_t Flipped;      // number of triangles
+  // Flipped triangles whose height is below NeedleHeight times their longest side; included in
+  // Flipped.
   std::int64_t FlippedNeedles;
   static constexpr double NeedleHeight = 1e-4;
 };

@@ -13,7 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Points [First, Last) of an order, after so many cuts.
+// A node of the k-d tree: points [First, Last) of an order, after Depth cuts.
 struct Cell
 {
   std::ptrdiff_t First;
@@ -23,8 +23,10 @@ struct Cell
 
 std::vector<MapRegion> cutRegions(ConstPointSpan<2> positions, std::int64_t most, int variant)
 {
+  // The places of cuts, by variant. Any unequal places do: borders that stay at the same points
+  // over several sweeps would leave errors there, as points on both sides never move together.
   constexpr std::array<double, 4> parts{ 0.5, 0.38, 0.62, 0.44 };
-  constexpr int varied = 2; // levels
+  constexpr int varied = 2; // number of levels whose cuts differ
   std::vector<std::int64_t> points(static_cast<std::size_t>(positions.size()));
   std::iota(points.begin(), points.end(), std::int64_t{ 0 });
   std::vector<MapRegion> regions;
@@ -43,10 +45,12 @@ std::vector<MapRegion> cutRegions(ConstPointSpan<2> positions, std::int64_t most
     }
     const double part =
       cell.Depth < varied ? parts[static_cast<std::size_t>(variant) % parts.size()] : 0.5;
+    // Axes alternate; an odd variant starts with y.
     const int axis = (cell.Depth + variant) % 2;
     const auto middle =
       begin + static_cast<std::ptrdiff_t>(static_cast<double>(end - begin) * part);
     std::nth_element(begin, middle, end, [&](std::int64_t a, std::int64_t b) {
+      // Ties are broken by number: the regions are then the same on every machine.
       return std::make_pair(positions[a][axis], a) < std::make_pair(positions[b][axis], b);
     });
     left.push_back({ middle - points.begin(), cell.Last, cell.Depth + 1 });
@@ -69,6 +73,7 @@ std::vector<std::vector<MapRegion>> makeRegions(
       regionOf[static_cast<std::size_t>(point)] = region;
     }
   }
+  // The graph of regions that share a triangle, each edge at the larger number.
   std::vector<std::set<std::size_t>> neighbours(regions.size());
   for (std::int64_t t = 0; t < disk.NumberOfTriangles(); ++t)
   {
@@ -82,7 +87,7 @@ std::vector<std::vector<MapRegion>> makeRegions(
       }
     }
   }
-  // Each region goes into the first group that has no neighbour of it.
+  // Greedy colouring: each region goes into the first group that has no neighbour of it.
   std::vector<std::vector<MapRegion>> groups;
   std::vector<std::size_t> groupOf(regions.size());
   for (std::size_t region = 0; region < regions.size(); ++region)

@@ -14,7 +14,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t bandRows = 16; // of the grid, which one thread fills
+constexpr std::int64_t bandRows = 16; // rows of the grid that one thread fills
 
 // A convex polygon in the grid: a triangle and what is left of it within a cell. Every cut adds at
 // most one corner, and there are four; the rest is for what rounding makes of very thin ones.
@@ -31,6 +31,8 @@ struct Polygon
     }
   }
 
+  // The shoelace formula as a fan about the first corner: differences keep its accuracy far from
+  // the origin.
   double Area() const
   {
     double sum = 0.0;
@@ -54,12 +56,14 @@ struct Polygon
       low = std::min(low, this->Corners[i][axis]);
       high = std::max(high, this->Corners[i][axis]);
     }
+    // The last plane of the grid belongs to the last cell.
     const auto cell = [size](double x) { return std::min(static_cast<std::int64_t>(x), size - 1); };
     return { cell(low), cell(high) };
   }
 };
 
-// The parts of a polygon below a plane of an axis, and above it.
+// Cuts a polygon by a plane across an axis (Sutherland and Hodgman) into its parts below and above.
+// Corners on the plane go to both parts.
 void cut(const Polygon& polygon, std::size_t axis, double plane, Polygon& below, Polygon& above)
 {
   below.Count = 0;
@@ -80,6 +84,7 @@ void cut(const Polygon& polygon, std::size_t axis, double plane, Polygon& below,
     }
     if ((da < 0.0 && db > 0.0) || (da > 0.0 && db < 0.0))
     {
+      // Both parts get the same crossing, on the plane exactly: their areas sum to the polygon's.
       const double part = da / (da - db);
       Point<2> crossing;
       crossing[axis] = plane;
@@ -90,6 +95,8 @@ void cut(const Polygon& polygon, std::size_t axis, double plane, Polygon& below,
   }
 }
 
+// Each triangle is cut into rows, each row into cells: the exact overlap areas. Bands of rows are
+// independent, so that threads never write to the same cell.
 class RasterRun
 {
 public:
@@ -111,6 +118,7 @@ public:
   }
 
 private:
+  // The triangle in index space, where cells have the width 1.
   Polygon PolygonOf(std::int64_t triangle) const
   {
     Polygon polygon;
@@ -136,6 +144,7 @@ private:
   // 1e-16 times its length and the size of the grid.
   bool HasArea(const Polygon& polygon) const
   {
+    // 1e-10 leaves the areas of parts six digits above rounding.
     constexpr double accuracy = 1e-10;
     double length = 0.0;
     for (std::size_t i = 1; i < polygon.Count; ++i)
@@ -160,7 +169,8 @@ private:
     return point;
   }
 
-  // In each band triangles keep their order, so that the sums of a cell do.
+  // In each band triangles keep their order, so that the sums of a cell do: masses have the same
+  // bits for any number of threads.
   void ListTriangles()
   {
     this->Listed.Fill(static_cast<std::size_t>(this->Bands), [this](const auto& add) {
@@ -199,6 +209,7 @@ private:
     }
     const auto columns = rest.Cells(0, this->Size[0]);
     auto rows = rest.Cells(1, this->Size[1]);
+    // Most triangles of fine meshes are in one cell: no cuts, and the exact mass.
     if (columns[0] == columns[1] && rows[0] == rows[1])
     {
       this->MassAt(columns[0], rows[0]) += mass;
@@ -207,6 +218,7 @@ private:
     const double density = mass / rest.Area();
     Polygon part;
     Polygon other;
+    // The rows below belong to other bands.
     if (rows[0] < firstRow)
     {
       rows[0] = firstRow;
@@ -222,6 +234,8 @@ private:
     }
   }
 
+  // Cuts the part of a triangle in one row at each column's plane, and adds density times area to
+  // each cell. The last cell gets what is left.
   void AddRow(Polygon& rest, std::int64_t row, double density) const
   {
     if (rest.Count < 3)

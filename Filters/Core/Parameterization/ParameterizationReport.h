@@ -20,7 +20,7 @@ struct ParameterizationReport
   MapDistortion Distortion;
   bool Polish;
   bool IsCut;         // along seams, or in several components
-  std::string Repair; // of the surface; empty if it needed none
+  std::string Repair; // what was repaired in the surface; empty if nothing was
 
   // What a user should know; usually nothing.
   std::vector<std::string> Warnings() const;

@@ -18,10 +18,12 @@ namespace
 {
 
 constexpr double pi = 3.14159265358979323846;
+// Surfaces with exactly four boundary points of at most 120 degrees are taken for quadrilaterals.
 constexpr double sharpAngle = 2.0 * pi / 3.0;
-constexpr std::size_t rotations = 256; // that are tried of the four quarters
+constexpr std::size_t rotations = 256; // number of starts that are tried for the four quarters
 
-// Points of the boundary by their places on it, and the lengths between them.
+// The boundary as a closed curve: its points by their places on it, 0 to Count - 1, and the lengths
+// from place 0 up to each.
 class BoundaryPlaces
 {
 public:
@@ -67,6 +69,8 @@ public:
     const double distance = std::abs(a - b);
     return std::min(distance, this->Total() - distance);
   }
+  // The place whose length is nearest to a length from place 0; both are taken along the closed
+  // curve.
   std::int64_t Nearest(double length) const
   {
     const auto above = std::lower_bound(this->Lengths.begin(), this->Lengths.end() - 1, length);
@@ -80,8 +84,8 @@ public:
 
 private:
   const std::vector<std::int64_t>& Loop;
-  std::vector<std::int64_t> Places;
-  std::vector<double> Lengths;
+  std::vector<std::int64_t> Places; // by points; -1 inside
+  std::vector<double> Lengths;      // by places, and the whole length at the end
 };
 
 // The places strictly between two.
@@ -91,6 +95,7 @@ struct BoundaryArc
   std::int64_t To;
 };
 
+// Whether a place is strictly inside an arc; its ends are not.
 bool contains(const BoundaryPlaces& places, const BoundaryArc& arc, std::int64_t place)
 {
   const std::int64_t steps = places.Steps(arc.From, place);
@@ -116,15 +121,19 @@ std::vector<BoundaryArc> smallestArcs(const DiskMesh& disk, const BoundaryPlaces
       arcs.push_back({ from, to }); // the other arc is that of the other side
     }
   }
+  // Ascending by steps: an arc comes after all that it could contain.
   std::sort(arcs.begin(), arcs.end(), [&](const BoundaryArc& a, const BoundaryArc& b) {
     return std::make_pair(places.Steps(a.From, a.To), a.From) <
       std::make_pair(places.Steps(b.From, b.To), b.From);
   });
   std::vector<BoundaryArc> smallest;
-  std::set<std::pair<std::int64_t, std::int64_t>> begins; // of the smallest, with their steps
+  // Beginnings of the smallest arcs, with their steps.
+  std::set<std::pair<std::int64_t, std::int64_t>> begins;
   for (const BoundaryArc& arc : arcs)
   {
     const std::int64_t steps = places.Steps(arc.From, arc.To);
+    // As the smallest arcs are disjoint, only the next one that begins at or after this arc's
+    // beginning can be within it.
     auto next = begins.lower_bound({ arc.From, 0 });
     next = next == begins.end() ? begins.begin() : next;
     if (next == begins.end() || places.Steps(arc.From, next->first) + next->second > steps)
@@ -137,6 +146,7 @@ std::vector<BoundaryArc> smallestArcs(const DiskMesh& disk, const BoundaryPlaces
     const double between = places.LengthAt(arc.To) - places.LengthAt(arc.From);
     return between < 0.0 ? between + places.Total() : between;
   };
+  // If there are more than four, the four longest get a corner: they cut off most.
   std::stable_sort(smallest.begin(), smallest.end(),
     [&](const BoundaryArc& a, const BoundaryArc& b) { return length(a) > length(b); });
   smallest.resize(std::min(smallest.size(), SquareCorners().size()));
@@ -151,6 +161,7 @@ bool hasCorner(const BoundaryPlaces& places, const BoundaryArc& arc, const Corne
     [&](std::int64_t corner) { return contains(places, arc, corner); });
 }
 
+// The arcs without a corner, whose triangles collapse onto a side of the square.
 std::ptrdiff_t countMissed(
   const BoundaryPlaces& places, const std::vector<BoundaryArc>& arcs, const CornerPlaces& corners)
 {
@@ -168,7 +179,8 @@ bool isNeeded(const BoundaryPlaces& places, const std::vector<BoundaryArc>& arcs
   });
 }
 
-// The place in an arc that is nearest to a length along the boundary.
+// The place strictly in an arc that is nearest to a length along the boundary: at its ends the arc
+// begins and stops, so that the first or the last place inside comes next.
 std::int64_t nearestIn(const BoundaryPlaces& places, const BoundaryArc& arc, double length)
 {
   const std::int64_t nearest = places.Nearest(length);
@@ -184,7 +196,7 @@ std::int64_t nearestIn(const BoundaryPlaces& places, const BoundaryArc& arc, dou
     : last;
 }
 
-// Moves to an arc the corner, not needed elsewhere, that is nearest to it.
+// Moves to an arc the corner that is nearest to it, unless another arc needs that one.
 void moveCornerTo(const BoundaryPlaces& places, const std::vector<BoundaryArc>& arcs,
   const BoundaryArc& arc, const std::array<double, 4>& quarters, CornerPlaces& corners)
 {
@@ -228,7 +240,7 @@ CornerPlaces cornersFrom(
   return corners;
 }
 
-// How far the four sides are from a quarter of the length each; infinite where two corners meet.
+// The sum over the sides of (share of the length - 1/4)^2; infinite where two corners meet.
 double unevenness(const BoundaryPlaces& places, const CornerPlaces& corners)
 {
   double sum = 0.0;
@@ -266,6 +278,7 @@ std::vector<std::int64_t> sharpPlaces(const DiskMesh& disk, const BoundaryPlaces
         Eigen::Map<const Eigen::Vector3d>(points[triangle[(i + 1) % 3]]) - apex;
       const Eigen::Vector3d b =
         Eigen::Map<const Eigen::Vector3d>(points[triangle[(i + 2) % 3]]) - apex;
+      // The angle at the apex, by atan2 of cross and dot product: accurate also near 0 and pi.
       angles[static_cast<std::size_t>(place)] += std::atan2(a.cross(b).norm(), a.dot(b));
     }
   }
@@ -306,12 +319,13 @@ SquareCorners chooseCorners(const DiskMesh& disk)
     }
   }
 
-  constexpr double rounding = 1e-12; // that must not decide
+  constexpr double rounding = 1e-12; // differences that must not decide
   const auto step =
     std::max<std::int64_t>(1, places.Count() / static_cast<std::int64_t>(rotations));
   CornerPlaces best{ 0, 1, 2, 3 };
   auto fewest = countMissed(places, arcs, best);
   double least = unevenness(places, best);
+  // Fewest arcs without a corner come first, then the most even sides.
   for (std::int64_t start = 0; start < places.Count(); start += step)
   {
     const CornerPlaces corners = cornersFrom(places, arcs, start);
@@ -385,12 +399,14 @@ SquareCorners orderCorners(const DiskMesh& disk, const std::vector<std::int64_t>
 std::int64_t countCollapsed(const DiskMesh& disk, const SquareCorners& corners)
 {
   const BoundaryPlaces places(disk);
-  std::vector<unsigned char> sides(static_cast<std::size_t>(disk.NumberOfPoints()), 0); // bits
+  // By points; bit q is set on side q.
+  std::vector<unsigned char> sides(static_cast<std::size_t>(disk.NumberOfPoints()), 0);
   for (std::size_t q = 0; q < corners.size(); ++q)
   {
     const std::int64_t from = places.PlaceOf(corners[q]);
     const std::int64_t steps =
       places.Steps(from, places.PlaceOf(corners[(q + 1) % corners.size()]));
+    // Both ends belong to a side, so that a corner has the bits of two.
     for (std::int64_t i = 0; i <= steps; ++i)
     {
       sides[static_cast<std::size_t>(places.PointAt((from + i) % places.Count()))] |=
@@ -400,6 +416,7 @@ std::int64_t countCollapsed(const DiskMesh& disk, const SquareCorners& corners)
   std::int64_t collapsed = 0;
   for (std::int64_t t = 0; t < disk.NumberOfTriangles(); ++t)
   {
+    // A triangle collapses if its points have the bit of a side in common.
     unsigned int common = ~0u;
     for (int i = 0; i < 3; ++i)
     {
