@@ -16,7 +16,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// The last point that a search from another one reaches.
+// The last point that Dijkstra's algorithm visits from another one: the farthest along edges.
 std::int64_t farthestFrom(SeamSearch& search, std::int64_t point)
 {
   search.Clear();
@@ -30,6 +30,9 @@ std::int64_t farthestFrom(SeamSearch& search, std::int64_t point)
   return last;
 }
 
+// The pair of points farthest apart is found nearly by two searches, each from the other's end: the
+// double sweep for a graph's diameter. The path between them is one seam, and a sphere less an arc
+// is a disk.
 void openSphere(SeamMesh& mesh, SeamSearch& search)
 {
   const std::int64_t from = farthestFrom(search, 0);
@@ -47,12 +50,18 @@ void openSphere(SeamMesh& mesh, SeamSearch& search)
   mesh.SetSeams(path, true);
 }
 
+// An edge for sorting; the least key comes first.
 struct KeyedSide
 {
   double Key;
   std::int64_t Side;
 };
 
+// Cuts along a shortest-path forest and "bridges": edges that neither the forest nor a spanning
+// tree of the dual graph (triangles joined across edges) contains. Their number is that of the
+// independent loops, 1 - chi with a boundary and 2 - chi without, chi being the Euler
+// characteristic; each bridge with its two shortest paths back makes a loop, a greedy homotopy
+// basis.
 class CutGraph
 {
 public:
@@ -65,6 +74,7 @@ public:
   void Run(Progress& progress)
   {
     const std::int64_t root = this->FindForest();
+    // Starts are read before seams are set: a seam would make its points ends of paths.
     const std::vector<std::int64_t> bridges = this->FindBridges(progress);
     const std::vector<unsigned char> isStart = this->Starts();
     for (const std::int64_t side : bridges)
@@ -82,7 +92,8 @@ public:
   }
 
 private:
-  // Shortest paths from the boundary, or else from the first point, which is returned.
+  // Shortest paths from the boundary, which is a seam already. A closed surface has a root instead,
+  // the first point, which is returned; else -1.
   std::int64_t FindForest()
   {
     std::int64_t root = -1;
@@ -108,12 +119,16 @@ private:
     return root;
   }
 
-  // The edges outside of the forest that the tree of triangles does not cross.
+  // The bridges, by Kruskal's algorithm for the maximum spanning tree of the dual graph. The
+  // longest loops (both distances and the edge) come first, so that triangles are joined across
+  // them and short ones are left as bridges. Edges that must not be seams come before all others,
+  // so that they end in the tree.
   std::vector<std::int64_t> FindBridges(Progress& progress) const
   {
     std::vector<KeyedSide> sides;
     for (std::int64_t side = 0; side < this->Mesh.NumberOfSides(); ++side)
     {
+      // An edge counts once, by its first side. Boundary edges join no triangles.
       if (!this->Mesh.IsFirst(side) || this->Mesh.Other(side) < 0 || this->IsInForest(side))
       {
         continue;
@@ -141,12 +156,14 @@ private:
     return bridges;
   }
 
+  // An edge of the forest is the last one of the path to one of its ends.
   bool IsInForest(std::int64_t side) const
   {
     return this->Search.SideTo(this->Mesh.From(side)) == side ||
       this->Search.SideTo(this->Mesh.To(side)) == side;
   }
 
+  // By points: 1 where a path of the forest begins.
   std::vector<unsigned char> Starts() const
   {
     std::vector<unsigned char> isStart(static_cast<std::size_t>(this->Mesh.NumberOfPoints()));
@@ -157,6 +174,7 @@ private:
     return isStart;
   }
 
+  // Sets the path from a point back to its start as seams, up to a path that is set already.
   void SetWayBack(std::int64_t point, const std::vector<unsigned char>& isStart)
   {
     while (!isStart[static_cast<std::size_t>(point)])
@@ -171,7 +189,8 @@ private:
     }
   }
 
-  // Seams from the root that end at their other end only.
+  // A closed surface's seams all lead to the root. The piece from there up to the first branch is
+  // no part of a loop, and is removed edge by edge from its free end.
   void RemoveTrunk(std::int64_t point)
   {
     while (this->Mesh.SeamsAt(point) == 1)
@@ -192,6 +211,7 @@ private:
 
 void openToDisk(SeamMesh& mesh, Progress& progress)
 {
+  // A sphere has no bridge, hence no seam: it is a case of its own.
   SeamSearch search(mesh, progress);
   constexpr std::int64_t sphere = 2; // the Euler characteristic
   if (mesh.EulerCharacteristic() == sphere)

@@ -18,8 +18,9 @@ class Progress;
 // std::bad_alloc and Cancelled.
 void openToDisk(SeamMesh& mesh, Progress& progress);
 
-// Makes the seams shorter one by one: without one of them there are two boundaries, which a
-// shortest path joins again. Throws std::bad_alloc and Cancelled.
+// Makes the seams shorter one by one. The surface without one of its seams has two boundaries; a
+// shortest path joins them again, which opens the surface as well. Throws std::bad_alloc and
+// Cancelled.
 void shortenSeams(SeamMesh& mesh, Progress& progress);
 
 } // namespace RectifiedTransport

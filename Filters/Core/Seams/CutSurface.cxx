@@ -26,6 +26,7 @@ namespace
 
 constexpr std::int64_t polled = std::int64_t{ 1 } << 14; // triangles between two polls
 
+// All defects that no repair can mend, as NotADisk or std::invalid_argument.
 void requireTriangles(const TriangleSurface& surface)
 {
   const double* const begin = surface.Points.data();
@@ -74,6 +75,9 @@ RepairedSurface repaired(const TriangleSurface& surface, double rounding, Progre
 
 } // namespace
 
+// The steps: repair (merge points, drop repeated and flat triangles), part at non-manifold edges,
+// then for each component choose seams, cut, and number the points of the disk after those of the
+// disks before.
 class SurfaceCutting
 {
 public:
@@ -127,7 +131,8 @@ public:
   }
 
 private:
-  // Those with an area.
+  // Keeps the triangles with an area. Coordinates are divided by the largest one, so that heights
+  // near the ends of the range of double neither overflow nor vanish.
   void KeepTriangles(const RepairedSurface& repair, Progress& progress)
   {
     const TriangleSurface surface = repair.Surface();
@@ -145,6 +150,7 @@ private:
     }
   }
 
+  // -1 marks triangles, corners and points that no disk has.
   void Prepare(const RepairedSurface& repair)
   {
     const std::int64_t triangles = this->Surface.NumberOfTriangles;
@@ -155,14 +161,16 @@ private:
     this->FirstCopies = { repair.Surface().Points.size(), -1 };
   }
 
+  // What CutOpen needs of a component.
   struct Component
   {
     const TriangleSurface& Kept;
     const SurfaceParts& Parts;
-    const std::vector<std::int64_t>& Triangles; // of those kept
+    const std::vector<std::int64_t>& Triangles; // numbers of those kept
     const RepairedSurface& Repair;
   };
 
+  // Opens a component, and writes where its triangles' corners are in the cut surface.
   void CutOpen(const Component& component, const SeamOptions& options, Progress& progress)
   {
     Stages stages(progress, { { "mesh", 1 }, { "seams", 9 } });
@@ -185,8 +193,11 @@ private:
       {
         const auto corner = static_cast<std::int64_t>(i);
         const std::int64_t point = disk.FirstPoint + opened.Cut.Triangles[3 * t + i];
+        // The first copy of a point of the repaired surface stands for it in PointOf().
         std::int64_t& first = this->FirstCopies.data()[component.Kept.Triangles[3 * kept + corner]];
         first = first < 0 ? point : first;
+        // A given triangle may have been split, and a corner may be a merged point: the repair
+        // tells which given point each corner is, and the corner with that point gets its place.
         const std::int64_t label = component.Repair.Corners(repaired)[corner];
         for (std::int64_t j = 3 * given; j < 3 * given + 3; ++j)
         {
@@ -201,7 +212,7 @@ private:
     this->Made.AllDisks.push_back(std::move(disk));
   }
 
-  // On the triangles before that have the same points.
+  // Repeated triangles get the places of the triangles before that have the same points.
   void PlaceRepeated(const RepairedSurface& repair)
   {
     this->Made.AllRepeated = repair.Repeated();
@@ -249,6 +260,8 @@ private:
     return static_cast<unsigned char>(product < 0.0 ? 1 : 0);
   }
 
+  // The component with its points numbered from 0 in the order of the triangles. `Locals` needs no
+  // clearing between components: they share no points of the parts.
   SeamMesh MeshOf(const Component& component, Progress& progress)
   {
     if (this->Locals.size() == 0)

@@ -35,7 +35,7 @@ struct CutDisk
 {
   // None if it is a triangle alone: its three points are no four corners of a square.
   std::optional<DiskMesh> Mesh;
-  std::optional<ConformalMap> Conformal; // of the mesh, with corners that were chosen
+  std::optional<ConformalMap> Conformal; // map of the mesh, with corners that were chosen
   // Its points in the cut surface: from this one on, in their order in the mesh.
   std::int64_t FirstPoint;
   std::int64_t NumberOfPoints;
@@ -49,7 +49,7 @@ struct CutDisk
 // What was changed besides the seams.
 struct SurfaceCuts : SurfaceRepairs
 {
-  std::int64_t NonManifoldEdges = 0; // of more than two triangles, which were parted
+  std::int64_t NonManifoldEdges = 0; // edges of more than two triangles, which were parted
 };
 
 // "Given" are the points and triangles of the surface. Points at one place are merged, triangles
@@ -96,10 +96,10 @@ private:
   std::vector<CutDisk> AllDisks;
   std::vector<RepeatedTriangle> AllRepeated;
   SurfaceCuts Counts;
-  LargeBuffer<std::int64_t> DisksOf;
-  LargeBuffer<std::int64_t> Corners;
-  LargeBuffer<std::int64_t> PointsOf;
-  LargeBuffer<unsigned char> Turned; // by given triangles
+  LargeBuffer<std::int64_t> DisksOf;  // by given triangles; -1 without area
+  LargeBuffer<std::int64_t> Corners;  // three a given triangle
+  LargeBuffer<std::int64_t> PointsOf; // by given points; -1 in no disk
+  LargeBuffer<unsigned char> Turned;  // by given triangles
 };
 
 } // namespace RectifiedTransport

@@ -21,13 +21,14 @@ namespace RectifiedTransport
 namespace
 {
 
-// The part of its square that is for a disk: a triangle alone is half of it, and holes have a part.
+// The part of its square that is for a disk's surface: closed holes take some of it. A triangle
+// alone is mapped to half of its square.
 double partOf(const CutDisk& disk)
 {
   return disk.Mesh ? 1.0 - disk.AreaShareOfHoles : 0.5;
 }
 
-// What a map covers of the square, but for closed holes.
+// The area that a map covers of its square, without closed holes: 1 minus their images.
 double coveredBy(const CutDisk& disk, const std::vector<Point<2>>& positions)
 {
   double holes = 0.0;
@@ -39,6 +40,7 @@ double coveredBy(const CutDisk& disk, const std::vector<Point<2>>& positions)
   return 1.0 - holes;
 }
 
+// Places a disk's map in its square of the atlas.
 void put(const std::vector<Point<2>>& positions, const AtlasSquare& square, std::int64_t first,
   std::vector<Point<2>>& all)
 {
@@ -52,6 +54,8 @@ void put(const std::vector<Point<2>>& positions, const AtlasSquare& square, std:
   }
 }
 
+// Disks of an atlas need fewer cells: with 4 sqrt(points) along an axis there are 16 a point.
+// Beside the given resolution, this bounds the sum over disks by the number of points.
 AreaPreservingOptions optionsFor(
   const CutDisk& disk, std::size_t disks, const AreaPreservingOptions& options)
 {
@@ -78,15 +82,17 @@ public:
   {
   }
 
-  // From what promises the better angles, and if areas are not reached, from the other one, too.
+  // Starts with the map that promises the better angles. If that does not reach the areas, tries
+  // the other one, too, and keeps the one with fewer flips, then with the smaller deviation.
   AreaPreservingMap Find(const Context& context)
   {
     Progress progress(context);
     Stages stages(progress, { { "first map", 1 }, { "other map", 1 } });
-    constexpr double uneven = 1.3; // of conformal maps: below, angles gain nothing
+    // Unevenness of conformal maps; below, an embedding gains no angles.
+    constexpr double uneven = 1.3;
     const bool isUneven = areaUnevenness(this->Disk, this->Conformal.Positions) >= uneven;
     AreaPreservingMap found = this->MapFrom(isUneven, stages["first map"]);
-    constexpr double wrong = 0.05; // of which the filter warns
+    constexpr double wrong = 0.05; // deviation of 95 % of the area, at which the filter warns
     if (this->FlipsOf(found) > 0 || found.Distortion.Area95 > wrong)
     {
       AreaPreservingMap other = this->MapFrom(!isUneven, stages["other map"]);
@@ -101,6 +107,7 @@ public:
   }
 
 private:
+  // Flipped triangles that are not collapsed already by the choice of corners.
   std::int64_t FlipsOf(const AreaPreservingMap& map) const
   {
     return std::max<std::int64_t>(map.Distortion.Flipped - this->Collapsed, 0);
@@ -140,6 +147,8 @@ CutSurfaceMap mapCutSurface(
   std::vector<double> points;
   for (const CutDisk& disk : disks)
   {
+    // Squares have areas in proportion to area / part, so that each surface's share of the unit
+    // square is in proportion to its area in space.
     areas.push_back(disk.Area / partOf(disk));
     points.push_back(static_cast<double>(disk.NumberOfPoints));
   }
@@ -157,6 +166,7 @@ CutSurfaceMap mapCutSurface(
     if (!disk.Mesh)
     {
       map.Coverage += partOf(disk) * square;
+      // Half of the square, for a triangle alone.
       const std::vector<Point<2>> half{ { 0.0, 0.0 }, { 1.0, 0.0 }, { 1.0, 1.0 } };
       put(half, squares[i], disk.FirstPoint, map.Conformal);
       put(half, squares[i], disk.FirstPoint, map.Positions);
@@ -178,6 +188,8 @@ CutTriangles::CutTriangles(const CutSurface& cut, const TriangleSurface& given)
 {
   double total = 0.0;
   const double largest = largestCoordinate(given.Points);
+  // Repeated triangles lie on others and would count their area twice. They ascend, as the
+  // triangles do.
   auto repeated = cut.Repeated().begin();
   for (std::int64_t triangle = 0; triangle < given.NumberOfTriangles; ++triangle)
   {
@@ -217,6 +229,7 @@ CutTriangles::CutTriangles(const CutSurface& cut, const TriangleSurface& given)
     this->Shares.push_back(area);
     total += area;
   }
+  // Shares of the area; the divisor `largest` of the coordinates cancels.
   for (double& share : this->Shares)
   {
     share /= total;

@@ -17,9 +17,9 @@ struct CutSurfaceMap
   // By points of the cut surface, in [0,1]^2. All squares have the same area in the unit square per
   // area of the surface.
   std::vector<Point<2>> Conformal;
-  std::vector<Point<2>> Positions;
-  double Coverage = 0.0;      // the share of the unit square that the surface covers
-  std::int64_t Collapsed = 0; // triangles with all points on one side of their square
+  std::vector<Point<2>> Positions; // area-preserving, while Conformal is conformal on each disk
+  double Coverage = 0.0;           // the share of the unit square that the surface covers
+  std::int64_t Collapsed = 0;      // triangles with all points on one side of their square
 };
 
 // Maps each disk with mapAreaPreserving. The grid of a disk has at most four cells an axis for each
@@ -43,10 +43,10 @@ public:
   }
 
 private:
-  std::vector<Point<3>> Points;
-  std::vector<std::int64_t> Triangles;
-  std::vector<std::int64_t> Numbers;
-  std::vector<double> Shares;
+  std::vector<Point<3>> Points; // by points of the cut surface, divided by the largest coordinate
+  std::vector<std::int64_t> Triangles; // three points each
+  std::vector<std::int64_t> Numbers;   // given triangles
+  std::vector<double> Shares;          // parts of the surface's area; their sum is 1
 };
 
 // Positions of a map, scaled so that the surface covers an area of 1, as the distortions of

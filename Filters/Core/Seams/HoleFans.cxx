@@ -18,6 +18,7 @@ namespace
 using Eigen::Vector3d;
 using Loop = std::vector<std::int64_t>; // points of a boundary in order
 
+// Up to so many holes of a component are left open.
 constexpr std::size_t mostOpen = 8;
 
 Vector3d at(const SeamMesh& mesh, std::int64_t point)
@@ -25,7 +26,8 @@ Vector3d at(const SeamMesh& mesh, std::int64_t point)
   return Vector3d(mesh.Position(point).data());
 }
 
-// Each point of a boundary has two of its edges.
+// The boundary as closed curves. Each of its points has two boundary edges, as the triangles about
+// a point form one fan; following unused neighbours walks around each curve.
 std::vector<Loop> findLoops(const SeamMesh& mesh, Progress& progress)
 {
   std::vector<std::array<std::int64_t, 2>> beside(
@@ -54,6 +56,7 @@ std::vector<Loop> findLoops(const SeamMesh& mesh, Progress& progress)
     for (std::int64_t next = point; next >= 0;)
     {
       loop.push_back(next);
+      // Taking the neighbours marks the point as visited.
       const auto [a, b] = std::exchange(beside[static_cast<std::size_t>(next)], { -1, -1 });
       const auto isLeft = [&beside](std::int64_t neighbour) {
         return neighbour >= 0 && beside[static_cast<std::size_t>(neighbour)][0] >= 0;
@@ -64,6 +67,7 @@ std::vector<Loop> findLoops(const SeamMesh& mesh, Progress& progress)
   return loops;
 }
 
+// The length of a closed curve.
 double lengthOf(const SeamMesh& mesh, const Loop& loop)
 {
   double length = 0.0;
@@ -74,6 +78,7 @@ double lengthOf(const SeamMesh& mesh, const Loop& loop)
   return length;
 }
 
+// The area of the component in space.
 double areaOf(const SeamMesh& mesh)
 {
   double area = 0.0;
@@ -87,7 +92,9 @@ double areaOf(const SeamMesh& mesh)
   return area;
 }
 
-// Above the hole's middle by half of its mean radius.
+// The apex of a hole's fan: off the middle by half of the mean radius, length / (2 pi), along the
+// normal of the loop's vector area, sum of x_i x x_(i+1). The fan is a cone, whose triangles have
+// areas even if the loop is straight.
 Vector3d pointFor(const SeamMesh& mesh, const Loop& loop, double length)
 {
   Vector3d middle = Vector3d::Zero();
@@ -100,7 +107,8 @@ Vector3d pointFor(const SeamMesh& mesh, const Loop& loop, double length)
   {
     normal += (at(mesh, loop[i]) - middle).cross(at(mesh, loop[(i + 1) % loop.size()]) - middle);
   }
-  if (!(normal.norm() > 1e-6 * length * length)) // a slit
+  // A slit has no vector area; any direction across it will do.
+  if (!(normal.norm() > 1e-6 * length * length))
   {
     normal = (at(mesh, loop[1]) - at(mesh, loop[0])).unitOrthogonal();
   }
@@ -119,7 +127,8 @@ HoleFans closeManyHoles(const SeamMesh& mesh, Progress& progress)
   }
   std::vector<Loop> holes;
   std::vector<double> lengths;
-  const double most = std::sqrt(areaOf(mesh)); // of a circle around 1/13 of the area
+  // Length of a circle around 1/(4 pi) = 1/13 of the area.
+  const double most = std::sqrt(areaOf(mesh));
   for (Loop& loop : findLoops(mesh, progress))
   {
     const double length = lengthOf(mesh, loop);
@@ -141,6 +150,7 @@ HoleFans closeManyHoles(const SeamMesh& mesh, Progress& progress)
     fans.Points.push_back({ x[0], x[1], x[2] });
     for (std::size_t i = 0; i < loop.size(); ++i)
     {
+      // The fan's sides run against the loop; orientations need not agree.
       fans.Triangles.insert(fans.Triangles.end(), { loop[(i + 1) % loop.size()], loop[i], number });
       fans.Origins.push_back(-1 - static_cast<std::int64_t>(fans.Origins.size()));
     }

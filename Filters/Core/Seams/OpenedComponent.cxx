@@ -23,6 +23,8 @@ namespace RectifiedTransport
 namespace
 {
 
+// The measure by which maps are compared: the root mean square of log(area change), and 1 for each
+// collapsed triangle.
 double unevennessOf(const DiskMesh& disk, const ConformalMap& map)
 {
   // A triangle without area in the map is worse than any seam.
@@ -39,9 +41,11 @@ public:
   {
   }
 
+  // Opens the component and maps it conformally. Then lets seams grow and maps again, at most
+  // `rounds` times, and keeps the most even of all the maps.
   OpenedDisk Open(int rounds, Progress& progress)
   {
-    constexpr std::int64_t disk = 1; // the Euler characteristic, also of the projective plane
+    constexpr std::int64_t disk = 1; // Euler characteristic, also of the projective plane
     if (this->Mesh.EulerCharacteristic() == disk && !this->Mesh.IsClosed())
     {
       return this->OpenDisk(progress);
@@ -51,6 +55,7 @@ public:
         { "corners", 16 } });
     openToDisk(this->Mesh, stages["seams"]);
     shortenSeams(this->Mesh, stages["seams"]);
+    // Only the last and the best disk are in memory.
     auto last = std::make_shared<OpenedDisk>(this->Make(stages["map"]));
     std::shared_ptr<OpenedDisk> best = last;
     Rounds extensions(stages["extensions"], 2);
@@ -71,6 +76,8 @@ public:
   }
 
 private:
+  // A disk needs no seams, except if its boundary has three points: a square has four corners. A
+  // seam to an inner point gives the boundary two more. A triangle alone gets no mesh.
   OpenedDisk OpenDisk(Progress& progress)
   {
     if (this->Mesh.NumberOfTriangles() > 1)
@@ -87,7 +94,7 @@ private:
     return { { {}, {}, 0, 3, 0.5 * shape.Length * shape.Height }, std::move(cut), 0.0 };
   }
 
-  // The triangles cut along the seams that there are now.
+  // The triangles cut along the current seams, with a conformal map.
   OpenedDisk Make(Progress& progress)
   {
     SeamMesh::Cut cut = this->Mesh.MakeCut(progress);
@@ -105,7 +112,11 @@ private:
     const TriangleSurface surface{ { places.data(), points }, cut.Triangles.data(),
       this->Mesh.NumberOfTriangles() };
     disk.Mesh.emplace(surface, stages["mesh"]);
+    // The mesh has its own unit of length; areas are compared between disks in that of the
+    // component.
     disk.Area = disk.Mesh->Area() * disk.Mesh->Unit() * disk.Mesh->Unit();
+    // Triangles that close holes count neither for the area nor, beyond their fixed share, for the
+    // map.
     if (this->NumberOfGiven < this->Mesh.NumberOfTriangles())
     {
       const double* shares = disk.Mesh->AreaShares();
@@ -120,12 +131,14 @@ private:
     return { std::move(disk), std::move(cut), unevenness };
   }
 
-  // Lets seams grow to where the map squeezes areas. Returns whether one does.
+  // Lets seams grow to where the map squeezes areas: a seam to the tip of a limb opens it. Returns
+  // whether one grows.
   bool Extend(const OpenedDisk& opened, Progress& progress)
   {
-    // Near where seams meet they enclose small angles, which the sides of the square straighten.
-    // That also squeezes areas, and seams there would not help.
-    constexpr double least = 0.5; // of a side of a square of the area that is squeezed
+    // Where seams meet they enclose small angles, which the sides of the square straighten. That
+    // also squeezes areas, and seams there would not help. Hence a new seam must be at least half
+    // as long as the side of a square that has the area of what is squeezed.
+    constexpr double least = 0.5;
     Stages stages(progress, { { "squeezed points", 1 }, { "seams", 1 } });
     const std::vector<SqueezedPoint> tips = findSqueezedPoints(*opened.Disk.Mesh,
       opened.Disk.Conformal->Square.Positions, SqueezeLimits(), stages["squeezed points"]);
@@ -140,7 +153,8 @@ private:
     return isLonger;
   }
 
-  // Tries other corners, if that does not take long.
+  // Tries the corners 1/16, 2/16 and 3/16 of the boundary farther on; a quarter is where the
+  // corners began. Each try costs a conformal map, so that larger disks keep their corners.
   void TurnCorners(OpenedDisk& opened, Progress& progress)
   {
     constexpr std::int64_t mostPoints = std::int64_t{ 1 } << 17;
@@ -170,6 +184,7 @@ private:
     }
   }
 
+  // Counts no further than 4.
   bool HasThreePointsOnBoundary() const
   {
     int count = 0;
@@ -180,6 +195,7 @@ private:
     return count == 3;
   }
 
+  // A seam from any inner point to the boundary; its edge there becomes two sides of the cut.
   void JoinInnerPoint(Progress& progress)
   {
     std::int64_t inner = 0;

@@ -18,7 +18,7 @@ struct OpenedDisk
 {
   CutDisk Disk;
   SeamMesh::Cut Cut;
-  double Unevenness;
+  double Unevenness; // compared between cuts: of the conformal map, plus its collapsed triangles
 };
 
 // Sets the seams of a component that is no disk, and cuts it there. Its triangles from `given` on

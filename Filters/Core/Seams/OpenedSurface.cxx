@@ -29,7 +29,9 @@ OpenedSurface::OpenedSurface(
   this->NumberPoints(stages["points"]);
 }
 
-// The first copy of a point has its number.
+// Numbers the points: a given point keeps its number for the first place in the cut surface that
+// its triangles have; each further place gets a copy after all given points. Copies of a point are
+// a linked list, as there are few.
 void OpenedSurface::NumberPoints(Progress& progress)
 {
   const std::int64_t given = this->GivenTriangles.Points.size();
@@ -49,6 +51,7 @@ void OpenedSurface::NumberPoints(Progress& progress)
       this->Corners.data()[corner] = wanted < 0 ? point : this->CopyAt(point, wanted);
     },
     randomAccess);
+  // Points of triangles without area alone get the place of what they were merged with.
   for (std::int64_t point = 0; point < given; ++point)
   {
     std::int64_t& cutPoint = this->CutPoints[static_cast<std::size_t>(point)];
@@ -56,7 +59,7 @@ void OpenedSurface::NumberPoints(Progress& progress)
   }
 }
 
-// The copy of a given point that is at a point of the cut surface.
+// The copy of a given point that is at a point of the cut surface; appended if there is none.
 std::int64_t OpenedSurface::CopyAt(std::int64_t given, std::int64_t cutPoint)
 {
   std::int64_t copy = given;
@@ -76,7 +79,8 @@ std::int64_t OpenedSurface::CopyAt(std::int64_t given, std::int64_t cutPoint)
   return copy;
 }
 
-// Where the copies of the points at the place of a corner are.
+// Where the copies of the points at the place of a corner are: the triangle's other corners may be
+// merged with this one, and have copies of their own.
 std::vector<std::int64_t> OpenedSurface::PlacesOf(std::int64_t corner) const
 {
   const std::int64_t own = this->Disks->PointOf(this->GivenTriangles.Triangles[corner]);
@@ -98,6 +102,8 @@ std::vector<std::int64_t> OpenedSurface::PlacesOf(std::int64_t corner) const
   return places;
 }
 
+// For each triangle without area, the three places among all copies with the least longest side in
+// the maximum norm of the square. A few copies a point make at most some dozens of triples.
 void OpenedSurface::PlaceFlatTriangles(ConstPointSpan<2> positions)
 {
   const auto distance = [&](std::int64_t a, std::int64_t b) {

@@ -53,7 +53,7 @@ private:
 
   const TriangleSurface GivenTriangles;
   std::optional<CutSurface> Disks;
-  LargeBuffer<std::int64_t> Corners;
+  LargeBuffer<std::int64_t> Corners;   // three points a given triangle
   std::vector<std::int64_t> Origins;   // by points
   std::vector<std::int64_t> CutPoints; // by points
   std::vector<std::int64_t> NextCopy;  // by points; -1 for the last one

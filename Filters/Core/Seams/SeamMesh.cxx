@@ -33,6 +33,7 @@ SeamMesh::SeamMesh(std::vector<Point<3>> points, std::vector<std::int64_t> trian
     TriangleSurface{ this->Points, this->Triangles.data(), this->NumberOfTriangles() },
     stages["edges"]);
   Progress& corners = stages["corners"].Expect(2 * this->NumberOfSides());
+  // Each corner is named by the side that begins there: a point's list has its triangles.
   this->Corners.Fill(this->Points.size(), [&](const auto& add) {
     for (std::int64_t side = 0; side < this->NumberOfSides(); ++side)
     {
@@ -40,6 +41,7 @@ SeamMesh::SeamMesh(std::vector<Point<3>> points, std::vector<std::int64_t> trian
       corners.Add(1);
     }
   });
+  // The boundary is a seam from the beginning.
   for (std::int64_t side = 0; side < this->NumberOfSides(); ++side)
   {
     if (this->Other(side) < 0)
@@ -49,6 +51,7 @@ SeamMesh::SeamMesh(std::vector<Point<3>> points, std::vector<std::int64_t> trian
   }
 }
 
+// The seams of the result are its boundary alone.
 SeamMesh SeamMesh::With(const std::vector<Point<3>>& points,
   const std::vector<std::int64_t>& triangles, const std::vector<std::int64_t>& origins,
   const Context& context) const
@@ -73,6 +76,7 @@ double SeamMesh::LengthOf(const std::vector<std::int64_t>& sides) const
     [this](double length, std::int64_t side) { return length + this->Length(side); });
 }
 
+// Both sides of an edge have the mark; the degree of a point is the number of seam edges there.
 void SeamMesh::SetSeam(std::int64_t side, bool isSeam)
 {
   if (this->IsSeam(side) == isSeam)
@@ -97,6 +101,9 @@ void SeamMesh::SetSeams(const std::vector<std::int64_t>& sides, bool isSeam)
   }
 }
 
+// Union-find over the corners: those of one point that are on the same side of all seams there join
+// across the edges that are no seams. Each tree is a point of the cut. The roots are the lowest
+// corners, so that the points' numbers ascend with their first corners.
 SeamMesh::Cut SeamMesh::MakeCut(Progress& progress) const
 {
   Cut cut;

@@ -58,22 +58,26 @@ public:
   {
     return this->From(side) == end ? this->To(side) : this->From(side);
   }
+  // The Euclidean length of an edge.
   double Length(std::int64_t side) const;
   double LengthOf(const std::vector<std::int64_t>& sides) const;
-  // Of the two sides of an edge, the one that stands for it.
+  // Whether a side stands for its edge: the lower one of the two does, and that of a boundary.
   bool IsFirst(std::int64_t side) const
   {
     return this->Other(side) < 0 || side < this->Other(side);
   }
+  // Not the boundary, and not an edge within a given triangle that was split.
   bool MayBeSeam(std::int64_t side) const
   {
     return this->Other(side) >= 0 && this->OriginOf(side) != this->OriginOf(this->Other(side));
   }
 
-  // Calls visit(side, neighbour) for each edge at a point.
+  // Calls visit(side, neighbour) once for each edge at a point. `side` is the edge's first.
   template <class Visit>
   void VisitEdges(std::int64_t point, const Visit& visit) const
   {
+    // A triangle at the point has two of its edges: the one that begins there, and the last one
+    // before.
     this->VisitCorners(point, [&](std::int64_t side) {
       const std::int64_t last = lastSide(side);
       if (this->IsFirst(side))
@@ -120,17 +124,18 @@ private:
     return this->Origins[static_cast<std::size_t>(side / 3)];
   }
 
-  std::vector<Point<3>> Points;
-  std::vector<std::int64_t> Triangles;
-  std::vector<std::int64_t> Origins;
+  std::vector<Point<3>> Points;        // in units of the largest coordinate
+  std::vector<std::int64_t> Triangles; // three points each
+  std::vector<std::int64_t> Origins;   // by triangles
   std::unique_ptr<SurfaceEdges> Edges;
   Bins<std::int64_t> Corners;       // by points
   std::vector<unsigned char> Seams; // by sides
-  std::vector<int> Degrees;         // by points
+  std::vector<int> Degrees;         // numbers of seams, by points
 };
 
-// Joins the corners of triangles, each named by the side that begins there, across an edge that the
-// triangles share. `join(a, b)` is called for both ends of the edge.
+// Joins the corners of two triangles, each named by the side that begins there, across an edge that
+// they share. Orientations may differ: the sides of the edge run in opposite directions if they
+// agree, else in the same one. `join(a, b)` is called for both ends of the edge.
 template <class Join>
 void joinCorners(
   const std::int64_t* triangles, std::int64_t side, std::int64_t other, const Join& join)

@@ -23,6 +23,7 @@ SeamSearch::SeamSearch(const SeamMesh& mesh, Progress& progress)
 {
 }
 
+// Only what was entered is reset: a search may be small beside the surface.
 void SeamSearch::Clear()
 {
   for (const std::int64_t point : this->Entered)
@@ -34,6 +35,8 @@ void SeamSearch::Clear()
   this->Queue = {};
 }
 
+// Relaxes the distance of a point. An older item of the queue with a larger distance stays there,
+// and Next() skips it: lazy deletion in place of a decrease of keys.
 void SeamSearch::Enter(std::int64_t point, double distance, std::int64_t side)
 {
   double& known = this->Distances[static_cast<std::size_t>(point)];
@@ -55,6 +58,7 @@ std::int64_t SeamSearch::Next()
   {
     const auto [distance, point] = this->Queue.top();
     this->Queue.pop();
+    // The item is out of date if a shorter path came later.
     if (distance == this->Distance(point)) // else a shorter path came later
     {
       this->Run.Add(1);
@@ -64,6 +68,7 @@ std::int64_t SeamSearch::Next()
   return -1;
 }
 
+// A path does not pass along or through seams: it may only end there.
 void SeamSearch::EnterNeighbours(std::int64_t point)
 {
   const double factor = this->FactorAt(point, false);
@@ -75,6 +80,7 @@ void SeamSearch::EnterNeighbours(std::int64_t point)
   });
 }
 
+// From the point backward, up to the start or to where the path leaves a seam.
 std::vector<std::int64_t> SeamSearch::PathTo(std::int64_t point) const
 {
   std::vector<std::int64_t> path;
@@ -90,16 +96,20 @@ std::vector<std::int64_t> SeamSearch::PathTo(std::int64_t point) const
   return path;
 }
 
+// A path beside a seam would leave a corridor one edge wide, whose edges join two boundary points.
+// Each such edge costs 8 times its length: the path keeps away from seams where a detour is less
+// than that.
 double SeamSearch::FactorAt(std::int64_t point, bool joins) const
 {
   constexpr double beside = 8.0;
-  int neighbours = 0; // on seams, besides those that the path comes from and leads to
+  int neighbours = 0; // number on seams, without those that the path comes from and leads to
   this->Mesh.VisitEdges(point, [&](std::int64_t side, std::int64_t neighbour) {
     neighbours += this->Mesh.IsOnSeam(neighbour) && side != this->SideTo(point) ? 1 : 0;
   });
   return neighbours > (joins ? 1 : 0) ? beside : 1.0;
 }
 
+// Dijkstra's algorithm ends when the next point is farther than the best path to a seam.
 bool joinToSeams(SeamMesh& mesh, SeamSearch& search, std::int64_t point, double least)
 {
   if (mesh.IsOnSeam(point))
@@ -130,6 +140,7 @@ bool joinToSeams(SeamMesh& mesh, SeamSearch& search, std::int64_t point, double 
     }
     search.EnterNeighbours(next);
   }
+  // A path that is too short would not open anything.
   const bool isLong = !path.empty() && mesh.LengthOf(path) >= least;
   mesh.SetSeams(path, isLong);
   return isLong;

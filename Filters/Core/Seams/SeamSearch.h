@@ -26,7 +26,8 @@ public:
 
   // Forgets what was entered, in the time that this took.
   void Clear();
-  // A path to a point; its last edge is `side`, or -1 where it begins.
+  // Enters a path to a point, unless one is known that is no longer. Its last edge is `side`, or -1
+  // where it begins.
   void Enter(std::int64_t point, double distance, std::int64_t side);
   // The nearest point that was not visited yet; -1 if there is none. Throws Cancelled.
   std::int64_t Next();
@@ -45,16 +46,16 @@ public:
   std::vector<std::int64_t> PathTo(std::int64_t point) const;
 
   // The factor of the length of the next edge of the path to a point, which joins a seam or leads
-  // on. It is above 1 where that would make a point of the path and one of a seam the ends of an
-  // edge: what this edge cuts off may have no area in the map.
+  // on. It is above 1 where an edge would join a point of the path to one of a seam: what this edge
+  // cuts off may have no area in the map.
   double FactorAt(std::int64_t point, bool joins) const;
 
 private:
   const SeamMesh& Mesh;
   Progress& Run;
-  std::vector<double> Distances;
-  std::vector<std::int64_t> SidesTo;
-  std::vector<std::int64_t> Entered;
+  std::vector<double> Distances;     // by points; infinite if not entered
+  std::vector<std::int64_t> SidesTo; // last edges of paths, by points; -1 at starts
+  std::vector<std::int64_t> Entered; // points, for Clear()
   using Item = std::pair<double, std::int64_t>;
   std::priority_queue<Item, std::vector<Item>, std::greater<>> Queue;
 };

@@ -16,10 +16,13 @@ namespace RectifiedTransport
 namespace
 {
 
-using Seam = std::vector<std::int64_t>; // edges in their order
+using Seam = std::vector<std::int64_t>; // edges in the order of the path
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// Local search on the cut graph: a seam is removed, the boundary then has two loops, and a shortest
+// path between the loops takes the seam's place if it costs less. The topology stays that of a
+// disk, as any path that joins two boundary loops of an annulus opens it.
 class SeamShortening
 {
 public:
@@ -31,7 +34,7 @@ public:
   {
   }
 
-  // Tries each seam, the longest first. Returns whether one is shorter now.
+  // Tries the `most` longest seams, the longest first. Returns whether one is shorter now.
   bool Pass(std::size_t most)
   {
     std::vector<std::pair<double, std::int64_t>> seams = this->FindSeams();
@@ -52,7 +55,8 @@ public:
   }
 
 private:
-  // From a point along an edge, up to where the seam ends or meets others.
+  // Appends the edges from a point along a seam, up to where it ends or meets others: inside of a
+  // seam a point has two edges.
   void Follow(std::int64_t from, std::int64_t side, Seam& seam) const
   {
     const std::int64_t first = side;
@@ -64,6 +68,7 @@ private:
       this->Mesh.VisitEdges(point, [&](std::int64_t other, std::int64_t) {
         next = this->Mesh.IsSeam(other) && other != side ? other : next;
       });
+      // The seam is a closed curve.
       if (next == first)
       {
         return;
@@ -74,6 +79,7 @@ private:
     }
   }
 
+  // The whole seam that an edge is part of: followed in one direction and, reversed, in the other.
   Seam SeamOf(std::int64_t side) const
   {
     Seam back;
@@ -84,7 +90,7 @@ private:
     return seam;
   }
 
-  // Where the first edge begins.
+  // The point where the first edge begins: the end that the second edge does not have.
   std::int64_t StartOf(const Seam& seam) const
   {
     const std::int64_t from = this->Mesh.From(seam[0]);
@@ -93,7 +99,7 @@ private:
     return isBack ? this->Mesh.To(seam[0]) : from;
   }
 
-  // The length and a side of each.
+  // The length of each seam, without those of the boundary, and its first side.
   std::vector<std::pair<double, std::int64_t>> FindSeams() const
   {
     std::vector<std::pair<double, std::int64_t>> seams;
@@ -114,7 +120,9 @@ private:
     return seams;
   }
 
-  // Finds the boundary of the cut surface: corners of one loop have one root. Returns the roots.
+  // Finds the boundary loops of the cut surface, by union-find over the corners at points on seams:
+  // a corner joins the next one along a seam, and the one across an edge that is no seam.
+  // Corners of one loop then have one root. Returns the roots.
   std::vector<std::int64_t> FindLoops()
   {
     std::int64_t* trees = this->Loops.data();
@@ -139,6 +147,7 @@ private:
         else
         {
           const std::int64_t other = this->Mesh.Other(side);
+          // Where the triangles agree in orientation, the other side runs the opposite way.
           const bool isOpposite = this->Mesh.From(other) != from;
           const std::int64_t own = side == corner ? side : nextSide(side);
           const std::int64_t opposite = (side == corner) == isOpposite ? nextSide(other) : other;
@@ -156,13 +165,15 @@ private:
     return roots;
   }
 
+  // A path between two loops, with its cost.
   struct Join
   {
     double Cost;
     Seam Sides;
   };
 
-  // A shortest path from one loop to another one, of less than a given cost.
+  // A shortest path from one loop to another one, by Dijkstra's algorithm from all points of the
+  // first; its cost must be less than `most`, or it has no sides.
   Join FindJoin(std::int64_t fromLoop, std::int64_t toLoop, double most)
   {
     Join join{ most, {} };
@@ -187,6 +198,7 @@ private:
         {
           return;
         }
+        // An edge from loop to loop is a path by itself.
         const double length = this->Mesh.Length(side);
         if (!this->Mesh.IsOnSeam(neighbour))
         {
@@ -221,7 +233,8 @@ private:
     return join;
   }
 
-  // The cost of a path that is no seam now, from its first edge on.
+  // The cost of a path that is no seam now, from its first edge on: with the same factors as in a
+  // search, so that both are comparable.
   double CostOf(const Seam& path, std::int64_t start)
   {
     this->Search.Clear();
@@ -236,13 +249,16 @@ private:
     return cost;
   }
 
+  // Replaces a seam by a cheaper one. With one loop left, the seam has the same loop on both sides
+  // (a handle): another path would not be guaranteed to open the surface.
   bool Shorten(const Seam& seam)
   {
     this->Mesh.SetSeams(seam, false);
     const std::vector<std::int64_t> loops = this->FindLoops();
     if (loops.size() == 2)
     {
-      constexpr double least = 1.0 - 1e-9; // that is worth while
+      // The largest ratio of costs that is worth while; above, rounding.
+      constexpr double least = 1.0 - 1e-9;
       const double cost = least * this->CostOf(seam, this->StartOf(seam));
       const Join join = this->FindJoin(loops[0], loops[1], cost);
       if (!join.Sides.empty())
@@ -258,15 +274,16 @@ private:
   SeamMesh& Mesh;
   Progress& Run;
   SeamSearch Search;
-  std::vector<std::int64_t> Loops; // by corners on seams
+  std::vector<std::int64_t> Loops; // trees, by corners on seams
 };
 
 } // namespace
 
 void shortenSeams(SeamMesh& mesh, Progress& progress)
 {
+  // Each pass lets seams follow those that moved before; gains fall off quickly.
   constexpr int passes = 3;
-  constexpr std::size_t most = 64; // seams of a pass: each takes the time to find all loops
+  constexpr std::size_t most = 64; // seams in a pass: each takes the time to find all loops
   SeamShortening shortening(mesh, progress);
   for (int pass = 0; pass < passes && shortening.Pass(most); ++pass)
   {

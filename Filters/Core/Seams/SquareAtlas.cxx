@@ -12,13 +12,14 @@ namespace RectifiedTransport
 namespace
 {
 
-// Puts squares of descending sides in rows. Returns the height of all rows.
+// Puts squares of descending sides in rows, from left to right. A row is as high as its first
+// square. Returns the height of all rows.
 double fillRows(
   const std::vector<double>& sides, double scale, double margin, std::vector<AtlasSquare>& squares)
 {
   double x = 0.0;
   double y = 0.0;
-  double height = 0.0; // of the row
+  double height = 0.0; // height of the row
   for (std::size_t i = 0; i < sides.size(); ++i)
   {
     const double side = scale * sides[i];
@@ -43,6 +44,7 @@ double atlasMargin(std::size_t squares)
 
 std::vector<AtlasSquare> arrangeSquares(const std::vector<double>& areas)
 {
+  // One square alone needs no margin.
   if (areas.size() == 1)
   {
     return { { { 0.0, 0.0 }, 1.0 } };
@@ -60,8 +62,10 @@ std::vector<AtlasSquare> arrangeSquares(const std::vector<double>& areas)
 
   const double margin = atlasMargin(areas.size());
   std::vector<AtlasSquare> rows(areas.size());
-  double low = 0.0; // a scale for which there is room
+  double low = 0.0; // a scale for which there is room: the invariant of the bisection
   double high = 1.0;
+  // 40 halvings of [0,1] reach 1e-12 of the unit square. At the scale 1 the squares' areas alone
+  // would fill it.
   constexpr int halvings = 40;
   for (int i = 0; i < halvings; ++i)
   {

@@ -13,7 +13,7 @@ namespace RectifiedTransport
 struct AtlasSquare
 {
   Point<2> Low; // its lower left corner
-  double Side;
+  double Side;  // length, in units of the unit square's side
 };
 
 // The areas of the squares are in proportion to the given ones, which are above 0. They are in

@@ -17,8 +17,9 @@ namespace
 // Above this, rounding decides how large the image of a triangle is.
 constexpr double largest = 1e10;
 
-// Grows regions about the peaks of a density, from high to low. Where two meet, the lower peak's
-// region ends.
+// Persistence of the peaks of a density: points enter from high to low, and join the regions of
+// neighbours that are in. Where two regions meet, at a pass, the one with the lower peak ends (the
+// elder rule). Regions are trees of union-find whose root is the peak.
 class PeakSearch
 {
 public:
@@ -30,6 +31,8 @@ public:
     , Densities(static_cast<std::size_t>(disk.NumberOfPoints()), 0.0)
     , Regions(static_cast<std::size_t>(disk.NumberOfPoints()), -1)
   {
+    // The density of a point is its share of the surface by its share of the square, each a
+    // third of those of its triangles.
     std::vector<double> images(this->Areas.size(), 0.0);
     for (std::int64_t t = 0; t < disk.NumberOfTriangles(); ++t)
     {
@@ -46,6 +49,7 @@ public:
       this->Densities[point] =
         this->Areas[point] / std::max(images[point], this->Areas[point] / largest);
     }
+    // Seams grow to inner points: the boundary is open already.
     for (const std::int64_t point : disk.Boundary())
     {
       this->Densities[static_cast<std::size_t>(point)] = 0.0;
@@ -77,6 +81,7 @@ public:
         this->End(peak.Point, 0.0, limits, found);
       }
     }
+    // The worst, with the least key, first.
     sortByKey(found, this->Run);
     return found;
   }
@@ -88,7 +93,8 @@ private:
   }
   double& AreaOf(std::int64_t peak) { return this->Areas[static_cast<std::size_t>(peak)]; }
 
-  // A region is the tree of its peak, which is higher than all others in it.
+  // Lets a point enter. A region is the tree of its peak, which is higher than all others in it;
+  // equal densities are decided by number.
   void Enter(std::int64_t point, const SqueezeLimits& limits, std::vector<SqueezedPoint>& found)
   {
     std::int64_t* regions = this->Regions.data();
@@ -109,6 +115,7 @@ private:
       {
         std::swap(high, low);
       }
+      // A region of the point alone is no peak that ends: it has just joined.
       if (low != point)
       {
         this->End(low, this->DensityAt(point), limits, found);
@@ -118,6 +125,8 @@ private:
     });
   }
 
+  // Reports a peak whose region ends at a pass of some density, if it is prominent (peak / pass)
+  // and enough of the surface is about it.
   void End(
     std::int64_t peak, double pass, const SqueezeLimits& limits, std::vector<SqueezedPoint>& found)
   {
@@ -131,8 +140,8 @@ private:
   const DiskMesh& Disk;
   Progress& Run;
   const PointTriangles Triangles;
-  std::vector<double> Areas; // of points, and then of the regions of peaks
-  std::vector<double> Densities;
+  std::vector<double> Areas;         // shares of points, and then of the regions of peaks
+  std::vector<double> Densities;     // by points; 0 on the boundary
   std::vector<std::int64_t> Regions; // trees; -1 for points that are not entered
 };
 

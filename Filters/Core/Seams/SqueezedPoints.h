@@ -16,15 +16,15 @@ namespace RectifiedTransport
 struct SqueezeLimits
 {
   double Squeeze = 20.0;   // a point's share of the surface / its share of the square
-  double Prominence = 4.0; // of a peak over the pass to a higher one
-  double AreaShare = 2e-3; // of what is squeezed so about a peak
+  double Prominence = 4.0; // least quotient of a peak and the pass to a higher one
+  double AreaShare = 2e-3; // least share of the surface that is squeezed so about a peak
 };
 
 struct SqueezedPoint
 {
   double Key; // minus the squeeze
   std::int64_t Point;
-  double AreaShare; // of what is squeezed about it
+  double AreaShare; // share of the surface that is squeezed about it
 };
 
 // The inner points where areas are squeezed most, the worst first: peaks of the density of area in

@@ -25,6 +25,8 @@ SurfaceParts::SurfaceParts(const TriangleSurface& surface, const Context& contex
     this->Parted = edges.NonManifold();
     LargeBuffer<std::int64_t> trees(sides);
     std::iota(trees.data(), trees.data() + sides, std::int64_t{ 0 });
+    // Corners are joined across edges of two triangles only (Other() is -1 at others). Each tree of
+    // corners is one fan, and becomes a point: the surface parts where fans meet.
     Progress& points = stages["points"].Expect(2 * sides);
     for (std::int64_t side = 0; side < sides; ++side)
     {
@@ -42,7 +44,9 @@ SurfaceParts::SurfaceParts(const TriangleSurface& surface, const Context& contex
       points.Add(1);
     }
   }
-  // Of an edge that was parted, what still has the same two points belongs together.
+  // The points of parts are other ones than before, so that some triangles at an edge that was
+  // parted may still share both of its points. Pairs of these are found by the edges of the parted
+  // surface.
   LargeBuffer<double> places(3 * this->Count);
   progress.Check();
   for (std::int64_t side = 0; side < sides; ++side)

@@ -31,9 +31,9 @@ public:
   std::int64_t NonManifoldEdges() const { return this->Parted; }
 
 private:
-  LargeBuffer<std::int64_t> Points;
-  std::int64_t Count = 0;
-  std::int64_t Parted = 0;
+  LargeBuffer<std::int64_t> Points; // three a triangle
+  std::int64_t Count = 0;           // number of points
+  std::int64_t Parted = 0;          // number of non-manifold edges
   std::vector<std::vector<std::int64_t>> Triangles;
 };
 

@@ -19,7 +19,8 @@ namespace
 
 using Index = std::int64_t;
 
-// Numbers the bodies of a surface without gaps.
+// Numbers the bodies of a surface without gaps, by union-find over given numbers or over points. A
+// root that is numbered holds -1 - number in the place of its parent.
 class Bodies
 {
 public:
@@ -58,7 +59,7 @@ private:
   {
     return this->Given ? this->Given[triangle] : this->Surface.Triangles[3 * triangle];
   }
-  // A node without a parent but itself, or what a numbered one has for it.
+  // A node without a parent except itself, or the negative value of a numbered root. Path halving.
   Index RootOf(Index node)
   {
     Index* parents = this->Parents.data();
@@ -87,10 +88,10 @@ private:
   Index Number = 0;
 };
 
-// What a triangle is chosen by, and where a line goes through it.
+// What a triangle is chosen by (its projected area or its centre), and where a line passes it.
 struct Place
 {
-  double Area = 0.0; // projected along axis 0, of the triangle's side
+  double Area = 0.0; // projected along axis 0, with the sign of the triangle's side
   Corner Centre{};
 };
 
@@ -103,7 +104,8 @@ Place placeOf(const std::array<Corner, 3>& t)
   return place;
 }
 
-// A line along axis 0 through the centre of a triangle.
+// A line along axis 0 through the centre of a triangle: what the winding number is just before and
+// after the triangle says whether it bounds the solid, and on which side.
 struct Probe
 {
   Index Triangle = -1;
@@ -113,8 +115,8 @@ struct Probe
   int Side = 0;     // and the change of the winding number there
   Index Before = 0; // the winding number before it
 
-  // Whether another triangle is passed first. Those at one place are passed as if one body were
-  // within the other, and bodies that touch had a gap between them.
+  // Whether another triangle is passed before this one. Triangles at one place are ordered by a
+  // rule: as if one body were within the other, and bodies that touch had a gap between them.
   bool IsBehind(double x, int side, Index triangle) const
   {
     if (x != this->X)
@@ -128,7 +130,8 @@ struct Probe
     return side > 0 ? triangle < this->Triangle : triangle > this->Triangle;
   }
 
-  // Equal keys are decided by places, so that the choice does not depend on the order.
+  // Keeps the triangle with the largest key. Equal keys are decided by places, so that the choice
+  // does not depend on the order of the triangles.
   void Choose(Index triangle, double key, const Place& place)
   {
     if (this->Triangle < 0 || key > this->Key ||
@@ -141,7 +144,8 @@ struct Probe
   }
 };
 
-// Calls visit(segment) if a line passes a triangle.
+// Calls visit(segment) if the line at (y, z) passes a triangle. The half-open range of y, like
+// that of z in cutTriangle, makes a line through an edge pass one of its triangles.
 template <class Visit>
 void passTriangle(const std::array<Corner, 3>& triangle, double y, double z, const Visit& visit)
 {
@@ -153,9 +157,12 @@ void passTriangle(const std::array<Corner, 3>& triangle, double y, double z, con
   });
 }
 
+// Up to eight probes a body, and the winding numbers of the whole surface before each of them.
 class BodyProbes
 {
 public:
+  // Probes 0 and 1: the largest triangles of either side. Probes 2 to 7: the last and the first
+  // along each axis, so that a probe is on the outside of a body within which another one lies.
   static constexpr std::size_t PerBody = 8;
 
   BodyProbes(const TriangleSurface& surface, Bodies& bodies)
@@ -172,7 +179,7 @@ public:
       probes[place.Area > 0.0 ? 0 : 1].Choose(triangle, std::abs(place.Area), place);
     });
     this->ForTriangles(stages["outermost"], [](Probe* probes, Index triangle, const Place& place) {
-      // Slivers at the rim tell nothing.
+      // Slivers at the rim tell nothing: their centres are within rounding of other triangles.
       constexpr double least = 0.01;
       if (std::abs(place.Area) >= least * std::max(probes[0].Key, probes[1].Key))
       {
@@ -192,13 +199,14 @@ public:
             probe.Side = segment.Side();
           });
       }
-      return probe.Side == 0; // by rounding, or as there is no triangle
+      return probe.Side == 0; // 0 by rounding, or as there is no triangle
     };
     this->Probes.erase(
       std::remove_if(this->Probes.begin(), this->Probes.end(), isNone), this->Probes.end());
   }
 
-  // Counts the winding numbers before all probes.
+  // Counts the winding number before each probe: the sides of all triangles that its line passes
+  // before. A lattice of boxes in the plane of axes 1 and 2 finds the probes near a triangle.
   void Count(Progress& progress)
   {
     progress.Expect(this->Surface.NumberOfTriangles);
@@ -222,7 +230,10 @@ public:
 
   std::vector<signed char> Weights()
   {
-    // In and out of the solid, by bodies; the side decides which way is in.
+    // Each probe votes on its body. Its side is +1 where the line enters an outward body; after -
+    // before is +1 where the line enters the solid (winding number not 0), -1 where it leaves it.
+    // The product is 1 if the body adds to the solid, -1 if it is inside out, 0 if it bounds
+    // nothing.
     std::vector<Index> sums(static_cast<std::size_t>(this->Own.Count()), 0);
     for (const Probe& probe : this->Probes)
     {
@@ -252,7 +263,7 @@ private:
     }
   }
 
-  // Boxes of a lattice across axis 0, about as many as probes.
+  // Sorts the probes into a square lattice of boxes across axis 0, about as many boxes as probes.
   void SortIntoBoxes()
   {
     this->Boxes =
@@ -284,14 +295,16 @@ private:
     return static_cast<Index>(std::max(0.0, std::min(box, static_cast<double>(this->Boxes - 1))));
   }
 
-  // Calls visit(box) for those that a triangle has a part in, and maybe for neighbours of these.
+  // Calls visit(box) for those that a triangle has a part in, and maybe for their neighbours. Long
+  // triangles are cut by rows, so that a thin diagonal one visits a row of boxes, not its bounds.
   template <class Visit>
   void ForBoxes(const std::array<Corner, 3>& triangle, const Visit& visit) const
   {
     std::array<Corner, 3> scaled = triangle;
     for (Corner& corner : scaled)
     {
-      // Rounding must not move a part into the row beside.
+      // Cuts are made in the units of rows, as BoxOf() sees them: rounding must not move a part
+      // into another row.
       corner[2] = (corner[2] - this->Low[2]) * this->Scale[2];
     }
     const auto visitRow = [&](Index row, const std::array<double, 2>& range) {
@@ -341,10 +354,12 @@ private:
   Index Boxes = 1;
   std::array<double, 3> Low{};
   std::array<double, 3> Scale{};
-  Bins<std::size_t> InBoxes; // the numbers of probes
+  Bins<std::size_t> InBoxes; // numbers of probes, by boxes
 };
 
-// Of one body, which way it is turned.
+// The weight of a single body: -1 if it is inside out. By the divergence theorem its volume is the
+// sum over the triangles of projected area times x of the centre; x from a point of the body, to
+// keep the sum free of cancellation.
 signed char weightOfOne(const TriangleSurface& surface, Progress& progress)
 {
   progress.Expect(surface.NumberOfTriangles);

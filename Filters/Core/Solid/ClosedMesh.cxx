@@ -26,6 +26,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Points or faces in a slice that looks for cancellation.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 // Units of a slice of work with random memory access.
 constexpr std::int64_t slow = std::int64_t{ 1 } << 16;
@@ -42,6 +43,7 @@ void copyPoints(ConstPointSpan<3> points, double* copy, Progress& progress)
   });
 }
 
+// Adds given triangles; throws std::invalid_argument for points that do not exist.
 void addTriangles(const TriangleSurface& surface, Progress& progress, ClosedMesh& mesh)
 {
   mesh.Reserve(surface.NumberOfTriangles);
@@ -92,6 +94,8 @@ double widestGap(
 
 } // namespace
 
+// Distances grow with the bounds: what rounding leaves is relative to coordinates. Four units of
+// the last place of float cover a few operations on float coordinates.
 ClosingDistances::ClosingDistances(const std::array<double, 6>& bounds, bool areFloats)
 {
   constexpr double units = 4.0;
@@ -103,6 +107,7 @@ ClosingDistances::ClosingDistances(const std::array<double, 6>& bounds, bool are
   this->Gaps = { 1e-5 * longest, 1e-4 * longest, 1e-3 * longest, 1e-2 * longest };
 }
 
+// Stages follow the cost: equal points alone close most surfaces.
 ClosedMesh::ClosedMesh(const TriangleSurface& surface, const Context& context)
   : Coordinates(3 * surface.Points.size())
 {
@@ -134,6 +139,10 @@ void ClosedMesh::Merge(const Context& context)
   mergePoints<3>(points, this->Firsts.data(), context);
 }
 
+// Tries, from the least change to the largest: faces as they are; points within rounding of double
+// merged, or T-junctions within it cut; the same for float; then T-junctions that gape by 1e-5 to
+// 1e-2 of the longest side. The text is about the mesh before distances of float, which the user
+// knows.
 std::string ClosedMesh::Close(
   const AddFaces& add, const ClosingDistances& distances, const Context& context)
 {
@@ -159,7 +168,8 @@ std::string ClosedMesh::Close(
   return this->ClosedGaps ? std::string() : problem;
 }
 
-// Returns what is wrong.
+// Adds the faces and counts edges. Returns what is wrong, as the predicate of a sentence; empty if
+// nothing is.
 std::string ClosedMesh::Fill(const AddFaces& add, Progress& progress)
 {
   Stages stages(progress, { { "triangles", 1 }, { "edges", 1 } });
@@ -230,6 +240,7 @@ void ClosedMesh::MoveToCells(
   const Eigen::Vector3d corner = grid.Origin();
   const double rounding = lastPlacesIn(bounds);
   progress.For(this->Points().size(), grain, [=](std::int64_t first, std::int64_t last) {
+    // i runs over coordinates: axis i % 3 of point i / 3.
     for (std::int64_t i = 3 * first; i < 3 * last; ++i)
     {
       const double x = points[i];
@@ -255,7 +266,7 @@ bool ClosedMesh::MergeNear(double distance, const Context& context)
   return true;
 }
 
-// Of the bounds of the triangles.
+// The longest side of the bounds of the triangles; points of no triangle do not count.
 double ClosedMesh::LongestSide() const
 {
   PointBounds bounds;
@@ -306,7 +317,8 @@ void ClosedMesh::CountEdgesAlone(const Context& context)
   this->NumberNonManifold = this->Edges->Odd();
 }
 
-// In the first of the ways that leaves no edge open; in the first of all if none does.
+// Drops repeated triangles in the first of the three ways that leaves no edge open, and in the
+// first of all if none does.
 void ClosedMesh::DropRepeated(const Context& context)
 {
   const std::array<std::vector<std::int64_t>, 3> ways = findRepeated(this->Surface(), *this->Edges);
@@ -336,6 +348,8 @@ void ClosedMesh::DropRepeated(const Context& context)
   drop(ways.front());
 }
 
+// Splits triangles at T-junctions, counts edges again, and takes the split back if edges are still
+// open.
 bool ClosedMesh::CloseTJunctions(double distance, const Context& context)
 {
   Progress progress(context);
@@ -367,6 +381,7 @@ bool ClosedMesh::CloseTJunctions(double distance, const Context& context)
     progress.EndSlice(1);
     return true;
   }
+  // Undo: the mesh is as it was.
   this->Triangles = std::move(before);
   this->NumberOfTriangles = numberBefore;
   this->CountEdges(stages["undo"]);

@@ -76,6 +76,7 @@ public:
   // are open only by rounding. Returns whether there are such points; if not, the mesh is
   // unchanged.
   bool MergeNear(double distance, const Context& context = Context());
+  // A part of the longest side of the bounds, far above the rounding of double.
   static constexpr double NearDistance = 1e-9;
 
   // The point that a point is merged into; not after CountEdges().
@@ -133,16 +134,16 @@ private:
   void DropRepeated(const Context& context);
   void CountEdgesAlone(const Context& context);
 
-  LargeBuffer<double> Coordinates;
-  LargeBuffer<std::int64_t> Firsts;
-  LargeBuffer<std::int64_t> Triangles;
-  LargeBuffer<std::int64_t> Bodies;
+  LargeBuffer<double> Coordinates;     // three a point
+  LargeBuffer<std::int64_t> Firsts;    // by points; released by CountEdges()
+  LargeBuffer<std::int64_t> Triangles; // three points each
+  LargeBuffer<std::int64_t> Bodies;    // by triangles; after Orient()
   std::int64_t NumberOfTriangles = 0;
   std::unique_ptr<SurfaceEdges> Edges;
-  std::int64_t NumberOpen = 0;
-  std::int64_t NumberNonManifold = 0;
+  std::int64_t NumberOpen = 0;        // edges of one triangle
+  std::int64_t NumberNonManifold = 0; // edges of three or another odd number
   std::int64_t NumberOfTJunctions = 0;
-  double Gap = 0.0;
+  double Gap = 0.0; // largest distance of a T-junction from its edge, in the points' units
   bool Closed = false;
   bool ClosedGaps = false;
   bool Oriented = false;

@@ -25,13 +25,14 @@ using Index = std::int64_t;
 // A side of a triangle at an edge of more than two.
 struct FanSide
 {
-  Index Low; // its ends
+  Index Low; // the lower and the higher of its ends
   Index High;
   Index Side;
-  double Angle; // about the edge
+  double Angle; // about the edge, in radians
 };
 
-// That two patches keep or change their orientations together, or one of them alone.
+// A condition on two patches: that both keep or both change their orientations (1), or that one of
+// them changes alone (-1).
 struct Relation
 {
   Index Patch;
@@ -39,6 +40,8 @@ struct Relation
   int Same; // 1 or -1
 };
 
+// Works on patches, not triangles: edges of two triangles fix the orientations within a patch
+// (breadth first), so that only the edges of four or more are left to decide.
 class OrientationRun
 {
 public:
@@ -86,7 +89,8 @@ public:
   }
 
 private:
-  // Numbers the patches and orients each by most of its area.
+  // Numbers the patches and orients each as most of its area is. Returns false if a patch is not
+  // orientable.
   bool FindPatches(Progress& progress)
   {
     progress.Expect(this->Surface.NumberOfTriangles);
@@ -104,7 +108,7 @@ private:
       });
   }
 
-  // The sides at edges of more than two, by edges.
+  // Finds the sides at edges of more than two triangles, sorted by edges.
   void FindFans(Progress& progress)
   {
     progress.Expect(this->Surface.NumberOfTriangles);
@@ -123,7 +127,7 @@ private:
     });
   }
 
-  // Calls visit(begin, end) for the sides of each edge.
+  // Calls visit(begin, end) for the sides of each edge, its fan.
   template <class Visit>
   void ForFans(const Visit& visit)
   {
@@ -151,13 +155,13 @@ private:
   Index RootOf(Index patch) { return rootOf(this->Roots.data(), patch); }
   void Join(Index a, Index b) { joinTrees(this->Roots.data(), a, b); }
 
-  // Joins patches into bodies that are closed each: at an edge those that pass it one way with as
-  // many that pass it the other way, of the same body where there are such.
+  // Joins patches into bodies of which each is closed. At an edge, sides that pass it one way are
+  // paired with sides that pass it the other way: first those of the same body, then the rest.
   void JoinPatches()
   {
     std::iota(this->Roots.begin(), this->Roots.end(), Index{ 0 });
     this->ForFans([&](FanSide* begin, FanSide* end) {
-      std::vector<std::array<Index, 2>> sums; // of roots
+      std::vector<std::array<Index, 2>> sums; // roots, with 1 or -1 for the direction
       for (const FanSide* side = begin; side < end; ++side)
       {
         const Index patch = this->PatchOf(*side);
@@ -165,7 +169,7 @@ private:
         sums.push_back({ this->RootOf(patch), way });
       }
       std::sort(sums.begin(), sums.end());
-      // What is left of each body, in one direction.
+      // What is left of each body at the edge after pairs of opposite directions cancel.
       std::vector<std::array<Index, 2>> left;
       for (const std::array<Index, 2>& sum : sums)
       {
@@ -182,6 +186,7 @@ private:
     });
   }
 
+  // Joins the bodies of the i-th side of each direction; a balanced edge has as many of both.
   void JoinOpposite(std::vector<std::array<Index, 2>>& left)
   {
     std::vector<Index> ways[2];
@@ -195,7 +200,8 @@ private:
     }
   }
 
-  // Turns the patches of those groups that do not agree.
+  // Turns the patches of those groups (patches joined by edges of more than two triangles) that are
+  // not balanced, or whose patches were mended.
   bool TurnUnbalanced()
   {
     this->ForFans([&](const FanSide* begin, const FanSide* end) {
@@ -207,6 +213,7 @@ private:
     this->Groups.assign(this->Roots.size(), Group::Agrees);
     this->ForFans([&](const FanSide* begin, const FanSide* end) {
       Group& group = this->GroupOf(this->PatchOf(*begin));
+      // A balanced edge is passed as often one way as the other: the directions sum to 0.
       const int sum = std::accumulate(begin, end, 0,
         [this](int before, const FanSide& side) { return before + this->DirectionOf(side); });
       const bool isMended = std::any_of(begin, end, [this](const FanSide& side) {
@@ -227,7 +234,7 @@ private:
     return this->TurnAsRelated(relations);
   }
 
-  // Patches that are joined by edges.
+  // The state of a group of patches that are joined by edges; the larger value wins.
   enum class Group
   {
     Agrees, // as given
@@ -240,7 +247,9 @@ private:
     return this->Groups[static_cast<std::size_t>(this->RootOf(patch))];
   }
 
-  // What the order of angles about an edge asks of its patches.
+  // What the order of angles about an edge asks of its patches: between neighbours in the order,
+  // solid and empty space alternate, so that neighbours 2k and 2k + 1 face each other and those in
+  // between, too. They pass the edge in opposite directions then.
   void RelateFan(FanSide* begin, FanSide* end, std::vector<Relation>& relations)
   {
     this->SortByAngles(begin, end);
@@ -268,13 +277,13 @@ private:
     }
   }
 
-  // By angles from the first side's triangle on, in [0, 2 pi).
+  // Sorts a fan by the angles about the edge, from the first side's triangle on, in [0, 2 pi).
   void SortByAngles(FanSide* begin, FanSide* end) const
   {
     const Point<3> low = pointAt(this->Surface.Points, begin->Low);
     const Point<3> along = pointAt(this->Surface.Points, begin->High) - low;
     const double length = std::sqrt(dot(along, along));
-    Point<3> across{}; // of the first
+    Point<3> across{}; // unit vector in the first triangle's plane, across the edge
     Point<3> normal{};
     for (FanSide* side = begin; side < end; ++side)
     {
@@ -285,9 +294,12 @@ private:
         normal = cross(along, out);
         across = cross(normal, along);
         across = across / std::hypot(across[0], across[1], across[2]);
+        // `across` and `normal` are unit vectors perpendicular to the edge.
         normal = normal / std::hypot(normal[0], normal[1], normal[2]);
       }
       side->Angle = length > 0.0 ? std::atan2(dot(out, normal), dot(out, across)) : 0.0;
+      // Angles within rounding below 0 are those of the first triangle's plane; they must not go to
+      // 2 pi.
       constexpr double rounding = 1e-9;
       side->Angle += side->Angle < -rounding ? 2.0 * std::acos(-1.0) : 0.0;
     }
@@ -296,8 +308,10 @@ private:
     });
   }
 
-  // Chooses the turns of all related patches. Where relations disagree, as where a surface passes
-  // through itself, patches stay as they are; returns false if these are not balanced.
+  // Chooses the turns of all related patches, by a breadth-first two-colouring of the relations. Of
+  // the two colourings, the one that keeps most of the area is used. Where relations disagree, as
+  // where a surface passes through itself, patches stay as they are; returns false if these are not
+  // balanced.
   bool TurnAsRelated(std::vector<Relation>& relations)
   {
     std::sort(relations.begin(), relations.end(),
@@ -348,14 +362,15 @@ private:
 
   const TriangleSurface& Surface;
   const SurfaceEdges& Edges;
-  LargeBuffer<signed char> Signs; // of triangles: 1 as given, -1 opposite
-  LargeBuffer<Index> Patches;     // of triangles
-  std::vector<double> Areas;      // of patches, of the triangles that agree less the others
-  std::vector<bool> IsMended;     // of patches: there are others
-  std::vector<FanSide> Fans;
-  std::vector<int> Turns;    // of patches: 1 as oriented alone, -1 opposite
-  std::vector<Group> Groups; // of the roots while patches are joined by edges
-  std::vector<Index> Roots;  // of patches: another one of the same body, or itself
+  LargeBuffer<signed char> Signs; // by triangles: 1 as given, -1 opposite
+  LargeBuffer<Index> Patches;     // by triangles; at the end roots of patches
+  // By patches: area of the triangles that agree minus that of the others.
+  std::vector<double> Areas;
+  std::vector<bool> IsMended; // by patches: some of the triangles disagree
+  std::vector<FanSide> Fans;  // sorted by edges
+  std::vector<int> Turns;     // by patches: 1 as oriented alone, -1 opposite
+  std::vector<Group> Groups;  // by roots, while patches are joined by edges
+  std::vector<Index> Roots;   // by patches: another one of the same body, or itself
 };
 
 } // namespace

@@ -10,6 +10,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// A triangle with its points in a canonical order, so that equal ones are neighbours after sorting.
 struct Candidate
 {
   std::array<std::int64_t, 3> Points; // ascending
@@ -22,12 +23,14 @@ Candidate candidateOf(const TriangleSurface& surface, std::int64_t triangle)
   const std::int64_t* ids = surface.Triangles + 3 * triangle;
   Candidate candidate{ { ids[0], ids[1], ids[2] }, true, triangle };
   std::sort(candidate.Points.begin(), candidate.Points.end());
+  // With the lowest point first, the other two ascend in an even permutation only.
   const auto lowest = static_cast<std::size_t>(std::min_element(ids, ids + 3) - ids);
   candidate.IsEven = ids[(lowest + 1) % 3] == candidate.Points[1];
   return candidate;
 }
 
-// Of the triangles [begin, end) of the same points.
+// Appends what to drop of the triangles [begin, end) of the same points, by each of the three
+// rules.
 void dropGroup(
   const Candidate* begin, const Candidate* end, std::array<std::vector<std::int64_t>, 3>& repeated)
 {
@@ -37,12 +40,13 @@ void dropGroup(
   {
     allButOne.push_back(c->Triangle);
   }
+  // Triangles of both directions cancel: all are dropped.
   const bool cancels = std::any_of(begin, end, isEven) && !std::all_of(begin, end, isEven);
   for (const Candidate* c = cancels ? begin : begin + 1; c < end; ++c)
   {
     byDirection.push_back(c->Triangle);
   }
-  // Of an odd number one stays, of the direction of most.
+  // If their number is odd, one stays: one of the more frequent direction.
   const bool isOdd = (end - begin) % 2 == 1;
   const bool most = 2 * std::count_if(begin, end, isEven) > end - begin;
   const Candidate* stays =
@@ -64,6 +68,8 @@ std::array<std::vector<std::int64_t>, 3> findRepeated(
   std::vector<Candidate> candidates;
   for (std::int64_t i = 0; i < surface.NumberOfTriangles; ++i)
   {
+    // Each edge of a repeated triangle has more than two triangles; Other() is -1 there, and on
+    // boundaries.
     if (edges.Other(3 * i) < 0 && edges.Other(3 * i + 1) < 0 && edges.Other(3 * i + 2) < 0)
     {
       candidates.push_back(candidateOf(surface, i));

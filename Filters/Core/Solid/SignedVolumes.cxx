@@ -10,13 +10,14 @@ namespace RectifiedTransport
 namespace
 {
 
-// Of a polygon projected along axis 0.
+// The integrals of a polygon projected along axis 0.
 struct Projection
 {
   double Area;   // with the sign of its side
-  double Moment; // the integral of the distance to `end` along axis 0
+  double Moment; // integral of the distance to `end` along axis 0 over that area
 };
 
+// A fan of triangles; the integral of a linear function is the area times the mean at the corners.
 Projection project(const CutPolygon& polygon, double end)
 {
   Projection sum{ 0.0, 0.0 };
@@ -44,12 +45,15 @@ SignedVolumes::SignedVolumes(const GridSize<3>& cells, const LatticePart<3>& par
 {
 }
 
+// A row's sums are cleared when the row is first used, as most layers touch few rows.
 void SignedVolumes::Begin(std::int64_t layer)
 {
   this->Layer = static_cast<double>(layer);
   std::fill(this->Used.begin(), this->Used.end(), static_cast<unsigned char>(0));
 }
 
+// Cuts the triangle by the layer's planes, then by rows. The sign: a triangle whose projection is
+// positive has its outward side towards +x, and the solid before it.
 void SignedVolumes::Add(const std::array<Corner, 3>& triangle, int weight)
 {
   const CutPolygon whole(triangle);
@@ -63,6 +67,8 @@ void SignedVolumes::Add(const std::array<Corner, 3>& triangle, int weight)
   });
 }
 
+// Cuts the part in a row by columns. A piece adds its prism's volume to its own cell, and its area
+// to the difference at the next one: the running sum in WriteRow() then has it in all cells beyond.
 void SignedVolumes::AddToRow(std::int64_t row, const CutPolygon& polygon, double weight)
 {
   CellSums* sums = this->RowOf(row);
@@ -71,6 +77,7 @@ void SignedVolumes::AddToRow(std::int64_t row, const CutPolygon& polygon, double
     if (column >= 0)
     {
       sums[column].Own.Add(weight * piece.Moment);
+      // Sums of absolute areas in units of 2^-40: integers, so that the order does not matter.
       sums[column].Areas += 1 + static_cast<std::int64_t>(std::abs(piece.Area) / AreaUnit);
     }
     sums[column + 1].Beyond.Add(weight * piece.Area);
@@ -88,6 +95,7 @@ SignedVolumes::CellSums* SignedVolumes::RowOf(std::int64_t row)
   return sums;
 }
 
+// V_i = sum of the areas of prisms that begin before cell i, plus the volumes of those within it.
 void SignedVolumes::WriteRow(std::int64_t row, double rounding, double* volumes) const
 {
   const CellSums* sums = this->Sums.get() + row * (this->Columns + 1);
@@ -100,6 +108,8 @@ void SignedVolumes::WriteRow(std::int64_t row, double rounding, double* volumes)
     volume.Add(sums[i].Own);
     areas += sums[i].Areas;
     const double value = volume.Value();
+    // The error of a sum is bounded by the areas that went into it. Values within it of 0 or 1 are
+    // those.
     const double error = rounding * (static_cast<double>(areas) * AreaUnit);
     const double whole = std::abs(value - 1.0) < error ? 1.0 : value;
     volumes[i] = std::abs(value) < error ? 0.0 : whole;

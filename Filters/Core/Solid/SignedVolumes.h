@@ -15,8 +15,9 @@
 namespace RectifiedTransport
 {
 
-// A sum of doubles up to about 1 that does not depend on their order: each is rounded to a multiple
-// of 2^-72, and these are added as integers. Valid for at least 2^27 of them. OrderlessSum{} is 0.
+// A sum of doubles up to about 1 that does not depend on their order: each is rounded to a
+// multiple of 2^-72, and these are added as integers. A value is split into high 2^-36 + low 2^-72.
+// Valid for at least 2^27 values. OrderlessSum{} is 0.
 class OrderlessSum
 {
 public:
@@ -38,9 +39,9 @@ public:
   }
 
 private:
-  static constexpr double Unit = 0x1p36;
-  std::int64_t High;
-  std::int64_t Low;
+  static constexpr double Unit = 0x1p36; // 63 bits of an integer hold 2^27 values below 2^36
+  std::int64_t High;                     // in 2^-36
+  std::int64_t Low;                      // in 2^-72
 };
 
 // The volumes in a layer of cells, by the divergence theorem. Over a piece of a triangle within one
@@ -69,25 +70,26 @@ public:
   void WriteRow(std::int64_t row, double rounding, double* volumes) const;
 
 private:
+  // The sums of one cell of a row.
   struct CellSums
   {
-    OrderlessSum Own;    // of prisms that begin in the cell
+    OrderlessSum Own;    // volumes of prisms that begin in the cell
     OrderlessSum Beyond; // areas of prisms that begin in the cell before
-    std::int64_t Areas;  // of prisms that begin in the cell, in units, without their signs
+    std::int64_t Areas;  // absolute areas of prisms that begin in the cell, in AreaUnit
   };
 
-  static constexpr double AreaUnit = 0x1p-40;
+  static constexpr double AreaUnit = 0x1p-40; // in faces of a cell
 
   void AddToRow(std::int64_t row, const CutPolygon& polygon, double weight);
   CellSums* RowOf(std::int64_t row);
 
   std::int64_t Columns;
-  std::int64_t Rows; // of the grid
+  std::int64_t Rows; // rows of the grid along axis 1
   std::int64_t FirstRow;
-  std::int64_t NumberOfRows; // of the part
+  std::int64_t NumberOfRows; // rows of the part
   double Layer = 0.0;
-  std::vector<unsigned char> Used;
-  std::unique_ptr<CellSums[]> Sums; // Columns + 1 a row; of rows that are used
+  std::vector<unsigned char> Used;  // by rows of the part: 1 if a triangle has a part there
+  std::unique_ptr<CellSums[]> Sums; // Columns + 1 a row; valid where Used is 1
 };
 
 } // namespace RectifiedTransport

@@ -23,6 +23,8 @@ namespace
 
 using Index = std::int64_t;
 
+// Layers of cells across axis 2 are independent tasks. In each, exact signed volumes come first;
+// lines then correct the rows in which windings other than 0 and 1 occur.
 class CoverageRun
 {
 public:
@@ -38,12 +40,13 @@ public:
     , Coverage(coverage)
     , Work(progress)
   {
-    // The rounding of coordinates, and of sums where faces lie on the borders of cells.
+    // A bound for the rounding of index coordinates and of sums where faces lie on the borders of
+    // cells: 8 units in the last place of the grid's size. Grids below 16 cells count as 16.
     const Index longest = std::max({ cells[0], cells[1], cells[2], Index{ 16 } });
     this->Rounding = 8.0 * std::numeric_limits<double>::epsilon() * static_cast<double>(longest);
   }
 
-  // A range kernel, of the layers of the part.
+  // A range kernel over the layers of the part.
   void CoverLayers(Index first, Index last)
   {
     std::unique_ptr<LayerWork> layerWork = this->TakeWork();
@@ -69,10 +72,10 @@ private:
   {
     SignedVolumes Volumes;
     SolidLines Lines;
-    std::vector<double> Row; // of all cells along axis 0
+    std::vector<double> Row; // values of all cells along axis 0
   };
 
-  // Memory is kept from range to range.
+  // Memory is kept from range to range, one LayerWork for each thread that runs at a time.
   std::unique_ptr<LayerWork> TakeWork()
   {
     {
@@ -89,11 +92,13 @@ private:
       std::vector<double>(static_cast<std::size_t>(this->Cells[0])) });
   }
 
+  // Bodies of the weight 0 bound nothing.
   void AddVolumes(Index layer, SignedVolumes& volumes)
   {
     volumes.Begin(layer);
     for (Index at = this->Layers.Begin(layer); at < this->Layers.End(layer); ++at)
     {
+      // Polled every 4096 triangles.
       if ((at & 0xfff) == 0xfff && this->Work.ShouldStop())
       {
         return;
@@ -106,6 +111,8 @@ private:
     }
   }
 
+  // Rows of the layer: volumes where triangles have a part, lines where they cross. Volumes have
+  // all cells along axis 0, as sums run along it; the part takes its own.
   void WriteLayer(Index layer, LayerWork& layerWork)
   {
     const Index columns = this->Part.Cells[0];
@@ -133,7 +140,7 @@ private:
         std::fill_n(values, this->Cells[0], 0.0);
       }
       this->NumberOfOpenLines += hasLines ? layerWork.Lines.CorrectRow(j, values) : 0;
-      // Where lines correct a cell, they may do so by too much.
+      // Where lines correct a cell, they may do so by too much: their share of a cell is a sample.
       std::transform(values + this->Part.Low[0], values + this->Part.Low[0] + columns, row,
         [](double value) { return std::max(0.0, std::min(value, 1.0)); });
     }
@@ -141,12 +148,12 @@ private:
 
   TriangleSurface Surface;
   const TriangleLayers& Layers;
-  const signed char* Weights;
+  const signed char* Weights; // by triangles: 1, 0 or -1
   GridSize<3> Cells;
   LatticePart<3> Part;
-  int Squares;
-  double Rounding;
-  double* Coverage;
+  int Squares;      // squares along an axis of a cell
+  double Rounding;  // in cells, by face of a cell
+  double* Coverage; // by cells of the part, axis 0 fastest
   Progress& Work;
   std::atomic<Index> NumberOfOpenLines{ 0 };
   std::mutex Mutex;

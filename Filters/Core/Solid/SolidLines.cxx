@@ -24,6 +24,8 @@ SolidLines::SolidLines(const TriangleSurface& surface, const TriangleLayers& lay
 {
 }
 
+// Counting sort of the crossings by lines: a first pass counts, a second one writes. The cuts are
+// computed twice, which costs less than storing them.
 void SolidLines::FindCrossings(std::int64_t layer, Progress& progress)
 {
   const std::int64_t lines = (this->EndLine - this->FirstLine) * this->Squares;
@@ -36,7 +38,7 @@ void SolidLines::FindCrossings(std::int64_t layer, Progress& progress)
         ++first[this->LineOf(j, row)];
       }
     });
-  // From counts to the ends of the lines' crossings; filling them backward makes these beginnings.
+  // From counts to the ends of the lines' crossings; filling backward turns these into beginnings.
   for (std::int64_t line = 1; line <= lines; ++line)
   {
     first[line] += first[line - 1];
@@ -58,21 +60,23 @@ void SolidLines::FindCrossings(std::int64_t layer, Progress& progress)
     });
 }
 
+// Numbers by rows of cells, then by rows of lines within a cell, then along axis 1.
 std::int64_t SolidLines::LineOf(std::int64_t j, std::int64_t row) const
 {
   j -= this->FirstLine;
   return j / this->Squares * this->LinesPerCell + row * this->Squares + j % this->Squares;
 }
 
-// Lines are at the half-integers of coordinates in squares.
+// The first line at or above a coordinate in squares along axis 1: lines are at half-integers.
 std::int64_t SolidLines::LineFrom(double coordinate) const
 {
   const double line = std::ceil(coordinate - 0.5); // the subtraction is exact where it matters
   return static_cast<std::int64_t>(std::max(0.0, std::min(line, static_cast<double>(this->Lines))));
 }
 
-// Calls visit(segment, from, end, row, weight) for the intersections of the planes of a layer's
-// rows with the triangles: segments that cross lines [from, end).
+// Calls visit(segment, from, end, row, weight) for the intersections of the triangles with the
+// planes of a layer's rows of lines: segments that cross the lines [from, end). In units of
+// squares, so that planes and lines are at half-integers.
 template <class Visit>
 void SolidLines::ForSegments(std::int64_t layer, Progress& progress, const Visit& visit) const
 {
@@ -111,6 +115,8 @@ bool SolidLines::HasRow(std::int64_t row) const
   return first[0] != first[this->LinesPerCell];
 }
 
+// Looks first whether any interval with a length has weighted windings other than 1 inside and 0
+// outside. Nearly all rows have none, and need no lengths.
 std::int64_t SolidLines::CorrectRow(std::int64_t row, double* values)
 {
   const std::int64_t begin = row * this->LinesPerCell;
@@ -149,7 +155,8 @@ void SolidLines::SortCrossings(std::int64_t line)
 }
 
 // Calls visit(from, to, winding, weighted) for the intervals between the sorted crossings of a
-// line. Returns the winding number after the last.
+// line, with the sums of the sides so far. Returns the winding number after the last, 0 if the line
+// leaves the solid as often as it enters it.
 template <class Visit>
 std::int64_t SolidLines::ForIntervals(std::int64_t line, const Visit& visit) const
 {
@@ -181,6 +188,8 @@ void RowLengths::Clear()
   std::fill(this->Whole.begin(), this->Whole.end(), Counts{ 0, 0 });
 }
 
+// Adds the parts of the first and the last cell as lengths. For the whole cells between, it adds 1
+// at the beginning and -1 at the end of a difference array: O(1) for an interval of any length.
 void RowLengths::Add(double begin, double end, std::int64_t counted, bool isCovered)
 {
   if (counted == 0 && !isCovered)
@@ -213,6 +222,9 @@ void RowLengths::Add(double begin, double end, std::int64_t counted, bool isCove
   last.Covered -= isCovered ? 1 : 0;
 }
 
+// counted = integral of the weighted windings over all lines in the cell, covered = length within
+// the solid. If counted > covered, the value is multiplied by covered / counted; else the
+// difference, a mean over the lines, is added.
 void RowLengths::Correct(std::int64_t lines, double* values) const
 {
   Counts whole{ 0, 0 };

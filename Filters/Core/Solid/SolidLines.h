@@ -41,8 +41,8 @@ private:
     std::int64_t Covered;
   };
 
-  std::vector<Lengths> Parts; // of cells that an interval has a part of
-  std::vector<Counts> Whole;  // of whole cells, as differences along the row
+  std::vector<Lengths> Parts; // lengths in cells that an interval has a part of
+  std::vector<Counts> Whole;  // counts of whole cells, as differences along the row
 };
 
 // Each cell is crossed by squares^2 lines, through the centres of as many equal squares.
@@ -75,7 +75,7 @@ public:
 private:
   struct Crossing
   {
-    double X;
+    double X;              // place along axis 0, in cells
     std::int32_t Side;     // the change of the winding number, 1 or -1
     std::int32_t Weighted; // that times the triangle's weight
   };
@@ -90,14 +90,14 @@ private:
 
   TriangleSurface Surface;
   const TriangleLayers& Layers;
-  const signed char* Weights;
-  std::int64_t Squares;
+  const signed char* Weights; // by triangles: 1, 0 or -1
+  std::int64_t Squares;       // squares along an axis of a cell
   std::int64_t LinesPerCell;
-  std::int64_t FirstLine; // of the part, and past its last
+  std::int64_t FirstLine; // the part's lines along axis 1: the first, and past its last
   std::int64_t EndLine;
-  std::int64_t Lines; // of a row of the grid
+  std::int64_t Lines; // lines along axis 1 of the grid
   // Lines of a layer are numbered so that those of a row of cells are contiguous.
-  LargeBuffer<std::int64_t> First; // of each line's crossings
+  LargeBuffer<std::int64_t> First; // where each line's crossings begin
   LargeBuffer<Crossing> Crossings; // memory that is kept from layer to layer
   RowLengths OfRow;
 };

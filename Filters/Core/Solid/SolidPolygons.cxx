@@ -15,6 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// A polygon's corners after merging, without repeated neighbours.
 PolygonCutter::Corners mergedIn(const ClosedMesh& mesh, const PolygonCutter::Corners& corners)
 {
   PolygonCutter::Corners merged;
@@ -46,6 +47,8 @@ void addPolygons(const PolygonSource& source, ClosedMesh& mesh, Progress& progre
       mesh.Add({ made[i], made[i + 1], made[i + 2] });
     }
   };
+  // Polygons of more than four corners come in a second pass: the cut of a large one may add
+  // points.
   bool hasLarge = false;
   const auto addOfSize = [&](bool areLarge, Progress& part) {
     source.Polygons(part, [&, areLarge](std::int64_t, const PolygonCutter::Corners& given) {

@@ -16,6 +16,7 @@
 namespace RectifiedTransport
 {
 
+// The three corners of a triangle, in index space.
 inline std::array<Corner, 3> cornersOf(const TriangleSurface& surface, std::int64_t triangle)
 {
   const auto corner = [&](int i) {
@@ -34,6 +35,7 @@ struct PlanePoint
 // The intersection of a plane across axis 2 with an edge that crosses it upwards.
 inline PlanePoint cutEdge(const Corner& below, const Corner& above, double z)
 {
+  // Always from the lower to the higher end: both triangles of the edge get the same bits.
   const double t = (z - below[2]) / (above[2] - below[2]);
   return { below[0] + t * (above[0] - below[0]), below[1] + t * (above[1] - below[1]) };
 }
@@ -65,7 +67,7 @@ void cutTriangle(const std::array<Corner, 3>& corners, double z, const Visit& vi
   visit(in, out);
 }
 
-// A segment in such a plane: places along axis 0 of its intersections with lines of constant y.
+// A segment in such a plane: where its intersections with lines of constant y are along axis 0.
 class PlaneSegment
 {
 public:
@@ -81,6 +83,7 @@ public:
   // The place on the line of y, from Low.Y to below High.Y.
   double At(double y) const
   {
+    // Clamped: rounding must not move the place beyond the segment's ends.
     const double x = this->Low.X + this->Slope * (y - this->Low.Y);
     return std::max(
       std::min(this->Low.X, this->High.X), std::min(x, std::max(this->Low.X, this->High.X)));

@@ -9,6 +9,7 @@
 namespace RectifiedTransport
 {
 
+// A counting sort: triangles of a layer are contiguous and keep their order.
 TriangleLayers::TriangleLayers(const TriangleSurface& surface, std::int64_t layers,
   std::int64_t firstLayer, std::int64_t endLayer, Progress& progress)
   : Surface(surface)
@@ -45,6 +46,8 @@ TriangleLayers::TriangleLayers(const TriangleSurface& surface, std::int64_t laye
   });
 }
 
+// Layers whose open interval the triangle's range of z meets: floor(low) to ceil(high). A flat
+// triangle in a plane z = k has none.
 TriangleLayers::Range TriangleLayers::LayersOf(std::int64_t triangle) const
 {
   const std::int64_t* corners = this->Surface.Triangles + 3 * triangle;
@@ -57,7 +60,7 @@ TriangleLayers::Range TriangleLayers::LayersOf(std::int64_t triangle) const
     static_cast<std::int64_t>(std::ceil(high)) };
 }
 
-// Calls visit(triangle, range) for all with a layer, in order.
+// Calls visit(triangle, range) for all triangles with a layer, in their order.
 template <class Visit>
 void TriangleLayers::ForTriangles(Progress& progress, const Visit& visit)
 {

@@ -29,6 +29,7 @@ public:
   std::int64_t Triangle(std::int64_t at) const { return this->Triangles.data()[at]; }
 
 private:
+  // Layers [First, End).
   struct Range
   {
     std::int64_t First;
@@ -42,8 +43,8 @@ private:
   TriangleSurface Surface;
   std::int64_t FirstLayer;
   std::int64_t EndLayer;
-  LargeBuffer<std::int64_t> First;
-  LargeBuffer<std::int64_t> Triangles;
+  LargeBuffer<std::int64_t> First;     // by layers: where the layer's list begins
+  LargeBuffer<std::int64_t> Triangles; // lists of all layers
 };
 
 } // namespace RectifiedTransport
