@@ -15,8 +15,9 @@ namespace RectifiedTransport
 namespace
 {
 
-// Where two edges cross that lie on each other. The point of the smallest number moves by far the
-// most, so that the edges are apart but for the other end of its edge.
+// Where two edges cross that lie on each other. By the symbolic perturbation, the point of the
+// smallest number moves by far the most, so that the edges are apart except for the other end of
+// its edge, which is the crossing.
 const Point<2>& endCrossed(const Rings& rings, const EdgePair& pair)
 {
   const std::array<std::int64_t, 4> ends{ pair.First, rings.Next(pair.First), pair.Second,
@@ -26,9 +27,11 @@ const Point<2>& endCrossed(const Rings& rings, const EdgePair& pair)
   return rings.At(ends[smallest ^ 1U]);
 }
 
-// The point where two edges cross, the same for both. Its error must be as small as rounding, also
-// for edges that are nearly parallel: else three edges that nearly lie on each other cross in an
-// order in which no three lines cross, and what is left and right of their pieces does not agree.
+// The point where two edges ab and cd cross, the same for both. With the signed areas s_c = (a, b,
+// c) and s_d = (a, b, d), it is c + s_c / (s_c - s_d) (d - c). Its error must be as small as
+// rounding, also for edges that are nearly parallel: else three edges that nearly lie on each other
+// cross in an order in which no three lines cross, and what is left and right of their pieces does
+// not agree.
 Point<2> crossingOf(const Rings& rings, const EdgePair& pair)
 {
   const Point<2>& a = rings.At(pair.First);
@@ -39,6 +42,8 @@ Point<2> crossingOf(const Rings& rings, const EdgePair& pair)
   double errorAfter = 0.0;
   double before = doubleArea(a, b, c, errorBefore);
   double after = doubleArea(a, b, d, errorAfter);
+  // Where the errors of the areas are more than this part of their difference, exact arithmetic
+  // takes their place.
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
   if (!(errorBefore + errorAfter < rounding * std::abs(before - after)))
   {
@@ -51,6 +56,7 @@ Point<2> crossingOf(const Rings& rings, const EdgePair& pair)
   }
   const double part = before / (before - after);
   Point<2> x;
+  // The point is in the bounds of both edges, whatever rounding does.
   for (int axis = 0; axis < 2; ++axis)
   {
     const double low = std::max(std::min(a[axis], b[axis]), std::min(c[axis], d[axis]));
@@ -61,6 +67,7 @@ Point<2> crossingOf(const Rings& rings, const EdgePair& pair)
   return x;
 }
 
+// The crossing as a point of one of its edges; `Along` is the projection on the edge, which sorts.
 EdgeCrossing crossingOn(
   const Rings& rings, std::int64_t edge, std::int64_t other, const Point<2>& x)
 {
@@ -75,7 +82,9 @@ EdgeCrossing crossingOn(
 std::vector<EdgeCrossing> edgeCrossings(
   const Rings& rings, Progress& progress, bool& areSimple, bool atEnds)
 {
+  // So few edges are compared sooner than swept.
   constexpr std::int64_t few = 64; // compared sooner than swept
+  // The sweep only says whether edges cross. Mostly they do not, and no search is needed.
   areSimple = areSimple || (rings.Edges() > few && !haveCrossings(rings, progress));
   std::vector<EdgeCrossing> crossings;
   if (areSimple)

@@ -16,7 +16,7 @@ class Progress;
 struct EdgeCrossing
 {
   std::int64_t Edge;
-  double Along;       // the edge: 0 at its begin, the square of its length at its end
+  double Along; // the edge, as a scalar product: 0 at its begin, its squared length at its end
   std::int64_t Other; // edge, which has the same crossing
   Point<2> X;
 };

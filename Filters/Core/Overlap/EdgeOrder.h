@@ -11,9 +11,11 @@
 namespace RectifiedTransport
 {
 
-// Edges from left to right, in blocks, so that one more moves few of the others.
+// The edges that a sweep line meets, from left to right. Blocks of up to 512 edges replace a
+// balanced tree: a search is binary over blocks and in one, and an insertion moves at most a block.
 class EdgeOrder
 {
+  // Where an edge is; it is invalid after the next change.
 public:
   struct Place
   {
@@ -21,7 +23,7 @@ public:
     std::size_t Index; // in it; its size only at the end of all
   };
 
-  // The first for which isLeft is false.
+  // The place of the first edge for which isLeft is false; isLeft is true for all edges before it.
   template <class IsLeft>
   Place Find(const IsLeft& isLeft) const
   {
@@ -39,12 +41,14 @@ public:
 
   static constexpr std::int32_t nothing = -1;
 
+  // `nothing` at the end of all.
   std::int32_t At(const Place& place) const
   {
     return place.Block < this->Blocks.size() && place.Index < this->Blocks[place.Block].size()
       ? this->Blocks[place.Block][place.Index]
       : nothing;
   }
+  // The neighbours of a place; `nothing` at the ends.
   std::int32_t Before(const Place& place) const
   {
     return place.Index > 0 ? this->Blocks[place.Block][place.Index - 1]
@@ -59,7 +63,7 @@ public:
     this->Blocks[place.Block][place.Index] = edge;
   }
 
-  // The next edge is then at the returned place.
+  // Removes an edge. The next edge is then at the returned place.
   Place Erase(const Place& place)
   {
     Edges& block = this->Blocks[place.Block];
@@ -72,7 +76,7 @@ public:
     return this->Normal(place);
   }
 
-  // Before what is at the place; at least one.
+  // Inserts edges, at least one, before what is at the place. A block above `most` is halved.
   void Insert(const Place& place, const std::int32_t* first, const std::int32_t* last)
   {
     constexpr std::size_t most = 512;
@@ -97,7 +101,7 @@ public:
 private:
   using Edges = std::vector<std::int32_t>;
 
-  // Behind the last of a block is the first of the next.
+  // The place behind the last edge of a block is the first of the next one.
   Place Normal(const Place& place) const
   {
     return place.Block + 1 < this->Blocks.size() && place.Index >= this->Blocks[place.Block].size()

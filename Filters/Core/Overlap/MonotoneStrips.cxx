@@ -21,6 +21,8 @@ std::int32_t MonotoneStrips::Begin(std::int32_t point)
 
 void MonotoneStrips::Add(std::int32_t strip, std::int32_t point, StripSide side)
 {
+  // A point on the other side sees the whole chain: a fan covers it. On the same side, triangles
+  // are cut off while the chain's end is convex as seen from inside.
   Strip& grown = this->At(strip);
   std::vector<std::int32_t>& chain = grown.Chain;
   if (chain.size() > 1 && side != grown.Side)
@@ -43,14 +45,15 @@ void MonotoneStrips::Add(std::int32_t strip, std::int32_t point, StripSide side)
   chain.push_back(point);
 }
 
+// At the end the remaining chain is convex or opposite to the point: a fan.
 void MonotoneStrips::End(std::int32_t strip, std::int32_t point)
 {
   this->EmitFan(this->At(strip), point);
   this->Ended.push_back(strip);
 }
 
-// The edge to the last point divides the strip. What it has kept stays with the part on whose side
-// the point is then the last one.
+// The edge from the last point to this one divides the strip into two. The chain stays with the
+// part on whose side its points are; the other part begins with the last point alone.
 std::array<std::int32_t, 2> MonotoneStrips::Divide(std::int32_t strip, std::int32_t point)
 {
   const bool isRight = this->At(strip).Chain.size() > 1 && this->At(strip).Side == StripSide::Right;
@@ -78,6 +81,7 @@ void MonotoneStrips::EmitFan(const Strip& strip, std::int32_t point)
 
 void MonotoneStrips::Emit(const std::array<std::int32_t, 3>& corners)
 {
+  // Triangles without area beyond rounding are not written: points on a line.
   double error = 0.0;
   if (doubleArea(this->Numbered(corners[0]).X, this->Numbered(corners[1]).X,
         this->Numbered(corners[2]).X, error) > 0.0)

@@ -18,9 +18,9 @@ enum class StripSide
 };
 
 // Polygons whose left and right sides rise, cut into counter-clockwise triangles while they grow by
-// points in the order of their heights (Garey, Johnson, Preparata and Tarjan 1978). Each keeps the
-// points of one side that triangles do not cover yet, after the last one of the other side. In the
-// time of the number of points.
+// points in the order of their heights (Garey, Johnson, Preparata and Tarjan 1978). Each keeps a
+// chain: the points of one side that triangles do not cover yet, after the last one of the other
+// side. The time is linear in the number of points.
 class MonotoneStrips
 {
 public:
@@ -34,17 +34,18 @@ public:
 
   // Returns the number of a new strip.
   std::int32_t Begin(std::int32_t point);
+  // Adds a point to a side of a strip; it must be above all points of the strip.
   void Add(std::int32_t strip, std::int32_t point, StripSide side);
-  // At a point where both sides meet. The number may be used again.
+  // Ends a strip at a point where both sides meet. Its number may be used again.
   void End(std::int32_t strip, std::int32_t point);
-  // At a point between the sides; returns the strips to its left and to its right.
+  // Divides a strip at a point between its sides; returns the strips to its left and to its right.
   std::array<std::int32_t, 2> Divide(std::int32_t strip, std::int32_t point);
 
 private:
   struct Strip
   {
-    std::vector<std::int32_t> Chain;
-    StripSide Side; // of all but the first
+    std::vector<std::int32_t> Chain; // points that triangles do not cover yet, from low to high
+    StripSide Side;                  // side of all chain points except the first
   };
 
   Strip& At(std::int32_t strip) { return this->All[static_cast<std::size_t>(strip)]; }
@@ -59,10 +60,10 @@ private:
   // Writes the triangle if it has an area.
   void Emit(const std::array<std::int32_t, 3>& corners);
 
-  const std::vector<Point<2>>& Places;
+  const std::vector<Point<2>>& Places; // by points, from low to high
   std::vector<std::array<std::int32_t, 3>>& Triangles;
   std::vector<Strip> All;
-  std::vector<std::int32_t> Ended;
+  std::vector<std::int32_t> Ended; // numbers that may be used again
 };
 
 } // namespace RectifiedTransport

@@ -21,6 +21,7 @@ struct CellRange
   std::int64_t Last;
 };
 
+// Where low and high are on one plane, it is the cell above.
 CellRange cellsBetween(double low, double high)
 {
   const double first = std::floor(low);
@@ -28,6 +29,7 @@ CellRange cellsBetween(double low, double high)
     static_cast<std::int64_t>(std::max(std::ceil(high) - 1.0, first)) };
 }
 
+// D! times the signed measure of a simplex: the determinant of its edge vectors from vertex 0.
 double determinant(const std::array<Point<1>, 2>& v)
 {
   return v[1][0] - v[0][0];
@@ -57,7 +59,8 @@ double determinant(const std::array<Point<3>, 4>& v)
 constexpr std::size_t faceCorners[4][3] = { { 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } };
 constexpr std::size_t edgeCorners[3][2] = { { 0, 1 }, { 1, 2 }, { 2, 0 } };
 
-// The area of a triangle's shadow along axis 0, positive where its corners run counterclockwise.
+// The area of a triangle's projection along axis 0, positive where its corners run
+// counterclockwise.
 double shadowOf(const CutPolygon& piece, int i, int j, int k)
 {
   const Corner& a = piece[i];
@@ -66,18 +69,19 @@ double shadowOf(const CutPolygon& piece, int i, int j, int k)
   return 0.5 * ((b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]));
 }
 
-// The length of that of a segment.
+// The length of a segment's projection along axis 0.
 double shadowOf(const CutPolygon& piece, int i, int j)
 {
   return piece[j][1] - piece[i][1];
 }
 
-// Integrates over the cells of one row of the grid after another, by the divergence theorem. Over a
-// piece of a face within one cell stands a prism along axis 0, up to the end of the simplex. It
-// adds to the piece's own cell the integral up to the cell's end, and to the later cells of the row
-// that of the linear function over the piece's shadow along axis 0. With the sign of the face's
-// side, these sum to the integral over the simplex. Faces along axis 0 have no shadow. The error is
-// that of rounding.
+// Integrates f over the cells of one row of the grid after another, by the divergence theorem: the
+// integral over a simplex is that of F n_0 over its faces, where F is the antiderivative of f along
+// axis 0. Over a piece of a face within one cell stands a prism along axis 0, up to the end of the
+// simplex. It adds to the piece's own cell the integral up to the cell's end, and to the later
+// cells of the row that of f over the piece's projection ("shadow") along axis 0. With the sign of
+// the face's side, these sum to the integral over the simplex. Faces along axis 0 have no shadow.
+// The error is that of rounding.
 template <int D>
 class SimplexSweep
 {
@@ -98,6 +102,8 @@ public:
     this->SetFaces(simplex);
   }
 
+  // Cuts the faces by layers (3D), rows and columns; each layer and row starts from the whole
+  // faces, so that slabs of different threads get the same pieces.
   void Run()
   {
     const CellRange& last = this->Cells[D - 1];
@@ -129,19 +135,20 @@ public:
   }
 
 private:
-  using Polygons = std::array<const CutPolygon*, D + 1>; // of the faces; segments in 2D
+  using Polygons = std::array<const CutPolygon*, D + 1>; // polygons of the faces; segments in 2D
 
-  static constexpr std::int64_t fewColumns = 16;
+  static constexpr std::int64_t fewColumns = 16; // small simplices need no memory from the heap
 
+  // What the pieces of faces add to one cell of a row, with the signs of their sides.
   struct CellSums
   {
     double Volume = 0.0;   // of prisms that begin in the cell, up to its end
     double Integral = 0.0; // over these
-    double Shadows = 0.0;  // the areas of the shadows of pieces before the cell
+    double Shadows = 0.0;  // areas of the shadows of pieces that begin before the cell
     double Beyond = 0.0;   // the integral over these shadows, at 0 along axis 0
   };
 
-  // Coordinates count from the first cell that is reached: they are as small as can be.
+  // Coordinates count from the first cell that is reached: small numbers round less.
   Corner Local(const Point<D>& x) const
   {
     Corner local{};
@@ -152,7 +159,8 @@ private:
     return local;
   }
 
-  // By Cramer's rule.
+  // f(x) = Constant + Slope . x, by Cramer's rule: the slope along axis a is the determinant with
+  // coordinate a replaced by the values, over that of the simplex.
   void SetFunction(const LinearSimplex<D>& simplex)
   {
     const double volume = determinant(simplex.Vertices);
@@ -166,6 +174,7 @@ private:
     for (std::size_t a = 0; a < D && !this->IsConstant(); ++a)
     {
       std::array<Point<D>, D + 1> replaced = simplex.Vertices;
+      // Differences to vertex 0 are taken in the determinant.
       for (std::size_t i = 0; i <= D; ++i)
       {
         replaced[i][a] = simplex.Values[i];
@@ -175,6 +184,7 @@ private:
     }
   }
 
+  // The faces in local coordinates. One whose shadow is 0 adds nothing, and is emptied.
   void SetFaces(const LinearSimplex<D>& simplex)
   {
     for (const Point<D>& vertex : simplex.Vertices)
@@ -205,7 +215,8 @@ private:
     }
   }
 
-  // Adds the rows of a layer. Parts do not depend on which rows are asked for.
+  // Adds the rows of a layer. Parts do not depend on which rows are asked for: cutting begins at
+  // the first row that the simplex reaches.
   void AddRows(const Polygons& faces, const CellRange& rows, double* layer)
   {
     PolygonSlabs<1> parts[D + 1];
@@ -215,6 +226,7 @@ private:
     }
     for (std::int64_t row = this->Cells[1].First; row <= rows.Last; ++row)
     {
+      // The range along axis 0 of the simplex in this row: only its faces bound it.
       double low = this->End;
       double high = 0.0;
       for (PolygonSlabs<1>& ofFace : parts)
@@ -237,6 +249,7 @@ private:
     }
   }
 
+  // The function has one value: its integral is that times the volume.
   bool IsConstant() const { return !(this->Least < this->Most); }
   // The end of a cell, or of the simplex.
   double EndOf(std::int64_t column) const
@@ -244,13 +257,13 @@ private:
     return std::min(static_cast<double>(column + 1), this->End);
   }
 
-  // Column -1: before the first one.
+  // Adds a piece of a face to its column; column -1 is before the first one.
   void AddPiece(std::int64_t column, const CutPolygon& piece)
   {
     const double end = this->EndOf(column);
-    double lengths[CutPolygon::Most];
-    double starts[CutPolygon::Most]; // the function at 0 along axis 0
-    double means[CutPolygon::Most];  // and its mean from the corner to the end
+    double lengths[CutPolygon::Most]; // distances of corners to the column's end
+    double starts[CutPolygon::Most];  // the function at 0 along axis 0
+    double means[CutPolygon::Most];   // means of the function from each corner to the end
     const bool isConstant = this->IsConstant();
     for (int i = 0; i < piece.Size; ++i)
     {
@@ -264,6 +277,8 @@ private:
       }
     }
     CellSums sums;
+    // The simplices of the piece, a fan. Over one, length and mean are linear, so that the
+    // integral of their product is area / (D (D + 1)) times (sum of products + product of sums).
     const auto add = [&](auto... corner) {
       const double shadow = shadowOf(piece, corner...);
       const double length = (lengths[corner] + ...);
@@ -290,7 +305,8 @@ private:
         add(0, i - 1, i);
       }
     }
-    // The factors of the means of a linear function and of a product of two over a simplex.
+    // The means over a (D - 1)-simplex with D corners: of a linear function (1 / D) sum of
+    // values, of a product of two 1 / (D (D + 1)) (sum of products + product of sums).
     constexpr double ofOne = 1.0 / D;
     constexpr double ofTwo = 1.0 / (D * (D + 1));
     CellSums& next = this->Sums[column + 1];
@@ -304,7 +320,9 @@ private:
     }
   }
 
-  // Adds to the cells that the row's part of the simplex reaches; others have rounding errors.
+  // Adds to the cells that the row's part of the simplex reaches; in others the sums are rounding
+  // errors. `before` runs along the row: the volume of a cell is what its own prisms fill, plus its
+  // length times the shadows before it.
   void FinishRow(const CellRange& reached, double* row)
   {
     CellSums before;
@@ -327,22 +345,23 @@ private:
       row[this->Cells[0].First + column] +=
         std::max(this->Least * volume, std::min(integral, this->Most * volume));
     }
+    // The sums are 0 again for the next row; two more than the last column's have been written.
     std::fill(this->Sums + reached.First, this->Sums + last + 3, CellSums());
   }
 
   const std::array<CellRange, D>& Cells;
   const GridSlab<D>& Slab;
   const std::int64_t Columns;
-  std::array<CellSums, fewColumns> FewSums; // of a row: most simplices are small
+  std::array<CellSums, fewColumns> FewSums; // sums of a row: most simplices are small
   std::vector<CellSums> ManySums;
   CellSums* Sums = this->FewSums.data();
   std::array<CutPolygon, D + 1> Faces;
-  double Side;  // of prisms where a face's corners run counterclockwise, seen against axis 0
-  double Least; // value
+  double Side;  // sign of prisms over faces that run counterclockwise, seen against axis 0
+  double Least; // least value of the function; Most is its largest
   double Most;
   double Constant;
   Point<D> Slope;
-  double End = 0.0; // of the simplex along axis 0
+  double End = 0.0; // end of the simplex along axis 0, from the first cell
 };
 
 // The cells that a simplex reaches, which may be beyond the grid by one cell.
@@ -371,6 +390,7 @@ std::array<CellRange, D> cellsOf(const LinearSimplex<D>& simplex, const GridSlab
 template <int D>
 double measureOf(const LinearSimplex<D>& simplex)
 {
+  // D! simplices with a corner in common make up a box.
   constexpr double simplicesOfBox = D == 3 ? 6.0 : D;
   return std::abs(determinant(simplex.Vertices)) / simplicesOfBox;
 }
@@ -387,6 +407,7 @@ void addOverlaps(const LinearSimplex<D>& simplex, const GridSlab<D>& slab)
   {
     const std::size_t low = simplex.Vertices[0][0] < simplex.Vertices[1][0] ? 0 : 1;
     const std::size_t high = 1 - low;
+    // In 1D, a simplex is a box.
     addOverlaps<1>(MultilinearBox<1>{ simplex.Vertices[low], simplex.Vertices[high],
                      { simplex.Values[low], simplex.Values[high] } },
       slab);
@@ -406,11 +427,13 @@ void addOverlaps(const LinearSimplex<D>& simplex, const GridSlab<D>& slab)
       {
         return;
       }
+      // The number of the only cell, if all axes have one cell.
       only = only * slab.Size[a] + range.First;
       range = { std::max<std::int64_t>(range.First, 0), std::min(range.Last, slab.Size[a] - 1) };
     }
     if (isInOne)
     {
+      // The mean of a linear function over a simplex is that of its values at the vertices.
       const double sum = std::accumulate(simplex.Values.begin(), simplex.Values.end(), 0.0);
       slab.Sums[only] += measure * sum / (D + 1);
     }
@@ -422,6 +445,8 @@ void addOverlaps(const LinearSimplex<D>& simplex, const GridSlab<D>& slab)
 }
 
 template <int D>
+// A multilinear function's integral over a box is the volume times its value at the centre, so that
+// a weight at the centre of the overlap along each axis suffices.
 void addOverlaps(const MultilinearBox<D>& box, const GridSlab<D>& slab)
 {
   // Ranges and counters of unused axes are of one cell.
@@ -434,10 +459,11 @@ void addOverlaps(const MultilinearBox<D>& box, const GridSlab<D>& slab)
     range[a].Last = std::min(range[a].Last, (a == D - 1 ? slab.Last : slab.Size[a]) - 1);
     step[a] = a == 0 ? 1 : step[a - 1] * slab.Size[a - 1];
   }
+  // The overlap with a cell along an axis.
   struct Share
   {
     double Length;
-    double Upper; // the weight of the upper corners at its centre
+    double Upper; // weight of the upper corners at its centre
   };
   const auto shareOf = [&box](int a, std::int64_t cell) {
     const double low = std::max(box.Low[a], static_cast<double>(cell));

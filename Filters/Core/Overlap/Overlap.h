@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The integrals of linear functions on simplices, and of multilinear ones on boxes, over the cells
-// of a grid: conservative resampling of meshes to grids.
+// Conservative resampling of meshes to grids: integrals of linear functions on simplices, and of
+// multilinear functions on boxes, over the cells of a grid.
 #ifndef RectifiedTransport_Overlap_h
 #define RectifiedTransport_Overlap_h
 
@@ -39,9 +39,10 @@ struct GridSlab
   GridSize<Dimension> Size;
   std::int64_t First;
   std::int64_t Last;
-  double* Sums; // of all grid cells, axis 0 fastest
+  double* Sums; // by grid cells, axis 0 fastest
 };
 
+// The length, area or volume of a simplex, in grid cells.
 template <int Dimension>
 double measureOf(const LinearSimplex<Dimension>& simplex);
 

@@ -18,6 +18,9 @@ RegionCoverage::RegionCoverage(const GridSlab<2>& slab)
 {
 }
 
+// By Green's theorem, an edge covers in each row of cells the trapezoid between it and the grid's
+// end, with the sign of its direction along axis 1. The sum over a closed outline is the area
+// inside.
 void RegionCoverage::Add(const Point<2>& from, const Point<2>& to)
 {
   if (from[1] == to[1])
@@ -37,6 +40,7 @@ void RegionCoverage::Add(const Point<2>& from, const Point<2>& to)
   const double slope = (high[0] - low[0]) / (high[1] - low[1]);
   const double left = std::min(low[0], high[0]);
   const double right = std::max(low[0], high[0]);
+  // The highest point is met exactly: the next edge begins there.
   const auto at = [&](double y) {
     return y == high[1] ? high[0] : std::clamp(low[0] + (y - low[1]) * slope, left, right);
   };
@@ -53,8 +57,8 @@ void RegionCoverage::Add(const Point<2>& from, const Point<2>& to)
   }
 }
 
-// Of an edge's part in a row of cells, which has the region above `from` and `to` where its height
-// is positive.
+// Adds an edge's part in a row of cells: from `from` to `to` along axis 0, with the height of the
+// part. The region is to the right of the part where the height is positive.
 void RegionCoverage::AddInRow(std::int64_t row, double from, double to, double height)
 {
   const auto width = static_cast<double>(this->Slab.Size[0]);
@@ -77,7 +81,9 @@ void RegionCoverage::AddInRow(std::int64_t row, double from, double to, double h
     shares[cell].Height += part;
     isCrossed[cell] = 1;
   };
+  // The height that falls on a length of 1 along axis 0.
   const double perLength = high > low ? height / (high - low) : 0.0;
+  // What is to the left of the grid covers all cells: it counts at the first cell's left face.
   if (low < 0.0)
   {
     add(0, high <= 0.0 ? height : -low * perLength, 1.0);
@@ -96,10 +102,13 @@ void RegionCoverage::AddInRow(std::int64_t row, double from, double to, double h
   if (first == last)
   {
     const double part = low == begin && high == end ? height : (end - begin) * perLength;
+    // A trapezoid within one cell: its height times the mean distance to the cell's right face.
     add(first, part, static_cast<double>(first + 1) - 0.5 * (begin + end));
     return;
   }
   const double inFirst = static_cast<double>(first + 1) - begin;
+  // Its part in the first cell, whose mean distance to the right face is half of its length; in a
+  // cell that it crosses whole, 1/2; in the last cell, 1 minus half of the length in it.
   add(first, inFirst * perLength, 0.5 * inFirst);
   for (std::int64_t cell = first + 1; cell < last; ++cell)
   {
@@ -109,6 +118,7 @@ void RegionCoverage::AddInRow(std::int64_t row, double from, double to, double h
   add(last, inLast * perLength, 1.0 - 0.5 * inLast);
 }
 
+// Coverages above 1 or below 0 are rounding errors: the region covers each place once at most.
 void RegionCoverage::Finish(double value)
 {
   double* const sums = this->Slab.Sums;

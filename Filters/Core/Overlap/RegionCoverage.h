@@ -16,19 +16,21 @@ namespace RectifiedTransport
 {
 
 // For one thread. Each edge adds the signed area to its right in the cells that it crosses, and its
-// height to all cells farther right: O(cells that edges cross), and a search of bytes between them.
+// height to all cells farther right, as a difference that is summed along the row: O(cells that
+// edges cross), and a search of bytes between them.
 class RegionCoverage
 {
 public:
   explicit RegionCoverage(const GridSlab<2>& slab);
 
-  // In index space, with the region on the left. Edges may be beyond the grid.
+  // Adds an edge, in index space, with the region on the left. Edges may be beyond the grid.
   void Add(const Point<2>& from, const Point<2>& to);
   // Adds to the slab's sums the value times the area that the edges since the last call enclose.
   void Finish(double value);
-  // The same where edges may run the other way round: visit(first, last, area) of the cells
-  // [first, last) of the grid with an area each, which is negative there, and a multiple where
-  // edges run around several times. Cells between edges come together, a row after the other.
+  // The same for edges that may run the other way round: calls visit(first, last, area) for the
+  // cells [first, last) of the grid that have this area each. The area is negative inside of an
+  // outline that runs clockwise, and a multiple where edges run around several times. Cells between
+  // edges come together, row after row.
   template <class Visit>
   void FinishSigned(const Visit& visit)
   {
@@ -46,21 +48,22 @@ public:
 private:
   struct Share
   {
-    double Area;   // of this cell
-    double Height; // the part of each cell to the right
+    double Area;   // signed area to the right of edges within this cell
+    double Height; // signed height of edges: the part of each cell to the right
   };
   struct Row
   {
     std::int64_t First;
     std::int64_t Last;
-    double Heights; // of all edges
+    double Heights; // sum of the heights of all edges, which bounds rounding errors
   };
 
-  // visit(first, last, covered, rounding) of the cells that edges have come by: those that edges
-  // cross one by one, and the others [first, last) between them.
+  // Calls visit(first, last, covered, rounding) for the cells that edges have come by: those that
+  // edges cross one by one, and the others [first, last) between them.
   template <class Visit>
   void FinishRows(const Visit& visit)
   {
+    // The relative error of a sum of heights.
     constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
     for (std::int64_t row = this->FirstRow; row <= this->LastRow; ++row)
     {
@@ -99,11 +102,11 @@ private:
   }
   void AddInRow(std::int64_t row, double from, double to, double height);
 
-  const GridSlab<2> Slab;
-  std::vector<Share> Shares;
+  const GridSlab<2> Slab;               // in the grid, [First, Last) along axis 1
+  std::vector<Share> Shares;            // by cells of the slab
   std::vector<unsigned char> IsCrossed; // the cells that edges have added to
-  std::vector<Row> Rows;
-  std::int64_t FirstRow;
+  std::vector<Row> Rows;                // by rows of the slab
+  std::int64_t FirstRow;                // rows that edges have come by
   std::int64_t LastRow;
 };
 

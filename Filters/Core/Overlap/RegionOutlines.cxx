@@ -16,7 +16,8 @@ namespace
 
 constexpr std::int64_t nobody = -1;
 
-// The edges that reach each of equal rows of a plane.
+// The edges that reach each of equal rows of a plane, to find out what is around a point: only the
+// edges of its row count.
 class EdgeRows
 {
 public:
@@ -34,7 +35,9 @@ public:
     }
     const double height = high - this->Low;
     const auto count = static_cast<double>(rings.Edges());
-    const double rows = // whole, else the highest point may be rounded into one more
+    // With 2 rows for each mean height of an edge, an edge is in about 3 rows. The number is whole,
+    // else the highest point may be rounded into one more.
+    const double rows =
       lengths > 0.0 ? std::clamp(std::floor(2.0 * count * height / lengths), 1.0, count) : 1.0;
     const double perLength = rows / height;
     this->PerLength = std::isfinite(perLength) ? perLength : 0.0;
@@ -42,7 +45,8 @@ public:
       static_cast<std::size_t>(rows) + 1, [this](const auto& add) { this->VisitEdges(add); });
   }
 
-  // The rings that have the first point of an edge inside, but for its own.
+  // The rings that have the first point of an edge inside, except its own: those of which an odd
+  // number of edges pass to the left of the point (even-odd rule). Exact predicates decide.
   std::vector<std::int64_t> RingsAround(std::int64_t point) const
   {
     const NumberedPoint p = this->All.Numbered(point);
@@ -68,6 +72,7 @@ public:
     return around;
   }
 
+  // Inside and outside change with each edge.
   static void toggle(std::vector<std::int64_t>& rings, std::int64_t ring)
   {
     const auto found = std::find(rings.begin(), rings.end(), ring);
@@ -82,6 +87,7 @@ public:
   }
 
 private:
+  // Not clamped: points are within the rows.
   std::size_t RowOf(const Point<2>& x) const
   {
     return static_cast<std::size_t>((x[1] - this->Low) * this->PerLength);
@@ -108,6 +114,9 @@ private:
   Bins<std::int32_t> Rows;
 };
 
+// Cuts the rings into pieces at their crossings, and finds the owners of the places to the left and
+// to the right of each piece, which change only at crossings. A piece with two different owners is
+// part of the outlines.
 class OutlineWalk
 {
 public:
@@ -146,6 +155,7 @@ public:
   }
 
 private:
+  // The highest point of a ring: there, one side of its edges is inside of the ring, the other not.
   std::int64_t TopOf(std::int64_t ring) const
   {
     std::int64_t top = this->All.Begin(ring);
@@ -156,7 +166,7 @@ private:
     return top;
   }
 
-  // The ring whose region has a place that is inside of these rings.
+  // The ring whose region has a place that is inside of `around`, by the rule of the header.
   std::int64_t OwnerOf(const std::vector<std::int64_t>& around) const
   {
     if (around.size() % 2 == 0)
@@ -178,14 +188,17 @@ private:
 
   double AreaOf(std::int64_t ring) const { return this->Areas[static_cast<std::size_t>(ring)]; }
 
-  // Along a ring from its top, whose left and right are inside of `others`, and one of them of the
-  // ring itself. Each crossing changes what both sides are inside of.
+  // Walks along a ring from its top. Both sides of an edge are inside of `others`, and one of
+  // them of the ring itself. Each crossing with another ring changes `others`, each one with the
+  // ring itself changes the side.
   void Walk(std::int64_t ring, std::vector<std::int64_t> others)
   {
     const std::int64_t top = this->TopOf(ring);
     const std::int64_t begin = this->All.Begin(ring);
     const std::int64_t end = this->All.Begin(ring + 1);
     const std::int64_t before = top == begin ? end - 1 : top - 1;
+    // The inside of the top's angle is inside of the ring: on the left of the edge that leaves it
+    // if that turns left of the one that comes.
     bool isInLeft = turnsLeft(
       this->All.Numbered(top), this->All.Numbered(this->All.Next(top)), this->All.Numbered(before));
     std::int64_t left = nobody;
@@ -228,6 +241,7 @@ private:
       [](const EdgeCrossing& crossing, std::int64_t number) { return crossing.Edge < number; });
   }
 
+  // Adds a piece to the outlines of both owners, for each with its region on the left.
   void AddPiece(std::int64_t edge, const Point<2>& from, const Point<2>& to, std::int64_t left,
     std::int64_t right)
   {
@@ -249,7 +263,7 @@ private:
   const Rings& All;
   const std::vector<double>& Values;
   Progress& Stop;
-  std::vector<double> Areas; // that rings wind around
+  std::vector<double> Areas; // absolute areas that rings wind around
   std::vector<EdgeCrossing> Crossings;
   std::vector<OutlineEdge> Found;
 };
@@ -267,6 +281,8 @@ std::vector<OutlineEdge> regionOutlines(
   return OutlineWalk(rings, values, progress, areSimple ? *areSimple : ignored).Run();
 }
 
+// Area and centroid by the shoelace formula, about a point of the region: A = sum (a x b) / 2, c =
+// sum (a x b) (a + b) / (6 A).
 RegionSize sizeOfRegion(const OutlineEdge* first, const OutlineEdge* last)
 {
   RegionSize size;
@@ -292,6 +308,7 @@ RegionSize sizeOfRegion(const OutlineEdge* first, const OutlineEdge* last)
   return size;
 }
 
+// The shoelace formula about the ring's first point.
 double windingArea(const Rings& rings, std::int64_t ring)
 {
   double area = 0.0;

@@ -19,8 +19,8 @@ struct OutlineEdge
 {
   Point<2> From;
   Point<2> To;
-  std::int32_t Edge; // of the rings
-  std::int32_t Ring; // the region's
+  std::int32_t Edge; // number of the edge among those of the rings
+  std::int32_t Ring; // the ring whose region this is
 };
 
 // What is inside an odd number of the rings. A place belongs to the region of one of the rings

@@ -17,13 +17,16 @@ namespace
 {
 
 constexpr std::size_t lanes = 8;
-constexpr std::size_t comparedAll = 64;   // edges: fewer are not put into bins
-constexpr std::size_t dividedAgain = 384; // edges of a bin
+constexpr std::size_t comparedAll = 64;   // edges; fewer are not put into bins
+constexpr std::size_t dividedAgain = 384; // edges; bins of more are divided again
+// Bins whose edges all lie on each other cannot be divided further: the depth has a limit.
 constexpr int mostDivisions = 4;
 constexpr double recordsPerEdge = 4.0; // about
 
 using Box = Bounds<2>;
 
+// Finds the pairs of edges that may cross by a uniform grid of bins, refined where many edges share
+// a bin; compares all pairs in a bin, and decides by exact predicates.
 class CrossingSearch
 {
 public:
@@ -44,6 +47,7 @@ public:
     this->SearchBins(edges, box, divisions);
   }
 
+  // A pair may have been found in several bins.
   std::vector<EdgePair> Take()
   {
     const auto isLess = [](const EdgePair& a, const EdgePair& b) {
@@ -59,13 +63,14 @@ public:
   }
 
 private:
-  // Equal bins over a box.
+  // Equal bins over a box, axis 0 fastest.
   struct Bins
   {
     Point<2> Low;
     Point<2> Width;
     std::array<std::int64_t, 2> Size;
 
+    // Rounded onto the border bins where x is beyond the box.
     std::int64_t At(int axis, double x) const
     {
       const double bin = (x - this->Low[axis]) / this->Width[axis];
@@ -86,7 +91,7 @@ private:
     }
   };
 
-  // About as wide and high as the edges are, and as many as these.
+  // Bins about as wide and high as the edges are, and at most as many as there are edges.
   Bins BinsFor(const std::vector<std::int32_t>& edges, const Box& box) const
   {
     const auto count = static_cast<double>(edges.size());
@@ -101,6 +106,7 @@ private:
       }
     }
     Point<2> most;
+    // An edge of the mean length reaches 2 bins along each axis: 4 records in all.
     for (int a = 0; a < 2; ++a)
     {
       most[a] = std::clamp(0.5 * recordsPerEdge * count * box.Length(a) / lengths[a], 1.0, count);
@@ -117,11 +123,12 @@ private:
     return bins;
   }
 
-  // Calls visit(bin) for those that an edge reaches, and some beside them.
+  // Calls visit(bin) for the bins that an edge reaches, and for some beside them. A long edge is
+  // cut by rows, so that it reaches a band of bins, not all bins of its bounds.
   template <class Visit>
   void VisitBins(const Bins& bins, std::int32_t edge, const Visit& visit) const
   {
-    constexpr double slack = 1e-6; // of a bin
+    constexpr double slack = 1e-6; // part of a bin; far above rounding, so that no bin is missed
     const Point<2>* a = &this->All.At(edge);
     const Point<2>* b = &this->All.At(this->All.Next(edge));
     if ((*a)[1] > (*b)[1])
@@ -157,6 +164,8 @@ private:
     }
   }
 
+  // Sorts the edges by bins (counting sort over records), then compares or divides the edges of
+  // each.
   void SearchBins(const std::vector<std::int32_t>& edges, const Box& box, int divisions)
   {
     const Bins bins = this->BinsFor(edges, box);
@@ -188,6 +197,8 @@ private:
     {
       const std::size_t count = begin[bin + 1] - begin[bin];
       const std::int32_t* first = sorted.data() + begin[bin];
+      // Bins are divided again only if the edges in them leave most of the box empty: else bins
+      // would hold the same edges once more.
       const Box part = count > dividedAgain ? this->BoxWithin(bins.Of(bin), first, count) : box;
       const bool isMuchSmaller = 4.0 * part.Length(0) < box.Length(0) + box.Length(1) &&
         4.0 * part.Length(1) < box.Length(0) + box.Length(1);
@@ -202,7 +213,7 @@ private:
     }
   }
 
-  // The bounds of what edges have within a box.
+  // The bounds of the parts of edges within a box: of their ends, clamped to it.
   Box BoxWithin(const Box& box, const std::int32_t* edges, std::size_t count) const
   {
     Box within;
@@ -221,8 +232,9 @@ private:
     return within;
   }
 
-  // Edges that have an end in one place come one after the other, and need no comparison where they
-  // do not count as crossing: of n of a fan n^2 pairs are left out.
+  // Orders edges so that those that have an end in one place come one after the other. Where such
+  // ends do not count as crossings, the edges of a fan need no comparison with each other: of n
+  // edges, n^2 pairs are left out.
   void GatherFans(const std::int32_t* edges, std::size_t count)
   {
     struct End
@@ -239,7 +251,7 @@ private:
     std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
       return a.Place != b.Place ? a.Place < b.Place : a.Edge < b.Edge;
     });
-    std::vector<std::size_t> size(count, 0); // of the larger fan of each edge
+    std::vector<std::size_t> size(count, 0); // number of edges in the larger fan of each edge
     std::vector<std::size_t> fan(count);
     for (std::size_t first = 0, last = 0; first < ends.size(); first = last)
     {
@@ -271,7 +283,8 @@ private:
     }
   }
 
-  // Compares all with all.
+  // Compares all pairs. Coordinates lie in separate arrays, padded to whole lanes with the last
+  // edge.
   void Compare(const std::int32_t* edges, std::size_t count)
   {
     const bool hasFans = !this->AtEnds && count > dividedAgain;
@@ -305,7 +318,8 @@ private:
     }
   }
 
-  // An edge with those of a range.
+  // Compares an edge with those of a range. Eight lanes at a time are rejected if both ends are on
+  // one side of the edge's line by more than rounding; most pairs end there.
   void CompareWith(
     const std::int32_t* edges, std::size_t i, std::size_t begin, std::size_t end, double extent)
   {
@@ -317,6 +331,7 @@ private:
     const double y = ay[i];
     const double dx = bx[i] - x;
     const double dy = by[i] - y;
+    // Bounds the rounding of the two cross products: coordinates differ by at most the extent.
     const double error =
       8.0 * std::numeric_limits<double>::epsilon() * extent * (std::abs(dx) + std::abs(dy));
     for (std::size_t first = begin / lanes * lanes; first < end; first += lanes)
@@ -341,6 +356,8 @@ private:
     }
   }
 
+  // Exact: neighbours in a ring share a point and do not cross; then bounds; then the perturbed
+  // predicate.
   void CompareTwo(std::int32_t i, std::int32_t j)
   {
     const std::int64_t endOfI = this->All.Next(i);
@@ -384,14 +401,15 @@ private:
   Progress& Stop;
   std::int64_t Compared = 0; // since the last poll
   bool Stopped = false;
-  std::array<std::vector<double>, 4> Ends; // of the edges to compare
+  std::array<std::vector<double>, 4> Ends; // x and y of both ends, of the edges to compare
   std::vector<std::int32_t> Gathered;      // edges, by their fans
-  std::vector<std::size_t> Others;         // of each, the first that is not of its fan
+  std::vector<std::size_t> Others;         // by gathered edges: the first one after its fan
   std::vector<EdgePair> Found;
 };
 
 } // namespace
 
+// The last point of a ring leads back to its first.
 void Rings::EndRing()
 {
   const std::int64_t begin = this->Begins.back();

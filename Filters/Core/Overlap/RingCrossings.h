@@ -14,7 +14,8 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Edge i begins at point i.
+// Closed polygons. Point i begins edge i, which ends at point Next(i). Points of a ring are
+// contiguous.
 class Rings
 {
 public:
@@ -36,9 +37,9 @@ private:
   static std::size_t Index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
   std::vector<Point<2>> Points;
-  std::vector<std::int32_t> Nexts;
-  std::vector<std::int32_t> Owners;
-  std::vector<std::int64_t> Begins{ 0 };
+  std::vector<std::int32_t> Nexts;       // by points
+  std::vector<std::int32_t> Owners;      // rings, by points
+  std::vector<std::int64_t> Begins{ 0 }; // first points, by rings, and the end
 };
 
 struct EdgePair
@@ -47,10 +48,10 @@ struct EdgePair
   std::int64_t Second;
 };
 
-// The pairs of edges that cross, each once, in order. The points' infinitesimals decide for edges
-// that touch or lie on each other. The time is linear in the edges unless edges of very different
-// lengths lie close together. Incomplete if `progress` is cancelled. `atEnds`: also of edges that
-// end in one place, which may be many.
+// The pairs of edges that cross, each once, in order. The points' infinitesimals (symbolic
+// perturbation) decide for edges that touch or lie on each other. The time is linear in the edges
+// unless edges of very different lengths lie close together. `atEnds`: includes pairs of edges that
+// end in one place, which may be many. Incomplete if `progress` is cancelled.
 std::vector<EdgePair> findCrossings(const Rings& rings, Progress& progress, bool atEnds = true);
 
 // Whether edges cross at all; mostly they do not. In O(n log n) for any rings, by a line that

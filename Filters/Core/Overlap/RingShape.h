@@ -13,7 +13,8 @@
 namespace RectifiedTransport
 {
 
-// Whether not all points are on a line.
+// Whether the points are not all on a line: the cross product with the longest offset exceeds
+// rounding.
 inline bool hasArea(const std::vector<Point<3>>& ring)
 {
   Point<3> longest{ 0.0, 0.0, 0.0 };

@@ -16,6 +16,9 @@ namespace RectifiedTransport
 namespace
 {
 
+// The algorithm of Shamos and Hoey: a horizontal line passes the points from below. It keeps the
+// edges that it meets in order; two edges cross only if they become neighbours first, so that new
+// neighbours are tested.
 class Sweep
 {
 public:
@@ -35,6 +38,7 @@ public:
     }
   }
 
+  // Returns whether there is a crossing; false if the run is to stop.
   bool Run(Progress& progress)
   {
     constexpr std::size_t betweenPolls = std::size_t{ 1 } << 14;
@@ -60,7 +64,8 @@ private:
     std::int32_t Number;
   };
 
-  // Unsorted where it is to stop.
+  // The points from the lowest on; ties by descending numbers, as their infinitesimals have it.
+  // Sorted by chunks and merges, to poll in between. Not sorted if the run is to stop.
   std::vector<Height> SortedHeights(Progress& progress) const
   {
     std::vector<Height> heights;
@@ -90,13 +95,14 @@ private:
     return heights;
   }
 
-  // Of an edge.
+  // The lower and the higher end of an edge.
   struct Ends
   {
     Point<2> Low;
     Point<2> High;
   };
 
+  // By floating point where its error bound decides, else by the perturbed exact predicate.
   bool IsLeftOf(std::int32_t edge, const NumberedPoint& point) const
   {
     const Ends& ends = this->Upward[static_cast<std::size_t>(edge)];
@@ -115,6 +121,7 @@ private:
     return !turnsLeft(low, high, point);
   }
 
+  // Edges that follow each other in a ring share a point, which is no crossing.
   bool DoTwoCross(std::int32_t i, std::int32_t j) const
   {
     if (i == EdgeOrder::nothing || j == EdgeOrder::nothing || this->All.Next(i) == j ||
@@ -126,7 +133,8 @@ private:
       this->All.Numbered(j), this->All.Numbered(this->All.Next(j)));
   }
 
-  // Moves the line past a point; returns whether there is a crossing.
+  // Moves the line past a point, at which one edge of the ring ends and one begins, or both begin,
+  // or both end. Returns whether there is a crossing.
   bool Pass(std::int32_t number)
   {
     const NumberedPoint point = this->All.Numbered(number);
@@ -142,6 +150,7 @@ private:
       return this->IsLeftOf(edge, point);
     });
     const std::int32_t left = this->Order.Before(place);
+    // Both edges begin: they are new neighbours, and of the edges beside.
     if (!doesInEnd && !doesOutEnd)
     {
       const std::int32_t right = this->Order.At(place);
@@ -163,17 +172,19 @@ private:
       place = this->Order.Erase(this->Order.Erase(place));
       return this->DoTwoCross(left, this->Order.At(place));
     }
+    // The edge that ends is not where the point is: the order has changed, as edges cross.
     if (found != (doesInEnd ? in : out))
     {
       return true;
     }
+    // One edge ends and the other takes its place.
     const std::int32_t begun = doesInEnd ? out : in;
     this->Order.Replace(place, begun);
     return this->DoTwoCross(left, begun) || this->DoTwoCross(begun, this->Order.After(place));
   }
 
   const Rings& All;
-  std::vector<std::int32_t> Before; // of each point, the edge that ends there
+  std::vector<std::int32_t> Before; // by points: the edge that ends there
   std::vector<Ends> Upward;
   EdgeOrder Order;
 };

@@ -33,9 +33,9 @@ public:
     this->Above.Fill(this->Places.size(), [this](const auto& add) { this->VisitPieces(add); });
   }
 
-  // From the lowest to the highest, on one height to the right.
+  // The points from the lowest to the highest; those on one height from left to right.
   const std::vector<Point<2>>& All() const { return this->Places; }
-  double Rounding() const { return this->Unit; } // of their coordinates
+  double Rounding() const { return this->Unit; } // unit of the rounded coordinates
   const Point<2>& At(std::int32_t point) const { return this->Places[Index(point)]; }
   NumberedPoint Numbered(std::int32_t point) const { return { this->At(point), point }; }
   // The upper ends of the pieces that begin at a point.
@@ -44,7 +44,8 @@ public:
     return this->Above[Index(point)];
   }
 
-  // Numbers the corners of triangles as the rings do.
+  // Turns the corners of triangles from sweep numbers to those of the rings' points. Crossings that
+  // triangles have become added points.
   void Renumber(RingTriangles& triangles) const
   {
     const auto count = static_cast<std::int32_t>(this->Given.Edges());
@@ -76,9 +77,11 @@ private:
 
   // The places of the points of rings, then of crossings, rounded: places that differ by rounding
   // errors are mostly equal then.
+  // Places are rounded to 48 of the 53 bits of the largest coordinate: crossings have errors of a
+  // few units in the last place, and should become equal to points that they lie on.
   std::vector<Point<2>> RoundedPlaces()
   {
-    constexpr int bits = 48; // of 53
+    constexpr int bits = 48; // bits of 53 that stay
     std::vector<Point<2>> places;
     double largest = 0.0;
     for (std::int64_t i = 0; i < this->Given.Edges(); ++i)
@@ -102,6 +105,7 @@ private:
     return places;
   }
 
+  // Sorts by height, then from left to right, and numbers each place once.
   void SortPoints()
   {
     const std::vector<Point<2>> places = this->RoundedPlaces();
@@ -124,7 +128,8 @@ private:
     }
   }
 
-  // add(lower end, upper end) of all pieces that are longer than 0.
+  // Calls add(lower end, upper end) for all pieces of edges that are longer than 0. The crossings
+  // are in the order of the edges and along them.
   template <class Add>
   void VisitPieces(const Add& add) const
   {
@@ -152,11 +157,11 @@ private:
 
   const Rings& Given;
   std::vector<EdgeCrossing> Crossings;
-  double Unit = 0.0; // of coordinates
-  std::vector<Point<2>> Places;
-  std::vector<std::int32_t> Numbers; // of a ring's point or a crossing, for each of them
-  std::vector<std::int32_t> Swept;   // the place of each ring's point and crossing
-  Bins<std::int32_t> Above;
+  double Unit = 0.0;                 // unit of coordinates
+  std::vector<Point<2>> Places;      // in the order of the sweep
+  std::vector<std::int32_t> Numbers; // by places: a ring's point or, numbered on, a crossing
+  std::vector<std::int32_t> Swept;   // places, by the rings' points and crossings
+  Bins<std::int32_t> Above;          // upper ends of pieces, by lower ends
 };
 
 // Moves a line upwards over the edges. Between each two of the edges that it meets, from left to
@@ -193,7 +198,8 @@ public:
 private:
   static constexpr std::int32_t none = -1;
 
-  // Between two edges: no strip outside, two after a point where two parts have joined.
+  // What is between two neighbouring edges of the line: no strip outside, one inside, two after a
+  // point where two parts have joined.
   struct Part
   {
     std::int32_t Strip = none;
@@ -206,9 +212,10 @@ private:
   {
     std::int32_t Low;
     std::int32_t High;
-    Part Right;
+    Part Right; // what is between this edge and the next one
   };
 
+  // Some edges that follow each other in the order.
   struct Range
   {
     EdgeOrder::Place First;
@@ -228,7 +235,8 @@ private:
     return area > error ? 1 : area < -error ? -1 : 0;
   }
 
-  // The edges that end at a point or pass it.
+  // The edges that end at a point or pass it: they follow each other in the order, unless rounding
+  // has changed that.
   Range EdgesAt(std::int32_t point)
   {
     Range range{ this->Order.Find([&](std::int32_t edge) { return this->SideOf(edge, point) < 0; }),
@@ -244,8 +252,8 @@ private:
     return ending == this->Ending[static_cast<std::size_t>(point)] ? range : this->EdgesUpTo(point);
   }
 
-  // Where rounding has brought edges into another order: those that end at the point, and all
-  // between them.
+  // The edges from the first to the last one that end at the point. This is for cases where
+  // rounding has brought edges into another order, and includes all edges between them.
   Range EdgesUpTo(std::int32_t point)
   {
     Range range{ { 0, 0 }, 0 };
@@ -260,7 +268,8 @@ private:
     return range;
   }
 
-  // Upper ends of edges from a point, from left to right. Two edges on each other are none.
+  // Finds the upper ends of the edges from a point, from left to right. Edges that pass the point
+  // begin again there. Two edges on each other cancel, by the even-odd rule.
   void FindEnds(std::int32_t point)
   {
     this->Ends.assign(this->Swept.EndsAbove(point).begin(), this->Swept.EndsAbove(point).end());
@@ -288,6 +297,8 @@ private:
     this->Ends.resize(kept);
   }
 
+  // Moves the line past a point: takes out the edges that end or pass there, lets strips grow or
+  // end, and puts in the edges from there upwards.
   void Pass(std::int32_t point)
   {
     Range range = this->EdgesAt(point);
@@ -310,7 +321,9 @@ private:
     this->BeginEdges(point, range.First, left.IsInside(), right);
   }
 
-  // The strips to the left, below and to the right of a point.
+  // Lets strips grow: the one to the left gets the point on its right side, the one to the right on
+  // its left side; those between the edges below end. Without edges below, an edge that begins
+  // within a strip divides it.
   void Grow(std::int32_t point, Part& left, Part& right)
   {
     if (this->Below.empty())
@@ -342,12 +355,14 @@ private:
       }
       this->Strips.Add(right.Strip, point, StripSide::Left);
     }
+    // Two parts join where no edge goes on upwards. They stay two strips until the next point.
     if (left.IsInside() && this->Ends.empty())
     {
       left.Second = right.Strip;
     }
   }
 
+  // A part of two strips is divided already: the point is above both.
   void Divide(std::int32_t point, Part& left, Part& right)
   {
     std::array<std::int32_t, 2> both{ left.Strip, left.Second };
@@ -372,7 +387,8 @@ private:
     }
   }
 
-  // The edges from a point upwards, where there is nothing between those beside it.
+  // Puts in the edges from a point upwards, between the edges beside it. Each changes inside and
+  // outside; a new strip begins in each new part inside.
   void BeginEdges(
     std::int32_t point, const EdgeOrder::Place& place, bool isInside, const Part& right)
   {
@@ -395,11 +411,11 @@ private:
 
   const SweptEdges& Swept;
   MonotoneStrips Strips;
-  std::vector<int> Ending; // edges in the order that end at each point
-  std::vector<Edge> Met;
+  std::vector<int> Ending; // numbers of edges of the order that end, by points
+  std::vector<Edge> Met;   // all edges so far
   EdgeOrder Order;
   std::vector<std::int32_t> Below; // edges at the point that is passed
-  std::vector<std::int32_t> Ends;
+  std::vector<std::int32_t> Ends;  // upper ends of the edges that begin
 };
 
 } // namespace

@@ -20,7 +20,7 @@ struct RingTriangles
   struct AddedPoint
   {
     Point<2> Place;
-    std::int64_t Edge; // on which it lies
+    std::int64_t Edge; // the edge on which it lies
     double Part;       // of the edge before it
   };
 

@@ -74,7 +74,6 @@ public:
   void Run(Progress& progress)
   {
     const std::int64_t root = this->FindForest();
-    // Starts are read before seams are set: a seam would make its points ends of paths.
     const std::vector<std::int64_t> bridges = this->FindBridges(progress);
     const std::vector<unsigned char> isStart = this->Starts();
     for (const std::int64_t side : bridges)
