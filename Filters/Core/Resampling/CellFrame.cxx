@@ -49,12 +49,13 @@ std::string describe(const Eigen::Vector3d& x)
 }
 
 // Calls visit(x) for the corners of all cells of a set with mass, each point once. Throws Failure
-// for points that are not finite.
+// for points that are not finite, except those of hidden cells.
 template <class Visit>
 void visitCorners(
   const CellSet& set, const MassCells& cells, Progress& progress, const Visit& visit)
 {
   constexpr std::int64_t cellsBetweenPolls = std::int64_t{ 1 } << 16;
+  // A bit for each point, as cells share points.
   std::vector<bool> visited(static_cast<std::size_t>(set.NumberOfPoints), false);
   std::int64_t notFinite = -1;
   const auto reader = set.Read();
@@ -103,7 +104,9 @@ void visitCorners(
 
 using PhysicalBox = Eigen::AlignedBox3d;
 
-// The eigenvectors of the points' covariance, by growing eigenvalue.
+// The eigenvectors of the points' covariance matrix, by growing eigenvalue: the first is the
+// normal of the best plane, the last the direction of the best line. Offsets from the middle, by
+// the longest side, keep squares from overflow and cancellation.
 Eigen::Matrix3d principalAxes(
   const CellSets& sets, const MassCells& cells, const PhysicalBox& bounds, Progress& progress)
 {
@@ -123,7 +126,8 @@ Eigen::Matrix3d principalAxes(
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
 }
 
-// Rounded, so that slices of one plane have the same axes, and with its largest component positive.
+// Rounded to 1e-6, so that slices of one plane have the same axes, and with its largest component
+// positive.
 Vector3d roundedDirection(Vector3d v, Eigen::Index& largest)
 {
   constexpr double step = 1e-6;
@@ -133,7 +137,7 @@ Vector3d roundedDirection(Vector3d v, Eigen::Index& largest)
   return v.normalized();
 }
 
-// Axes of the shortest sides get no length.
+// Gives the axes of the shortest sides no length: the box keeps `dimension` axes.
 void flatten(int dimension, PhysicalBox& box)
 {
   Vector3d sides = box.sizes();
@@ -150,6 +154,7 @@ void flatten(int dimension, PhysicalBox& box)
 
 } // namespace
 
+// Gram and Schmidt on the direction and the next axis of space; the third is their cross product.
 ImageGrid::Matrix axesAround(const Vector3d& direction, Eigen::Index main)
 {
   ImageGrid::Matrix axes;
@@ -161,6 +166,7 @@ ImageGrid::Matrix axesAround(const Vector3d& direction, Eigen::Index main)
   return axes;
 }
 
+// The axes of space serve where the cells are flat along them; else principal axes.
 CellFrame CellFrame::Of(const CellSets& sets, const MassCells& cells, Progress& progress)
 {
   const int dimension = cells.Dimension;
@@ -200,6 +206,7 @@ CellFrame CellFrame::Of(const CellSets& sets, const MassCells& cells, Progress& 
   return frame;
 }
 
+// A grid along the axes of space, then turned into the frame.
 ImageGrid CellFrame::Grid(int resolution) const
 {
   double box[6];

@@ -17,8 +17,9 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
-// The numbers of cells that a lattice may have: as many as an image of the default resolution, or
-// more of few that are there.
+// The numbers of cells that a lattice's box may have: as many as an image of the default
+// resolution, or up to 64 for each cell that is there. A larger box is mostly empty, and its grid
+// would cost more than it gains.
 bool isDense(double latticeCells, double cells)
 {
   constexpr double always = 16777216.0; // 256 cubed
@@ -26,7 +27,7 @@ bool isDense(double latticeCells, double cells)
   return latticeCells <= std::max(always, mostEmpty * cells);
 }
 
-// With `cells` cells along the frame's axes.
+// An image with values on cells, `cells` of them along the frame's axes.
 ImageGrid gridOfFrame(const LatticeFrame& frame, const std::array<std::int64_t, 3>& cells)
 {
   std::array<int, 6> extent{ 0, 0, 0, 0, 0, 0 };
@@ -42,6 +43,7 @@ ImageGrid gridOfFrame(const LatticeFrame& frame, const std::array<std::int64_t, 
 
 } // namespace
 
+// The frame says whether the cells' edges fit. Numbers of cells beyond 2^30 have no image.
 std::optional<CellLattice> CellLattice::Find(
   const CellSets& sets, int dimension, Progress& progress)
 {
@@ -74,6 +76,7 @@ std::optional<CellLattice> CellLattice::Find(
   return lattice;
 }
 
+// -1 for cells of another dimension; those are no misfits.
 bool CellLattice::Place(const CellSet& cells, bool hasMass, Progress& progress)
 {
   std::vector<std::int64_t> places(static_cast<std::size_t>(cells.NumberOfCells), -1);
@@ -85,6 +88,7 @@ bool CellLattice::Place(const CellSet& cells, bool hasMass, Progress& progress)
       std::int64_t others = 0;
       for (std::int64_t cell = first; cell < last && others == 0; ++cell)
       {
+        // A chunk ends at its first misfit, as one suffices.
         if (corners.IsOfDimension(cell))
         {
           std::array<std::int64_t, 3> at{};
@@ -107,6 +111,7 @@ ImageGrid CellLattice::DividedGrid(int resolution) const
 {
   std::array<int, 3> values = this->Box.NumberOfValues();
   const int longest = *std::max_element(values.begin(), values.end());
+  // As many parts a cell as bring the longest axis nearest to the resolution.
   const int parts = std::max(1, static_cast<int>(std::lround(double(resolution) / longest)));
   for (std::size_t a = 0; a < 3; ++a)
   {
@@ -120,6 +125,7 @@ bool CellLattice::FindTaken(
 {
   taken.assign(static_cast<std::size_t>(this->Box.NumberOfCells()), false);
   bool once = true;
+  // Twice at one place: the cells overlap, and copying would lose one.
   this->VisitCounted(sets, progress, [&](std::int64_t place, std::size_t, std::size_t) {
     once = once && !taken[static_cast<std::size_t>(place)];
     taken[static_cast<std::size_t>(place)] = true;
@@ -142,6 +148,7 @@ void CellLattice::CopyValues(
   });
 }
 
+// Resampling may put the mass of rounding into cells beside those that are there.
 void CellLattice::ClearAround(const std::vector<CellValues>& sets, const ImageGrid& divided,
   double* cells, Progress& progress) const
 {
@@ -182,7 +189,8 @@ LatticeLookup::LatticeLookup(
   });
 }
 
-// `along` is in spacings. A place at a face may be that of either cell.
+// The cell at a place, `along` in spacings from the lattice's begin. A place at a face may be
+// that of either cell: up to rounding, both cells along each axis are tried, eight in all.
 std::int64_t LatticeLookup::CellNear(const std::array<double, 3>& along) const
 {
   constexpr double rounding = 1e-6;
@@ -211,6 +219,8 @@ std::int64_t LatticeLookup::CellNear(const std::array<double, 3>& along) const
   return -1;
 }
 
+// The weights are multilinear: along each axis `part` for corners on the high side, 1 - part for
+// others.
 LatticeLookup::Place LatticeLookup::Find(const double* place) const
 {
   const LatticeFrame& frame = this->Lattice.Frame();

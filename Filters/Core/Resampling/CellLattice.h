@@ -64,6 +64,7 @@ private:
     Places; // one for each cell of each set with mass; -1: none
 };
 
+// Multilinear places need the image's order of places: axis 0 fastest.
 template <class Visit>
 void CellLattice::VisitCounted(
   const std::vector<CellValues>& sets, Progress& progress, const Visit& visit) const
@@ -112,8 +113,8 @@ private:
 
   const CellLattice& Lattice;
   const std::vector<CellValues>& Sets;
-  std::vector<std::int64_t> First{ 0 }; // number of a cell of each set, and the end
-  std::vector<std::int64_t> CellAt;     // each place of the lattice
+  std::vector<std::int64_t> First{ 0 }; // number of the first cell of each set, and the end
+  std::vector<std::int64_t> CellAt;     // numbers of cells, by places of the lattice; -1: none
 };
 
 } // namespace RectifiedTransport

@@ -10,7 +10,8 @@
 namespace RectifiedTransport
 {
 
-// Returns whether the cell can be divided.
+// Calls visit(simplex) for the simplices of a cell, in index space, with the density at their
+// vertices. Returns whether the cell can be divided.
 template <int D>
 template <class Visit>
 bool CellPieces<D>::VisitSimplices(std::int64_t cell, const Visit& visit)
@@ -33,6 +34,8 @@ bool CellPieces<D>::VisitSimplices(std::int64_t cell, const Visit& visit)
   return true;
 }
 
+// A box of the grid's axes has an exact integral of its multilinear function; other cells are
+// linear on simplices.
 template <int D>
 void CellPieces<D>::AddTo(const GridSlab<D>& slab, std::int64_t cell)
 {
@@ -46,6 +49,8 @@ void CellPieces<D>::AddTo(const GridSlab<D>& slab, std::int64_t cell)
     cell, [&](const LinearSimplex<D>& simplex) { addOverlaps<D>(simplex, slab); });
 }
 
+// The mean of a linear function over a simplex, and of a multilinear one over a box, is the mean at
+// the vertices.
 template <int D>
 CellSize CellPieces<D>::SizeOf(std::int64_t cell)
 {
@@ -84,7 +89,7 @@ CellSize CellPieces<D>::SizeOf(std::int64_t cell)
   return size;
 }
 
-// As left out.
+// Adds the box around a cell as left out: no more than that is lost.
 template <int D>
 void CellPieces<D>::AddBoxAround(std::int64_t cell, CellSize& size)
 {
@@ -107,7 +112,8 @@ void CellPieces<D>::AddBoxAround(std::int64_t cell, CellSize& size)
   size.LeftOutIntegral += measure * value;
 }
 
-// Returns whether the cell is a box of the grid's axes.
+// Returns whether the cell is a box of the grid's axes. Its corners are then in VTK's order for
+// voxels and pixels: bit a of a corner's number is its side along axis a.
 template <int D>
 bool CellPieces<D>::FindBox(std::int64_t cell, MultilinearBox<D>& box)
 {
@@ -124,7 +130,8 @@ bool CellPieces<D>::FindBox(std::int64_t cell, MultilinearBox<D>& box)
     index[i] = this->At(points[i]);
     box.Values[i] = this->Density.At(points[i], cell);
   }
-  // A pixel's axes are in order, which need not be that of the grid's.
+  // A pixel's axes are in order, which need not be that of the grid's. One box that does not fit
+  // ends the search for boxes in this set: voxels and pixels of a set have the same axes.
   constexpr double rounding = 1e-9;
   double longest = 0.0;
   for (int a = 0; a < D; ++a)

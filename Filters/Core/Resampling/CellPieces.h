@@ -17,10 +17,10 @@ namespace RectifiedTransport
 // What cells contain, in grid cells.
 struct CellSize
 {
-  double Integral = 0.0; // the cells' mass
-  double Measure = 0.0;
+  double Integral = 0.0;        // the cells' mass
+  double Measure = 0.0;         // volume, area or length
   std::int64_t LeftOut = 0;     // cells that cannot be divided into simplices
-  double LeftOutIntegral = 0.0; // at most: of the boxes around these
+  double LeftOutIntegral = 0.0; // at most, from the boxes around these
   double LeftOutMeasure = 0.0;
   std::int64_t FirstLeftOut = -1; // and its set
   std::size_t Set = 0;

@@ -27,7 +27,7 @@ enum class CellShape : unsigned char
   Hexahedron
 };
 
-// For one thread.
+// Reads the cells of a set. For one thread, as it has memory for the last cell.
 class CellReader
 {
 public:
@@ -47,6 +47,7 @@ public:
   virtual void GetPosition(std::int64_t point, double* x) const = 0;
 };
 
+// What a data set has to provide: the bridge to VTK implements it.
 class CellSet
 {
 public:

@@ -18,6 +18,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Adds the areas of regions, and these times their values.
 void addSizes(const RegionBatch& batch, CellSize& all)
 {
   for (const RegionShape& shape : batch.Shapes)
@@ -32,7 +33,8 @@ void addSizes(const RegionBatch& batch, CellSize& all)
   }
 }
 
-// What the cells that are divided contain.
+// What the cells that are divided contain. Chunks of a fixed size make the sum the same for any
+// number of threads.
 template <int D>
 CellSize sizeOf(const std::vector<CellValues>& sets, const ImageGrid& grid, Progress& progress)
 {
@@ -59,7 +61,8 @@ CellSize sizeOf(const std::vector<CellValues>& sets, const ImageGrid& grid, Prog
   return size;
 }
 
-// Adds what the regions of a batch cover of a slab.
+// Adds what the regions of a batch cover of a slab: the edges of one region follow each other, and
+// its value is added when the last one has come.
 void addEdges(const std::vector<CellValues>& sets, const RegionBatch& batch, std::int64_t number,
   const GridSlab<2>& slab)
 {
@@ -82,7 +85,8 @@ void addEdges(const std::vector<CellValues>& sets, const RegionBatch& batch, std
   }
 }
 
-// Adds the cells that are divided.
+// Adds the cells that are divided. Slabs have disjoint parts of the grid, so that threads do not
+// share a sum, and each slab adds its cells in their order.
 template <int D>
 void addCells(const std::vector<CellValues>& sets, const ImageGrid& grid, const GridSlabs<D>& slabs,
   Progress& progress, double* sums)
@@ -106,6 +110,7 @@ void addCells(const std::vector<CellValues>& sets, const ImageGrid& grid, const 
   });
 }
 
+// Sums of integrals over grid cells are the means, as a grid cell has the measure 1.
 template <int D>
 CellSize resample(
   const std::vector<CellValues>& sets, const ImageGrid& grid, Progress& progress, double* sums)

@@ -8,6 +8,8 @@
 namespace RectifiedTransport
 {
 
+// The roles follow from dimension, visibility and missing values. Values that only cells without a
+// role would need are not read.
 CellValues::CellValues(std::shared_ptr<const CellSet> cells, const MassCells& mass, bool onPoints,
   const std::vector<unsigned char>& missing, std::vector<unsigned char>& unused, Progress& progress)
   : Set(std::move(cells))
@@ -56,6 +58,7 @@ CellValues::CellValues(std::shared_ptr<const CellSet> cells, const MassCells& ma
   }
 }
 
+// Copies share values and roles; only the rule for At() changes.
 CellValues CellValues::Only(double value) const
 {
   CellValues only = *this;

@@ -21,9 +21,10 @@ class CellValues
 {
 public:
   CellValues() = default;
-  // Without values. Cells count if they carry mass and neither they nor their points are hidden or
-  // without a valid value. `missing`: which values are not valid; none if it is empty. Sets a byte
-  // of `unused` for each value that no counted cell needs, to 0 for the others. Throws Cancelled.
+  // Makes an object without values. Cells count if they carry mass and neither they nor their
+  // points are hidden or lack a valid value. `missing` says which values are not valid; if it is
+  // empty, all are. Sets `unused` to 1 for each value that no counted cell needs, to 0 for the
+  // others. Throws Cancelled.
   CellValues(std::shared_ptr<const CellSet> cells, const MassCells& mass, bool onPoints,
     const std::vector<unsigned char>& missing, std::vector<unsigned char>& unused,
     Progress& progress);
@@ -94,8 +95,8 @@ private:
   bool HasOnly = false;
   double OnlyValue = 0.0;
   std::shared_ptr<const LargeBuffer<double>> Density;
-  std::shared_ptr<std::vector<Role>> Roles; // one for each cell
-  std::int64_t Open = 0;
+  std::shared_ptr<std::vector<Role>> Roles; // by cells; shared by copies
+  std::int64_t Open = 0;                    // number of lines that are not closed
   std::int64_t FirstOpen = -1;
 };
 

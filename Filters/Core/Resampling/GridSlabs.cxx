@@ -9,6 +9,8 @@ namespace RectifiedTransport
 namespace
 {
 
+// The range of slabs that each cell reaches along the last axis, found in parallel, then sorted by
+// slabs.
 template <int D>
 Bins<std::int64_t> cellsOfSlabs(const CellValues& values, const ImageGrid& grid,
   const GridSlabs<D>& slabs, double margin, Progress& progress)
@@ -20,6 +22,7 @@ Bins<std::int64_t> cellsOfSlabs(const CellValues& values, const ImageGrid& grid,
     std::int32_t Last;
   };
   const CellSet& cells = values.Cells();
+  // An empty range for cells that are not divided.
   std::vector<Reach> reaches(static_cast<std::size_t>(cells.NumberOfCells), Reach{ 0, -1 });
   progress.For(cells.NumberOfCells, grain, [&](std::int64_t first, std::int64_t last) {
     const auto reader = cells.Read();

@@ -62,10 +62,10 @@ struct GridSlabs
   std::vector<Bins<std::int64_t>> CellsOf(const std::vector<CellValues>& sets,
     const ImageGrid& grid, double margin, Progress& progress) const;
 
-  static constexpr std::int64_t most = 64;
-  static constexpr std::int64_t least = 4;
+  static constexpr std::int64_t most = 64; // number of slabs
+  static constexpr std::int64_t least = 4; // planes of a slab, unless the grid has fewer
   GridSize<D> Size;
-  std::int64_t Planes;
+  std::int64_t Planes; // planes of a slab
   std::int64_t Count;
 };
 

@@ -29,6 +29,7 @@ void blankCellsOfHiddenPoints(const std::array<int, 3>& dimensions, const unsign
   }
   for (std::int64_t row = firstRow; row < lastRow; ++row)
   {
+    // Rows of cells are numbered along axis 1, then axis 2.
     const unsigned char* first = points + row % rows * rowStep + row / rows * planeStep;
     for (std::int64_t i = 0; i < columns; ++i)
     {

@@ -15,9 +15,9 @@ struct BlankingFlags
   unsigned char BlankCell;
 };
 
-// Writes the flags of the cells in some rows of an image along its first axis: BlankCell if a point
-// of the cell has the flag HiddenPoint, else the cell's own flags, 0 if `cells` is nullptr.
-// `dimensions` are numbers of points; 1 is no axis.
+// Writes the flags of an image's cells in some rows along its first axis. A cell has BlankCell if
+// one of its points has HiddenPoint, else its own flags, 0 if `cells` is nullptr. `dimensions` are
+// numbers of points; 1 is no axis.
 void blankCellsOfHiddenPoints(const std::array<int, 3>& dimensions, const unsigned char* points,
   const unsigned char* cells, std::int64_t firstRow, std::int64_t lastRow, unsigned char* flags,
   BlankingFlags values);

@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
-// The edges of a cell from its first corner.
+// The edges of a cell from its first corner, in lengths.
 using Edges = std::array<Vector3d, 3>;
 
 Edges noEdges()
@@ -40,6 +40,7 @@ Edges edgesOf(const BoxCorners& corners, int dimension)
   return edges;
 }
 
+// The mean of parallel edges over all cells has less rounding than any of them.
 struct Sums
 {
   Edges Along = noEdges();
@@ -56,8 +57,8 @@ Sums sumOf(Sums a, const Sums& b)
   return a;
 }
 
-// Adds a cell's edges to those that are parallel to the edges `like`. Returns false where they are
-// not nearly those, in any order and direction.
+// Adds a cell's edges to the sums of those that are parallel to the edges `like`. Returns false
+// unless each edge of `like` has one, in any order and direction.
 bool addEdges(const Edges& edges, const Edges& like, int dimension, Sums& sums)
 {
   constexpr double rough = 0.25; // coordinates may be rounded; corners are compared later
@@ -81,7 +82,7 @@ bool addEdges(const Edges& edges, const Edges& like, int dimension, Sums& sums)
   return found == (1 << dimension) - 1;
 }
 
-// The edges of the first cell of the dimension.
+// The edges of the first cell of the dimension; all others are compared with these.
 std::optional<Edges> firstEdges(const CellSets& sets, int dimension)
 {
   for (const auto& set : sets)
@@ -99,7 +100,9 @@ std::optional<Edges> firstEdges(const CellSets& sets, int dimension)
   return std::nullopt;
 }
 
-// Puts unit vectors along the edges into the columns of the space axes that they are nearest to.
+// Puts unit vectors along the edges into the columns of the space axes that they are nearest to,
+// greedily from the best pair on. Axes within 1e-9 of an axis of space become that axis, so that
+// rounding turns no image.
 bool setAxes(const Sums& sums, int dimension, LatticeFrame& frame, Vector3d& spacing)
 {
   std::array<Vector3d, 3> units;
@@ -133,7 +136,8 @@ bool setAxes(const Sums& sums, int dimension, LatticeFrame& frame, Vector3d& spa
   return true;
 }
 
-// Makes the columns orthonormal; those across a plane or a line complete them.
+// Makes the columns orthonormal by Gram and Schmidt. Columns across a plane or a line complete
+// them. In 3D the third keeps its side: a lattice may be left-handed.
 void completeAxes(int dimension, LatticeFrame& frame)
 {
   ImageGrid::Matrix& axes = frame.Axes;
@@ -164,7 +168,7 @@ struct Box
 {
   Vector3d Low = Vector3d::Constant(std::numeric_limits<double>::infinity());
   Vector3d High = Vector3d::Constant(-std::numeric_limits<double>::infinity());
-  double Rounding = 0.0; // the largest of a corner's coordinates
+  double Rounding = 0.0; // largest rounding of a corner's coordinates
 };
 
 Box boxOf(Box a, const Box& b)
@@ -173,7 +177,7 @@ Box boxOf(Box a, const Box& b)
 }
 
 // Combines what visit(corners, cell, part) adds of all cells of the dimension, until it returns
-// false. As the work of the current stage.
+// false. This is the work of the current stage.
 template <class Part, class Visit, class Combine>
 Part reduceCells(const CellSets& sets, int dimension, Progress& progress, const Visit& visit,
   const Combine& combine)
@@ -219,6 +223,8 @@ Box boxOfCells(
 
 } // namespace
 
+// First the edges, then the box along them: number of cells = length of the box / mean edge,
+// rounded.
 std::optional<LatticeFrame> LatticeFrame::Of(
   const CellSets& sets, int dimension, Progress& progress)
 {
@@ -255,7 +261,7 @@ std::optional<LatticeFrame> LatticeFrame::Of(
     const double length = box.High[axis] - box.Low[axis];
     if (!frame.IsAxis[a])
     {
-      constexpr double flatness = 1e-5; // of the longest side, as of any plane
+      constexpr double flatness = 1e-5; // part of the longest side, as of any plane
       if (!(length <= std::max(flatness * longest, box.Rounding)))
       {
         return std::nullopt;
@@ -263,7 +269,8 @@ std::optional<LatticeFrame> LatticeFrame::Of(
       frame.Low[axis] = 0.5 * (box.Low[axis] + box.High[axis]);
       continue;
     }
-    constexpr double usual = 1e-4; // of a spacing
+    constexpr double usual = 1e-4; // part of a spacing, as coordinates of some formats are rounded
+    // Beyond a tenth of a spacing, neighbouring places could be confused.
     constexpr double most = 0.1;
     frame.CellsAlong[a] = std::max(1.0, std::round(length / edge[axis]));
     frame.Low[axis] = box.Low[axis];
@@ -289,7 +296,8 @@ BoxCorners::BoxCorners(const CellSet& cells, int dimension)
 
 bool BoxCorners::Read(std::int64_t cell)
 {
-  // The points of cells around a face, by the bits of the corners.
+  // The points of cells around a face (quadrilaterals and hexahedra), by the bits of the corners:
+  // VTK numbers these corners in turn.
   constexpr std::array<std::size_t, 8> around{ 0, 1, 3, 2, 4, 5, 7, 6 };
   const CellShape shape = this->Reader->ShapeOf(cell);
   const bool isAround =
@@ -319,6 +327,8 @@ bool BoxCorners::Read(std::int64_t cell)
   return true;
 }
 
+// A corner's place along an axis is (coordinate - Low) / Spacing, which must be a whole number
+// within the tolerance. The cell's place is the least of its corners'.
 bool BoxCorners::FindPlace(const LatticeFrame& frame, std::array<std::int64_t, 3>& place,
   std::array<unsigned, 8>& sides) const
 {
@@ -359,7 +369,8 @@ bool BoxCorners::FindPlace(const LatticeFrame& frame, std::array<std::int64_t, 3
       return false;
     }
   }
-  // Each edge along another axis, and each corner where its edges lead.
+  // The bits make a box if each edge of the cell goes along another axis, and each corner is where
+  // the sum of its edges leads.
   unsigned axes = 0;
   for (int a = 0; a < this->Dimension; ++a)
   {

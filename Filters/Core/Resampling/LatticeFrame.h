@@ -31,8 +31,8 @@ struct LatticeFrame
   Eigen::Vector3d Low = Eigen::Vector3d::Zero();
   Eigen::Vector3d Spacing = Eigen::Vector3d::Ones();
   Eigen::Vector3d Tolerance = Eigen::Vector3d::Zero();
-  std::array<double, 3> CellsAlong{ 0.0, 0.0, 0.0 }; // whole numbers, of the box of the cells
-  double Cells = 0.0;                                // the number of those that there are
+  std::array<double, 3> CellsAlong{ 0.0, 0.0, 0.0 }; // whole numbers of cells along the box
+  double Cells = 0.0;                                // number of cells that there are
 };
 
 // The corners of cells that may be boxes. Bit a of a corner's number says on which side it is along

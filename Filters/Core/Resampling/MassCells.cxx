@@ -15,6 +15,7 @@ namespace
 
 using Eigen::Vector3d;
 
+// A position as a vector.
 Vector3d pointAt(const CellReader& reader, std::int64_t point)
 {
   Vector3d x;
@@ -22,7 +23,8 @@ Vector3d pointAt(const CellReader& reader, std::int64_t point)
   return x;
 }
 
-// The points of a line that ends where it begins, else nullptr.
+// The points of a polyline that ends where it begins (the same point, or the same coordinates);
+// else nullptr.
 const CellReader::Ids* findClosedLine(CellReader& reader, std::int64_t cell)
 {
   if (reader.ShapeOf(cell) != CellShape::PolyLine)
@@ -36,9 +38,10 @@ const CellReader::Ids* findClosedLine(CellReader& reader, std::int64_t cell)
   return isClosed ? &points : nullptr;
 }
 
+// Whether all points are near the line through the first one and the one farthest from it.
 bool isStraight(const CellReader& reader, const CellReader::Ids& points)
 {
-  constexpr double straightness = 1e-5; // of its length
+  constexpr double straightness = 1e-5; // part of the line's length
   const Vector3d first = pointAt(reader, points.front());
   Vector3d farthest = Vector3d::Zero();
   for (const std::int64_t point : points)
@@ -56,6 +59,7 @@ bool isStraight(const CellReader& reader, const CellReader::Ids& points)
   return !(off > straightness * length);
 }
 
+// Whether a set has a closed line that is not straight, hence one with something inside.
 bool hasRegion(const CellSet& cells, Progress& progress)
 {
   constexpr std::int64_t cellsBetweenPolls = std::int64_t{ 1 } << 12;
@@ -88,6 +92,7 @@ const CellReader::Ids* MassCells::Find(CellReader& reader, std::int64_t cell) co
   return this->HasDimension(reader, cell) ? &reader.PointsOf(cell) : nullptr;
 }
 
+// Regions have the dimension 2 although their cells are lines.
 MassCells massCells(const CellSets& sets, int dimension, Progress& progress)
 {
   const bool areRegions = dimension == 1 &&

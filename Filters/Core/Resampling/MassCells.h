@@ -13,8 +13,8 @@ class Progress;
 
 struct MassCells
 {
-  int Dimension = 0;           // of the domain
-  bool AreClosedLines = false; // which are around regions of a plane
+  int Dimension = 0;           // dimension of the domain
+  bool AreClosedLines = false; // lines are around regions of a plane
 
   // Whether a cell has the dimension; other cells carry no mass.
   bool HasDimension(const CellReader& reader, std::int64_t cell) const;

@@ -21,9 +21,10 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr double reach = 1.0; // grid cells around a mesh's cell
+constexpr double reach = 1.0; // grid cells around a mesh's cell in which places are still found
 
-// Numbers of places, by the bin of a lattice that each is in.
+// Numbers of places, by the bin of a lattice that each is in. Bins are cubes of at least a grid
+// cell, about as many as places.
 template <int D>
 class PlaceBins
 {
@@ -106,7 +107,9 @@ private:
   Bins<std::int64_t> Sorted;
 };
 
-// Where places are in the simplices of the last cell that was divided.
+// Finds where places are in the simplices of the last cell that was divided. Barycentric weights w
+// = E^-1 (x - v0) are not negative inside. Outside, negative weights are set to 0 and the rest
+// scaled to the sum 1: a point of the simplex near x, whose squared distance competes with others.
 template <int D>
 void search(const CellPieces<D>& pieces, std::int64_t cell, int set, const PlaceBins<D>& bins,
   MeshPlace* found)
@@ -132,6 +135,7 @@ void search(const CellPieces<D>& pieces, std::int64_t cell, int set, const Place
       continue; // without a measure
     }
     bins.VisitAround(bounds, [&](std::int64_t number, const Point<D>& place) {
+      // Distance 0: a cell before contains the place, and the first one counts.
       MeshPlace& best = found[number];
       if (best.Distance == 0.0)
       {
@@ -175,6 +179,7 @@ void search(const CellPieces<D>& pieces, std::int64_t cell, int set, const Place
           best.Points[i] = pieces.VertexId(s, i);
           best.Weights[i] = weights[i];
         }
+        // The records have four points for any dimension.
         std::fill(best.Points + D + 1, best.Points + 4, best.Points[0]);
         std::fill(best.Weights + D + 1, best.Weights + 4, 0.0);
       }
@@ -182,6 +187,7 @@ void search(const CellPieces<D>& pieces, std::int64_t cell, int set, const Place
   }
 }
 
+// A region replaces what sets after it have found, as places belong to the first set.
 void searchRegion(const RegionRows& region, int set, const PlaceBins<2>& bins, MeshPlace* found)
 {
   bins.VisitAround(region.Extent(), [&](std::int64_t number, const Point<2>& x) {
@@ -199,6 +205,7 @@ void searchRegion(const RegionRows& region, int set, const PlaceBins<2>& bins, M
   });
 }
 
+// Edges of one region follow each other in a slab.
 void searchRegions(const RegionBatch& batch, std::int64_t slab, const GridSlabs<2>& slabs,
   const PlaceBins<2>& bins, Progress& progress, MeshPlace* found)
 {
@@ -241,6 +248,7 @@ void searchCells(const std::vector<CellValues>& sets, const ImageGrid& grid,
   }
 }
 
+// Each slab has its own places: threads write to different records.
 template <int D>
 void find(const std::vector<CellValues>& sets, const ImageGrid& grid, ConstPointSpan<3> places,
   Progress& progress, MeshPlace* found)

@@ -58,6 +58,8 @@ public:
   }
 
 private:
+  // x = clamped index along each axis; cell = its whole part, part = the rest. Points on a face
+  // have fewer than 2^D points with weights above 0.
   void FindAt(const double* index, const GridSize<D>& cells, SampledPlace& found) const
   {
     double parts[D];
@@ -119,9 +121,9 @@ private:
     }
   }
 
-  const ImageGrid Points; // its grid cells are the image's cells
-  GridSize<D> Start{};
-  GridSize<D> PartCells{};
+  const ImageGrid Points;  // its grid cells are the image's cells
+  GridSize<D> Start{};     // first cell of the part in the image, along its axes
+  GridSize<D> PartCells{}; // cells of the part
   const ConstPointSpan<3> Places;
 };
 

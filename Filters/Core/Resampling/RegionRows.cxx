@@ -13,7 +13,8 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// How far along ab the point of it is that is nearest to x, as a part of its length.
+// The point of ab that is nearest to x, as a part of its length: (x - a) . (b - a) / |b - a|^2,
+// clamped to [0, 1].
 double partNearest(const Point<2>& a, const Point<2>& b, const Point<2>& x)
 {
   const double dx = b[0] - a[0];
@@ -22,6 +23,7 @@ double partNearest(const Point<2>& a, const Point<2>& b, const Point<2>& x)
   return std::isfinite(part) ? std::clamp(part, 0.0, 1.0) : 0.0;
 }
 
+// The squared distance of x to the point a + part (b - a).
 double squaredDistance(const Point<2>& a, const Point<2>& b, double part, const Point<2>& x)
 {
   const double dx = a[0] + part * (b[0] - a[0]) - x[0];
@@ -41,7 +43,7 @@ RegionRows::RegionRows(
     this->Box.Add(edge.From.data());
     this->Box.Add(edge.To.data());
   }
-  // Edges that are within a row of these.
+  // Rows within one of the places: FindNearest() looks that far.
   this->FirstRow = std::max(low - 1, static_cast<std::int64_t>(std::floor(this->Box.Low[1])));
   this->LastRow = std::max(
     this->FirstRow, std::min(high, static_cast<std::int64_t>(std::floor(this->Box.High[1]))));
@@ -59,6 +61,7 @@ RegionRows::RegionRows(
   });
 }
 
+// Rows count from FirstRow; those beyond are clamped.
 std::size_t RegionRows::RowOf(double y) const
 {
   return static_cast<std::size_t>(
@@ -66,7 +69,9 @@ std::size_t RegionRows::RowOf(double y) const
     this->FirstRow);
 }
 
-// Sets the ends of the input's edge that a piece belongs to.
+// Sets two of the points of a place: the ends of the input's edge that a piece belongs to, with
+// weights that sum to `weight`. The piece's ends may be crossings, so that its point is projected
+// on the edge.
 void RegionRows::SetEnds(
   const RegionBatch::Edge& edge, double part, double weight, int at, MeshPlace& found) const
 {
@@ -86,6 +91,8 @@ void RegionRows::SetEnds(
   found.Weights[at + 1] = weight * along;
 }
 
+// Even-odd rule along the horizontal line through x: inside if an odd number of edges is to its
+// left. The value is linear between the nearest edges to the left and to the right.
 bool RegionRows::FindInside(const Point<2>& x, MeshPlace& found) const
 {
   if (x[1] < this->Box.Low[1] || x[1] > this->Box.High[1])
@@ -129,10 +136,11 @@ bool RegionRows::FindInside(const Point<2>& x, MeshPlace& found) const
   return true;
 }
 
+// Only edges within a row of x can be within the diagonal of a grid cell.
 void RegionRows::FindNearest(const Point<2>& x, MeshPlace& found) const
 {
   RegionBatch::Edge nearest{ -1, 0 };
-  double best = 2.0 + 1e-9; // the diagonal of a grid cell
+  double best = 2.0 + 1e-9; // squared diagonal of a grid cell
   double bestPart = 0.0;
   for (const RegionBatch::Edge& number :
     this->Rows.Of(this->RowOf(x[1] - 1.0), this->RowOf(x[1] + 1.0)))

@@ -45,10 +45,10 @@ private:
   void FindNearest(const Point<2>& x, MeshPlace& found) const;
 
   const RegionBatch& Batch;
-  Bounds<2> Box; // of the edges
+  Bounds<2> Box; // bounds of the edges
   std::int64_t FirstRow;
   std::int64_t LastRow;
-  Bins<RegionBatch::Edge> Rows;
+  Bins<RegionBatch::Edge> Rows; // by rows of grid cells
 };
 
 } // namespace RectifiedTransport

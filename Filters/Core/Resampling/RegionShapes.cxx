@@ -16,6 +16,7 @@ namespace
 {
 
 constexpr std::int64_t cellGrain = std::int64_t{ 1 } << 10;
+// Stands for all closed lines of a set in the place of a cell.
 constexpr std::int64_t allLines = -1;
 
 // Adds rings of cells to shapes. For one thread.
@@ -28,7 +29,7 @@ public:
   {
   }
 
-  // Reads a set's cell, or all its lines.
+  // Reads a set's cell, or all its lines, as rings in index space.
   void Read(int set, std::int64_t cell, RegionShape& shape)
   {
     const CellValues& values = this->Sets[static_cast<std::size_t>(set)];
@@ -52,7 +53,8 @@ public:
     }
   }
 
-  // Edges and the values of regions.
+  // Finds the edges of regions by the even-odd rule, and with point values the value of each
+  // region: that of the least-squares plane at the region's centroid.
   void FindRegions(std::int64_t cell, RegionShape& shape, Progress& progress) const
   {
     const CellValues& values = this->Sets[static_cast<std::size_t>(shape.Set)];
@@ -75,6 +77,8 @@ public:
   }
 
 private:
+  // Appends the ring of a cell. A point at the place of the one before is left out, and so is the
+  // last point of a closed line.
   void AddRing(const CellValues& values, std::int64_t cell, RegionShape& shape)
   {
     const CellReader::Ids& points = this->Reader->PointsOf(cell);
@@ -119,7 +123,8 @@ private:
   int ReaderSet = -1;
 };
 
-// Whether a polygon of four corners turns the same way at each of them, clearly.
+// Whether a polygon of four corners turns the same way at each of them, clearly: by an area above
+// 1e-6 of the longest side's square.
 bool isConvex(const Rings& ring)
 {
   constexpr double clearly = 1e-6;
@@ -146,7 +151,7 @@ bool isConvex(const Rings& ring)
   return ring.Edges() == 4 && (lefts == 4 || rights == 4);
 }
 
-// Whether a cell is a region; for one thread.
+// Whether a polygon is a region instead of being divided; for one thread.
 class RegionTest
 {
 public:
@@ -159,9 +164,11 @@ public:
   {
   }
 
+  // Triangles and convex quadrilaterals divide well. Larger polygons with one value need no
+  // division. With point values, it is used if the triangles have the area of the region.
   bool Is(std::int64_t cell, Progress& progress)
   {
-    constexpr std::size_t mostDivided = 256; // VTK takes quadratic time
+    constexpr std::size_t mostDivided = 256; // VTK's ear clipping takes quadratic time
     const CellShape shapeOfCell = this->Cells->ShapeOf(cell);
     if (shapeOfCell != CellShape::Polygon && shapeOfCell != CellShape::Quad)
     {
@@ -186,6 +193,7 @@ public:
   }
 
 private:
+  // VTK's triangles of a concave or crossing polygon need not cover the region once.
   bool IsDividedWell(std::int64_t cell, RegionShape& shape, Progress& progress)
   {
     constexpr double tolerance = 1e-9;
@@ -203,7 +211,7 @@ private:
   CellPieces<2> Pieces;
 };
 
-// A polygon, or the lines of a set: a part of a batch.
+// What a shape is made of: a polygon, or the lines of a set.
 struct Unit
 {
   int Set;
@@ -229,7 +237,7 @@ std::vector<Unit> unitsOf(const std::vector<CellValues>& sets)
   return units;
 }
 
-// Returns the end of the batch that begins with a unit.
+// Returns the end of the batch that begins with a unit: about 2^18 edges, which bounds the memory.
 std::size_t endOfBatch(
   const std::vector<CellValues>& sets, const std::vector<Unit>& units, std::size_t first)
 {
@@ -253,7 +261,7 @@ std::size_t endOfBatch(
   return last;
 }
 
-// Sorts the edges of a batch by the slabs that they reach.
+// Sorts the edges of a batch by the slabs that they reach, within a margin in grid cells.
 void findSlabs(const GridSlabs<2>& slabs, double margin, RegionBatch& batch)
 {
   batch.Slabs.Fill(static_cast<std::size_t>(slabs.Count), [&](const auto& add) {
@@ -300,6 +308,7 @@ void markRegions(std::vector<CellValues>& sets, const ImageGrid& grid, Progress&
   }
 }
 
+// Batches follow each other; in a batch, shapes and then slabs are the tasks of threads.
 void visitRegions(const std::vector<CellValues>& sets, const ImageGrid& grid,
   const GridSlabs<2>& slabs, double margin, Progress& progress,
   const std::function<void(const RegionBatch&)>& use)

@@ -31,9 +31,9 @@ struct RegionShape
   Rings Outline;
   std::vector<std::int64_t> Points; // one for each point of the rings
   std::vector<double> PointValues;  // if the density is on points
-  std::vector<std::int64_t> Cells;  // of each ring
-  std::vector<double> Values;       // of each ring's region
-  std::vector<OutlineEdge> Edges;   // of regionOutlines
+  std::vector<std::int64_t> Cells;  // cells, by rings
+  std::vector<double> Values;       // densities of the rings' regions
+  std::vector<OutlineEdge> Edges;   // result of regionOutlines
 
   // Calls visit(ring, first, last) with the edges of the region of each ring that has one.
   template <class Visit>

@@ -16,6 +16,8 @@ RingValues::RingValues(const Rings& rings, std::int64_t ring, const double* valu
   {
     return;
   }
+  // The weight of a point is half of the length of its two edges, by the length of the ring: the
+  // trapezoidal rule for means along the ring.
   std::vector<double> weights(static_cast<std::size_t>(end - begin), 0.0);
   double all = 0.0;
   for (std::int64_t i = begin; i < end; ++i)
@@ -42,6 +44,8 @@ RingValues::RingValues(const Rings& rings, std::int64_t ring, const double* valu
     this->Smallest = std::min(this->Smallest, value);
     this->Largest = std::max(this->Largest, value);
   }
+  // The normal equations of the weighted least squares: with offsets from the weighted means, (xx
+  // xy; xy yy) slope = right.
   double xx = 0.0;
   double xy = 0.0;
   double yy = 0.0;
@@ -57,6 +61,7 @@ RingValues::RingValues(const Rings& rings, std::int64_t ring, const double* valu
     right[0] += weightOf(i) * x * off;
     right[1] += weightOf(i) * y * off;
   }
+  // The points are on a line, nearly: the slope across it is undetermined, and the mean stays.
   constexpr double singular = 1e-12;
   const double determinant = xx * yy - xy * xy;
   if (determinant > singular * (xx + yy) * (xx + yy))

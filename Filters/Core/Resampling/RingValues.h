@@ -23,9 +23,9 @@ public:
   double At(const Point<2>& x) const;
 
 private:
-  Point<2> Middle{ 0.0, 0.0 };
-  Point<2> Slope{ 0.0, 0.0 };
-  double Value = 0.0;
+  Point<2> Middle{ 0.0, 0.0 }; // weighted mean of the ring's points, in index space
+  Point<2> Slope{ 0.0, 0.0 };  // per grid cell
+  double Value = 0.0;          // weighted mean of the values
   double Smallest = 0.0;
   double Largest = 0.0;
 };

@@ -12,8 +12,8 @@ namespace RectifiedTransport
 struct SampledPlace
 {
   std::int64_t Points[8];
-  double Weights[8];
-  int Count;         // of points
+  double Weights[8]; // by points; they sum to 1
+  int Count;         // number of points
   std::int64_t Cell; // -1 for a place in none: values are NaN, or 0 for types without NaN
   int Set = 0;       // which of the data sets
 };

@@ -28,8 +28,8 @@ std::string firstText(const std::vector<CellValues>& sets, std::size_t set, std:
     (sets.size() > 1 ? " of " + sets[set].Cells().Name : "") + ")";
 }
 
-// Adds what is known about a set's values. `isBeyond`: its value replaces that of the sets
-// before. Sets number their values each from 0: the index stays that of the set of this name.
+// Adds what is known about a set's values. `isBeyond` says whether its value replaces that of the
+// sets before. Sets number their values each from 0: the index stays that of the set of this name.
 template <class Found>
 void addSet(const std::string& array, const Found& part, std::int64_t Found::*index, bool isBeyond,
   Found& all, std::string& name)
@@ -79,6 +79,9 @@ std::vector<std::string> describeLost(
   return warnings;
 }
 
+// Findings of all sets as one: the largest density, the white and the lowest value each with the
+// array that has it. The share of the mass at the largest value needs an integral, which is
+// computed only if it is reported.
 std::vector<std::string> describeUnusual(const std::vector<CellValues>& sets,
   const std::vector<SetFindings>& findings, ValuePlaces places, const ImageGrid& grid,
   Progress& progress)

@@ -13,7 +13,7 @@
 namespace RectifiedTransport
 {
 
-// What to warn of: cells that carry no mass. `size`: what all cells contain.
+// Warnings about cells that carry no mass. `size` is what all cells contain.
 std::vector<std::string> describeLost(
   const std::vector<CellValues>& sets, const CellSize& size, int dimension);
 

@@ -16,7 +16,7 @@ namespace
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 constexpr unsigned char unused = 1; // flags values that are not read
 
-// Which values are missing; none if none can be.
+// A byte for each value, 1 if it is missing; empty if none can be.
 std::vector<unsigned char> findMissing(
   const DensityReader& reader, std::int64_t count, Progress& progress)
 {
@@ -33,6 +33,7 @@ std::vector<unsigned char> findMissing(
 
 } // namespace
 
+// Values that no counted cell needs are blank for the reader: they become 0 and cause no error.
 SetReading::SetReading(std::unique_ptr<DensityReader> reader, const std::string& name,
   bool areBytes, const std::shared_ptr<const CellSet>& set, bool onPoints, const MassCells& mass,
   Progress& progress)
@@ -53,6 +54,7 @@ double SetReading::FindLargest(Progress& progress)
   return this->Found.Known.White.Value;
 }
 
+// The least is that of the values that counted cells need, as blank ones are 0.
 void SetReading::Read(LargeBuffer<double> densities, Progress& progress)
 {
   const std::int64_t count = this->NumberOfValues();

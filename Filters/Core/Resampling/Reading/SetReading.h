@@ -48,7 +48,7 @@ public:
 
 private:
   std::unique_ptr<DensityReader> Reader;
-  std::vector<unsigned char> Unused; // a flag for each value
+  std::vector<unsigned char> Unused; // by values: 1 if no counted cell needs it
   bool AreBytes;
 };
 
