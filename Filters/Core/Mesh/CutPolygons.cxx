@@ -35,6 +35,7 @@ PolygonTriangles cutPolygons(
         append(cell);
         return;
       }
+      // A polygon that cannot be cut lacks all its triangles.
       firstMissing = missing == 0 ? cell : firstMissing;
       missing += static_cast<std::int64_t>(polygon.size()) - 2;
     });

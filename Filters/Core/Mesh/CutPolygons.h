@@ -33,7 +33,8 @@ struct PolygonSource
 struct PolygonTriangles
 {
   LargeBuffer<std::int64_t> Corners; // three points a triangle
-  LargeBuffer<std::int64_t> Cells;   // which polygon each is of; strips are numbered on
+  // Number of the polygon that each is part of; strips are numbered on.
+  LargeBuffer<std::int64_t> Cells;
 };
 
 // As PolygonCutter::Cut cuts. Throws Failure for polygons that cannot be cut,

@@ -26,7 +26,7 @@ std::string counted(std::int64_t count, const char* one, const char* many)
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-// The predicate of a sentence whose subject is the surface.
+// What is wrong and what helps, as the predicate of a sentence whose subject is the surface.
 std::string describe(DiskDefect defect, std::int64_t count, std::int64_t first)
 {
   const std::string id = std::to_string(first);
@@ -115,6 +115,8 @@ TriangleSurface DiskMesh::Surface() const
     this->NumberOfTriangles() };
 }
 
+// Points not finite are counted, not only found, for the message. Coordinates then are from the
+// centre of the bounds in units of their longest side, so that areas neither overflow nor vanish.
 void DiskMesh::CopyPoints(ConstPointSpan<3> points, Progress& progress)
 {
   const std::int64_t count = points.size();
@@ -151,6 +153,7 @@ void DiskMesh::CopyTriangles(const TriangleSurface& surface, Progress& progress)
     [&](std::int64_t corner) { this->Triangles.data()[corner] = cornerPoint(surface, corner); });
 }
 
+// Areas of triangles, then their shares of the sum.
 void DiskMesh::FindAreas(Progress& progress)
 {
   std::int64_t wrong = 0;
@@ -158,6 +161,7 @@ void DiskMesh::FindAreas(Progress& progress)
   progress.ForEachInOrder(
     this->NumberOfTriangles(), grain,
     [&](std::int64_t t) {
+      // The sum is in the order of the triangles, whatever the number of threads.
       const auto corner = [this, t](int i) {
         return Eigen::Map<const Eigen::Vector3d>(
           this->Coordinates.data() + 3 * this->Triangle(t)[i]);
@@ -179,6 +183,7 @@ void DiskMesh::FindAreas(Progress& progress)
     [this](std::int64_t t) { this->Shares.data()[t] /= this->TotalArea; });
 }
 
+// A point in no triangle would have no place in the map.
 void DiskMesh::RequireUsedPoints(Progress& progress) const
 {
   std::vector<unsigned char> used(static_cast<std::size_t>(this->NumberOfPoints()), 0);
@@ -194,6 +199,8 @@ void DiskMesh::RequireUsedPoints(Progress& progress) const
   }
 }
 
+// Turns triangles to the orientation of most of the area. More components than one and surfaces
+// with one side are refused.
 void DiskMesh::Orient(const Context& context)
 {
   const std::int64_t reversed = this->Sides->Reversed();
@@ -214,6 +221,7 @@ void DiskMesh::Orient(const Context& context)
   }
 }
 
+// Scales the shares before `first` to 1 - share together, the others to `share`.
 void DiskMesh::SetShareFrom(std::int64_t first, double share)
 {
   double* const shares = this->Shares.data();
@@ -225,13 +233,14 @@ void DiskMesh::SetShareFrom(std::int64_t first, double share)
   std::transform(from, end, from, [=](double own) { return own * (share / after); });
 }
 
+// Finds the boundary loop, and refuses what is no disk by Euler's formula.
 void DiskMesh::FindBoundary(Progress& progress)
 {
   const std::int64_t points = this->NumberOfPoints();
   const std::int64_t sides = this->Triangles.size();
   const std::int64_t* from = this->Triangles.data();
-  // Of each point, the side where the triangles about it begin: on the boundary the open one that
-  // leaves it.
+  // By points: the side where the fan of triangles about the point begins. On the boundary it is
+  // the open side that leaves the point.
   std::vector<std::int64_t> start(static_cast<std::size_t>(points), -1);
   std::vector<std::int64_t> valence(static_cast<std::size_t>(points), 0);
   Stages stages(progress, { { "starts", 1 }, { "pinched points", 2 }, { "loops", 1 } });
@@ -249,6 +258,8 @@ void DiskMesh::FindBoundary(Progress& progress)
   Progress& pinches = stages["pinched points"].Expect(points);
   std::int64_t pinched = 0;
   std::int64_t firstPinched = -1;
+  // Walks around each point over the shared sides. If the fan has fewer triangles than the point,
+  // several fans touch there: a pinched point.
   for (std::int64_t point = 0; point < points; ++point)
   {
     const std::int64_t first = start[static_cast<std::size_t>(point)];
@@ -274,6 +285,8 @@ void DiskMesh::FindBoundary(Progress& progress)
   std::int64_t loops = 0;
   std::int64_t open = 0;
   std::vector<unsigned char> passed(static_cast<std::size_t>(points), 0);
+  // Each open side whose point has not been passed starts a loop; from the end of a side the
+  // boundary goes on along the open side of that point.
   for (std::int64_t side = 0; side < sides; ++side)
   {
     search.Add(1);
@@ -298,6 +311,7 @@ void DiskMesh::FindBoundary(Progress& progress)
     throw NotADisk(DiskDefect::Closed, 0);
   }
   // Euler's formula: points - edges + triangles = 2 - 2 handles - loops.
+  // Inner edges have two sides, open ones have one.
   const std::int64_t edges = (sides + open) / 2;
   const std::int64_t handles = (2 - loops - (points - edges + sides / 3)) / 2;
   if (loops > 1)

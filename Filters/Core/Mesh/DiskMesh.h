@@ -101,9 +101,9 @@ private:
   void Orient(const Context& context);
   void FindBoundary(Progress& progress);
 
-  LargeBuffer<double> Coordinates;
-  LargeBuffer<std::int64_t> Triangles;
-  LargeBuffer<double> Shares;
+  LargeBuffer<double> Coordinates;     // three a point, in units of Unit()
+  LargeBuffer<std::int64_t> Triangles; // three points each
+  LargeBuffer<double> Shares;          // parts of the area, by triangles
   std::unique_ptr<SurfaceEdges> Sides;
   std::vector<std::int64_t> Loop;
   double Length = 1.0;

@@ -8,6 +8,8 @@
 namespace RectifiedTransport
 {
 
+// Tries the triangles as they are, repaired as little as possible. If that is no disk, or if
+// triangles without area may have left cracks, tries again with triangles cut at T-junctions.
 DiskTriangles::DiskTriangles(SurfaceTriangles& triangles, Progress& progress)
   : Cut(&triangles)
 {
@@ -66,6 +68,8 @@ bool DiskTriangles::IsPart(std::int64_t triangle) const
   return parts && parts->IsPart(this->Mesh->GivenTriangle(triangle));
 }
 
+// Weights in the disk's triangle become weights in the given one, if that was cut: the part's
+// corners have known places on it.
 PointWeights DiskTriangles::InGiven(const PlaceOnTriangle& place) const
 {
   PointWeights found{ this->CornersOf(place.Triangle), place.Weights };

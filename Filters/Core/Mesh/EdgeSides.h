@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sides of triangles by the edges that they are.
+// The sides of triangles, grouped by edges.
 #ifndef RectifiedTransport_EdgeSides_h
 #define RectifiedTransport_EdgeSides_h
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The height of a triangle over its longest side.
+// The longest side of a triangle and the height over it: twice the area by the side.
 #ifndef RectifiedTransport_FlatShape_h
 #define RectifiedTransport_FlatShape_h
 
@@ -24,8 +24,8 @@ struct FlatShape
   }
 
   int Longest;   // the side from this corner to the next
-  double Length; // its
-  double Height;
+  double Length; // length of the longest side
+  double Height; // height over the longest side, in the same unit
 };
 
 } // namespace RectifiedTransport

@@ -16,6 +16,10 @@ namespace RectifiedTransport
 namespace
 {
 
+// A triangle of the height 0 has its third point within its longest side. Flipping that side turns
+// the triangle and the one beyond it into two that share the new edge: the side is then split at
+// the point, as it should be. Each flip replaces an edge by a shorter one, so that the process
+// ends.
 class FlatTriangleRun
 {
 public:
@@ -64,11 +68,12 @@ private:
     return this->ShapeOf(triangle).Height <= this->Height;
   }
 
-  // A flat triangle, and those that flips make flat or that have to be removed before.
+  // Removes a flat triangle, after those that have to be removed before it, and then those that
+  // flips make flat.
   void Remove(std::int64_t triangle, Progress& progress)
   {
     // Lengths fall with every flip but for rounding, which must not let two sides flip for ever.
-    constexpr std::int64_t most = 64; // steps a triangle
+    constexpr std::int64_t most = 64; // flips and visits a triangle, on average
     this->Stack.assign(1, triangle);
     while (!this->Stack.empty() && this->Steps < most * this->Edited.Count)
     {
@@ -83,6 +88,8 @@ private:
     }
   }
 
+  // On the boundary a flat triangle is left out. If the triangle beyond is flat and its longest
+  // side is longer, that one comes first: its flip changes the side in question.
   void Step(std::int64_t triangle)
   {
     const FlatShape shape = this->ShapeOf(triangle);
@@ -110,6 +117,8 @@ private:
     }
   }
 
+  // Leaves a triangle out; its neighbours become open there. Each of its points notes the nearer
+  // one of the other two, for points that no other triangle has.
   void LeaveOut(std::int64_t triangle)
   {
     for (std::int64_t side = 3 * triangle; side < 3 * triangle + 3; ++side)
@@ -128,7 +137,8 @@ private:
     std::fill_n(this->Edited.Points + 3 * triangle, 3, std::int64_t{ -1 });
   }
 
-  // Whether the edge between the points across does not exist yet.
+  // Whether the two triangles agree in orientation, and the edge between the points across does not
+  // exist yet: it would be an edge of more than two triangles.
   bool CanFlip(std::int64_t side, std::int64_t other)
   {
     const bool isOriented = this->PointAt(side) == this->PointAt(nextSide(other)) &&
@@ -138,7 +148,8 @@ private:
       !this->IsJoined(lastSide(side), across);
   }
 
-  // Whether a triangle about the point that a side leaves has another point.
+  // Whether a triangle about the point that a side leaves has another point: walks the fan one way
+  // and, if it is open, the other way from the start.
   bool IsJoined(std::int64_t leaving, std::int64_t point)
   {
     const auto has = [&](std::int64_t side) {
@@ -172,7 +183,8 @@ private:
     return false;
   }
 
-  // Changes the two triangles as flipEdge changes their sides.
+  // Changes the points, corners and origins of the two triangles as flipEdge changes their sides.
+  // Both are then parts of the triangle beyond.
   void Flip(std::int64_t side, std::int64_t other)
   {
     const std::int64_t f = side / 3;
@@ -199,8 +211,8 @@ private:
   const EditedTriangles Edited;
   const double Height;
   std::int64_t* const Nearest;
-  LargeBuffer<std::int64_t> Others; // by sides
-  std::vector<std::int64_t> Stack;
+  LargeBuffer<std::int64_t> Others; // other side of each side's edge; -1 if there is none
+  std::vector<std::int64_t> Stack;  // triangles to look at
   std::int64_t Steps = 0;
 };
 

@@ -18,7 +18,7 @@ struct EditedTriangles
   ConstPointSpan<3> Positions;
   std::int64_t* Points;  // three a triangle
   std::int64_t* Corners; // three a triangle
-  std::int64_t* Origins;
+  std::int64_t* Origins; // one a triangle
   std::int64_t Count;
 };
 

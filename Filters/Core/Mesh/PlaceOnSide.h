@@ -13,11 +13,12 @@
 namespace RectifiedTransport
 {
 
+// Decides with the same tolerance for all sides, so that triangles on both sides of a line agree.
 class PlaceOnSide
 {
 public:
-  // Of points within the bounds. They may be off by `rounding`, or by that of double, or by 1e-6 of
-  // the longest side of the bounds.
+  // For points within the bounds. They may be off by the largest of `rounding`, the rounding of
+  // double, and 1e-6 of the longest side of the bounds.
   PlaceOnSide(const PointBounds& bounds, double rounding)
   {
     constexpr double relative = 1e-6;
@@ -36,10 +37,12 @@ public:
   // How far points may be off.
   double Tolerance() const { return this->Distance; }
 
-  // From 0 to 1 along the side from a to b; 0 if the point is not within it.
+  // The place of x from 0 to 1 along the side from a to b: (x - a) . (b - a) / |b - a|^2. It is 0
+  // if x is farther off the side than the tolerance, or is at one of its ends.
   double Of(const double* a, const double* b, const double* x) const
   {
-    constexpr double steepest = 1.0 / 16.0; // where sides are not much longer than the tolerance
+    // Largest gap by length, where sides are not much longer than the tolerance.
+    constexpr double steepest = 1.0 / 16.0;
     double squared = 0.0;
     double along = 0.0;
     for (int axis = 0; axis < 3; ++axis)

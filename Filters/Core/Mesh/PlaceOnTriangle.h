@@ -9,7 +9,7 @@
 namespace RectifiedTransport
 {
 
-// By its barycentric coordinates: not negative, with the sum 1.
+// A point by its barycentric coordinates, which are not negative and sum to 1.
 struct PlaceOnTriangle
 {
   std::int64_t Triangle;

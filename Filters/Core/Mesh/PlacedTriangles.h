@@ -15,12 +15,12 @@ namespace RectifiedTransport
 
 struct SurfaceAreas
 {
-  const double* Shares; // of the triangles; they sum to 1
+  const double* Shares; // parts of the area, by triangles; they sum to 1
   double Total;         // in units of Unit^2
   double Unit;          // in units of the given points
 };
 
-// Interpolates linearly between three given points.
+// Interpolates linearly between three given points: the value is the weighted sum of theirs.
 struct PointWeights
 {
   std::array<std::int64_t, 3> Points;

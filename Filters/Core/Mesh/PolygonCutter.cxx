@@ -15,6 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// A normal whose length is twice the triangle's area.
 Point<3> normalOf(const Point<3>& a, const Point<3>& b, const Point<3>& c)
 {
   return cross(b - a, c - a);
@@ -29,6 +30,7 @@ PolygonCutter::PolygonCutter(ConstPointSpan<3> points, double rounding, RingCutt
 {
 }
 
+// Positions of the corners, and the polygon's size for tolerances.
 void PolygonCutter::ReadPlaces(const Corners& corners)
 {
   PointBounds bounds;
@@ -52,6 +54,8 @@ bool PolygonCutter::Cut(const Corners& corners)
   this->ReadPlaces(corners);
   Ring ring(corners.size());
   std::iota(ring.begin(), ring.end(), std::size_t{ 0 });
+  // The attempts change the polygon as little as possible: as it is, without coincident corners,
+  // without collinear ones as often as that takes some away.
   bool isCut = this->CutRing(ring);
   if (!isCut)
   {
@@ -71,6 +75,7 @@ bool PolygonCutter::Cut(const Corners& corners)
   return isCut;
 }
 
+// Every other triangle of a strip is reversed, to have the strip's orientation.
 void PolygonCutter::CutStrip(const Corners& corners)
 {
   this->Made.clear();
@@ -82,7 +87,7 @@ void PolygonCutter::CutStrip(const Corners& corners)
   }
 }
 
-// Triangles from one corner.
+// Triangles from one corner to all sides that do not have it.
 void PolygonCutter::CutFan(const Corners& corners, std::size_t from)
 {
   this->Made.clear();
@@ -94,6 +99,8 @@ void PolygonCutter::CutFan(const Corners& corners, std::size_t from)
   }
 }
 
+// A quadrilateral is cut along a diagonal that does not depend on which corner is first: both
+// neighbours of a face of a solid then agree.
 void PolygonCutter::CutThin(const Corners& corners)
 {
   if (corners.size() == 4)
@@ -107,7 +114,8 @@ void PolygonCutter::CutThin(const Corners& corners)
   }
 }
 
-// Whether a quad is cut from corner 1 to 3, not from 0 to 2.
+// Whether a quadrilateral is cut from corner 1 to 3, not from 0 to 2. A diagonal is within it if
+// the triangles on both sides have normals of one direction.
 bool PolygonCutter::IsCutFromOne() const
 {
   const std::vector<Point<3>>& at = this->Places;
@@ -126,11 +134,12 @@ bool PolygonCutter::IsCutFromOne() const
   {
     return one < zero;
   }
+  // Equal diagonals, as in a rectangle: the one with the corner of the least coordinates.
   const auto lowest = std::min_element(at.begin(), at.end());
   return (lowest - at.begin()) % 2 == 1;
 }
 
-// A ring of less than three corners has no triangles.
+// Cuts a ring of corners. One of fewer than three corners has no triangles.
 bool PolygonCutter::CutRing(const Ring& ring)
 {
   this->RingCuts.clear();
@@ -145,6 +154,7 @@ bool PolygonCutter::CutRing(const Ring& ring)
     this->RingCuts.size() == 3 * (ring.size() - 2);
 }
 
+// The corners without those at the place of the corner before, also around the end.
 PolygonCutter::Ring PolygonCutter::WithoutEqual(const Ring& ring) const
 {
   Ring kept;
@@ -162,7 +172,8 @@ PolygonCutter::Ring PolygonCutter::WithoutEqual(const Ring& ring) const
   return kept;
 }
 
-// Takes out corners that are on the line through their neighbours, but no two neighbours.
+// Takes out corners that are on the line through their neighbours, but never two neighbours at
+// once: the line of the second one would be another one.
 PolygonCutter::Ring PolygonCutter::WithoutStraight(const Ring& ring) const
 {
   if (ring.size() < 3)
@@ -192,7 +203,7 @@ bool PolygonCutter::IsSamePlace(std::size_t a, std::size_t b) const
     way.begin(), way.end(), [this](double along) { return std::abs(along) <= this->Rounding; });
 }
 
-// By the distance from b to the line from a to c, or to the point that a and c are.
+// Tests b by its distance to the line from a to c, or to the point at which both are.
 bool PolygonCutter::IsStraight(std::size_t a, std::size_t b, std::size_t c) const
 {
   constexpr double part = 1e-7; // vtkPolygon has tolerances of its own, in parts of the size
@@ -205,6 +216,8 @@ bool PolygonCutter::IsStraight(std::size_t a, std::size_t b, std::size_t c) cons
   return std::sqrt(dot(across, across)) <= tolerance || this->IsSamePlace(a, c);
 }
 
+// The triangles of the ring by the polygon's points, and triangles without area for what was left
+// out.
 void PolygonCutter::Append(const Ring& ring, const Corners& corners)
 {
   const auto insert = [&](std::size_t a, std::size_t b, std::size_t c) {
@@ -220,7 +233,7 @@ void PolygonCutter::Append(const Ring& ring, const Corners& corners)
     this->CutFan(corners, 0);
     return;
   }
-  // Those that were left out between two that were kept, as a fan from the first of these.
+  // The corners that were left out between two that were kept, as a fan from the first of these.
   for (std::size_t i = 0; i < ring.size(); ++i)
   {
     const std::size_t next = ring[(i + 1) % ring.size()];

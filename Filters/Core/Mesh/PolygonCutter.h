@@ -59,11 +59,11 @@ private:
   const ConstPointSpan<3> Points;
   const double Rounding;
   const RingCutter CutSimple;
-  double Size = 0.0;                 // of the polygon's bounds
-  std::vector<Point<3>> Places;      // of the polygon's corners
-  std::vector<Point<3>> RingPlaces;  // of those that are left
-  std::vector<std::size_t> RingCuts; // triangles of these
-  std::vector<std::int64_t> Made;
+  double Size = 0.0;                 // longest side of the polygon's bounds
+  std::vector<Point<3>> Places;      // positions of the polygon's corners
+  std::vector<Point<3>> RingPlaces;  // positions of the corners that are left
+  std::vector<std::size_t> RingCuts; // triangles of these, three places in the ring each
+  std::vector<std::int64_t> Made;    // points of the triangles
 };
 
 } // namespace RectifiedTransport

@@ -22,7 +22,7 @@ SurfaceEdges::SurfaceEdges(const TriangleSurface& surface, const Context& contex
       const std::int64_t* sides, std::int64_t count) { this->Pair(triangles, sides, count); });
 }
 
-// The sides of one edge.
+// Counts the sides of one edge, and pairs them if they are two.
 void SurfaceEdges::Pair(
   const std::int64_t* triangles, const std::int64_t* sides, std::int64_t count)
 {
@@ -41,6 +41,8 @@ void SurfaceEdges::Pair(
   this->NumberReversed += triangles[sides[0]] == triangles[sides[1]] ? 1 : 0;
 }
 
+// Sides of the triangles f = (a, b, c), g = (b, a, d) become those of (c, a, d), (d, b, c). Only
+// the four outer sides and the new edge have other neighbours.
 void flipEdge(std::int64_t* others, std::int64_t side, std::int64_t other)
 {
   const std::int64_t f = side - side % 3;

@@ -47,6 +47,7 @@ private:
   void Pair(const std::int64_t* triangles, const std::int64_t* sides, std::int64_t count);
 
   LargeBuffer<std::int64_t> Others; // by sides
+  // Numbers of edges; atomic, as edges are visited on any thread.
   std::atomic<std::int64_t> NumberOpen{ 0 };
   std::atomic<std::int64_t> NumberNonManifold{ 0 };
   std::atomic<std::int64_t> NumberOdd{ 0 };

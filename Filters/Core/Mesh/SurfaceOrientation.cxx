@@ -14,6 +14,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Twice the area: only signs of sums matter to the orientation.
 double areaOf(const TriangleSurface& surface, std::int64_t triangle)
 {
   const std::int64_t* ids = surface.Triangles + 3 * triangle;
@@ -28,9 +29,10 @@ double areaOf(const TriangleSurface& surface, std::int64_t triangle)
 bool visitPatches(const TriangleSurface& surface, const SurfaceEdges& edges, signed char* signs,
   Progress& progress, const std::function<void(const SurfacePatch&)>& visit)
 {
-  LargeBuffer<std::int64_t> triangles(surface.NumberOfTriangles); // of a patch, breadth first
+  // Queue of a patch's triangles, breadth first.
+  LargeBuffer<std::int64_t> triangles(surface.NumberOfTriangles);
   std::int64_t* queue = triangles.data();
-  std::fill_n(signs, surface.NumberOfTriangles, static_cast<signed char>(0)); // not reached
+  std::fill_n(signs, surface.NumberOfTriangles, static_cast<signed char>(0)); // 0: not reached yet
   bool isOrientable = true;
   for (std::int64_t start = 0; start < surface.NumberOfTriangles; ++start)
   {
@@ -44,7 +46,7 @@ bool visitPatches(const TriangleSurface& surface, const SurfaceEdges& edges, sig
       queue[end++] = triangle;
     };
     enter(start, 1);
-    double area = 0.0; // of triangles oriented as the first one, less that of the others
+    double area = 0.0; // area of triangles oriented as the first one minus that of the others
     for (std::int64_t next = 0; next < end; ++next)
     {
       const int sign = signs[queue[next]];
@@ -68,6 +70,7 @@ bool visitPatches(const TriangleSurface& surface, const SurfaceEdges& edges, sig
       }
       progress.Add(1);
     }
+    // The larger part of the area keeps its orientation.
     for (std::int64_t i = 0; area < 0.0 && i < end; ++i)
     {
       signs[queue[i]] = static_cast<signed char>(-signs[queue[i]]);

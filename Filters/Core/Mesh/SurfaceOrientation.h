@@ -25,7 +25,7 @@ struct SurfacePatch
 {
   const std::int64_t* Triangles;
   std::int64_t Count;
-  double Area; // of the triangles that agree with the patch's orientation minus that of the others
+  double Area; // oriented as the patch, minus the rest; twice the area in space
 };
 
 // Orients each patch like most of its area and calls visit(patch), in the order of their first

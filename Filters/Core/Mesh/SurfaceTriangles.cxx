@@ -17,6 +17,7 @@ SurfaceTriangles::SurfaceTriangles(
 
 bool SurfaceTriangles::CloseTJunctions(TJunctionScope scope, const Context& context)
 {
+  // A second search would find nothing more: parts have no T-junctions that can be closed.
   if (!std::exchange(this->IsSearched, true))
   {
     TJunctionRepair repair = repairTJunctions(this->Surface(), scope, context);

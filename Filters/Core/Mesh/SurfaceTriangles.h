@@ -25,7 +25,7 @@ public:
   SurfaceTriangles(
     LargeBuffer<double> coordinates, LargeBuffer<std::int64_t> corners, double rounding);
 
-  // Not after FreePoints().
+  // A view of the triangles, cut if they were; not to be used after FreePoints().
   TriangleSurface Surface() const
   {
     return { { this->Coordinates.data(), this->Coordinates.size() / 3 }, this->Corners.data(),
@@ -37,9 +37,9 @@ public:
   // whether any was cut. Throws std::bad_alloc and Cancelled.
   bool CloseTJunctions(TJunctionScope scope, const Context& context = Context());
   std::int64_t TJunctions() const { return this->NumberOfTJunctions; }
-  // Left out.
+  // The number of triangles without area that were left out.
   std::int64_t FlatTriangles() const { return this->NumberOfFlat; }
-  // If triangles were cut.
+  // The parts of triangles, if some were cut.
   const std::optional<SplitSurface>& Parts() const { return this->Split; }
   // The given triangle that a triangle is, or is part of.
   std::int64_t GivenTriangle(std::int64_t triangle) const
@@ -47,15 +47,15 @@ public:
     return this->Split ? this->Split->GivenTriangle(triangle) : triangle;
   }
 
-  // Their memory.
+  // Free or take the memory of points and corners.
   void FreePoints() { this->Coordinates = {}; }
   void FreeCorners() { this->Corners = {}; }
   LargeBuffer<double> TakePoints() { return std::move(this->Coordinates); }
   LargeBuffer<std::int64_t> TakeCorners() { return std::move(this->Corners); }
 
 private:
-  LargeBuffer<double> Coordinates;
-  LargeBuffer<std::int64_t> Corners;
+  LargeBuffer<double> Coordinates;   // three a point
+  LargeBuffer<std::int64_t> Corners; // three points a triangle
   double RoundingOfPoints = 0.0;
   bool IsSearched = false;
   std::int64_t NumberOfTJunctions = 0;

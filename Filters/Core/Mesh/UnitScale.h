@@ -12,10 +12,11 @@ namespace RectifiedTransport
 class UnitScale
 {
 public:
-  // Of finite points, or of none.
+  // For the bounds of finite points, or of none.
   explicit UnitScale(const Eigen::AlignedBox3d& bounds)
     : Centre(0.5 * bounds.max() + 0.5 * bounds.min())
   {
+    // Halves of the bounds: their difference may overflow where the bounds do not.
     const double half = (0.5 * bounds.max() - 0.5 * bounds.min()).maxCoeff();
     this->Half = half > 0.0 ? half : 0.5;
   }

@@ -27,6 +27,8 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 
 } // namespace
 
+// Ghost triangles and repeated ones are left out; what is left is scaled and measured. No triangle
+// needs to be connected to another.
 WholeTriangles::WholeTriangles(LargeBuffer<double> coordinates, LargeBuffer<std::int64_t> corners,
   const IsLeftOut& isLeftOut, Progress& progress)
   : Coordinates(std::move(coordinates))
@@ -52,6 +54,7 @@ WholeTriangles::WholeTriangles(LargeBuffer<double> coordinates, LargeBuffer<std:
   this->FindAreas(stages["areas"]);
 }
 
+// Replaces coordinates by those from the centre of the bounds, in units of their longest side.
 void WholeTriangles::ScalePoints(Progress& progress)
 {
   const std::int64_t count = this->Coordinates.size() / 3;
@@ -67,6 +70,7 @@ void WholeTriangles::ScalePoints(Progress& progress)
   });
 }
 
+// Moves the triangles that stay to the front of Corners, and notes their given numbers.
 void WholeTriangles::LeaveOut(const IsLeftOut& isLeftOut, Progress& progress)
 {
   if (this->Kept.size() == 0)
@@ -85,7 +89,8 @@ void WholeTriangles::LeaveOut(const IsLeftOut& isLeftOut, Progress& progress)
   this->Count = next;
 }
 
-// Points at one place are one.
+// Leaves out triangles with the places of one before. Points at one place count as one, as each
+// face may have points of its own.
 void WholeTriangles::LeaveOutRepeated(Progress& progress)
 {
   Stages stages(progress, { { "points", 1 }, { "search", 1 }, { "removal", 1 } });
@@ -111,6 +116,8 @@ void WholeTriangles::LeaveOutRepeated(Progress& progress)
   }
 }
 
+// The areas in units of Unit^2, then as shares. The sum is over fixed chunks, so that it does not
+// depend on the number of threads.
 void WholeTriangles::FindAreas(Progress& progress)
 {
   const std::int64_t triangles = this->NumberOfTriangles();

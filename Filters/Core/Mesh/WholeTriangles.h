@@ -42,7 +42,7 @@ public:
   SurfaceAreas Areas() const override { return { this->Shares.data(), this->Area, this->Unit }; }
   // By how much the coordinates of Surface() may be off (see roundingOfCorners).
   double Rounding() const { return this->RoundingOfPoints; }
-  // Left out.
+  // The number of triangles that were left out as repeated.
   std::int64_t Repeated() const { return this->NumberOfRepeated; }
 
 private:
@@ -51,14 +51,14 @@ private:
   void LeaveOutRepeated(Progress& progress);
   void FindAreas(Progress& progress);
 
-  LargeBuffer<double> Coordinates;
-  LargeBuffer<std::int64_t> Corners;
-  std::int64_t Count;             // of triangles that are left
-  LargeBuffer<std::int64_t> Kept; // given triangles; empty if these are all
-  LargeBuffer<double> Shares;
+  LargeBuffer<double> Coordinates;   // three a point, in units of Unit from the centre
+  LargeBuffer<std::int64_t> Corners; // three points each
+  std::int64_t Count;                // number of triangles that are left
+  LargeBuffer<std::int64_t> Kept;    // given triangles; empty if these are all
+  LargeBuffer<double> Shares;        // parts of the area, by triangles
   std::int64_t NumberOfRepeated = 0;
   double RoundingOfPoints = 0.0;
-  double Area = 0.0;
+  double Area = 0.0; // in units of Unit^2
   double Unit = 1.0;
 };
 

@@ -14,6 +14,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Few triangles a leaf: a test of a triangle costs more than one of a box.
 constexpr std::int64_t leafTriangles = 4;
 
 // Triangles between two polls for cancellation.
@@ -21,7 +22,7 @@ constexpr std::int64_t mostAtOnce = std::int64_t{ 1 } << 15;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The barycentric coordinates of a place from values in proportion to them.
+// Barycentric coordinates from values in proportion to them: twice the areas of the three parts.
 PlaceOnTriangle placeOf(std::int64_t triangle, double a, double b, double c)
 {
   const double sum = a + b + c;
@@ -30,6 +31,7 @@ PlaceOnTriangle placeOf(std::int64_t triangle, double a, double b, double c)
 
 } // namespace
 
+// The nearest place so far, and its squared distance.
 struct FlatLocator::Nearest
 {
   double Squared = infinity;
@@ -56,6 +58,7 @@ FlatLocator::FlatLocator(const FlatMesh& mesh, const Context& context)
   this->Build(progress);
 }
 
+// Lists the triangles with mass, and the centres of their bounds, by which they are divided.
 void FlatLocator::ReadTriangles(Progress& progress)
 {
   const FlatMesh& mesh = this->Mesh;
@@ -94,6 +97,7 @@ void FlatLocator::Build(Progress& progress)
     [&](const Box& box) { return this->Divide(box, progress); });
 }
 
+// Extends a box to the triangles of its range.
 void FlatLocator::Bound(Box& box, Progress& progress) const
 {
   for (std::int64_t first = box.First; first < box.Last; first += mostAtOnce)
@@ -115,8 +119,9 @@ void FlatLocator::Bound(Box& box, Progress& progress) const
   }
 }
 
-// Partitions the triangles of a box by their centres along its longer axis, or the other one.
-// Returns where the second part begins, the first triangle of the box if it is a leaf.
+// Partitions the triangles of a box by their centres about the median along its longer axis, or
+// along the other one. Returns where the second part begins; the first triangle of the box if it is
+// a leaf.
 std::int64_t FlatLocator::Divide(const Box& box, Progress& progress)
 {
   if (box.Last - box.First <= leafTriangles)
@@ -140,7 +145,8 @@ std::int64_t FlatLocator::Divide(const Box& box, Progress& progress)
   return box.First; // all centres are one point
 }
 
-// Whether the triangle turns left and contains a point.
+// Whether a triangle turns left and contains a point, by exact predicates: on an edge, both
+// triangles contain it, and no point falls between two.
 bool FlatLocator::Contains(std::int64_t triangle, const double* point) const
 {
   const double* a = this->Corner(triangle, 0);
@@ -161,7 +167,7 @@ bool FlatLocator::Contains(std::int64_t triangle, const double* point) const
   return last >= 0.0 && (first > 0.0 || next > 0.0 || last > 0.0);
 }
 
-// The least of `best` and of the triangles of a box that contain a point.
+// The least number among `best` and the triangles below a box that contain a point.
 std::int64_t FlatLocator::FirstContaining(
   const double* point, std::int64_t box, std::int64_t best) const
 {
@@ -184,7 +190,7 @@ std::int64_t FlatLocator::FirstContaining(
   return best;
 }
 
-// The squared distance of a point from a box.
+// The squared distance of a point from a box, in units of the lengths.
 double FlatLocator::Gap(const double* point, std::int64_t box) const
 {
   const Box& at = this->Boxes[static_cast<std::size_t>(box)];
@@ -215,7 +221,7 @@ double FlatLocator::SquaredDistance(const PlaceOnTriangle& place, const double* 
   return squared;
 }
 
-// The nearest place of the triangle's three sides.
+// The nearest place on the triangle's three sides: the point is outside of it.
 PlaceOnTriangle FlatLocator::NearestPlace(std::int64_t triangle, const double* point) const
 {
   const Point<2>& lengths = this->Mesh.Lengths;
@@ -243,6 +249,7 @@ PlaceOnTriangle FlatLocator::NearestPlace(std::int64_t triangle, const double* p
   return best.Place;
 }
 
+// Branch and bound: the nearer box first, and none that is farther than the best place.
 void FlatLocator::FindNearest(const double* point, std::int64_t box, Nearest& best) const
 {
   const Box& at = this->Boxes[static_cast<std::size_t>(box)];

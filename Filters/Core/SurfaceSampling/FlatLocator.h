@@ -23,7 +23,7 @@ struct FlatMesh
   const std::int64_t* Triangles; // three points each
   std::int64_t NumberOfTriangles;
   const double* Masses = nullptr;
-  Point<2> Lengths{ 1.0, 1.0 }; // of the square's sides, for distances; each > 0
+  Point<2> Lengths{ 1.0, 1.0 }; // lengths of the square's sides, for distances; each > 0
 };
 
 // A tree of bounding boxes, divided at the median along their longer axis: triangles of very uneven
@@ -44,7 +44,7 @@ public:
 private:
   struct Item
   {
-    double Centre[2]; // of the triangle's bounds
+    double Centre[2]; // centre of the triangle's bounds
     std::int64_t Triangle;
   };
   // The bounds of the triangles [First, Last) of Items. The first child is the next box, Second the
@@ -75,7 +75,7 @@ private:
   double SquaredDistance(const PlaceOnTriangle& place, const double* point) const;
 
   FlatMesh Mesh;
-  LargeBuffer<Item> Items;
+  LargeBuffer<Item> Items; // triangles with mass, in the order of the tree
   std::int64_t NumberOfItems = 0;
   std::vector<Box> Boxes;
 };

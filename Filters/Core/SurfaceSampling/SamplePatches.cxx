@@ -17,8 +17,12 @@ namespace RectifiedTransport
 namespace
 {
 
+// The relative noise of independent samples in a patch is 1 / sqrt(64) = 0.125: an error well above
+// that means wrong masses.
 constexpr double samplesOfPatch = 64.0;
 
+// A k-d tree over the centres of triangles in space. Triangles are not divided, so that a patch may
+// have more mass than wanted.
 class PatchTree
 {
 public:
@@ -39,7 +43,8 @@ public:
     }
   }
 
-  // Numbers the patches, of which each has at most `largest` of the mass, if it can.
+  // Numbers the patches. Each has at most `largest` of the mass, unless it is one triangle. A cut
+  // halves the triangles, not the mass.
   void Divide(double largest, Progress& progress)
   {
     std::vector<std::pair<std::size_t, std::size_t>> left{ { 0, this->Items.size() } };
@@ -81,6 +86,7 @@ public:
 
   double TotalMass() const { return this->Total; }
 
+  // sqrt(sum over patches of (share of samples - share of mass)^2 / sum of (share of mass)^2).
   double Error(const LargeBuffer<PlaceOnTriangle>& places) const
   {
     std::vector<double> found(this->Expected.size(), 0.0);
@@ -106,7 +112,7 @@ private:
     std::int64_t Triangle;
   };
 
-  const double* Masses;
+  const double* Masses; // by triangles
   std::vector<Item> Items;
   std::vector<std::size_t> Patches; // by triangles
   std::vector<double> Expected;     // by patches, the share of the mass
@@ -123,7 +129,7 @@ double patchError(const DiskMesh& disk, const double* masses,
     return 0.0;
   }
   Progress progress(context);
-  // About as many levels as halve the triangles to patches.
+  // Each level of the tree reads all triangles; about log2(patches) levels.
   const double patches = std::max(static_cast<double>(places.size()) / samplesOfPatch, 1.0);
   Stages stages(progress, { { "patches", 9 }, { "error", 1 } });
   Progress& division = stages["patches"].Expect(static_cast<std::int64_t>(

@@ -21,7 +21,7 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 10;
 
-// The sides of the rectangle of a map, the longer one 1.
+// The sides of the rectangle of a map, the longer one being 1.
 Point<2> lengthsOf(double aspectRatio)
 {
   return { std::min(1.0, aspectRatio), std::min(1.0, 1.0 / aspectRatio) };
@@ -34,6 +34,7 @@ struct FlatMap
   double AspectRatio;
 };
 
+// The density of a grid cell is the mass of the triangles there, exactly divided.
 RectifiedFlow<2> flowOf(const FlatMesh& flat, const GridSize<2>& size, Progress& progress)
 {
   LargeBuffer<double> masses(size[0] * size[1]);
@@ -43,6 +44,8 @@ RectifiedFlow<2> flowOf(const FlatMesh& flat, const GridSize<2>& size, Progress&
   return RectifiedFlow<2>(DensityArray<2, double>(masses.data(), size), stages["tables"]);
 }
 
+// Uniform seeds of the rectangle are moved by the forward flow to the density of the masses; the
+// inverse of the map then takes them to the surface.
 SurfaceSamples sampleMap(const DiskMesh& disk, const FlatMap& map, const double* masses,
   const SurfaceSamplingOptions& options, const Context& context)
 {
@@ -65,6 +68,7 @@ SurfaceSamples sampleMap(const DiskMesh& disk, const FlatMap& map, const double*
     seeds.Generate(points, stages["seeds"]);
     for (std::int64_t i = 0; i < 2 * count; ++i)
     {
+      // The flow works in index space: cells have the width 1.
       coordinates.data()[i] *= static_cast<double>(size[static_cast<std::size_t>(i % 2)]);
     }
     FlowOptions integration = options.Flow;
@@ -74,6 +78,7 @@ SurfaceSamples sampleMap(const DiskMesh& disk, const FlatMap& map, const double*
   const FlatLocator locator(flat, stages["locator"]);
   PlaceOnTriangle* places = samples.Places.data();
   stages["places"].ForEach(count, grain, [&](std::int64_t i) {
+    // The locator has the unit square's coordinates.
     places[i] = locator.Locate(
       { points[i][0] / static_cast<double>(size[0]), points[i][1] / static_cast<double>(size[1]) });
   });
@@ -124,6 +129,7 @@ SurfaceSamples sampleSurface(const DiskMesh& disk, const ConformalMap& map, cons
     progress, { { "conformal map", 5 }, { "area-preserving map", 3 }, { "samples", 2 } });
   SurfaceSamples samples = sampleMap(
     disk, { map.Square.Positions, map.AspectRatio }, masses, options, stages["conformal map"]);
+  // The conformal map squeezes masses into few cells: the area-preserving map spreads them.
   if (samples.PatchError > SurfaceSamples::AcceptableError)
   {
     samples.Places = {}; // its memory is needed now

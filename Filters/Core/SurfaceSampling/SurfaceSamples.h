@@ -38,8 +38,8 @@ struct SurfaceSamples
 
   LargeBuffer<PlaceOnTriangle> Places; // in the order of the seeds
   FlowReport Flow;
-  double PatchError = 0.0;
-  bool IsAreaPreserving = false; // by that map instead of the conformal one
+  double PatchError = 0.0;       // relative L2 error of the numbers in patches
+  bool IsAreaPreserving = false; // whether that map was used instead of the conformal one
 };
 
 // The grid of the rectangle of a conformal map: `resolution` cells along its longer side, as near

@@ -20,7 +20,7 @@ struct SurfaceSamplingReport
   std::int64_t Collapsed = 0; // triangles without area in the map
   double PatchError = 0.0;
   bool IsAreaPreserving = false; // the map that the particles come from
-  std::string Repair;            // of the surface; empty if it needed none
+  std::string Repair;            // what was repaired in the surface; empty if nothing was
 
   std::vector<std::string> Warnings() const;
 };

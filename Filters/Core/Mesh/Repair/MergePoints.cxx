@@ -32,7 +32,7 @@ std::uint64_t hash(const Box& box)
   return mixed;
 }
 
-// Clusters of points, each a tree of indices.
+// Clusters of points, each a tree of indices whose root has the lowest coordinates.
 class Clusters
 {
 public:
@@ -44,7 +44,8 @@ public:
   {
   }
 
-  // Joins a point with those in its box.
+  // Joins a point with those in its box. The hash table has one point for each box that is not
+  // empty.
   void Enter(std::int64_t point)
   {
     std::int64_t& own = this->Table.data()[this->PlaceOf(this->BoxOf(point))];
@@ -55,8 +56,9 @@ public:
     this->Join(own, point);
   }
 
-  // Once all points are entered: joins a point with those of the boxes beside the half of its box
-  // that it is in. Points nearer than half a width are in the same box or find each other so.
+  // Joins a point with those of the seven boxes beside the half of its box that it is in; all
+  // points must be entered. Two points nearer than half of a width are in the same box or find each
+  // other in this way.
   void JoinBeside(std::int64_t point)
   {
     const Box box = this->BoxOf(point);
@@ -84,14 +86,15 @@ private:
     Box box;
     for (std::size_t a = 0; a < 3; ++a)
     {
-      constexpr double most = 0x1p61; // what is farther away is one box
+      constexpr double most = 0x1p61; // boxes farther away are one
       const double low = std::floor(this->Points[point][a] / this->Width);
       box[a] = static_cast<std::int64_t>(std::max(-most, std::min(low, most)));
     }
     return box;
   }
 
-  // Where the table has a box, or could have it.
+  // The slot of the table that has a box, or that is free for it. Collisions are resolved by linear
+  // probing.
   std::uint64_t PlaceOf(const Box& box) const
   {
     const auto mask = static_cast<std::uint64_t>(this->Table.size() - 1);
@@ -103,6 +106,7 @@ private:
     return place;
   }
 
+  // Joins two clusters; the root is the lower one of the roots.
   void Join(std::int64_t a, std::int64_t b)
   {
     a = rootOf(this->Parents, a);
@@ -118,7 +122,7 @@ private:
   ConstPointSpan<3> Points;
   double Width;
   std::int64_t* Parents;
-  LargeBuffer<std::int64_t> Table; // of each box a point; -1 where it is free
+  LargeBuffer<std::int64_t> Table; // a point of each box; -1 in free slots
 };
 
 } // namespace
@@ -132,6 +136,7 @@ bool mergeNearPoints(
   Stages stages(
     progress, { { "equal", 3 }, { "clusters", 2 }, { "neighbours", 4 }, { "firsts", 1 } });
   mergePoints<3>(points, firsts, stages["equal"]);
+  // Points with equal coordinates are merged first: only one of them enters the table.
   LargeBuffer<bool> isDistinct(count);
   for (std::int64_t i = 0; i < count; ++i)
   {
@@ -175,7 +180,7 @@ std::vector<RepeatedTriangle> findRepeatedTriangles(
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
   Progress progress(context);
   Stages stages(progress, { { "lists", 1 }, { "comparison", 1 } });
-  // By their lowest points, so that few are compared.
+  // Triangles are listed by their lowest points, so that few are compared with each other.
   Bins<std::int64_t> triangles;
   triangles.Fill(static_cast<std::size_t>(surface.Points.size()), [&](const auto& add) {
     for (std::int64_t triangle = 0; triangle < surface.NumberOfTriangles; ++triangle)

@@ -14,8 +14,8 @@ namespace RectifiedTransport
 struct RepairCounts : SurfaceRepairs
 {
   std::int64_t TJunctions = 0;
-  double Gap = 0.0;             // at T-junctions, at most; 0 if only rounding makes them
-  std::int64_t PartedEdges = 0; // of more than two triangles
+  double Gap = 0.0;             // largest gap at T-junctions; 0 if only rounding makes gaps
+  std::int64_t PartedEdges = 0; // edges of more than two triangles
 };
 
 // "The input surface was repaired: 2 points in no polygon left out, ..."; empty if nothing was.

@@ -46,6 +46,8 @@ NotADisk inGivenNumbers(const NotADisk& defect, const RepairedSurface& repaired)
 
 } // namespace
 
+// Attempts with growing changes: without merging points, then with it, each with the rounding of
+// double first. A closed surface gets no better with a larger rounding.
 RepairedDisk::RepairedDisk(const TriangleSurface& surface, double rounding, const Context& context)
   : NumberOfPoints(surface.Points.size())
 {
@@ -86,10 +88,11 @@ RepairedDisk::RepairedDisk(const TriangleSurface& surface, double rounding, cons
   {
     return;
   }
-  // Of several parts the user should know what is wrong once they are joined.
+  // If there are several components, the user should know what is wrong once they are joined.
   throw apart.Defect() == DiskDefect::Components ? *this->Defect : apart;
 }
 
+// The given surface is tried as it is, if it needs no repair; this saves the copy.
 bool RepairedDisk::Try(
   const TriangleSurface& surface, const SurfaceRepairOptions& options, const Context& context)
 {
@@ -101,7 +104,7 @@ bool RepairedDisk::Try(
     {
       return true;
     }
-    // Repeated triangles make such edges.
+    // Repeated triangles make such edges, too: a repair drops them.
     if (this->Defect->Defect() != DiskDefect::NonManifoldEdges)
     {
       return false;
@@ -140,6 +143,8 @@ std::array<std::int64_t, 3> RepairedDisk::GivenCorners(std::int64_t triangle) co
   return { corners[0], corners[1], corners[2] };
 }
 
+// The shares are relative to the disk's area: a given triangle has its own area, although parts of
+// it may have been moved by flips.
 GivenTriangles::GivenTriangles(const RepairedDisk& disk, const std::int64_t* given)
   : Points(disk.Mesh().Surface().Points)
 {

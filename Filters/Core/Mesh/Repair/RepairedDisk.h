@@ -62,7 +62,7 @@ private:
   std::int64_t NumberOfPoints;
   std::optional<RepairedSurface> Repaired;
   std::optional<DiskMesh> Disk;
-  std::optional<NotADisk> Defect; // of the last attempt
+  std::optional<NotADisk> Defect; // what was wrong in the last attempt
 };
 
 // The given triangles that have area, oriented as in the disk.

@@ -15,6 +15,7 @@ namespace
 
 using Weights = std::array<double, 3>;
 
+// A T-junction's barycentric coordinates on the triangle of its side.
 Weights weightsOf(const TJunction& junction)
 {
   Weights weights{ 0.0, 0.0, 0.0 };
@@ -30,6 +31,7 @@ SplitSurface::SplitSurface(const TriangleSurface& given, const std::vector<TJunc
   Progress& progress, const unsigned char* isLeftOut)
   : Junctions(static_cast<std::int64_t>(junctions.size()))
 {
+  // A triangle with n points on its sides has n + 1 parts.
   const std::int64_t leftOut =
     isLeftOut ? std::count(isLeftOut, isLeftOut + given.NumberOfTriangles, 1) : 0;
   const std::int64_t count = given.NumberOfTriangles - leftOut + this->Junctions;
@@ -51,6 +53,7 @@ SplitSurface::SplitSurface(const TriangleSurface& given, const std::vector<TJunc
     const std::int64_t* ids = given.Triangles + 3 * triangle;
     const std::size_t first = next;
     std::array<SplitTriangle::Side, 3> sides;
+    // T-junctions are sorted by sides, hence by triangles.
     for (; next < junctions.size() && junctions[next].Side / 3 == triangle; ++next)
     {
       sides[static_cast<std::size_t>(junctions[next].Side % 3)].push_back(junctions[next].Point);
@@ -62,6 +65,7 @@ SplitSurface::SplitSurface(const TriangleSurface& given, const std::vector<TJunc
     }
     const std::array<std::int64_t, 3> corners{ ids[0], ids[1], ids[2] };
     const SplitTriangle split(given.Points, corners, sides);
+    // The places of all points of the parts, to be found by number.
     std::vector<std::pair<std::int64_t, Weights>> placed{ { ids[0], { 1.0, 0.0, 0.0 } },
       { ids[1], { 0.0, 1.0, 0.0 } }, { ids[2], { 0.0, 0.0, 1.0 } } };
     for (std::size_t i = first; i < next; ++i)
@@ -101,6 +105,7 @@ std::array<std::int64_t, 3> SplitSurface::GivenCorners(std::int64_t triangle) co
   return { points[0], points[1], points[2] };
 }
 
+// The map from a part to the given triangle is linear: weights multiply.
 PlaceOnTriangle SplitSurface::GivenPlace(const PlaceOnTriangle& place) const
 {
   PlaceOnTriangle given{ this->GivenTriangle(place.Triangle), place.Weights };

@@ -51,15 +51,15 @@ private:
   {
     std::int64_t Triangle;
     std::array<std::int64_t, 3> GivenCorners;
-    // Of each corner, where it is on the given triangle.
+    // By corners: where each is on the given triangle, as barycentric coordinates.
     std::array<std::array<double, 3>, 3> Weights;
   };
 
   const Part& PartOf(std::int64_t triangle) const;
 
-  LargeBuffer<std::int64_t> Corners;
-  LargeBuffer<std::int64_t> Origins;
-  std::vector<Part> Parts; // ascending
+  LargeBuffer<std::int64_t> Corners; // three points each
+  LargeBuffer<std::int64_t> Origins; // given triangles, by triangles
+  std::vector<Part> Parts;           // by ascending triangles
   std::int64_t Junctions;
 };
 

@@ -35,6 +35,8 @@ std::size_t chooseTip(const std::array<SplitTriangle::Side, 3>& sides)
 
 } // namespace
 
+// Cuts the tip off as a strip between the points of its two sides; what is left is a triangle
+// between the last edge of the strip and the opposite side.
 SplitTriangle::SplitTriangle(ConstPointSpan<3> points, const std::array<std::int64_t, 3>& corners,
   const std::array<Side, 3>& sides)
   : Points(points)
@@ -53,7 +55,8 @@ SplitTriangle::SplitTriangle(ConstPointSpan<3> points, const std::array<std::int
   this->Fill(left.back(), right.back(), base);
 }
 
-// The part between two sides from their common corner on.
+// Adds the triangles of the part between two sides, from their common corner on: a strip whose next
+// edge is always the shorter one of two.
 void SplitTriangle::CutOff(const Side& left, const Side& right)
 {
   if (left.size() == 1 || right.size() == 1)
@@ -81,7 +84,9 @@ void SplitTriangle::CutOff(const Side& left, const Side& right)
   }
 }
 
-// The part between an edge, which may be a point, and the side across.
+// Adds the triangles of the part between an edge, which may be a point, and the side across. Points
+// up to the middle are joined to the left end, the others to the right one. The middle has the
+// least sum of squared distances to both ends.
 void SplitTriangle::Fill(std::int64_t left, std::int64_t right, const Side& base)
 {
   const auto sum = [&](std::int64_t point) {

@@ -42,6 +42,8 @@ FlatShape shapeOf(const TriangleSurface& surface, double scale, std::int64_t tri
 
 } // namespace
 
+// The steps: merge points, keep triangles of three different points, drop repeated ones, orient,
+// remove triangles without area by flips, and number what is left.
 class SurfaceRepairRun
 {
 public:
@@ -73,7 +75,7 @@ public:
 private:
   std::int64_t RootOf(std::int64_t point) { return rootOf(this->Roots.data(), point); }
 
-  // Of each point the first one that it is merged with.
+  // Finds for each point the first one that it is merged with, as trees.
   void FindRoots(Progress& progress)
   {
     const std::int64_t points = this->Given.Points.size();
@@ -94,6 +96,7 @@ private:
       randomAccess);
   }
 
+  // By place, whether an edge joins the points or not.
   void MergePlaces(const Context& context)
   {
     const std::int64_t points = this->Given.Points.size();
@@ -112,6 +115,7 @@ private:
     }
   }
 
+  // The ends of an edge of no length become one point.
   void MergeEnds(std::int64_t a, std::int64_t b)
   {
     if (isSamePlace(this->Given.Points[a], this->Given.Points[b], this->Options.Rounding))
@@ -120,7 +124,7 @@ private:
     }
   }
 
-  // Those of three different points.
+  // Keeps the triangles of three different points.
   void KeepTriangles(Progress& progress)
   {
     const std::int64_t count = this->Given.NumberOfTriangles;
@@ -143,6 +147,7 @@ private:
       randomAccess);
   }
 
+  // Of triangles with the same points, the first one stays.
   void LeaveOutRepeated(const Context& context)
   {
     const std::vector<RepeatedTriangle> repeated = findRepeatedTriangles(this->Kept(), context);
@@ -178,7 +183,7 @@ private:
     return { this->Given.Points, this->Triangles.data(), this->Count };
   }
 
-  // So that flips find their neighbours in the same order.
+  // Flips need neighbours of one orientation.
   void Orient(const Context& context)
   {
     Progress progress(context);
@@ -201,6 +206,7 @@ private:
     }
   }
 
+  // Scaled coordinates keep the squares in heights from overflow and underflow.
   void RemoveFlat(const Context& context)
   {
     const std::int64_t points = this->Given.Points.size();
@@ -265,7 +271,8 @@ private:
     std::copy_n(this->Origins.data(), triangles, made.Origins.data());
   }
 
-  // Of a point of triangles without area alone it is that of the nearest one that is left.
+  // The number of a point's root. A point that only triangles without area have gets the number of
+  // the nearest point that is left.
   std::int64_t NumberOf(std::int64_t point, const std::int64_t* numbers)
   {
     constexpr int most = 1000; // two such points may be the nearest of each other
@@ -277,6 +284,7 @@ private:
     return numbers[root];
   }
 
+  // A given triangle without any part has no area, unless it is repeated.
   void CountRepairs()
   {
     const std::int64_t points = this->Given.Points.size();
@@ -309,12 +317,12 @@ private:
   const TriangleSurface Given;
   const SurfaceRepairOptions Options;
   const double Scale;
-  LargeBuffer<std::int64_t> Roots; // by points
-  LargeBuffer<std::int64_t> Triangles;
-  LargeBuffer<std::int64_t> Corners;
-  LargeBuffer<std::int64_t> Origins;
-  LargeBuffer<std::int64_t> Nearest; // by points: of triangles that were left out
-  std::int64_t Count = 0;
+  LargeBuffer<std::int64_t> Roots;     // by points
+  LargeBuffer<std::int64_t> Triangles; // three roots a triangle
+  LargeBuffer<std::int64_t> Corners;   // three given points a triangle
+  LargeBuffer<std::int64_t> Origins;   // given triangles, by triangles
+  LargeBuffer<std::int64_t> Nearest; // by roots: the nearest point, in triangles that were left out
+  std::int64_t Count = 0;            // number of triangles that are left
   RepairedSurface Made;
 };
 
@@ -326,6 +334,7 @@ TriangleSurface RepairedSurface::Surface() const
 
 double roundingOfDoubles(ConstPointSpan<3> points)
 {
+  // A few operations on coordinates lose up to about four units in the last place.
   constexpr double units = 4.0;
   return units * std::numeric_limits<double>::epsilon() * largestCoordinate(points);
 }

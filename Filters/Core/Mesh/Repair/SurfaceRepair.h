@@ -62,7 +62,7 @@ private:
   SurfaceRepairs Counts;
 };
 
-// What rounding in double leaves of the differences of coordinates at one place.
+// How much coordinates at one place may differ by rounding in double.
 double roundingOfDoubles(ConstPointSpan<3> points);
 
 // Whether a surface has points that no triangle uses, edges of no length or triangles without area,

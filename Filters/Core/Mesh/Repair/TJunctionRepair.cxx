@@ -27,7 +27,8 @@ bool isAmong(const std::vector<OpenSide>& sides, std::int64_t side)
   return std::binary_search(sides.begin(), sides.end(), OpenSide{ side, 0, 0, 0 }, isBefore);
 }
 
-// With points merged in one way.
+// A repair with points merged in one way. First it leaves out triangles that are lines; if more
+// edges are open then, it keeps them.
 class RepairRun
 {
 public:
@@ -64,6 +65,7 @@ public:
   TJunctionRepair Take() { return std::move(this->Made); }
 
 private:
+  // Marks the triangles that are lines. Returns their number.
   std::int64_t FindFlat(Progress& progress)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
@@ -80,7 +82,8 @@ private:
     return std::count(this->IsFlat.data(), this->IsFlat.data() + count, 1);
   }
 
-  // Whether a corner is on the side across, which is not open.
+  // Whether a corner is on the side across, and that side is not open: another triangle has it,
+  // which can be cut there.
   bool IsLine(std::int64_t triangle, const PlaceOnSide& place) const
   {
     const std::int64_t* ids = this->Surface.Triangles + 3 * triangle;
@@ -100,6 +103,8 @@ private:
     return false;
   }
 
+  // Finds T-junctions and cuts the triangles. In the scope of flat triangles, only sides that are
+  // open because these are missing are searched.
   void Find(const unsigned char* isLeftOut, Progress& progress)
   {
     Stages stages(progress, { { "open sides", 3 }, { "search", 4 }, { "parts", 3 } });
@@ -125,7 +130,8 @@ private:
       [this](const TJunction& junction) { return isAmong(this->Open, junction.Side); });
   }
 
-  // Gives T-junctions, for a merged point, a point that an open side there has.
+  // Open sides have merged points. Each T-junction at a merged point gets one of the points there
+  // that an open side has, so that parts have points of the surface.
   void Unmerge(const std::vector<OpenSide>& sides, std::vector<TJunction>& junctions) const
   {
     std::vector<std::pair<std::int64_t, std::int64_t>> points;
@@ -144,6 +150,7 @@ private:
     }
   }
 
+  // The number of sides that are open after the cut.
   std::size_t CountOpen(Progress& progress)
   {
     const SplitSurface& parts = *this->Made.Parts;
@@ -156,8 +163,8 @@ private:
   const std::int64_t* Merged;
   const double Rounding;
   const TJunctionScope Scope;
-  std::vector<OpenSide> Open; // of all triangles
-  LargeBuffer<unsigned char> IsFlat;
+  std::vector<OpenSide> Open;        // open sides of all triangles
+  LargeBuffer<unsigned char> IsFlat; // by triangles
   TJunctionRepair Made;
 };
 

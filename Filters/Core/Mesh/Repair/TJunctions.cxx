@@ -20,9 +20,11 @@ namespace RectifiedTransport
 namespace
 {
 
+// Leaves of the tree are small: a test of a box costs about as much as that of a point.
 constexpr std::int64_t pointsOfLeaf = 8;
 
-// Whether a segment passes through a box with a margin.
+// Whether a segment passes through a box with a margin: the intervals of the parameter in the
+// slabs of all axes have a common part.
 bool passes(const PointBounds& box, const double* from, const double* to, double margin)
 {
   double enters = 0.0;
@@ -46,6 +48,7 @@ bool passes(const PointBounds& box, const double* from, const double* to, double
   return enters <= leaves;
 }
 
+// A point on an open side, and whether what is cut there has a counterpart.
 struct Found
 {
   TJunction Junction;
@@ -64,6 +67,8 @@ struct SidePart
 };
 constexpr std::size_t noJunction = std::numeric_limits<std::size_t>::max();
 
+// Candidates are ends of open sides on other open sides (by a tree of boxes). They count if a
+// part of the side between two of them is also a part of a side of another triangle.
 class TJunctionSearch
 {
 public:
@@ -109,7 +114,8 @@ public:
   }
 
 private:
-  // Appends the points on a side.
+  // Appends the points on a side to All, sorted along it. The corners of the side's own triangle
+  // are none.
   void Search(
     std::size_t number, const PlaceOnSide& placeOnSide, const ItemTree& tree, Progress& progress)
   {
@@ -138,7 +144,8 @@ private:
     progress.Add(visited);
   }
 
-  // Marks the T-junctions beside parts of sides that two triangles have.
+  // Marks the T-junctions at the ends of those parts of sides that two triangles have: after
+  // sorting by ends, equal parts are neighbours.
   void Match(Progress& progress)
   {
     std::vector<SidePart> parts;
@@ -184,7 +191,8 @@ private:
     }
   }
 
-  // A triangle that is nearly a line may have a point on two sides: it counts on the first one.
+  // The matched T-junctions. A triangle that is nearly a line may have a point on two sides; it
+  // counts on the first one.
   std::vector<TJunction> Matched() const
   {
     std::vector<TJunction> junctions;
@@ -219,7 +227,7 @@ private:
   std::vector<Found> All; // by sides and places
 };
 
-// How large coordinates are, and whether all are floats, give their rounding.
+// The largest coordinate, and whether all are floats: together they give the rounding.
 struct CoordinateRange
 {
   void Add(const double* x)
@@ -238,6 +246,7 @@ struct CoordinateRange
   }
   double Rounding() const
   {
+    // As for doubles: four units in the last place of the largest coordinate.
     constexpr double units = 4.0;
     return units * this->Farthest *
       (this->AreFloats ? static_cast<double>(std::numeric_limits<float>::epsilon())
