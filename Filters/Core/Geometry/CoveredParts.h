@@ -14,8 +14,8 @@
 namespace RectifiedTransport
 {
 
-// The coarse cells that a part of a fine lattice touches; `ratio` fine cells, along each axis, fit
-// into a coarse one.
+// The coarse cells that a part of a fine lattice touches. Along each axis, `ratio` fine cells fit
+// into a coarse one; floor(low / ratio) to floor((end - 1) / ratio).
 template <int Dimension>
 LatticePart<Dimension> coarsened(const LatticePart<Dimension>& fine, int ratio)
 {
@@ -41,6 +41,8 @@ void visitCovered(const std::vector<LatticePart<Dimension>>& coarse,
   std::iota(order.begin(), order.end(), std::size_t{ 0 });
   std::sort(order.begin(), order.end(),
     [&](std::size_t a, std::size_t b) { return coarse[a].Low[0] < coarse[b].Low[0]; });
+  // No part begins farther than the widest one before the first covered cell: a binary search finds
+  // where those begin that may reach it.
   std::int64_t widest = 0;
   for (const LatticePart<Dimension>& part : coarse)
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Convex polygons, and their cuts by planes across the axes. Both polygons of an edge compute a cut
-// of it from the same numbers in the same order: they agree to the last bit.
+// Convex polygons and their cuts by planes across the axes. The two polygons at an edge compute a
+// cut of it from the same numbers in the same order: they agree to the last bit.
 #ifndef RectifiedTransport_CutPolygon_h
 #define RectifiedTransport_CutPolygon_h
 
@@ -19,7 +19,7 @@ using Corner = std::array<double, 3>;
 // segment.
 struct CutPolygon
 {
-  static constexpr int Most = 9; // of a triangle, one more for each side of a box
+  static constexpr int Most = 9; // 3 of a triangle, and one more for each side of a box
   std::array<Corner, Most> Corners;
   int Size = 0;
 
@@ -48,8 +48,8 @@ struct CutPolygon
   }
 };
 
-// Cuts a polygon by the plane at a value of an axis into what is below and what is above; corners
-// on the plane belong to both.
+// Cuts a polygon by the plane at a value of an axis into what is below and what is above
+// (Sutherland and Hodgman). Corners on the plane belong to both.
 template <int Axis>
 void cutPolygon(const CutPolygon& polygon, double value, CutPolygon& below, CutPolygon& above)
 {
@@ -64,6 +64,7 @@ void cutPolygon(const CutPolygon& polygon, double value, CutPolygon& below, CutP
     const double b = (*next)[Axis];
     if ((a < value && b > value) || (a > value && b < value))
     {
+      // From the lower to the higher corner, whichever way the polygon runs.
       const Corner& low = a < b ? *last : *next;
       const Corner& high = a < b ? *next : *last;
       const double t = (value - low[Axis]) / (high[Axis] - low[Axis]);
@@ -88,7 +89,8 @@ void cutPolygon(const CutPolygon& polygon, double value, CutPolygon& below, CutP
   }
 }
 
-// A polygon from one plane across an axis to the next, in ascending order.
+// The parts of a polygon between parallel planes, in ascending order. Each cut works on what is
+// left above the last plane, so that n slabs take n cuts.
 template <int Axis>
 class PolygonSlabs
 {
@@ -129,9 +131,9 @@ public:
 
 private:
   const CutPolygon* Rest;
-  std::array<double, 2> Range; // of the polygon
+  std::array<double, 2> Range; // range of the polygon along the axis
   CutPolygon Below;
-  std::array<CutPolygon, 2> Rests;
+  std::array<CutPolygon, 2> Rests; // what is left, and memory for the next cut
   std::size_t Next;
 };
 
@@ -160,8 +162,8 @@ void forSlabs(const CutPolygon& polygon, std::int64_t slabs, const Visit& visit)
   }
 }
 
-// The part of a polygon in begin <= coordinate <= begin + 1 of an axis: the polygon itself, or one
-// of `parts`.
+// The part of a polygon in begin <= coordinate <= begin + 1 of an axis. It is the polygon itself or
+// one of `parts`, which serve as memory.
 template <int Axis>
 const CutPolygon& slabOf(const CutPolygon& polygon, double begin, std::array<CutPolygon, 2>& parts)
 {

@@ -15,6 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Hashes the bits of the coordinates. Adding 0 makes -0 the same as 0, as they are equal.
 template <int Dimension>
 std::uint64_t hash(const double* point)
 {
@@ -47,6 +48,7 @@ void mergePoints(ConstPointSpan<Dimension> points, std::int64_t* firsts, const C
     points.size(), grain,
     [=](std::int64_t i) {
       const double* point = points[i];
+      // Open addressing with linear probing; the load of at most 1/2 keeps probes short.
       std::uint64_t place = hash<Dimension>(point) & mask;
       while (table[place] >= 0 && !std::equal(point, point + Dimension, points[table[place]]))
       {

@@ -48,7 +48,7 @@ public:
 
 private:
   std::vector<Point<Dimension>> Found;
-  std::vector<std::int64_t> PlaceOf; // one per point
+  std::vector<std::int64_t> PlaceOf; // numbers in Found, by points
 };
 
 } // namespace RectifiedTransport

@@ -12,11 +12,14 @@ namespace RectifiedTransport
 namespace
 {
 
-// A sum without rounding: of parts that do not overlap, the last the largest (Shewchuk, "Adaptive
-// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997).
+// A sum without rounding, as an expansion: parts that do not overlap, the last one the largest
+// (Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates",
+// 1997).
 class ExactParts
 {
 public:
+  // Grow-expansion: the error of each addition is computed exactly by Knuth's two-sum, and becomes
+  // a part of its own.
   void Add(double value)
   {
     std::size_t kept = 0;
@@ -39,6 +42,7 @@ public:
     this->Count = kept;
   }
 
+  // a b is the sum of its rounded value and the error, which a fused multiply-add gives exactly.
   void AddProduct(double a, double b)
   {
     const double product = a * b;
@@ -46,7 +50,7 @@ public:
     this->Add(product);
   }
 
-  // To rounding; 0 only if it is.
+  // The sum to rounding; it is 0 only if the exact sum is.
   double Sum() const
   {
     return std::accumulate(
@@ -54,6 +58,7 @@ public:
   }
 
 private:
+  // Six products have two parts each; every addition adds at most one part.
   std::array<double, 16> Parts;
   std::size_t Count = 0;
 };
@@ -62,6 +67,7 @@ private:
 
 double exactDoubleArea(const Point<2>& a, const Point<2>& b, const Point<2>& c)
 {
+  // Twice the area is the sum over the sides pq of p_x q_y - p_y q_x.
   ExactParts sum;
   const std::array<const Point<2>*, 4> around{ &a, &b, &c, &a };
   for (std::size_t i = 0; i < 3; ++i)
@@ -76,7 +82,8 @@ double exactDoubleArea(const Point<2>& a, const Point<2>& b, const Point<2>& c)
 
 double turnOf(const double* a, const double* b, const double* c)
 {
-  // Of the value, in units of the sum of its terms' sizes (Shewchuk's ccwerrboundA).
+  // The error of the value, relative to the sum of the absolute values of its terms (Shewchuk's
+  // ccwerrboundA).
   constexpr double half = 0.5 * std::numeric_limits<double>::epsilon();
   constexpr double bound = (3.0 + 16.0 * half) * half;
   const double left = (a[0] - c[0]) * (b[1] - c[1]);
@@ -87,6 +94,8 @@ double turnOf(const double* a, const double* b, const double* c)
     : exactDoubleArea({ a[0], a[1] }, { b[0], b[1] }, { c[0], c[1] });
 }
 
+// Sorts the three points by their numbers, and notes whether the permutation is even: the sign of
+// the area changes with each exchange.
 bool turnsLeftExactly(const NumberedPoint& a, const NumberedPoint& b, const NumberedPoint& c)
 {
   const double area = exactDoubleArea(a.X, b.X, c.X);
@@ -106,8 +115,10 @@ bool turnsLeftExactly(const NumberedPoint& a, const NumberedPoint& b, const Numb
   order(0, 1);
   order(1, 2);
   order(0, 1);
-  // A point of a smaller number moves by far more than those of larger ones, and along y by far
-  // more than along x: the signs of the area's derivatives in this order.
+  // A point of a smaller number moves far more than those of larger ones, and far more along y than
+  // along x. The first derivative of the area in this order that is not 0 decides: z_x - y_x by
+  // x_y, y_y - z_y by x_x, x_x - z_x by y_y. If all three are 0, a second derivative decides, which
+  // is a constant.
   const Point<2>& x = p[0]->X;
   const Point<2>& y = p[1]->X;
   const Point<2>& z = p[2]->X;

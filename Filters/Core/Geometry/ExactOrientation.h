@@ -33,7 +33,7 @@ double exactDoubleArea(const Point<2>& a, const Point<2>& b, const Point<2>& c);
 // underflow.
 double turnOf(const double* a, const double* b, const double* c);
 
-// Twice the area of the triangle, and a bound of its error.
+// Twice the area of the triangle, and a bound of its error: above Shewchuk's 3 eps / 2.
 inline double doubleArea(const Point<2>& a, const Point<2>& b, const Point<2>& c, double& error)
 {
   const double left = (a[0] - c[0]) * (b[1] - c[1]);
@@ -42,6 +42,7 @@ inline double doubleArea(const Point<2>& a, const Point<2>& b, const Point<2>& c
   return left - right;
 }
 
+// Whether a, b and c turn left: by floating point where its error bound decides.
 inline bool turnsLeft(const NumberedPoint& a, const NumberedPoint& b, const NumberedPoint& c)
 {
   double error = 0.0;
@@ -49,6 +50,7 @@ inline bool turnsLeft(const NumberedPoint& a, const NumberedPoint& b, const Numb
   return std::abs(area) > error ? area > 0.0 : turnsLeftExactly(a, b, c);
 }
 
+// Whether a is higher than b. At equal heights, the smaller number has moved farther up.
 inline bool isAbove(const NumberedPoint& a, const NumberedPoint& b)
 {
   return a.X[1] != b.X[1] ? a.X[1] > b.X[1] : a.Number < b.Number;

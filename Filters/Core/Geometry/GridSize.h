@@ -11,7 +11,7 @@
 namespace RectifiedTransport
 {
 
-constexpr int MaximumResolution = 1 << 30; // cells along an axis
+constexpr int MaximumResolution = 1 << 30; // cells along an axis, so that ints hold extents
 
 // Cells along each axis.
 template <int Dimension>
@@ -49,7 +49,7 @@ double numberOfCorners(GridSize<Dimension> cells)
   return numberOfCells<Dimension>(cells);
 }
 
-// The number, axis 0 fastest, of the cell that holds a point in index space, or is nearest to it.
+// The number, axis 0 fastest, of the cell that holds a point in index space or is nearest to it.
 template <int Dimension>
 std::int64_t numberOfCellAt(const double* point, const GridSize<Dimension>& size)
 {

@@ -16,20 +16,21 @@ namespace
 
 using Matrix = ImageGrid::Matrix;
 
-// Neither overflows nor underflows. Eigen's stableNorm rounds otherwise.
+// The length of a vector; std::hypot neither overflows nor underflows. Eigen's stableNorm rounds in
+// another way.
 double length(const Eigen::Vector3d& v)
 {
   return std::hypot(v[0], v[1], v[2]);
 }
 
-// Added from left to right. The order of Eigen's sum, and so its rounding, depends on its version
-// and on the instruction set.
+// The product, added from left to right. The order of Eigen's sum, and so its rounding, depends on
+// its version and on the instruction set.
 double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// The measure that the first `count` rows span.
+// The measure that the first `count` rows span: length, area of the cross product, or volume.
 double measure(const Matrix& rows, int count)
 {
   const Eigen::Vector3d a = rows.row(0);
@@ -92,6 +93,8 @@ ImageGrid ImageGrid::WithValuesOn(bool points) const
   return { this->PointExtent, this->PointOrigin, this->PointSpacing, this->AxisDirection, points };
 }
 
+// A domain stays the same if the number of values times the spacing does: the spacing grows by the
+// ratio of the numbers.
 ImageGrid ImageGrid::WithValues(const std::array<int, 3>& wanted) const
 {
   ImageGrid grid = *this;
@@ -111,6 +114,7 @@ ImageGrid ImageGrid::WithValues(const std::array<int, 3>& wanted) const
   return grid;
 }
 
+// Extents grow, as VTK's do: origin and indices of the cells that were there stay.
 ImageGrid ImageGrid::Grown(const std::array<std::int64_t, 3>& cells) const
 {
   ImageGrid grid = *this;
@@ -150,6 +154,7 @@ ImageGrid ImageGrid::WithMorePoints(int more, bool onPoints) const
   return grid;
 }
 
+// The origin moves to the first point, which gets the index 0.
 void ImageGrid::SetAxis(std::size_t axis, double first, int points)
 {
   const auto a = static_cast<Eigen::Index>(axis);
@@ -161,6 +166,8 @@ void ImageGrid::SetAxis(std::size_t axis, double first, int points)
   this->PointExtent[2 * axis + 1] = points - 1;
 }
 
+// Finds the cells and the maps from the image's geometry. Step = Direction diag(Spacing) takes
+// indices to offsets. U has the axes of index space as rows, divided by their lengths.
 void ImageGrid::FindCells()
 {
   this->AxisCount = 0;
@@ -190,6 +197,7 @@ void ImageGrid::FindCells()
   this->Measure = this->AxisCount > 0 ? measure(axes, this->AxisCount) : 0.0;
   const double zero[3] = { 0.0, 0.0, 0.0 };
   this->ToPhysical<3>(zero, this->Corner.data());
+  // A corner is never farther than this; if it is not finite, positions are not.
   Eigen::Vector3d farthest = this->Corner.cwiseAbs() + this->PointOrigin.cwiseAbs();
   Eigen::Vector3d sides = Eigen::Vector3d::Zero();
   for (int a = 0; a < this->AxisCount; ++a)

@@ -17,10 +17,10 @@
 namespace RectifiedTransport
 {
 
-// Values are constant on grid cells. The grid cells of a cell array are the image's vtkCells; those
-// of a point array are dual cells, centred on the points, which extend half a spacing beyond the
-// bounds. An axis of one point is no axis. Index space has the other axes, in their order: grid
-// cell i is [i, i + 1].
+// Values are constant on grid cells. The grid cells of a cell array are the image's vtkCells.
+// Those of a point array are dual cells: they are centred on the points and extend half a spacing
+// beyond the bounds. An axis of one point is no axis. Index space has the other axes, in their
+// order: grid cell i is [i, i + 1].
 class ImageGrid
 {
 public:
@@ -39,6 +39,7 @@ public:
   const Matrix& Direction() const { return this->AxisDirection; }
   bool IsOnPoints() const { return this->OnPoints; }
 
+  // Whether there is no point.
   bool IsEmpty() const;
   bool IsAxis(std::size_t axis) const
   {
@@ -203,15 +204,15 @@ private:
   // The dimension of index space.
   int AxisCount = 0;
   bool Valid = false;
-  std::array<int, 3> Axis{ 0, 1, 2 }; // of the image
-  std::array<std::int64_t, 3> Cells{ 0, 0, 0 };
-  std::array<double, 3> First{ 0.0, 0.0, 0.0 }; // the image's index where index space is 0
-  Matrix Step = Matrix::Zero();                 // image index to physical offset
-  Eigen::Vector3d Corner = Eigen::Vector3d::Zero();
-  Eigen::Vector3d CellLength = Eigen::Vector3d::Zero();
+  std::array<int, 3> Axis{ 0, 1, 2 };                   // the image's axis, by axes of index space
+  std::array<std::int64_t, 3> Cells{ 0, 0, 0 };         // along the axes of index space
+  std::array<double, 3> First{ 0.0, 0.0, 0.0 };         // the image's index where index space is 0
+  Matrix Step = Matrix::Zero();                         // image index to physical offset
+  Eigen::Vector3d Corner = Eigen::Vector3d::Zero();     // physical place where index space is 0
+  Eigen::Vector3d CellLength = Eigen::Vector3d::Zero(); // physical lengths of a cell's sides
   Matrix Inverse = Matrix::Zero(); // physical offset to physical length along each axis
   Matrix Normal = Matrix::Zero();  // rows from AxisCount on: unit vectors across the axes
-  double Measure = 0.0;
+  double Measure = 0.0;            // length, area or volume of a cell
   double DomainDiagonal = 0.0;
 };
 

@@ -21,21 +21,22 @@ double imageMeasure(const Point<Dimension>* corners)
   }
   else if constexpr (Dimension == 2)
   {
-    // Half the product of the diagonals.
+    // Half the cross product of the diagonals, exact for a bilinear image.
     return 0.5 *
       ((corners[3][0] - corners[0][0]) * (corners[2][1] - corners[1][1]) -
         (corners[3][1] - corners[0][1]) * (corners[2][0] - corners[1][0]));
   }
   else
   {
-    // The determinant of the derivatives at the points of Gauss: two along each axis, at a distance
-    // of sqrt(1/12) from the centre, as it is of the second degree in each coordinate.
-    constexpr double low = 0.21132486540518711775;
+    // The integral of det(dx/du) over the unit cube. The determinant is of the second degree in
+    // each coordinate, so that two Gauss points along each axis, at the distance sqrt(1/12) from
+    // the centre, integrate it exactly.
+    constexpr double low = 0.21132486540518711775; // 1/2 - sqrt(1/12)
     constexpr double nodes[] = { low, 1.0 - low };
     double sum = 0.0;
     for (std::size_t at = 0; at < 8; ++at)
     {
-      double d[3][3]; // along each axis
+      double d[3][3]; // derivative along each axis
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
         const std::size_t u = axis == 0 ? 1 : 0;
@@ -49,6 +50,8 @@ double imageMeasure(const Point<Dimension>* corners)
           for (std::size_t edge = 0; edge < 4; ++edge)
           {
             const std::size_t start = (edge & 1) << u | (edge >> 1) << v;
+            // The derivative along an axis is the mean of the four edges in that direction, with
+            // bilinear weights.
             d[axis][x] +=
               weights[edge] * (corners[start | std::size_t{ 1 } << axis][x] - corners[start][x]);
           }

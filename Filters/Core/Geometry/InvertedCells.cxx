@@ -13,7 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// The signed length, area or volume of the simplex that begins at a vertex.
+// The signed length, area or volume of the simplex that begins at a vertex: det(edges) / D!.
 template <int D>
 double simplexMeasure(ConstPointSpan<D> vertices, std::int64_t first)
 {
@@ -29,7 +29,8 @@ double simplexMeasure(ConstPointSpan<D> vertices, std::int64_t first)
   return edges.determinant() / simplicesOfBox[D];
 }
 
-// What rounding may make of a measure that is 0.
+// A bound for what rounding may make of a measure that is 0: errors of coordinates (64 units in the
+// last place of the largest), times the extent along the other axes.
 template <int D>
 double roundingOf(ConstPointSpan<D> vertices, double offset)
 {
@@ -73,6 +74,7 @@ void InvertedCells::AddCell(
     }
     if (std::abs(old) > roundingOf<D>(before.Part(first, vertices), offset))
     {
+      // A piece without a measure before has no orientation to lose.
       isOriented = true;
       const bool isPieceInverted =
         std::copysign(1.0, old) * moved <= roundingOf<D>(after.Part(first, vertices), offset);

@@ -13,6 +13,7 @@
 namespace RectifiedTransport
 {
 
+// A box of cells: [Low, Low + Cells) along each axis.
 template <int Dimension>
 struct LatticePart
 {
@@ -146,8 +147,8 @@ std::vector<LatticePart<Dimension>> partsOf(
   return parts;
 }
 
-// Parts of a lattice, and where results for their cells are: at the number of the cell in a part
-// that contains them, axis 0 fastest, minus `First`.
+// Parts of a lattice, and where results for their cells are stored. The index of a cell is its
+// number, axis 0 fastest, in a part that contains all of them, minus `First`.
 template <int Dimension>
 struct LatticeParts
 {

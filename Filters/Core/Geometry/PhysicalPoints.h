@@ -15,7 +15,8 @@ namespace RectifiedTransport
 
 constexpr std::int64_t grainOfPositions = std::int64_t{ 1 } << 13;
 
-// In 3D both may share memory. Throws Cancelled.
+// Writes the physical places of points in index space. In 3D both arrays may share memory. Throws
+// Cancelled.
 template <int D>
 void writePhysical(
   const ImageGrid& grid, ConstPointSpan<D> positions, Progress& progress, PointSpan<3> physical)
@@ -37,6 +38,7 @@ bool moveToDomain(const ImageGrid& grid, double* x, double* index)
   double nearest[3];
   grid.ToPhysical<D>(index, nearest);
   const double distance = std::hypot(x[0] - nearest[0], x[1] - nearest[1], x[2] - nearest[2]);
+  // Points inside come back with rounding errors from index space; those stay where they are.
   const double rounding =
     1e-12 * (grid.Diagonal() + std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
   if (!isInside || distance > rounding)

@@ -13,7 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// The vector must not be zero.
+// Scales a vector to the length 1; it must not be zero.
 void normalize(Point<3>& vector)
 {
   const double length = lengthOf(vector);
@@ -31,13 +31,16 @@ PlaneFrame::PlaneFrame(const Point<3>& origin, const Point<3>& normal)
   Point<3>& up = this->Axes[2];
   up = normal;
   normalize(up);
+  // Within 2.6 degrees of the x axis, x has too small a part in the plane.
   constexpr double nearly = 0.999;
   const int along = std::abs(up[0]) < nearly ? 0 : 1;
+  // The normal's z component is made positive; if it is 0 to rounding, y, else x.
   const int high = std::abs(up[2]) > 1e-9 ? 2 : std::abs(up[1]) > 1e-9 ? 1 : 0;
   if (up[static_cast<std::size_t>(high)] < 0.0)
   {
     std::transform(up.begin(), up.end(), up.begin(), [](double x) { return 0.0 - x; });
   }
+  // Gram and Schmidt: the axis minus its part along the normal.
   Point<3>& first = this->Axes[0];
   first = { 0.0, 0.0, 0.0 };
   first[static_cast<std::size_t>(along)] = 1.0;
@@ -67,6 +70,8 @@ Point<3> PlaneFrame::ToSpace(const Point<2>& inPlane, double distance) const
     distance * this->Axes[2];
 }
 
+// The vector area sum (x_i - x_0) x (x_(i+1) - x_0) is twice the area, along the normal. Rings may
+// run either way: each is added with the sign that agrees with the largest one so far.
 void RingPlane::Add(const std::vector<Point<3>>& ring)
 {
   Point<3> area{ 0.0, 0.0, 0.0 };

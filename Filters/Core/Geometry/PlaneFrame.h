@@ -19,8 +19,8 @@ public:
   PlaneFrame(const Point<3>& origin, const Point<3>& normal);
 
   Point<2> ToPlane(const Point<3>& place) const;
-  const Point<3>& Normal() const { return this->Axes[2]; } // of length 1, upwards
-  // Of a place, signed.
+  const Point<3>& Normal() const { return this->Axes[2]; } // unit vector, upwards
+  // The signed distance of a place from the plane, positive on the normal's side.
   double Distance(const Point<3>& place) const;
   Point<3> ToSpace(const Point<2>& inPlane, double distance) const;
 
@@ -37,15 +37,15 @@ public:
   void Add(const std::vector<Point<3>>& ring);
 
   bool HasArea() const;
-  // Through the middle of the bounds. There must be area.
+  // The frame of the plane through the middle of the bounds. The rings must have an area.
   PlaneFrame Frame() const;
   // The diagonal of the bounds.
   double Extent() const;
 
 private:
   PointBounds Bounds;
-  Point<3> Largest{ 0.0, 0.0, 0.0 }; // area vector of a ring
-  Point<3> Sum{ 0.0, 0.0, 0.0 };
+  Point<3> Largest{ 0.0, 0.0, 0.0 }; // longest area vector of a ring
+  Point<3> Sum{ 0.0, 0.0, 0.0 };     // sum of the area vectors
 };
 
 } // namespace RectifiedTransport

@@ -31,6 +31,8 @@ inline double unitReal(std::uint64_t word)
   return static_cast<double>(word >> 11) * 0x1p-53;
 }
 
+// By Newton's iteration y <- (2 y + m / y^2) / 3 on a mantissa in [1/2, 4), whose exponent is a
+// multiple of 3. From 1, eight steps reach double precision.
 inline double cubeRoot(double x)
 {
   if (!(x > 0.0))
@@ -51,12 +53,14 @@ inline double cubeRoot(double x)
   return std::ldexp(y, exponent / 3);
 }
 
-// e^x to rounding, for |x| up to 700.
+// e^x to rounding, for |x| up to 700: e^x = 2^k e^r with x = k log 2 + r, |r| <= log(2) / 2, and
+// e^r by its series in Horner's form. log 2 is split in two, so that k times its first part is
+// exact.
 inline double exponential(double x)
 {
   constexpr double logOfTwo = 0x1.62e42fefap-1; // its first bits, whose multiples are exact
   constexpr double more = 0x1.cf79abc9e3b3ap-40;
-  constexpr int terms = 14;
+  constexpr int terms = 14; // r^14 / 14! is below the rounding
   const double power = std::round(x / logOfTwo);
   const double rest = (x - power * logOfTwo) - power * more;
   double sum = 1.0;
@@ -67,13 +71,13 @@ inline double exponential(double x)
   return std::ldexp(sum, static_cast<int>(power));
 }
 
-// Of a positive number.
+// The natural logarithm of a positive number: log(2^k m) = k log 2 + log m.
 inline double naturalLogarithm(double x)
 {
   constexpr double logOfTwo = 0.693147180559945309417;
   int power = 0;
   const double mantissa = std::frexp(x, &power);
-  double y = 0.0; // of the mantissa, by Halley's method
+  double y = 0.0; // log m, by Halley's iteration y + 2 (m - e^y) / (m + e^y)
   for (int iteration = 0; iteration < 4; ++iteration)
   {
     const double found = exponential(y);
@@ -88,12 +92,13 @@ struct CosineAndSine
   double Sine;
 };
 
-// Of a part of a full turn, to rounding; part and whole are at most 2^59, the whole is positive.
-// Angles that differ by symmetry have values that differ by symmetry.
+// The cosine and sine of a part of a full turn, to rounding. Part and whole are at most 2^59, the
+// whole is positive. Angles that differ by symmetry have values that differ by symmetry: the
+// series of both are evaluated within an eighth of a turn.
 inline CosineAndSine cosineAndSine(std::int64_t part, std::int64_t whole)
 {
   constexpr double quarterTurn = 1.57079632679489661923;
-  constexpr int terms = 18;
+  constexpr int terms = 18; // powers up to this one; the angle is at most pi / 4
   // The nearest number of quarter turns, and the rest, at most half of one, which is exact.
   std::int64_t rest = 4 * (part % whole);
   const std::int64_t half = rest < 0 ? -whole / 2 : whole / 2;

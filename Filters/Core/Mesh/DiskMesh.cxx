@@ -310,8 +310,8 @@ void DiskMesh::FindBoundary(Progress& progress)
   {
     throw NotADisk(DiskDefect::Closed, 0);
   }
-  // Euler's formula: points - edges + triangles = 2 - 2 handles - loops.
-  // Inner edges have two sides, open ones have one.
+  // Euler's formula: points - edges + triangles = 2 - 2 handles - loops. Inner edges have two
+  // sides, open ones have one.
   const std::int64_t edges = (sides + open) / 2;
   const std::int64_t handles = (2 - loops - (points - edges + sides / 3)) / 2;
   if (loops > 1)

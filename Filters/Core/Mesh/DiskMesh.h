@@ -29,7 +29,7 @@ enum class DiskDefect
   NoTriangles,
   TrianglesWithoutArea, // or with a point twice
   UnusedPoints,
-  NonManifoldEdges, // of more than two triangles
+  NonManifoldEdges, // edges of more than two triangles
   Components,
   NotOrientable,
   NonManifoldPoints, // where triangles meet that share no edge

@@ -44,7 +44,7 @@ struct RepeatedTriangle
 // What was changed in a surface.
 struct SurfaceRepairs
 {
-  std::int64_t UnusedPoints = 0;  // of no triangle
+  std::int64_t UnusedPoints = 0;  // points of no triangle
   std::int64_t FlatTriangles = 0; // without area
   std::int64_t MergedPoints = 0;  // with others at their places
   std::int64_t Repeated = 0;      // triangles with the points of one before

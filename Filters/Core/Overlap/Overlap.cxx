@@ -142,7 +142,7 @@ private:
   // What the pieces of faces add to one cell of a row, with the signs of their sides.
   struct CellSums
   {
-    double Volume = 0.0;   // of prisms that begin in the cell, up to its end
+    double Volume = 0.0;   // volume of prisms that begin in the cell, up to its end
     double Integral = 0.0; // over these
     double Shadows = 0.0;  // areas of the shadows of pieces that begin before the cell
     double Beyond = 0.0;   // the integral over these shadows, at 0 along axis 0

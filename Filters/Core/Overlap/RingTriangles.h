@@ -21,7 +21,7 @@ struct RingTriangles
   {
     Point<2> Place;
     std::int64_t Edge; // the edge on which it lies
-    double Part;       // of the edge before it
+    double Part;       // share of the edge before it
   };
 
   // Points of the rings, and the added ones, numbered on from these. Counter-clockwise.

@@ -22,7 +22,7 @@ struct HoleFans
 
   std::vector<Point<3>> Points;        // a point each, numbered after those of the component
   std::vector<std::int64_t> Triangles; // three points each: a fan about the hole's point
-  std::vector<std::int64_t> Origins;   // of triangles: all different, below 0, as seams may cross
+  std::vector<std::int64_t> Origins;   // by triangles: all different, below 0, as seams may cross
 };
 
 // Closes all holes of a component with more than 8 that are not long beside it. Otherwise empty.

@@ -137,7 +137,7 @@ private:
   {
     // Where seams meet they enclose small angles, which the sides of the square straighten. That
     // also squeezes areas, and seams there would not help. Hence a new seam must be at least half
-    // as long as the side of a square that has the area of what is squeezed.
+    // as long as the side of a square with the area that is squeezed.
     constexpr double least = 0.5;
     Stages stages(progress, { { "squeezed points", 1 }, { "seams", 1 } });
     const std::vector<SqueezedPoint> tips = findSqueezedPoints(*opened.Disk.Mesh,

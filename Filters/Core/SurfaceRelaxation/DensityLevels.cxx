@@ -16,19 +16,22 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
-constexpr double fewestDots = 8.0; // of a wide part, and around noise
-constexpr double leastWidth = 1.0; // of a wide part, in spacings
+constexpr double fewestDots = 8.0; // least dots in a wide part, and around noise
+constexpr double leastWidth = 1.0; // least width of a wide part, in spacings
 
-// What is known of a part, by its first triangle.
+// What is known of a part, stored at the number of its first triangle.
 struct Part
 {
   double Mass;
   double Area;
   double Border;     // its length towards other parts
-  double MassAround; // of the triangles there, for parts of density 0
+  double MassAround; // mass of the triangles beside it, for parts of density 0
   double AreaAround;
 };
 
+// Parts (connected triangles without a jump between neighbours) are found by union-find. Where the
+// density jumps between two wide parts, the sides are closed for walks. In parts that are not wide,
+// the density is noise: it is smoothed over the mass of several dots.
 class LevelsRun
 {
 public:
@@ -77,7 +80,7 @@ public:
   }
 
 private:
-  // Pairs of sides, once each.
+  // Calls visit(side, other) once for each pair of sides that are neighbours.
   template <class Visit>
   void ForSides(Progress& progress, const Visit& visit)
   {
@@ -93,8 +96,9 @@ private:
     });
   }
 
-  // Between the means of triangles. A linear density is continuous: it jumps where it changes so
-  // much within a spacing.
+  // Whether the density jumps between the means of two triangles, by a factor above 2. A linear
+  // density is continuous: it jumps if it changes so much within a spacing, |way|^2 density <
+  // mass of a dot.
   bool IsJump(std::int64_t side, std::int64_t other) const
   {
     const std::int64_t a = side / 3;
@@ -112,6 +116,7 @@ private:
     const Point<3> way = (1.0 / 3.0) * (this->SumOfCorners(a) - this->SumOfCorners(b));
     return dot(way, way) * high < this->MassOfDot;
   }
+  // Three times the centre of a triangle.
   Point<3> SumOfCorners(std::int64_t t) const
   {
     return this->Surface.Corner(t, 0) + this->Surface.Corner(t, 1) + this->Surface.Corner(t, 2);
@@ -123,6 +128,7 @@ private:
     return std::sqrt(dot(edge, edge));
   }
 
+  // Sums mass, area and border of each part, and what is beside it.
   void Measure(Progress& progress)
   {
     this->Parts = { this->Count, Part{} };
@@ -136,6 +142,7 @@ private:
       const std::int64_t sides[2] = { side, other };
       for (int i = 0; i < 2; ++i)
       {
+        // A side between parts counts for both.
         const std::int64_t beside = sides[1 - i] / 3;
         if (this->PartOf.data()[sides[i] / 3] != this->PartOf.data()[beside])
         {
@@ -149,6 +156,8 @@ private:
     });
   }
 
+  // A part is wide if it is at least about a spacing wide and has the mass of several dots. A part
+  // of density 0 has no spacing of its own; that of the triangles beside it counts.
   void FindWide(Progress& progress)
   {
     this->IsWide = LargeBuffer<char>(this->Count);
@@ -161,7 +170,8 @@ private:
       const bool isEmpty = part.Mass == 0.0;
       const double mass = isEmpty ? part.MassAround : part.Mass;
       const double area = isEmpty ? part.AreaAround : part.Area;
-      // width = 2 area / border, and spacing^2 = area of a dot
+      // The condition has width = 2 area / border and spacing^2 = massOfDot area / mass; as a
+      // product it needs neither a division nor a root.
       const double width = 2.0 * part.Area;
       const double least = leastWidth * part.Border;
       this->IsWide.data()[t] = part.Border == 0.0 ||
@@ -171,6 +181,8 @@ private:
   }
   bool InWide(std::int64_t t) const { return this->IsWide.data()[this->PartOf.data()[t]]; }
 
+  // Closes sides at jumps: with walls, or with boundaries towards density 0, where dots are
+  // mirrored.
   void CloseJumps(Progress& progress)
   {
     this->SeenBy = { this->Count, -1 };
@@ -190,8 +202,8 @@ private:
     });
   }
 
-  // Whether the means of the triangles around both sides of an edge jump, too, where a part meets
-  // itself. In a part with noise they do not.
+  // Where a part meets itself, whether the means of the triangles around both sides of an edge
+  // jump, too. In a part with noise they do not.
   bool JumpsAround(std::int64_t side, std::int64_t other, Progress& progress)
   {
     constexpr std::size_t mostTriangles = 32;
@@ -205,8 +217,8 @@ private:
     return std::max(means[0], means[1]) > largestStep * std::min(means[0], means[1]);
   }
 
-  // The mean density of the nearest triangles over edges, up to the mass of some dots. Leaves those
-  // in Queue, and marks them, and some more, by `mark`.
+  // The mean density of the nearest triangles over edges, breadth first, until they have the
+  // mass of several dots. Leaves them in Queue, and marks them, and some more, by `mark`.
   template <class IsWay>
   double MeanAround(std::int64_t start, std::int64_t mark, std::size_t mostTriangles,
     Progress& progress, const IsWay& isWay)
@@ -239,12 +251,14 @@ private:
     return area > 0.0 ? mass / area : 0.0;
   }
 
+  // The level of a triangle whose own density counts.
   void SetLevel(std::int64_t t)
   {
     this->Levels[t] = this->Levels[t] > 0.0 ? DensityLevels::Given : 0.0;
   }
 
-  // The mean of the triangles around each that has noise; all of these get the same.
+  // Gives each triangle that has noise the mean of the triangles around it; all noisy triangles of
+  // that search get the same mean.
   void SmoothNoise(Progress& progress)
   {
     LargeBuffer<double> smooth(this->Count, DensityLevels::Given);
@@ -280,11 +294,11 @@ private:
   WalkedSurface& Surface;
   const SurfaceDensity& Density;
   const double MassOfDot;
-  double* Levels;
+  double* Levels; // by triangles; at first mean densities
   const std::int64_t Count;
-  LargeBuffer<std::int64_t> PartOf;
-  LargeBuffer<Part> Parts;
-  LargeBuffer<char> IsWide;
+  LargeBuffer<std::int64_t> PartOf; // roots, by triangles
+  LargeBuffer<Part> Parts;          // by roots
+  LargeBuffer<char> IsWide;         // by roots
   LargeBuffer<std::int64_t> SeenBy; // the last search that has met a triangle
   std::vector<std::int64_t> Queue;
 };

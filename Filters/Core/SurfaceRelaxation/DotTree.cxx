@@ -11,6 +11,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// The bounds of some dots, and the largest of their spacings h = 1 / Inverse.
 DotBox boundsOf(const ScaledDot* first, const ScaledDot* last)
 {
   constexpr double most = std::numeric_limits<double>::infinity();
@@ -29,6 +30,7 @@ DotBox boundsOf(const ScaledDot* first, const ScaledDot* last)
   return box;
 }
 
+// Dots of spacings h and k push each other up to the squared distance R^2 h k.
 bool isInReach(const DotBox& a, const DotBox& b)
 {
   return squaredGap<3>(a, b) < squaredDotReach * a.Largest * b.Largest;

@@ -30,7 +30,8 @@ std::int64_t samplesOfDot(std::int64_t dots)
 
 constexpr int bitsOfAxis = 10;
 
-// The bits of a coordinate in [-1/2, 1/2], two free ones after each.
+// The bits of a coordinate in [-1/2, 1/2], with two free ones after each, for a Morton number:
+// masks and shifts move them apart in four steps.
 std::uint32_t spreadBits(double x)
 {
   constexpr double most = (1 << bitsOfAxis) - 1;
@@ -41,8 +42,8 @@ std::uint32_t spreadBits(double x)
   return (bits | bits << 2) & 0x09249249u;
 }
 
-// Triangles in Morton order of their centres, so that samples at equal steps of the mass are
-// spread over small triangles, too.
+// Triangles in Morton order of their centres. Samples at equal steps of the mass are then spread in
+// space, even if triangles are much smaller than what a sample stands for.
 class TriangleOrder
 {
 public:
@@ -66,7 +67,7 @@ public:
   std::int64_t operator[](std::int64_t place) const { return this->Order.data()[place]; }
 
 private:
-  // A stable counting sort by 15 bits.
+  // A stable counting sort by 15 bits; two passes sort the 30 bits of the keys.
   void Pass(const LargeBuffer<std::uint32_t>& keys, const std::int64_t* from, std::int64_t* to,
     int shift, Progress& progress)
   {
@@ -89,7 +90,8 @@ private:
   LargeBuffer<std::int64_t> Order;
 };
 
-// Numbers of [0, 1) whose multiples fill the cube evenly.
+// A sequence of numbers in [0, 1) that fills the cube evenly: a random start plus multiples of the
+// steps of lowDiscrepancyStep, modulo 1 in 64-bit integers.
 template <int Dimension>
 class EvenPoints
 {
@@ -114,7 +116,7 @@ private:
   std::uint64_t At[Dimension];
 };
 
-// Places on one triangle, one after another.
+// Samples on one triangle, one after another.
 class TriangleSamples
 {
 public:
@@ -127,11 +129,12 @@ public:
   }
   SurfacePlace At(double u, double v) const
   {
+    // A + sqrt(u) AB + sqrt(u) v BC is uniform for uniform u and v.
     const double root = std::sqrt(u);
     return { this->A + root * this->AB + (root * v) * this->BC, this->Triangle };
   }
 
-  // Uniform ones.
+  // Makes uniform samples.
   void Make(std::uint64_t seed, SurfacePlace* first, SurfacePlace* last) const
   {
     EvenPoints<2> even(seed, static_cast<std::uint64_t>(this->Triangle));
@@ -141,7 +144,8 @@ public:
       *sample = this->At(even[0], even[1]);
     }
   }
-  // Of a density that is linear between its corners: uniform ones that are under it.
+  // Makes samples of a density that is linear between its corners, by rejection: those of uniform
+  // points in the prism over the triangle that are under the density.
   void Make(std::uint64_t seed, const std::array<double, 3>& corners, SurfacePlace* first,
     SurfacePlace* last) const
   {
@@ -173,7 +177,8 @@ LargeBuffer<SurfacePlace> makeSamples(const WalkedSurface& surface, const Surfac
   Stages stages(progress, { { "order", 4 }, { "counts", 2 }, { "samples", 4 } });
   const std::int64_t triangles = surface.NumberOfTriangles();
   const TriangleOrder order(surface, stages["order"]);
-  // The first sample of each triangle, at equal steps of the mass from a random one on.
+  // The first sample of each triangle: systematic sampling at equal steps of the mass, from a
+  // random one on.
   LargeBuffer<std::int64_t> firsts(triangles + 1);
   const double offset = unitReal(randomWord(seed + 2, 0));
   double mass = 0.0;
@@ -215,13 +220,15 @@ LargeBuffer<SurfacePlace> makeSamples(const WalkedSurface& surface, const Surfac
   return samples;
 }
 
-// Dots [First, Last).
+// Dots [First, Last): at first all, halved by the cuts.
 struct DotRange
 {
   std::int64_t First;
   std::int64_t Last;
 };
 
+// k-d cuts of the samples: each half has a whole number of dots, hence of samples, so that each
+// region of the tree has its share of dots to one sample.
 class SampleCuts
 {
 public:
@@ -232,7 +239,7 @@ public:
   {
   }
 
-  // Puts the sample of each dot first among those of the dot.
+  // Puts the sample that stands for each dot first among those of the dot.
   void Run(std::int64_t dots, Progress& progress)
   {
     constexpr int mostLevels = 8; // 256 ranges
@@ -242,7 +249,7 @@ public:
     {
       ++levels;
     }
-    constexpr double ofLevel = 0.06; // of about log2(dots) equal levels
+    constexpr double ofLevel = 0.06; // share of a level's work; about log2(dots) equal levels
     Stages stages(progress, { { "levels", ofLevel * levels }, { "dots", 1.0 - ofLevel * levels } });
     Parts cuts(stages["levels"], levels);
     std::vector<DotRange> ranges{ { 0, dots } };
@@ -263,12 +270,12 @@ public:
       [&](std::int64_t i) { this->Finish(ranges[static_cast<std::size_t>(i)], rest); });
   }
 
-  // Where the density jumps among the samples of a dot, the one next to their mean would be a
-  // sparse one too often. Chooses from the sparse or from the dense ones so that both have their
-  // shares over all dots.
+  // Makes up for a bias. Where the density jumps among the samples of a dot, the one next to their
+  // mean would be a sparse one too often. Chooses from the sparse or from the dense ones so that
+  // both have their shares over all dots (error diffusion in `owed`).
   void ShareJumps(std::int64_t dots, Progress& progress)
   {
-    double owed = 0.5; // to the sparse side
+    double owed = 0.5; // part of a dot that is owed to the sparse side
     std::vector<std::pair<double, std::int64_t>> byDensity(static_cast<std::size_t>(this->OfDot));
     std::vector<SurfacePlace> side;
     progress.ForEachInOrder(dots, grain, [&](std::int64_t dot) {
@@ -324,7 +331,8 @@ private:
     }
   }
 
-  // Cuts the samples of a range across their longest extent. Returns where the second half begins.
+  // Cuts the samples of a range across their longest extent, by selection in linear time. Returns
+  // where the second half begins.
   std::int64_t Cut(const DotRange& range, Progress& progress) const
   {
     SurfacePlace* const first = this->At(range.First);
@@ -344,7 +352,7 @@ private:
     return middle;
   }
 
-  // Which samples are in a half must not depend on how they are sorted.
+  // A total order of samples: which of them are in a half must not depend on how they are sorted.
   static bool isBefore(const SurfacePlace& a, const SurfacePlace& b, std::size_t axis)
   {
     for (std::size_t i = 0; i < 3; ++i)
@@ -358,6 +366,7 @@ private:
     return a.Triangle < b.Triangle;
   }
 
+  // Cuts recursively down to single dots.
   void Finish(const DotRange& range, Progress& progress) const
   {
     if (range.Last - range.First > 1)
@@ -376,7 +385,7 @@ private:
     }
   }
 
-  // The sample next to the mean of some.
+  // The sample that is nearest to the mean of some samples.
   static SurfacePlace* Middle(SurfacePlace* first, SurfacePlace* last)
   {
     Point<3> mean{ 0.0, 0.0, 0.0 };
@@ -393,7 +402,7 @@ private:
 
   SurfacePlace* Samples;
   const SurfaceDensity& Density;
-  const std::int64_t OfDot;
+  const std::int64_t OfDot; // samples of a dot
 };
 
 } // namespace

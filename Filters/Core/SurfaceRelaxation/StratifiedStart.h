@@ -13,9 +13,9 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Several samples a dot, in proportion to mass, are halved by k-d cuts with whole numbers of dots;
-// of the samples of one dot it takes the one in their middle. `total` is the surface's mass. The
-// order of the dots is that of the cuts (DotTree.h). Throws std::bad_alloc and Cancelled.
+// Several samples a dot, in proportion to mass, are halved by k-d cuts with whole numbers of dots.
+// The sample in the middle of a dot's samples stands for the dot. `total` is the surface's mass.
+// The order of the dots is that of the cuts (DotTree.h). Throws std::bad_alloc and Cancelled.
 LargeBuffer<SurfacePlace> startDots(const WalkedSurface& surface, const SurfaceDensity& density,
   double total, const SurfaceRelaxationOptions& options, Progress& progress);
 

@@ -13,6 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// A test of a box costs less than a side's distance; 16 sides keep the tree small.
 constexpr std::int64_t sidesOfLeaf = 16;
 
 } // namespace
@@ -57,6 +58,7 @@ double SurfaceBoundary::MemoryFor(double sides)
   return sides * (sizeof(std::int64_t) + 3.0 * 2.0 * sizeof(ItemBox) / (0.5 * sidesOfLeaf));
 }
 
+// The gap between boxes bounds the distance of their contents from below.
 void SurfaceBoundary::FindNear(
   const DotBox& box, double distance, std::vector<std::int64_t>& found) const
 {
@@ -75,6 +77,7 @@ void SurfaceBoundary::FindNear(
     [&found](std::int64_t side) { found.push_back(side); });
 }
 
+// The projection on each side is clamped to its ends.
 Point<3> SurfaceBoundary::FromNearest(
   const std::vector<std::int64_t>& sides, const Point<3>& x) const
 {

@@ -32,7 +32,7 @@ public:
 
 private:
   const WalkedSurface& Surface;
-  std::optional<ItemTree> Sides;
+  std::optional<ItemTree> Sides; // ids of sides
 };
 
 } // namespace RectifiedTransport

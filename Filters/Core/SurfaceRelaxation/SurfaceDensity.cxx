@@ -13,7 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Adds the value of a triangle, or those at its points.
+// Adds the value of a triangle, or those at its three points, to a summary.
 void summarize(const TriangleSurface& surface, const SurfaceDensityValues& values,
   std::int64_t triangle, DensitySummary& summary)
 {
@@ -54,6 +54,7 @@ SurfaceDensity::SurfaceDensity(
   {
     return;
   }
+  // Only values that triangles have are checked; points of no triangle may have any.
   const DensitySummary summary = reduceEach(
     progress, surface.Given().NumberOfTriangles, grain, DensitySummary(),
     [&](std::int64_t triangle, DensitySummary& part) {
@@ -70,7 +71,8 @@ SurfaceDensity::SurfaceDensity(
   this->Maximum = summary.Maximum;
 }
 
-// Linear in the given triangle.
+// The density at the corners of a part of a triangle: linear in the given triangle, so that corners
+// on its sides get interpolated values.
 std::array<double, 3> SurfaceDensity::AtCornersOfPart(std::int64_t triangle) const
 {
   std::array<double, 3> values{ 0.0, 0.0, 0.0 };

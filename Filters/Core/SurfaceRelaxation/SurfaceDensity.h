@@ -12,7 +12,7 @@
 namespace RectifiedTransport
 {
 
-// Of densities at neighbouring places: what is more is a jump.
+// The largest quotient of densities at neighbouring places; what is more is a jump.
 constexpr double largestStep = 2.0;
 
 class SurfaceDensity
@@ -26,6 +26,7 @@ public:
   bool IsUniform() const { return !this->Values.AtPoints && !this->Values.OfTriangles; }
   bool IsLinear() const { return this->Values.AtPoints != nullptr; }
 
+  // Relative to the largest value.
   // The density at the corners of a triangle.
   std::array<double, 3> AtCorners(std::int64_t triangle) const
   {
@@ -63,7 +64,7 @@ private:
 
   const WalkedSurface& Surface;
   SurfaceDensityValues Values;
-  double Maximum = 1.0;
+  double Maximum = 1.0; // largest value; all others are relative to it
 };
 
 } // namespace RectifiedTransport

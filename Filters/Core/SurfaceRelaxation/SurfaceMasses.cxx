@@ -15,7 +15,7 @@ namespace
 
 constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
 
-// Sums up the values of points or cells, but not those of ghosts.
+// The summary of the values of points or cells, without ghost cells.
 DensitySummary summaryOf(const ReadDensity& density, Progress& progress)
 {
   const double* values = density.Values;
@@ -42,6 +42,7 @@ DensitySummary summaryOf(const ReadDensity& density, Progress& progress)
     add);
 }
 
+// Throws Failure for values that are no density, with their number and the first of them.
 void requireValid(const DensitySummary& found, const ReadDensity& density)
 {
   if (found.NotFinite + found.Negative == 0)
@@ -77,6 +78,7 @@ SurfaceMasses::SurfaceMasses(
   this->FindTotal(surface.Areas(), density);
 }
 
+// Divides by the largest value, so that masses neither overflow nor vanish.
 void SurfaceMasses::ReadRelative(
   std::int64_t triangles, const ReadDensity& density, Progress& progress)
 {
@@ -90,6 +92,8 @@ void SurfaceMasses::ReadRelative(
   });
 }
 
+// The total in the units of the input: relative mass times Largest times Unit^2. The order of
+// factors avoids an intermediate overflow or underflow.
 void SurfaceMasses::FindTotal(const SurfaceAreas& areas, const ReadDensity& density)
 {
   const bool isGiven = density.Values != nullptr;

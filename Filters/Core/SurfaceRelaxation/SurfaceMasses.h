@@ -18,9 +18,10 @@ struct ReadDensity
 {
   const double* Values = nullptr; // nullptr: 1 everywhere
   bool OnPoints = true;
-  std::int64_t First = 0; // of the points, or of the cells that are no lines or vertices
-  std::int64_t Last = 0;  // one beyond
-  std::string Name;       // begins a sentence
+  // First index of the points, or of the cells that are no lines or vertices.
+  std::int64_t First = 0;
+  std::int64_t Last = 0;                            // one beyond
+  std::string Name;                                 // begins a sentence
   std::function<std::int64_t(std::int64_t)> CellOf; // a triangle's
   std::function<bool(std::int64_t)> IsGhost;        // a cell's; may be empty
 };

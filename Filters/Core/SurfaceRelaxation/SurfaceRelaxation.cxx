@@ -25,19 +25,22 @@ namespace RectifiedTransport
 namespace
 {
 
-// Chosen by experiment. Long steps at first, short ones at the end: with longer ones dots swing.
+// Factors of the pushes, chosen by experiment. Long steps at first, short ones at the end: with
+// longer ones dots swing.
 constexpr double firstStep = 2.8;
 constexpr double lastStep = 1.4;
 constexpr double longestStep = 0.3; // in spacings
-// Of a dot's own mirror image, by those of all others, which a boundary would need: with it, as
-// many dots are within a spacing of the boundary as elsewhere.
+// The weight of a dot's own mirror image. A boundary would need the images of all other dots, too.
+// With this weight of its own one, as many dots are within a spacing of the boundary as elsewhere.
 constexpr double mirrorWeight = 0.25;
-// The sum of 1 - q^2 / R^2 over a lattice is R^2 pi / 2. Where it is by so much more, sheets are
-// nearer to each other than the spacing: dots there take a smaller one.
+// The sum of 1 - q^2 / R^2 over a lattice of one dot for each unit of area is the integral, R^2 pi
+// / 2. Where the sum is larger by 1.2, sheets are nearer to each other than the spacing: dots there
+// take a smaller one.
 constexpr double mostCrowded = 1.2 * 0.5 * 3.14159265358979 * squaredDotReach;
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
+// The sums over all triangles.
 struct Sum
 {
   double Area = 0.0;
@@ -60,6 +63,8 @@ Sum measure(const WalkedSurface& surface, const SurfaceDensity& density, Progres
     });
 }
 
+// Gradient descent of the dots' repulsion, all dots at once from the places of the iteration before
+// (Jacobi): the result does not depend on the order or on threads.
 class DotRelaxation
 {
 public:
@@ -78,7 +83,8 @@ public:
   {
   }
 
-  // The first step, the last one, or a part of the way between them.
+  // One iteration. `part` goes from 0 in the first to 1 in the last one, and the factor of the
+  // steps from firstStep to lastStep.
   void Iterate(double part, Progress& progress)
   {
     progress.Expect(this->Dots.size() + 2 * this->Tree.Blocks());
@@ -93,12 +99,15 @@ public:
         this->Squares.data()[i] = square;
         this->Shares.data()[i] = 1.0;
       }
+      // The spacing that dots push with is the mean over neighbours from the iteration before, less
+      // where it is crowded. At first, it is that of the density at the dot.
       const double used = this->Shares.data()[i] * this->Squares.data()[i];
       const double inverse = 1.0 / std::sqrt(used);
       this->Dots.data()[i] = { { place.X[0], place.X[1], place.X[2] }, inverse, std::sqrt(inverse),
         square };
     });
     this->Tree.Update(this->Dots.data(), progress);
+    // Eight blocks search the tree together; each one then selects from what was found.
     constexpr std::int64_t blocksOfGroup = 8;
     constexpr std::int64_t blockGrain = 4 * blocksOfGroup;
     progress.For(
@@ -128,6 +137,7 @@ public:
   }
 
 private:
+  // Memory of a thread, kept from block to block.
   struct Scratch
   {
     std::vector<std::int64_t> InReachOfGroup; // blocks
@@ -136,7 +146,7 @@ private:
     DotBlock Block;
   };
 
-  // At a place: times the density, it is the mass of a dot.
+  // The squared spacing h^2 at a place: times the density, it is the mass of a dot.
   double SquaredSpacing(const SurfacePlace& place) const
   {
     double density = 1.0;
@@ -150,8 +160,9 @@ private:
     return this->MassOfDot / density;
   }
 
-  // Not less than the mean of a dot's surroundings where the density goes to 0: there spacing s and
-  // density d = gradient * s meet.
+  // The density of a linear one, but not less than the mean of a dot's surroundings where it goes
+  // to 0: there the spacing s and the density d = gradient s meet, d s^2 = m, so that d = (gradient
+  // sqrt(m))^(2/3).
   double LinearDensity(const SurfacePlace& place) const
   {
     const std::array<double, 3> corners = this->Density.AtCorners(place.Triangle);
@@ -171,11 +182,13 @@ private:
     return std::max(density, 0.5 * root * root);
   }
 
+  // Moves the dots of a block by their pushes.
   void Move(std::int64_t block, Scratch& scratch)
   {
     DotBlock& own = scratch.Block;
     const std::int64_t first = block * dotBlock;
     const std::int64_t count = std::min<std::int64_t>(dotBlock, this->Dots.size() - first);
+    // Empty lanes of the last block repeat its last dot.
     for (int lane = 0; lane < dotBlock; ++lane)
     {
       const ScaledDot& dot = this->Dots.data()[first + std::min<std::int64_t>(lane, count - 1)];
@@ -201,6 +214,7 @@ private:
       {
         push = push + this->MirrorPush(at, scratch.Sides);
       }
+      // The step is Step times the sum of (x - y) sqrt(h / k) b^8, at most longestStep spacings.
       Point<3> step = (this->Step * at.Root / at.Inverse) * push;
       const double squared = dot(step, step) * at.Inverse * at.Inverse;
       if (squared > longestStep * longestStep)
@@ -208,12 +222,16 @@ private:
         step = (longestStep / std::sqrt(squared)) * step;
       }
       this->Surface.Walk(this->Places.data()[first + lane], step, this->Levels);
+      // The mean of the neighbours' squared spacings, weighted by b.
       this->Squares.data()[first + lane] = own.Mean[lane] / own.Weight[lane];
       double& share = this->Shares.data()[first + lane];
+      // The square root damps the correction: the share approaches its value over some iterations.
       share = std::min(1.0, share * std::sqrt(mostCrowded / own.Weight[lane]));
     }
   }
 
+  // The push of the dot's own mirror image behind the nearest place of the boundary: at twice the
+  // vector from there, with the same spacing.
   Point<3> MirrorPush(const ScaledDot& at, const std::vector<std::int64_t>& sides) const
   {
     const Point<3> gap = 2.0 * this->Boundary.FromNearest(sides, { at.X[0], at.X[1], at.X[2] });
@@ -233,7 +251,7 @@ private:
   const double MassOfDot;
   LargeBuffer<SurfacePlace> Places;
   LargeBuffer<ScaledDot> Dots;
-  // The squares of the dots' spacings, and the part of them that they take where it is crowded.
+  // By dots: the squared spacings, and the part of them that dots take where it is crowded.
   LargeBuffer<double> Squares;
   LargeBuffer<double> Shares;
   DotTree Tree;

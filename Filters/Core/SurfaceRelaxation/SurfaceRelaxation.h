@@ -37,23 +37,23 @@ struct SurfaceRelaxation
   LargeBuffer<PlaceOnTriangle> Places; // near ones are often near in the order, too
   std::int64_t WeldedPoints = 0;       // at the place of another point
   std::int64_t TJunctions = 0;         // that were closed
-  std::int64_t OpenEdges = 0;          // of one triangle
-  std::int64_t NonManifoldEdges = 0;   // of more than two
+  std::int64_t OpenEdges = 0;          // edges of one triangle
+  std::int64_t NonManifoldEdges = 0;   // edges of more than two triangles
 };
 
-// Any triangles: closed or not, in several components, with handles, with more than two triangles
-// on an edge, turned either way, intersecting each other, without area. Points with equal
+// Takes any triangles: closed or not, in several components, with handles, with more than two
+// triangles on an edge, turned either way, intersecting each other, without area. Points with equal
 // coordinates count as one. Triangles are neighbours also across T-junctions (see TJunctions.h):
 // there they are cut, each with the density that it has as a whole.
 //
 // Samples of the surface in proportion to area times density are halved by k-d cuts, so that each
-// part has its share of the dots to one. Then dots repel each other, by bumps as wide as their
+// part has its share of the dots to one. Then dots repel each other by bumps as wide as their
 // distance at the local density, and walk over the triangles: straight ahead over edges, along
-// boundaries. Near a boundary each dot is repelled by its mirror image, too. Sheets nearer to each
-// other than the spacing share the room between them. No dot walks over an
-// edge where the density jumps by more than 2, so that the numbers on both sides stay; unless the
-// density is noise there: parts of one density that are narrower than the spacing, or have the mass
-// of few dots, have the mean density around them. No dot is in a triangle of density 0.
+// boundaries. Near a boundary, each dot is also repelled by its mirror image. Sheets nearer to each
+// other than the spacing share the room between them. No dot walks over an edge where the density
+// jumps by a factor above 2, so that the numbers on both sides stay. The exception is noise:
+// parts of one density that are narrower than the spacing, or have the mass of few dots, get the
+// mean density around them. No dot is in a triangle of density 0.
 //
 // Cost: O(triangles log triangles + samples (log samples + iterations)). Memory:
 // memoryForSurfaceRelaxation. The places have the same bits for any number of threads and any

@@ -29,6 +29,8 @@ constexpr double flatHeight = 1e-12;
 // Nor have those so small beside the surface that their squared normals have no inverse.
 constexpr double leastSquaredNormal = 1e-290;
 
+// squaredNormal = (2 area)^2 and height = 2 area / side, so that the test is height <= 1e-12 side,
+// without roots. The sum of two squared sides stands for the longest one.
 bool isFlat(double squaredNormal, double squaredSides)
 {
   return !(squaredNormal > flatHeight * flatHeight * squaredSides * squaredSides) ||
@@ -74,7 +76,8 @@ WalkedSurface::WalkedSurface(const TriangleSurface& surface, double rounding, Pr
     centre[axis] = 0.5 * bounds.Low[axis] + 0.5 * bounds.High[axis];
     half = std::max(half, 0.5 * bounds.High[axis] - 0.5 * bounds.Low[axis]);
   }
-  // A power of two, so that scaling does not round. In two steps, neither of which overflows.
+  // The scale is a power of two, so that scaling does not round. It is applied in two steps,
+  // neither of which overflows.
   int exponent = 0;
   std::frexp(half, &exponent);
   const double scales[2] = { std::ldexp(1.0, -exponent / 2),
@@ -117,6 +120,7 @@ double WalkedSurface::Area(std::int64_t triangle) const
   return isFlat(squared, dot(b, b) + dot(c, c)) ? 0.0 : 0.5 * std::sqrt(squared);
 }
 
+// Finds for each side the one across. Points at one place count as one.
 void WalkedSurface::PairSides(const std::int64_t* welded, std::int64_t points, Progress& progress)
 {
   this->Sides = { 3 * this->Count, Boundary };
@@ -134,7 +138,7 @@ void WalkedSurface::PairSides(const std::int64_t* welded, std::int64_t points, P
   this->NumberNonManifold = nonManifold;
 }
 
-// Triangles with a corner twice are a line that others share.
+// Whether a triangle has a point twice. It is a line, which other triangles have as an edge.
 bool WalkedSurface::IsLine(std::int64_t triangle, const std::int64_t* welded) const
 {
   const std::int64_t* t = this->Triangle(triangle);
@@ -142,7 +146,7 @@ bool WalkedSurface::IsLine(std::int64_t triangle, const std::int64_t* welded) co
     welded[t[2]] == welded[t[0]];
 }
 
-// At T-junctions; returns whether there are any.
+// Cuts triangles at T-junctions; returns whether there are any.
 bool WalkedSurface::Cut(const std::int64_t* welded, double rounding, Progress& progress)
 {
   std::vector<OpenSide> open;
@@ -173,6 +177,9 @@ bool WalkedSurface::Cut(const std::int64_t* welded, double rounding, Progress& p
   return true;
 }
 
+// Pairs the sides of one edge. At an edge of more than two triangles, the pair that continues most
+// straightly (the least cosine of the directions into the triangles, near -1) comes first. What is
+// left alone ends there.
 void WalkedSurface::PairEdge(const std::int64_t* sides, std::int64_t count)
 {
   const auto pair = [this](std::int64_t a, std::int64_t b) {
@@ -188,7 +195,8 @@ void WalkedSurface::PairEdge(const std::int64_t* sides, std::int64_t count)
     return;
   }
   std::vector<std::int64_t> left(sides, sides + count);
-  constexpr std::size_t mostCompared = 32; // in cubic time
+  // Edges of more take cubic time; their sides are paired in order.
+  constexpr std::size_t mostCompared = 32;
   if (left.size() > mostCompared)
   {
     for (std::int64_t i = 0; i < count / 2; ++i)
@@ -226,7 +234,7 @@ void WalkedSurface::PairEdge(const std::int64_t* sides, std::int64_t count)
   }
 }
 
-// The unit vector from a side into its triangle, 0 of flat ones.
+// The unit vector from a side into its triangle, perpendicular to the side; 0 for flat triangles.
 Point<3> WalkedSurface::Inwards(std::int64_t side) const
 {
   const Point<3> edge = this->Edge(side);
@@ -243,8 +251,9 @@ Point<3> WalkedSurface::Along(std::int64_t side) const
   return (1.0 / std::sqrt(dot(edge, edge))) * edge;
 }
 
-// The side of a triangle with area that is across a side at one of its points, through flat
-// triangles; else what is there instead.
+// The side of a triangle with area that is across a side at one of its points. Flat triangles
+// between are passed through the side that has the point. Without such a triangle, Boundary or
+// Wall.
 std::int64_t WalkedSurface::Beyond(std::int64_t side, const Point<3>& x) const
 {
   constexpr int mostFlat = 1000;
@@ -272,7 +281,8 @@ std::int64_t WalkedSurface::Beyond(std::int64_t side, const Point<3>& x) const
   return at >= 0 && this->Area(at / 3) == 0.0 ? Wall : at;
 }
 
-// The gradients of the weights of corners 1 and 2.
+// What a walk needs of a triangle: weight b of corner 1 has the gradient (c x n) / |n|^2, weight
+// c of corner 2 has (n x b) / |n|^2, where n = b x c. The weights sum to 1.
 struct WalkedSurface::Frame
 {
   Frame(const WalkedSurface& surface, std::int64_t triangle)
@@ -286,6 +296,7 @@ struct WalkedSurface::Frame
     this->ToC = this->PerSquare * cross(this->Normal, b);
   }
 
+  // How the three barycentric weights change by a vector.
   std::array<double, 3> Change(const Point<3>& by) const
   {
     const double b = dot(this->ToB, by);
@@ -306,6 +317,8 @@ struct WalkedSurface::Frame
   Point<3> ToC;
 };
 
+// A geodesic in pieces: straight within a triangle up to the side whose weight becomes 0 first,
+// then unfolded about that side, which keeps the components along and across it.
 void WalkedSurface::Walk(SurfacePlace& place, const Point<3>& by, const double* levels) const
 {
   constexpr int mostCrossings = 1 << 16;
@@ -323,6 +336,8 @@ void WalkedSurface::Walk(SurfacePlace& place, const Point<3>& by, const double* 
     const std::array<double, 3> change = frame.Change(left);
     double part = 1.0;
     std::size_t through = 3;
+    // Rounding may leave a weight below 0 at the side of entry, which does not count as a side to
+    // leave by.
     for (std::size_t i = 0; i < 3; ++i)
     {
       if (i != from && weights[i] + change[i] < 0.0)
@@ -352,6 +367,8 @@ void WalkedSurface::Walk(SurfacePlace& place, const Point<3>& by, const double* 
     {
       if (++slides > mostSlides || standing > mostStanding)
       {
+        // At a boundary, only the component along it goes on: the walk slides. Corners stop it
+        // after some slides.
         break;
       }
       left = along * edge;
@@ -362,6 +379,7 @@ void WalkedSurface::Walk(SurfacePlace& place, const Point<3>& by, const double* 
     {
       break;
     }
+    // The last place before a triangle of density 0, to which the walk returns if it ends in one.
     if (levels && levels[beyond / 3] == 0.0 && levels[place.Triangle] > 0.0)
     {
       kept = place;
@@ -390,6 +408,7 @@ void WalkedSurface::Walk(SurfacePlace& place, const Point<3>& by, const double* 
   }
 }
 
+// Negative weights, by rounding, become 0; the others are scaled to the sum 1.
 PlaceOnTriangle WalkedSurface::WeightsOf(const SurfacePlace& place) const
 {
   PlaceOnTriangle on{ place.Triangle, Frame(*this, place.Triangle).Weights(place.X) };

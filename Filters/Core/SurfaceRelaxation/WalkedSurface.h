@@ -36,7 +36,7 @@ public:
   static constexpr std::int64_t Boundary = -1;
   static constexpr std::int64_t Wall = -2; // there is surface, but no way
 
-  // Keeps a view of the triangles. `rounding` is by how much coordinates may be off. Throws
+  // Keeps a view of the triangles. Coordinates may be off by `rounding`. Throws
   // std::invalid_argument, std::bad_alloc and Cancelled.
   WalkedSurface(const TriangleSurface& surface, double rounding, Progress& progress);
   // Bytes that the constructor takes at most, about; without T-junctions, 32 a triangle less.
@@ -63,7 +63,7 @@ public:
   {
     return this->Start(3 * triangle + corner);
   }
-  // 0 of flat triangles, which have no height beyond rounding.
+  // The area in that frame. It is 0 for flat triangles, which have no height beyond rounding.
   double Area(std::int64_t triangle) const;
 
   // Side 3t+i of triangle t goes from its corner i to the next: where it begins, and its vector.
@@ -74,10 +74,11 @@ public:
   }
   Point<3> Edge(std::int64_t side) const { return this->Start(nextSide(side)) - this->Start(side); }
   std::int64_t Across(std::int64_t side) const { return this->Sides.data()[side]; }
+  // Puts Boundary or Wall across a side.
   void Close(std::int64_t side, std::int64_t with) { this->Sides.data()[side] = with; }
 
-  // Walks by a vector, of which only the part in the triangle's plane counts. Where `levels`, if
-  // not null, is 0, the walk may pass, but not end.
+  // Walks by a vector, of which only the part in the triangle's plane counts. A walk may pass
+  // triangles where `levels`, if not null, is 0, but does not end in one.
   void Walk(SurfacePlace& place, const Point<3>& by, const double* levels) const;
   PlaceOnTriangle WeightsOf(const SurfacePlace& place) const;
 
@@ -87,7 +88,7 @@ public:
   std::int64_t NonManifoldEdges() const { return this->NumberNonManifold; }
 
 private:
-  struct Frame; // of a triangle, as the walk needs it
+  struct Frame; // what the walk needs of a triangle
 
   void PairSides(const std::int64_t* welded, std::int64_t points, Progress& progress);
   bool IsLine(std::int64_t triangle, const std::int64_t* welded) const;
@@ -100,9 +101,9 @@ private:
   TriangleSurface GivenSurface;
   std::optional<SplitSurface> Split; // if there are T-junctions
   const std::int64_t* Triangles;
-  std::int64_t Count;
-  LargeBuffer<double> Positions;
-  LargeBuffer<std::int64_t> Sides;
+  std::int64_t Count;              // number of triangles, cut or given
+  LargeBuffer<double> Positions;   // three a point, in the box [-1/2, 1/2]^3
+  LargeBuffer<std::int64_t> Sides; // what is across, by sides
   std::int64_t NumberWelded = 0;
   std::int64_t NumberOpen = 0;
   std::int64_t NumberNonManifold = 0;

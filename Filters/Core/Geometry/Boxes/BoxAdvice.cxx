@@ -13,7 +13,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// Enlarges a box by the corners of an image; beyond its points there is nothing to be sampled.
+// Enlarges a box by the corners of an image's points. Beyond its points there is nothing to be
+// sampled, also where the domain of a point array reaches half a spacing farther.
 void addPoints(const ImageGrid& grid, Eigen::Vector3d& low, Eigen::Vector3d& high)
 {
   const std::array<int, 6>& extent = grid.Extent();
@@ -31,6 +32,8 @@ void addPoints(const ImageGrid& grid, Eigen::Vector3d& low, Eigen::Vector3d& hig
   }
 }
 
+// The translation that brings the image's first layer into the plane through the origin across an
+// axis, as the three numbers that Transform has.
 std::string translateOf(const ImageGrid& grid, Eigen::Index axis)
 {
   const Eigen::Vector3d normal = grid.Direction().col(axis).normalized();
@@ -53,6 +56,7 @@ std::string sameBoxAdvice(const ImageGrid& first, const ImageGrid& other)
   Eigen::Vector3d high = -low;
   addPoints(first, low, high);
   addPoints(other, low, high);
+  // The finest spacing of the two, along each axis.
   const Eigen::Vector3d spacing = first.Spacing().cwiseAbs().cwiseMin(other.Spacing().cwiseAbs());
   std::string bounds;
   std::string dimensions;
@@ -69,6 +73,7 @@ std::string sameBoxAdvice(const ImageGrid& first, const ImageGrid& other)
     bounds + "and " + dimensions + " hold these two";
 }
 
+// Both are moved to the plane through the origin, so that it does not matter which one is right.
 std::string samePlaneAdvice(const ImageGrid& first, const ImageGrid& other, std::size_t axis)
 {
   const auto a = static_cast<Eigen::Index>(axis);

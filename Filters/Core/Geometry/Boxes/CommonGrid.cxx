@@ -19,26 +19,26 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr double rounding = 1e-6;           // of lengths and coordinates: single precision
-constexpr double mostRounding = 0.01;       // of a spacing
-constexpr double directionTolerance = 1e-6; // of each element, as ITK has it by default
-constexpr double planeTolerance = 1e-6;     // of the longest side
+constexpr double rounding = 1e-6;     // part of lengths and coordinates, as in single precision
+constexpr double mostRounding = 0.01; // part of a spacing; larger offsets are no rounding
+constexpr double directionTolerance = 1e-6; // for each element, as ITK has it by default
+constexpr double planeTolerance = 1e-6;     // part of the longest side
 constexpr const char* property = "Dimensions";
 
 // The interval of the domain along an axis, in coordinates along given directions. For an axis of
 // one point Low is the coordinate of that point.
 struct Side
 {
-  double Low; // the lower end of the first cell; the upper one if Spacing is negative
-  double Spacing;
+  double Low;     // the lower end of the first cell; the upper one if Spacing is negative
+  double Spacing; // from one cell to the next, with its sign
   int Cells;
   bool IsAxis;
 };
 
 using Sides = std::array<Side, 3>;
 
-// By columns: the terms are added from left to right, as by vtkMatrix3x3. The order of Eigen's
-// product, and so its rounding, depends on its version and on the instruction set.
+// The product by columns: terms are added from left to right, as vtkMatrix3x3 does. The order of
+// Eigen's product, and so its rounding, depends on its version and on the instruction set.
 Eigen::Vector3d product(const ImageGrid::Matrix& matrix, const Eigen::Vector3d& v)
 {
   return matrix.col(0) * v[0] + matrix.col(1) * v[1] + matrix.col(2) * v[2];
@@ -55,6 +55,7 @@ Sides sidesOf(const ImageGrid& grid, const ImageGrid::Matrix& directions)
     const auto axis = static_cast<Eigen::Index>(i);
     const double spacing = grid.Spacing()[axis];
     const int first = grid.Extent()[2 * i];
+    // The domain of values on points begins half a spacing before the first point.
     const double index = grid.IsAxis(i) && grid.IsOnPoints() ? first - 0.5 : first;
     sides[i] = { origin[axis] + spacing * index, spacing, grid.NumberOfValues()[i],
       grid.IsAxis(i) };
@@ -80,6 +81,7 @@ ImageGrid withSides(const ImageGrid& grid, const Sides& sides)
   return { extent, origin, spacing, grid.Direction(), grid.IsOnPoints() };
 }
 
+// Element by element, not by angles: the message names the same tolerance.
 bool haveSameDirection(const ImageGrid& a, const ImageGrid& b)
 {
   return ((a.Direction() - b.Direction()).cwiseAbs().array() <= directionTolerance).all();
@@ -121,6 +123,7 @@ double longestOf(const Sides& sides)
   return longest;
 }
 
+// What no resampling to a common box could mend: other axes, directions, signs or planes.
 void requireAlike(const NamedGrid& first, const NamedGrid& other)
 {
   const Sides a = sidesOf(first.Grid, first.Grid.Direction());
@@ -160,12 +163,14 @@ void requireAlike(const NamedGrid& first, const NamedGrid& other)
 }
 
 // How far apart ends of an interval may be that are meant to be the same.
+// The rounding grows with the coordinates; it must stay far below a cell.
 double toleranceOf(double low, double high, double spacing)
 {
   const double largest = std::max({ high - low, std::abs(low), std::abs(high) });
   return std::min(rounding * largest, mostRounding * std::abs(spacing));
 }
 
+// Both ends and the number of cells agree, so that the spacing does, too.
 bool isSame(const Side& a, const Side& b)
 {
   const double end = a.Low + a.Spacing * a.Cells;
@@ -191,6 +196,7 @@ struct Union
   double Sign;
 };
 
+// With the sign of the spacing the interval is ascending for all images.
 Union uniteSides(const std::vector<Sides>& all, std::size_t axis)
 {
   const double sign = all.front()[axis].Spacing < 0.0 ? -1.0 : 1.0;
@@ -221,6 +227,8 @@ double cellsAt(const Union& axis, double factor, double least)
 // but `least` along each axis.
 void coarsen(std::vector<Union>& axes, double most, double least)
 {
+  // The number of cells falls with the factor, in steps: double it until it is enough, then bisect
+  // to the last bit.
   const auto isMore = [&](double factor) {
     double cells = 1.0;
     bool isLeast = true;
@@ -243,7 +251,8 @@ void coarsen(std::vector<Union>& axes, double most, double least)
   {
     (isMore(middle) ? below : factor) = middle;
   }
-  // Cells along one of the axes fill the box then, but for rounding.
+  // Numbers of cells are whole. At the least factor, the cells along one axis fill the box exactly,
+  // but for rounding; that axis gives the factor which all others get.
   double filling = factor;
   for (const Union& axis : axes)
   {
@@ -266,6 +275,7 @@ double cellsOf(const Sides& sides)
 
 } // namespace
 
+// Equal grids are the usual case, and keep the first grid bit by bit.
 ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3], MostCells limit)
 {
   const ImageGrid& first = grids.front().Grid;
@@ -315,6 +325,8 @@ ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3
     sides[side.Axis].Cells = static_cast<int>(cells);
     sides[side.Axis].Spacing = side.Sign * side.Length / cells;
   }
+  // gridWithValues checks `dimensions` and may change the spacing; its result is put back on the
+  // box exactly.
   Sides exact =
     sidesOf(gridWithValues(withSides(first, sides), dimensions, property), first.Direction());
   for (const Union& side : unions)

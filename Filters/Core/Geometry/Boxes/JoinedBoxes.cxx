@@ -6,6 +6,7 @@
 namespace RectifiedTransport
 {
 
+// The first box that has a value gives it; a later one must have the same.
 bool findGivers(const std::vector<JoinedBox>& boxes, const LatticePart<3>& all,
   const std::function<bool(std::size_t, std::int64_t, std::size_t, std::int64_t)>& areSame,
   ValueGivers& givers)

@@ -12,6 +12,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// The message of a number of values that cannot be, with all three numbers.
 [[noreturn]] void failValues(const char* property, const int values[3], const std::string& rule)
 {
   fail(property, " is ", values[0], " ", values[1], " ", values[2], "; it must be ", rule);
@@ -19,6 +20,7 @@ namespace
 
 } // namespace
 
+// The limit keeps extents within int.
 void requireResolution(const char* property, int resolution)
 {
   const std::string rule = "from 1 to " + std::to_string(MaximumResolution);
@@ -26,8 +28,10 @@ void requireResolution(const char* property, int resolution)
     resolution >= 1 && resolution <= MaximumResolution, property, resolution, rule.c_str());
 }
 
+// One cell on the box. Its sides become the spacing, so that gridWithResolution can divide it.
 ImageGrid gridOfBox(const double (&bounds)[6])
 {
+  // Shorter sides are rounding errors of data that are flat.
   constexpr double flat = 1e-9;
   double longest = 0.0;
   for (std::size_t i = 0; i < 3; ++i)
@@ -48,6 +52,7 @@ ImageGrid gridOfBox(const double (&bounds)[6])
   return { extent, origin, spacing, ImageGrid::Matrix::Identity(), false };
 }
 
+// A density needs cells of a measure above 0, in at least one dimension.
 void requireCells(const ImageGrid& grid)
 {
   if (grid.Dimension() == 0)
@@ -65,6 +70,7 @@ void requireCells(const ImageGrid& grid)
   }
 }
 
+// 0 keeps the input's number along an axis; the domain stays the same.
 ImageGrid gridWithValues(const ImageGrid& grid, const int wanted[3], const char* property)
 {
   if (*std::min_element(wanted, wanted + 3) < 0)
@@ -98,6 +104,7 @@ ImageGrid gridWithValues(const ImageGrid& grid, const int wanted[3], const char*
   return grid.WithValues({ wanted[0], wanted[1], wanted[2] });
 }
 
+// cells along an axis = resolution times length / longest length, rounded, at least 1.
 ImageGrid gridWithResolution(const ImageGrid& grid, int resolution, const char* property)
 {
   requireResolution(property, resolution);
@@ -109,6 +116,7 @@ ImageGrid gridWithResolution(const ImageGrid& grid, int resolution, const char* 
     lengths[i] = grid.IsAxis(i) ? std::abs(spacing) * cells[i] : 0.0;
   }
   const double longest = std::max({ lengths[0], lengths[1], lengths[2] });
+  // 0 stays where the image has no axis.
   int wanted[3] = { 0, 0, 0 };
   for (std::size_t i = 0; i < 3; ++i)
   {
@@ -120,9 +128,10 @@ ImageGrid gridWithResolution(const ImageGrid& grid, int resolution, const char* 
   return gridWithValues(grid.WithValuesOn(false), wanted, property);
 }
 
+// The margin is a part of the longest axis; along others, as many of their own cells as cover it.
 GridSize<3> cellsOfMargin(const ImageGrid& grid, double margin)
 {
-  constexpr double rounding = 1e-9; // of a cell
+  constexpr double rounding = 1e-9; // part of a cell that must not add another one
   const Point<3> lengths = grid.Lengths<3>();
   const double longest = *std::max_element(lengths.begin(), lengths.begin() + grid.Dimension());
   GridSize<3> cells{};
@@ -130,6 +139,7 @@ GridSize<3> cellsOfMargin(const ImageGrid& grid, double margin)
   {
     const auto axis = static_cast<std::size_t>(a);
     const auto size = static_cast<double>(grid.Size<3>()[axis]);
+    // margin longest / (lengths / size), in cells
     const double around = std::ceil(margin * (longest / lengths[axis]) * size - rounding);
     if (!(size + 2.0 * around <= MaximumResolution))
     {
@@ -141,6 +151,7 @@ GridSize<3> cellsOfMargin(const ImageGrid& grid, double margin)
   return cells;
 }
 
+// A product of doubles: three ints may exceed every integer.
 double numberOfValues(const ImageGrid& grid)
 {
   double number = 1.0;

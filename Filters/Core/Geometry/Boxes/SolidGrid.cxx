@@ -11,6 +11,7 @@
 namespace RectifiedTransport
 {
 
+// What can be checked before the surface is known.
 void requireSolidGrid(int resolution, double padding)
 {
   requireResolution("Resolution", resolution);
@@ -21,6 +22,7 @@ void requireSolidGrid(int resolution, double padding)
 ImageGrid solidGrid(const std::array<double, 6>& bounds, int resolution, double padding)
 {
   requireSolidGrid(resolution, padding);
+  // The longest side, infinite if a side is not a number, and the farthest coordinate.
   double longest = 0.0;
   double farthest = 0.0;
   for (std::size_t a = 0; a < 3; ++a)
@@ -30,11 +32,13 @@ ImageGrid solidGrid(const std::array<double, 6>& bounds, int resolution, double 
     farthest = std::max({ farthest, std::abs(bounds[2 * a]), std::abs(bounds[2 * a + 1]) });
   }
   const double grown = longest * (1.0 + 2.0 * padding);
+  // Four times the sides must be finite: the corners of cells are computed from them.
   if (!std::isfinite(4.0 * grown))
   {
     fail("Padding is ", padding, " and the input's longest side ", longest,
       "; the box around it must have finite sides");
   }
+  // Cubic cells: all axes share the width of the longest axis.
   const double width = grown / resolution;
   // Narrower cells are not resolved by coordinates in double precision.
   constexpr double smallest = 1e-12;

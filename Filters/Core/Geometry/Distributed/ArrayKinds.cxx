@@ -12,6 +12,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Whether a list has an array of the same owner, type, components and name.
 bool has(const ArrayKinds& kinds, const ArrayKind& wanted)
 {
   return std::any_of(
@@ -20,6 +21,7 @@ bool has(const ArrayKinds& kinds, const ArrayKind& wanted)
 
 } // namespace
 
+// Names are quoted: they may contain blanks and line ends.
 std::string textOfKinds(const ArrayKinds& kinds)
 {
   std::ostringstream os;
@@ -54,6 +56,7 @@ ArrayKinds kindsOfText(const std::string& text)
   return kinds;
 }
 
+// An array of this name counts even if only some lists have it.
 ArrayKinds commonKinds(const std::vector<ArrayKinds>& all, const std::string& name)
 {
   ArrayKinds common;

@@ -11,7 +11,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// The rows of a box among the tuples of another one, that of an image.
+// The rows of a box, as runs of tuples in the order of an image's box.
 std::vector<TupleRun> runsOf(const TupleBox& box, const TupleBox& image)
 {
   std::vector<TupleRun> runs;
@@ -37,7 +37,8 @@ BoxExchange::BoxExchange(std::vector<TupleBox> held, const TupleBox& wanted, con
 {
 }
 
-// Nothing that a lower rank sends, too, as where each has all.
+// What a rank sends. Nothing is sent that a lower rank sends as well, for example where each rank
+// has all tuples. A part that several lower ranks cover only together is sent twice.
 TupleBox BoxExchange::PartFor(std::size_t rank, std::size_t receiver) const
 {
   TupleBox part = this->Held[rank].And(this->Wanted[receiver]);
@@ -66,12 +67,13 @@ void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks)
     }
   }
   std::vector<Bytes> received = ranks.Exchange(std::move(parts));
-  // The lowest rank comes last: its tuples count.
+  // The lowest rank comes last, so that its tuples are those that stay.
   for (std::size_t rank = received.size(); rank-- > 0;)
   {
     const char* bytes = received[rank].data();
     for (const BoxArrays& array : arrays)
     {
+      // The receiver computes the same parts as the sender: no sizes need to be sent.
       const TupleBox part = array.Boxes->PartFor(rank, own);
       if (rank != own)
       {

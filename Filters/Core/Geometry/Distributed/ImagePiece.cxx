@@ -10,6 +10,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// With 17 digits, different doubles have different texts.
 std::string describe(const double* numbers, std::size_t count)
 {
   std::ostringstream os;
@@ -42,7 +43,8 @@ std::string differenceOf(
   return {};
 }
 
-// Which points or cells of the whole image no piece has; empty if there are none.
+// Which points or cells of the whole image no piece has, as a message; empty if there are none.
+// What pieces cover is subtracted from the whole box, box by box.
 std::string missingTuples(const std::vector<ImagePiece>& pieces, const Extent& whole, int owner)
 {
   std::vector<TupleBox> missing = { tuplesOf(whole, owner, whole) };
@@ -62,6 +64,7 @@ std::string missingTuples(const std::vector<ImagePiece>& pieces, const Extent& w
 
 } // namespace
 
+// Row by row: the first and the last tuple of a row that are no ghosts.
 TupleBox boxWithout(const TupleBox& all, const unsigned char* flags, unsigned char mask)
 {
   TupleBox own{};
@@ -84,6 +87,8 @@ TupleBox boxWithout(const TupleBox& all, const unsigned char* flags, unsigned ch
   return own;
 }
 
+// The geometry is that of the first rank with points, bit by bit; the whole is the union of
+// extents.
 JoinedPieces joinPieces(const std::vector<ImagePiece>& pieces)
 {
   JoinedPieces joined;

@@ -24,14 +24,14 @@ TupleBox boxWithout(const TupleBox& all, const unsigned char* flags, unsigned ch
 
 struct JoinedPieces
 {
-  std::vector<Extent> Points; // of the pieces
-  std::vector<Extent> Cells;
+  std::vector<Extent> Points; // extents of the points, by pieces
+  std::vector<Extent> Cells;  // the same for cells
   Extent Whole = emptyExtent; // empty if no piece has points
   std::array<double, 15> Geometry{};
   // Why the pieces are no parts of one image, or do not fill it; empty if they do.
   std::string Fault;
 };
-// Of the pieces of all ranks.
+// Joins the pieces of all ranks, which are in the order of ranks.
 JoinedPieces joinPieces(const std::vector<ImagePiece>& pieces);
 
 } // namespace RectifiedTransport

@@ -8,6 +8,8 @@
 namespace RectifiedTransport
 {
 
+// If a rank has the whole and others also have parts of it, each place has several holders; the
+// division into pieces then shares the work.
 PlaceOwners::PlaceOwners(const ImageGrid& grid, std::vector<Extent> held,
   const std::vector<Extent>& divided, const Ranks& ranks)
   : Grid(grid)
@@ -28,7 +30,8 @@ PlaceOwners::PlaceOwners(const ImageGrid& grid, std::vector<Extent> held,
     GridSize<3>& cells = this->Boxes.back().Cells;
     std::fill(cells.begin() + grid.Dimension(), cells.end(), 1); // they are no axes
   }
-  // A table of the owners of all parts, unless pieces are so irregular that there are too many.
+  // A table of the owners of all parts between the cuts that boxes make along each axis, unless
+  // pieces are so irregular that there are too many.
   std::size_t parts = 1;
   for (std::size_t a = 0; a < 3; ++a)
   {
@@ -48,6 +51,7 @@ PlaceOwners::PlaceOwners(const ImageGrid& grid, std::vector<Extent> held,
     return;
   }
   this->Owners.assign(parts, 0);
+  // Lower ranks come last and win.
   for (std::size_t rank = this->Boxes.size(); rank-- > 0;)
   {
     const LatticePart<3>& box = this->Boxes[rank];
@@ -69,6 +73,7 @@ PlaceOwners::PlaceOwners(const ImageGrid& grid, std::vector<Extent> held,
 }
 
 template <int D>
+// The grid cell of the nearest place of the domain; its parts along the axes by binary search.
 int PlaceOwners::Find(const double* place) const
 {
   double index[3] = { 0.0, 0.0, 0.0 };

@@ -38,9 +38,9 @@ private:
 
   const ImageGrid& Grid;
   Extent Own;
-  std::vector<LatticePart<3>> Boxes;            // of grid cells, of each rank
+  std::vector<LatticePart<3>> Boxes;            // boxes of grid cells, by ranks
   std::array<std::vector<std::int64_t>, 3> Cut; // where boxes begin and end along an axis
-  std::vector<int> Owners;                      // of the parts between cuts
+  std::vector<int> Owners;                      // by parts between cuts, axis 0 fastest
 };
 
 } // namespace RectifiedTransport

@@ -11,7 +11,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// A line each: "Name: value". Those before are VTK's, of objects in memory.
+// The lines "Name: value" of the project's own properties. VTK prints those before Threading, and
+// they have addresses; times and counts may differ between ranks.
 std::vector<std::string> linesOf(const std::string& text)
 {
   std::vector<std::string> lines;

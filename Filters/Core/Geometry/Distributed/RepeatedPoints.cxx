@@ -20,6 +20,7 @@ struct Found
 
 } // namespace
 
+// By a hash, so that each rank compares about as many points as others.
 std::size_t comparerOf(const PointIdentity& identity, int ranks)
 {
   std::uint64_t hash = 0;
@@ -30,6 +31,7 @@ std::size_t comparerOf(const PointIdentity& identity, int ranks)
   return static_cast<std::size_t>(hash % static_cast<std::uint64_t>(ranks));
 }
 
+// Equal points are neighbours after sorting, the one of the lowest rank first.
 std::vector<std::vector<unsigned char>> findRepeated(
   const std::vector<std::vector<PointIdentity>>& points)
 {

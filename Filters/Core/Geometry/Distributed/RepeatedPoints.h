@@ -30,6 +30,7 @@ template <class IdentityOf>
 std::vector<unsigned char> repeatedPoints(
   std::int64_t count, const IdentityOf& identityOf, const Ranks& ranks)
 {
+  // Each point goes to the rank that compares it, and the answers come back in the same order.
   std::vector<std::vector<PointIdentity>> given(static_cast<std::size_t>(ranks.Count()));
   std::vector<std::size_t> comparers;
   for (std::int64_t i = 0; i < count; ++i)

@@ -22,6 +22,7 @@ Extent intersectionOf(const Extent& a, const Extent& b)
   return isEmpty(both) ? emptyExtent : both;
 }
 
+// One layer of points has no cells along its axis; with one more layer of the whole, it has.
 Extent withCells(const Extent& extent, const Extent& whole)
 {
   Extent grown = extent;
@@ -57,6 +58,7 @@ bool isReadable(const int* extent)
   return is;
 }
 
+// One cell fewer than points along an axis of the whole image.
 TupleBox tuplesOf(const Extent& extent, int owner, const Extent& whole)
 {
   TupleBox box{};
@@ -81,6 +83,8 @@ Extent extentOf(const TupleBox& box, int owner, const Extent& whole)
   return extent;
 }
 
+// Cuts what a box leaves of each other box into up to six boxes: below and above it along each
+// axis, within what is common along the axes before.
 void subtract(const TupleBox& box, std::vector<TupleBox>& from)
 {
   std::vector<TupleBox> left;

@@ -41,6 +41,7 @@ struct TupleRun
   std::int64_t Count;
 };
 
+// Appends tuples as bytes; zeros if the array has no memory.
 void appendTuples(const TupleMemory& from, const std::vector<TupleRun>& runs, Bytes& to);
 // Copies tuples to as many tuples of another array of the kind.
 void copyTuples(const TupleMemory& from, const std::vector<TupleRun>& runs,

@@ -9,6 +9,7 @@
 namespace RectifiedTransport
 {
 
+// A counting sort: one pass counts, the other one places. Contiguous memory, no list a bin.
 template <class Item>
 class Bins
 {
@@ -23,11 +24,14 @@ public:
     const Item* Last;
   };
 
-  // visit(add) calls add(bin, item) for all items, the same each time. An item may be in several
-  // bins. Within a bin, items are in the order of the calls.
+  // Fills the bins. visit(add) calls add(bin, item) for all items; it is called twice and must do
+  // the same each time. An item may be in several bins. Within a bin, items are in the order of the
+  // calls.
   template <class Visit>
   void Fill(std::size_t bins, const Visit& visit)
   {
+    // Counts are stored at bin + 2. Summed, Begin[bin + 1] is where the bin begins, and once its
+    // items are placed, where it ends.
     this->Begin.assign(bins + 2, 0);
     visit([this](std::size_t bin, const Item&) { ++this->Begin[bin + 2]; });
     for (std::size_t bin = 2; bin < this->Begin.size(); ++bin)
@@ -48,8 +52,8 @@ public:
   }
 
 private:
-  std::vector<std::size_t> Begin; // of each bin, and the end
-  std::vector<Item> Items;
+  std::vector<std::size_t> Begin; // where each bin begins, and the end
+  std::vector<Item> Items;        // bin after bin
 };
 
 } // namespace RectifiedTransport

@@ -13,6 +13,7 @@
 namespace RectifiedTransport
 {
 
+// Enlarges bounds by others.
 template <int Dimension>
 void join(BlockBounds<Dimension>& bounds, const BlockBounds<Dimension>& other)
 {
@@ -72,8 +73,8 @@ public:
     }
   }
 
-  // visit(first, last) for the blocks [first, last) of each box, parents before their children. The
-  // second half begins at middleOf(first, last).
+  // Calls visit(first, last) for the blocks [first, last) of each box, parents before their
+  // children. The second half begins at middleOf(first, last).
   template <class Visit>
   void ForEach(const Visit& visit) const
   {
@@ -98,8 +99,8 @@ public:
     return bounds;
   }
 
-  // The blocks for which isInReach(bounds) is true, as it is for all boxes that they are in. They
-  // ascend.
+  // Finds the blocks for which isInReach(bounds) is true; it must be true for all boxes around such
+  // a block, too. The blocks ascend.
   template <class Test>
   void Find(const Test& isInReach, std::vector<std::int64_t>& found) const
   {
@@ -134,7 +135,7 @@ private:
     }
   };
 
-  // Where visit(part) is true, goes on to its children.
+  // Visits boxes depth-first, and goes on to the children of those for which visit(part) is true.
   template <class Visit>
   void Descend(const Visit& visit) const
   {

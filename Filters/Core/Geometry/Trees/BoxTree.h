@@ -26,7 +26,7 @@ std::vector<Box> makeBoxTree(std::int64_t count, const Make& make, const Divide&
   {
     std::int64_t First;
     std::int64_t Last;
-    std::int64_t Parent; // of a second child, else -1
+    std::int64_t Parent; // the box whose second child this is; else -1
   };
   std::vector<Box> boxes;
   std::vector<Task> tasks{ { 0, count, -1 } };
@@ -59,6 +59,7 @@ std::int64_t partitionAboutMedian(
   Item* items, std::int64_t first, std::int64_t last, const Value& value, Progress& progress)
 {
   constexpr std::int64_t mostAtOnce = std::int64_t{ 1 } << 15; // between two polls
+  // The median of 63 samples is near that of all, at a cost that does not grow with the count.
   std::array<double, 63> sample;
   const std::int64_t count = last - first;
   const std::int64_t taken = std::min<std::int64_t>(count, sample.size());
@@ -69,6 +70,7 @@ std::int64_t partitionAboutMedian(
   const auto median = sample.begin() + taken / 2;
   std::nth_element(sample.begin(), median, sample.begin() + taken);
   const double pivot = *median;
+  // The second try, with the values equal to the pivot in the first part, is for many equal values.
   for (const bool withEqual : { false, true })
   {
     const auto isBelow = [&](const Item& item) {

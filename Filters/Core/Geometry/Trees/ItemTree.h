@@ -19,7 +19,7 @@ struct ItemBox : PointBounds
 {
   std::int64_t First; // items
   std::int64_t Last;
-  std::int64_t Second; // of the children, after the next one; -1 in a leaf
+  std::int64_t Second; // number of the second child, the first being the next box; -1 in a leaf
 };
 
 class ItemTree

@@ -147,7 +147,7 @@ private:
       randomAccess);
   }
 
-  // Of triangles with the same points, the first one stays.
+  // If triangles have the same points, the first one stays.
   void LeaveOutRepeated(const Context& context)
   {
     const std::vector<RepeatedTriangle> repeated = findRepeatedTriangles(this->Kept(), context);

@@ -48,15 +48,15 @@ struct DotBlock
   double Inverse[dotBlock];
   double Square[dotBlock];
 
-  double Push[3][dotBlock]; // of (x - y) Root b^8
-  double Weight[dotBlock];  // of b, over those with similar squares
-  double Mean[dotBlock];    // of b Square, over the same
+  double Push[3][dotBlock]; // sum of (x - y) Root b^8
+  double Weight[dotBlock];  // sum of b, over those with similar squares
+  double Mean[dotBlock];    // sum of b Square, over the same
 };
 
 // Each place sums over the dots in their order.
 using SumDots = void (*)(const DotsInReach& inReach, DotBlock& block);
 
-// Compiled for each instruction set.
+// The kernel; one specialization is compiled for each instruction set.
 template <InstructionSet Set>
 void sumDots(const DotsInReach& inReach, DotBlock& block);
 

@@ -38,6 +38,9 @@ RT_INLINE void store(const Lanes& v, double* to)
   __builtin_memcpy(to, &v, sizeof(v));
 }
 
+// Sums over all dots in reach for `registers` registers of places. For each dot y: d^2 = |x - y|^2,
+// b = max(0, 1 - d^2 / (R^2 h k)), and the push (x - y) sqrt(1 / k) b^8; the factor of the place's
+// own spacing is applied later. A dot pushes itself by 0.
 RT_INLINE void sumLanes(const DotsInReach& inReach, DotBlock& block, int lane)
 {
   Lanes x[3][registers];
@@ -53,6 +56,7 @@ RT_INLINE void sumLanes(const DotsInReach& inReach, DotBlock& block, int lane)
       x[axis][r] = load(block.X[axis] + lane + r * lanes);
       push[axis][r] = Lanes{};
     }
+    // 1 / (R^2 h), once for each place.
     scale[r] = load(block.Inverse + lane + r * lanes) * (1.0 / squaredDotReach);
     square[r] = load(block.Square + lane + r * lanes);
     weight[r] = Lanes{};
@@ -74,11 +78,13 @@ RT_INLINE void sumLanes(const DotsInReach& inReach, DotBlock& block, int lane)
         Lanes bump = 1.0 - squared * (scale[r] * dot->Inverse);
         bump = bump > Lanes{} ? bump : Lanes{};
         const Lanes none = {};
+        // The difference with zero lanes makes the dot's square a vector.
         const Lanes other = dot->Square - none;
         Lanes similar = other <= mostOfSquares * square[r] ? bump : none;
         similar = square[r] <= mostOfSquares * other ? similar : none;
         weight[r] += similar;
         mean[r] += similar * other;
+        // b^8 by three squarings.
         bump *= bump;
         bump *= bump;
         bump *= bump;
