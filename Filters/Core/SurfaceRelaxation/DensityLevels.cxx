@@ -156,8 +156,8 @@ private:
     });
   }
 
-  // A part is wide if it is at least about a spacing wide and has the mass of several dots. A part
-  // of density 0 has no spacing of its own; that of the triangles beside it counts.
+  // A part is wide if it is at least about a spacing wide and has the mass of several dots. Where
+  // the density is 0, no spacing exists; that of the triangles beside the part counts.
   void FindWide(Progress& progress)
   {
     this->IsWide = LargeBuffer<char>(this->Count);
