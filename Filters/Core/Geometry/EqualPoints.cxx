@@ -36,6 +36,7 @@ template <int Dimension>
 void mergePoints(ConstPointSpan<Dimension> points, std::int64_t* firsts, const Context& context)
 {
   LargeBuffer<std::int64_t> memory(hashTableSize(points.size()));
+  // O(1) a point: a slot of the table has the first point of a place.
   std::int64_t* table = memory.data(); // indices of points, -1 where it is free
   const auto mask = static_cast<std::uint64_t>(memory.size() - 1);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
@@ -79,11 +80,13 @@ DistinctPoints<Dimension>::DistinctPoints(
     }
     else
     {
+      // The first point of the place has its number already, as it comes before.
       this->PlaceOf[i] = this->PlaceOf[first];
     }
   }
 }
 
+// Points of one place stay at one place.
 template <int Dimension>
 void DistinctPoints<Dimension>::Move(
   const std::vector<Point<Dimension>>& moved, std::vector<Point<Dimension>>& points) const

@@ -57,6 +57,7 @@ std::int64_t numberOfCellAt(const double* point, const GridSize<Dimension>& size
   for (int axis = Dimension; axis-- > 0;)
   {
     const auto last = static_cast<double>(size[axis] - 1);
+    // number = i_0 + size_0 (i_1 + size_1 i_2).
     number = number * size[axis] + static_cast<std::int64_t>(std::clamp(point[axis], 0.0, last));
   }
   return number;

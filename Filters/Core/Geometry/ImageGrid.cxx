@@ -171,6 +171,7 @@ void ImageGrid::SetAxis(std::size_t axis, double first, int points)
 void ImageGrid::FindCells()
 {
   this->AxisCount = 0;
+  // Offset of index (i, j, k) = Step (i, j, k)^T.
   this->Step = this->AxisDirection * this->PointSpacing.asDiagonal();
   this->Inverse.setZero();
   this->Normal.setZero();
@@ -180,6 +181,7 @@ void ImageGrid::FindCells()
   {
     const auto image = static_cast<std::size_t>(i);
     this->First[image] = this->PointExtent[2 * image];
+    // An axis of one point has no cells. Its direction does not count.
     if (points[image] <= 1)
     {
       continue;
@@ -194,6 +196,7 @@ void ImageGrid::FindCells()
     axes.row(a) = this->Step.col(i).transpose();
     this->CellLength[a] = length(axes.row(a));
   }
+  // Length |a|, area |a x b| or volume |(a x b) . c| of a cell with the sides a, b, c.
   this->Measure = this->AxisCount > 0 ? measure(axes, this->AxisCount) : 0.0;
   const double zero[3] = { 0.0, 0.0, 0.0 };
   this->ToPhysical<3>(zero, this->Corner.data());
@@ -223,6 +226,7 @@ void ImageGrid::FindCells()
   {
     for (int b = 0; b < this->AxisCount; ++b)
     {
+      // U U^T has ones on its diagonal, as the rows of U have the length 1.
       gram(a, b) = a == b ? 1.0 : dot(axes.row(a), axes.row(b));
     }
   }
@@ -235,6 +239,7 @@ void ImageGrid::FindCells()
     }
   }
   const Eigen::Vector3d first = axes.row(0);
+  // Unit vectors across the line or plane: distances from it decide what is inside.
   if (this->AxisCount == 1)
   {
     const Eigen::Vector3d across = first.unitOrthogonal();
@@ -257,6 +262,7 @@ std::int64_t ImageGrid::NumberOfCells() const
   return cells;
 }
 
+// Left-handed axes turn triangles and polygons over.
 bool ImageGrid::IsMirrored() const
 {
   return this->AxisCount == 3 && this->Step.determinant() < 0.0;

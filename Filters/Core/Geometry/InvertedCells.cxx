@@ -56,6 +56,8 @@ double roundingOf(ConstPointSpan<D> vertices, double offset)
 
 } // namespace
 
+// Measures of the pieces of a cell before and after a move. The sign of the first is the
+// orientation that a piece has to keep; a measure within rounding of 0 counts as lost.
 template <int D>
 void InvertedCells::AddCell(
   ConstPointSpan<D> before, ConstPointSpan<D> after, std::int64_t pieces, double offset)

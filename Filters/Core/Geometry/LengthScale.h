@@ -23,6 +23,7 @@ public:
   {
   }
 
+  // Units = length 2^-Exponent; exact, as the factor is a power of two.
   double ToUnits(double length) const { return length * this->UnitsALength; }
 
   // The squared length of a vector, in squared units.
@@ -33,6 +34,7 @@ public:
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   }
 
+  // |a - b|^2 in squared units.
   double SquaredDistanceInUnits(const double* a, const double* b) const
   {
     const double way[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };

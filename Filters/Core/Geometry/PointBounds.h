@@ -14,6 +14,8 @@
 namespace RectifiedTransport
 {
 
+// The smallest box [Low, High] around what was added; empty at first: Low is infinite, High minus
+// infinite.
 template <int Dimension>
 struct Bounds
 {

@@ -52,6 +52,7 @@ public:
       this->Levels[t] = this->Density.MeanOf(t);
       this->PartOf.data()[t] = t;
     });
+    // Without jumps all triangles are one part, and each has its own density.
     bool hasJumps = false;
     this->ForSides(stages["parts"], [&](std::int64_t side, std::int64_t other) {
       const bool isJump = this->IsJump(side, other);
@@ -139,6 +140,7 @@ private:
       part.Mass += area * this->Levels[t];
     });
     this->ForSides(progress, [&](std::int64_t side, std::int64_t other) {
+      // Each of the two parts gets the length of the side, and the triangle beyond.
       const std::int64_t sides[2] = { side, other };
       for (int i = 0; i < 2; ++i)
       {
@@ -189,6 +191,7 @@ private:
     this->ForSides(progress, [&](std::int64_t side, std::int64_t other) {
       const std::int64_t a = side / 3;
       const std::int64_t b = other / 3;
+      // A side is closed where two wide parts meet, or one meets itself, across a jump.
       if (this->InWide(a) && this->InWide(b) && this->Surface.Area(a) > 0.0 &&
         this->Surface.Area(b) > 0.0 && this->IsJump(side, other) &&
         (this->PartOf.data()[a] != this->PartOf.data()[b] ||

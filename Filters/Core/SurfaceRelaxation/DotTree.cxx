@@ -57,10 +57,12 @@ void DotTree::Update(const ScaledDot* dots, Progress& progress)
       boundsOf(dots + block * dotBlock, dots + std::min((block + 1) * dotBlock, this->Dots));
   });
   progress.Check();
+  // Leaves are independent; the boxes above them take a pass over the tree.
   this->Tree.Update();
   progress.Check();
 }
 
+// For a group of blocks at once: their common bounds find all blocks that may push any of them.
 void DotTree::FindInReach(
   std::int64_t first, std::int64_t last, std::vector<std::int64_t>& found) const
 {

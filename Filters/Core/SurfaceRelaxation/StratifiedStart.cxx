@@ -154,6 +154,7 @@ public:
     for (SurfacePlace* sample = first; sample < last;)
     {
       even.Next();
+      // As in At(): weights 1 - root, root (1 - v), root v at the corners.
       const double root = std::sqrt(even[0]);
       const double density =
         corners[0] + root * (corners[1] - corners[0] + even[1] * (corners[2] - corners[1]));
@@ -181,6 +182,8 @@ LargeBuffer<SurfacePlace> makeSamples(const WalkedSurface& surface, const Surfac
   // random one on.
   LargeBuffer<std::int64_t> firsts(triangles + 1);
   const double offset = unitReal(randomWord(seed + 2, 0));
+  // Sample n belongs to the triangle where the running mass passes (n + 1 - offset) of `count`
+  // equal steps: a triangle gets its expected number of samples, rounded up or down.
   double mass = 0.0;
   firsts.data()[0] = 0;
   stages["counts"].ForEachInOrder(triangles, grain, [&](std::int64_t i) {
@@ -244,6 +247,8 @@ public:
   {
     constexpr int mostLevels = 8; // 256 ranges
     constexpr std::int64_t fewDots = 256;
+    // Ranges of the upper levels are few: a level is shared by threads, range by range. Below, each
+    // thread finishes whole ranges.
     int levels = 0;
     while (levels < mostLevels && (dots >> levels) > fewDots)
     {
@@ -285,6 +290,8 @@ public:
         byDensity[static_cast<std::size_t>(i)] = { this->Density.MeanOf(first[i].Triangle), i };
       }
       std::sort(byDensity.begin(), byDensity.end());
+      // The largest quotient of neighbours in the order of densities is the jump: below it is the
+      // sparse side.
       std::size_t jump = 0;
       double largest = largestStep;
       for (std::size_t i = 1; i < byDensity.size(); ++i)
@@ -343,6 +350,7 @@ private:
       bounds.Add(sample->X.data());
     }
     const std::size_t longest = bounds.Longest();
+    // Whole blocks of dots in the first half: the tree of blocks has the cuts as its boxes.
     const std::int64_t middle = range.First + dotsBeforeCut(range.Last - range.First);
     int comparisons = 0;
     std::nth_element(first, this->At(middle), last, [&](const auto& a, const auto& b) {

@@ -47,6 +47,7 @@ SurfaceBoundary::SurfaceBoundary(const WalkedSurface& surface, Progress& progres
       box.Add(surface.Start(nextSide(side)).data());
     },
     [&surface](std::int64_t side, std::size_t axis) {
+      // Sides are divided by their middles.
       return 0.5 * (surface.Start(side)[axis] + surface.Start(nextSide(side))[axis]);
     },
     progress);
@@ -87,6 +88,8 @@ Point<3> SurfaceBoundary::FromNearest(
   {
     const Point<3> from = x - this->Surface.Start(side);
     const Point<3> edge = this->Surface.Edge(side);
+    // The nearest point of a side is start + place edge, place = from . edge / |edge|^2 within [0,
+    // 1].
     const double place = std::clamp(dot(from, edge) / dot(edge, edge), 0.0, 1.0);
     const Point<3> gap = from - place * edge;
     if (dot(gap, gap) < least)

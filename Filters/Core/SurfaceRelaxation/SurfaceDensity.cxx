@@ -68,6 +68,7 @@ SurfaceDensity::SurfaceDensity(
   {
     throw InvalidDensity(summary);
   }
+  // Relative densities keep masses between 0 and the area.
   this->Maximum = summary.Maximum;
 }
 

@@ -19,6 +19,7 @@ constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
 DensitySummary summaryOf(const ReadDensity& density, Progress& progress)
 {
   const double* values = density.Values;
+  // Points of ghost cells may belong to other cells, too; their values are checked.
   const bool haveGhosts = density.IsGhost && !density.OnPoints;
   const auto add = [](DensitySummary all, const DensitySummary& more) {
     merge(more, all);
@@ -62,6 +63,7 @@ void requireValid(const DensitySummary& found, const ReadDensity& density)
 
 } // namespace
 
+// Validates and scales the density, then multiplies areas by it, then sums.
 SurfaceMasses::SurfaceMasses(
   const PlacedTriangles& surface, const ReadDensity& density, Progress& progress)
   : OnPoints(density.OnPoints)
@@ -85,6 +87,7 @@ void SurfaceMasses::ReadRelative(
   const DensitySummary found = summaryOf(density, progress);
   requireValid(found, density);
   this->Largest = found.Maximum > 0.0 ? found.Maximum : 1.0;
+  // Values of cells go to the triangles that the cells were cut into.
   this->Relative = LargeBuffer<double>(this->OnPoints ? density.Last : triangles);
   progress.ForEach(this->Relative.size(), Grain, [&](std::int64_t i) {
     this->Relative.data()[i] =

@@ -197,6 +197,7 @@ private:
         own.X[axis][lane] = dot.X[axis];
       }
       own.Inverse[lane] = dot.Inverse;
+      // The layout of the kernel: coordinates by axes, a lane for each dot.
       own.Square[lane] = dot.Square;
     }
     this->Tree.Select(scratch.InReachOfGroup, block, scratch.InReach);
@@ -261,6 +262,7 @@ private:
   const SumDots Sum = dotKernel();
 };
 
+// Checks what the stages do not: the options.
 void check(const SurfaceRelaxationOptions& options)
 {
   if (options.NumberOfSamples < 0)
@@ -306,6 +308,7 @@ SurfaceRelaxation relaxOnSurface(const TriangleSurface& given, const SurfaceDens
     progress.EndSlice(1);
     return relaxed;
   }
+  // Each dot stands for the same mass m; at the density d it has the area m / d.
   const double massOfDot = sum.Mass / static_cast<double>(options.NumberOfSamples);
   std::unique_ptr<DensityLevels> levels;
   if (!density.IsUniform())
@@ -327,6 +330,8 @@ SurfaceRelaxation relaxOnSurface(const TriangleSurface& given, const SurfaceDens
 double memoryForSurfaceRelaxation(
   std::int64_t points, std::int64_t triangles, bool hasDensity, std::int64_t samples)
 {
+  // Positions (24 bytes a point), sides and parts (56 a triangle), and levels stay; the largest of
+  // the stages is added.
   const double kept = 24.0 * static_cast<double>(points) + 56.0 * static_cast<double>(triangles) +
     (hasDensity ? 8.0 * static_cast<double>(triangles) : 0.0);
   const double levels = hasDensity ? DensityLevels::MemoryFor(triangles) : 0.0;

@@ -44,6 +44,7 @@ TriangleMasses massesOf(const PlacedTriangles& surface, const SurfaceDensityValu
     {
       return 0.0;
     }
+    // Without values, the density is 1.
     const double ofTriangle = density.OfTriangles ? density.OfTriangles[triangle] : 1.0;
     return density.AtPoints ? meanOf(surface, density.AtPoints, triangle) : ofTriangle;
   };

@@ -115,6 +115,7 @@ double WalkedSurface::Area(std::int64_t triangle) const
   const Point<3> a = this->Corner(triangle, 0);
   const Point<3> b = this->Corner(triangle, 1) - a;
   const Point<3> c = this->Corner(triangle, 2) - a;
+  // |b x c| / 2, with b and c the sides from corner 0.
   const Point<3> normal = cross(b, c);
   const double squared = dot(normal, normal);
   return isFlat(squared, dot(b, b) + dot(c, c)) ? 0.0 : 0.5 * std::sqrt(squared);
@@ -334,6 +335,7 @@ void WalkedSurface::Walk(SurfacePlace& place, const Point<3>& by, const double* 
   {
     const std::array<double, 3> weights = frame.Weights(place.X);
     const std::array<double, 3> change = frame.Change(left);
+    // The first weight w_i + s change_i to reach 0 ends the straight piece, at s = -w_i / change_i.
     double part = 1.0;
     std::size_t through = 3;
     // Rounding may leave a weight below 0 at the side of entry, which does not count as a side to
@@ -355,16 +357,20 @@ void WalkedSurface::Walk(SurfacePlace& place, const Point<3>& by, const double* 
     {
       break;
     }
+    // What is left of the way after the crossing.
     left = (1.0 - part) * left;
     standing = part > 0.0 ? 0 : standing + 1;
     slides = part > 0.0 ? 0 : slides;
     const std::int64_t side = 3 * place.Triangle + static_cast<std::int64_t>(through + 1) % 3;
     Point<3> edge = this->Along(side);
+    // Unfolding keeps the component along the side, and turns the one across it into the next
+    // triangle's plane.
     const double along = dot(left, edge);
     const double across = std::sqrt(std::max(0.0, dot(left, left) - along * along));
     const std::int64_t beyond = this->Beyond(side, place.X);
     if (beyond < 0)
     {
+      // At a corner between two boundaries a slide leads to and fro.
       if (++slides > mostSlides || standing > mostStanding)
       {
         // At a boundary, only the component along it goes on: the walk slides. Corners stop it

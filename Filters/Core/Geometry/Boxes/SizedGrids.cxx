@@ -44,6 +44,7 @@ ImageGrid gridOfBox(const double (&bounds)[6])
   for (int i = 0; i < 3; ++i)
   {
     const double length = bounds[2 * i + 1] - bounds[2 * i];
+    // Infinite sides stay axes, so that later checks find them.
     const bool isAxis = length > 0.0 && length >= flat * longest; // infinite ones too
     extent[static_cast<std::size_t>(2 * i + 1)] = isAxis ? 1 : 0;
     origin[i] = bounds[2 * i];
@@ -108,6 +109,7 @@ ImageGrid gridWithValues(const ImageGrid& grid, const int wanted[3], const char*
 ImageGrid gridWithResolution(const ImageGrid& grid, int resolution, const char* property)
 {
   requireResolution(property, resolution);
+  // Lengths are those of the image's cells, also for values on points.
   const std::array<int, 3> cells = grid.WithValuesOn(false).NumberOfValues();
   double lengths[3];
   for (std::size_t i = 0; i < 3; ++i)

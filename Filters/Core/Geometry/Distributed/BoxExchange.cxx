@@ -42,6 +42,7 @@ BoxExchange::BoxExchange(std::vector<TupleBox> held, const TupleBox& wanted, con
 TupleBox BoxExchange::PartFor(std::size_t rank, std::size_t receiver) const
 {
   TupleBox part = this->Held[rank].And(this->Wanted[receiver]);
+  // The lowest rank that holds the whole part sends it.
   for (std::size_t lower = 0; lower < rank && !part.IsEmpty(); ++lower)
   {
     if (this->Held[lower].Contains(part))
@@ -70,6 +71,7 @@ void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks)
   // The lowest rank comes last, so that its tuples are those that stay.
   for (std::size_t rank = received.size(); rank-- > 0;)
   {
+    // Arrays follow each other in the bytes, in the order in which they were appended.
     const char* bytes = received[rank].data();
     for (const BoxArrays& array : arrays)
     {

@@ -27,6 +27,7 @@ std::string differenceOf(
   const ImagePiece& one, std::size_t rankOfOne, const ImagePiece& other, std::size_t rankOfOther)
 {
   constexpr std::array<const char*, 3> names = { "origin", "spacing", "direction matrix" };
+  // The geometry is origin (3 numbers), spacing (3) and direction matrix (9, row by row).
   constexpr std::array<std::size_t, 4> starts = { 0, 3, 6, 15 };
   for (std::size_t part = 0; part < names.size(); ++part)
   {
@@ -108,6 +109,7 @@ JoinedPieces joinPieces(const std::vector<ImagePiece>& pieces)
       joined.Whole = piece.Points;
       joined.Geometry = piece.Geometry;
     }
+    // Every piece must have the geometry of the first one, bit by bit.
     joined.Fault = differenceOf(pieces[first], first, piece, rank);
     if (!joined.Fault.empty())
     {

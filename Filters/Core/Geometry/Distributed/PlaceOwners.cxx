@@ -38,6 +38,7 @@ PlaceOwners::PlaceOwners(const ImageGrid& grid, std::vector<Extent> held,
     std::vector<std::int64_t>& cut = this->Cut[a];
     for (const LatticePart<3>& box : this->Boxes)
     {
+      // Boxes begin and end at cuts only: a part between two cuts of each axis is in a box or not.
       cut.push_back(box.Low[a]);
       cut.push_back(box.End(static_cast<int>(a)));
     }
@@ -61,6 +62,7 @@ PlaceOwners::PlaceOwners(const ImageGrid& grid, std::vector<Extent> held,
       GridSize<3> cell{};
       for (std::size_t a = 0; a < 3; ++a)
       {
+        // The first cell of a part stands for the part.
         cell[a] = this->Cut[a][rest % this->Cut[a].size()];
         rest /= this->Cut[a].size();
       }
@@ -95,6 +97,7 @@ int PlaceOwners::Find(const double* place) const
   for (std::size_t a = 3; a-- > 0;)
   {
     const std::vector<std::int64_t>& cut = this->Cut[a];
+    // The last cut that is not above the cell begins its part.
     const auto above = std::upper_bound(cut.begin(), cut.end(), cell[a]);
     const auto below =
       static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, above - cut.begin() - 1));

@@ -31,6 +31,7 @@ std::vector<std::string> linesOf(const std::string& text)
   return lines;
 }
 
+// What follows "Name: " in a line.
 std::string valueOf(const std::string& line)
 {
   const std::size_t colon = line.find(": ");
@@ -39,6 +40,7 @@ std::string valueOf(const std::string& line)
 
 } // namespace
 
+// Empty texts are those of ranks without data; they agree with any other.
 std::string differenceOfTexts(const std::vector<std::string>& all, std::string& common)
 {
   std::size_t first = 0;
@@ -55,6 +57,7 @@ std::string differenceOfTexts(const std::vector<std::string>& all, std::string& 
   return {};
 }
 
+// Each rank is compared with rank 0, line by line; the first difference is enough.
 std::string differenceOfProperties(const std::vector<std::string>& all)
 {
   const std::vector<std::string> first = linesOf(all.front());

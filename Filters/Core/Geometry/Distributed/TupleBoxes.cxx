@@ -52,6 +52,7 @@ bool isReadable(const int* extent)
   bool is = true;
   for (std::size_t a = 0; a < 6; a += 2)
   {
+    // In 64 bits: the difference of two ints may not be an int.
     const std::int64_t points = std::int64_t{ extent[a + 1] } - extent[a] + 1; // 0: empty
     is = is && points >= 0 && points <= std::numeric_limits<int>::max();
   }
@@ -71,6 +72,7 @@ TupleBox tuplesOf(const Extent& extent, int owner, const Extent& whole)
   return box;
 }
 
+// The inverse of tuplesOf: one point more than cells, where the whole image has cells.
 Extent extentOf(const TupleBox& box, int owner, const Extent& whole)
 {
   Extent extent = emptyExtent;
@@ -97,6 +99,8 @@ void subtract(const TupleBox& box, std::vector<TupleBox>& from)
     }
     for (int axis = 0; axis < 3; ++axis)
     {
+      // What is below and above the common part along this axis is left. The rest goes on with the
+      // common range.
       const TupleBox common = rest.And(box);
       TupleBox below = rest;
       below.Cells[axis] = common.Low[axis] - rest.Low[axis];

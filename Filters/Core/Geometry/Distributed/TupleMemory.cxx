@@ -7,6 +7,7 @@
 namespace RectifiedTransport
 {
 
+// The receiver counts on the bytes of all runs: an array without memory sends zeros.
 void appendTuples(const TupleMemory& from, const std::vector<TupleRun>& runs, Bytes& to)
 {
   const std::int64_t tuples = std::accumulate(runs.begin(), runs.end(), std::int64_t{ 0 },
@@ -23,6 +24,7 @@ void appendTuples(const TupleMemory& from, const std::vector<TupleRun>& runs, By
   }
 }
 
+// Run i of one array goes to run i of the other; both have as many tuples.
 void copyTuples(const TupleMemory& from, const std::vector<TupleRun>& runs,
   const std::vector<TupleRun>& runsThere, const TupleMemory& to)
 {
@@ -40,6 +42,7 @@ void copyTuples(const TupleMemory& from, const std::vector<TupleRun>& runs,
   }
 }
 
+// The inverse of appendTuples: the bytes are in the order of the runs.
 const char* takeTuples(const char* from, const std::vector<TupleRun>& runs, const TupleMemory& to)
 {
   for (const TupleRun& run : runs)
@@ -50,6 +53,8 @@ const char* takeTuples(const char* from, const std::vector<TupleRun>& runs, cons
   return from;
 }
 
+// One pass over the elements: each goes to the end of its owner's part, so that parts keep their
+// order. Without memory, the parts stay zeros.
 std::vector<Bytes> packTuples(const TupleMemory& from, std::int64_t each,
   const std::vector<int>& owner, const std::vector<std::int64_t>& counts)
 {
@@ -69,6 +74,7 @@ std::vector<Bytes> packTuples(const TupleMemory& from, std::int64_t each,
   return parts;
 }
 
+// The memory of each part is freed once it has been read.
 void unpackTuples(std::vector<Bytes> received, const TupleMemory& to)
 {
   char* next = to.First;
