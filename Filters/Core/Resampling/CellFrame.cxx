@@ -79,6 +79,7 @@ void visitCorners(
       }
       else if (!set.HiddenCells.Has(cell) && !set.HiddenPoints.HasAny(*points))
       {
+        // The least number, whatever the order of cells, is in the message.
         notFinite = notFinite < 0 ? point : std::min(notFinite, point);
       }
     }
@@ -122,6 +123,7 @@ Eigen::Matrix3d principalAxes(
     count += 1.0;
   });
   first /= count;
+  // cov = mean(d d^T) - mean(d) mean(d)^T
   const Eigen::Matrix3d covariance = second / count - first * first.transpose();
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
 }
@@ -145,6 +147,7 @@ void flatten(int dimension, PhysicalBox& box)
   {
     Eigen::Index shortest = 0;
     sides.minCoeff(&shortest);
+    // The next shortest one comes next.
     sides[shortest] = std::numeric_limits<double>::infinity();
     const double middle = 0.5 * (box.min()[shortest] + box.max()[shortest]);
     box.min()[shortest] = middle;
@@ -183,6 +186,7 @@ CellFrame CellFrame::Of(const CellSets& sets, const MassCells& cells, Progress& 
     fail("The cells of the input reach from ", describe(frame.Box.min()), " to ",
       describe(frame.Box.max()), "; a side must not be past the largest double");
   }
+  // Flat along as many axes as the dimension leaves.
   const auto isFlat = [&](const Vector3d& sides) {
     return (sides.array() <= flatness * longest).count() >= 3 - dimension;
   };
@@ -193,6 +197,7 @@ CellFrame CellFrame::Of(const CellSets& sets, const MassCells& cells, Progress& 
       principalAxes(sets, cells, frame.Box, progress).col(dimension == 2 ? 0 : 2), main);
     frame.Axes = axesAround(direction, main);
     frame.Box = PhysicalBox();
+    // Coordinates in the frame are the products with its axes: the inverse is the transpose.
     const Eigen::Matrix3d toFrame = frame.Axes.transpose();
     visitCorners(sets, cells, progress, [&](const Vector3d& x) { frame.Box.extend(toFrame * x); });
     Vector3d sides = frame.Box.sizes();
@@ -215,6 +220,7 @@ ImageGrid CellFrame::Grid(int resolution) const
     box[2 * a] = this->Box.min()[a];
     box[2 * a + 1] = this->Box.max()[a];
   }
+  // The grid in frame coordinates: axis-aligned there.
   const ImageGrid straight = gridWithResolution(gridOfBox(box), resolution, "DensityResolution");
   return { straight.Extent(), this->Axes * straight.Origin(), straight.Spacing(), this->Axes,
     straight.IsOnPoints() };

@@ -56,6 +56,7 @@ std::optional<CellLattice> CellLattice::Find(
   std::array<std::int64_t, 3> cells{ 0, 0, 0 };
   for (std::size_t a = 0; a < 3; ++a)
   {
+    // 0 cells where there is no axis: one point.
     const double along = frame->IsAxis[a] ? frame->CellsAlong[a] : 0.0;
     constexpr double largest = 1 << 30;
     if (!(along <= largest))
@@ -93,6 +94,7 @@ bool CellLattice::Place(const CellSet& cells, bool hasMass, Progress& progress)
         {
           std::array<std::int64_t, 3> at{};
           std::array<unsigned, 8> sides{};
+          // A cell fits if its corners are those of a box of the lattice.
           others += corners.Read(cell) && corners.FindPlace(this->Axes, at, sides) ? 0 : 1;
           places[static_cast<std::size_t>(cell)] = at[0] + rows[0] * (at[1] + rows[1] * at[2]);
         }
@@ -127,6 +129,7 @@ bool CellLattice::FindTaken(
   bool once = true;
   // Twice at one place: the cells overlap, and copying would lose one.
   this->VisitCounted(sets, progress, [&](std::int64_t place, std::size_t, std::size_t) {
+    // False as soon as a place is taken twice.
     once = once && !taken[static_cast<std::size_t>(place)];
     taken[static_cast<std::size_t>(place)] = true;
   });
@@ -165,6 +168,8 @@ void CellLattice::ClearAround(const std::vector<CellValues>& sets, const ImageGr
     progress.Check();
     for (std::int64_t j = 0; j < fine[1]; ++j)
     {
+      // Cell (i, j, k) of the divided grid is in the lattice's cell (i / parts, j / parts, k /
+      // parts).
       const std::int64_t row = whole[0] * (j / part[1] + whole[1] * (k / part[2]));
       for (std::int64_t i = 0; i < fine[0]; ++i, ++at)
       {
@@ -204,6 +209,7 @@ std::int64_t LatticeLookup::CellNear(const std::array<double, 3>& along) const
     };
     const std::int64_t here = at(along[a]);
     const std::int64_t below = at(along[a] - rounding);
+    // The cell itself, and its neighbour if the place is within rounding of the face between them.
     sides[a] = { here, below != here ? below : at(along[a] + rounding) };
   }
   for (int choice = 0; choice < 8; ++choice)
@@ -229,6 +235,7 @@ LatticeLookup::Place LatticeLookup::Find(const double* place) const
   for (std::size_t a = 0; a < 3; ++a)
   {
     const auto axis = static_cast<Eigen::Index>(a);
+    // Coordinate along the axis from the first face, in spacings.
     along[a] =
       frame.IsAxis[a] ? (frame.Axes.col(axis).dot(x) - frame.Low[axis]) / frame.Spacing[axis] : 0.0;
   }
@@ -238,6 +245,7 @@ LatticeLookup::Place LatticeLookup::Find(const double* place) const
   {
     return found;
   }
+  // Numbers run through the cells of all sets, one set after the other.
   const auto next = std::upper_bound(this->First.begin(), this->First.end(), number);
   found.Set = static_cast<std::size_t>(next - this->First.begin()) - 1;
   found.Cell = number - this->First[found.Set];
@@ -252,6 +260,7 @@ LatticeLookup::Place LatticeLookup::Find(const double* place) const
     double weight = 1.0;
     for (std::size_t a = 0; a < 3; ++a)
     {
+      // From 0 at the cell's low side to 1 at its high side.
       const double part = std::clamp(along[a] - static_cast<double>(at[a]), 0.0, 1.0);
       const bool isHigh = (sides[static_cast<std::size_t>(i)] >> a & 1U) != 0;
       weight *= !frame.IsAxis[a] ? 1.0 : isHigh ? part : 1.0 - part;

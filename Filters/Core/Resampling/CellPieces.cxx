@@ -54,6 +54,7 @@ void CellPieces<D>::AddTo(const GridSlab<D>& slab, std::int64_t cell)
 template <int D>
 CellSize CellPieces<D>::SizeOf(std::int64_t cell)
 {
+  // The mean at the vertices or corners.
   const auto meanOf = [](const auto& values) {
     double sum = 0.0;
     for (const double value : values)
@@ -71,6 +72,7 @@ CellSize CellPieces<D>::SizeOf(std::int64_t cell)
     {
       size.Measure *= box.High[a] - box.Low[a];
     }
+    // In grid cells, as the vertices are in index space.
     size.Integral = size.Measure * meanOf(box.Values);
     return size;
   }
@@ -103,6 +105,7 @@ void CellPieces<D>::AddBoxAround(std::int64_t cell, CellSize& size)
     bounds.Add(this->At(point).data());
     value += onPoints ? this->Density.At(point) / count : 0.0;
   }
+  // The measure of the bounds is at least that of the cell.
   double measure = count > 0 ? 1.0 : 0.0;
   for (int a = 0; a < D && count > 0; ++a)
   {
@@ -142,6 +145,7 @@ bool CellPieces<D>::FindBox(std::int64_t cell, MultilinearBox<D>& box)
   {
     for (int a = 0; a < D; ++a)
     {
+      // Corner i has the high coordinate of axis a if bit a of i is set.
       const double straight = index[(i >> a & 1) != 0 ? corners - 1 : 0][a];
       if (std::abs(index[i][a] - straight) > rounding * longest)
       {

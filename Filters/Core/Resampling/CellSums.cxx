@@ -25,6 +25,7 @@ void addSizes(const RegionBatch& batch, CellSize& all)
   {
     CellSize size;
     shape.VisitRegions([&](std::int32_t ring, const OutlineEdge* first, const OutlineEdge* last) {
+      // In cells of the grid.
       const double area = sizeOfRegion(first, last).Area;
       size.Measure += area;
       size.Integral += area * shape.Values[static_cast<std::size_t>(ring)];
@@ -71,6 +72,7 @@ void addEdges(const std::vector<CellValues>& sets, const RegionBatch& batch, std
   {
     return;
   }
+  // One for all regions of the slab: Finish clears only what was touched.
   RegionCoverage coverage(slab);
   for (const RegionBatch::Edge* edge = edges.First; edge != edges.Last; ++edge)
   {
@@ -100,6 +102,7 @@ void addCells(const std::vector<CellValues>& sets, const ImageGrid& grid, const 
       std::int64_t added = 0;
       for (const std::int64_t cell : cells[s][static_cast<std::size_t>(slab)])
       {
+        // Cells may be large: a poll every 256 of them.
         if (added++ % cellsBetweenPolls == 0 && progress.ShouldStop())
         {
           return;
@@ -121,6 +124,7 @@ CellSize resample(
   addCells<D>(sets, grid, slabs, progress, sums);
   if constexpr (D == 2)
   {
+    // Regions of one batch are added before the next one is read.
     visitRegions(sets, grid, slabs, 0.0, progress, [&](const RegionBatch& batch) {
       addSizes(batch, size);
       slabs.ForEach(

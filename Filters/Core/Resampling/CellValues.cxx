@@ -27,6 +27,7 @@ CellValues::CellValues(std::shared_ptr<const CellSet> cells, const MassCells& ma
   for (std::int64_t cell = 0; cell < this->Set->NumberOfCells; ++cell)
   {
     progress.CheckEvery(cellsBetweenPolls, cell);
+    // Cells of a lower dimension have no measure in the domain.
     if (!mass.HasDimension(*reader, cell) || this->Set->HiddenCells.Has(cell) ||
       (!onPoints && isMissing(cell)))
     {
@@ -34,10 +35,13 @@ CellValues::CellValues(std::shared_ptr<const CellSet> cells, const MassCells& ma
     }
     if (mass.AreClosedLines && !mass.Find(*reader, cell))
     {
+      // The first such line is named in the warning.
       this->FirstOpen = this->Open++ == 0 ? cell : this->FirstOpen;
       continue;
     }
     const CellReader::Ids none;
+    // Reading a cell's points takes most of the time; without point values or hidden points it is
+    // spared.
     const bool needsPoints = onPoints || this->Set->HiddenPoints.Flags;
     const CellReader::Ids& points = needsPoints ? reader->PointsOf(cell) : none;
     if (this->Set->HiddenPoints.HasAny(points) ||

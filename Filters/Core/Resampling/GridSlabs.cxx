@@ -32,6 +32,7 @@ Bins<std::int64_t> cellsOfSlabs(const CellValues& values, const ImageGrid& grid,
       {
         continue;
       }
+      // Convex cells are within the bounds of their points.
       double low = std::numeric_limits<double>::infinity();
       double high = -low;
       for (const std::int64_t point : reader->PointsOf(cell))
@@ -43,6 +44,7 @@ Bins<std::int64_t> cellsOfSlabs(const CellValues& values, const ImageGrid& grid,
         low = std::min(low, index[D - 1]);
         high = std::max(high, index[D - 1]);
       }
+      // False for cells without points, and for points that are not numbers.
       if (low <= high)
       {
         reaches[static_cast<std::size_t>(cell)] = { static_cast<std::int32_t>(

@@ -27,6 +27,7 @@ struct GridSlabs
     , Count((size[D - 1] + this->Planes - 1) / this->Planes)
   {
   }
+  // The slab of a plane of cells; the first or the last one for planes beyond the grid.
   std::int64_t At(double plane) const
   {
     const double end = static_cast<double>(this->Planes * this->Count); // far ones may exceed every

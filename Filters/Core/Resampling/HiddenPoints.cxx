@@ -36,6 +36,7 @@ void blankCellsOfHiddenPoints(const std::array<int, 3>& dimensions, const unsign
       unsigned char any = 0;
       for (std::size_t corner = 0; corner < count; ++corner)
       {
+        // The union of the points' flags.
         any |= first[i + corners[corner]];
       }
       const std::int64_t cell = row * columns + i;

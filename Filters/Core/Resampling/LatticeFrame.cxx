@@ -70,6 +70,7 @@ bool addEdges(const Edges& edges, const Edges& like, int dimension, Sums& sums)
     {
       const auto axis = static_cast<std::size_t>(b);
       const Vector3d& other = like[axis];
+      // 1 or -1 for an edge that is `other` or its opposite.
       const double along = edge.dot(other) / other.squaredNorm();
       const Vector3d forward = along < 0.0 ? Vector3d(-edge) : edge;
       if ((forward - other).norm() <= rough * other.norm())
@@ -79,6 +80,7 @@ bool addEdges(const Edges& edges, const Edges& like, int dimension, Sums& sums)
       }
     }
   }
+  // Bit b is set if an edge is parallel to edge b of `like`.
   return found == (1 << dimension) - 1;
 }
 
@@ -121,11 +123,13 @@ bool setAxes(const Sums& sums, int dimension, LatticeFrame& frame, Vector3d& spa
   {
     Eigen::Index e = 0;
     Eigen::Index axis = 0;
+    // The best pair of an edge and an axis that are both free.
     along.maxCoeff(&e, &axis);
     along.row(e).setConstant(-1.0);
     along.col(axis).setConstant(-1.0);
     const auto edge = static_cast<std::size_t>(e);
     Vector3d unit = units[edge];
+    // Axes point the way of the axes of space.
     unit *= unit[axis] < 0.0 ? -1.0 : 1.0;
     constexpr double straight = 1e-9;
     const bool isStraight = (unit - Vector3d::Unit(axis)).norm() <= straight;
@@ -160,6 +164,7 @@ void completeAxes(int dimension, LatticeFrame& frame)
   const Vector3d beside = axes.col(second);
   axes.col(second) = (beside - along * along.dot(beside)).normalized();
   const Vector3d across = along.cross(Vector3d(axes.col(second)));
+  // The cross product is right-handed; the given third axis may be opposite to it.
   const bool isMirrored = dimension == 3 && across.dot(Vector3d(axes.col(flat))) < 0.0;
   axes.col(flat) = isMirrored ? Vector3d(-across) : across;
 }
@@ -214,6 +219,7 @@ Box boxOfCells(
       for (int i = 0; isRead && i < corners.Count(); ++i)
       {
         const Vector3d x = toFrame * corners[i];
+        // The rounding is relative to the largest coordinate of a corner.
         part = boxOf(part, { x, x, corners.Rounding() * corners[i].cwiseAbs().maxCoeff() });
       }
       return true;
@@ -237,6 +243,7 @@ std::optional<LatticeFrame> LatticeFrame::Of(
   const Sums sums = reduceCells<Sums>(
     sets, dimension, progress,
     [&](BoxCorners& corners, std::int64_t cell, Sums& part) {
+      // Chunks are of a fixed size, so that sums do not depend on threads.
       ++part.Cells;
       if (!corners.Read(cell) || !addEdges(edgesOf(corners, dimension), *like, dimension, part))
       {
@@ -247,6 +254,7 @@ std::optional<LatticeFrame> LatticeFrame::Of(
     sumOf);
   LatticeFrame frame;
   Vector3d edge = Vector3d::Zero();
+  // One cell that is no such box is enough for no lattice.
   if (misfits || !setAxes(sums, dimension, frame, edge))
   {
     return std::nullopt;
@@ -347,6 +355,7 @@ bool BoxCorners::FindPlace(const LatticeFrame& frame, std::array<std::int64_t, 3
     for (int i = 0; i < this->Count(); ++i)
     {
       const double along = frame.Axes.col(axis).dot((*this)[i]) - frame.Low[axis];
+      // Not a number fails the comparison, too.
       const double whole = std::round(along / frame.Spacing[axis]);
       if (!(std::abs(along - whole * frame.Spacing[axis]) <= frame.Tolerance[axis]))
       {
@@ -382,6 +391,7 @@ bool BoxCorners::FindPlace(const LatticeFrame& frame, std::array<std::int64_t, 3
     unsigned side = sides[0];
     for (int a = 0; a < this->Dimension; ++a)
     {
+      // The lattice axis, as a bit, along which edge a of the cell goes.
       const unsigned step = sides[0] ^ sides[std::size_t{ 1 } << a];
       side ^= (i >> a & 1) != 0 ? step : 0;
       isBox = isBox && (step == 1 || step == 2 || step == 4);

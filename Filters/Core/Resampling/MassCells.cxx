@@ -32,6 +32,7 @@ const CellReader::Ids* findClosedLine(CellReader& reader, std::int64_t cell)
     return nullptr;
   }
   const CellReader::Ids& points = reader.PointsOf(cell);
+  // Some filters repeat the first point, others its number.
   const bool isClosed = points.size() > 2 &&
     (points.front() == points.back() ||
       pointAt(reader, points.front()) == pointAt(reader, points.back()));
@@ -53,6 +54,7 @@ bool isStraight(const CellReader& reader, const CellReader::Ids& points)
   double off = 0.0;
   for (std::size_t i = 1; i < points.size() && length > 0.0; ++i)
   {
+    // The distance from the line: x minus its projection.
     const Vector3d x = pointAt(reader, points[i]) - first;
     off = std::max(off, (x - farthest * (x.dot(farthest) / (length * length))).norm());
   }

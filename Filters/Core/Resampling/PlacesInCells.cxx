@@ -43,6 +43,7 @@ public:
     {
       volume *= std::max(bounds.Length(a), 1.0);
     }
+    // width^D = volume / places: about one place a bin.
     this->Width = std::max(1.0, std::pow(volume / static_cast<double>(numbers.Size()), 1.0 / D));
     std::size_t bins = 1;
     for (int a = 0; a < D; ++a)
@@ -53,6 +54,7 @@ public:
     this->Sorted.Fill(bins, [&](const auto& add) {
       for (const std::int64_t number : numbers)
       {
+        // bin = b_0 + size_0 (b_1 + size_1 b_2).
         std::int64_t bin = 0;
         for (int a = D - 1; a >= 0; --a)
         {
@@ -82,6 +84,7 @@ public:
     {
       for (std::int64_t j = first[1]; j <= last[1]; ++j)
       {
+        // Bins of a row are contiguous, so that a range of them is one loop.
         const std::int64_t row = this->Size[0] * (D > 1 ? j + this->Size[D > 1] * k : 0);
         for (const std::int64_t number : this->Sorted.Of(
                static_cast<std::size_t>(row + first[0]), static_cast<std::size_t>(row + last[0])))
@@ -129,6 +132,7 @@ void search(const CellPieces<D>& pieces, std::int64_t cell, int set, const Place
         edges(a, i - 1) = vertices[i][a] - vertices[0][a];
       }
     }
+    // E has the edges v_i - v_0 as columns.
     const Eigen::Matrix<double, D, D> inverse = edges.inverse();
     if (!inverse.allFinite())
     {
@@ -137,6 +141,7 @@ void search(const CellPieces<D>& pieces, std::int64_t cell, int set, const Place
     bins.VisitAround(bounds, [&](std::int64_t number, const Point<D>& place) {
       // Distance 0: a cell before contains the place, and the first one counts.
       MeshPlace& best = found[number];
+      // Cells come in their order, hence the first one that contains the place stays.
       if (best.Distance == 0.0)
       {
         return;
@@ -144,6 +149,7 @@ void search(const CellPieces<D>& pieces, std::int64_t cell, int set, const Place
       const Vector x(place.data());
       const Vector part = inverse * (x - Vector(vertices[0].data()));
       double weights[D + 1];
+      // w_0 = 1 - sum of the others.
       weights[0] = 1.0 - part.sum();
       double smallest = weights[0];
       for (int i = 0; i < D; ++i)
@@ -157,6 +163,7 @@ void search(const CellPieces<D>& pieces, std::int64_t cell, int set, const Place
         double sum = 0.0;
         for (double& weight : weights)
         {
+          // Not the nearest point of the simplex in general, but one near x, and exact on a face.
           weight = std::max(weight, 0.0);
           sum += weight;
         }
@@ -192,6 +199,7 @@ void searchRegion(const RegionRows& region, int set, const PlaceBins<2>& bins, M
 {
   bins.VisitAround(region.Extent(), [&](std::int64_t number, const Point<2>& x) {
     MeshPlace& best = found[number];
+    // A place that an earlier set contains stays there.
     const bool isFound = best.Distance == 0.0;
     if (isFound && best.Set <= set)
     {
@@ -212,6 +220,7 @@ void searchRegions(const RegionBatch& batch, std::int64_t slab, const GridSlabs<
   const RegionRows::Edges edges = batch.Slabs[static_cast<std::size_t>(slab)];
   for (const RegionBatch::Edge* first = edges.First; first != edges.Last;)
   {
+    // The edges [first, last) are those of one region in the slab.
     const RegionBatch::Edge* last = std::find_if(first, edges.Last,
       [&](const RegionBatch::Edge& edge) { return !batch.IsSame(*first, edge); });
     if (progress.ShouldStop())
@@ -254,6 +263,7 @@ void find(const std::vector<CellValues>& sets, const ImageGrid& grid, ConstPoint
   Progress& progress, MeshPlace* found)
 {
   const GridSlabs<D> slabs(grid.Size<D>());
+  // In index space, where a grid cell has the width 1.
   std::vector<Point<D>> index(static_cast<std::size_t>(places.size()));
   for (std::int64_t i = 0; i < places.size(); ++i)
   {
@@ -269,6 +279,7 @@ void find(const std::vector<CellValues>& sets, const ImageGrid& grid, ConstPoint
       add(static_cast<std::size_t>(slabs.At(index[static_cast<std::size_t>(i)][D - 1])), i);
     }
   });
+  // Bins are made where they are used: memory is that of the slabs at work.
   const auto withBins = [&](std::int64_t slab, const auto& use) {
     const auto own = numbers[static_cast<std::size_t>(slab)];
     if (own.Size() > 0)

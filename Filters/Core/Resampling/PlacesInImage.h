@@ -72,6 +72,7 @@ private:
     found.Points[0] = 0;
     for (int a = 0; a < D; ++a)
     {
+      // Places beyond the points are clamped to the border.
       const double x = std::clamp(index[a], 0.0, static_cast<double>(cells[a]));
       const auto cell = std::min(static_cast<std::int64_t>(x), cells[a] - 1);
       const std::int64_t inPart = cell - this->Start[a];
@@ -89,6 +90,7 @@ private:
       found.Count = 1 << D;
       for (int a = 0; a < D; ++a)
       {
+        // Each axis doubles the points: 2^D in the end.
         divide(1 << a, 1 << a, parts[a], steps[a], found);
       }
       return;

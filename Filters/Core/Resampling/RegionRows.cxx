@@ -52,6 +52,7 @@ RegionRows::RegionRows(
     for (const RegionBatch::Edge& number : edges)
     {
       const OutlineEdge& edge = batch.At(number);
+      // An edge is in all rows from its lower to its upper end.
       const std::size_t end = this->RowOf(std::max(edge.From[1], edge.To[1]));
       for (std::size_t row = this->RowOf(std::min(edge.From[1], edge.To[1])); row <= end; ++row)
       {
@@ -82,6 +83,7 @@ void RegionRows::SetEnds(
   const Point<2>& b = shape.Outline.At(shape.Outline.Next(begin));
   const Point<2> x{ piece.From[0] + part * (piece.To[0] - piece.From[0]),
     piece.From[1] + part * (piece.To[1] - piece.From[1]) };
+  // The weights of the edge's ends are 1 - along and along.
   const double along = partNearest(a, b, x);
   found.Set = shape.Set;
   found.Cell = shape.Cells[static_cast<std::size_t>(piece.Ring)];
@@ -111,11 +113,13 @@ bool RegionRows::FindInside(const Point<2>& x, MeshPlace& found) const
   for (const RegionBatch::Edge& number : this->Rows[this->RowOf(x[1])])
   {
     const OutlineEdge& edge = this->Batch.At(number);
+    // Half-open in y: a line through a corner meets one of its two edges.
     if ((edge.From[1] > x[1]) == (edge.To[1] > x[1]))
     {
       continue;
     }
     const double part = (x[1] - edge.From[1]) / (edge.To[1] - edge.From[1]);
+    // Where the edge crosses the line, relative to x.
     const double off = edge.From[0] + part * (edge.To[0] - edge.From[0]) - x[0];
     isInside = off <= 0.0 ? !isInside : isInside;
     Side& side = off <= 0.0 ? left : right;
@@ -129,6 +133,7 @@ bool RegionRows::FindInside(const Point<2>& x, MeshPlace& found) const
     return false;
   }
   const double width = left.Distance + right.Distance;
+  // Linear between the two crossings: the nearer one weighs more.
   const double toLeft = width > 0.0 ? right.Distance / width : 1.0;
   found.Distance = 0.0;
   this->SetEnds(left.Edge, left.Part, toLeft, 0, found);
@@ -147,6 +152,7 @@ void RegionRows::FindNearest(const Point<2>& x, MeshPlace& found) const
   {
     const OutlineEdge& edge = this->Batch.At(number);
     const double part = partNearest(edge.From, edge.To, x);
+    // Squared, in grid cells.
     const double distance = squaredDistance(edge.From, edge.To, part, x);
     if (distance < best)
     {

@@ -34,6 +34,7 @@ public:
   {
     const CellValues& values = this->Sets[static_cast<std::size_t>(set)];
     shape.Set = set;
+    // A reader serves all cells of its set.
     if (set != this->ReaderSet)
     {
       this->Reader = values.Cells().Read();
@@ -59,6 +60,7 @@ public:
   {
     const CellValues& values = this->Sets[static_cast<std::size_t>(shape.Set)];
     const bool mayBeSimple = cell != allLines && values.IsRegion(cell);
+    // What one visit found about crossings serves the next ones.
     bool isSimple = mayBeSimple && values.IsSimple(cell);
     shape.Edges = regionOutlines(shape.Outline, shape.Values, progress, &isSimple);
     if (mayBeSimple && isSimple)
@@ -94,6 +96,7 @@ private:
       this->Reader->GetPosition(points[i], x);
       Point<2> index;
       this->Grid.ToIndex<2>(x, index.data());
+      // The ring's own first point, as a shape may have several rings.
       const bool isFirst = shape.Points.size() == first;
       begin = isFirst ? index : begin;
       // Twice at one place, and the end of a closed line.
@@ -112,6 +115,7 @@ private:
     shape.Outline.EndRing();
     shape.Cells.push_back(cell);
     const std::int64_t ring = shape.Outline.Count() - 1;
+    // At first the mean along the ring; regions of several rings get their own values later.
     shape.Values.push_back(values.IsOnPoints()
         ? RingValues(shape.Outline, ring, shape.PointValues.data()).Mean()
         : values.At(cell));
@@ -143,6 +147,7 @@ bool isConvex(const Rings& ring)
   for (std::int64_t i = 0; i < ring.Edges(); ++i)
   {
     const std::int64_t next = ring.Next(i);
+    // Twice the area of each corner's triangle; its sign is the turn.
     double error = 0.0;
     const double area = doubleArea(ring.At(i), ring.At(next), ring.At(ring.Next(next)), error);
     lefts += area > clearly * longest * longest ? 1 : 0;
@@ -181,6 +186,7 @@ public:
     }
     RegionShape shape;
     this->Reader.Read(this->Set, cell, shape);
+    // A triangle; with points at one place it may be less.
     if (corners == 3 && shape.Outline.Edges() == 3)
     {
       return false;
@@ -229,6 +235,7 @@ std::vector<Unit> unitsOf(const std::vector<CellValues>& sets)
       if (sets[s].IsRegion(cell))
       {
         const bool areLines = sets[s].AreClosedLines();
+        // All lines of a set are one unit: they may lie in each other.
         units.push_back({ static_cast<int>(s), areLines ? allLines : cell });
         cell = areLines ? count : cell;
       }
@@ -249,6 +256,7 @@ std::size_t endOfBatch(
     const CellSet& cells = sets[static_cast<std::size_t>(units[last].Set)].Cells();
     if (units[last].Cell == allLines)
     {
+      // An upper bound for the edges of all lines.
       edges += static_cast<std::size_t>(cells.NumberOfPoints);
       continue;
     }
@@ -272,6 +280,7 @@ void findSlabs(const GridSlabs<2>& slabs, double margin, RegionBatch& batch)
       {
         const double low = std::min(edges[e].From[1], edges[e].To[1]);
         const double high = std::max(edges[e].From[1], edges[e].To[1]);
+        // An edge is in all slabs between its ends.
         const std::int64_t last = slabs.At(high + margin);
         for (std::int64_t slab = slabs.At(low - margin); slab <= last; ++slab)
         {
@@ -296,6 +305,7 @@ void markRegions(std::vector<CellValues>& sets, const ImageGrid& grid, Progress&
     }
     progress.For(
       values.Cells().NumberOfCells, cellGrain, [&](std::int64_t first, std::int64_t last) {
+        // A test has a reader and memory of its own.
         RegionTest test(sets, static_cast<int>(s), grid);
         for (std::int64_t cell = first; cell < last; ++cell)
         {

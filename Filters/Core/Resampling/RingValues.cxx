@@ -25,6 +25,7 @@ RingValues::RingValues(const Rings& rings, std::int64_t ring, const double* valu
     const std::int64_t next = rings.Next(i);
     const double length =
       std::hypot(rings.At(next)[0] - rings.At(i)[0], rings.At(next)[1] - rings.At(i)[1]);
+    // Each edge gives its length to both ends.
     weights[static_cast<std::size_t>(i - begin)] += length;
     weights[static_cast<std::size_t>(next - begin)] += length;
     all += 2.0 * length;
@@ -54,6 +55,7 @@ RingValues::RingValues(const Rings& rings, std::int64_t ring, const double* valu
   {
     const double x = rings.At(i)[0] - this->Middle[0];
     const double y = rings.At(i)[1] - this->Middle[1];
+    // Deviations from the weighted means.
     const double off = values[i] - this->Value;
     xx += weightOf(i) * x * x;
     xy += weightOf(i) * x * y;
@@ -63,6 +65,7 @@ RingValues::RingValues(const Rings& rings, std::int64_t ring, const double* valu
   }
   // The points are on a line, nearly: the slope across it is undetermined, and the mean stays.
   constexpr double singular = 1e-12;
+  // Cramer's rule for two unknowns.
   const double determinant = xx * yy - xy * xy;
   if (determinant > singular * (xx + yy) * (xx + yy))
   {

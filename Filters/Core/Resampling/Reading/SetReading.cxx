@@ -47,6 +47,7 @@ SetReading::SetReading(std::unique_ptr<DensityReader> reader, const std::string&
   this->Found.Array = name;
 }
 
+// The white of byte images depends on all sets, so that it is found before any is read.
 double SetReading::FindLargest(Progress& progress)
 {
   this->Found.Known.White =
@@ -63,6 +64,7 @@ void SetReading::Read(LargeBuffer<double> densities, Progress& progress)
   progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
     this->Reader->Read(first, last - first, values + first);
   });
+  // Blank values are 0 by now and pass.
   const DensitySummary found = summarize(values, count, 0);
   if (found.NotFinite > 0 || found.Negative > 0)
   {
