@@ -166,6 +166,7 @@ void DiskMesh::FindAreas(Progress& progress)
         return Eigen::Map<const Eigen::Vector3d>(
           this->Coordinates.data() + 3 * this->Triangle(t)[i]);
       };
+      // |b x c| / 2
       const double area = areaOf(corner(0), corner(1), corner(2));
       this->Shares.data()[t] = area;
       this->TotalArea += area;
@@ -249,6 +250,7 @@ void DiskMesh::FindBoundary(Progress& progress)
     [&](std::int64_t side) {
       const auto point = static_cast<std::size_t>(from[side]);
       ++valence[point];
+      // An open side takes the place of an inner one.
       if (start[point] < 0 || this->Sides->Other(side) < 0)
       {
         start[point] = side;
@@ -268,6 +270,7 @@ void DiskMesh::FindBoundary(Progress& progress)
     do
     {
       ++reached;
+      // The next triangle about the point: across the side that ends there.
       side = this->Sides->Other(lastSide(side));
     } while (side >= 0 && side != first);
     if (reached != valence[static_cast<std::size_t>(point)])
@@ -313,6 +316,7 @@ void DiskMesh::FindBoundary(Progress& progress)
   // Euler's formula: points - edges + triangles = 2 - 2 handles - loops. Inner edges have two
   // sides, open ones have one.
   const std::int64_t edges = (sides + open) / 2;
+  // Solved for handles.
   const std::int64_t handles = (2 - loops - (points - edges + sides / 3)) / 2;
   if (loops > 1)
   {

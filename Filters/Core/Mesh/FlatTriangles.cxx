@@ -131,6 +131,7 @@ private:
       const Point<3> at = this->At(this->PointAt(side));
       const std::int64_t one = this->PointAt(nextSide(side));
       const std::int64_t two = this->PointAt(lastSide(side));
+      // The nearer one of the two other corners.
       const bool isOne = squaredDistance(at, this->At(one)) <= squaredDistance(at, this->At(two));
       this->Nearest[this->PointAt(side)] = isOne ? one : two;
     }
@@ -141,6 +142,7 @@ private:
   // exist yet: it would be an edge of more than two triangles.
   bool CanFlip(std::int64_t side, std::int64_t other)
   {
+    // In triangles that agree, the sides of an edge run in opposite directions.
     const bool isOriented = this->PointAt(side) == this->PointAt(nextSide(other)) &&
       this->PointAt(nextSide(side)) == this->PointAt(other);
     const std::int64_t across = this->PointAt(lastSide(other));
@@ -190,6 +192,7 @@ private:
     const std::int64_t f = side / 3;
     const std::int64_t g = other / 3;
     std::int64_t* corners = this->Edited.Corners;
+    // Side ab of the triangles abc and bad: the triangles become cad and dbc.
     const std::array<std::int64_t, 3> far{ lastSide(side), nextSide(other), lastSide(other) };
     const std::array<std::int64_t, 3> near{ lastSide(other), other, lastSide(side) };
     const auto at = [](const std::int64_t* values, const std::array<std::int64_t, 3>& sides) {

@@ -40,6 +40,7 @@ void PolygonCutter::ReadPlaces(const Corners& corners)
     std::copy_n(this->Points[corners[i]], 3, this->Places[i].data());
     bounds.Add(this->Places[i].data());
   }
+  // Tolerances are relative to this.
   this->Size = bounds.Length(bounds.Longest());
 }
 
@@ -211,6 +212,7 @@ bool PolygonCutter::IsStraight(std::size_t a, std::size_t b, std::size_t c) cons
   const Point<3> v = this->Places[b] - this->Places[a];
   const double square = dot(u, u);
   const double along = square > 0.0 ? dot(u, v) / square : 0.0;
+  // The component of b - a perpendicular to c - a.
   const Point<3> across = v - along * u;
   const double tolerance = std::max(this->Rounding, part * this->Size);
   return std::sqrt(dot(across, across)) <= tolerance || this->IsSamePlace(a, c);

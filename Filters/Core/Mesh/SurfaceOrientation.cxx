@@ -62,6 +62,7 @@ bool visitPatches(const TriangleSurface& surface, const SurfaceEdges& edges, sig
         const bool same = surface.Triangles[side] != surface.Triangles[other];
         const int wanted = same ? sign : -sign;
         const int found = signs[other / 3];
+        // A triangle that was reached with the other sign makes a one-sided strip.
         isOrientable = isOrientable && (found == 0 || found == wanted);
         if (found == 0)
         {
@@ -80,6 +81,7 @@ bool visitPatches(const TriangleSurface& surface, const SurfaceEdges& edges, sig
   return isOrientable;
 }
 
+// Writes may go to the surface's own memory: each triangle is read before it is written.
 SurfaceOrientation orientSurface(const TriangleSurface& surface, const SurfaceEdges& edges,
   std::int64_t* oriented, const Context& context)
 {

@@ -50,6 +50,7 @@ WholeTriangles::WholeTriangles(LargeBuffer<double> coordinates, LargeBuffer<std:
   this->LeaveOutRepeated(stages["repeated triangles"]);
   const double rounding = roundingOfCorners(this->Surface(), stages["scale"]);
   this->ScalePoints(stages["scale"]);
+  // In the unit of the scaled coordinates.
   this->RoundingOfPoints = rounding / this->Unit;
   this->FindAreas(stages["areas"]);
 }
@@ -130,10 +131,12 @@ void WholeTriangles::FindAreas(Progress& progress)
         return Eigen::Map<const Eigen::Vector3d>(
           this->Coordinates.data() + 3 * this->Corners.data()[3 * triangle + i]);
       };
+      // |b x c| / 2
       areas[triangle] = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
       sum += areas[triangle];
     },
     std::plus<>());
+  // Single triangles without area stay; they get no samples.
   if (!(this->Area > 0.0))
   {
     throw std::invalid_argument("has no area: each of its " + std::to_string(triangles) +

@@ -40,6 +40,7 @@ Point<2> crossingOf(const Rings& rings, const EdgePair& pair)
   const Point<2>& d = rings.At(rings.Next(pair.Second));
   double errorBefore = 0.0;
   double errorAfter = 0.0;
+  // Signed areas of c and d to the edge ab: they have different signs at a crossing.
   double before = doubleArea(a, b, c, errorBefore);
   double after = doubleArea(a, b, d, errorAfter);
   // Where the errors of the areas are more than this part of their difference, exact arithmetic

@@ -34,6 +34,7 @@ void MonotoneStrips::Add(std::int32_t strip, std::int32_t point, StripSide side)
   while (chain.size() > 1)
   {
     const auto corners = TriangleOf(side, chain[chain.size() - 2], chain.back(), point);
+    // A reflex or straight chain end is not visible from the point.
     if (!turnsLeft(
           this->Numbered(corners[0]), this->Numbered(corners[1]), this->Numbered(corners[2])))
     {
@@ -56,6 +57,7 @@ void MonotoneStrips::End(std::int32_t strip, std::int32_t point)
 // part on whose side its points are; the other part begins with the last point alone.
 std::array<std::int32_t, 2> MonotoneStrips::Divide(std::int32_t strip, std::int32_t point)
 {
+  // The side on which the chain's points are.
   const bool isRight = this->At(strip).Chain.size() > 1 && this->At(strip).Side == StripSide::Right;
   const std::int32_t other = this->Begin(this->At(strip).Chain.back());
   this->Add(strip, point, isRight ? StripSide::Right : StripSide::Left);

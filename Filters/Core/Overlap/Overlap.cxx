@@ -236,6 +236,7 @@ private:
         {
           continue;
         }
+        // The faces' extent along axis 0 in this row.
         const std::array<double, 2> range = part.Range(0);
         low = std::min(low, range[0]);
         high = std::max(high, range[1]);
@@ -281,6 +282,7 @@ private:
     // integral of their product is area / (D (D + 1)) times (sum of products + product of sums).
     const auto add = [&](auto... corner) {
       const double shadow = shadowOf(piece, corner...);
+      // Sum over the corners.
       const double length = (lengths[corner] + ...);
       sums.Volume += shadow * length;
       sums.Shadows += shadow;
@@ -339,6 +341,7 @@ private:
       before.Shadows += sums.Shadows;
       before.Beyond += sums.Beyond;
       const double volume = std::max(sums.Volume + (end - begin) * before.Shadows, 0.0);
+      // The mean of f over the cell's length: the slope along axis 0 times its middle.
       const double slope = before.Shadows * this->Slope[0] * (0.5 * (begin + end));
       const double integral = sums.Integral + (end - begin) * (before.Beyond + slope);
       // The function of a simplex that is nearly flat may be very steep.
@@ -472,11 +475,13 @@ void addOverlaps(const MultilinearBox<D>& box, const GridSlab<D>& slab)
   };
   for (std::int64_t k = range[2].First; k <= range[2].Last; ++k)
   {
+    // Weights along the axes multiply, and so do lengths.
     const Share z = D > 2 ? shareOf(2, k) : Share{ 1.0, 0.0 };
     for (std::int64_t j = range[1].First; j <= range[1].Last; ++j)
     {
       const Share y = D > 1 ? shareOf(1, j) : Share{ 1.0, 0.0 };
       const double across = y.Length * z.Length;
+      // The function at both ends of the row, at the overlap's centre along the other axes.
       double ends[2];
       for (std::size_t x = 0; x < 2; ++x)
       {

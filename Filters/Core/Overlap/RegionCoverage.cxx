@@ -37,6 +37,7 @@ void RegionCoverage::Add(const Point<2>& from, const Point<2>& to)
   {
     return;
   }
+  // dx / dy along the edge.
   const double slope = (high[0] - low[0]) / (high[1] - low[1]);
   const double left = std::min(low[0], high[0]);
   const double right = std::max(low[0], high[0]);
@@ -77,6 +78,7 @@ void RegionCoverage::AddInRow(std::int64_t row, double from, double to, double h
     return;
   }
   const auto add = [&](std::int64_t cell, double part, double toRight) {
+    // A trapezoid: height times the mean distance to the right face.
     shares[cell].Area += part * toRight;
     shares[cell].Height += part;
     isCrossed[cell] = 1;
@@ -93,6 +95,7 @@ void RegionCoverage::AddInRow(std::int64_t row, double from, double to, double h
   const std::int64_t first = static_cast<std::int64_t>(begin);
   const std::int64_t last =
     std::min(static_cast<std::int64_t>(std::max(end, 0.0)), this->Slab.Size[0] - 1);
+  // The cells that Finish has to visit.
   rowSpan.First = std::min(rowSpan.First, first);
   rowSpan.Last = std::max(rowSpan.Last, last);
   if (high < 0.0 || (high <= 0.0 && low < 0.0))

@@ -128,6 +128,7 @@ public:
   {
     for (std::int64_t ring = 0; ring < rings.Count(); ++ring)
     {
+      // The size of a ring decides which one owns a place.
       this->Areas.push_back(std::abs(windingArea(rings, ring)));
     }
     this->Crossings = edgeCrossings(rings, progress, areSimple);
@@ -149,6 +150,7 @@ public:
         this->Walk(ring, rows.RingsAround(this->TopOf(ring)));
       }
     }
+    // Pieces of a region follow each other, in the order of the walk.
     std::stable_sort(this->Found.begin(), this->Found.end(),
       [](const OutlineEdge& p, const OutlineEdge& q) { return p.Ring < q.Ring; });
     return std::move(this->Found);
@@ -177,6 +179,7 @@ private:
     for (const std::int64_t ring : around)
     {
       const double value = this->Values[static_cast<std::size_t>(ring)];
+      // Rings of one value around a place cancel in pairs.
       const auto same = std::count_if(around.begin(), around.end(),
         [&](std::int64_t other) { return this->Values[static_cast<std::size_t>(other)] == value; });
       const bool isSmaller = owner == nobody || this->AreaOf(ring) < this->AreaOf(owner) ||
@@ -204,6 +207,7 @@ private:
     std::int64_t left = nobody;
     std::int64_t right = nobody;
     const auto findOwners = [&]() {
+      // One side is inside of `others` alone, the other one of the ring as well.
       std::vector<std::int64_t> both = others;
       both.push_back(ring);
       left = this->OwnerOf(isInLeft ? both : others);

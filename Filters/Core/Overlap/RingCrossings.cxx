@@ -53,6 +53,7 @@ public:
     const auto isLess = [](const EdgePair& a, const EdgePair& b) {
       return a.First != b.First ? a.First < b.First : a.Second < b.Second;
     };
+    // The order of the pairs does not depend on the bins.
     std::sort(this->Found.begin(), this->Found.end(), isLess);
     this->Found.erase(std::unique(this->Found.begin(), this->Found.end(),
                         [](const EdgePair& a, const EdgePair& b) {
@@ -79,6 +80,7 @@ private:
     }
     Box Of(std::size_t bin) const
     {
+      // bin = place_0 + size_0 place_1
       const auto number = static_cast<std::int64_t>(bin);
       Box box;
       for (int a = 0; a < 2; ++a)
@@ -102,6 +104,7 @@ private:
       const Point<2>& b = this->All.At(this->All.Next(edge));
       for (int axis = 0; axis < 2; ++axis)
       {
+        // The sum of the edges' extents along the axis; those beyond the box count no more than it.
         lengths[axis] += std::min(std::abs(b[axis] - a[axis]), box.Length(axis));
       }
     }
@@ -112,6 +115,7 @@ private:
       most[a] = std::clamp(0.5 * recordsPerEdge * count * box.Length(a) / lengths[a], 1.0, count);
       most[a] = box.Length(a) > 0.0 ? most[a] : 1.0;
     }
+    // The number of bins is at most that of edges: both sizes shrink by the same factor.
     const double tooMany = std::max(1.0, std::sqrt(most[0] * most[1] / count));
     Bins bins{ box.Low, {}, {} };
     for (int a = 0; a < 2; ++a)
@@ -136,6 +140,7 @@ private:
       std::swap(a, b);
     }
     const Point<2> margin{ slack * bins.Width[0], slack * bins.Width[1] };
+    // dx / dy from the lower end; infinite or NaN for horizontal edges, which are in one row.
     const double slope = ((*b)[0] - (*a)[0]) / ((*b)[1] - (*a)[1]);
     const double low = std::min((*a)[0], (*b)[0]);
     const double high = std::max((*a)[0], (*b)[0]);
@@ -143,6 +148,8 @@ private:
     const std::int64_t last = bins.At(1, (*b)[1] + margin[1]);
     for (std::int64_t row = first; row <= last; ++row)
     {
+      // The range along axis 0 that the edge has in the row, from its points at the row's lower and
+      // upper end.
       double from = low;
       double to = high;
       if (first != last && high - low > bins.Width[0])
@@ -174,6 +181,7 @@ private:
       std::uint32_t Bin;
       std::int32_t Edge;
     };
+    // One record for each pair of a bin and an edge that reaches it.
     std::vector<Record> records;
     records.reserve(edges.size() * static_cast<std::size_t>(recordsPerEdge));
     std::vector<std::size_t> begin(static_cast<std::size_t>(bins.Size[0] * bins.Size[1]) + 2, 0);
@@ -195,6 +203,7 @@ private:
     }
     for (std::size_t bin = 0; bin + 2 < begin.size() && !this->ShouldStop(); ++bin)
     {
+      // Edges of the bin are sorted[begin[bin]] on.
       const std::size_t count = begin[bin + 1] - begin[bin];
       const std::int32_t* first = sorted.data() + begin[bin];
       // Bins are divided again only if the edges in them leave most of the box empty: else bins
@@ -245,6 +254,7 @@ private:
     std::vector<End> ends;
     for (std::size_t i = 0; i < count; ++i)
     {
+      // Both ends of each edge, sorted by place: equal places are fans.
       ends.push_back({ this->All.At(edges[i]), i });
       ends.push_back({ this->All.At(this->All.Next(edges[i])), i });
     }
@@ -279,6 +289,7 @@ private:
     {
       this->Gathered[i] = edges[order[i]];
       const bool isLast = i + 1 == count || fan[order[i]] != fan[order[i + 1]];
+      // Filled from the back: the end of a fan is passed on to its edges.
       this->Others[i] = isLast ? i + 1 : this->Others[i + 1];
     }
   }
@@ -287,6 +298,7 @@ private:
   // edge.
   void Compare(const std::int32_t* edges, std::size_t count)
   {
+    // Gathering costs a sort, which pays for large bins only.
     const bool hasFans = !this->AtEnds && count > dividedAgain;
     if (hasFans)
     {
@@ -340,6 +352,7 @@ private:
       for (std::size_t l = 0; l < lanes; ++l)
       {
         const std::size_t j = first + l;
+        // Twice the area of the triangles with both ends of edge j: the sides on which they are.
         const double from = dx * (ay[j] - y) - dy * (ax[j] - x);
         const double to = dx * (by[j] - y) - dy * (bx[j] - x);
         beside[l] = std::max(std::min(from, to), std::min(-from, -to));
@@ -378,6 +391,7 @@ private:
         return;
       }
     }
+    // Edges of one place touch there; the perturbation may make them cross.
     const bool isAtEnds = a.X == c.X || a.X == d.X || b.X == c.X || b.X == d.X;
     if ((this->AtEnds || !isAtEnds) && doCross(a, b, c, d))
     {

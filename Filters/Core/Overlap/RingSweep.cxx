@@ -32,6 +32,7 @@ public:
     {
       const NumberedPoint a = rings.Numbered(i);
       const NumberedPoint b = rings.Numbered(rings.Next(i));
+      // By the perturbed order, so that horizontal edges have a lower end, too.
       this->Upward[static_cast<std::size_t>(i)] =
         isAbove(a, b) ? Ends{ b.X, a.X } : Ends{ a.X, b.X };
       this->Before[static_cast<std::size_t>(rings.Next(i))] = i;
@@ -77,6 +78,7 @@ private:
     const auto isLower = [](const Height& a, const Height& b) {
       return a.Y != b.Y ? a.Y < b.Y : a.Number > b.Number;
     };
+    // Chunks short enough for a poll after each.
     constexpr std::size_t sortedAtOnce = std::size_t{ 1 } << 16;
     const auto at = [&](std::size_t place) {
       return heights.begin() + static_cast<std::ptrdiff_t>(std::min(place, heights.size()));
@@ -118,6 +120,7 @@ private:
     {
       std::swap(low, high);
     }
+    // An edge is left of a point that does not lie to the left of it.
     return !turnsLeft(low, high, point);
   }
 
@@ -142,6 +145,7 @@ private:
     const std::int32_t out = number;
     const bool doesInEnd = isAbove(point, this->All.Numbered(in));
     const bool doesOutEnd = isAbove(point, this->All.Numbered(this->All.Next(out)));
+    // The edges of the point itself count as right of it, so that the place is theirs.
     EdgeOrder::Place place = this->Order.Find([&](std::int32_t edge) {
       if (edge == in || edge == out)
       {
@@ -154,6 +158,7 @@ private:
     if (!doesInEnd && !doesOutEnd)
     {
       const std::int32_t right = this->Order.At(place);
+      // The order of both edges just above the point.
       const bool isOutRight =
         turnsLeft(point, this->All.Numbered(this->All.Next(out)), this->All.Numbered(in));
       const std::int32_t both[2] = { isOutRight ? in : out, isOutRight ? out : in };

@@ -27,6 +27,7 @@ public:
     : Given(rings)
   {
     bool areSimple = false;
+    // Rings with common points need no crossings there: equal places are one point.
     constexpr bool atEnds = false;
     this->Crossings = edgeCrossings(rings, progress, areSimple, atEnds);
     this->SortPoints();
@@ -94,6 +95,7 @@ private:
       places.push_back(crossing.X);
     }
     int exponent = 0;
+    // largest < 2^exponent
     std::frexp(largest, &exponent);
     this->Unit =
       std::ldexp(1.0, std::max(exponent - bits, std::numeric_limits<double>::min_exponent));
@@ -138,6 +140,7 @@ private:
     for (std::int32_t edge = 0; edge < count; ++edge)
     {
       std::int32_t from = this->Swept[Index(edge)];
+      // From the lower to the higher end, as numbers of the sweep ascend.
       const auto addTo = [&](std::int32_t to) {
         if (from != to)
         {
@@ -231,6 +234,8 @@ private:
     const Point<2>& high = this->Swept.At(this->At(edge).High);
     double error = 0.0;
     const double area = doubleArea(low, high, this->Swept.At(point), error);
+    // A place is rounded by half a unit along each axis: as much area as the unit times the edge's
+    // extents.
     error += this->Swept.Rounding() * (std::abs(high[0] - low[0]) + std::abs(high[1] - low[1]));
     return area > error ? 1 : area < -error ? -1 : 0;
   }
@@ -241,6 +246,7 @@ private:
   {
     Range range{ this->Order.Find([&](std::int32_t edge) { return this->SideOf(edge, point) < 0; }),
       0 };
+    // The edges that end here must all be in the range, else the order has changed.
     int ending = 0;
     for (EdgeOrder::Place place = range.First; this->Order.At(place) != EdgeOrder::nothing &&
          this->SideOf(this->Order.At(place), point) == 0;
@@ -284,6 +290,7 @@ private:
     std::sort(this->Ends.begin(), this->Ends.end(), [&](std::int32_t i, std::int32_t j) {
       return i != j && turnsLeft(at, this->Swept.Numbered(j), this->Swept.Numbered(i));
     });
+    // An even number of edges on each other cancels, an odd number leaves one.
     std::size_t kept = 0;
     for (const std::int32_t end : this->Ends)
     {
@@ -311,6 +318,7 @@ private:
       range.First = this->Order.Erase(range.First);
     }
     this->FindEnds(point);
+    // What is to the left of the point, and to the right of its lower edges.
     Part left = leftEdge == EdgeOrder::nothing ? Part() : this->At(leftEdge).Right;
     Part right = this->Below.empty() ? left : this->At(this->Below.back()).Right;
     this->Grow(point, left, right);
@@ -337,6 +345,7 @@ private:
     for (std::size_t i = 0; i + 1 < this->Below.size(); ++i)
     {
       const Part& part = this->At(this->Below[i]).Right;
+      // A part between two edges that end here ends, too.
       this->End(part.Strip, point);
       this->End(part.Second, point);
     }
@@ -400,6 +409,7 @@ private:
     for (const std::int32_t end : this->Ends)
     {
       isInside = !isInside;
+      // The last edge has the point's right part to its right.
       const bool isLast = this->Below.size() + 1 == this->Ends.size();
       const std::int32_t strip = isInside && !isLast ? this->Strips.Begin(point) : none;
       this->Below.push_back(static_cast<std::int32_t>(this->Met.size()));

@@ -70,6 +70,7 @@ void FlatLocator::ReadTriangles(Progress& progress)
       const double* a = this->Corner(t, 0);
       const double* b = this->Corner(t, 1);
       const double* c = this->Corner(t, 2);
+      // Without masses, all triangles count.
       if (!mesh.Masses || mesh.Masses[t] > 0.0)
       {
         Item& item = this->Items.data()[this->NumberOfItems++];
@@ -128,6 +129,7 @@ std::int64_t FlatLocator::Divide(const Box& box, Progress& progress)
   {
     return box.First;
   }
+  // Lengths of the rectangle, not of the unit square.
   const int longer = (box.High[1] - box.Low[1]) * this->Mesh.Lengths[1] >
       (box.High[0] - box.Low[0]) * this->Mesh.Lengths[0]
     ? 1
@@ -177,6 +179,7 @@ std::int64_t FlatLocator::FirstContaining(
   {
     return best;
   }
+  // The first child is the next box.
   if (at.Second >= 0)
   {
     best = this->FirstContaining(point, box + 1, best);
@@ -197,6 +200,7 @@ double FlatLocator::Gap(const double* point, std::int64_t box) const
   double squared = 0.0;
   for (int r = 0; r < 2; ++r)
   {
+    // 0 where the point is between both faces.
     const double gap = std::max({ at.Low[r] - point[r], point[r] - at.High[r], 0.0 }) *
       this->Mesh.Lengths[static_cast<std::size_t>(r)];
     squared += gap * gap;
@@ -236,6 +240,7 @@ PlaceOnTriangle FlatLocator::NearestPlace(std::int64_t triangle, const double* p
     for (int r = 0; r < 2; ++r)
     {
       const double scale = lengths[static_cast<std::size_t>(r)];
+      // (b - a) . (x - a) and |b - a|^2, in the lengths of the rectangle.
       along += (b[r] - a[r]) * scale * ((point[r] - a[r]) * scale);
       length += (b[r] - a[r]) * scale * ((b[r] - a[r]) * scale);
     }
@@ -273,6 +278,7 @@ void FlatLocator::FindNearest(const double* point, std::int64_t box, Nearest& be
   const int nearer = gaps[1] < gaps[0] ? 1 : 0;
   for (const int child : { nearer, 1 - nearer })
   {
+    // Equal distances go on, for the first triangle of several.
     if (gaps[child] <= best.Squared)
     {
       this->FindNearest(point, children[child], best);
@@ -290,6 +296,7 @@ PlaceOnTriangle FlatLocator::Locate(const Point<2>& point) const
     const double* a = this->Corner(triangle, 0);
     const double* b = this->Corner(triangle, 1);
     const double* c = this->Corner(triangle, 2);
+    // Twice the areas opposite to the corners.
     return placeOf(triangle, turnOf(b, c, x), turnOf(c, a, x), turnOf(a, b, x));
   }
   Nearest best;

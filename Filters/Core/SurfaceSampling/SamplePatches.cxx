@@ -66,11 +66,13 @@ public:
         {
           this->Patches[static_cast<std::size_t>(this->Items[i].Triangle)] = this->Expected.size();
         }
+        // A leaf is a patch.
         this->Expected.push_back(mass / this->Total);
         continue;
       }
       Eigen::Index axis = 0;
       bounds.sizes().maxCoeff(&axis);
+      // Halves by number; ties by number of triangle, so that patches are the same everywhere.
       const std::size_t middle = first + (last - first) / 2;
       const auto at = [this](std::size_t i) {
         return this->Items.begin() + static_cast<std::ptrdiff_t>(i);
@@ -93,6 +95,7 @@ public:
     const double each = 1.0 / static_cast<double>(places.size());
     for (std::int64_t i = 0; i < places.size(); ++i)
     {
+      // The share of the samples in the patch.
       found[this->Patches[static_cast<std::size_t>(places.data()[i].Triangle)]] += each;
     }
     double difference = 0.0;

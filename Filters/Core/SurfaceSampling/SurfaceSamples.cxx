@@ -37,6 +37,7 @@ struct FlatMap
 // The density of a grid cell is the mass of the triangles there, exactly divided.
 RectifiedFlow<2> flowOf(const FlatMesh& flat, const GridSize<2>& size, Progress& progress)
 {
+  // By cells, axis 0 fastest.
   LargeBuffer<double> masses(size[0] * size[1]);
   Stages stages(progress, { { "masses", 2 }, { "tables", 3 } });
   rasterizeMass({ flat.Positions, flat.Triangles, flat.Masses, flat.NumberOfTriangles }, size,
@@ -72,6 +73,7 @@ SurfaceSamples sampleMap(const DiskMesh& disk, const FlatMap& map, const double*
       coordinates.data()[i] *= static_cast<double>(size[static_cast<std::size_t>(i % 2)]);
     }
     FlowOptions integration = options.Flow;
+    // The number of particles decides on automatic steps.
     integration.Particles = static_cast<double>(count);
     samples.Flow = flow.Forward(points, points, integration, stages["map"]);
   }
@@ -94,6 +96,7 @@ GridSize<2> flatGrid(double aspectRatio, std::int64_t resolution)
   const Point<2> lengths = lengthsOf(aspectRatio);
   for (std::size_t axis = 0; axis < 2; ++axis)
   {
+    // The longer side has the length 1 and `resolution` cells.
     const double cells = lengths[axis] * static_cast<double>(resolution);
     size[axis] = std::max<std::int64_t>(1, std::llround(cells));
   }
@@ -137,6 +140,7 @@ SurfaceSamples sampleSurface(const DiskMesh& disk, const ConformalMap& map, cons
     flat.Resolution = options.Resolution;
     const AreaPreservingMap kept =
       mapAreaPreserving(disk, map.Square, flat, stages["area-preserving map"]);
+    // The map is to a square: aspect ratio 1.
     samples = sampleMap(disk, { kept.Positions, 1.0 }, masses, options, stages["samples"]);
     samples.IsAreaPreserving = true;
   }

@@ -65,11 +65,13 @@ public:
     Box side;
     for (std::size_t a = 0; a < 3; ++a)
     {
+      // The lower or the upper half of the box along the axis.
       const double place = this->Points[point][a] / this->Width;
       side[a] = place - std::floor(place) < 0.5 ? -1 : 1;
     }
     for (int corner = 1; corner < 8; ++corner)
     {
+      // Bit a of `corner` moves along axis a.
       const Box beside{ box[0] + (corner & 1 ? side[0] : 0), box[1] + (corner & 2 ? side[1] : 0),
         box[2] + (corner & 4 ? side[2] : 0) };
       const std::int64_t found = this->Table.data()[this->PlaceOf(beside)];
@@ -113,6 +115,7 @@ private:
     b = rootOf(this->Parents, b);
     if (a != b)
     {
+      // By coordinates, not numbers: the result does not depend on the order of points.
       const bool isLess = std::lexicographical_compare(
         this->Points[a], this->Points[a] + 3, this->Points[b], this->Points[b] + 3);
       this->Parents[isLess ? b : a] = isLess ? a : b;
@@ -161,6 +164,7 @@ bool mergeNearPoints(
     count, grain,
     [&](std::int64_t i) {
       firsts[i] = rootOf(firsts, i);
+      // Merges of equal coordinates do not count.
       isMerged = isMerged || !std::equal(points[i], points[i] + 3, points[firsts[i]]);
     },
     grain);
@@ -174,6 +178,7 @@ std::vector<RepeatedTriangle> findRepeatedTriangles(
   const auto pointsOf = [&surface](std::int64_t triangle) {
     const std::int64_t* ids = surface.Triangles + 3 * triangle;
     Triple points{ ids[0], ids[1], ids[2] };
+    // Any order of corners gives the same triple.
     std::sort(points.begin(), points.end());
     return points;
   };

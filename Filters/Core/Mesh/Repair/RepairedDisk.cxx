@@ -34,6 +34,7 @@ bool mayMerge(const NotADisk& defect)
 // The error of a repaired surface in the numbers of the given one.
 NotADisk inGivenNumbers(const NotADisk& defect, const RepairedSurface& repaired)
 {
+  // -1: the defect has no number.
   const std::int64_t first = defect.First();
   if (first < 0)
   {
@@ -57,6 +58,7 @@ RepairedDisk::RepairedDisk(const TriangleSurface& surface, double rounding, cons
     this->Disk.emplace(surface, progress); // throws
     return;
   }
+  // The first attempt repairs what rounding in double made.
   const double least = roundingOfDoubles(surface.Points);
   const double most = std::max(least, rounding);
   Rounds rounds(progress, 1);
@@ -177,6 +179,7 @@ GivenTriangles::GivenTriangles(const RepairedDisk& disk, const std::int64_t* giv
     const double share = 0.5 * normal.norm() / disk.Mesh().Area();
     if (share > 0.0)
     {
+      // Turned as in the disk.
       if (normal.dot(normalOf(disk.Mesh().Triangle(triangle))) < 0.0)
       {
         std::swap(ids[1], ids[2]);

@@ -56,6 +56,7 @@ SplitSurface::SplitSurface(const TriangleSurface& given, const std::vector<TJunc
     // T-junctions are sorted by sides, hence by triangles.
     for (; next < junctions.size() && junctions[next].Side / 3 == triangle; ++next)
     {
+      // Points of each side are in the order along it.
       sides[static_cast<std::size_t>(junctions[next].Side % 3)].push_back(junctions[next].Point);
     }
     if (next == first)
@@ -91,6 +92,7 @@ SplitSurface::SplitSurface(const TriangleSurface& given, const std::vector<TJunc
 
 const SplitSurface::Part& SplitSurface::PartOf(std::int64_t triangle) const
 {
+  // Parts ascend by triangles.
   return *std::lower_bound(this->Parts.begin(), this->Parts.end(), triangle,
     [](const Part& part, std::int64_t number) { return part.Triangle < number; });
 }

@@ -135,6 +135,7 @@ private:
       count, grain,
       [this](std::int64_t triangle) {
         const std::int64_t* ids = this->Given.Triangles + 3 * triangle;
+        // Triangles have roots as points, and the given points as corners.
         const std::array<std::int64_t, 3> roots{ this->RootOf(ids[0]), this->RootOf(ids[1]),
           this->RootOf(ids[2]) };
         if (roots[0] != roots[1] && roots[1] != roots[2] && roots[2] != roots[0])
@@ -153,6 +154,7 @@ private:
     const std::vector<RepeatedTriangle> repeated = findRepeatedTriangles(this->Kept(), context);
     for (const RepeatedTriangle& one : repeated)
     {
+      // In numbers of the given triangles.
       this->Made.AllRepeated.push_back(
         { this->Origins.data()[one.Triangle], this->Origins.data()[one.First] });
     }
@@ -189,6 +191,7 @@ private:
     Progress progress(context);
     Stages stages(progress, { { "edges", 7 }, { "orientation", 3 } });
     const SurfaceEdges edges(this->Kept(), stages["edges"]);
+    // Most surfaces are oriented already.
     if (edges.Reversed() == 0)
     {
       return;
@@ -243,6 +246,7 @@ private:
     std::int64_t used = 0;
     for (std::int64_t point = 0; point < points; ++point)
     {
+      // Numbers ascend with the given points.
       numbers.data()[point] = numbers.data()[point] < 0 ? -1 : used++;
     }
     progress.Check();
@@ -299,6 +303,7 @@ private:
     {
       const bool used = isUsed.data()[point] != 0;
       counts.UnusedPoints += used ? 0 : 1;
+      // Unused points count once, as unused.
       counts.MergedPoints += used && this->RootOf(point) != point ? 1 : 0;
     }
     std::fill_n(isUsed.data(), triangles, static_cast<unsigned char>(0));
@@ -354,6 +359,7 @@ bool needsRepair(const TriangleSurface& surface, double rounding, const Context&
         {
           isUsed.data()[surface.Triangles[3 * triangle + i]] = 1;
         }
+        // Height and rounding in the same scaled unit.
         isFlat = shapeOf(surface, scale, triangle).Height <= scale * rounding;
       }
     },

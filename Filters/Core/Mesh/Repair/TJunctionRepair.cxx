@@ -95,6 +95,7 @@ private:
       const auto at = [this](std::int64_t point) { return this->Surface.Points[point]; };
       if (place.Of(at(a), at(b), at(c)) > 0.0)
       {
+        // Two corners at one place make no line but an edge.
         const bool areThree = this->Merged[a] != this->Merged[b] &&
           this->Merged[b] != this->Merged[c] && this->Merged[c] != this->Merged[a];
         return areThree && !isAmong(this->Open, 3 * triangle + i);
@@ -114,6 +115,7 @@ private:
     if (this->Scope == TJunctionScope::OfFlatTriangles)
     {
       std::vector<OpenSide> opened;
+      // Sides that are open only without the flat triangles.
       std::set_difference(sides.begin(), sides.end(), this->Open.begin(), this->Open.end(),
         std::back_inserter(opened), isBefore);
       sides = std::move(opened);
@@ -144,6 +146,7 @@ private:
     std::sort(points.begin(), points.end());
     for (TJunction& junction : junctions)
     {
+      // The least of the points there: the result is deterministic.
       junction.Point = std::lower_bound(
         points.begin(), points.end(), std::make_pair(junction.Point, std::int64_t{ 0 }))
                          ->second;
@@ -190,6 +193,7 @@ TJunctionRepair repairTJunctions(
   {
     RepairRun near(surface, merged, rounding, scope, stages["merged near"]);
     TJunctionRepair other = near.Take();
+    // Merging near points must close edges and T-junctions both, else equal points do.
     if (near.OpenSides() < equal.OpenSides() && other.TJunctions > repair.TJunctions)
     {
       return other;

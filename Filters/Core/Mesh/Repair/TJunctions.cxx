@@ -31,6 +31,7 @@ bool passes(const PointBounds& box, const double* from, const double* to, double
   double leaves = 1.0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
+    // The slab of the axis, seen from the segment's begin.
     const double low = box.Low[axis] - margin - from[axis];
     const double high = box.High[axis] + margin - from[axis];
     const double by = to[axis] - from[axis];
@@ -42,6 +43,7 @@ bool passes(const PointBounds& box, const double* from, const double* to, double
       }
       continue;
     }
+    // The parameters at which the line enters and leaves the slab.
     enters = std::max(enters, std::min(low / by, high / by));
     leaves = std::min(leaves, std::max(low / by, high / by));
   }
@@ -129,7 +131,9 @@ private:
     };
     tree.VisitNear(isNear, [&](std::int64_t point) {
       ++visited;
+      // The triangle's own corners are not within its side.
       const bool isOwn = point == side.From || point == side.To || point == side.Opposite;
+      // 0 says that the point is not on the side.
       const double place = isOwn ? 0.0 : placeOnSide.Of(from, to, this->Points[point]);
       if (place > 0.0)
       {
@@ -177,6 +181,7 @@ private:
     {
       const SidePart& one = parts[i - 1];
       const SidePart& two = parts[i];
+      // Two triangles have this part: its ends are true T-junctions.
       if (one.Low == two.Low && one.High == two.High && one.Triangle != two.Triangle)
       {
         for (const std::size_t junction : { one.Before, one.After, two.Before, two.After })
@@ -236,6 +241,7 @@ struct CoordinateRange
     {
       const double far = std::abs(x[axis]);
       this->Farthest = std::max(this->Farthest, far);
+      // A double that is a float converts there and back unchanged.
       this->AreFloats = this->AreFloats && far <= std::numeric_limits<float>::max() &&
         static_cast<double>(static_cast<float>(x[axis])) == x[axis];
     }
@@ -301,6 +307,7 @@ std::vector<OpenSide> openSidesOf(
   LargeBuffer<unsigned char> isOpen(count, 0);
   visitEdges(surface.NumberOfTriangles, surface.Points.size(), pointOf, isLeftOut, progress,
     [&isOpen](const std::int64_t* sides, std::int64_t number) {
+      // Visits are on any thread, and each writes to a side of its own.
       isOpen.data()[sides[0]] = number == 1 ? 1 : 0;
     });
   std::vector<OpenSide> open;
