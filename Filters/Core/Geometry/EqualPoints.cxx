@@ -72,6 +72,7 @@ DistinctPoints<Dimension>::DistinctPoints(
   mergePoints<Dimension>(points, this->PlaceOf.data(), context);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
+    // mergePoints has written the first point of the place.
     const auto first = static_cast<std::size_t>(this->PlaceOf[i]);
     if (first == i)
     {

@@ -71,6 +71,7 @@ struct LatticePart
     }
     return true;
   }
+  // True if the other adds nothing to the box around both.
   bool Contains(const LatticePart& other) const
   {
     return this->With(other).Count() == this->Count();

@@ -228,6 +228,7 @@ void DiskMesh::SetShareFrom(std::int64_t first, double share)
   double* const shares = this->Shares.data();
   double* const from = shares + first;
   double* const end = shares + this->Shares.size();
+  // Sums of both parts of the shares, to scale each to its new sum.
   const double before = std::accumulate(shares, from, 0.0);
   const double after = std::accumulate(from, end, 0.0);
   std::transform(shares, from, shares, [=](double own) { return own * ((1.0 - share) / before); });
@@ -273,6 +274,7 @@ void DiskMesh::FindBoundary(Progress& progress)
       // The next triangle about the point: across the side that ends there.
       side = this->Sides->Other(lastSide(side));
     } while (side >= 0 && side != first);
+    // Triangles of the fan that begins here, against all of the point.
     if (reached != valence[static_cast<std::size_t>(point)])
     {
       firstPinched = pinched++ == 0 ? point : firstPinched;

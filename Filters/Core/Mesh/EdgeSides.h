@@ -61,6 +61,7 @@ void visitEdges(std::int64_t triangles, std::int64_t points, const PointOf& poin
   stages["edges"].ForEach(
     points, 2 * grain,
     [&](std::int64_t point) {
+      // The sides whose lower end is this point; sorted by their other ends, edges are runs.
       std::int64_t* next = sides + first[point];
       std::int64_t* const last = sides + first[point + 1];
       std::sort(next, last, [&](std::int64_t a, std::int64_t b) {

@@ -41,6 +41,7 @@ bool visitPatches(const TriangleSurface& surface, const SurfaceEdges& edges, sig
       continue;
     }
     std::int64_t end = 0;
+    // Triangles are marked when they enter the queue, so that each enters once.
     const auto enter = [&](std::int64_t triangle, int sign) {
       signs[triangle] = static_cast<signed char>(sign);
       queue[end++] = triangle;

@@ -48,6 +48,7 @@ WholeTriangles::WholeTriangles(LargeBuffer<double> coordinates, LargeBuffer<std:
     }
   }
   this->LeaveOutRepeated(stages["repeated triangles"]);
+  // Before scaling: the coordinates' own bits tell whether they are floats.
   const double rounding = roundingOfCorners(this->Surface(), stages["scale"]);
   this->ScalePoints(stages["scale"]);
   // In the unit of the scaled coordinates.
@@ -74,6 +75,7 @@ void WholeTriangles::ScalePoints(Progress& progress)
 // Moves the triangles that stay to the front of Corners, and notes their given numbers.
 void WholeTriangles::LeaveOut(const IsLeftOut& isLeftOut, Progress& progress)
 {
+  // The list of given numbers exists only if triangles are left out.
   if (this->Kept.size() == 0)
   {
     this->Kept = LargeBuffer<std::int64_t>(this->Count);

@@ -47,6 +47,7 @@ double determinant(const std::array<Point<3>, 4>& v)
   {
     for (std::size_t a = 0; a < 3; ++a)
     {
+      // Rows are edge vectors; det = e_0 . (e_1 x e_2).
       e[i][a] = v[i + 1][a] - v[0][a];
     }
   }
@@ -63,6 +64,7 @@ constexpr std::size_t edgeCorners[3][2] = { { 0, 1 }, { 1, 2 }, { 2, 0 } };
 // counterclockwise.
 double shadowOf(const CutPolygon& piece, int i, int j, int k)
 {
+  // Axes 1 and 2 are those across axis 0.
   const Corner& a = piece[i];
   const Corner& b = piece[j];
   const Corner& c = piece[k];
@@ -422,6 +424,7 @@ void addOverlaps(const LinearSimplex<D>& simplex, const GridSlab<D>& slab)
     bool isInOne = true;
     for (std::size_t a = D; a-- > 0;)
     {
+      // From the last axis on, so that `only` is number = i_0 + size_0 (i_1 + size_1 i_2).
       CellRange& range = cells[a];
       isInOne = isInOne && range.First == range.Last;
       const std::int64_t begin = a == D - 1 ? slab.First : 0;

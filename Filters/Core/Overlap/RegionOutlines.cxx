@@ -49,6 +49,7 @@ public:
   // number of edges pass to the left of the point (even-odd rule). Exact predicates decide.
   std::vector<std::int64_t> RingsAround(std::int64_t point) const
   {
+    // A ray to the left of p in its row.
     const NumberedPoint p = this->All.Numbered(point);
     std::vector<std::int64_t> around;
     for (const std::int64_t edge : this->Rows[this->RowOf(p.X)])
@@ -56,6 +57,7 @@ public:
       const std::int64_t ring = this->All.RingOf(edge);
       NumberedPoint low = this->All.Numbered(edge);
       NumberedPoint high = this->All.Numbered(this->All.Next(edge));
+      // Edges that do not pass p's height do not count.
       if (ring == this->All.RingOf(point) || isAbove(low, p) == isAbove(high, p))
       {
         continue;
@@ -210,6 +212,7 @@ private:
       // One side is inside of `others` alone, the other one of the ring as well.
       std::vector<std::int64_t> both = others;
       both.push_back(ring);
+      // Owners change only where `others` or the side does.
       left = this->OwnerOf(isInLeft ? both : others);
       right = this->OwnerOf(isInLeft ? others : both);
     };
@@ -308,6 +311,7 @@ RegionSize sizeOfRegion(const OutlineEdge* first, const OutlineEdge* last)
   {
     size.Centroid[axis] = origin[axis] + (size.Area > 0.0 ? size.Centroid[axis] / size.Area : 0.0);
   }
+  // Rounding may leave a tiny negative area.
   size.Area = std::max(size.Area, 0.0);
   return size;
 }

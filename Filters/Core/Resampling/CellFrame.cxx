@@ -117,6 +117,7 @@ Eigen::Matrix3d principalAxes(
   Vector3d first = Vector3d::Zero();
   double count = 0.0;
   visitCorners(sets, cells, progress, [&](const Vector3d& x) {
+    // Offsets of at most about 1.
     const Vector3d d = (x - middle) / unit;
     first += d;
     second += d * d.transpose();
@@ -134,6 +135,7 @@ Vector3d roundedDirection(Vector3d v, Eigen::Index& largest)
 {
   constexpr double step = 1e-6;
   v.cwiseAbs().maxCoeff(&largest);
+  // A direction and its opposite are the same axis.
   v *= v[largest] < 0.0 ? -1.0 : 1.0;
   v = (v / step).array().round() * step;
   return v.normalized();
@@ -177,6 +179,7 @@ CellFrame CellFrame::Of(const CellSets& sets, const MassCells& cells, Progress& 
   visitCorners(sets, cells, progress, [&](const Vector3d& x) { frame.Box.extend(x); });
   const Vector3d lengths = frame.Box.sizes();
   const double longest = lengths.maxCoeff();
+  // No extent: nothing to resample.
   if (longest == 0.0)
   {
     fail("The cells of the input are all at one place; they must have a length, area or volume");

@@ -81,6 +81,7 @@ std::optional<CellLattice> CellLattice::Find(
 bool CellLattice::Place(const CellSet& cells, bool hasMass, Progress& progress)
 {
   std::vector<std::int64_t> places(static_cast<std::size_t>(cells.NumberOfCells), -1);
+  // place = at_0 + rows_0 (at_1 + rows_1 at_2)
   const std::array<int, 3> rows = this->Box.NumberOfValues();
   const auto misfits = reduceChunks(
     progress, cells.NumberOfCells, grain, std::int64_t{ 0 },
@@ -187,6 +188,7 @@ LatticeLookup::LatticeLookup(
 {
   for (const CellValues& values : sets)
   {
+    // Numbers of the cells of all sets, one set after the other.
     this->First.push_back(this->First.back() + values.Cells().NumberOfCells);
   }
   lattice.VisitCounted(sets, progress, [&](std::int64_t at, std::size_t set, std::size_t cell) {
@@ -203,6 +205,7 @@ std::int64_t LatticeLookup::CellNear(const std::array<double, 3>& along) const
   std::array<std::array<std::int64_t, 2>, 3> sides{};
   for (std::size_t a = 0; a < 3; ++a)
   {
+    // Cells of the lattice are 0 to last along the axis.
     const double last = cells[a] - 1.0;
     const auto at = [&](double x) {
       return static_cast<std::int64_t>(std::clamp(std::floor(x), 0.0, last));

@@ -28,6 +28,7 @@ void addSizes(const RegionBatch& batch, CellSize& all)
       // In cells of the grid.
       const double area = sizeOfRegion(first, last).Area;
       size.Measure += area;
+      // A region has one value.
       size.Integral += area * shape.Values[static_cast<std::size_t>(ring)];
     });
     all = all + size;
@@ -118,6 +119,7 @@ template <int D>
 CellSize resample(
   const std::vector<CellValues>& sets, const ImageGrid& grid, Progress& progress, double* sums)
 {
+  // First what all cells contain, then the means of grid cells.
   const GridSlabs<D> slabs(grid.Size<D>());
   CellSize size = sizeOf<D>(sets, grid, progress);
   std::fill_n(sums, grid.NumberOfCells(), 0.0);

@@ -16,6 +16,7 @@ Bins<std::int64_t> cellsOfSlabs(const CellValues& values, const ImageGrid& grid,
   const GridSlabs<D>& slabs, double margin, Progress& progress)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+  // Slabs [First, Last] of a cell.
   struct Reach
   {
     std::int32_t First;
@@ -53,6 +54,7 @@ Bins<std::int64_t> cellsOfSlabs(const CellValues& values, const ImageGrid& grid,
       }
     }
   });
+  // Cells in their order in each slab, whatever thread found them.
   Bins<std::int64_t> found;
   found.Fill(static_cast<std::size_t>(slabs.Count), [&](const auto& add) {
     for (std::size_t cell = 0; cell < reaches.size(); ++cell)

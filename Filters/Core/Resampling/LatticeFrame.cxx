@@ -35,6 +35,7 @@ Edges edgesOf(const BoxCorners& corners, int dimension)
   Edges edges = noEdges();
   for (int a = 0; a < dimension; ++a)
   {
+    // Corner 2^a is at the other end of edge a.
     edges[static_cast<std::size_t>(a)] = corners[1 << a] - corners[0];
   }
   return edges;
@@ -134,6 +135,7 @@ bool setAxes(const Sums& sums, int dimension, LatticeFrame& frame, Vector3d& spa
     constexpr double straight = 1e-9;
     const bool isStraight = (unit - Vector3d::Unit(axis)).norm() <= straight;
     frame.Axes.col(axis) = isStraight ? Vector3d(Vector3d::Unit(axis)) : unit;
+    // The length of the mean edge.
     spacing[axis] = sums.Along[edge].norm() / static_cast<double>(sums.Cells);
     frame.IsAxis[static_cast<std::size_t>(axis)] = true;
   }
@@ -215,6 +217,7 @@ Box boxOfCells(
   return reduceCells<Box>(
     sets, dimension, progress,
     [&](BoxCorners& corners, std::int64_t cell, Box& part) {
+      // All corners count, not only the first ones.
       const bool isRead = corners.Read(cell);
       for (int i = 0; isRead && i < corners.Count(); ++i)
       {
@@ -270,6 +273,7 @@ std::optional<LatticeFrame> LatticeFrame::Of(
     if (!frame.IsAxis[a])
     {
       constexpr double flatness = 1e-5; // part of the longest side, as of any plane
+      // Cells of one plane or line: the box has no extent across it.
       if (!(length <= std::max(flatness * longest, box.Rounding)))
       {
         return std::nullopt;
@@ -318,6 +322,7 @@ bool BoxCorners::Read(std::int64_t cell)
   }
   const CellReader::Ids& ids = this->Reader->PointsOf(cell);
   const auto count = static_cast<std::size_t>(this->Count());
+  // Polygons and polylines may have any number of points.
   if (ids.size() != count)
   {
     return false;
@@ -363,9 +368,11 @@ bool BoxCorners::FindPlace(const LatticeFrame& frame, std::array<std::int64_t, 3
       }
       steps[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(whole);
     }
+    // The low corner's place.
     place[a] = *std::min_element(steps.begin(), steps.begin() + this->Count());
     for (int i = 0; i < this->Count(); ++i)
     {
+      // 0 on the low side, 1 on the high one.
       const std::int64_t side = steps[static_cast<std::size_t>(i)] - place[a];
       if (side > 1)
       {

@@ -146,6 +146,7 @@ void search(const CellPieces<D>& pieces, std::int64_t cell, int set, const Place
       {
         return;
       }
+      // Solves E w = x - v_0 for the weights of vertices 1 to D.
       const Vector x(place.data());
       const Vector part = inverse * (x - Vector(vertices[0].data()));
       double weights[D + 1];

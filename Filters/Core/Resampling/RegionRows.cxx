@@ -141,7 +141,7 @@ bool RegionRows::FindInside(const Point<2>& x, MeshPlace& found) const
   return true;
 }
 
-// Only edges within a row of x can be within the diagonal of a grid cell.
+// Edges in the rows of y - 1 to y + 1: no others are within a grid cell of x.
 void RegionRows::FindNearest(const Point<2>& x, MeshPlace& found) const
 {
   RegionBatch::Edge nearest{ -1, 0 };

@@ -94,6 +94,7 @@ private:
     {
       double x[3];
       this->Reader->GetPosition(points[i], x);
+      // In index space of the grid, as all outlines.
       Point<2> index;
       this->Grid.ToIndex<2>(x, index.data());
       // The ring's own first point, as a shape may have several rings.
@@ -134,6 +135,7 @@ bool isConvex(const Rings& ring)
   constexpr double clearly = 1e-6;
   int lefts = 0;
   int rights = 0;
+  // Turns are compared with the square of the longest side.
   const double longest = [&]() {
     double length = 0.0;
     for (std::int64_t i = 0; i < ring.Edges(); ++i)
@@ -175,10 +177,12 @@ public:
   {
     constexpr std::size_t mostDivided = 256; // VTK's ear clipping takes quadratic time
     const CellShape shapeOfCell = this->Cells->ShapeOf(cell);
+    // Other cells are divided exactly as they are.
     if (shapeOfCell != CellShape::Polygon && shapeOfCell != CellShape::Quad)
     {
       return false;
     }
+    // More than four corners and one value: the shape of the polygon need not be known.
     const std::size_t corners = this->Cells->PointsOf(cell).size();
     if (corners > 4 && (!this->Values.IsOnPoints() || corners > mostDivided))
     {
@@ -328,6 +332,7 @@ void visitRegions(const std::vector<CellValues>& sets, const ImageGrid& grid,
   for (std::size_t first = 0; first < units.size();)
   {
     const std::size_t last = endOfBatch(sets, units, first);
+    // Memory is that of one batch.
     batch.Shapes.clear();
     batch.Shapes.resize(last - first);
     progress.For(

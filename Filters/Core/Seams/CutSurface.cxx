@@ -31,6 +31,7 @@ void requireTriangles(const TriangleSurface& surface)
 {
   const double* const begin = surface.Points.data();
   const double* const end = begin + 3 * surface.Points.size();
+  // A point's number is a third of its first coordinate's.
   const double* wrong = std::find_if(begin, end, [](double x) { return !std::isfinite(x); });
   if (wrong < end)
   {
@@ -53,6 +54,7 @@ RepairedSurface repaired(const TriangleSurface& surface, double rounding, Progre
     return SurfaceEdges(made.Surface(), stage).Open();
   };
   const double least = roundingOfDoubles(surface.Points);
+  // Shares of the progress that the second attempt takes.
   const double larger = rounding > least ? 1.0 : 0.0;
   Stages stages(progress,
     { { "least rounding", 50 }, { "its edges", 15.0 * larger }, { "rounding", 18.0 * larger },
@@ -178,6 +180,7 @@ private:
     OpenedDisk opened = openComponent(mesh, static_cast<std::int64_t>(component.Triangles.size()),
       options.MaximumRounds, stages["seams"]);
     CutDisk& disk = opened.Disk;
+    // Points of disks are numbered one disk after the other.
     disk.FirstPoint = this->NumberOfPoints;
     const auto number = static_cast<std::int64_t>(this->Made.AllDisks.size());
     for (std::size_t t = 0; t < component.Triangles.size(); ++t)
@@ -249,6 +252,7 @@ private:
     {
       const std::int64_t* ids = opened.Disk.Mesh->Triangle(triangle);
       const std::int64_t* corners = opened.Cut.Triangles.data() + 3 * triangle;
+      // The disk's mesh has turned the triangle.
       if (ids[1] != corners[1])
       {
         std::swap(part[1], part[2]);
@@ -278,6 +282,7 @@ private:
       progress.CheckEvery(polled, triangle);
       for (std::int64_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
       {
+        // The first corner at a point numbers it.
         std::int64_t& local = this->Locals.data()[component.Parts.Corners()[corner]];
         if (local < 0)
         {

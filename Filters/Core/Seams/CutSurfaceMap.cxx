@@ -203,6 +203,7 @@ CutTriangles::CutTriangles(const CutSurface& cut, const TriangleSurface& given)
     {
       continue;
     }
+    // In units of the largest coordinate, so that areas neither overflow nor vanish.
     std::array<Point<3>, 3> places;
     for (std::size_t i = 0; i < 3; ++i)
     {
@@ -245,6 +246,7 @@ MeasuredTriangles CutTriangles::Measured() const
 
 std::vector<Point<2>> scaledToUnitArea(const CutSurfaceMap& map)
 {
+  // Areas grow by 1 / Coverage, lengths by its root.
   const double scale = 1.0 / std::sqrt(map.Coverage);
   std::vector<Point<2>> scaled = map.Positions;
   for (Point<2>& position : scaled)

@@ -32,6 +32,7 @@ std::vector<Loop> findLoops(const SeamMesh& mesh, Progress& progress)
 {
   std::vector<std::array<std::int64_t, 2>> beside(
     static_cast<std::size_t>(mesh.NumberOfPoints()), { -1, -1 });
+  // By points: the two neighbours on the boundary, -1 until found.
   const auto add = [&beside](std::int64_t point, std::int64_t neighbour) {
     std::array<std::int64_t, 2>& known = beside[static_cast<std::size_t>(point)];
     known[known[0] < 0 ? 0 : 1] = neighbour;
@@ -132,6 +133,7 @@ HoleFans closeManyHoles(const SeamMesh& mesh, Progress& progress)
   for (Loop& loop : findLoops(mesh, progress))
   {
     const double length = lengthOf(mesh, loop);
+    // Long boundaries are no holes.
     if (length <= most)
     {
       lengths.push_back(length);
@@ -152,6 +154,7 @@ HoleFans closeManyHoles(const SeamMesh& mesh, Progress& progress)
     {
       // The fan's sides run against the loop; orientations need not agree.
       fans.Triangles.insert(fans.Triangles.end(), { loop[(i + 1) % loop.size()], loop[i], number });
+      // Each triangle its own origin: an edge of the fan may become a seam.
       fans.Origins.push_back(-1 - static_cast<std::int64_t>(fans.Origins.size()));
     }
     progress.Check();

@@ -47,6 +47,7 @@ void OpenedSurface::NumberPoints(Progress& progress)
       const std::int64_t point = this->GivenTriangles.Triangles[corner];
       const std::int64_t wanted = this->Disks->CornersOf(corner / 3)[corner % 3];
       std::int64_t& own = this->CutPoints[static_cast<std::size_t>(point)];
+      // The first triangle of a point decides which copy it is.
       own = own < 0 ? wanted : own;
       this->Corners.data()[corner] = wanted < 0 ? point : this->CopyAt(point, wanted);
     },
@@ -93,6 +94,7 @@ std::vector<std::int64_t> OpenedSurface::PlacesOf(std::int64_t corner) const
     {
       continue;
     }
+    // The given point and its copies, along the list.
     for (std::int64_t copy = given; copy >= 0;
          copy = this->NextCopy[static_cast<std::size_t>(copy)])
     {
@@ -116,6 +118,7 @@ void OpenedSurface::PlaceFlatTriangles(ConstPointSpan<2> positions)
     const std::int64_t* given = this->GivenTriangles.Triangles + corner;
     const bool isPlaced = std::all_of(
       given, given + 3, [this](std::int64_t point) { return this->Disks->PointOf(point) >= 0; });
+    // Triangles with area have their places already.
     if (this->Disks->DiskOf(corner / 3) >= 0 || !isPlaced)
     {
       continue;

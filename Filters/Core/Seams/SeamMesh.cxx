@@ -56,6 +56,7 @@ SeamMesh SeamMesh::With(const std::vector<Point<3>>& points,
   const std::vector<std::int64_t>& triangles, const std::vector<std::int64_t>& origins,
   const Context& context) const
 {
+  // The numbers of what was there stay.
   const auto joined = [](auto all, const auto& further) {
     all.insert(all.end(), further.begin(), further.end());
     return all;
@@ -70,6 +71,7 @@ double SeamMesh::Length(std::int64_t side) const
     squaredDistance(this->Position(this->From(side)), this->Position(this->To(side))));
 }
 
+// The length of a path.
 double SeamMesh::LengthOf(const std::vector<std::int64_t>& sides) const
 {
   return std::accumulate(sides.begin(), sides.end(), 0.0,
@@ -93,6 +95,7 @@ void SeamMesh::SetSeam(std::int64_t side, bool isSeam)
   this->Degrees[static_cast<std::size_t>(this->To(side))] += isSeam ? 1 : -1;
 }
 
+// All edges of a path at once.
 void SeamMesh::SetSeams(const std::vector<std::int64_t>& sides, bool isSeam)
 {
   for (const std::int64_t side : sides)
@@ -108,6 +111,7 @@ SeamMesh::Cut SeamMesh::MakeCut(Progress& progress) const
 {
   Cut cut;
   std::vector<std::int64_t>& corners = cut.Triangles; // at first trees of corners
+  // Corner i is its own tree at first.
   corners.resize(this->Triangles.size());
   std::iota(corners.begin(), corners.end(), std::int64_t{ 0 });
   const auto forSides = [&](const auto& visit) {
@@ -129,6 +133,7 @@ SeamMesh::Cut SeamMesh::MakeCut(Progress& progress) const
     const std::int64_t root = rootOf(corners.data(), side); // the lowest corner of its tree
     if (root == side)
     {
+      // A root is the first corner of its point: the point gets the next number.
       numbers[static_cast<std::size_t>(side)] = static_cast<std::int64_t>(cut.Origins.size());
       cut.Origins.push_back(this->From(side));
     }

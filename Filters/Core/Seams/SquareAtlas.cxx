@@ -28,6 +28,7 @@ double fillRows(
       x = 0.0;
       y += height + margin;
     }
+    // Sides descend, so that the first one of a row is the highest.
     height = x == 0.0 ? side : height;
     squares[i] = { { x, y }, side };
     x += side + margin;
@@ -57,6 +58,7 @@ std::vector<AtlasSquare> arrangeSquares(const std::vector<double>& areas)
   std::vector<double> sides;
   for (const std::size_t i : order)
   {
+    // At the scale 1, the squares' areas sum to 1.
     sides.push_back(std::sqrt(areas[i] / total));
   }
 
@@ -70,6 +72,7 @@ std::vector<AtlasSquare> arrangeSquares(const std::vector<double>& areas)
   for (int i = 0; i < halvings; ++i)
   {
     const double scale = 0.5 * (low + high);
+    // The height grows with the scale: there is room below some scale.
     (fillRows(sides, scale, margin, rows) <= 1.0 ? low : high) = scale;
   }
   fillRows(sides, low, margin, rows);

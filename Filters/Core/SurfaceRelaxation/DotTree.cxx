@@ -24,6 +24,7 @@ DotBox boundsOf(const ScaledDot* first, const ScaledDot* last)
       box.Low[axis] = std::min(box.Low[axis], dot->X[axis]);
       box.High[axis] = std::max(box.High[axis], dot->X[axis]);
     }
+    // The largest spacing has the least inverse.
     inverse = std::min(inverse, dot->Inverse);
   }
   box.Largest = 1.0 / inverse;

@@ -54,6 +54,7 @@ public:
     LargeBuffer<std::uint32_t> keys(count);
     Stages stages(progress, { { "keys", 3 }, { "low bits", 3 }, { "high bits", 4 } });
     stages["keys"].ForEach(count, grain, [&](std::int64_t t) {
+      // The surface is in the box [-1/2, 1/2]^3.
       const Point<3> centre =
         (1.0 / 3.0) * (surface.Corner(t, 0) + surface.Corner(t, 1) + surface.Corner(t, 2));
       keys.data()[t] =
@@ -79,6 +80,7 @@ private:
     progress.ForEachInOrder(count, grain, [&](std::int64_t t) { ++next[bucketOf(t) + 1]; });
     for (std::size_t bucket = 1; bucket <= buckets; ++bucket)
     {
+      // Counts become the places where buckets begin.
       next[bucket] += next[bucket - 1];
     }
     progress.ForEachInOrder(count, grain, [&](std::int64_t i) {

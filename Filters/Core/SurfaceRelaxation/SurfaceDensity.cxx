@@ -64,6 +64,7 @@ SurfaceDensity::SurfaceDensity(
       merge(more, all);
       return all;
     });
+  // A density of 0 everywhere has no place for dots.
   if (summary.NotFinite > 0 || summary.Negative > 0 || summary.Maximum == 0.0)
   {
     throw InvalidDensity(summary);
@@ -79,6 +80,7 @@ std::array<double, 3> SurfaceDensity::AtCornersOfPart(std::int64_t triangle) con
   std::array<double, 3> values{ 0.0, 0.0, 0.0 };
   for (std::size_t i = 0; i < 3; ++i)
   {
+    // The corner in the given triangle's barycentric coordinates.
     PlaceOnTriangle corner{ triangle, { 0.0, 0.0, 0.0 } };
     corner.Weights[i] = 1.0;
     const PlaceOnTriangle given = this->Surface.GivenPlace(corner);

@@ -50,6 +50,7 @@ void requireValid(const DensitySummary& found, const ReadDensity& density)
   {
     return;
   }
+  // Values that are no numbers are reported before negative ones.
   const bool isFinite = found.NotFinite == 0;
   const std::int64_t count = isFinite ? found.Negative : found.NotFinite;
   const std::int64_t first = isFinite ? found.FirstNegative : found.FirstNotFinite;

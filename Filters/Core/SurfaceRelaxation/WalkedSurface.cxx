@@ -51,6 +51,7 @@ WalkedSurface::WalkedSurface(const TriangleSurface& surface, double rounding, Pr
   Stages stages(progress,
     { { "bounds", 10 }, { "positions", 10 }, { "equal points", 30 }, { "sides", 40 },
       { "T-junctions", 5 }, { "sides of parts", 5 } });
+  // Only points of triangles count; the others may have any coordinates.
   const PointBounds bounds = reduceEach(
     stages["bounds"], this->Count, grain, PointBounds(),
     [&](std::int64_t triangle, PointBounds& part) {
@@ -304,6 +305,7 @@ struct WalkedSurface::Frame
     const double c = dot(this->ToC, by);
     return { -b - c, b, c };
   }
+  // Weights at A are (1, 0, 0).
   std::array<double, 3> Weights(const Point<3>& x) const
   {
     std::array<double, 3> weights = this->Change(x - this->A);
@@ -327,6 +329,7 @@ void WalkedSurface::Walk(SurfacePlace& place, const Point<3>& by, const double* 
   constexpr int mostStanding = 100; // crossings without a way: around a point
   SurfacePlace kept = place;
   Frame frame(*this, place.Triangle);
+  // The part of the step in the triangle's plane.
   Point<3> left = by - (frame.PerSquare * dot(by, frame.Normal)) * frame.Normal;
   std::size_t from = 3; // the corner opposite to the side that is just left behind
   int slides = 0;

@@ -60,6 +60,7 @@ public:
         bounds.extend(this->Items[i].Centre);
       }
       progress.Add(static_cast<std::int64_t>(last - first));
+      // One triangle is not divided.
       if (last - first == 1 || mass <= largest)
       {
         for (std::size_t i = first; i < last; ++i)

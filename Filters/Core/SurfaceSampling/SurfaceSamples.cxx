@@ -52,6 +52,7 @@ SurfaceSamples sampleMap(const DiskMesh& disk, const FlatMap& map, const double*
 {
   Progress progress(context);
   const TriangleSurface surface = disk.Surface();
+  // The mesh in the unit square; distances are in the rectangle.
   const FlatMesh flat{ map.Positions, surface.Triangles, surface.NumberOfTriangles, masses,
     lengthsOf(map.AspectRatio) };
   const GridSize<2> size = flatGrid(map.AspectRatio, options.Resolution);

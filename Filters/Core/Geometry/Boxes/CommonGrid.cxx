@@ -48,6 +48,7 @@ Eigen::Vector3d product(const ImageGrid::Matrix& matrix, const Eigen::Vector3d& 
 // from the origin both have the same coordinates.
 Sides sidesOf(const ImageGrid& grid, const ImageGrid::Matrix& directions)
 {
+  // The origin in coordinates along the directions.
   const Eigen::Vector3d origin = product(inverseOf(directions), grid.Origin());
   Sides sides;
   for (std::size_t i = 0; i < 3; ++i)
@@ -256,6 +257,7 @@ void coarsen(std::vector<Union>& axes, double most, double least)
   double filling = factor;
   for (const Union& axis : axes)
   {
+    // The factor with which this axis's cells fill the box.
     const double own = axis.Length / (axis.Finest * cellsAt(axis, factor, least));
     filling =
       factor > 1.0 && std::abs(own - factor) < 1e-11 * factor ? std::max(filling, own) : filling;
@@ -320,6 +322,7 @@ ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3
       fail("The box of all inputs at the finest spacing has ", side.Cells, " cells along ",
         "xyz"[side.Axis], "; it must have at most ", MaximumResolution);
     }
+    // Limited for the moment where `dimensions` gives the number.
     const double cells = std::min(side.Cells, most);
     sides[side.Axis].Low = side.Sign * side.Low;
     sides[side.Axis].Cells = static_cast<int>(cells);
@@ -356,6 +359,7 @@ void requireSameBox(const NamedGrid& first, const NamedGrid& other)
   const Sides b = sidesOf(other.Grid, first.Grid.Direction());
   for (std::size_t i = 0; i < 3; ++i)
   {
+    // Both ends, with the sign of the spacing.
     const double ends[] = { a[i].Low, a[i].Low + a[i].Spacing * a[i].Cells };
     const double others[] = { b[i].Low, b[i].Low + b[i].Spacing * b[i].Cells };
     const double tolerance = toleranceOf(std::min(ends[0], ends[1]), std::max(ends[0], ends[1]),

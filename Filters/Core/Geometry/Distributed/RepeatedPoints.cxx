@@ -51,6 +51,7 @@ std::vector<std::vector<unsigned char>> findRepeated(
   std::size_t lowest = 0;
   for (std::size_t i = 0; i < all.size(); ++i)
   {
+    // The rank of the first of equal points.
     lowest = i > 0 && all[i].Point == all[i - 1].Point ? lowest : all[i].Rank;
     repeated[all[i].Rank][all[i].Number] = all[i].Rank > lowest ? 1 : 0;
   }

@@ -39,6 +39,7 @@ public:
     this->Boxes = makeBoxTree<ItemBox>(
       static_cast<std::int64_t>(this->Items.size()),
       [&](std::int64_t first, std::int64_t last) {
+        // Bounds of the items, and a leaf until it is divided.
         ItemBox box{ {}, first, last, -1 };
         for (std::int64_t i = first; i < last; ++i)
         {
@@ -77,6 +78,7 @@ private:
   void VisitNear(std::int64_t at, const IsNear& isNear, const Visit& visit) const
   {
     const ItemBox& box = this->Boxes[static_cast<std::size_t>(at)];
+    // Nothing in the box is near either.
     if (!isNear(box))
     {
       return;

@@ -145,6 +145,7 @@ bool mergeNearPoints(
   {
     isDistinct.data()[i] = firsts[i] == i;
   }
+  // Two passes: boxes first, then the boxes beside; all points must be in the table before.
   Clusters clusters(points, distance, firsts);
   const auto forDistinct = [&](Progress& stage, void (Clusters::*step)(std::int64_t)) {
     stage.ForEachInOrder(
@@ -191,6 +192,7 @@ std::vector<RepeatedTriangle> findRepeatedTriangles(
     for (std::int64_t triangle = 0; triangle < surface.NumberOfTriangles; ++triangle)
     {
       const Triple points = pointsOf(triangle);
+      // Triangles with a point twice are no triangles.
       if (points[0] != points[1] && points[1] != points[2])
       {
         add(static_cast<std::size_t>(points[0]), triangle);
@@ -213,6 +215,7 @@ std::vector<RepeatedTriangle> findRepeatedTriangles(
       auto first = group.begin();
       for (auto next = group.begin(); next != group.end(); ++next)
       {
+        // The first triangle of a group of equal triples.
         if (next->first != first->first)
         {
           first = next;

@@ -34,6 +34,7 @@ SplitSurface::SplitSurface(const TriangleSurface& given, const std::vector<TJunc
   // A triangle with n points on its sides has n + 1 parts.
   const std::int64_t leftOut =
     isLeftOut ? std::count(isLeftOut, isLeftOut + given.NumberOfTriangles, 1) : 0;
+  // Each T-junction adds one triangle.
   const std::int64_t count = given.NumberOfTriangles - leftOut + this->Junctions;
   this->Corners = LargeBuffer<std::int64_t>(3 * count);
   this->Origins = LargeBuffer<std::int64_t>(count);
@@ -119,6 +120,8 @@ PlaceOnTriangle SplitSurface::GivenPlace(const PlaceOnTriangle& place) const
       given.Weights[corner] = 0.0;
       for (std::size_t i = 0; i < 3; ++i)
       {
+        // weight of a given corner = sum over the part's corners of their weights times its weight
+        // there
         given.Weights[corner] += place.Weights[i] * part.Weights[i][corner];
       }
     }

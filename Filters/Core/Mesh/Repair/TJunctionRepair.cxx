@@ -47,6 +47,7 @@ public:
       { { "without flat", 2.0 * withFlat }, { "open sides", withFlat }, { "all", 1 } });
     if (flat > 0)
     {
+      // Flat triangles leave cracks, which T-junctions of their longest sides close.
       this->Find(this->IsFlat.data(), searches["without flat"]);
       if (this->Made.Parts && this->CountOpen(searches["open sides"]) <= this->Open.size())
       {
@@ -74,6 +75,7 @@ private:
     progress.ForEachInOrder(3 * count, grain, [&](std::int64_t corner) {
       bounds.Add(this->Surface.Points[this->Surface.Triangles[corner]]);
     });
+    // The tolerance is that of the whole surface.
     const PlaceOnSide place(bounds, this->Rounding);
     this->IsFlat = LargeBuffer<unsigned char>(count);
     progress.ForEach(count, grain, [&](std::int64_t triangle) {

@@ -66,6 +66,7 @@ std::vector<std::string> describeLost(
   std::string first;
   for (std::size_t b = 0; b < sets.size(); ++b)
   {
+    // The first set with open lines names one.
     first = open == 0 ? firstText(sets, b, sets[b].FirstOpenLine()) : first;
     open += sets[b].OpenLines();
   }
@@ -86,6 +87,7 @@ std::vector<std::string> describeUnusual(const std::vector<CellValues>& sets,
   const std::vector<SetFindings>& findings, ValuePlaces places, const ImageGrid& grid,
   Progress& progress)
 {
+  // The values of all sets together.
   UnusualValues all;
   for (const SetFindings& set : findings)
   {
@@ -105,6 +107,7 @@ std::vector<std::string> describeUnusual(const std::vector<CellValues>& sets,
     std::vector<CellValues> only;
     for (const CellValues& cells : sets)
     {
+      // The density where it has its largest value, 0 elsewhere.
       only.push_back(cells.Only(all.Found.Maximum));
     }
     return integralOf(only, grid, progress) / integralOf(sets, grid, progress);
