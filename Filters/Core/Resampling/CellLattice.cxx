@@ -77,7 +77,7 @@ std::optional<CellLattice> CellLattice::Find(
   return lattice;
 }
 
-// -1 for cells of another dimension; those are no misfits.
+// Cells of another dimension have the place -1; they are no misfits.
 bool CellLattice::Place(const CellSet& cells, bool hasMass, Progress& progress)
 {
   std::vector<std::int64_t> places(static_cast<std::size_t>(cells.NumberOfCells), -1);
