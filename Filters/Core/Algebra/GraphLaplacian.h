@@ -13,15 +13,16 @@ namespace RectifiedTransport
 
 class Progress;
 
-// The diagonal has the sum of the strengths of each node's edges, the other entries minus the
-// strengths. The matrix is singular: constants are not determined.
+// L(i, i) is the sum of the strengths of node i's edges, and L(i, j) is minus the strength of the
+// edge between i and j. So x^T L x is the sum over edges of strength * (x_i - x_j)^2. The matrix is
+// singular: constants are not determined.
 class GraphLaplacian
 {
 public:
   explicit GraphLaplacian(std::int64_t nodes)
     : Diagonal(static_cast<std::size_t>(nodes), 0.0)
   {
-    constexpr std::size_t edgesOfNode = 3; // in the plane at most
+    constexpr std::size_t edgesOfNode = 3; // a planar graph of n nodes has at most 3 n - 6 edges
     this->Edges.reserve(edgesOfNode * this->Diagonal.size());
   }
 
@@ -48,7 +49,7 @@ private:
   void Analyze(const SparseCholesky::Matrix& lower, Progress& progress);
 
   std::vector<double> Diagonal;
-  std::vector<Eigen::Triplet<InterruptibleReal>> Edges; // of the lower triangle
+  std::vector<Eigen::Triplet<InterruptibleReal>> Edges; // entries of the lower triangle
   SparseCholesky System;
   Eigen::Index Ordered = 0; // entries of the factor for which the order was found
 };

@@ -11,6 +11,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Sums over chunks of this many entries are the same for any number of threads.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
 // to += factor * from
@@ -32,6 +33,8 @@ double innerProduct(const std::vector<double>& a, const std::vector<double>& b, 
 void LimitedMemoryBfgs::Add(
   const std::vector<double>& step, const std::vector<double>& change, Progress& progress)
 {
+  // A secant pair (s, y) keeps the approximate Hessian positive definite only if s . y > 0. An
+  // Armijo search alone does not ensure that, so other pairs are left out.
   const double curvature = innerProduct(step, change, progress);
   if (!(curvature > 0.0))
   {
@@ -55,6 +58,8 @@ void LimitedMemoryBfgs::Add(
 void LimitedMemoryBfgs::FindDirection(const std::vector<double>& gradient,
   const std::vector<double>& diagonal, std::vector<double>& direction, Progress& progress) const
 {
+  // Nocedal's two-loop recursion. The first loop, from the newest pair to the oldest, computes a_i
+  // = s_i . q / (s_i . y_i) and q <- q - a_i y_i.
   direction = gradient;
   std::vector<double> parts(this->Pairs.size());
   for (std::size_t i = this->Pairs.size(); i-- > 0;)
@@ -63,6 +68,9 @@ void LimitedMemoryBfgs::FindDirection(const std::vector<double>& gradient,
     parts[i] = innerProduct(pair.Step, direction, progress) / pair.Curvature;
     addMultiple(-parts[i], pair.Change, direction, progress);
   }
+  // The first inverse Hessian is scale * D with the diagonal D. The scale (s . y) / (y . D y) of
+  // the newest pair satisfies the secant condition along y; with D = 1 it is the usual (s . y) / (y
+  // . y).
   double scale = 1.0;
   if (!this->Pairs.empty())
   {
@@ -76,6 +84,8 @@ void LimitedMemoryBfgs::FindDirection(const std::vector<double>& gradient,
   {
     direction[i] *= scale * diagonal[i];
   }
+  // The second loop, from the oldest pair to the newest: r <- r + (a_i - y_i . r / (s_i . y_i))
+  // s_i. Then r is H times the gradient, and -r is the direction of descent.
   for (std::size_t i = 0; i < this->Pairs.size(); ++i)
   {
     const Pair& pair = this->Pairs[i];

@@ -31,6 +31,8 @@ void DivisionPoll::Poll()
   {
     return;
   }
+  // The number of divisions that were expected is an estimate, so the reported part is limited to
+  // 1.
   Current->Done += interval;
   Current->Polled.ReportFrom(Current->Part.Begin +
     (Current->Part.End - Current->Part.Begin) * std::min(Current->Done / Current->All, 1.0));
@@ -69,7 +71,8 @@ void SparseCholesky::Factorization::Analyze(const Matrix& lower, Progress& progr
   this->analyzePattern_preordered(*pattern, true);
 }
 
-// Without the search.
+// Skips the search for an order: it permutes the matrix by the last permutation P, to P A P^T, and
+// finds only the pattern of its factor.
 void SparseCholesky::Factorization::AnalyzeInOrder(const Matrix& lower)
 {
   Matrix upper(lower.rows(), lower.cols());
@@ -80,6 +83,7 @@ void SparseCholesky::Factorization::AnalyzeInOrder(const Matrix& lower)
 
 bool SparseCholesky::Factorize(const Matrix& lower, Progress& progress, const StagePart& part)
 {
+  // LDL^T divides once for each non-zero of the factor, which gives the progress its measure.
   const DivisionPoll poll(progress, part, static_cast<double>(this->NonZeros()));
   this->Factor->factorize(lower);
   return this->Factor->info() == Eigen::Success;

@@ -25,9 +25,9 @@ public:
 
   // Finds the order of elimination and the pattern of the factor for the pattern of later matrices.
   void Analyze(const Matrix& lower);
-  // With a poll between the two. Throws Cancelled.
+  // The same, with a poll between the two steps. Throws Cancelled.
   void Analyze(const Matrix& lower, Progress& progress);
-  // The pattern of the factor of another pattern, in the order that was found last.
+  // Finds the pattern of the factor for another pattern, in the order that was found last.
   void AnalyzeInOrder(const Matrix& lower);
   // The number of non-zeros of the factor, known after the analysis.
   Eigen::Index NonZeros() const { return this->Factor->NonZeros(); }
@@ -37,6 +37,7 @@ public:
   Vector Solve(const Vector& right) const;
 
 private:
+  // L D L^T needs no square roots and exposes the protected permutation m_P to AnalyzeInOrder().
   struct Factorization : Eigen::SimplicialLDLT<Matrix, Eigen::Lower>
   {
     void Analyze(const Matrix& lower, Progress& progress);
@@ -44,7 +45,8 @@ private:
     Eigen::Index NonZeros() const { return this->m_matrix.nonZeros(); }
   };
 
-  std::unique_ptr<Factorization> Factor = std::make_unique<Factorization>(); // does not move
+  // a pointer, as Eigen's factorizations do not move
+  std::unique_ptr<Factorization> Factor = std::make_unique<Factorization>();
 };
 
 } // namespace RectifiedTransport

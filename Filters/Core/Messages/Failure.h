@@ -22,7 +22,7 @@ public:
   }
 };
 
-// What a function returns; the name precedes the message of a Failure that it throws.
+// Returns what `function` returns; `name` precedes the message of a Failure that it throws.
 template <class Function>
 auto withName(const std::string& name, const Function& function)
 {

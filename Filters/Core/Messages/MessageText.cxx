@@ -19,6 +19,8 @@ std::size_t lengthOfCharacter(const char* text)
   {
     return 1;
   }
+  // Leads 0xC0 and 0xC1 could only begin overlong forms, and leads from 0xF5 on would begin
+  // characters beyond U+10FFFF.
   const std::size_t length = lead >= 0xC2 && lead < 0xE0 ? 2
     : (lead & 0xF0) == 0xE0                              ? 3
     : lead >= 0xF0 && lead < 0xF5                        ? 4
@@ -30,7 +32,7 @@ std::size_t lengthOfCharacter(const char* text)
       return 0;
     }
   }
-  // What has a shorter form, surrogates, and what is beyond the last character.
+  // These second bytes begin an overlong form, a surrogate, or a character beyond U+10FFFF.
   const unsigned char next = length > 2 ? byte(1) : 0;
   const bool isNone = (lead == 0xE0 && next < 0xA0) || (lead == 0xED && next > 0x9F) ||
     (lead == 0xF0 && next < 0x90) || (lead == 0xF4 && next > 0x8F);
@@ -51,6 +53,7 @@ std::string messageText(const std::string& text)
     }
     else
     {
+      // A Latin-1 byte has the code point of its value, which takes two bytes in UTF-8.
       const auto byte = static_cast<unsigned char>(text[i]);
       result += static_cast<char>(0xC0 | (byte >> 6));
       result += static_cast<char>(0x80 | (byte & 0x3F));

@@ -15,7 +15,7 @@ struct NotFiniteValues
   std::int64_t First = -1; // the index of the first one
 
   void Add(std::int64_t index) { this->First = this->Count++ == 0 ? index : this->First; }
-  // Adds those of later values.
+  // Adds the count of values that come after these ones in the array.
   void Add(const NotFiniteValues& later)
   {
     this->First = this->Count == 0 ? later.First : this->First;

@@ -46,6 +46,7 @@ std::optional<double> numberOfText(const std::string& text)
 
 std::string shortened(const std::string& text)
 {
+  // The bound keeps a message that quotes a text on one line.
   constexpr std::size_t most = 40;
   return text.size() > most ? text.substr(0, most) + "..." : text;
 }

@@ -11,11 +11,11 @@ namespace RectifiedTransport
 
 bool isBlank(const std::string& text);
 
-// The number that a text is, with a dot and blanks around it in any locale; NaN and infinite ones
-// by their names. No value for other texts.
+// Returns the number that a text represents, in any locale with a dot as decimal separator and with
+// blanks around it; NaN and infinity are read by their names. Returns no value for other texts.
 std::optional<double> numberOfText(const std::string& text);
 
-// The first 40 bytes for a message.
+// Returns the first 40 bytes, for a message.
 std::string shortened(const std::string& text);
 
 } // namespace RectifiedTransport

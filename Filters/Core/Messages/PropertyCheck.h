@@ -45,13 +45,14 @@ void requireThat(bool holds, const char* property, T value, const char* rule)
   throw Failure(property + (" is " + textOf(value)) + "; it must be " + rule);
 }
 
-// The text of a value of an enumeration.
+// Returns the text of a value of an enumeration, for example for PrintSelf.
 template <std::size_t Count>
 const char* choiceText(const char* const (&texts)[Count], int value)
 {
   return value >= 0 && static_cast<std::size_t>(value) < Count ? texts[value] : "Unknown";
 }
 
+// Throws a Failure that lists all valid values with their texts.
 template <std::size_t Count>
 void requireChoice(const char* property, int value, const char* const (&texts)[Count])
 {

@@ -16,7 +16,7 @@ constexpr int hermiteCorners = 1 << Dimension;
 template <int Dimension, class Value = double>
 using HermiteData = std::array<Value, hermiteCorners<Dimension>>;
 
-// The values of two functions, which behave as one.
+// The values of two functions, which are interpolated as one: the weights are computed once.
 struct ValuePair
 {
   // Every processor has registers of this size.
@@ -50,6 +50,8 @@ HermiteData<Dimension, Value> interpolateHermite(
   const Point<Dimension>& sides)
 {
   constexpr int count = hermiteCorners<Dimension>;
+  // `value` has the cubic Hermite polynomials for the values h00, h01 and the slopes h10, h11 at
+  // both ends, scaled by the side h; `slope` has their derivatives.
   Value data[count][count]; // corner, derivative
   for (int corner = 0; corner < count; ++corner)
   {

@@ -25,6 +25,8 @@ public:
 
   explicit NodeNumbers(std::size_t expected)
   {
+    // The table has a power of two of slots, so that a mask takes the place of a remainder. It is
+    // at most half full, so that a linear probe ends after about two slots.
     std::size_t slots = 64;
     while (slots < 4 * expected)
     {

@@ -20,8 +20,8 @@ struct NumberedPoint
   std::int64_t Number;
 };
 
-// Whether a is before b along an axis. Equal coordinates are compared along the next ones, and
-// coincident points by their numbers.
+// Compares a and b along an axis. Equal coordinates are compared along the next axes, and
+// coincident points by their numbers, so that the order is total and does not depend on threads.
 template <int Dimension>
 bool isBefore(const NumberedPoint<Dimension>& a, const NumberedPoint<Dimension>& b, int axis)
 {
@@ -52,6 +52,7 @@ int widestAxis(const NumberedPoint<Dimension>* first, const NumberedPoint<Dimens
   return widest;
 }
 
+// A block as a signed number.
 constexpr std::int64_t wholeBlock = repulsionBlock;
 
 } // namespace
@@ -67,6 +68,8 @@ void ReachTree<Dimension>::Begin(std::int64_t points)
 template <int Dimension>
 void ReachTree<Dimension>::End()
 {
+  // Lanes without a point have the squared spacing -infinity: the test |gap|^2 < reach * (sum of
+  // squares) then fails for every target.
   ScaledPoint<Dimension> missing{};
   missing.Square = -std::numeric_limits<double>::infinity();
   for (std::int64_t i = this->Count; i < this->Blocks() * repulsionBlock; ++i)
@@ -89,6 +92,8 @@ void ReachTree<Dimension>::BuildInOrder(
   progress.Check();
 }
 
+// A balanced tree: each node halves its points at the median of its widest axis, at a multiple of
+// the block size. nth_element gives O(n log n) in all.
 template <int Dimension>
 void ReachTree<Dimension>::Build(
   const std::vector<ScaledPoint<Dimension>>& points, Progress& progress)
@@ -131,6 +136,7 @@ void ReachTree<Dimension>::Build(
   progress.Check();
 }
 
+// The bounds take the block's real points alone: the lanes that are missing have no place.
 template <int Dimension>
 BlockBounds<Dimension> ReachTree<Dimension>::BoundsOf(std::int64_t number) const
 {
@@ -187,6 +193,8 @@ void ReachTree<Dimension>::Update()
   this->Boxes.Update();
 }
 
+// Lanes beyond the last point repeat it: the kernels compute whole registers, and the caller
+// ignores these sums.
 template <int Dimension>
 int ReachTree<Dimension>::Fill(std::int64_t block, RepulsionBlock<Dimension>& into) const
 {
@@ -209,12 +217,17 @@ template <int Dimension>
 void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t block,
   std::int64_t last, double reach, InReach& found) const
 {
+  // Blocks that are neighbours in the order share one search through the boxes, for the box around
+  // all of them. Select() then tests each point exactly. 8 blocks of 8 points have nearly the same
+  // neighbours, while a larger group would pass many points to Select() that it rejects.
   constexpr std::int64_t together = 8;
   if (block < found.First || block >= found.Last)
   {
     found.First = block;
     found.Last = std::min((block / together + 1) * together, last);
     const BlockBounds<Dimension> target = targets.Boxes.BoundsOf(found.First, found.Last);
+    // A block can be in reach if the gap d between both boxes satisfies d^2 < reach * (h^2 + k^2)
+    // for the largest spacings h and k in them.
     this->Boxes.Find(
       [&](const BlockBounds<Dimension>& box) {
         return squaredGap<Dimension>(box, target) < reach * (box.Largest + target.Largest);

@@ -29,14 +29,14 @@ ScaledPoint<Dimension> scaledPoint(const Point<Dimension>& x, double spacing, do
   return point;
 }
 
-// What is in reach of some blocks, and memory for it that is used again.
+// The blocks and points in reach of some blocks, and their memory, which is used again.
 struct InReach
 {
   std::int64_t First = 0; // the blocks [First, Last) for which Blocks were found
   std::int64_t Last = 0;
   std::vector<std::int64_t> Blocks;
   std::vector<std::int64_t> Points; // their numbers in the order of the tree, for one of them
-  std::int64_t Count = 0;           // of Points; the rest has no meaning
+  std::int64_t Count = 0;           // number of valid entries in Points
 };
 
 template <int Dimension>
@@ -68,6 +68,8 @@ public:
     InReach& found) const;
 
 private:
+  // Begin() allocates blocks for `points` points; End() marks the missing ones and builds the
+  // boxes.
   void Begin(std::int64_t points);
   void End();
   BlockBounds<Dimension> BoundsOf(std::int64_t block) const;
@@ -76,7 +78,7 @@ private:
   std::int64_t Count = 0;
   std::vector<ScaledBlock<Dimension>> Sorted;
   std::vector<std::int64_t> Places;
-  BlockTree<Dimension> Boxes; // whose largest numbers are squared spacings
+  BlockTree<Dimension> Boxes; // its `Largest` is the largest squared spacing in a box
 };
 
 } // namespace RectifiedTransport

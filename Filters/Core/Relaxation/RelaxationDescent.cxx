@@ -12,10 +12,12 @@ namespace RectifiedTransport
 namespace
 {
 
+// Pairs (s, y) of the L-BFGS method, each of two vectors of the size of x.
 constexpr std::size_t pairsKept = 6;
-constexpr int mostEvaluations = 12;  // along a direction
-constexpr double sufficient = 1e-4;  // Armijo's part of the change to first order
-constexpr int stepsBetweenSorts = 8; // in which points move little against each other
+constexpr int mostEvaluations = 12; // along one direction; each shortens the step to at most half
+// Armijo's part c of the first-order change: f(x + s) <= f(x) + c g . s
+constexpr double sufficient = 1e-4;
+constexpr int stepsBetweenSorts = 8; // points move little against each other in so few steps
 
 } // namespace
 
@@ -68,6 +70,8 @@ RelaxationReport RelaxationDescent<Dimension>::Run(
 
 template <int Dimension>
 bool RelaxationDescent<Dimension>::Step(Progress& progress)
+// A step tries, in this order: the L-BFGS direction; the scaled gradient, after a reset of the
+// Hessian; and a step in which points at forbidden places need not leave them.
 {
   const bool isFresh = this->Hessian.IsEmpty();
   bool isDone = this->Search(true, progress);
@@ -88,6 +92,8 @@ bool RelaxationDescent<Dimension>::Step(Progress& progress)
   return true;
 }
 
+// A coordinate at the border whose descent leads outwards is in the active set: it is fixed for
+// this step, as in projected quasi-Newton methods.
 template <int Dimension>
 bool RelaxationDescent<Dimension>::IsHeld(std::size_t i) const
 {
@@ -95,6 +101,8 @@ bool RelaxationDescent<Dimension>::IsHeld(std::size_t i) const
 }
 
 template <int Dimension>
+// The direction is -H g in the free coordinates, where the first inverse Hessian is proportional to
+// h^2 of each point's spacing h.
 void RelaxationDescent<Dimension>::FindDirection(Progress& progress)
 {
   for (std::size_t i = 0; i < this->X.size(); ++i)
@@ -104,6 +112,8 @@ void RelaxationDescent<Dimension>::FindDirection(Progress& progress)
     this->Free[i] = this->IsHeld(i) ? 0.0 : this->Gradient[i];
   }
   this->Hessian.FindDirection(this->Free, this->Diagonal, this->Direction, progress);
+  // Without pairs, H has no scale. The first step then has the given root mean square: sqrt(sum
+  // (d_i / h_i)^2 / n) = FirstStep spacings.
   double scale = 1.0;
   if (this->Hessian.IsEmpty() && this->Settings.FirstStep > 0.0)
   {
@@ -123,6 +133,8 @@ void RelaxationDescent<Dimension>::FindDirection(Progress& progress)
   this->ShortenDirection();
 }
 
+// Limits each point's step to LongestStep spacings: the quadratic model holds only while a point
+// stays among its neighbours.
 template <int Dimension>
 void RelaxationDescent<Dimension>::ShortenDirection()
 {
@@ -151,9 +163,11 @@ bool RelaxationDescent<Dimension>::Search(bool hasAims, Progress& progress)
   {
     this->Function.Aim(PointsOf(this->X), PointsOf(this->Direction), this->Aimed, progress);
   }
+  // A backtracking line search. `part` is the fraction of the direction that is tried.
   double part = 1.0;
   for (int tries = 0; tries < mostEvaluations; ++tries)
   {
+    // The projection may turn the step: only a step with g . s < 0 descends.
     const double slope = this->Move(part, progress);
     if (!(slope < 0.0))
     {
@@ -166,7 +180,9 @@ bool RelaxationDescent<Dimension>::Search(bool hasAims, Progress& progress)
       this->Accept(found, progress);
       return true;
     }
-    // The minimum of the parabola through what is known, within bounds.
+    // The minimum of the parabola through f(x), the slope g . s and f(x + s), relative to the step.
+    // The bounds keep the search from stalling (0.1) and make it finite (0.5); an infinite energy
+    // gives 0.1.
     part *= std::clamp(-0.5 * slope / (found - this->Value - slope), 0.1, 0.5);
   }
   return false;
@@ -175,8 +191,8 @@ bool RelaxationDescent<Dimension>::Search(bool hasAims, Progress& progress)
 template <int Dimension>
 double RelaxationDescent<Dimension>::Move(double part, Progress& progress)
 {
-  // The least part of the distance to the border that stays: points that met at a corner would
-  // never leave each other.
+  // Points that are not aimed keep at least this part of their distance to the border. Points that
+  // met in a corner would never leave each other.
   constexpr double usualRest = 0.125;
   for (std::size_t i = 0; i < this->X.size(); ++i)
   {
@@ -198,6 +214,7 @@ double RelaxationDescent<Dimension>::Move(double part, Progress& progress)
 template <int Dimension>
 void RelaxationDescent<Dimension>::Accept(double found, Progress& progress)
 {
+  // The secant pair: s = x_new - x, y = g_new - g.
   for (std::size_t i = 0; i < this->X.size(); ++i)
   {
     this->Taken[i] = this->Next[i] - this->X[i];

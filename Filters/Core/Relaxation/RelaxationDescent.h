@@ -17,9 +17,11 @@ namespace RectifiedTransport
 
 struct DescentSettings
 {
-  double LongestStep;   // of a point, in its spacings; may be infinite
-  double FirstStep;     // root mean square, in spacings; 0: the spacings' squares have no factor
-  double EnergiesAUnit; // reported energies in those of the function
+  double LongestStep; // longest step of a point, in its spacings; may be infinite
+  // The root mean square of the first step, in spacings. With 0, the squares of the spacings are
+  // the inverse Hessian's diagonal as they are, without a factor.
+  double FirstStep;
+  double EnergiesAUnit; // factor from the function to the reported energy
 };
 
 template <int Dimension>
@@ -48,12 +50,14 @@ private:
   double Side(std::size_t i) const { return this->Frame.Sides[i % Dimension]; }
   // Whether a coordinate is at the border and descends outwards.
   bool IsHeld(std::size_t i) const;
+  // Computes Direction: minus the inverse Hessian times the free gradient, shortened.
   void FindDirection(Progress& progress);
   void ShortenDirection();
   // Searches along a new direction. Without aims, points may stay at forbidden places.
   bool Search(bool hasAims, Progress& progress);
   // Moves by a part of the direction into Next. Returns the change of the energy to first order.
   double Move(double part, Progress& progress);
+  // Makes Next the current points, and adds the secant pair to the Hessian.
   void Accept(double found, Progress& progress);
 
   RelaxationEnergy<Dimension>& Function;
@@ -62,13 +66,13 @@ private:
   Vector& X;
   double Value = 0.0;
   Vector Gradient;
-  Vector Spacings; // of the points
+  Vector Spacings; // spacing at each point, in units of the frame
   LimitedMemoryBfgs Hessian;
-  Vector Free;      // the gradient, 0 of coordinates that are held
-  Vector Diagonal;  // of the inverse Hessian
-  Vector Direction; // of the search
+  Vector Free;      // the gradient, 0 for coordinates that are held
+  Vector Diagonal;  // diagonal of the inverse Hessian, up to a factor
+  Vector Direction; // direction of the search
   Vector Taken;     // the step of an iteration
-  Vector Change;    // of the gradient in it
+  Vector Change;    // change of the gradient in that step
   Vector Next;
   Vector NextGradient;
   Vector NextSpacings;

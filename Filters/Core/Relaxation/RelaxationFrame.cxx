@@ -33,6 +33,8 @@ RelaxationFrame<Dimension>::RelaxationFrame(
     }
     largest = std::max(largest, side);
   }
+  // The unit is the mean spacing: the side of a cube with the measure of the domain for each point,
+  // where axes thinner than that side are covered completely.
   double measure = 1.0 / static_cast<double>(std::max<std::int64_t>(points, 1));
   for (int axis = 0; axis < Dimension; ++axis)
   {
@@ -51,6 +53,8 @@ RelaxationFrame<Dimension>::RelaxationFrame(
 template <int Dimension>
 double RelaxationFrame<Dimension>::SideOf(double measure) const
 {
+  // Finds the side s with the product over axes of min(s, side of the domain) = measure: while s
+  // passes the shortest side, that axis is divided out and the root has one degree less.
   Point<Dimension> sides = this->Sides;
   std::sort(sides.begin(), sides.end());
   if (!(root<Dimension>(measure) > sides[0]))

@@ -17,13 +17,13 @@ struct RelaxationFrame
   RelaxationFrame(
     const GridSize<Dimension>& size, const Point<Dimension>& spacing, std::int64_t points);
 
-  // The side of a cube that has a measure in the domain; it covers thin axes.
+  // Returns the side of a cube whose part in the domain has this measure, if it covers thin axes.
   double SideOf(double measure) const;
   // The same for a measure in grid cells.
   double SideOfCells(double cells) const;
 
-  Point<Dimension> Sides;     // of the domain
-  Point<Dimension> CellSides; // of a grid cell
+  Point<Dimension> Sides;     // sides of the domain, in mean spacings
+  Point<Dimension> CellSides; // sides of a grid cell, in mean spacings
 };
 
 } // namespace RectifiedTransport

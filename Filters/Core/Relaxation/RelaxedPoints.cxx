@@ -58,7 +58,11 @@ template <int Dimension>
 void RelaxedPoints<Dimension>::Separate(
   const std::function<double(const Point<Dimension>&)>& spacing, Progress& progress)
 {
+  // The displacement of coincident points, in spacings: far above rounding, and too small to change
+  // what the energy sees of the density.
   constexpr double part = 1.0 / 64;
+  // Sorted by coordinates, coincident points are neighbours. `ordinal` numbers them in a place; it
+  // alone chooses the displacement, so that the result does not depend on the order of the points.
   std::vector<std::int64_t> order(static_cast<std::size_t>(this->Size()));
   std::iota(order.begin(), order.end(), 0);
   Polls polls(progress);
@@ -91,11 +95,14 @@ void RelaxedPoints<Dimension>::MoveAside(std::int64_t point, double distance, st
     const double aside = distance * (2.0 * unitReal(randomWord(stream, ordinal)) - 1.0);
     const double side = this->Frame.Sides[axis];
     double& x = this->X[static_cast<std::size_t>(point * Dimension + axis)];
-    // Mirrored at the border, where clamping would put several in one place.
+    // A displacement that leads out of the domain is mirrored. Clamping would put several points
+    // into the same place.
     x = std::clamp(x + (x + aside < 0.0 || x + aside > side ? -aside : aside), 0.0, side);
   }
 }
 
+// Points in the order of a ReachTree are near each other in memory. All spacings are 1: the tree
+// then divides by position alone.
 template <int Dimension>
 void RelaxedPoints<Dimension>::Arrange(Progress& progress)
 {
@@ -123,6 +130,7 @@ void RelaxedPoints<Dimension>::Write(
     for (int axis = 0; axis < Dimension; ++axis)
     {
       const double x = this->X[static_cast<std::size_t>(i * Dimension + axis)];
+      // A coordinate that did not change keeps its bits: x * side / side may differ by rounding.
       const bool isMoved = x != this->Given[static_cast<std::size_t>(point * Dimension + axis)];
       double& index = points[point][axis];
       index = std::clamp(

@@ -32,7 +32,7 @@ public:
 
   std::int64_t Size() const { return static_cast<std::int64_t>(this->X.size()) / Dimension; }
   ConstPointSpan<Dimension> Get() const { return { this->X.data(), this->Size() }; }
-  // The points and the coordinates, which may be changed.
+  // Writable views on the points and on their coordinates, interleaved.
   PointSpan<Dimension> Get() { return { this->X.data(), this->Size() }; }
   std::vector<double>& Coordinates() { return this->X; }
 
@@ -50,6 +50,7 @@ private:
   void MoveAside(std::int64_t point, double distance, std::uint64_t ordinal);
 
   const RelaxationFrame<Dimension> Frame;
+  // Current and given coordinates, interleaved, in the frame's units.
   std::vector<double> X;
   std::vector<double> Given;
   std::vector<std::int64_t> Order; // empty: the original order

@@ -12,6 +12,8 @@ namespace RectifiedTransport
 namespace
 {
 
+// Chunks in leaves, nodes or points, and in blocks of points. They are fixed, so that sums do not
+// depend on the number of threads.
 constexpr std::int64_t grain = 256;
 constexpr std::int64_t firstSlice = 16 * grain; // a few milliseconds
 constexpr std::int64_t blockGrain = 16;
@@ -28,6 +30,7 @@ RepulsionEnergy<Dimension>::RepulsionEnergy(const RectifiedFlow<Dimension>& flow
   , Count(static_cast<double>(points))
   , Kernels(repulsionKernels<Dimension>())
 {
+  // g(q) uses the kernels' own exp, so that it is exactly 0 at Cut.
   this->Shape.PerVariance = 0.5 / (width.Deviation * width.Deviation);
   this->Shape.Cut = width.Cut;
   this->Shape.AtCut = this->Kernels.Exponential(width.Cut);
@@ -35,7 +38,9 @@ RepulsionEnergy<Dimension>::RepulsionEnergy(const RectifiedFlow<Dimension>& flow
   this->FindAttraction(progress);
 }
 
-// The masses of the leaves at their centroids, found from those of their halves along all axes.
+// The quadrature of A(x) = integral of n K: each leaf counts as a point mass at its centroid. The
+// masses of its 2^D parts are exact (from summed-area tables); each part's centroid is taken to be
+// its centre, at 1/4 or 3/4 of the leaf.
 template <int Dimension>
 ReachTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progress) const
 {
@@ -64,6 +69,7 @@ ReachTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progress)
           centroid[axis] += share * ((part >> axis & 1) ? 0.75 : 0.25);
         }
       }
+      // Leaves without mass keep any spacing; they are removed below.
       double spacing = 1.0;
       if (mass > 0.0)
       {
@@ -73,8 +79,10 @@ ReachTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progress)
           at[axis] = centroid[axis] / mass;
           centroid[axis] = low[axis] + at[axis] * sides[axis];
         }
+        // The kernel's width at a source is the spacing at its centroid.
         spacing = this->Tree.Evaluate(this->Tree.Spacing(), this->Tree.InLeaf(leaf, at))[0];
       }
+      // Mass * Count: the density is scaled to the number of points, so that it cancels theirs.
       sources[static_cast<std::size_t>(leaf)] =
         scaledPoint<Dimension>(centroid, spacing, mass * this->Count);
     },
@@ -88,6 +96,9 @@ ReachTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progress)
   return tree;
 }
 
+// A(x) and its gradient at the nodes, which are points with the spacing h(x). The total derivative
+// has the change of the spacing with the place: dA/dx = (dA/dx at constant h) + (dA/d(h^2)) 2 h
+// dh/dx.
 template <int Dimension>
 typename SpacingTree<Dimension>::Field RepulsionEnergy<Dimension>::SumAttraction(
   const ReachTree<Dimension>& sources, Progress& progress) const
@@ -134,6 +145,8 @@ typename SpacingTree<Dimension>::Field RepulsionEnergy<Dimension>::SumAttraction
   return attraction;
 }
 
+// Prepares what does not depend on the points: A as a Hermite field, and the constant of the
+// energy.
 template <int Dimension>
 void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
 {
@@ -143,6 +156,8 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
     attraction = this->SumAttraction(sources, progress);
     this->Tree.FindMixed(attraction, false, progress);
     progress.Check();
+    // The constant integral of n A, by the same quadrature: the sum over sources of mass *
+    // A(source).
     std::vector<double> parts(static_cast<std::size_t>(sources.Size()));
     progress.ForEach(
       sources.Size(), grain,
@@ -155,6 +170,7 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
       firstSlice);
     this->Constant = std::accumulate(parts.begin(), parts.end(), 0.0);
   }
+  // The spacing and A are interleaved, so that one evaluation with common weights gives both.
   this->Fields.resize(attraction.size());
   progress.ForEach(
     this->Tree.Nodes(), grain,
@@ -169,6 +185,7 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
   progress.Check();
 }
 
+// Sorts the points into blocks of neighbours. Leaves begin at 0 as a guess for the search.
 template <int Dimension>
 void RepulsionEnergy<Dimension>::Sort(ConstPointSpan<Dimension> points, Progress& progress)
 {
@@ -191,6 +208,8 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
   using Data = HermiteData<Dimension, ValuePair>;
   const std::int64_t count = points.size();
   const std::int64_t* order = this->Particles.Order();
+  // First pass: the spacing and A at each point. A block of 16 points is located and its nodes are
+  // prefetched before the first is evaluated: the latency of memory is then hidden.
   progress.For(
     count, grain,
     [&](std::int64_t first, std::int64_t last) {
@@ -225,6 +244,9 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
     },
     firstSlice);
   this->Particles.Update();
+  // Second pass: the repulsion. The double sum over points counts each pair twice, and K is
+  // symmetric, so dE/dx_i = (2 / N) (sum over j of dK(x_i, x_j)/dx_i - dA/dx_i), with total
+  // derivatives again.
   const double scale = 2.0 / this->Count;
   progress.For(
     this->Particles.Blocks(), blockGrain,
@@ -237,6 +259,8 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
         const int filled = this->Particles.Fill(i, block);
         this->Kernels.Sum(
           this->Shape, this->Particles.Points(), found.Points.data(), found.Count, block);
+        // The part of this block in N E: the sum over its points of (sum over j of K) - 2 A. The
+        // term j = i is K(x, x) = g(0), whose gradient is 0.
         double sum = 0.0;
         for (int lane = 0; lane < filled; ++lane)
         {
@@ -256,6 +280,7 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
       }
     },
     blockGrain);
+  // The parts are added in the order of the blocks, whatever the threads.
   double sum = this->Constant;
   for (const double energy : this->Parts)
   {

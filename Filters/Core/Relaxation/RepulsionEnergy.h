@@ -15,11 +15,11 @@ namespace RectifiedTransport
 
 struct RepulsionWidth
 {
-  double Deviation; // of the Gaussians, in spacings
-  double Cut;       // exp(-Cut) is where the kernel ends
+  double Deviation; // standard deviation s of the Gaussians, in spacings
+  double Cut;       // the kernel ends where exp(-q) is exp(-Cut)
 
-  // The squared distance at which the kernel ends, for each unit of the sum of two squared
-  // spacings.
+  // The squared distance at which the kernel ends, per unit of the sum of two squared spacings: q =
+  // |x - y|^2 / (2 s^2 (h^2 + k^2)) = Cut.
   double Reach() const { return 2.0 * this->Cut * this->Deviation * this->Deviation; }
 };
 
@@ -42,10 +42,12 @@ public:
     Progress& progress) override;
 
 private:
+  // Returns the masses of the leaves, at their centroids.
   ReachTree<Dimension> FindSources(Progress& progress) const;
   // Values and first derivatives of A at the nodes.
   typename SpacingTree<Dimension>::Field SumAttraction(
     const ReachTree<Dimension>& sources, Progress& progress) const;
+  // Computes A at the nodes (Fields) and the integral of n A (Constant).
   void FindAttraction(Progress& progress);
 
   const RectifiedFlow<Dimension>& Flow;
@@ -55,14 +57,14 @@ private:
   const RepulsionKernels<Dimension> Kernels;
   RepulsionShape Shape;
   double Reach;
-  // The spacing and A.
+  // The spacing h and the attraction A at the nodes of the tree.
   typename SpacingTree<Dimension>::template FieldOf<ValuePair> Fields;
   double Constant = 0.0;
   ReachTree<Dimension> Particles;
-  // Of each point in the order of Particles: the fields there, and its leaf.
+  // For each point in the order of Particles: h and A there, and the leaf that contains it.
   std::vector<HermiteData<Dimension, ValuePair>> AtPoints;
   std::vector<std::int64_t> Leaves;
-  std::vector<double> Parts; // of the energy, of each block
+  std::vector<double> Parts; // each block's part in N E
 };
 
 } // namespace RectifiedTransport

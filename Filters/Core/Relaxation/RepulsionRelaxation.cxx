@@ -22,11 +22,13 @@ namespace
 template <int Dimension>
 constexpr RepulsionWidth repulsionWidth = { Dimension == 2 ? 0.5 : 0.45, 13.8 };
 
-// The widest leaves, in spacings: the interpolation then changes energies by about 1e-4
-// (2D) and 1e-3 (3D).
+// The widest leaves, in spacings. The interpolation then changes energies by about 1e-4 (2D) and
+// 1e-3 (3D).
 template <int Dimension>
 constexpr double finestLeaf = Dimension == 2 ? 0.6 : 0.75;
 
+// A step is at most 0.3 spacings long, so that two neighbours that approach each other do not meet.
+// The first step has a root mean square of 0.1 spacings, as the gradient has no scale yet.
 constexpr DescentSettings settings = { 0.3, 0.1, 1.0 };
 
 } // namespace
@@ -60,6 +62,8 @@ RelaxationReport relaxByRepulsion(const DensitySource<Dimension>& density,
   relaxed.Separate(
     [&](const Point<Dimension>& x) { return tree->Evaluate(tree->Spacing(), tree->Locate(x))[0]; },
     stages["points"]);
+  // The tree is made again with a limit only if the points are distributed so differently from the
+  // density that their kernels would have too many neighbours.
   const double limit =
     affordableSpacing<Dimension>(*tree, relaxed.Get(), width.Reach(), stages["points"]);
   if (!std::isinf(limit))

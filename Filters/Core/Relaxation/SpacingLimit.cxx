@@ -15,8 +15,9 @@ namespace
 
 constexpr std::int64_t grain = 256;
 
-// Neighbours of a point: about 20 times as many as points have that are distributed like the
-// density, and any number if that makes few pairs.
+// The bound of the mean number of neighbours: about 20 times as many as points have that are
+// distributed like the density. More are affordable if there are few points, as long as there are
+// at most 1e8 pairs.
 template <int Dimension>
 double affordableNeighbours(std::int64_t points)
 {
@@ -24,7 +25,7 @@ double affordableNeighbours(std::int64_t points)
   return std::max(Dimension == 2 ? 2000.0 : 10000.0, pairs / static_cast<double>(points));
 }
 
-// The mean over a sample of blocks.
+// The mean over a sample of at most 64 blocks, evenly spaced in the order of the tree.
 template <int Dimension>
 double meanNeighbours(const ReachTree<Dimension>& tree, double reach, Progress& progress)
 {
@@ -64,6 +65,8 @@ double affordableSpacing(const SpacingTree<Dimension>& tree, ConstPointSpan<Dime
     16 * grain);
   ReachTree<Dimension> neighbours;
   neighbours.Build(scaled, progress);
+  // Lowers the largest spacing by 30 % a round, until the sample has an affordable number of
+  // neighbours. At the mean spacing, 1, it ends.
   double limit = std::numeric_limits<double>::infinity();
   while (limit > 1.0 && meanNeighbours(neighbours, reach, progress) > affordable)
   {

@@ -16,8 +16,9 @@ namespace
 
 constexpr std::int64_t grain = 256;
 constexpr std::int64_t firstSlice = 16 * grain; // a few milliseconds
-// A little less than the width of leaves where the spacing is the mean, times a power of two: then
-// rounding does not divide those of a uniform density once more.
+// The side of roots, in units of the finest width where the spacing is the mean. It is a power of
+// two times slightly less than that width: rounding then does not divide the leaves of a uniform
+// density once more.
 constexpr double rootSide = 0.97 * 8; // times the finest
 
 } // namespace
@@ -34,12 +35,15 @@ SpacingTree<Dimension>::SpacingTree(const RectifiedFlow<Dimension>& flow,
   const double widest = *std::max_element(frame.CellSides.begin(), frame.CellSides.end());
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // Aspect has the number of cells along each axis that make a cube in physical space.
     this->Aspect[axis] = widest / frame.CellSides[axis];
     this->Roots[axis] =
       std::max<std::int64_t>(1, std::llround(std::ceil(frame.Sides[axis] / (rootSide * finest))));
     this->RootSides[axis] = frame.Sides[axis] / static_cast<double>(this->Roots[axis]);
   }
   const double widestRoot = *std::max_element(this->RootSides.begin(), this->RootSides.end());
+  // An axis is not halved until its side is at least a quarter of the widest one: boxes that are
+  // thin along an axis stay whole there, which bounds the number of leaves.
   for (int axis = 0; axis < Dimension; ++axis)
   {
     int& first = this->FirstHalved[axis];
@@ -63,6 +67,7 @@ SpacingTree<Dimension>::SpacingTree(const RectifiedFlow<Dimension>& flow,
   this->FindSpacing(progress);
 }
 
+// The spacing h(x) is the side of the cube about x with the share 1 / N of the mass.
 template <int Dimension>
 double SpacingTree<Dimension>::ExactSpacing(const Point<Dimension>& x) const
 {
@@ -77,7 +82,8 @@ double SpacingTree<Dimension>::ExactSpacing(const Point<Dimension>& x) const
   return std::min(side, this->Largest);
 }
 
-// Mostly by the share in the cube of this side, without a search for the spacing.
+// Decides h(x) < side mostly by the mass of the cube of this side, without the search for h: the
+// cube holds more than a share exactly if h is smaller.
 template <int Dimension>
 bool SpacingTree<Dimension>::IsSpacingBelow(double side, const Point<Dimension>& x) const
 {
@@ -100,7 +106,9 @@ bool SpacingTree<Dimension>::IsSpacingBelow(double side, const Point<Dimension>&
   return std::abs(shares - 1.0) > doubt ? shares > 1.0 : side > this->ExactSpacing(x);
 }
 
-// Level by level.
+// Divides breadth first: all boxes of a depth are tested in parallel, then their children are
+// appended in a fixed order. A box is divided where its widest side exceeds `finest` spacings at
+// its centre.
 template <int Dimension>
 void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
 {
@@ -146,9 +154,10 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
       this->Children.push_back(static_cast<std::int64_t>(this->Boxes.size()));
       this->Boxes.push_back(this->Boxes[i]);
       ++this->Boxes.back().Depth;
+      // Child k has bit j of k set if it is the upper half along the j-th axis that is halved.
       for (int axis = 0; axis < Dimension; ++axis)
       {
-        // The upper halves of those that are there.
+        // Append the upper halves of the boxes made so far for this parent.
         const std::size_t halves = this->Boxes.size();
         for (auto k = static_cast<std::size_t>(this->Children[i]);
              k < halves && this->IsHalved(axis, depth); ++k)
@@ -162,11 +171,13 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
   }
 }
 
-// Leaves that are near each other are near in their order, and so are nodes.
+// Numbers the leaves in the order of a depth-first traversal, which bisects the lattice of roots
+// along its longest axis. Leaves that are near each other are then near in memory, and so are their
+// nodes.
 template <int Dimension>
 void SpacingTree<Dimension>::OrderLeaves(Progress& progress)
 {
-  struct Range // of roots
+  struct Range // half-open box of roots
   {
     Node Low;
     Node High;
@@ -203,6 +214,7 @@ void SpacingTree<Dimension>::OrderLeaves(Progress& progress)
       std::int64_t& first = this->Children[static_cast<std::size_t>(box)];
       if (first < 0)
       {
+        // A leaf stores -1 - number in place of its first child.
         first = -1 - this->Leaves();
         this->LeafBoxes.push_back({ this->Boxes[static_cast<std::size_t>(box)], {} });
         progress.Add(1);
@@ -222,6 +234,7 @@ void SpacingTree<Dimension>::OrderLeaves(Progress& progress)
   }
 }
 
+// Numbers the corners of leaves, each of which belongs to up to 2^D leaves, in the leaves' order.
 template <int Dimension>
 void SpacingTree<Dimension>::Number(Progress& progress)
 {
@@ -249,10 +262,12 @@ void SpacingTree<Dimension>::Number(Progress& progress)
         this->WidestLeafAt(this->NodePlaces[static_cast<std::size_t>(node)]);
     },
     firstSlice);
-  this->Boxes = {}; // places are found without
+  this->Boxes = {}; // no longer needed: the leaves have their own
   this->FindConstrained();
 }
 
+// A node is constrained if it is not a corner of the widest leaf that touches it, that is, if a
+// coordinate is no multiple of that leaf's width. The list has the widest leaves first (see Join).
 template <int Dimension>
 void SpacingTree<Dimension>::FindConstrained()
 {
@@ -284,7 +299,7 @@ std::int64_t SpacingTree<Dimension>::WidestLeafAt(const Node& node) const
   std::int64_t widest = -1;
   for (int side = 0; side < hermiteCorners<Dimension>; ++side)
   {
-    // The finest leaf possible above or below the node along each axis.
+    // Each of the 2^D finest possible boxes around the node; `side` has a bit for the upper one.
     Node fixed;
     std::int64_t root = 0;
     bool isInside = true;
@@ -354,6 +369,8 @@ typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
   return this->PlaceIn(in, isInside ? guess : this->LeafIn(in.Root, in.Fixed));
 }
 
+// `Fixed` is the place in the root in fixed point, with 24 bits along each axis. Each further bit
+// selects a half on the way down.
 template <int Dimension>
 typename SpacingTree<Dimension>::RootPlace SpacingTree<Dimension>::LocateRoot(
   const Point<Dimension>& x) const
@@ -373,6 +390,8 @@ typename SpacingTree<Dimension>::RootPlace SpacingTree<Dimension>::LocateRoot(
   return in;
 }
 
+// Descends by the bits of the fixed-point coordinates: one bit for each axis that is halved at a
+// depth.
 template <int Dimension>
 std::int64_t SpacingTree<Dimension>::LeafIn(std::int64_t root, const Node& fixed) const
 {
@@ -395,6 +414,7 @@ std::int64_t SpacingTree<Dimension>::LeafIn(std::int64_t root, const Node& fixed
   return -1 - first;
 }
 
+// The place relative to the leaf: (at * 2^halvings) less its integer part.
 template <int Dimension>
 typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::PlaceIn(
   const RootPlace& in, std::int64_t leaf) const

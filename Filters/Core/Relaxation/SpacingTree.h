@@ -27,7 +27,8 @@ template <int Dimension>
 class SpacingTree
 {
 public:
-  using Node = std::array<std::int64_t, Dimension>; // in units of the finest leaf possible
+  // coordinates in units of the finest possible leaf
+  using Node = std::array<std::int64_t, Dimension>;
   template <class Value>
   using FieldOf = std::vector<HermiteData<Dimension, Value>>; // data at the nodes
   using Field = FieldOf<double>;
@@ -51,13 +52,13 @@ public:
   {
     std::int64_t Leaf;
     Point<Dimension> At;           // in [0, 1]
-    const Point<Dimension>* Sides; // of the leaf
+    const Point<Dimension>* Sides; // sides of the leaf
   };
   Place Locate(const Point<Dimension>& x) const;
   // The same, faster if the place is in leaf `guess`.
   Place Locate(const Point<Dimension>& x, std::int64_t guess) const;
 
-  // The place `at` in a leaf.
+  // Returns the place at the relative coordinates `at`, in [0, 1], of a leaf.
   Place InLeaf(std::int64_t leaf, const Point<Dimension>& at) const
   {
     return { leaf, at, &this->LeafSides(leaf) };
@@ -93,7 +94,7 @@ public:
   // derivatives from differences of first derivatives, then calls Join.
   void FindMixed(Field& field, bool first, Progress& progress) const;
 
-  // The spacing.
+  // The spacing at the nodes, in units of the frame.
   const Field& Spacing() const { return this->SpacingField; }
   // Evaluates the definition of the spacing.
   double ExactSpacing(const Point<Dimension>& x) const;
@@ -113,20 +114,23 @@ private:
   {
     Point<Dimension> At; // in [0, 1]
     Node Fixed;          // the same in units of the finest leaf possible, below the upper end
-    Node Low;            // of the root, in these units
+    Node Low;            // lower end of the root, in these units
     std::int64_t Root;
   };
 
   // Whether the spacing at a place is less than a length.
   bool IsSpacingBelow(double side, const Point<Dimension>& x) const;
   void Divide(double finest, Progress& progress);
+  // Sets the children of leaves to -1 - number, and fills LeafBoxes.
   void OrderLeaves(Progress& progress);
   void Number(Progress& progress);
+  // Finds nodes that are within a face of a larger leaf, see Join.
   void FindConstrained();
   void FindSpacing(Progress& progress);
   bool IsHalved(int axis, int depth) const { return depth >= this->FirstHalved[axis]; }
   // How often a box of a depth was halved along an axis.
   int Halvings(int axis, int depth) const { return std::max(0, depth - this->FirstHalved[axis]); }
+  // The width of a box of a depth, in units of the finest possible leaf.
   std::int64_t Width(int axis, int depth) const
   {
     return std::int64_t{ 1 } << (DeepestLevel - this->Halvings(axis, depth));
@@ -158,24 +162,27 @@ private:
   // Multilinear interpolation of one entry of the data.
   double Linear(const Field& field, int entry, const Point<Dimension>& x) const;
 
+  // 24 halvings leave a double enough digits for the place in the finest leaf.
   static constexpr int DeepestLevel = 24;
 
   const RectifiedFlow<Dimension>& Flow;
   const RelaxationFrame<Dimension> Frame;
   const std::int64_t Points;
   const double Largest;
+  // The lattice of roots: its size, and the sides of a root in the frame's units.
   Node Roots;
   Point<Dimension> RootSides;
   std::array<int, Dimension> FirstHalved; // the smallest depth of boxes that are halved along an
                                           // axis
+  // The cells along each axis that a physical cube has, relative to the widest cell.
   Point<Dimension> Aspect;
   std::array<Point<Dimension>, DeepestLevel + 1> SidesOfDepth;
   std::vector<Box> Boxes;
-  // Of each box, the first of its consecutive children; -1 - leaf of a leaf.
+  // The first of each box's consecutive children, or -1 - number for a leaf.
   std::vector<std::int64_t> Children;
   std::vector<Leaf> LeafBoxes;
   std::vector<Node> NodePlaces;
-  std::vector<std::int64_t> NodeLeaf;    // the widest leaf that touches a node
+  std::vector<std::int64_t> NodeLeaf;    // the widest leaf that touches each node
   std::vector<std::int32_t> Constrained; // nodes within faces, those of the widest leaves first
   Field SpacingField;
 };

@@ -17,6 +17,10 @@ double TransportEnergy::Evaluate(
   {
     return std::numeric_limits<double>::infinity();
   }
+  // With the weights of the optimal partition, the derivative of the cost of point i with respect
+  // to its place is 2 mass (x_i - centroid_i): the derivatives of the cells' borders cancel
+  // (envelope theorem). The masses are 1 here, so half the cost has the gradient x - centroid, and
+  // a unit step along minus the gradient is a step of Lloyd's method.
   double cost = 0.0;
   for (std::int64_t i = 0; i < points.size(); ++i)
   {
@@ -54,6 +58,7 @@ void TransportEnergy::Aim(
   }
   const Point<2> lengths = density.Lengths();
   aimed.assign(static_cast<std::size_t>(points.size()), 0);
+  // A point without mass aims at the place with mass that is nearest to the end of its step.
   this->VisitPoints(points, false, progress, [&](std::int64_t i) {
     Point<2> end;
     for (std::size_t axis = 0; axis < 2; ++axis)
@@ -77,6 +82,8 @@ void TransportEnergy::Constrain(
   {
     return;
   }
+  // A point with mass that would step out of it is projected to the nearest mass. Projections of
+  // several points may coincide, so they are separated.
   this->VisitPoints(from, true, progress, [&](std::int64_t i) {
     const Point<2> nearest = density.NearestMass({ points[i][0], points[i][1] });
     std::copy(nearest.begin(), nearest.end(), points[i]);

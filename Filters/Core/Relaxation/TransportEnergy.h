@@ -20,7 +20,7 @@ public:
   {
   }
 
-  // All spacings are 1, the unit. Infinite if the masses cannot be made equal.
+  // All spacings are 1, the unit. Returns infinity if the masses cannot be made equal.
   double Evaluate(
     ConstPointSpan<2> points, PointSpan<2> gradient, double* spacings, Progress& progress) override;
   // Points go to the nearest place where the density has mass, which lowers the cost most, and stay
@@ -33,7 +33,7 @@ public:
   void Separate(PointSpan<2> points, Progress& progress) const;
 
 private:
-  // For what has mass at the points, or has none.
+  // Visits the points at which the density has mass, or those at which it has none.
   template <class Visit>
   void VisitPoints(
     ConstPointSpan<2> points, bool haveMass, Progress& progress, const Visit& visit) const;

@@ -31,12 +31,14 @@ RelaxationReport relaxByTransport(const DensitySource<2>& density, const Point<2
   const RelaxationFrame<2> frame(density.Size, spacing, points.size());
   RelaxedPoints<2> relaxed(points, frame);
   relaxed.Arrange(stages["points"]);
+  // The density is scaled to the mass N, so that each cell has the mass 1.
   EqualMassPartition partition(
     RowMoments(density, frame.CellSides, count, stages["points"]), points.size());
   TransportEnergy energy(partition);
   energy.Separate(relaxed.Get(), stages["points"]);
-  // Steps may be as long as they come: the cells of other points do not change by themselves. The
-  // function is half the cost, and the frame's area is no unit where one side is thin.
+  // Steps have no bound: the cells of other points change only through the partition, which each
+  // evaluation solves again. The function is half the cost, hence the factor 2; dividing by the
+  // area of the frame gives the energy a unit that also holds where one side is thin.
   const double area = frame.Sides[0] * frame.Sides[1];
   const DescentSettings settings = { std::numeric_limits<double>::infinity(), 0.0, 2.0 / area };
   RelaxationDescent<2> descent(energy, frame, settings, relaxed.Coordinates(), stages["energy"]);

@@ -18,7 +18,7 @@ struct ScaledPoint
 {
   double X[Dimension];
   double Spacing;
-  double Square; // of Spacing
+  double Square; // Spacing^2
   double Mass;
 };
 
@@ -34,10 +34,11 @@ struct RepulsionShape
   double AtCut; // exp(-Cut) of these kernels
 };
 
+// A multiple of every register's number of lanes: 2, 4 and 8.
 constexpr int repulsionBlock = 8;
 
-// As many points as the kernels take at once. Missing ones are at 0 and have the Square -infinity,
-// so that they are in no reach.
+// As many points as the kernels take at once. Missing points are at 0 and have the Square
+// -infinity, so that they are in reach of nothing.
 template <int Dimension>
 struct ScaledBlock
 {
@@ -47,7 +48,7 @@ struct ScaledBlock
   double Mass[repulsionBlock];
 };
 
-// Places, and sums over the points y of m K(x, y) and its derivatives at each.
+// Places x, and for each the sum over points y of m K(x, y) with its derivatives.
 template <int Dimension>
 struct RepulsionBlock
 {
@@ -56,8 +57,8 @@ struct RepulsionBlock
   double Square[repulsionBlock];
 
   double Sum[repulsionBlock];
-  double Gradient[Dimension][repulsionBlock]; // by x, at constant spacing
-  double BySquare[repulsionBlock];            // by Square
+  double Gradient[Dimension][repulsionBlock]; // derivative with respect to x, at constant spacing
+  double BySquare[repulsionBlock];            // derivative with respect to Square
 };
 
 template <int Dimension>
@@ -69,7 +70,7 @@ struct RepulsionKernels
   std::int64_t (*Select)(const BlockBounds<Dimension>& bounds, double reach,
     const ScaledBlock<Dimension>* points, const std::int64_t* blocks, std::int64_t count,
     std::int64_t* found);
-  // Each place sums over the found points in their order.
+  // Sums over the found points, in their order, at each place.
   void (*Sum)(const RepulsionShape& shape, const ScaledBlock<Dimension>* points,
     const std::int64_t* found, std::int64_t count, RepulsionBlock<Dimension>& block);
   double (*Exponential)(double); // exp(-q) for q in [0, 16]
@@ -79,7 +80,7 @@ struct RepulsionKernels
 template <int Dimension, InstructionSet Set>
 RepulsionKernels<Dimension> repulsionKernelsOf();
 
-// All compute the same bits.
+// The sets for all instruction sets compute the same bits.
 template <int Dimension>
 RepulsionKernels<Dimension> repulsionKernels(InstructionSet set = instructionSet());
 

@@ -12,8 +12,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// Places are summed in whole registers, points one after another: each place's sum has the same
-// order for every width.
+// The lanes of a register are places; the points y follow one after another. The sum at a place
+// then has the same order for every width of registers.
 #if defined(__AVX512F__)
 constexpr int lanes = 8;
 #elif defined(__AVX__)
@@ -110,7 +110,8 @@ std::int64_t selectPoints(const BlockBounds<Dimension>& bounds, double reach,
     }
     for (int lane = 0; lane < repulsionBlock; ++lane)
     {
-      // Without a branch, which nobody can predict.
+      // Branch-free: the number is always written, and the end advances only if it is in reach. The
+      // outcome is unpredictable, so that a branch would cost a misprediction each.
       found[selected] = blocks[i] * repulsionBlock + lane;
       selected -= isInReach[lane];
     }
@@ -160,7 +161,7 @@ RT_INLINE void sumLanes(const RepulsionShape& shape, const ScaledBlock<Dimension
     overlap *= from.Mass[at];
     const Lanes e = exponential(q);
     const Lanes g = e - shape.AtCut * ((1.0 + shape.Cut) - q);
-    const Lanes slope = (e - shape.AtCut) * inverse * overlap; // of -g
+    const Lanes slope = (e - shape.AtCut) * inverse * overlap; // -g' A m r
     sum += overlap * g;
     bySquare += slope * q - (0.5 * Dimension) * (overlap * inverse * g);
     for (int axis = 0; axis < Dimension; ++axis)
@@ -168,8 +169,8 @@ RT_INLINE void sumLanes(const RepulsionShape& shape, const ScaledBlock<Dimension
       gradient[axis] += slope * offset[axis];
     }
   }
-  // The factors that all points have in common. D/4 / h^2 of the derivative multiplies the sum
-  // itself.
+  // These factors are common to all points, so they are applied once. In the derivative with
+  // respect to h^2, the term with D/4 / h^2 multiplies the sum itself.
   store(sum, block.Sum + lane);
   store(bySquare + (0.25 * Dimension) * sum / square, block.BySquare + lane);
   for (int axis = 0; axis < Dimension; ++axis)
