@@ -23,6 +23,7 @@ struct Side
 template <int Dimension>
 Side findSide(const TableView<Dimension>& tables, int axis, double x)
 {
+  // A side beyond the tables is clipped to them; a side at the upper face belongs to the last cell.
   const double high = tables.High[axis];
   const double clipped = std::clamp(x, tables.Low[axis], high);
   const std::int64_t cell =
@@ -31,6 +32,7 @@ Side findSide(const TableView<Dimension>& tables, int axis, double x)
   {
     return { cell, clipped - static_cast<double>(cell) };
   }
+  // On graded tables, r is relative to the width of the cell between its two nodes.
   const auto& uneven = tables.Uneven[axis];
   const std::int64_t node = uneven.NodeBelow[cell];
   const double below = uneven.Places[node];
@@ -43,8 +45,10 @@ const typename TableView<Dimension>::Level& finestLevel(const TableView<Dimensio
   return tables.Levels[tables.IsUneven ? 1 : 0];
 }
 
-// The sum of the density over [low, high] on the axes from `Axis` down; `nodes` includes the
-// offsets of the axes above (paper, Section 3.3; Algorithm 1, for the mass alone).
+// Returns the sum of the density over [low, high] on the axes from `Axis` down; `nodes` includes
+// the offsets of the axes above (paper, Section 3.3; Algorithm 1, for the mass alone). Each axis
+// applies L(high) - L(low) with L[F] = (1 - r) F_i + r F_{i+1} to the sums of the axes below it, so
+// that the tensor product needs no signs of corners.
 template <int Dimension, int Axis>
 double sumBox(
   const std::int64_t (&strides)[Dimension], const Side (&sides)[Dimension][2], const double* nodes)
@@ -72,7 +76,8 @@ double sumBox(
   return ends[1] - ends[0];
 }
 
-// As the tables are scaled.
+// Returns the sum over a box in the units of the tables. Rounding may make the sum over an empty
+// box negative, so it is at least 0.
 template <int Dimension>
 double sumIn(
   const TableView<Dimension>& tables, const Point<Dimension>& low, const Point<Dimension>& high)
@@ -87,7 +92,7 @@ double sumIn(
   return std::max(sumBox<Dimension, Dimension - 1>(level.Stride, sides, level.Nodes), 0.0);
 }
 
-// What tables of the whole domain sum up to.
+// Returns the sum of all cells, which is the record at the last node of tables of the whole domain.
 template <int Dimension>
 double sumOfAll(const TableView<Dimension>& tables)
 {
@@ -100,7 +105,7 @@ double sumOfAll(const TableView<Dimension>& tables)
   return level.Nodes[last];
 }
 
-// The boxes with half the sides h * aspect about a point.
+// The boxes about a point whose half sides are h * aspect.
 template <int Dimension>
 class GrowingBox
 {
@@ -112,7 +117,8 @@ public:
   {
   }
 
-  // How much the root of the share of the mass is above what is wanted. It is nearly linear in h.
+  // Returns root(share in the box) - root(wanted share). With the D-th root, the function of h is
+  // linear for a uniform density, so that false position converges in few steps.
   double Excess(const TableView<Dimension>& tables, double all, double h) const
   {
     Point<Dimension> low;
@@ -125,6 +131,7 @@ public:
     return root<Dimension>(sumIn<Dimension>(tables, low, high) / all) - this->Wanted;
   }
 
+  // Returns the measure of the box in the domain, in grid cells.
   double Measure(const TableView<Dimension>& tables, double h) const
   {
     double measure = 1.0;
@@ -137,7 +144,7 @@ public:
     return measure;
   }
 
-  // Sizes of a box that is too small and one that is not.
+  // A size with a negative excess and one with a non-negative excess, which bracket the solution.
   struct Bracket
   {
     double Below;
@@ -149,6 +156,8 @@ public:
   // The bracket of an empty box and the whole domain.
   Bracket All(const TableView<Dimension>& tables) const
   {
+    // From the centre to the face that is farthest in units of the aspect, the box covers the
+    // domain.
     double largest = 0.0;
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -158,7 +167,8 @@ public:
     return { 0.0, -this->Wanted, largest, 1.0 - this->Wanted };
   }
 
-  // The size up to which no side is in the domain but beyond the tables.
+  // Returns the largest size for which every side is in the tables or beyond the domain, where the
+  // tables of a tile give the same sums as those of the whole.
   double Reach(const TableView<Dimension>& tables) const
   {
     double reach = std::numeric_limits<double>::infinity();
@@ -178,11 +188,13 @@ public:
     return reach;
   }
 
-  // By false position, with a bisection in every third step, as the share may be constant where
-  // there is no mass.
+  // Regula falsi with a bisection in every third step: where there is no mass the share is
+  // constant, and secants alone would hardly shorten the bracket.
   double FindSize(const TableView<Dimension>& tables, double all, Bracket bracket) const
   {
     auto& [below, excessBelow, above, excessAbove] = bracket;
+    // The relative precision of h. It is far above the rounding of the sums, so that the function
+    // is monotonous at this scale; 200 steps end the search for any other.
     constexpr double precision = 1e-9;
     for (int step = 0; above - below > precision * above && step < 200; ++step)
     {
@@ -190,7 +202,8 @@ public:
       if (step % 3 != 2 && excessAbove > excessBelow)
       {
         const double slope = (excessAbove - excessBelow) / (above - below);
-        // Shifted to either side in turn, so that both ends converge.
+        // The secant's root, shifted to either side in turn by a quarter of the precision, so that
+        // both ends of the bracket converge to it.
         const double guess = below - excessBelow / slope;
         const double aside = (step % 3 == 0 ? 1.0 : -1.0) * 0.25 * precision * above;
         h = std::clamp(guess + aside, below, above);
@@ -243,6 +256,8 @@ double measureOfShare(const TableView<Dimension>& graded, const TableView<Dimens
   const double all = sumOfAll(graded);
   const GrowingBox<Dimension> box(centre, aspect, share);
   auto bracket = box.All(graded);
+  // If the largest box within the tile already holds the share, the solution is in the tile.
+  // Otherwise its size is the lower end for a search in the graded tables.
   const double reach = box.Reach(tile);
   bool endsInTile = true;
   if (reach < bracket.Above)

@@ -15,11 +15,16 @@ CellMeans<D>::CellMeans(
   : Cells(density.Size)
   , Part(part)
 {
+  // The overlap of boxes along the same axes is a product over the axes, so each axis keeps a
+  // sparse matrix: for each cell of the part, the lengths of its intersections with the density's
+  // cells.
   for (int axis = 0; axis < D && !part.IsEmpty(); ++axis)
   {
     const std::int64_t cells = density.Size[axis];
     const double side = density.Sides[axis];
     const auto whole = static_cast<double>(size[axis]);
+    // The lower end of a cell of the density, in cells of the other grid. It is clamped to that
+    // grid.
     const auto endOf = [&](std::int64_t cell) {
       return std::clamp(density.Low[axis] + side * static_cast<double>(cell), 0.0, whole);
     };
@@ -29,6 +34,9 @@ CellMeans<D>::CellMeans(
       const auto low = static_cast<double>(i);
       const double high = low + 1.0;
       Overlap overlap;
+      // Division gives the first cell that overlaps up to rounding. The loops then correct it by
+      // the same ends that the lengths use, so that consecutive cells neither leave a gap nor
+      // overlap.
       const double guess = std::floor((low - density.Low[axis]) / side);
       auto cell = static_cast<std::int64_t>(std::clamp(guess, 0.0, static_cast<double>(cells)));
       while (cell > 0 && endOf(cell) > low)
@@ -45,6 +53,9 @@ CellMeans<D>::CellMeans(
         const double from = endOf(cell);
         const double to = endOf(cell + 1);
         const double both = std::min(to, high) - std::max(from, low);
+        // Side times the part of the clamped cell [from, to] that is in this one. What is beyond
+        // the border is spread over the clamped cell, so that sum over parts = side: no mass is
+        // lost. Where both grids have the same cells the factor is exactly 1.
         overlap.Shares.push_back(to > from ? side * (both / (to - from)) : 0.0);
       }
       if (overlap.Count() > 0)
@@ -62,6 +73,9 @@ template <int D>
 void CellMeans<D>::WriteRow(
   std::int64_t row, const DensityValues& density, double* buffer, double* means) const
 {
+  // The matrix product along the axes across the row: mean(i) = sum over k and j of s_2(k) s_1(j)
+  // sum over cells of s_0(i, cell) f(cell, j, k). Each row of the density is read once for each
+  // row of means.
   const std::int64_t columns = this->Part.Cells[0];
   std::fill_n(means, columns, 0.0);
   const Overlap* across[2] = { nullptr, nullptr };
@@ -109,6 +123,7 @@ void CellMeans<D>::Write(const DensityValues& density, Progress& progress, doubl
   {
     return;
   }
+  // Chunks of about this many cells, for few tasks and short waits for cancellation.
   constexpr std::int64_t atOnce = std::int64_t{ 1 } << 14;
   const std::int64_t columns = this->Part.Cells[0];
   const std::int64_t rows = this->Part.Count() / columns;

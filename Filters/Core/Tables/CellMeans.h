@@ -21,16 +21,16 @@ template <int Dimension>
 struct PlacedCells
 {
   GridSize<Dimension> Size;
-  Point<Dimension> Low;   // of the first cell
-  Point<Dimension> Sides; // of each cell; above 0
+  Point<Dimension> Low;   // low corner of the first cell
+  Point<Dimension> Sides; // sides of each cell; above 0
 };
 
 template <int Dimension>
 class CellMeans
 {
 public:
-  // On a part of a grid of `size` cells, which covers the density. What rounding puts beyond its
-  // border belongs to the cells at the border, so that no mass is lost.
+  // Computes the overlaps for a part of a grid of `size` cells, which covers the density. The cells
+  // at the border take what rounding puts beyond it, so that no mass is lost.
   CellMeans(const PlacedCells<Dimension>& density, const GridSize<Dimension>& size,
     const LatticePart<Dimension>& part);
 
@@ -54,11 +54,13 @@ private:
     std::int64_t Count() const { return static_cast<std::int64_t>(this->Shares.size()); }
   };
 
+  // Writes one row of means; `buffer` has room for High(0) - Low(0) values of the density.
   void WriteRow(
     std::int64_t row, const DensityValues& density, double* buffer, double* means) const;
 
-  const GridSize<Dimension> Cells; // of the density
+  const GridSize<Dimension> Cells; // size of the density's grid
   const LatticePart<Dimension> Part;
+  // For each axis, an overlap for each cell of the part; and the density's cells that they use.
   std::vector<Overlap> Axes[Dimension];
   GridSize<Dimension> First{};
   GridSize<Dimension> Last{};

@@ -10,7 +10,7 @@
 namespace RectifiedTransport
 {
 
-// The outer ones in part.
+// The outer cells are covered in part.
 struct CoveredCells
 {
   CoveredCells(double low, double high, std::int64_t size)

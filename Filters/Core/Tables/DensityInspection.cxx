@@ -45,8 +45,9 @@ void markOccupied(const double* values, std::int64_t count, std::uint64_t* words
   }
 }
 
-// Updates the smallest, the largest and the second largest value of `found` by those of a row.
-// Counts only where the largest value is that of all so far: elsewhere it is one below.
+// Updates the smallest, the largest and the second largest value of `found` by those of a row. Only
+// a row that reaches the largest value so far is counted; in another row the largest value is
+// merely a candidate for the second largest.
 void inspectLargest(const double* values, std::int64_t count, std::int64_t index, double least,
   double largest, DensitySummary& found)
 {
@@ -89,6 +90,8 @@ RowInspection inspectCells(const double* values, std::int64_t count, std::int64_
   const RowInspection row = inspect(values, count, index, found);
   if (row.Smallest > 0.0)
   {
+    // The bits beyond the row's end are set, too, so that a full density has nothing but full
+    // words.
     std::fill_n(words, (count + 63) / 64, ~std::uint64_t{ 0 });
   }
   else
@@ -118,6 +121,7 @@ void merge(const DensitySummary& part, DensitySummary& whole)
   whole.FirstNotFinite = first(whole.FirstNotFinite, part.FirstNotFinite);
   whole.Negative += part.Negative;
   whole.FirstNegative = first(whole.FirstNegative, part.FirstNegative);
+  // The second largest value of both parts: the loser's maximum competes with the winner's second.
   if (part.Maximum > whole.Maximum)
   {
     whole.BelowMaximum = std::max(whole.Maximum, part.BelowMaximum);
@@ -141,6 +145,8 @@ void merge(const DensitySummary& part, DensitySummary& whole)
 
 DensitySummary summarize(const DensityValues& density, std::int64_t count, Progress& progress)
 {
+  // Chunks are fixed and merged in their order, so that the total has the same bits for any
+  // number of threads.
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
   const auto readChunk = [&](std::int64_t first, std::int64_t last) {
     std::vector<double> values(static_cast<std::size_t>(last - first));

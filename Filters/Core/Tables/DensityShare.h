@@ -33,6 +33,7 @@ double densityIn(const DensitySource<Dimension>& density, const Point<Dimension>
   {
     for (std::int64_t j = y.First; j < y.End; ++j)
     {
+      // The weight of a cell is its overlap with the box: the product of the parts along the axes.
       const double part = y.PartOf(j) * z.PartOf(k);
       const std::int64_t row = (k * rows + j) * density.Size[0];
       for (std::int64_t i = x.First; i < x.End; i += most)

@@ -27,6 +27,8 @@ inline std::vector<std::int64_t> gradedNodes(std::int64_t size, std::int64_t str
 {
   std::vector<std::int64_t> nodes = { 0 };
   std::int64_t width = 1;
+  // From the lower face to the middle: the cell's width doubles once a node is 2 * ratio widths
+  // away from the face, until it reaches the stride. The nodes of the upper half mirror these.
   while (nodes.back() + width <= size / 2)
   {
     nodes.push_back(nodes.back() + width);
@@ -36,6 +38,7 @@ inline std::vector<std::int64_t> gradedNodes(std::int64_t size, std::int64_t str
       width *= 2;
     }
   }
+  // The middle part may be up to two widths long; it is halved if it is longer than one.
   const std::int64_t gap = size - 2 * nodes.back();
   const std::size_t below = nodes.size();
   if (gap > width)
@@ -69,11 +72,14 @@ public:
     TableView<Dimension>& tables = this->Tables;
     this->Add(density, 0, progress);
     const DensitySummary found = this->Found;
+    // Values that are scaled need a second pass: their exponent is known only after the first. The
+    // summary remains that of the values as they are.
     requireDensity(found);
     tables.Largest = found.Maximum;
     this->Exponent = scalingOf(found.Maximum);
     if (this->Exponent != 0)
     {
+      // The second pass finds scaled values, but the summary describes the density.
       this->Add(density, this->Exponent, progress);
       this->Found = found;
       tables.Largest = std::ldexp(found.Maximum, this->Exponent);
@@ -141,8 +147,8 @@ private:
     this->Occupied = LargeBuffer<std::uint64_t>(words);
   }
 
-  // Sums the values, scaled by a power of two. Each rank reads the layers that begin in its share
-  // of the grid cells along the last axis.
+  // Sums the values, scaled by 2^scaling. Each rank reads the layers that begin in its share of the
+  // grid cells along the last axis.
   void Add(const DensitySource<Dimension>& density, int scaling, Progress& progress)
   {
     constexpr int axis = Dimension - 1;
@@ -178,6 +184,7 @@ private:
 
   Layers LayersOf(const Ranks& ranks, int rank) const
   {
+    // Rank r owns the layers whose first cells are in [r, r + 1) * cells / ranks.
     const std::vector<std::int64_t>& nodes = this->Nodes[Dimension - 1];
     const auto layerAt = [&](int end) {
       const std::int64_t cell = nodes.back() * end / ranks.Count();
@@ -187,7 +194,7 @@ private:
     return { layerAt(rank), layerAt(rank + 1) };
   }
 
-  // All that a layer writes are the records above it.
+  // Sums layers in parallel: a layer writes only the records of the nodes at its upper end.
   void AddLayers(const DensityValues& density, const Layers& layers, Progress& progress,
     std::vector<DensitySummary>& found)
   {
@@ -205,7 +212,7 @@ private:
       2);
   }
 
-  // All ranks get the records, the bits and the summaries of all.
+  // After this, all ranks have the records, the bits and the summaries of all layers.
   void GatherLayers(const Ranks& ranks, std::vector<DensitySummary>& found)
   {
     constexpr int axis = Dimension - 1;
@@ -213,9 +220,9 @@ private:
     const auto nodeOf = [&](std::int64_t layer) { return nodes[static_cast<std::size_t>(layer)]; };
     const std::int64_t stride = this->Tables.Levels[1].Stride[axis];
     const std::int64_t rows = this->Occupied.size() / this->Tables.WordsPerRow / nodes.back();
-    const std::int64_t words = this->Tables.WordsPerRow * rows; // of a slice
+    const std::int64_t words = this->Tables.WordsPerRow * rows; // words of a slice
     std::fill_n(this->Records.data(), stride, 0.0);
-    // Of what has `each` values for each of the places along the axis, of all ranks.
+    // Gathers an array that has `each` values for every place along the axis, from all ranks.
     const auto gather = [&](auto* all, std::int64_t each, const auto& placeOf) {
       std::vector<std::int64_t> starts;
       for (int rank = 0; rank <= ranks.Count(); ++rank)
@@ -230,8 +237,8 @@ private:
     gather(found.data(), 1, layerOf);
   }
 
-  // The sums of the grid cells of one layer in the boxes between nodes, each at the node above its
-  // box.
+  // Sums the grid cells of one layer in the boxes between nodes. The node above a box gets its sum;
+  // SumNodes makes prefix sums of these.
   void AddLayer(const DensityValues& density, std::int64_t layer, double* row,
     std::vector<std::uint64_t>& words, DensitySummary& found)
   {
@@ -272,7 +279,8 @@ private:
     }
   }
 
-  // `centres` are those of the row along the other axes.
+  // Adds one row of cells to the records of its boxes: {E, E_0, E_1, E_2} or, in 2D, {E, E_0, E_1,
+  // E}. `centres` are the row's centres along the other axes.
   void AddRow(const double* cells, double* records, const double* centres) const
   {
     const std::vector<std::int64_t>& nodes = this->Nodes[0];
@@ -293,6 +301,8 @@ private:
     }
   }
 
+  // Makes prefix sums over the nodes, axis by axis: along axes 0 and 1 within each plane, then over
+  // the planes. Additions have a fixed order, and every sum is a sum of positive terms.
   void SumNodes(Progress& progress)
   {
     const auto& stride = this->Tables.Levels[1].Stride;
@@ -339,6 +349,8 @@ private:
     progress.Check();
   }
 
+  // For each axis: the nodes' places in cells, the node below each grid cell, and the same places
+  // as doubles for the kernels.
   std::vector<std::int64_t> Nodes[Dimension];
   std::vector<std::int32_t> NodeBelow[Dimension];
   std::vector<double> Places[Dimension];

@@ -16,6 +16,7 @@ namespace
 template <int Dimension>
 using Cell = std::array<std::int64_t, Dimension>;
 
+// Returns the words of the row that contains a cell, one bit a cell.
 template <int Dimension>
 const std::uint64_t* occupiedRow(const TableView<Dimension>& tables, const Cell<Dimension>& cell)
 {
@@ -42,6 +43,7 @@ double gap(double x, std::int64_t cell)
 // The nearest set bit from `start` down to `last`, -1 if there is none.
 std::int64_t nearestBelow(const std::uint64_t* row, std::int64_t start, std::int64_t last)
 {
+  // The bits above `start` are masked out; then whole words are searched.
   std::int64_t word = start >> 6;
   std::uint64_t bits = row[word] & (~std::uint64_t{ 0 } >> (63 - (start & 63)));
   while (bits == 0 && word > last >> 6)
@@ -91,6 +93,8 @@ bool hasMass(const TableView<Dimension>& tables, const Point<Dimension>& point)
   {
     return true;
   }
+  // A point on a face belongs to the cells on both sides: a bit of `corner` selects the lower cell
+  // along an axis, which counts only if the coordinate is a whole number.
   for (int corner = 0; corner < (1 << Dimension); ++corner)
   {
     Cell<Dimension> cell;
@@ -119,6 +123,8 @@ Point<Dimension> nearestMass(
   {
     return point;
   }
+  // Points are placed this far from the faces of the cell, so that rounding of later mappings does
+  // not move them back into an empty cell.
   constexpr double inset = 1.0 / (1 << 20);
   Cell<Dimension> centre;
   std::int64_t farthest = 1;
@@ -132,6 +138,8 @@ Point<Dimension> nearestMass(
   }
   Cell<Dimension> nearest = centre;
   double best = std::numeric_limits<double>::max();
+  // Squared distances: `across` is that of the row, `along` that of a cell in it. The search in a
+  // row is limited to cells nearer than the best one so far.
   const auto tryRow = [&](const Cell<Dimension>& at) {
     double across = 0.0;
     for (int axis = 1; axis < Dimension; ++axis)
@@ -147,6 +155,7 @@ Point<Dimension> nearestMass(
     {
       return;
     }
+    // Only cells within this number of columns can be nearer than the best one.
     const double limit = std::sqrt(best - across) / sides[0];
     const std::int64_t column =
       nearestInRow(occupiedRow<Dimension>(tables, at), tables.Cells[0], point[0], limit);
@@ -158,7 +167,8 @@ Point<Dimension> nearestMass(
       nearest[0] = column;
     }
   };
-  // Shells of rows around the point's own row; a shell's rows are at least shell - 1 cells away.
+  // Rows are tried in square shells around the row of the point. The rows of a shell are at least
+  // shell - 1 cells away along an axis, so the search ends once that distance exceeds the best.
   for (std::int64_t shell = 0; shell < farthest; ++shell)
   {
     const double least = static_cast<double>(std::max<std::int64_t>(shell - 1, 0)) * thinnest;
@@ -170,6 +180,8 @@ Point<Dimension> nearestMass(
     const std::int64_t rows = Dimension > 1 ? shell : 0;
     for (std::int64_t k = -planes; k <= planes; ++k)
     {
+      // A cap (|k| = shell) has all its rows; between the caps only the two outer rows belong to
+      // the shell.
       const bool isCap = Dimension > 2 && std::abs(k) == shell;
       for (std::int64_t j = -rows; j <= rows; j += isCap ? 1 : std::max<std::int64_t>(2 * shell, 1))
       {

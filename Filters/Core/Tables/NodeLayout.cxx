@@ -7,11 +7,14 @@ namespace RectifiedTransport
 namespace
 {
 
-// The least stride, in cache lines, that is at least `lines` and maps the rows that a particle's
-// neighbourhood reads to different sets of the caches; those of a grid of 2^k cells would be in one
-// set. `rowStride` is that of the axis before, 0 for the first.
+// Returns the smallest stride, in cache lines, that is at least `lines` and maps the rows in a
+// particle's neighbourhood to different sets of the caches. With 2^k cells a row, all of them would
+// share one set. `rowStride` is the stride of the previous axis, 0 for the first.
 std::int64_t spreadStride(std::int64_t lines, std::int64_t rowStride)
 {
+  // First-level caches have 64 sets of 64-byte lines. Up to 10 neighbouring rows stay 3 sets apart,
+  // and in 3D the 3 x 7 rows around a plane stay 2 sets apart, because an interpolation reads two
+  // adjacent records.
   constexpr std::int64_t sets = 64;
   constexpr int reach = 10;
   constexpr std::int64_t apart = 3;
@@ -39,6 +42,7 @@ std::int64_t spreadStride(std::int64_t lines, std::int64_t rowStride)
       return stride;
     }
   }
+  // No stride spreads them all; any other is as good.
   return lines;
 }
 
@@ -47,6 +51,7 @@ std::int64_t spreadStride(std::int64_t lines, std::int64_t rowStride)
 template <int Dimension>
 std::int64_t layOutNodes(const GridSize<Dimension>& nodes, std::int64_t (&stride)[Dimension])
 {
+  // The doubles of a cache line.
   constexpr std::int64_t line = 8;
   stride[0] = TableView<Dimension>::Record;
   for (int axis = 1; axis < Dimension; ++axis)

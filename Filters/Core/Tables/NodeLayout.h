@@ -37,7 +37,8 @@ std::int64_t setGrid(TableView<Dimension>& tables, const GridSize<Dimension>& si
   return words;
 }
 
-// Sets what follows from the sums of the whole density, those at the last node, and from the bits.
+// Sets the centroid M = (sum of f * centre) / (sum of f), from the sums at the last node, the mass
+// below which a box counts as empty, and the bits; without empty cells these are left out.
 template <int Dimension>
 void setTotals(
   TableView<Dimension>& tables, const double* last, std::uint64_t* occupied, std::int64_t words)

@@ -9,8 +9,8 @@
 namespace RectifiedTransport
 {
 
-// The cells of the grid `own` in one that covers it, along the same axes. Where both have the same
-// cells up to rounding they are at the same places.
+// Returns the cells of the grid `own` in the index space of `grid`, which covers it along the same
+// axes. If both have the same cells up to rounding, the places are exactly the same.
 template <int D>
 PlacedCells<D> placeCells(const ImageGrid& grid, const ImageGrid& own)
 {

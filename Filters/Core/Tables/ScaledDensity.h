@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moments of very large values overflow, those of very small values lose bits. Scaling by a power
-// of two prevents both and does not round.
+// Moments of very large values overflow, and those of very small values lose bits. Scaling by a
+// power of two prevents both without rounding.
 #ifndef RectifiedTransport_ScaledDensity_h
 #define RectifiedTransport_ScaledDensity_h
 
@@ -15,6 +15,7 @@ namespace RectifiedTransport
 
 // The exponent of the power of two to scale a density of this maximum by; 0 for usual maxima.
 inline int scalingOf(double maximum)
+// Sums of f times a centre and a number of cells stay in the range of doubles up to here.
 {
   constexpr double extreme = 1e200;
   return maximum > extreme || maximum < 1.0 / extreme

@@ -61,6 +61,7 @@ SummedAreaTables<Dimension>::SummedAreaTables(
     buildTables(TableBuild<Dimension>{ scaled, progress, tables, nodes, occupied, ofScaled });
   }
 
+  // The last node has the sums of the whole density.
   std::int64_t node = 0;
   for (int axis = 0; axis < Dimension; ++axis)
   {
@@ -73,6 +74,8 @@ template <int Dimension>
 void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
 {
   TableView<Dimension>& tables = this->Tables;
+  // Level l has cells 4^l wide. A narrower domain has fewer levels: boxes take a level only if they
+  // are many of its cells wide.
   const std::int64_t narrowest = *std::min_element(size.begin(), size.end());
   tables.LevelCount = 1;
   while ((narrowestBox << (tables.LevelCount * levelShift)) <= narrowest)
@@ -80,6 +83,7 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
     ++tables.LevelCount;
   }
   const std::int64_t widest = std::int64_t{ 1 } << ((tables.LevelCount - 1) * levelShift);
+  // Sizes in bytes must fit into 64 bits.
   if (TableView<Dimension>::Record * numberOfCorners<Dimension>(size) > 1e17)
   {
     throw std::bad_alloc();
@@ -96,6 +100,7 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
     offset[level] = total;
     GridSize<Dimension> nodes;
     for (int axis = 0; axis < Dimension; ++axis)
+    // Nodes at every 4^l-th cell, and one at the end.
     {
       nodes[axis] = ((size[axis] - 1) >> (level * levelShift)) + 2;
     }

@@ -17,16 +17,18 @@ namespace RectifiedTransport
 namespace
 {
 
-// Sums are taken over strips of fixed size, for every executor.
+// Strips have a fixed size, so that sums have the same bits for every executor.
 constexpr std::int64_t stripCells = 256; // along axis 0, in 2D
 constexpr std::int64_t stripRows = 32;   // along axis 1, in 3D
 constexpr std::int64_t rowsAtOnce = 8;   // in 2D
 
-// A slab has so many cells for each thread, of so many threads at most: few barriers, in caches.
+// A slab has this many cells for each thread, for at most so many threads: barriers are few, and
+// the cells of a slab stay in the caches between its passes.
 constexpr std::int64_t shareCells = std::int64_t{ 1 } << 16;
 constexpr std::int64_t mostShares = 8;
 
-// The number of a node on a level, -1 if the level does not have it.
+// Returns the number of a node on a level, or -1 if the level does not have it. The last node of
+// the domain belongs to every level, even if the width does not divide the size.
 std::int64_t coarseNode(std::int64_t node, std::int64_t size, int level)
 {
   const int shift = level * levelShift;
@@ -53,14 +55,14 @@ void copyToLevel(const double* nodes, std::int64_t first, std::int64_t count, st
   }
 }
 
-// The number of rows or slices in a slab, of so many cells each.
+// Returns the number of rows or slices in a slab; each has `cellsOfEach` cells.
 std::int64_t slabOf(std::int64_t count, std::int64_t cellsOfEach, const Executor& threads)
 {
   const std::int64_t shares = std::clamp<std::int64_t>(threads.Concurrency(), 1, mostShares);
   return std::min(count, std::max<std::int64_t>(1, shares * shareCells / cellsOfEach));
 }
 
-// work(task) for all tasks, in any order, until the run is cancelled.
+// Calls work(task) for all tasks, in any order, until the run is cancelled.
 template <class Work>
 void forTasks(std::int64_t tasks, Progress& progress, const Work& work)
 {
@@ -99,6 +101,7 @@ public:
   void Pass(double* end) { this->Next = end; }
 
 private:
+  // The size of huge pages on x86-64, 2 MiB. With small pages one touch of many is simply wasted.
   static constexpr std::int64_t pageBytes = std::int64_t{ 1 } << 21;
   static constexpr auto doubleBytes = static_cast<std::int64_t>(sizeof(double));
 
@@ -115,13 +118,14 @@ private:
   double* Next;
 };
 
-// What the tables in 2D and 3D have in common: slabs of layers along the last axis, in which the
-// sums before every strip come first, and then all strips in parallel.
+// Common parts of the tables in 2D and 3D. A slab of layers along the last axis takes two passes:
+// the sums before every strip, then all strips in parallel.
 template <int Dimension>
 class SlabBuilder
 {
 protected:
-  // A slab has at most so many layers, of so many sums that inspect cells each.
+  // A slab has at most `slab` layers. `sumsOfLayer` is the number of sums that inspect the cells of
+  // a layer.
   SlabBuilder(const TableBuild<Dimension>& build, std::int64_t slab, std::int64_t sumsOfLayer)
     : Build(build)
     , Slab(slab)
@@ -129,13 +133,14 @@ protected:
     , Found(static_cast<std::size_t>(slab * sumsOfLayer))
     , Untouched(build.Nodes)
   {
+    // The nodes on the lower face of the domain are 0, on all levels.
     for (int level = 0; level < build.Tables.LevelCount; ++level)
     {
       std::fill_n(build.Level(level), build.Tables.Levels[level].Stride[axis], 0.0);
     }
   }
 
-  // sum(number) for the sums of a slab, `atOnce` of them a task; then add().
+  // Calls sum(number) for the sums of each slab, `atOnce` of them a task, and then add().
   template <class Sum, class Add>
   void ForSlabs(std::int64_t atOnce, const Sum& sum, const Add& add)
   {
@@ -148,6 +153,7 @@ protected:
         (this->Begin + this->Count + 1) * this->Build.Tables.Levels[0].Stride[axis];
       const std::int64_t pages = this->Untouched.PagesUpTo(nodesEnd, progress.Threads());
       const std::int64_t sums = this->Count * this->SumsOfLayer;
+      // Touching new pages and summing cells are independent, so one loop has both kinds of tasks.
       forTasks(pages + (sums + atOnce - 1) / atOnce, progress, [&](std::int64_t task) {
         if (task < pages)
         {
@@ -161,6 +167,7 @@ protected:
         }
       });
       this->Untouched.Pass(nodesEnd);
+      // Merged in the order of the sums, for the same bits with any number of threads.
       for (std::int64_t i = 0; i < sums; ++i)
       {
         merge(this->Found[static_cast<std::size_t>(i)], this->Build.Found);
@@ -174,9 +181,9 @@ protected:
   const TableBuild<Dimension>& Build;
   const std::int64_t Slab; // layers, at most
   const std::int64_t SumsOfLayer;
-  std::int64_t Begin = 0;            // of the slab
+  std::int64_t Begin = 0;            // first layer of the slab
   std::int64_t Count = 0;            // layers in it
-  std::vector<DensitySummary> Found; // by the sums of the slab
+  std::vector<DensitySummary> Found; // a summary for each sum of the slab
 
 private:
   static constexpr int axis = Dimension - 1; // across the layers
@@ -211,7 +218,7 @@ public:
   }
 
 private:
-  // Row j of the slab.
+  // Sums row j of the slab: `Prefixes` gets {sum of f, sum of f x_0} before each strip.
   void SumRow(std::int64_t j)
   {
     const std::int64_t row = this->Begin + j;
@@ -230,12 +237,16 @@ private:
       const RowInspection sums = inspectCells(cells + start, length, row * this->Columns + start,
         this->Build.Occupied + row * this->Build.Tables.WordsPerRow + start / 64, part);
       sum += sums.Sum;
+      // A strip's moment is about its own first cell; its sum times the start moves it to the
+      // origin: sum of f (x + start) = moment + start * sum.
       moment += sums.Moment + sums.Sum * static_cast<double>(this->Build.Origin[0] + start);
     }
     part.Total = sum;
     this->Found[j] = part;
   }
 
+  // Adds the rows of the slab to the nodes of one strip, from below to above. Strips share no
+  // nodes, and each row needs only the row of nodes below it.
   void AddStrip(std::int64_t strip)
   {
     const TableView<2>& tables = this->Build.Tables;
@@ -260,6 +271,7 @@ private:
           continue;
         }
         double* target = this->Build.Level(level) + coarse * tables.Levels[level].Stride[1];
+        // The first strip also writes the node at the face x_0 = 0, where all sums are 0.
         if (strip == 0)
         {
           std::fill_n(target, 4, 0.0);
@@ -312,7 +324,7 @@ public:
   }
 
 private:
-  // One strip of one slice: {f, f * centre 1} of every column.
+  // Sums one strip of one slice: {f, f * centre 1} of every column.
   void SumStrip(std::int64_t task)
   {
     const std::int64_t k = task / this->Strips;
@@ -336,7 +348,9 @@ private:
     this->Found[task] = part;
   }
 
-  // The sums of a slice's rows before each strip, as prefixes along axis 0.
+  // Computes the records of the rows of a slice before each strip, as prefix sums along axis 0 of
+  // the columns' sums. The fourth entry is that of the mass; the kernel multiplies it by the
+  // slice's centre.
   void SumBefore(std::int64_t k)
   {
     double* previous = this->Before.data() + k * this->Strips * this->Columns * 4;
@@ -362,6 +376,8 @@ private:
     }
   }
 
+  // Adds the slices of the slab to the nodes of one strip of rows. `Columns` begins with the
+  // records before the strip, and the kernel adds row after row to it.
   void AddStrip(std::int64_t strip)
   {
     const auto& stride = this->Build.Tables.Levels[0].Stride;
@@ -387,7 +403,8 @@ private:
     }
   }
 
-  // Node row `nodeRow` of plane `plane`; with the first, also the row of zeros below it.
+  // Copies the row `nodeRow` of plane `plane` to the levels that have it; the first row brings the
+  // row of zeros below it.
   void CopyToLevels(const double* nodes, std::int64_t plane, std::int64_t nodeRow)
   {
     const TableView<3>& tables = this->Build.Tables;
@@ -424,8 +441,8 @@ private:
   const std::int64_t Slices;
   const std::int64_t Strips;
   LargeBuffer<double> Values;
-  LargeBuffer<double> Sums;   // {f, f * centre 1} of the columns, a slice and strip together
-  LargeBuffer<double> Before; // the records of the columns before each strip, within the slice
+  LargeBuffer<double> Sums;   // {f, f * centre 1} of the columns, for each slice and strip
+  LargeBuffer<double> Before; // records of the columns before each strip, within the slice
 };
 
 } // namespace
@@ -434,6 +451,8 @@ void buildTables(const TableBuild<1>& build)
 {
   const std::int64_t size = build.Tables.Cells[0];
   constexpr std::int64_t segment = 1 << 16;
+  // In 1D, one running sum is as fast as memory; the segments bound the memory and the time between
+  // checks for cancellation.
   std::vector<double> values(static_cast<std::size_t>(std::min(size, segment)));
   std::vector<double> nodes(values.size() * 2);
   double sum = 0.0;

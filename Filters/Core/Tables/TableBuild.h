@@ -19,11 +19,12 @@ struct TableBuild
   const DensityValues& Density;
   Progress& Work;
   const TableView<Dimension>& Tables;
-  double* Nodes; // of all levels
+  double* Nodes; // nodes of all levels
   std::uint64_t* Occupied;
   DensitySummary& Found;
   GridSize<Dimension> Origin = {}; // moments are about the origin of the grid, whose cell this is
 
+  // Returns the writable nodes of a level, which are in the same memory as those of level 0.
   double* Level(int level) const
   {
     return this->Nodes + (this->Tables.Levels[level].Nodes - this->Tables.Levels[0].Nodes);

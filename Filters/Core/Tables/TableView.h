@@ -32,8 +32,8 @@ struct TableView
   // Nodes of uneven spacing, instead of those of levels.
   struct UnevenAxis
   {
-    const std::int32_t* NodeBelow; // of each grid cell
-    const double* Places;          // of the nodes, at whole grid cells
+    const std::int32_t* NodeBelow; // node at or below each grid cell
+    const double* Places;          // places of the nodes, at whole grid cells
   };
 
   Level Levels[MaximumLevels];

@@ -17,7 +17,7 @@
 namespace RectifiedTransport
 {
 
-// Rows of a part, or pieces of rows.
+// Reads the cells of a part under their numbers in it: whole rows, or pieces of rows.
 template <int Dimension>
 class PartOfDensity final : public DensityValues
 {
@@ -57,7 +57,7 @@ public:
     this->Tables.LevelCount = 1;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      this->Tables.EvenLevels[axis] = true; // of cells of width 1
+      this->Tables.EvenLevels[axis] = true; // all cells have the width 1
     }
   }
 
@@ -87,7 +87,8 @@ public:
     GridSize<Dimension> cells;
     std::transform(high.begin(), high.end(), low.begin(), cells.begin(), std::minus<>());
     this->Reserve(cells);
-    // As if the part were the domain; what is summed but for the nodes is not used.
+    // Builds as if the part were the domain. Only the nodes are kept: the other sums of the part
+    // have no use.
     TableView<Dimension> part = this->Tables;
     setGrid<Dimension>(part, cells);
     const std::int64_t doubles = layOut(cells, part.Levels[0].Stride);
@@ -98,9 +99,12 @@ public:
     buildTables(TableBuild<Dimension>{ ScaledDensity(values, this->Scaling), progress, part,
       this->Nodes.data(), this->Occupied.data(), found, low });
 
+    // Tables past this size, 16 MiB, are prefetched.
     constexpr std::int64_t cacheBytes = std::int64_t{ 1 } << 24;
     this->Tables.BeyondCaches = doubles * static_cast<std::int64_t>(sizeof(double)) > cacheBytes;
     this->Tables.Levels[0] = part.Levels[0];
+    // Pointers become those of node 0 of the domain, so that kernels index parts and whole tables
+    // in the same way.
     for (int axis = 0; axis < Dimension; ++axis)
     {
       this->Tables.Low[axis] = static_cast<double>(low[axis]);
@@ -132,7 +136,7 @@ private:
   const int Scaling;
   TableView<Dimension> Tables;
   LargeBuffer<double> Nodes;
-  LargeBuffer<std::uint64_t> Occupied; // of the part
+  LargeBuffer<std::uint64_t> Occupied; // one bit a cell of the part
 };
 
 } // namespace RectifiedTransport

@@ -23,7 +23,8 @@ struct RowInspection
 };
 using InspectRow = RowInspection (*)(const double* values, std::int64_t count);
 
-// How many values of a row are its largest one, and the largest of the others; 0 if there are none.
+// How many values of a row equal its largest one, and the largest of the others (0 if there are
+// none).
 struct RowMaximum
 {
   std::int64_t Count;
@@ -75,7 +76,7 @@ struct TableKernels
 template <InstructionSet Set>
 const TableKernels& tableKernelsOf();
 
-// All compute the same bits.
+// The sets for all instruction sets compute the same bits.
 const TableKernels& tableKernels(InstructionSet set = instructionSet());
 
 } // namespace RectifiedTransport

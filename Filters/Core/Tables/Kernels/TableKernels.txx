@@ -14,6 +14,8 @@ namespace RectifiedTransport
 namespace
 {
 
+// Eight lanes, the widest register's, for every instruction set: the order of additions is then the
+// same.
 constexpr int sumLanes = 8;
 
 // Adds the lanes in a fixed order.
@@ -51,7 +53,7 @@ RowInspection inspectRow(const double* values, std::int64_t count)
       place[lane] += sumLanes;
       largest[lane] = value > largest[lane] ? value : largest[lane];
       smallest[lane] = value < smallest[lane] ? value : smallest[lane];
-      // Also true of what is not a number.
+      // The negated comparison is true of NaN, too.
       wrong[lane] += (!(value >= 0.0) | !(value <= limit)) ? 1.0 : 0.0;
     }
   }
@@ -107,8 +109,8 @@ RowMaximum countLargest(const double* values, std::int64_t count, double largest
   return found;
 }
 
-// The sums {f, f x_1} of every column over the rows of a strip, in 3D: one row, all at the same
-// x_1.
+// Adds one row of a strip, in 3D, to the sums {f, f x_1} of every column; all cells of the row have
+// the same x_1.
 void addToColumns(
   const double* values, std::int64_t count, double centre, double* columns, double* moments)
 {

@@ -15,6 +15,7 @@ int takenComponent(const std::string& name, int component, int automatic, int co
   if ((wanted >= 0 && wanted < count) || wanted == Magnitude ||
     (wanted == Luminance && mayBeColour))
   {
+    // A single component is its own luminance.
     return count == 1 && wanted == Luminance ? 0 : wanted;
   }
   const std::string indices = count == 1 ? "0" : "an index from 0 to " + std::to_string(count - 1);
@@ -28,7 +29,8 @@ void throwInvalidDensity(const std::string& name, const DensitySummary& summary,
   const MissingValues& missing, bool hasEmpty)
 {
   const std::string has = "The " + name + " has ";
-  // The remedy first: ParaView's list of messages shows about 90 characters of a line.
+  // The remedy comes before the index: ParaView's list of messages shows about 90 characters of a
+  // line.
   if (summary.NotFinite > 0)
   {
     fail(has, summary.NotFinite, summary.NotFinite == 1 ? " value that is" : " values that are",

@@ -11,8 +11,9 @@
 namespace RectifiedTransport
 {
 
-// What the property Component takes of an array with `count` components, of which Auto takes
-// `automatic`: an index, Luminance or Magnitude. Throws Failure if the array does not have it.
+// Returns what the property Component selects from an array with `count` components, of which Auto
+// takes `automatic`: an index, Luminance or Magnitude. Throws Failure if the array does not have
+// it.
 int takenComponent(const std::string& name, int component, int automatic, int count);
 
 // Throws the Failure for values that are no density; `hasEmpty` is part of the reason.

@@ -12,6 +12,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Chunks are fixed, so that findings are merged in the same order for any number of threads.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
 template <class Found>
@@ -23,11 +24,12 @@ Found merged(Found all, const Found& part)
 
 } // namespace
 
+// Negative values are clamped before empty cells get their density, which is never negative.
 void DensityReader::Finish(std::int64_t first, std::int64_t count, double* values) const
 {
   if (this->Rules.ClampNegative)
   {
-    // Minus infinity remains, and is an error.
+    // Minus infinity remains, and is reported as an error.
     constexpr double lowest = std::numeric_limits<double>::lowest();
     for (std::int64_t i = 0; i < count; ++i)
     {
@@ -45,6 +47,7 @@ void DensityReader::Finish(std::int64_t first, std::int64_t count, double* value
   }
 }
 
+// White is what Invert subtracts values from. Bytes are displayed from 0 to 255.
 LargestValue findWhite(
   const DensityReader& reader, bool areBytes, std::int64_t count, Progress& progress)
 {
@@ -54,13 +57,15 @@ LargestValue findWhite(
     displayed.Value = std::numeric_limits<unsigned char>::max();
     return displayed;
   }
-  // Without a finite value the construction of the tables reports the error.
+  // Without any finite value there is no white, and the construction of the tables reports the
+  // error.
   const auto ofChunk = [&reader](std::int64_t first, std::int64_t last) {
     return reader.Largest(first, last - first);
   };
   return reduceChunks(progress, count, grain, LargestValue(), ofChunk, merged<LargestValue>);
 }
 
+// Finds what ClampNegative hides, by a reader that does not clamp.
 LowestValue findLowest(const DensityReader& reader, std::int64_t count, Progress& progress)
 {
   const std::unique_ptr<DensityReader> unclamped = reader.MakeUnclamped();

@@ -63,8 +63,7 @@ protected:
   unsigned char Mask = 0;
 };
 
-// A reader of arrays whose tuples `Tuples` visits in runs, which is made of an
-// array.
+// Reads arrays as runs of tuples; `Tuples` visits them and is constructed from an array.
 template <class Tuples>
 class TupleReader final : public DensityReader
 {

@@ -54,7 +54,7 @@ enum class EmptyCells
 struct EmptyRule
 {
   EmptyCells Cells = EmptyCells::Zero;
-  double Value = 0.0; // of EmptyCells::Value, else 0
+  double Value = 0.0; // the value for EmptyCells::Value, else 0
 };
 
 // How the values of an array become a density.

@@ -31,6 +31,7 @@ void FilledCells::Add(const FilledCells& other)
   this->Least = std::min(this->Least, other.Least);
 }
 
+// Empty cells without any filled ones have no mean or minimum; the tables then report a mass of 0.
 double densityOfEmptyCells(const EmptyRule& rule, const FilledCells& filled)
 {
   const double cells = filled.Cells.Value();
@@ -53,12 +54,15 @@ double densityOfEmptyCells(const EmptyRule& rule, const FilledCells& filled)
 double fillEmptyParts(const double* covered, std::int64_t cells, FilledCells filled,
   const EmptyRule& rule, Progress& progress, double* values)
 {
+  // Overlaps that add up to 1 up to rounding count as a whole cell.
   constexpr double rounding = 1e-9;
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
   const auto shareOf = [covered](std::int64_t cell) {
     const double share = covered[cell]; // more than 1 where cells overlap
     return share > 1.0 - rounding ? 1.0 : share;
   };
+  // The mean over covered cells is (sum of the values) / (sum of the covered shares): values are
+  // already weighted by their shares.
   filled.Add(sumExactly<FilledCells>(
     progress, cells, grain, [&](std::int64_t first, std::int64_t last, FilledCells& part) {
       for (std::int64_t cell = first; cell < last; ++cell)

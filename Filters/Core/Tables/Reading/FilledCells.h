@@ -24,7 +24,7 @@ struct FilledCells
   void Add(const FilledCells& other);
 };
 
-// 0 if all cells are empty.
+// Returns the density of empty cells by the rule; 0 if all cells are empty.
 double densityOfEmptyCells(const EmptyRule& rule, const FilledCells& filled);
 
 // Adds to the values of `cells` cells the density of the part of each that data do not cover;

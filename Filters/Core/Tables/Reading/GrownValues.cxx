@@ -21,6 +21,8 @@ void GrownValues::Read(std::int64_t first, std::int64_t count, double* values) c
   const std::int64_t end = first + count;
   while (first < end)
   {
+    // One row of the larger grid at a time, or the piece of it that was asked for: the cells below
+    // the box, those in it (read from `Inner`), and those above it.
     GridSize<3> cell = this->Whole.CellOf(first);
     const std::int64_t last = std::min(end, first + this->Whole.Cells[0] - cell[0]);
     const std::int64_t offset = cell[0] - first; // from numbers to the first axis

@@ -31,6 +31,7 @@ inline bool isIdName(const std::string& name)
     return true;
   }
   const auto isUpper = [](char c) { return c >= 'A' && c <= 'Z'; };
+  // Only ASCII letters count, whatever the locale.
   const auto isLetter = [&](char c) { return isUpper(c) || (c >= 'a' && c <= 'z'); };
   if (name.compare(0, 3, "vtk") == 0 || name.compare(0, 3, "avt") == 0)
   {

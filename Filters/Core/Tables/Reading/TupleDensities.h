@@ -14,8 +14,9 @@
 namespace RectifiedTransport
 {
 
-// Rec. 709. Whole ten-thousandths, so that a grey of an integer type has exactly its own value: the
-// double 1e-4 is near enough to it (5e-17, relatively) for the product to round to the integer.
+// Luminance by Rec. 709. For integer types it is a whole number of ten-thousandths, so that a grey
+// has exactly its own value: the double 1e-4 is near enough to 1/10000 (5e-17 relatively) for the
+// product to round to the integer.
 template <class T>
 double luminance(T red, T green, T blue)
 {
@@ -54,7 +55,7 @@ double magnitude(const Tuples& begin, int components, std::int64_t i)
     const double value = static_cast<double>(begin(i, c));
     sum += value * value;
   }
-  // Squares that neither overflow nor lose digits near 0. NaN and zeros go the other way.
+  // The squares neither overflowed nor lost digits near 0. NaN and zeros take the other way.
   constexpr double least = 1e-280;
   if (sum >= least && sum <= std::numeric_limits<double>::max())
   {
@@ -69,6 +70,7 @@ double magnitude(const Tuples& begin, int components, std::int64_t i)
   {
     return sum;
   }
+  // Scaled by the largest component, the squares are at most 1.
   double scaled = 0.0;
   for (int c = 0; c < components; ++c)
   {
@@ -83,7 +85,7 @@ template <class Tuples>
 void readTuples(const Tuples& begin, int components, std::int64_t count, const DensityRules& rules,
   double white, double* __restrict values)
 {
-  // A loop of its own for each kind, so that the processor's vectors do it.
+  // Each kind has a loop of its own, so that the compiler can vectorize it.
   const auto setAll = [count](double* __restrict to, const auto& valueOf) {
     for (std::int64_t i = 0; i < count; ++i)
     {
@@ -108,6 +110,8 @@ void readTuples(const Tuples& begin, int components, std::int64_t count, const D
   const int alpha = components - 1;
   if (isColour && components != 3)
   {
+    // Alpha composites the colour over white: white - (white - value) * opacity. The inverted
+    // density is the ink, (white - value) * opacity.
     setAll(values, [&](std::int64_t i, double known) {
       const double opacity = white > 0.0 ? static_cast<double>(begin(i, alpha)) / white : 1.0;
       const double ink = (white - known) * opacity;

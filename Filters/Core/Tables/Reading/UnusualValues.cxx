@@ -14,12 +14,15 @@ namespace RectifiedTransport
 namespace
 {
 
+// With fewer values, one that dominates is normal.
 constexpr std::int64_t fewest = 8;
-// Between a value and the next one: of a value that belongs to other data, of one that adding up
-// hides, and of a number that is known to mark missing data.
+// The largest ratio of the next value to this one, for a value that belongs to other data (1e-6),
+// for one beside which adding up hides all others (1e-15), and for a number that is known to mark
+// missing data (0.9).
 constexpr double farBelow = 1e-6;
 constexpr double nothingBelow = 1e-15;
 constexpr double below = 0.9;
+// A finding needs a value that carries more than half the mass.
 constexpr double mostOfMass = 0.5;
 
 // Whether files use this number for missing data: -999, 9999, 1e20, 9.96921e36 and so on.
@@ -34,11 +37,11 @@ bool isFillValue(double value)
   }
   const double power = std::round(std::log10(std::max(size, 1.0)));
   const double ten = std::pow(10.0, power);
-  // Powers of ten as floats, too; and 999, 9999, 99999 and so on.
+  // Powers of ten, also as rounded to floats; and 999, 9999, 99999 and so on.
   return size >= tens ? std::abs(size / ten - 1.0) < 1e-7 : power >= 3.0 && size == ten - 1.0;
 }
 
-// The part of the mass that the largest density carries if all values are of cells of one size.
+// Returns the part of the mass that the largest density carries if all cells have the same size.
 double shareByValues(const DensitySummary& found)
 {
   const double total = std::max(found.Total, found.Maximum);
@@ -67,8 +70,10 @@ bool isUnusualLargest(const DensitySummary& found, double raw, std::int64_t valu
   return next > 0.0 && next <= (found.Minimum < next ? farBelow : nothingBelow) * largest;
 }
 
+// White far above all other values makes all densities white - value nearly equal.
 bool isUnusualWhite(const LargestValue& white)
 {
+  // The others then differ by at most this part of white.
   constexpr double farFromAll = 1e-10;
   return std::isfinite(white.Value) && std::isfinite(white.Next) && white.Value > 0.0 &&
     white.Next != 0.0 &&
@@ -76,6 +81,7 @@ bool isUnusualWhite(const LargestValue& white)
       (isFillValue(white.Value) && white.Next <= below * white.Value));
 }
 
+// Negative values whose sum is mostly one value, which is a fill value or far below all others.
 bool isUnusualLowest(const LowestValue& lowest)
 {
   return lowest.Count > 0 &&
@@ -92,13 +98,14 @@ std::string countOf(std::int64_t count, std::int64_t first, const ValuePlaces& p
   return text.str();
 }
 
-// The array's value of a density; of a colour, its luminance.
+// Returns the array's value that gives a density; for a colour, its luminance.
 double rawValue(const UnusualValues& values, const ValuePlaces& places, double density)
 {
   return places.IsInverted && !places.IsColour ? values.White.Value - density : density;
 }
 
-// The name of a fill value of the field data; empty if it is none. Files round it to floats.
+// Returns the name of the field data's fill value, or an empty text. Files round such values to
+// floats.
 std::string nameOfFillValue(const ValuePlaces& places, double value)
 {
   for (const FillValue& fill : places.FillValues)
@@ -124,7 +131,7 @@ std::string upTo(double value)
   return textOf(-Unbounded) + " " + textOf(value);
 }
 
-// The range of all values but the one of the largest density.
+// Returns the range of all values except the one with the largest density.
 std::string rangeWithout(const UnusualValues& values, const ValuePlaces& places)
 {
   const double next = rawValue(values, places, values.Found.BelowMaximum);
@@ -176,6 +183,7 @@ std::string describeLowest(const ValuePlaces& places, const LowestValue& lowest)
 
 void merge(const LargestValue& part, LargestValue& all)
 {
+  // The second largest of both parts is the loser's maximum or one of the seconds.
   const double next = std::max(std::min(part.Value, all.Value), std::max(part.Next, all.Next));
   if (part.Value == all.Value)
   {

@@ -18,7 +18,7 @@ namespace RectifiedTransport
 // The largest finite value, the number of tuples that have it, and the next value below it.
 struct LargestValue
 {
-  double Value = -std::numeric_limits<double>::infinity(); // of none
+  double Value = -std::numeric_limits<double>::infinity(); // none yet
   std::int64_t Count = 0;
   std::int64_t First = -1;
   double Next = -std::numeric_limits<double>::infinity();
