@@ -15,13 +15,17 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t firstSlice = 1 << 10; // of integrals
-constexpr std::int64_t firstAdded = 1 << 15; // of sums of few values
-// Of Newton's method; nearly all solutions are better by an order of magnitude or more.
+// cells whose sides are integrated before the first check
+constexpr std::int64_t firstSlice = 1 << 10;
+constexpr std::int64_t firstAdded = 1 << 15; // cells whose few side masses are added before it
+// The tolerance of Newton's method. Nearly all solutions are better by an order of magnitude or
+// more, since the last step converges quadratically. It is below massTolerance.
 constexpr double solvedTo = 4e-7;
 constexpr int mostSteps = 2000; // in one solution
-// A density that is partly even, on the way to the given one.
+// The tolerance for a density that is partly even, on the way to the given one.
 constexpr double nearlySolved = 0.1;
+// The least damping, relative to the mean of the diagonal: it only fixes the additive constant of
+// the weights, and hardly changes the step.
 constexpr double smallestDamping = 1e-13;
 
 double squaredDistance(const Point<2>& a, const Point<2>& b)
@@ -58,8 +62,8 @@ bool EqualMassPartition::Solve(ConstPointSpan<2> sites, Progress& progress)
   return true;
 }
 
-// The weights for new sites at which the potential |x - site|^2 - weight stays as it was at the
-// centroids of the cells.
+// Sets the weights for new sites so that the potential |x - site|^2 - weight is unchanged at the
+// centroids of the previous cells: weight += |c - new|^2 - |c - old|^2.
 void EqualMassPartition::SetSites(ConstPointSpan<2> sites, Progress& progress)
 {
   this->Cells.SetSites(sites, progress);
@@ -72,9 +76,10 @@ void EqualMassPartition::SetSites(ConstPointSpan<2> sites, Progress& progress)
   }
 }
 
-// Weights with which each cell has a part of the domain: none where the domain has all sites. Else
-// those with which the cells are the Voronoi cells of c = centre + scale * (site - middle), points
-// of the domain: |x - c|^2 / scale and |x - site|^2 - weight differ by the same for all sites.
+// Finds weights with which each cell has a part of the domain. If all sites are in the domain,
+// these are zeros (the Voronoi diagram). Otherwise the cells become the Voronoi cells of the points
+// c = centre + scale * (site - middle), which are in the domain: |x - c|^2 / scale and |x - site|^2
+// - weight differ by the same function of x for all sites.
 void EqualMassPartition::FindFirstWeights()
 {
   const Point<2> lengths = this->Rows.Lengths();
@@ -94,6 +99,8 @@ void EqualMassPartition::FindFirstWeights()
 
 bool EqualMassPartition::SolveFromHere(Progress& progress)
 {
+  // Below this mass of the smallest cell, the warm start is given up for the first weights; 1e-9 is
+  // the least mass with which Newton's method can begin.
   constexpr double tooLittle = 1e-3;
   if (this->Evaluate(this->Weights, progress).Least < tooLittle)
   {
@@ -105,15 +112,16 @@ bool EqualMassPartition::SolveFromHere(Progress& progress)
   return this->Found.Least > none && this->Ascend(solvedTo, mostShortSteps, progress);
 }
 
-// The cells of an even density have mass with the first weights, and where the even part of a
-// density is reduced to a part of it, no mass is reduced to less than that part. So the way from
-// the even density to the given one may be gone in steps, which are as long as they succeed.
+// Continuation from the even density. Its cells have mass with the first weights. If the even share
+// falls from s to s', the mass of each cell is at least s' / s of what it was, so that Newton's
+// method can begin there. The steps grow while they succeed and shrink when they fail.
 bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
 {
+  // The ratio s / s' of a step: at most 64, and at least 1.001, below which the method has failed.
   constexpr double smallestRatio = 1.001;
   constexpr double largestRatio = 64.0;
   constexpr int mostShortSteps = 500;
-  // So little changes no cell's mass by more than a part of the tolerance.
+  // An even share this small changes no cell's mass by more than a fifth of the tolerance.
   const double smallest = 0.2 * massTolerance / static_cast<double>(this->Cells.Sites().size());
   this->FindFirstWeights();
   Vector solved;
@@ -134,6 +142,7 @@ bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
     else
     {
       this->Weights = solved;
+      // A failed step is halved on the scale of log(share).
       ratio = std::sqrt(ratio);
       if (ratio < smallestRatio || this->Steps >= mostSteps)
       {
@@ -151,6 +160,8 @@ void EqualMassPartition::VisitCells(Progress& progress, std::int64_t units, cons
   progress.ForEach(this->Cells.NumberOfCells(), PowerDiagram::cellsOfChunk, visit, units);
 }
 
+// Computes the diagram for the weights and the masses of its cells: the sides' parts by the
+// divergence theorem, then their sums around each cell.
 EqualMassPartition::Deviation EqualMassPartition::Evaluate(
   const Vector& weights, Progress& progress)
 {
@@ -172,7 +183,7 @@ EqualMassPartition::Deviation EqualMassPartition::Evaluate(
   return this->Found;
 }
 
-// The cells of the diagram are small parts of a table that is larger than the caches.
+// Cells are small parts of a table that is larger than the caches, so the next one is prefetched.
 void EqualMassPartition::PrefetchCell(std::int64_t place) const
 {
   const bool isCell = place < this->Cells.NumberOfCells();
@@ -193,7 +204,7 @@ void EqualMassPartition::PrefetchCell(std::int64_t place) const
   this->Rows.Prefetch(low, high);
 }
 
-// Of the two cells at a side, the one of the larger site integrates along it.
+// Two cells share each side; the cell of the larger site integrates along it, for both.
 void EqualMassPartition::IntegrateSides(std::int64_t place)
 {
   this->PrefetchCell(place + 1);
@@ -212,7 +223,9 @@ void EqualMassPartition::IntegrateSides(std::int64_t place)
   }
 }
 
-// The derivatives of the mass are the density along the sides over twice the distance of the sites.
+// The derivative of cell i's mass by the weight of j is -(integral of the density along their
+// common side) / (2 |x_i - x_j|): the bisector moves by 1 / (2 |x_i - x_j|) for each unit of the
+// weight.
 EqualMassPartition::Side EqualMassPartition::Integrate(std::int64_t site, std::int64_t k) const
 {
   const PowerDiagram::Cell cell = this->Cells[site];
@@ -228,6 +241,7 @@ EqualMassPartition::Side EqualMassPartition::Integrate(std::int64_t site, std::i
   return side;
 }
 
+// Adds up the mass of a cell. A side's part has the opposite sign for the other cell.
 void EqualMassPartition::AddSides(std::int64_t site)
 {
   const PowerDiagram::Cell cell = this->Cells[site];
@@ -247,7 +261,7 @@ void EqualMassPartition::AddSides(std::int64_t site)
     {
       ++same;
     }
-    // Rounding may leave a side of no length to one of the cells only.
+    // Rounding may leave a side without length to only one of the cells.
     mass += same < other.Count ? -this->SidesOf(j)[same].Mass : this->Integrate(site, k).Mass;
   }
   this->Masses[static_cast<std::size_t>(site)] = mass;
@@ -259,6 +273,8 @@ const EqualMassPartition::Side* EqualMassPartition::SidesOf(std::int64_t site) c
   return this->Sides[static_cast<std::size_t>(place.Chunk)].data() + place.First;
 }
 
+// Evaluates the weights. If at most a tenth of the cells have too little mass, raises their
+// weights, which also raises the concave function, and evaluates again.
 EqualMassPartition::Deviation EqualMassPartition::EvaluateRevived(
   Vector& weights, double least, Progress& progress)
 {
@@ -292,8 +308,8 @@ EqualMassPartition::Deviation EqualMassPartition::EvaluateRevived(
   return found;
 }
 
-// A weight with which the cell has at least that mass and at most 1, in the diagram of the last
-// evaluation, where it had less.
+// Returns a weight with which the cell has a mass between `least` and 1 in the diagram of the last
+// evaluation, where it had less. The other weights stay.
 double EqualMassPartition::RevivingWeight(std::int64_t site, double weight, double least) const
 {
   std::vector<PowerDiagram::Corner> corners;
@@ -308,9 +324,10 @@ double EqualMassPartition::RevivingWeight(std::int64_t site, double weight, doub
     return mass;
   };
   double low = weight;
-  double step = 1e-3; // a length of a thirtieth of the mean spacing
+  double step = 1e-3; // about a thirtieth of the mean spacing, as a length
   double high = low + step;
   double mass = massWith(high);
+  // The bracket grows until the mass at its upper end is sufficient.
   while (mass < least && std::isfinite(step))
   {
     low = high;
@@ -318,13 +335,14 @@ double EqualMassPartition::RevivingWeight(std::int64_t site, double weight, doub
     high += step;
     mass = massWith(high);
   }
+  // The aim is the geometric mean of the bounds `least` and 1.
   constexpr int mostTries = 40;
   const double aim = std::sqrt(least);
   double found = high;
   for (int tries = 0; tries < mostTries && !(mass >= least && mass <= 1.0); ++tries)
   {
     (mass > 1.0 ? high : low) = found;
-    // In an even density a cell's mass begins like the square of the weight that is added.
+    // In an even density, the mass grows at first like the square of the added weight.
     const double part = mass > 1.0 ? std::clamp(std::sqrt(aim / mass), 0.1, 0.9) : 0.5;
     found = low + part * (high - low);
     mass = massWith(found);
@@ -332,20 +350,27 @@ double EqualMassPartition::RevivingWeight(std::int64_t site, double weight, doub
   return found;
 }
 
-// From weights that were evaluated. A step that ends where the function still rises along it is as
-// good as one that brings the masses nearer to 1, and the only kind where parts of the density do
-// not touch: their potentials may then be far from each other's. Damping shortens such steps.
+// Newton's method, from weights that were evaluated, for the concave dual function F(w) = sum over
+// cells of (integral of (|x - site_i|^2 - w_i) over cell i) + sum of w_i, with the gradient 1 -
+// mass_i. A step is accepted if it reduces the residual |1 - mass|, or if F still rises along it at
+// its end. The second kind is the only one if parts of the density do not touch, since their
+// potentials may differ by a lot. Damping shortens such steps.
 bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progress)
 {
+  // The least part of a Newton step that is tried, and the part below which a step counts as short.
   constexpr double shortest = 1e-4;
   constexpr double isShort = 0.25;
+  // The least relative reduction of the residual, so that every step makes progress.
   constexpr double leastGain = 1e-3;
   constexpr double firstDamping = 1e-7;
+  // Kitagawa, Merigot and Thibert keep every cell's mass above half of the least initial mass: then
+  // the Hessian has no zero mode except constants, and the damped method converges.
   const double floor = 0.5 * std::min(1.0, this->Found.Least);
   Vector trial(this->Weights.size());
   double damping = smallestDamping;
   double firstPart = 1.0;
-  double reduction = std::numeric_limits<double>::infinity(); // of the deviation, by the last step
+  // part to which the last step reduced the residual
+  double reduction = std::numeric_limits<double>::infinity();
   bool isRetry = false;
   for (int shortSteps = 0; this->Found.Largest > tolerance;)
   {
@@ -360,8 +385,8 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
       reduction = std::numeric_limits<double>::infinity();
       ++shortSteps;
     };
-    // With the matrix of a step that reduced the deviation to a part, another one reduces it to
-    // about twice that part: enough for the last step.
+    // With the factor of a step that reduced the residual to a part, another step reduces it to
+    // about twice that part. If this is enough, the last step needs no new factorization.
     const bool isLast = 2.0 * reduction * this->Found.Largest < tolerance;
     if (!(isLast || this->FactorizeHere(damping, progress)) || !this->FindDirection())
     {
@@ -371,6 +396,8 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
     const Deviation before = this->Found;
     double part = firstPart;
     bool isAccepted = false;
+    // Backtracking: Armijo's condition with 1/2 for the norm of the residual, which falls like 1 -
+    // part for an exact Newton step.
     while (part >= shortest && !isAccepted)
     {
       for (std::size_t i = 0; i < trial.size(); ++i)
@@ -391,9 +418,11 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
       continue;
     }
     this->Weights.swap(trial);
+    // After a short step the next search begins at four times its part, not at the whole step.
     shortSteps += part < isShort ? 1 : 0;
     firstPart = std::min(1.0, 4.0 * part);
     reduction = this->Found.Norm / before.Norm;
+    // A good step reduces the damping quickly; after a retry the damping stays for one step.
     const bool isGood = reduction < 0.25;
     damping = std::max(smallestDamping, damping * (isGood ? 0.01 : isRetry ? 1.0 : 0.1));
     isRetry = false;
@@ -401,7 +430,8 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
   return true;
 }
 
-// The derivative of the function in the direction of weights that were evaluated, there.
+// Returns the directional derivative of the dual function at weights that were evaluated, along the
+// step to them: (1 - mass) . (weights - Weights).
 double EqualMassPartition::Slope(const Vector& weights) const
 {
   double slope = 0.0;
@@ -412,8 +442,8 @@ double EqualMassPartition::Slope(const Vector& weights) const
   return slope;
 }
 
-// Minus the second derivatives are a graph's Laplacian: the sides of the cells with their
-// strengths. Weights are determined up to a constant; damping determines it.
+// Minus the Hessian of the dual is the Laplacian of the graph of neighbouring cells, with the
+// strengths of their sides. The weights are determined up to a constant, which the damping fixes.
 bool EqualMassPartition::FactorizeHere(double damping, Progress& progress)
 {
   this->System.RemoveEdges();
@@ -435,6 +465,7 @@ bool EqualMassPartition::FactorizeHere(double damping, Progress& progress)
   return this->System.Factorize(damping, progress);
 }
 
+// Newton's direction d solves (minus Hessian + damping) d = 1 - mass.
 bool EqualMassPartition::FindDirection()
 {
   this->Direction.resize(this->Masses.size());
@@ -443,6 +474,8 @@ bool EqualMassPartition::FindDirection()
   return this->System.Solve(this->Direction);
 }
 
+// Integrates mass, centroid and spread of all cells, for which the gradient and the cost need more
+// than masses.
 void EqualMassPartition::IntegrateCells(Progress& progress)
 {
   this->Integrated.resize(this->Cells.Sites().size());
@@ -462,6 +495,8 @@ EqualMassPartition::CellIntegrals EqualMassPartition::IntegrateCell(std::int64_t
     middle[0] += cell[k].X[0] / static_cast<double>(cell.Count);
     middle[1] += cell[k].X[1] / static_cast<double>(cell.Count);
   }
+  // Moments are taken about the corner of a grid cell near the polygon, so that they keep their
+  // digits on large grids. Then they are moved to the centroid (parallel axis theorem).
   const GridSize<2> near = this->Rows.CellAt(middle);
   const Point<2> origin = this->Rows.CornerOf(near);
   PolygonMoments moments;
@@ -474,6 +509,7 @@ EqualMassPartition::CellIntegrals EqualMassPartition::IntegrateCell(std::int64_t
     moments.MovedBy({ -offset[0], -offset[1] }).Second };
 }
 
+// The integral of |x - site|^2 = integral of |x - centroid|^2 + mass |centroid - site|^2.
 double EqualMassPartition::Cost(std::int64_t site) const
 {
   const CellIntegrals& cell = this->Integrals(site);

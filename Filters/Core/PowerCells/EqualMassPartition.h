@@ -30,7 +30,7 @@ public:
   {
     double Mass;
     Point<2> Centroid;
-    double Spread; // of |x - centroid|^2
+    double Spread; // integral of |x - centroid|^2
   };
 
   // The mass of the density is the number of sites, so that each cell shall have mass 1.
@@ -103,15 +103,16 @@ private:
   RowMoments Rows;
   PowerDiagram Cells;
   Vector Weights;
-  std::vector<Point<2>> SolvedSites; // of the last solution, with its integrals
+  std::vector<Point<2>> SolvedSites; // sites of the last solution, with its integrals
   Vector SolvedWeights;
   std::vector<CellIntegrals> Integrated;
 
-  Deviation Found{};                    // of the weights that were evaluated last
-  Vector Masses;                        // as well
-  std::vector<std::vector<Side>> Sides; // as well, by the diagram's chunks
-  std::vector<Place> Places;            // of the sides of each site's cell
-  GraphLaplacian System;                // Newton's
+  Deviation Found{};                    // deviation for the weights that were evaluated last
+  Vector Masses;                        // masses of the cells for these weights
+  std::vector<std::vector<Side>> Sides; // sides of these cells, by the diagram's chunks
+  std::vector<Place> Places;            // where each site's sides are
+  GraphLaplacian System;                // the linear system of Newton's method
+  // Newton's direction: a change of every weight.
   Vector Direction;
   int Steps = 0;
 };

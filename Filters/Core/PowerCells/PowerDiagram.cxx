@@ -15,7 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t firstSlice = 1 << 9; // where all cells meet in a point they are slow
+constexpr std::int64_t firstSlice = 1 << 9; // cells; slow where all cells meet in a point
 
 } // namespace
 
@@ -33,13 +33,15 @@ public:
     this->FindRadius();
   }
 
-  // Cuts away what belongs to a site at an offset, whose weight is larger by `gain` than the
-  // cell's.
+  // Clips the cell to the half-plane of points that are not nearer to a site at `offset` whose
+  // weight is larger by `gain`: |x|^2 <= |x - offset|^2 - gain, that is, 2 offset . x <= |offset|^2
+  // - gain.
   void Cut(std::int64_t neighbour, const Point<2>& offset, double gain)
   {
     const double square = offset[0] * offset[0] + offset[1] * offset[1];
     const double limit = square - gain;
-    // The bisector is limit / (2 distance) from the site.
+    // The bisector is at the distance limit / (2 |offset|) from the site; beyond the farthest
+    // corner it cuts nothing.
     if (limit > 0.0 && limit * limit >= 4.0 * square * this->SquaredRadius)
     {
       return;
@@ -78,6 +80,8 @@ public:
   std::int64_t Size() const { return static_cast<std::int64_t>(this->Polygon.size()); }
 
 private:
+  // Sutherland and Hodgman's clipping of a convex polygon by one half-plane. The new side gets the
+  // neighbour that cuts it off.
   void KeepInside(std::int64_t neighbour)
   {
     const std::size_t count = this->Polygon.size();
@@ -117,7 +121,7 @@ private:
 
   std::vector<Corner> Polygon;
   std::vector<Corner> Clipped;
-  std::vector<double> Excess; // of each corner beyond the bisector
+  std::vector<double> Excess; // excess of each corner beyond the bisector
   double SquaredRadius = 0.0;
   double LargestDistance = 0.0;
 };
@@ -139,7 +143,8 @@ void PowerDiagram::SetSites(ConstPointSpan<2> sites, Progress& progress)
 
 void PowerDiagram::Update(const double* weights, Progress& progress)
 {
-  // Doubt spreads by a ring of cells a round; a change of half of the diagram needs no more.
+  // Doubt spreads by one ring of cells a round; a change of half of the diagram needs no more than
+  // eight. After them, all cells that remain are cut by all rivals.
   constexpr int mostRounds = 8;
   this->Tree.SetWeights(weights, progress);
   this->CutByKnown(weights, progress);
@@ -174,9 +179,10 @@ void PowerDiagram::CutByKnown(const double* weights, Progress& progress)
     firstSlice);
 }
 
-// Cells that were cut by some of the sites have all points of the true ones. Where they fit
-// together, side to side and corner to corner, they cover the rectangle equally often everywhere:
-// once, where only four of their corners are the rectangle's. Then none of them is too large.
+// Cells cut by only some of the sites contain the true cells. If they fit together, side to side
+// and corner to corner, they cover the rectangle equally often everywhere. If also only four of
+// their corners are the rectangle's, they cover it once; since the true cells cover it once, too,
+// none of them is too large.
 std::vector<std::int64_t> PowerDiagram::FindDoubtful(Progress& progress)
 {
   const std::int64_t corners = reduceChunks(
@@ -208,8 +214,8 @@ std::vector<std::int64_t> PowerDiagram::SitesCutBy(CutBy state)
   return sites;
 }
 
-// Doubts a cell and its neighbours where they do not fit. Returns how many corners of the rectangle
-// are its own.
+// Doubts a cell and its neighbours if they do not fit. Returns how many corners of the rectangle
+// belong to the cell.
 std::int64_t PowerDiagram::Compare(std::int64_t site)
 {
   const Cell cell = (*this)[site];
@@ -234,8 +240,8 @@ std::int64_t PowerDiagram::Compare(std::int64_t site)
     {
       ++same;
     }
-    // The cell at the end of the side is the next one there for both; the other end is the other
-    // cell's to compare.
+    // At the end of the side, both cells must have the same next neighbour. The other end is
+    // compared from the other cell.
     const bool fits = same < other.Count && other.Before(same).Neighbour == cell.After(k).Neighbour;
     if (!fits)
     {
@@ -248,11 +254,14 @@ std::int64_t PowerDiagram::Compare(std::int64_t site)
 
 void PowerDiagram::Doubt(std::int64_t site)
 {
+  // Several threads may doubt the same cell: only the state Known changes, once.
   CutBy known = CutBy::Known;
   this->StateOf(site).compare_exchange_strong(
     known, CutBy::Doubtful, std::memory_order_relaxed, std::memory_order_relaxed);
 }
 
+// Cuts cells by their known neighbours first, which makes them small, and then by all rivals that
+// the tree finds. The new corners go to chunks behind those of the first pass.
 void PowerDiagram::CutByAll(
   const std::vector<std::int64_t>& sites, const double* weights, Progress& progress)
 {

@@ -129,7 +129,7 @@ private:
   std::vector<Point<2>> AllSites;
   std::vector<std::atomic<CutBy>> States;
   Cells Now;
-  Cells Last; // of the previous update, for their neighbours
+  Cells Last; // cells of the previous update, for their neighbours
 };
 
 } // namespace RectifiedTransport

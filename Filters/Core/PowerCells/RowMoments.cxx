@@ -72,7 +72,7 @@ DensitySummary RowMoments::ReadValues(const DensityValues& values, Progress& pro
 
 void RowMoments::Accumulate(double total, const DensitySummary& found, Progress& progress)
 {
-  // Sums of values in [0,1] neither overflow nor lose bits; a power of two does not round.
+  // Values scaled by a power of two to at most 1 neither overflow nor lose bits in the sums.
   const double unit = std::ldexp(1.0, -std::clamp(std::ilogb(found.Maximum), -1000, 1000));
   const std::int64_t columns = this->Size[0];
   const auto sum = [&](std::int64_t first, std::int64_t last) {
@@ -87,6 +87,8 @@ void RowMoments::Accumulate(double total, const DensitySummary& found, Progress&
     progress, this->Size[1], 1, 0.0, sum, [](double a, double b) { return a + b; },
     this->RowsOfSlice());
   const double scale = total / all;
+  // Each row gets the prefix sums of its cells' masses, and the moments of blocks of 16 cells about
+  // their first cell.
   const auto accumulate = [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t j = first; j < last; ++j)
     {
@@ -106,7 +108,8 @@ void RowMoments::Accumulate(double total, const DensitySummary& found, Progress&
   progress.For(this->Size[1], 1, accumulate, this->RowsOfSlice());
 }
 
-// A slice that takes some milliseconds, however long rows are: new memory is touched.
+// Returns how many rows take some milliseconds, however long rows are; the time counts the first
+// touch of new memory, too.
 std::int64_t RowMoments::RowsOfSlice() const
 {
   constexpr std::int64_t cells = std::int64_t{ 1 } << 17;
@@ -138,14 +141,16 @@ Point<2> RowMoments::NearestMass(const Point<2>& point) const
   return { nearest[0] * this->Scale[0], nearest[1] * this->Scale[1] };
 }
 
-// The way of a side through the cells along one axis. Whether the next face is one of x or one of y
-// is nothing that a processor could predict, so that no branch depends on it.
+// The way of a side through the cells along one axis, as in Amanatides and Woo's traversal of a
+// grid. Whether the next face is one of x or one of y is unpredictable, so that no branch depends
+// on it.
 struct RowMoments::Way
 {
-  // From `start` to `end`, in cells, of which there are `count`.
+  // From `start` to `end`, in cells; there are `count` of them.
   Way(double start, double end, std::int64_t count)
   {
-    // A side along a face belongs to the cells on either side of it.
+    // An end on a face belongs to the cell that the side passes through there; a side along a face
+    // may belong to the cells on either side of it.
     const auto cellOf = [count](double x, bool below) {
       const auto cell = static_cast<std::int64_t>(x);
       const bool isFace = x == static_cast<double>(cell);
@@ -172,12 +177,14 @@ struct RowMoments::Way
     this->Next += this->Steps[crossed << static_cast<int>(isLast)];
   }
 
+  // A part beyond the end of the side (1): no face is left.
   static constexpr double never = 2.0;
   std::int64_t Cell;
   std::int64_t Direction;
   std::int64_t Faces;  // that are left to cross
   double Next = never; // the part of the side before the next face
-  // What crossing adds to it: none, one of several faces, the last one.
+  // What the crossing adds to Next: nothing (no crossing), the distance of two faces, or `never`
+  // after the last one.
   double Steps[3] = { 0.0, 0.0, never };
 };
 
@@ -192,6 +199,8 @@ void RowMoments::VisitCells(const Point<2>& from, const Point<2>& to, const Visi
   Point<2> at = start;
   for (std::int64_t faces = x.Faces + y.Faces; faces > 0; --faces)
   {
+    // The next face along the side, and its part of the length. Clamping makes the parts
+    // monotonous.
     const bool isRow = y.Next < x.Next;
     const double part = std::clamp(std::min(x.Next, y.Next), done, 1.0);
     const Point<2> face = { start[0] + part * (end[0] - start[0]),
@@ -208,7 +217,7 @@ void RowMoments::VisitCells(const Point<2>& from, const Point<2>& to, const Visi
 void RowMoments::Prefetch(const Point<2>& low, const Point<2>& high) const
 {
   constexpr std::int64_t cellsOfLine = 64 / sizeof(Masses);
-  constexpr std::int64_t mostLines = 256; // a part of the nearest cache
+  constexpr std::int64_t mostLines = 256; // a part of the first-level cache
   const GridSize<2> first = this->CellAt(low);
   const GridSize<2> last = this->CellAt(high);
   const std::int64_t lines = (last[0] - first[0]) / cellsOfLine + 2;
@@ -244,8 +253,8 @@ Point<2> RowMoments::CornerOf(const GridSize<2>& cell) const
     this->Scale[1] * static_cast<double>(cell[1]) };
 }
 
-// The integrals over the cells of a row from the column `origin` on, up to that of a point which
-// goes from cell to cell. Those before the origin count as negative.
+// Integrals over a row from the column `origin` up to that of a point which moves from cell to
+// cell. Columns before the origin count negatively.
 class RowMoments::RowIntegral
 {
 public:
@@ -266,6 +275,8 @@ public:
       this->AddCells(std::min(column, this->Origin), std::max(column, this->Origin));
       this->Sum = { sign * this->Sum.Mass, sign * this->Sum.First, sign * this->Sum.Second };
     }
+    // A step to a neighbouring column adds or removes one cell; only a new row needs a sum over
+    // blocks.
     else if (column > this->Column)
     {
       this->Sum.Add(this->Cells[this->Column].Own, this->Offset(this->Column));
@@ -275,13 +286,15 @@ public:
       this->Sum.Add(-this->Cells[column].Own, this->Offset(column));
     }
     this->Column = column;
+    // The moments of masses at the beginnings of cells become those of constant cells, and the even
+    // share adds a uniform density: integrals of 1, x and x^2 over the width.
     const Moments spread = this->Sum.Spread();
     const double width = this->Offset(column);
     return { this->Rows.WithEven(spread.Mass, width),
       this->Rows.WithEven(spread.First, width * width / 2.0),
       this->Rows.WithEven(spread.Second, width * width * width / 3.0) };
   }
-  // Of the cell of the point.
+  // Returns the mass of the point's cell.
   double Own() const { return this->Rows.WithEven(this->Cells[this->Column].Own, 1.0); }
 
 private:
@@ -304,16 +317,17 @@ private:
 
   const RowMoments& Rows;
   const std::int64_t Origin;
-  const Masses* Cells = nullptr; // of the row
+  const Masses* Cells = nullptr; // masses of the row
   std::int64_t Row = -1;
   std::int64_t Column = 0;
-  Moments Sum{}; // of the beginnings of the cells
+  Moments Sum{}; // moments of masses at the beginnings of the cells
 };
 
 void RowMoments::AddSide(const Point<2>& from, const Point<2>& to, const GridSize<2>& origin,
   PolygonMoments& moments) const
 {
-  // The moments along the row are cubic in x, so that two points integrate them without error.
+  // The moments along the row are cubic in the parameter of the side, so two-point Gauss quadrature
+  // integrates them exactly in y.
   constexpr double place = 0.57735026918962576451; // sqrt(1/3)
   double mass = 0.0;
   double first[2] = { 0.0, 0.0 };
@@ -330,6 +344,9 @@ void RowMoments::AddSide(const Point<2>& from, const Point<2>& to, const GridSiz
       {
         const double x = (a[0] + b[0]) / 2.0 + side * (b[0] - a[0]) / 2.0;
         const double y = (a[1] + b[1]) / 2.0 - zero + side * half;
+        // By the divergence theorem, the integral of f x^k y^l over the polygon is the sum over its
+        // sides of the integral of M_k(x, y) y^l dy, where M_k(x, y) is the integral of f s^k from
+        // the origin to x along the row.
         const double u = x - static_cast<double>(column);
         const double m = half * (before.Mass + own * u);
         mass += m;
@@ -347,6 +364,7 @@ void RowMoments::AddSide(const Point<2>& from, const Point<2>& to, const GridSiz
   }
 }
 
+// The mass alone is linear along the piece of a side in a cell: the midpoint rule is exact.
 double RowMoments::AddSideMass(const Point<2>& from, const Point<2>& to, double& mass) const
 {
   double along = 0.0;

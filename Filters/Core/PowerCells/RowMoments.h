@@ -31,8 +31,8 @@ struct PolygonMoments
   }
 
   double Mass = 0.0;
-  Point<2> First{};    // of the coordinates
-  double Second = 0.0; // of the squared distance from the origin
+  Point<2> First{};    // integral of the coordinates
+  double Second = 0.0; // integral of the squared distance from the origin
 };
 
 // The cumulative masses along each row of the grid. The grid lies in the plane with its corner at
@@ -128,7 +128,7 @@ private:
     return this->CellMasses.data() + row * this->Size[0];
   }
   Masses* RowAt(std::int64_t row) { return this->CellMasses.data() + row * this->Size[0]; }
-  // With the even share.
+  // Mixes a mass with the even share: (1 - e) mass + e * mean mass * cells.
   double WithEven(double mass, double evenMasses) const
   {
     return (1.0 - this->EvenShare) * mass + this->EvenShare * this->MeanMass * evenMasses;
@@ -140,11 +140,12 @@ private:
 
   GridSize<2> Size;
   Point<2> Scale;
-  double MeanMass = 0.0; // of a cell
+  double MeanMass = 0.0; // mean mass of a cell
   double EvenShare = 0.0;
   bool Empty = false;
   LargeBuffer<Masses> CellMasses;
-  LargeBuffer<Moments> Blocks;         // of the beginnings of cells, from their first cell on
+  // moments of masses at the beginnings of cells, relative to the block's first cell
+  LargeBuffer<Moments> Blocks;
   LargeBuffer<std::uint64_t> Occupied; // a bit a cell, rows of whole words
 };
 

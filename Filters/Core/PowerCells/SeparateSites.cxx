@@ -17,8 +17,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// Squares with the distance as their side: sites that are too near are in the same or in
-// neighbouring ones.
+// A hash table of squares whose side is the distance: sites that are too near each other are in the
+// same or in neighbouring squares.
 class SiteSquares
 {
 public:
@@ -38,8 +38,9 @@ public:
     Point<2> x = given;
     while (!this->IsFree(x))
     {
-      // As dense as a spiral is whose points are this far apart; the turn is the golden angle,
-      // whose cosine and sine these are.
+      // The k-th place on a Vogel spiral has the radius 2 distance sqrt(k) and the angle k times
+      // the golden angle (these are its cosine and sine), so that places are evenly dense and about
+      // as far apart as the distance.
       constexpr double cosine = -0.73736887807831990;
       constexpr double sine = 0.67549029426152362;
       home.Turn = { cosine * home.Turn[0] - sine * home.Turn[1],
@@ -47,7 +48,7 @@ public:
       const double radius = 2.0 * this->Distance * std::sqrt(static_cast<double>(++home.Tried));
       for (std::size_t a = 0; a < 2; ++a)
       {
-        // Where the bounds are thin the places are on a line, one after the other on both sides.
+        // In thin bounds the places are on a line, alternately on both sides.
         const bool isAlone = this->IsThin(1 - a);
         const double along = (home.Tried % 2 == 0 ? 0.5 : -0.5) * static_cast<double>(home.Tried);
         const double place =
@@ -79,14 +80,14 @@ private:
   };
   struct Square
   {
-    std::int64_t First = none;    // of the sites that are placed here
-    std::int64_t Tried = 0;       // places on the spiral
-    Point<2> Turn = { 1.0, 0.0 }; // to the last of them
+    std::int64_t First = none;    // first of the sites that are placed here
+    std::int64_t Tried = 0;       // places on the spiral that were tried
+    Point<2> Turn = { 1.0, 0.0 }; // direction of the last of them
   };
 
   Key SquareOf(const Point<2>& x) const
   {
-    // Sites far away from bounds that are small have a number that is none of 64 bits.
+    // Squares of sites far away from small bounds would have numbers beyond 64 bits.
     static constexpr double most = 1e18;
     const auto along = [this](double place) {
       return static_cast<std::int64_t>(std::clamp(std::floor(place / this->Distance), -most, most));
@@ -99,6 +100,7 @@ private:
     return this->Bounds.High[axis] - this->Bounds.Low[axis] < 4.0 * this->Distance;
   }
 
+  // Tests the nine squares that may hold a site nearer than the distance.
   bool IsFree(const Point<2>& x) const
   {
     const Key square = this->SquareOf(x);
@@ -124,7 +126,7 @@ private:
   const double Distance;
   const SiteBounds Bounds;
   std::unordered_map<Key, Square, Hash> Squares;
-  std::vector<std::int64_t> Next; // in the same square
+  std::vector<std::int64_t> Next; // the next site in the same square
 };
 
 } // namespace

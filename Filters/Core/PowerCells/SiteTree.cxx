@@ -12,6 +12,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Leaves with so few sites cost less to visit than to divide.
 constexpr std::int64_t leafSites = 6;
 
 } // namespace
@@ -69,7 +70,7 @@ void SiteTree::SetWeights(const double* weights, Progress& progress)
     WeightedSite& site = this->Sites[static_cast<std::size_t>(i)];
     site.Weight = weights[site.Id];
   });
-  constexpr std::int64_t boxesOfRange = 64; // some have all sites
+  constexpr std::int64_t boxesOfRange = 64; // boxes; some have all sites
   const std::int64_t firstSlice = this->Size() > sitesOfRange ? boxesOfRange : 1 << 14;
   progress.ForEach(
     static_cast<std::int64_t>(this->Boxes.size()), boxesOfRange,
@@ -77,7 +78,9 @@ void SiteTree::SetWeights(const double* weights, Progress& progress)
     firstSlice);
 }
 
-// With the slope of the plane that fits the weights best, by least squares; any other would do.
+// Bounds the weights in a box by a plane: Offset + Slope . x >= weight. The slope is that of the
+// least-squares plane through the weights, the offset the least that bounds all; any other slope
+// would be valid, too.
 void SiteTree::BoundWeights(Box& box) const
 {
   const Point<2> middle = { (box.Low[0] + box.High[0]) / 2.0, (box.Low[1] + box.High[1]) / 2.0 };
@@ -105,6 +108,7 @@ void SiteTree::BoundWeights(Box& box) const
     yw += b * site.Weight;
     box.LargestWeight = std::max(box.LargestWeight, site.Weight);
   }
+  // Moments about the mean: subtract the products of sums.
   const auto count = static_cast<double>(box.Last - box.First);
   xx -= x * x / count;
   xy -= x * y / count;
@@ -112,6 +116,7 @@ void SiteTree::BoundWeights(Box& box) const
   xw -= x * w / count;
   yw -= y * w / count;
   const double determinant = xx * yy - xy * xy;
+  // Sites on a line determine no slope across it; then the plane is level.
   constexpr double flat = 1e-6;
   box.Slope = { 0.0, 0.0 };
   if (determinant > flat * xx * yy)

@@ -27,7 +27,7 @@ public:
   void SetWeights(const double* weights, Progress& progress);
 
   std::int64_t Size() const { return static_cast<std::int64_t>(this->Sites.size()); }
-  // The sites in the order of the tree, in which neighbours are near each other.
+  // The sites in the order of the tree: places near each other hold neighbours.
   std::int64_t Site(std::int64_t place) const { return this->At(place).Id; }
 
   // Calls visit(id, offset of the site from the centre, weight), nearest boxes first, at least for
@@ -59,7 +59,7 @@ private:
     std::int64_t Last;
     std::int64_t Second;
   };
-  // Squared distances from a centre.
+  // The smallest and the largest squared distance from a centre.
   struct Range
   {
     double Nearest;
@@ -96,16 +96,17 @@ inline SiteTree::Range SiteTree::RangeOf(const Box& box, const Point<2>& centre)
   return range;
 }
 
-// At a corner v of the cell the power of a site x in the box, both relative to the centre, is at
-// least |v - x|^2 - Offset' - Slope . x = |x - u|^2 - Slope . v - Slope^2 / 4 - Offset', where
-// u = v + Slope / 2.
+// At a corner v of the cell, the power of a site x in the box, both relative to the centre, is at
+// least |v - x|^2 - Offset' - Slope . x = |x - u|^2 - Slope . v - Slope^2 / 4 - Offset', where u =
+// v + Slope / 2. The box may cut only if this is less than the power of the cell's own site, |v|^2
+// - weight, at some corner.
 template <class Cell>
 bool SiteTree::MayCut(const Box& box, const Point<2>& centre, double weight, const Cell& cell)
 {
   const Point<2>& g = box.Slope;
   const double atCentre = g[0] * centre[0] + g[1] * centre[1];
   const double square = (g[0] * g[0] + g[1] * g[1]) / 4.0;
-  // Sites near each other may have very different weights: steep slopes cause rounding.
+  // Sites near each other may have very different weights; steep slopes then cause rounding.
   const double rounding =
     1e-15 * (std::abs(weight) + std::abs(box.Offset) + std::abs(atCentre) + 4.0 * square);
   const double constant = weight - (box.Offset + atCentre) - square - rounding;
@@ -126,8 +127,9 @@ bool SiteTree::MayCut(const Box& box, const Point<2>& centre, double weight, con
   return false;
 }
 
-// The bisector with a site at the distance d passes at the distance (d^2 - w' + w) / (2 d), so
-// within the radius r where d^2 - 2 d r < w' - w; the left side falls up to d = r, then rises.
+// Depth first, the nearer child first. The bisector with a site at the distance d passes at the
+// distance (d^2 - w' + w) / (2 d). This is within the radius r if d^2 - 2 d r < w' - w; the left
+// side falls up to d = r and then rises, so the box's best d is r clamped to its range.
 template <class Cell, class Visit>
 void SiteTree::VisitRivals(
   const Point<2>& centre, double weight, const Cell& cell, const Visit& visit) const
@@ -137,7 +139,7 @@ void SiteTree::VisitRivals(
     std::int64_t Box;
     Range Distance;
   };
-  constexpr int deepest = 64; // medians halve
+  constexpr int deepest = 64; // levels: medians halve the sites
   Entry stack[deepest];
   int depth = 0;
   stack[depth++] = { 0, RangeOf(this->BoxAt(0), centre) };
