@@ -23,7 +23,7 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
-// From the index space of one grid of cells to that of another one on the same domain.
+// Scales points from the index space of one grid to that of another one on the same domain.
 template <int Dimension>
 void rescale(PointSpan<Dimension> points, const GridSize<Dimension>& from,
   const GridSize<Dimension>& to, Progress& progress)
@@ -38,7 +38,8 @@ void rescale(PointSpan<Dimension> points, const GridSize<Dimension>& from,
   });
 }
 
-// With as many steps as site cells take at least.
+// Returns the options with at least as many steps as site cells need. Doubling keeps a user's
+// number of steps in proportion.
 FlowOptions refined(FlowOptions options)
 {
   constexpr int enough = leastStepsOfSiteCells;
@@ -52,7 +53,7 @@ FlowOptions refined(FlowOptions options)
   return options;
 }
 
-// The means of the points of each group.
+// Returns the mean of the points of each group.
 template <int Dimension>
 std::vector<Point<Dimension>> meansOf(
   const SiteGroups& groups, const std::vector<Point<Dimension>>& points)
@@ -78,7 +79,8 @@ std::vector<Point<Dimension>> meansOf(
   return means;
 }
 
-// Moving pixels may cut off others.
+// Alternates between equalizing masses and joining specks: moving pixels over borders may cut off
+// others.
 template <int Dimension>
 void equalize(const SiteGroups& groups, const PixelMasses<Dimension>& masses,
   const std::vector<Point<Dimension>>& places, const Point<Dimension>& spacing,
@@ -120,6 +122,7 @@ DensitySiteCells<Dimension>::DensitySiteCells(ConstPointSpan<3> sites, const Ima
   const PointSpan<Dimension> inside(this->Inside);
   Progress progress(context);
   Stages stages(progress, { { "sites", 3 }, { "pixels", 7 } });
+  // Sites outside the domain count as the nearest points of its border.
   stages["sites"].ForEach(sites.size(), grain, [&](std::int64_t i) {
     std::copy_n(sites[i], 3, this->Given[static_cast<std::size_t>(i)].begin());
     outside += grid.NearestIndex<Dimension>(sites[i], inside[i]) ? 0 : 1;
@@ -148,6 +151,7 @@ FlowReport DensitySiteCells<Dimension>::Label(const RectifiedFlow<Dimension>& fl
     Stages stages(
       progress, { { "groups", 950 }, { "masses", 35 }, { "sites", 5 }, { "empty pixels", 10 } });
     const SiteGroups groups = this->LabelGroups(flow, labels, options, stages["groups"], report);
+    // The sides of a pixel in physical space: distances are physical, not in pixels.
     Point<Dimension> spacing = this->Place.template Lengths<Dimension>();
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -162,8 +166,8 @@ FlowReport DensitySiteCells<Dimension>::Label(const RectifiedFlow<Dimension>& fl
   return report;
 }
 
-// In 1D intervals in the order of the sites are the optimal cells. A pixel belongs to the one that
-// has the middle of its mass.
+// In 1D, the optimal cells are intervals in the order of the sites. A pixel belongs to the interval
+// that contains the middle of its mass.
 template <int Dimension>
 void DensitySiteCells<Dimension>::LabelIntervals(std::int64_t* labels) const
 {
@@ -185,7 +189,9 @@ void DensitySiteCells<Dimension>::LabelIntervals(std::int64_t* labels) const
   }
 }
 
-// Labels pixels by groups of the sites that the map takes into one pixel.
+// Labels the pixels by groups of sites. The backward flow T^-1 of the density takes pixels and
+// sites to the uniform measure; there, a second flow, from the uniform measure to the sites'
+// images, takes pixels to sites. Sites that T^-1 takes into the same pixel form a group.
 template <int Dimension>
 SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimension>& flow,
   std::int64_t* labels, const FlowOptions& options, const Context& context,
@@ -197,10 +203,11 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimensio
   Stages stages(progress,
     { { "scales", 2 }, { "sites", 3 }, { "pixels", 15 }, { "positions", 1 }, { "flow", 2 },
       { "labels", 74 }, { "groups", 1 }, { "merge", 2 } });
-  std::vector<Point<Dimension>> even(this->Inside); // where the sites come to
+  std::vector<Point<Dimension>> even(this->Inside); // images of the sites under the backward flow
   rescale<Dimension>(even, size, flow.Size(), stages["scales"]);
   report = flow.Backward(even, even, refined(options), stages["sites"]);
   rescale<Dimension>(even, flow.Size(), size, stages["sites"]);
+  // A density with the mass 1 in each image of a site is the target of the second flow.
   const SiteDensity<Dimension> sites(size, even);
   SiteGroups groups = sites.Groups();
   if (groups.NumberOfGroups() == 1)
@@ -223,8 +230,8 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimensio
   return groups;
 }
 
-// Where the mass of several groups lies in one pixel, only one of them has got it. The others join
-// it, and divide the pixels of all of them.
+// If the mass of several groups lies in one pixel, only one of them has it. The others join that
+// group, and divide its pixels with it.
 template <int Dimension>
 void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& flow,
   const std::vector<Point<Dimension>>& even, SiteGroups& groups, std::int64_t* labels,
@@ -240,7 +247,9 @@ void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& fl
     mass[labels[pixel]] += masses[pixel];
     heaviest = masses[pixel] > masses[heaviest] ? pixel : heaviest;
   });
-  // Of each group without mass, a point of the density that comes to its sites.
+  // For each group without mass: the point of the density that the flow takes to its sites. The
+  // group joins the owner of that point's pixel or, if the owner has no mass either, that of the
+  // heaviest pixel.
   std::vector<std::int64_t> without;
   std::vector<Point<Dimension>> points;
   for (std::int64_t group = 0; group < groups.NumberOfGroups(); ++group)
@@ -266,7 +275,7 @@ void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& fl
     joined[without[i]] = mass[owner] > 0 ? owner : labels[heaviest];
   }
   SiteGroups merged;
-  std::vector<std::int64_t> number(mass.size(), -1); // of the groups that stay
+  std::vector<std::int64_t> number(mass.size(), -1); // new numbers of the groups that stay
   std::int64_t stay = 0;
   for (std::int64_t group = 0; group < groups.NumberOfGroups(); ++group)
   {
@@ -277,6 +286,7 @@ void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& fl
   {
     merged.First[number[joined[group]] + 1] += groups.SitesIn(group);
   }
+  // Counting sort of the sites by their new groups.
   std::partial_sum(merged.First.begin(), merged.First.end(), merged.First.begin());
   merged.Sites.resize(groups.Sites.size());
   std::vector<std::int64_t> next(merged.First);

@@ -57,7 +57,7 @@ public:
   const ImageGrid& Grid() const { return this->Place; }
   const PixelMasses<Dimension>& Masses() const { return *this->Pixels; }
   ConstPointSpan<3> Sites() const { return this->Given; }
-  // In the index space of the grid, moved into the domain.
+  // The sites in the index space of the grid, moved into the domain.
   ConstPointSpan<Dimension> IndexSites() const { return this->Inside; }
   std::int64_t NumberOfSites() const { return static_cast<std::int64_t>(this->Given.size()); }
   std::int64_t NumberOutside() const { return this->Outside; }

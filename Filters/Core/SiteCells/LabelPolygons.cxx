@@ -17,7 +17,7 @@ namespace
 
 constexpr std::int64_t none = -1;
 constexpr std::int64_t rowsOfBand = 16;
-constexpr double rounding = 1e-9; // pixels
+constexpr double rounding = 1e-9; // pixels; errors of the clipping of polygons
 
 struct Interval
 {
@@ -31,8 +31,8 @@ struct Interval
   }
 };
 
-// Fills the rows of a band with the polygons that reach into it, each along the interval of a row
-// that it has. Bands do not share pixels, so that nothing depends on their order.
+// Scan conversion of convex polygons: each fills the interval of a row that it contains. Bands do
+// not share pixels, so that nothing depends on their order.
 class PolygonLabels
 {
 public:
@@ -72,8 +72,8 @@ private:
     return extent;
   }
 
-  // The pixels whose centres are in an interval, or so near that rounding may have put them
-  // outside.
+  // Returns the pixels whose centres are in an interval, or so near it that rounding may have put
+  // them outside: centre i + 1/2 >= low, so i >= ceil(low - 1/2).
   static Range PixelsOf(const Interval& interval, std::int64_t count)
   {
     const auto bounded = [count](double x) {
@@ -91,7 +91,7 @@ private:
       progress.ForEachInOrder(polygons, 1 << 10, [&](std::int64_t polygon) {
         const Range columns = PixelsOf(this->ExtentOf(polygon, 0), this->Size[0]);
         const Range rows = PixelsOf(this->ExtentOf(polygon, 1), this->Size[1]);
-        // Many may lie between the centres of columns.
+        // Many polygons may lie between the centres of two columns; they fill no pixel.
         const std::int64_t end = columns.Begin < columns.End ? rows.End : rows.Begin;
         for (std::int64_t band = rows.Begin / rowsOfBand;
              rows.Begin < end && band <= (end - 1) / rowsOfBand; ++band)
@@ -113,6 +113,7 @@ private:
       const Range rows = PixelsOf(extent, this->Size[1]);
       for (std::int64_t row = std::max(rows.Begin, begin); row < std::min(rows.End, end); ++row)
       {
+        // The centre may be outside the extent by rounding.
         const double y = std::clamp(static_cast<double>(row) + 0.5, extent.Low, extent.High);
         const Range pixels = PixelsOf(this->Section(polygon, y), this->Size[0]);
         std::int64_t* labels = this->Labels + row * this->Size[0];
@@ -125,7 +126,8 @@ private:
     }
   }
 
-  // Along a row. Sides along it may be inclined by rounding.
+  // Returns the interval of the polygon along a row. Sides along the row may be inclined by
+  // rounding, so corners near it count, too.
   Interval Section(std::int64_t polygon, double y) const
   {
     Interval section;
@@ -147,8 +149,8 @@ private:
     return section;
   }
 
-  // Where corners are very uncertain, as between bisectors that are nearly parallel, more than
-  // rounding may be open: the polygon on the left has it.
+  // Corners are very uncertain where bisectors are nearly parallel, and gaps may be wider than
+  // rounding: they get the polygon on their left.
   void CloseGaps(std::int64_t* labels) const
   {
     const std::int64_t* end = labels + this->Size[0];
@@ -166,7 +168,7 @@ private:
   const std::vector<std::int64_t>& First;
   const GridSize<2> Size;
   std::int64_t* const Labels;
-  Bins<std::int64_t> Bands; // the polygons of each
+  Bins<std::int64_t> Bands; // the polygons that reach into each band
 };
 
 } // namespace

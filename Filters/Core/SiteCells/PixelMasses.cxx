@@ -14,8 +14,9 @@ namespace RectifiedTransport
 namespace
 {
 
-// The cells of the density along an axis that a pixel overlaps, and by how much of each: both grids
-// divide the same length. Integers of at most 2^60.
+// The cells of the density that a pixel overlaps along an axis, and how much of each. Both grids
+// divide the same length, so that in units of 1 / (cells * pixels) all ends are integers, of at
+// most 2^60, and the overlaps are exact.
 class AxisOverlap
 {
 public:
@@ -43,7 +44,7 @@ private:
   std::int64_t Pixels;
 };
 
-// Rows of pixels, one after another.
+// Computes the masses of one row of pixels after another.
 template <int Dimension>
 class RowMasses
 {
@@ -64,7 +65,8 @@ public:
     const std::int64_t cells = this->Density.Size[0];
     std::fill(this->Sums.begin(), this->Sums.end(), 0.0);
     this->AddRows(row, Dimension - 1, 0, 1.0);
-    // Both ends in units of which a cell has as many as there are pixels, and a pixel as cells.
+    // Both ends are in units in which a cell has as many as there are pixels, and a pixel as many
+    // as there are cells.
     std::int64_t cell = 0;
     std::int64_t at = 0;
     for (std::int64_t i = 0; i < this->Pixels[0]; ++i)
@@ -82,7 +84,8 @@ public:
   }
 
 private:
-  // Adds the density's rows that the row of pixels overlaps: along `axis`, then the lower ones.
+  // Adds the density's rows that the row of pixels overlaps, each with the product of its parts:
+  // first along `axis`, then recursively along the lower ones.
   void AddRows(std::int64_t row, int axis, std::int64_t cellRow, double part)
   {
     if (axis == 0)
@@ -95,7 +98,7 @@ private:
       }
       return;
     }
-    std::int64_t below = 1; // rows of pixels to a step along the axis
+    std::int64_t below = 1; // rows of pixels in a step along the axis
     for (int a = 1; a < axis; ++a)
     {
       below *= this->Pixels[a];
@@ -123,12 +126,14 @@ PixelMasses<Dimension>::PixelMasses(const DensitySource<Dimension>& density, dou
   const GridSize<Dimension>& pixels, Progress& progress)
   : Pixels(pixels)
 {
+  // The sum of all pixels stays below 2^63 even if every one is rounded up.
   constexpr double whole = static_cast<double>(std::int64_t{ 1 } << 58);
   constexpr std::int64_t pixelsOfChunk = std::int64_t{ 1 } << 15;
   const auto count = static_cast<std::int64_t>(numberOfCells<Dimension>(pixels));
   this->Units = LargeBuffer<std::int64_t>(count);
   const std::int64_t width = pixels[0];
   const auto read = [&](std::int64_t first, std::int64_t last) {
+    // Chunks of rows have readers of their own, as a reader keeps buffers.
     RowMasses<Dimension> masses(density, pixels);
     Summary found;
     for (std::int64_t row = first; row < last; ++row)

@@ -36,6 +36,7 @@ struct PixelRows
     for (int axis = 0; axis < Dimension; ++axis)
     {
       const std::int64_t stride = this->Stride[axis];
+      // The last pixel along an axis has no next one.
       if (axis > 0 && first / stride % this->Size[axis] + 1 == this->Size[axis])
       {
         continue;
@@ -56,7 +57,8 @@ struct PixelRows
   std::int64_t Count;
 };
 
-// The squared sides of a pixel. Relative to the longest one: squares of lengths may overflow.
+// Returns the squared sides of a pixel, relative to the longest one: squares of lengths may
+// overflow.
 template <int Dimension>
 Point<Dimension> squaredSides(const Point<Dimension>& spacing)
 {

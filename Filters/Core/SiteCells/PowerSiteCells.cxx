@@ -19,6 +19,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// The uniform density, for cells of equal areas.
 class Ones final : public DensityValues
 {
 public:
@@ -30,6 +31,7 @@ public:
 
 bool hasRightAngles(const ImageGrid& grid)
 {
+  // The cosine of the angle between the axes is below this.
   constexpr double rounding = 1e-9;
   const double axes[2][2] = { { 1.0, 0.0 }, { 0.0, 1.0 } };
   double a[3];
@@ -52,10 +54,11 @@ double squaredLength(const Point<2>& x)
 }
 
 // Scales and moves sites that are not in the domain, or crowded in it, so that they fill it. The
-// cells stay as they are: |x - centre - scale * y|^2 / scale and |x - y|^2 differ by what depends
-// on x alone or on y alone, which costs the same in all divisions into equal masses.
+// cells do not change: |x - centre - scale * y|^2 / scale and |x - y|^2 differ by terms that depend
+// on x alone or on y alone, and these cost the same in all partitions into equal masses.
 double moveIntoDomain(const Point<2>& sides, std::vector<Point<2>>& sites)
 {
+  // A smaller scale would gain no digits.
   constexpr double crowded = 2.0;
   const RectangleFit fit(sites, sides);
   if (fit.IsInside && fit.Scale < crowded)
@@ -101,6 +104,8 @@ void PowerSiteCells::Solve(
   }
   Progress progress(context);
   Stages stages(progress, { { "sites", 2 }, { "cells", 98 } });
+  // The unit is the mean spacing of the sites, the square root of area / sites; roots of each side
+  // cannot overflow.
   const Point<2> lengths = grid.Lengths<2>();
   this->Unit =
     std::sqrt(lengths[0]) * std::sqrt(lengths[1]) / std::sqrt(static_cast<double>(sites.size()));
@@ -117,6 +122,8 @@ void PowerSiteCells::Solve(
     const double* x = sites[static_cast<std::int64_t>(i)];
     Point<2> index;
     this->Outside += grid.NearestIndex<2>(x, index.data()) ? 0 : 1;
+    // The squared height over the plane adds a constant to a site's distances: it changes the cost,
+    // not the cells.
     grid.ToIndex<2>(x, index.data());
     double foot[3];
     grid.ToPhysical<2>(index.data(), foot);
@@ -128,7 +135,7 @@ void PowerSiteCells::Solve(
     flat[i] = { index[0] * this->PixelSides[0], index[1] * this->PixelSides[1] };
   }
   const std::vector<Point<2>> given = flat;
-  // A site far outside leaves little room to the others.
+  // A site far outside the domain leaves little room to the others, so they are separated by less.
   const double scale = std::clamp(moveIntoDomain(sides, flat), 1e-5, 1.0);
   separateSites(flat, leastSiteDistance * scale, SiteBounds(), stages["sites"]);
   moveIntoDomain(sides, flat); // those that were at one point are still crowded
@@ -151,7 +158,8 @@ void PowerSiteCells::Solve(
 
 void PowerSiteCells::Keep(const EqualMassPartition& partition, const std::vector<Point<2>>& sites)
 {
-  constexpr double rounding = 1e-13; // of the lengths of sides that lie in a point
+  // sides shorter than this part of the domain's length are points
+  constexpr double rounding = 1e-13;
   const GridSize<2> size = this->Place.Size<2>();
   const auto count = static_cast<double>(sites.size());
   for (std::size_t i = 0; i < sites.size(); ++i)
@@ -163,6 +171,7 @@ void PowerSiteCells::Keep(const EqualMassPartition& partition, const std::vector
     {
       const Point<2>& a = cell[k].X;
       const Point<2>& b = cell.After(k).X;
+      // The lengths of the domain are about sqrt(count) in these units.
       if (std::max(std::abs(a[0] - b[0]), std::abs(a[1] - b[1])) <= rounding * std::sqrt(count))
       {
         continue;
@@ -180,7 +189,8 @@ void PowerSiteCells::Keep(const EqualMassPartition& partition, const std::vector
     this->Shares.push_back(integrals.Mass / count);
     this->Centroids.push_back(
       { centroid[0] / this->PixelSides[0], centroid[1] / this->PixelSides[1] });
-    // About the centroid, and from it to where the site was given.
+    // The spread about the centroid, and the squared distance from it to the given place of the
+    // site: the parallel axis theorem.
     const Point<2> offset = { sites[i][0] - centroid[0], sites[i][1] - centroid[1] };
     this->Costs.push_back(
       (integrals.Spread + (squaredLength(offset) + this->Heights[i]) * integrals.Mass) / count);
@@ -195,6 +205,8 @@ void PowerSiteCells::Label(std::int64_t* labels, const Context& context) const
   labelPolygons(this->Corners, this->First, this->Place.Size<2>(), labels, progress);
 }
 
+// Shares and costs are per unit of mass; here they get the units of the density and of physical
+// space.
 double PowerSiteCells::Measure(const SiteCellStatistics& statistics) const
 {
   const double all = this->DensityMass

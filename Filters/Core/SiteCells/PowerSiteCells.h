@@ -64,16 +64,17 @@ private:
   void Keep(const EqualMassPartition& partition, const std::vector<Point<2>>& sites);
 
   ImageGrid Place;
-  std::optional<double> DensityMass; // of a density
+  std::optional<double> DensityMass; // mass of the density, if there is one
   Point<2> PixelSides{};             // in units of the sites' mean spacing
   double Unit = 0.0;                 // that spacing
   std::vector<double> Heights;       // squared distances of the sites from the plane
   std::int64_t Outside = 0;
-  std::vector<Point<2>> Corners;   // of the cells, counter-clockwise, in index space
-  std::vector<std::int64_t> First; // of a site's corners, and the number of all
-  std::vector<double> Shares;      // of the area or the mass
+  std::vector<Point<2>> Corners; // corners of the cells, counter-clockwise, in index space
+  // first corner of each site's cell, and the number of all corners
+  std::vector<std::int64_t> First;
+  std::vector<double> Shares;      // shares of the area or of the mass
   std::vector<Point<2>> Centroids; // in index space
-  std::vector<double> Costs;       // shares of the mean, in squared units
+  std::vector<double> Costs; // each site's part of the mean squared distance, in squared units
 };
 
 } // namespace RectifiedTransport

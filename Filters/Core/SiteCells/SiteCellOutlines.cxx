@@ -15,8 +15,8 @@ namespace
 
 constexpr std::int64_t none = -1; // the label outside of the domain; a node without a point
 
-// Visits the layers of pixels along the last axis. The numbers of the nodes' points are stored for
-// two planes of nodes only.
+// Visits the layers of pixels along the last axis. Only two planes of nodes store the numbers of
+// their points, so that memory grows with a layer, not with the image.
 template <int Dimension>
 class Outlines
 {
@@ -37,7 +37,7 @@ public:
     this->Upper = this->Lower;
   }
 
-  // Once. Throws Cancelled.
+  // Call it once. Throws Cancelled.
   SiteCellOutlines<Dimension> Find(Progress& progress)
   {
     const std::int64_t layers = this->Size[Dimension - 1] + 1;
@@ -83,7 +83,8 @@ private:
     std::fill(this->Upper.begin(), this->Upper.end(), none);
   }
 
-  // The faces across the other axes, between the two planes of nodes.
+  // Adds the faces across the other axes, which lie between the two planes of nodes; the last pixel
+  // along an axis also adds the face at the upper border.
   void AddSides(Cell& cell)
   {
     for (std::int64_t pixel = 0; pixel < this->LayerPixels; ++pixel)
@@ -111,7 +112,8 @@ private:
     }
   }
 
-  // The face between a pixel and the one before it along an axis.
+  // Adds the face between a pixel and the one before it along an axis, once for each label, turned
+  // outwards.
   void AddFace(const Cell& cell, int axis)
   {
     Cell before = { cell[0], cell[1], cell[2] };
@@ -124,6 +126,7 @@ private:
     }
     std::int64_t corners[Corners];
     this->FindCorners(cell, axis, corners);
+    // A mirrored grid reverses the orientation of all faces.
     if (this->Mirrored)
     {
       std::reverse(corners, corners + Corners);
@@ -145,7 +148,7 @@ private:
     this->Found.SiteIds.push_back(site);
   }
 
-  // The corners of a face, in an order that turns right-handed about the axis.
+  // Finds the corners of a face, in a right-handed order about the axis.
   void FindCorners(const Cell& cell, int axis, std::int64_t* corners)
   {
     if constexpr (Dimension == 1)
@@ -174,6 +177,7 @@ private:
     }
   }
 
+  // Returns the number of a node's point, which is new at the first call.
   std::int64_t PointAt(const Cell& node)
   {
     std::int64_t number = 0;

@@ -16,11 +16,11 @@ namespace RectifiedTransport
 template <int Dimension>
 struct SiteCellOutlines
 {
-  static constexpr int Corners = Dimension == 1 ? 1 : 2 * (Dimension - 1); // of a face
+  static constexpr int Corners = Dimension == 1 ? 1 : 2 * (Dimension - 1); // corners of a face
 
   std::vector<Point<3>> Points;        // in physical space
   std::vector<std::int64_t> CornerIds; // which of the points, Corners for each face
-  std::vector<std::int64_t> SiteIds;   // of each face, the label of its site cell
+  std::vector<std::int64_t> SiteIds;   // the label of each face's site cell
 };
 
 // Each site cell has a closed border; a face between two cells is listed once for each. Quads are

@@ -16,8 +16,8 @@ namespace
 
 constexpr std::int64_t none = -1; // the label of no site, and a node without a point
 
-// A pixel has the sides 0 to 3: below, right, above, left. An edge is a side of a pixel that ends
-// its site cell, run through with the pixel on the left.
+// The sides of a pixel are 0 (below), 1 (right), 2 (above) and 3 (left). An edge is a side of a
+// pixel that ends its site cell, directed so that the pixel is on its left.
 struct Edge
 {
   std::int64_t X;
@@ -30,7 +30,7 @@ struct Edge
   }
 };
 
-// A point between pixels.
+// A grid point between pixels.
 struct Node
 {
   std::int64_t X;
@@ -42,7 +42,7 @@ Edge turnedLeft(const Edge& edge)
   return { edge.X, edge.Y, (edge.Side + 1) % 4 };
 }
 
-// The same side of the pixel beyond another side.
+// Returns the same side of the pixel beyond another side.
 Edge across(const Edge& edge, int side)
 {
   constexpr std::int64_t steps[4][2] = { { 0, -1 }, { 1, 0 }, { 0, 1 }, { -1, 0 } };
@@ -64,10 +64,12 @@ public:
   {
   }
 
-  // Once. Throws Cancelled.
+  // Call it once. Throws Cancelled.
   SiteCellPolygons Find(Progress& progress)
   {
     Stages stages(progress, { { "rings", 5 }, { "cut rings", 2 }, { "corners", 3 } });
+    // Rings around holes have a negative area. Cuts join each hole to the ring around it, and a
+    // second pass finds rings without holes.
     this->FindRings(stages["rings"]);
     if (!this->Holes.empty())
     {
@@ -91,10 +93,10 @@ public:
   }
 
 private:
-  // The lowest of its leftmost and of its rightmost nodes.
+  // The lowest of its leftmost nodes and the lowest of its rightmost nodes, where the cuts begin.
   struct Hole
   {
-    std::int64_t Label; // around it
+    std::int64_t Label; // the label around it
     Node Left;
     Node Right;
   };
@@ -112,7 +114,8 @@ private:
     return static_cast<std::size_t>(y * this->Size[0] + x);
   }
 
-  // Whether the side of a pixel ends its polygon.
+  // Returns whether the side of a pixel ends its polygon: the label changes, or a cut runs along
+  // it.
   bool IsBorder(const Edge& side) const
   {
     const Edge beyond = across(side, side.Side);
@@ -124,7 +127,8 @@ private:
       this->Cuts[this->PixelOf(side.X, std::max(side.Y, beyond.Y))];
   }
 
-  // Turns left where it can: pixels that meet in a corner only are not connected.
+  // Returns the next edge of the ring. It turns left if possible, so that pixels that meet in a
+  // corner only are not connected.
   Edge After(const Edge& edge) const
   {
     const Edge left = turnedLeft(edge);
@@ -141,7 +145,7 @@ private:
     return { right.X, right.Y, (right.Side + 3) % 4 };
   }
 
-  // Every ring has an edge below a pixel.
+  // Finds all rings; each has an edge below a pixel, where it begins.
   void FindRings(Progress& progress)
   {
     this->Outer.clear();
@@ -165,6 +169,7 @@ private:
 
   void FindRing(const Edge& begin)
   {
+    // The signed area is the integral of x dy around the ring.
     std::int64_t area = 0; // signed
     Hole hole{ this->LabelAt(begin), headOf(begin), headOf(begin) };
     Edge edge = begin;
@@ -196,7 +201,8 @@ private:
     }
   }
 
-  // Cuts along the sides of pixels, to the left and to the right, to the next rings of the polygon.
+  // Cuts along the sides of pixels, to the left and to the right of the hole, up to the next
+  // ring of the polygon.
   void CutFrom(const Hole& hole)
   {
     const auto cut = [&](std::int64_t x, std::int64_t y) {
@@ -216,6 +222,7 @@ private:
     }
   }
 
+  // Adds a polygon with corners where its ring turns or where other polygons meet it.
   void Append(const Edge& outer)
   {
     this->Found.First.push_back(static_cast<std::int64_t>(this->Found.CornerIds.size()));
@@ -232,10 +239,11 @@ private:
     } while (!(edge == outer));
   }
 
-  // Whether polygons on a straight line through a node need a corner there.
+  // Returns whether a node needs a corner although the polygon goes straight on: another polygon
+  // ends there.
   bool IsShared(const Node& node) const
   {
-    // The sides of the pixels around it that meet in it.
+    // The four sides of pixels that meet in the node.
     const Edge sides[4] = { { node.X, node.Y, 3 }, { node.X - 1, node.Y, 0 },
       { node.X - 1, node.Y - 1, 1 }, { node.X, node.Y - 1, 2 } };
     return std::count_if(std::begin(sides), std::end(sides),
@@ -261,11 +269,11 @@ private:
   const ImageGrid& Grid;
   const GridSize<2> Size;
   const std::int64_t* Labels;
-  std::vector<bool> Seen;  // the edges below pixels
+  std::vector<bool> Seen;  // edges below pixels that a ring has passed
   std::vector<Edge> Outer; // one of each ring around pixels
   std::vector<Hole> Holes;
-  std::vector<bool> Cuts;             // below pixels; empty without holes
-  LargeBuffer<std::int64_t> PointIds; // of the nodes
+  std::vector<bool> Cuts;             // cuts below pixels; empty without holes
+  LargeBuffer<std::int64_t> PointIds; // number of each node's point
   SiteCellPolygons Found;
 };
 

@@ -18,7 +18,7 @@ struct SiteCellPolygons
   std::vector<Point<3>> Points;        // in physical space
   std::vector<std::int64_t> CornerIds; // which of the points
   std::vector<std::int64_t> First;     // one more than there are polygons
-  std::vector<std::int64_t> SiteIds;   // of each polygon, in ascending order
+  std::vector<std::int64_t> SiteIds;   // site of each polygon, in ascending order
 };
 
 // Polygons without holes: one for each set of pixels of one site that are connected by their sides;

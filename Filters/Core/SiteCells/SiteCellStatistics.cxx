@@ -18,8 +18,8 @@ namespace
 // Pixels that are summed between two polls for cancellation.
 constexpr std::int64_t sliceOfPixels = std::int64_t{ 1 } << 14;
 
-// Sums over the pixels of a site cell. Where pixels count equally Index sums half-integers: exact,
-// however far from the cell its site is.
+// Sums over the pixels of a site cell. If all pixels have the weight 1, Index sums half-integers,
+// which is exact, however far the site is from the cell.
 template <int Dimension>
 struct CellSum
 {
@@ -43,7 +43,8 @@ double squaredLength(const double* d)
   return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
 
-// The largest component is factored out, so that its powers do not overflow.
+// Returns |d|_p^q. The largest component is factored out, so that powers of the others do not
+// overflow.
 double costOf(const double* d, const CostNorm& norm)
 {
   const double largest = std::max({ std::abs(d[0]), std::abs(d[1]), std::abs(d[2]) });
@@ -69,7 +70,7 @@ double costOf(const double* d, const CostNorm& norm)
   return std::pow(length, norm.Exponent);
 }
 
-// Adds pixels [first, last) with their weights.
+// Adds the pixels [first, last) with their weights.
 template <int Dimension, class Weight, class Cost>
 void addPixels(const ImageGrid& grid, const std::int64_t* labels, ConstPointSpan<3> sites,
   const Weight& weightOf, const Cost& cost, std::int64_t first, std::int64_t last,
@@ -113,8 +114,9 @@ void addPixels(const ImageGrid& grid, const std::int64_t* labels, ConstPointSpan
   }
 }
 
-// The sums of the site cells. Those of fixed chunks make the result the same for every executor.
-// Their number keeps the memory for them below that of the labels.
+// Sums over the pixels of each site cell. The sums of fixed chunks, added in their order, make the
+// result the same for every executor. The number of chunks keeps their memory below that of the
+// labels.
 template <int Dimension, class Weight>
 std::vector<CellSum<Dimension>> sumCells(const ImageGrid& grid, const std::int64_t* labels,
   ConstPointSpan<3> sites, const Weight& weightOf, const CostNorm& norm, Progress& progress)
@@ -131,7 +133,7 @@ std::vector<CellSum<Dimension>> sumCells(const ImageGrid& grid, const std::int64
     {
       CellSum<Dimension>* sums = parts[static_cast<std::size_t>(begin / chunk)].data();
       const std::int64_t end = std::min(begin + chunk, last);
-      // With many sites there are few chunks, and long ones.
+      // With many sites there are few, long chunks, which are cut into slices for cancellation.
       for (std::int64_t slice = begin; slice < end && !progress.ShouldStop();
            slice += sliceOfPixels)
       {
@@ -195,6 +197,7 @@ double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* l
       "The domain's length, area or volume passes the largest double; scale the sites");
   }
   for (std::int64_t k = 0; k < shared.NumberOfPixels(); ++k)
+  // Sites in one pixel share the mass of their cells equally, to the last bit.
   {
     double all = 0.0;
     for (std::int64_t i = 0; i < shared.SitesIn(k); ++i)

@@ -57,9 +57,12 @@ FlowReport SiteCells<Dimension>::Label(
   if (sites.NumberOfPixels() == 1)
   {
     std::fill_n(labels, pixels, std::int64_t{ 0 });
+    // One pixel with sites gets all pixels: there is nothing to transport.
   }
   else
   {
+    // The flow from the uniform measure to the density of the sites takes the centre of each pixel
+    // to a pixel with sites, its label (paper, Section 4.2).
     const RectifiedFlow<Dimension> flow(sites, stages["flow"]);
     report =
       flow.ForwardToCells(FlowSeeds<Dimension>::Lattice(size), labels, options, stages["map"]);
@@ -71,6 +74,8 @@ FlowReport SiteCells<Dimension>::Label(
   {
     spacing[axis] /= static_cast<double>(size[axis]);
   }
+  // The flow's cells differ from equal ones by the error of its integration; the borders are
+  // corrected to one pixel.
   equalizeSiteCells<Dimension>(sites, spacing, labels, stages["areas"]);
   splitSharedPixels<Dimension>(sites, this->Inside, spacing, labels, stages["sites"]);
   return report;

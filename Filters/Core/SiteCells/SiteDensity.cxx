@@ -21,6 +21,7 @@ SiteDensity<Dimension>::SiteDensity(
     pixels[i] = numberOfCellAt<Dimension>(sites[i], size);
   }
   std::iota(order.begin(), order.end(), std::int64_t{ 0 });
+  // A stable sort by pixels leaves the sites of a pixel ascending.
   std::stable_sort(order.begin(), order.end(),
     [&](std::int64_t a, std::int64_t b) { return pixels[a] < pixels[b]; });
   for (std::int64_t i = 0; i < count; ++i)

@@ -25,15 +25,15 @@ public:
   const GridSize<Dimension>& Size() const { return this->Grid; }
   void Read(std::int64_t first, std::int64_t count, double* values) const override;
 
-  // The sites of each pixel that holds sites, ascending.
+  // The groups of sites that share a pixel, in the order of the pixels; sites ascend.
   const SiteGroups& Groups() const { return this->Grouped; }
   std::int64_t NumberOfSites() const { return this->Grouped.NumberOfSites(); }
   std::int64_t NumberOfPixels() const { return static_cast<std::int64_t>(this->Pixels.size()); }
   std::int64_t Pixel(std::int64_t k) const { return this->Pixels[k]; }
-  // The k for which Pixel(k) is `pixel`, which must hold a site.
+  // Returns the k for which Pixel(k) is `pixel`, which must hold a site.
   std::int64_t Find(std::int64_t pixel) const;
   std::int64_t SitesIn(std::int64_t k) const { return this->Grouped.SitesIn(k); }
-  // Site i of those in pixel k; they ascend.
+  // Returns site i of those in pixel k; they ascend.
   std::int64_t Site(std::int64_t k, std::int64_t i) const { return this->Grouped.Site(k, i); }
 
 private:

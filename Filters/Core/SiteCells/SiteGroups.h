@@ -24,7 +24,8 @@ struct SiteGroups
     return this->Sites[this->First[group] + i];
   }
 
-  std::vector<std::int64_t> First; // into Sites, and the number of all
+  // first entry of each group in Sites, and the number of all sites
+  std::vector<std::int64_t> First;
   std::vector<std::int64_t> Sites;
 };
 

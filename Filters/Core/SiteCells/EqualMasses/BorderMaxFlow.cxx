@@ -13,6 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// A distance beyond all others that can still be incremented.
 constexpr std::int64_t unreached = std::numeric_limits<std::int64_t>::max() - 1;
 
 } // namespace
@@ -45,6 +46,8 @@ void BorderMaxFlow::Plan(const std::vector<std::int64_t>& excess,
   this->FindNeighbours();
   this->Excess = excess;
   this->Movable = count;
+  // A phase of Dinic's algorithm: distances to the sinks by breadth-first search, then a blocking
+  // flow of shortest paths.
   while (this->FindDistances())
   {
     this->Next.assign(this->FirstNeighbour.begin(), this->FirstNeighbour.end() - 1);
@@ -63,6 +66,7 @@ void BorderMaxFlow::Plan(const std::vector<std::int64_t>& excess,
   progress.Check();
 }
 
+// Makes adjacency lists from the borders, by counting sort.
 void BorderMaxFlow::FindNeighbours()
 {
   this->FirstNeighbour.assign(static_cast<std::size_t>(this->Cells) + 1, 0);
@@ -84,15 +88,16 @@ void BorderMaxFlow::FindNeighbours()
   }
 }
 
-// The residual capacity of a border in one direction.
+// Returns the residual capacity of a border in one direction: half its extent, at least 1, less the
+// flow in that direction.
 std::int64_t BorderMaxFlow::Capacity(std::int64_t number, int sign) const
 {
   const SiteCellBorder& border = this->Borders[number];
   return std::max<std::int64_t>(1, border.Extent / 2) - sign * border.Flow;
 }
 
-// The distance in borders from each site cell to the nearest one with too few pixels. False if no
-// cell with too many has a path.
+// Finds the distance in borders from each site cell to the nearest one with too few pixels,
+// backwards from these. Returns false if no cell with too many has a path.
 bool BorderMaxFlow::FindDistances()
 {
   this->Distance.assign(static_cast<std::size_t>(this->Cells), unreached);
@@ -124,8 +129,8 @@ bool BorderMaxFlow::FindDistances()
   return found;
 }
 
-// A shortest path to a site cell with too few pixels, by depth-first search. Neighbours without a
-// path are not tried again.
+// Finds a shortest path to a site cell with too few pixels by depth-first search in the level
+// graph. A neighbour without a path is not tried again in this phase.
 bool BorderMaxFlow::FindPath(std::int64_t start)
 {
   this->Path.clear();
@@ -149,6 +154,7 @@ bool BorderMaxFlow::FindPath(std::int64_t start)
     }
     else
     {
+      // A dead end: one step back, and on to the next neighbour.
       const std::int64_t last = this->Path.back();
       this->Path.pop_back();
       cell = this->Path.empty() ? start : this->Neighbours[this->Path.back()].Cell;
@@ -164,6 +170,7 @@ bool BorderMaxFlow::IsAdmissible(std::int64_t cell, const Neighbour& to) const
     this->Capacity(to.Border, to.Sign) > 0;
 }
 
+// Sends as much along the path as its narrowest border, its cells' pixels and both ends allow.
 void BorderMaxFlow::Augment(std::int64_t start)
 {
   std::int64_t amount = this->Excess[start];

@@ -33,7 +33,7 @@ public:
   }
 
   void Clear();
-  // The number of the border of two site cells; Add inserts it if it is new.
+  // Returns the number of the border between two site cells; Add inserts it if it is new.
   std::int64_t Add(std::int64_t low, std::int64_t high);
   std::int64_t Find(std::int64_t low, std::int64_t high) const;
 
@@ -41,11 +41,10 @@ public:
   SiteCellBorder& operator[](std::size_t number) { return this->Borders[number]; }
 
   // Computes the flow from site cells with too many pixels to those with too few (negative
-  // `excess`) along paths of neighbours, the shortest first: all paths of one length, then the rest
-  // along longer ones (Dinic's algorithm for a maximum flow). The capacity of a border is half of
-  // its extent, so that the border does not move far. The outflow of a cell is at most its number
-  // of pixels (`count`). For masses, all numbers are in units of mass. Excess without a path
-  // remains. Throws Cancelled.
+  // `excess`) by Dinic's algorithm for a maximum flow: all shortest paths of neighbours first, then
+  // the longer ones. The capacity of a border is half its extent, so that the border does not move
+  // far. The outflow of a cell is at most `count`, its number of pixels. For masses, all numbers
+  // are in units of mass. Excess without a path remains. Throws Cancelled.
   void Plan(const std::vector<std::int64_t>& excess, const std::vector<std::int64_t>& count,
     Progress& progress);
 
@@ -54,7 +53,7 @@ private:
   {
     std::int64_t Cell;
     std::int64_t Border;
-    int Sign; // of a flow to that site cell
+    int Sign; // 1 if a flow to that cell is positive, else -1
   };
 
   std::int64_t Key(std::int64_t low, std::int64_t high) const { return low * this->Cells + high; }
@@ -70,11 +69,11 @@ private:
   std::unordered_map<std::int64_t, std::int64_t> Numbers;
   std::vector<std::int64_t> FirstNeighbour;
   std::vector<Neighbour> Neighbours;
-  std::vector<std::int64_t> Excess;   // that is not yet sent
+  std::vector<std::int64_t> Excess;   // excess that is not yet sent
   std::vector<std::int64_t> Movable;  // pixels of a site cell that no flow takes yet
   std::vector<std::int64_t> Distance; // to the nearest site cell with too few pixels, in borders
   std::vector<std::int64_t> Queue;
-  std::vector<std::int64_t> Next; // the neighbour of each site cell to try
+  std::vector<std::int64_t> Next; // the next neighbour of each cell to try
   std::vector<std::int64_t> Path; // numbers of neighbours
 };
 

@@ -16,8 +16,9 @@ namespace RectifiedTransport
 namespace
 {
 
+// This bound ends rounds that do not converge.
 constexpr int mostRounds = 1000;
-// Consecutive rounds without a new minimum of the pixels in excess, after which it ends.
+// Ends after this many consecutive rounds without a new minimum of the pixels in excess.
 constexpr int mostIdleRounds = 64;
 
 template <int Dimension>
@@ -67,6 +68,8 @@ public:
       Progress& work = rounds.Next().Expect(2 * this->Rows.Count);
       this->Moved = 0;
       this->FindBorders(work);
+      // Each round plans a maximum flow of pixels over the borders as they are, then moves the
+      // cheapest pixels.
       this->Borders.Plan(this->Excess, this->Count, work);
       this->Move(work);
       if (this->Moved == 0)
@@ -98,8 +101,8 @@ private:
       [&](std::int64_t row) { this->Rows.VisitFaces(row, this->Owners, visit); }, grain);
   }
 
-  // A site cell without pixels has no borders. It is given the pixel of its sites, and so is the
-  // cell whose last pixel that was.
+  // A site cell without pixels has no borders, so it gets the pixel of its sites. If that was
+  // another cell's last pixel, that cell gets its own pixel next.
   void FillEmptyCells()
   {
     std::vector<std::int64_t> empty;
@@ -124,7 +127,8 @@ private:
     }
   }
 
-  // The remainder of the division goes to the site cells that have most now.
+  // Sets the targets: the quotient of pixels and sites for each site. The remainder goes to the
+  // cells that have most now, one for each site at most.
   void SetTargets()
   {
     const std::int64_t pixels = this->Rows.Count * this->Rows.Size[0];
@@ -147,7 +151,7 @@ private:
     }
   }
 
-  // In 1D intervals in the order of the sites are the optimal cells.
+  // In 1D, the optimal cells are intervals in the order of the sites.
   void FillIntervals()
   {
     std::int64_t* pixel = this->Owners;
@@ -173,7 +177,8 @@ private:
     });
   }
 
-  // The change of a pixel's squared distance from its site when it moves to another site cell.
+  // Returns the change of a pixel's squared distance when it moves from one site to another, in
+  // squares of its longest side.
   double CostOf(std::int64_t pixel, std::int64_t from, std::int64_t to) const
   {
     double cost = 0.0;
@@ -193,6 +198,8 @@ private:
     return cost;
   }
 
+  // Collects the faces of each border with a flow as candidates, sorts them by cost, and moves as
+  // many pixels as the flow demands.
   void Move(Progress& progress)
   {
     std::vector<std::int64_t> first(this->Borders.Size() + 1, 0);
@@ -229,8 +236,8 @@ private:
         pending.push_back(i);
       }
     }
-    // A site cell of one pixel must receive another before it loses its own: some moves are
-    // deferred.
+    // A site cell of one pixel must receive another one before it loses its own, so that some moves
+    // are deferred.
     for (std::int64_t before = -1; before != this->Moved;)
     {
       before = this->Moved;
@@ -247,8 +254,9 @@ private:
     }
   }
 
-  // A pixel with two faces to the other site cell is listed twice, and one between three may have
-  // moved already. True if a site cell of one pixel still has to lose it.
+  // Moves the cheapest candidates. A pixel with two faces to the other cell is listed twice, and a
+  // pixel between three cells may have moved already, so its owner is checked. Returns true if a
+  // cell of one pixel still has to lose it.
   bool MoveFirst(
     SiteCellBorder& border, const Candidate* candidates, std::int64_t& next, std::int64_t end)
   {

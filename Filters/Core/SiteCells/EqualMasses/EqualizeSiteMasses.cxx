@@ -17,9 +17,10 @@ namespace RectifiedTransport
 namespace
 {
 
+// This bound ends rounds that do not settle.
 constexpr int mostRounds = 1000;
-// Consecutive rounds of little gain, after which it ends: where no two groups differ by more than
-// the heaviest pixel, where none differs by more from its share, and anyway.
+// Ends after this many consecutive rounds of little gain: 3 if no two groups differ by more than
+// the heaviest pixel, 10 if none differs by more from its share, and 64 in any case.
 constexpr int idleRounds = 3;
 constexpr int moreIdleRounds = 10;
 constexpr int mostIdleRounds = 64;
@@ -57,8 +58,10 @@ public:
     for (int round = 0, idle = 0; round < mostRounds && idle < mostIdleRounds && stuck < 3;
          ++round, ++idle)
     {
+      // A gain is a reduction of the total deviation by 1 %.
       constexpr double gain = 0.99;
-      constexpr std::int64_t rounding = 16; // of pixels of one mass
+      // units of mass; pixels of equal mass differ by that much
+      constexpr std::int64_t rounding = 16;
       double all = 0.0;
       for (const std::int64_t excess : this->Excess)
       {
@@ -84,7 +87,7 @@ public:
       this->FindBorders();
       this->Borders.Plan(
         isSettled ? this->LargeExcess(round % 2 == 0) : this->Excess, this->Mass, work);
-      // Without a move only the other kinds of rounds may still find one.
+      // Without a move, only rounds of the other kinds may still find one.
       stuck = this->Move(work) ? 0 : stuck + 1;
       idle = stuck > 0 ? std::max(idle, idleRounds) : idle;
     }
@@ -122,7 +125,8 @@ private:
   {
     progress.ForEachInOrder(this->Masses.NumberOfPixels(), std::int64_t{ 1 } << 16,
       [this](std::int64_t pixel) { this->Mass[this->Owners[pixel]] += this->Masses[pixel]; });
-    // In fractions that do not overflow; what rounding leaves is far below a pixel.
+    // Quotient and remainder do not overflow; the remainder, below one unit for each site, is far
+    // below the mass of a pixel.
     const std::int64_t sites = this->Groups.NumberOfSites();
     const std::int64_t each = this->Masses.Total() / sites;
     std::int64_t left = this->Masses.Total() % sites;
@@ -134,8 +138,8 @@ private:
     }
   }
 
-  // The excess without that of groups with too much, or else too little, whose masses are as equal
-  // as pixels allow: they would only pass their pixels around.
+  // Returns the excess, except that of groups with too much (or with too little) whose masses are
+  // as equal as pixels allow. They would only pass their pixels around.
   const std::vector<std::int64_t>& LargeExcess(bool isOfTooMuch)
   {
     this->Planned = this->Excess;
@@ -147,7 +151,8 @@ private:
     return this->Planned;
   }
 
-  // All faces between groups, in the order of the rows.
+  // Lists all faces between groups in the order of the rows: counts, prefix sums, then a second
+  // pass in parallel.
   void FindFaces(Progress& progress)
   {
     this->FirstFace[0] = 0;
@@ -166,8 +171,9 @@ private:
     });
   }
 
-  // A border without mass has the capacity of one in a density that is even: what is behind it may
-  // have to move. A border of one face lets its pixel pass.
+  // Finds the borders and their capacities. A border without mass has the capacity of one in a
+  // uniform density, because the mass behind it may have to move; a border of one face lets its
+  // pixel pass.
   void FindBorders()
   {
     this->Borders.Clear();
@@ -182,7 +188,8 @@ private:
     }
   }
 
-  // The change of a pixel's squared distance from its group when it moves to another one.
+  // Returns the change of the squared distance |x - b|^2 - |x - a|^2 = (a - b) . (2 x - a - b) when
+  // a pixel moves from the group at a to that at b.
   double CostOf(std::int64_t pixel, std::int64_t from, std::int64_t to) const
   {
     const double* a = this->Places[from];
@@ -197,7 +204,7 @@ private:
     return cost;
   }
 
-  // Returns whether a pixel with mass moved.
+  // Moves pixels by the planned flows. Returns whether a pixel with mass moved.
   bool Move(Progress& progress)
   {
     this->Candidates.Fill(this->Borders.Size(), [this](const auto& add) {
@@ -211,7 +218,7 @@ private:
         }
       }
     });
-    // What each group is to have in excess when all flows are done.
+    // The excess that each group is to have when all flows are done.
     this->Planned = this->Excess;
     for (std::size_t i = 0; i < this->Borders.Size(); ++i)
     {
@@ -235,8 +242,9 @@ private:
     return border.Flow > 0 ? border.Low : border.High;
   }
 
-  // Pixels are no smaller than they are: one moves if that brings both groups nearer to each other,
-  // with what the borders before left of their flows. So no group collects many such rests.
+  // Moves pixels over one border. Pixels are indivisible: one moves if that brings both groups
+  // nearer to each other, counting what the previous borders left of their flows. So no group
+  // collects many such remainders.
   bool MoveOver(const SiteCellBorder& border, const Bins<std::int64_t>::Range& candidates)
   {
     const std::int64_t from = Giver(border);
@@ -256,14 +264,15 @@ private:
       const std::int64_t pixel = this->Heap.back().Pixel;
       this->Heap.pop_back();
       const std::int64_t mass = this->Masses[pixel];
-      // A pixel with several faces is listed several times; a group keeps some of its mass.
+      // A pixel with several faces is listed several times, and a group keeps some of its mass.
       if (this->Owners[pixel] != from || mass >= this->Mass[from])
       {
         continue;
       }
       if (mass > 0 && this->Planned[from] - this->Planned[to] <= mass)
       {
-        // Lighter ones behind it would leave it as an enclave: they move where nothing else does.
+        // Lighter pixels behind a heavy one would leave it as an enclave; they move only if nothing
+        // else does.
         if (this->TakesLighter)
         {
           continue;
@@ -287,10 +296,12 @@ private:
     values[to] += mass;
   }
 
-  // Behind a pixel that is nearly without mass there may be those that are to move.
+  // Adds the neighbours of a pixel that is nearly without mass: the mass that is to move may be
+  // behind it.
   void PushBehind(std::int64_t pixel, std::int64_t from, std::int64_t to)
   {
-    constexpr std::int64_t light = 64; // of them have the mass of a mean pixel
+    // pixels lighter than 1 / 64 of the mean count as nearly without mass
+    constexpr std::int64_t light = 64;
     if (this->Masses[pixel] > this->MeanMass / light)
     {
       return;
@@ -324,11 +335,11 @@ private:
   std::vector<std::int64_t> Planned;
   const Point<Dimension> Weight;
   bool TakesLighter = false;
-  std::int64_t MeanMass;               // of a pixel
-  std::vector<std::int64_t> FirstFace; // of each row
+  std::int64_t MeanMass;               // mean mass of a pixel
+  std::vector<std::int64_t> FirstFace; // first face of each row
   std::vector<Face> Faces;
   BorderMaxFlow Borders;
-  Bins<std::int64_t> Candidates; // pixels, of each border
+  Bins<std::int64_t> Candidates; // pixels at each border
   std::vector<Candidate> Heap;
 };
 

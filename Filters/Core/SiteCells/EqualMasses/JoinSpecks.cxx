@@ -15,7 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Sets of connected pixels of one group.
+// Connected components of the pixels of each group, by union-find.
 template <int Dimension>
 class CellParts
 {
@@ -28,7 +28,8 @@ public:
     , Part(masses.NumberOfPixels())
   {
     this->VisitPixels([this](std::int64_t pixel) { this->Connect(pixel); });
-    // The first pixel of each part is its root.
+    // The first pixel of a part is its root, since Connect() joins to the smaller one: the pass in
+    // order meets it first.
     this->VisitPixels([&](std::int64_t pixel) {
       std::int64_t& part = this->PartOf(pixel);
       if (part == pixel)
@@ -44,8 +45,8 @@ public:
     });
   }
 
-  // Specks have at most this mass, and are not the heaviest part of their group. Returns whether
-  // there are any.
+  // Marks as specks the parts with at most this mass that are not the heaviest part of their group.
+  // Returns whether there are any.
   bool FindSpecks(std::int64_t groups, std::int64_t mostMass)
   {
     std::vector<const PartOfGroup*> heaviest(static_cast<std::size_t>(groups), nullptr);
@@ -90,6 +91,7 @@ public:
     for (auto face = faces.begin(); face != faces.end(); ++joined)
     {
       const std::int64_t speck = face->first;
+      // Equal faces are consecutive: the longest run is the group with most faces in common.
       for (std::ptrdiff_t most = 0; face != faces.end() && face->first == speck;)
       {
         const auto end = std::upper_bound(face, faces.end(), *face);
@@ -141,7 +143,7 @@ private:
 
   std::int64_t& PartOf(std::int64_t pixel) { return this->Part.data()[pixel]; }
 
-  // Parts are trees until all are found.
+  // Returns the root of a pixel's tree. Path halving keeps the trees flat.
   std::int64_t RootOf(std::int64_t pixel)
   {
     while (this->PartOf(pixel) != pixel)
@@ -168,7 +170,7 @@ private:
   const GridSize<Dimension> Size;
   std::int64_t* Owners;
   Progress& Work;
-  LargeBuffer<std::int64_t> Part; // of each pixel
+  LargeBuffer<std::int64_t> Part; // part of each pixel
   std::vector<PartOfGroup> Parts;
 };
 
@@ -178,6 +180,7 @@ template <int Dimension>
 std::int64_t joinSpecks(const SiteGroups& groups, const PixelMasses<Dimension>& masses,
   std::int64_t* owners, Progress& progress)
 {
+  // A part with more than a tenth of a site's mass stays where it is.
   constexpr std::int64_t tenth = 10;
   CellParts<Dimension> parts(masses, owners, progress);
   return parts.FindSpecks(groups.NumberOfGroups(), masses.Total() / tenth / groups.NumberOfSites())

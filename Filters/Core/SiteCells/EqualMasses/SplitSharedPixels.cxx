@@ -19,7 +19,7 @@ using Numbers = std::vector<std::int64_t>;
 // Pixels between two polls for cancellation.
 constexpr std::int64_t sliceOfPixels = std::int64_t{ 1 } << 16;
 
-// Grid coordinates of pixels, without a division for one in the row of the pixel before.
+// Grid coordinates of pixels; a pixel in the row of the previous one needs no division.
 template <int Dimension>
 class PixelPlace
 {
@@ -53,7 +53,8 @@ private:
   std::int64_t RowEnd = 0;
 };
 
-// `masses` are those of the pixels; null: pixels count equally.
+// Recursive bisection of the pixels of a site cell among its sites. `masses` are those of the
+// pixels; with nullptr, all pixels count equally.
 template <int Dimension>
 class CellBisection
 {
@@ -71,7 +72,8 @@ public:
   {
   }
 
-  // Labels ascending pixels by recursive bisection; both parts ascend, too. Throws Cancelled.
+  // Labels pixels, in ascending order, by recursive bisection; both parts ascend, too. Throws
+  // Cancelled.
   void Bisect(
     std::int64_t* sites, std::int64_t siteCount, std::int64_t* pixels, std::int64_t pixelCount)
   {
@@ -85,6 +87,8 @@ public:
     }
     const Box box = this->FindBox(pixels, pixelCount);
     const int axis = this->ChooseAxis(sites, siteCount, box);
+    // The sites are divided at their median along the axis, and the pixels in proportion to the
+    // numbers of sites.
     const std::int64_t half = siteCount / 2;
     std::nth_element(
       sites, sites + half, sites + siteCount, [this, axis](std::int64_t a, std::int64_t b) {
@@ -140,7 +144,8 @@ private:
     return box;
   }
 
-  // The axis along which the sites, or if they coincide the pixels, have the largest extent.
+  // Returns the axis along which the sites have the largest extent or, if they coincide, the
+  // pixels.
   int ChooseAxis(const std::int64_t* sites, std::int64_t count, const Box& box) const
   {
     std::pair<double, int> bySites(0.0, -1);
@@ -172,7 +177,8 @@ private:
     const std::int64_t part = this->Divide(pixels, count, siteCount, axis, box, false);
     if (this->Masses)
     {
-      // Heavy pixels may be too few for the sites of a half.
+      // If few heavy pixels leave a half fewer pixels with mass than it has sites, pixels are
+      // counted instead of weighed.
       std::int64_t lower = 0;
       std::int64_t all = 0;
       for (std::int64_t i = 0; i < count; ++i)
@@ -189,14 +195,14 @@ private:
     return part;
   }
 
-  // The mass of a pixel, or whether it has one.
+  // Returns the mass of a pixel or, if pixels are counted, whether it has any.
   std::int64_t WeightOf(std::int64_t pixel, bool isCounted) const
   {
     const std::int64_t mass = this->Masses ? (*this->Masses)[pixel] : 1;
     return isCounted ? std::min<std::int64_t>(mass, 1) : mass;
   }
-  // What the lower half of the sites gets of a weight: of pixels every site gets as many as any
-  // other, or one more.
+  // Returns the lower half's part of a weight: when pixels are counted, every site gets as many as
+  // any other, or one more.
   static std::int64_t LowerPart(std::int64_t weight, std::int64_t siteCount)
   {
     const std::int64_t half = siteCount / 2;
@@ -205,8 +211,9 @@ private:
     return each * half + more;
   }
 
-  // Moves the lowest pixels along an axis to the front, as many as have, to half a pixel, the
-  // weight of the lower half of the sites; those of a layer by their numbers.
+  // Moves the lowest pixels along an axis to the front: as many as have, to half a pixel, the
+  // weight of the lower half of the sites. In the layer that both halves share, pixels with lower
+  // numbers come first.
   std::int64_t Divide(std::int64_t* pixels, std::int64_t count, std::int64_t siteCount, int axis,
     const Box& box, bool areCounted)
   {
@@ -253,7 +260,7 @@ private:
   PixelPlace<Dimension> Place;
   std::int64_t Visited = 0; // pixels since the last poll for cancellation
   Numbers Layers;
-  LargeBuffer<std::int64_t> Upper; // of the size of the largest site cell
+  LargeBuffer<std::int64_t> Upper; // pixels of the upper part; as many as the largest site cell has
 };
 
 template <int Dimension>

@@ -14,9 +14,10 @@ namespace RectifiedTransport
 {
 
 // Replaces `owners`, the numbers of the pixels' site cells, by the numbers of sites. A site cell of
-// several sites is bisected recursively into parts that are equal to one pixel: across the axis of
-// the largest extent of the sites or, if they coincide, of the site cell. `coordinates` are those
-// of the sites, `spacing` the lengths of a pixel's sides. Throws Cancelled.
+// several sites is bisected recursively into parts that are equal to one pixel. Each cut is across
+// the axis along which the sites or, if they coincide, the pixels have the largest extent.
+// `coordinates` belong to the sites; `spacing` has the lengths of a pixel's sides. Throws
+// Cancelled.
 template <int Dimension>
 void splitSharedPixels(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimension> coordinates,
   const Point<Dimension>& spacing, std::int64_t* owners, const Context& context = Context());
