@@ -24,10 +24,10 @@ namespace RectifiedTransport
 namespace
 {
 
-// Where densities span more than this, the first pass takes their roots: borders of strong contrast
-// would cross.
+// If densities span more than this, the first pass takes their square roots: with the full
+// contrast, borders would cross.
 constexpr double wideSpan = 99.9;
-// What areas may be off by in a pass that another one follows, in the tolerance of the last one.
+// The factor on the flow's tolerance in a pass that another one follows: it need not be exact.
 constexpr double coarser = 4.0;
 
 double sumOf(const std::vector<double>& values)
@@ -60,6 +60,7 @@ public:
     , Start(start)
     , Work(context)
   {
+    // Half the tolerance is for the flow, the other half for the raster.
     this->Options.Flow.AreaTolerance = 0.5 * options.Tolerance;
     this->Options.Flow.NeedsEstimate = false; // the areas of the regions are measured
   }
@@ -77,6 +78,7 @@ public:
     }
     std::shared_ptr<const RegionRaster> raster = this->Start.Raster;
     this->FindOverlaps(*raster);
+    // Regions whose outlines cross have no clear area; nothing is moved then.
     this->FindCrossing(raster->Covered());
     if (!this->Found.Crossing.empty())
     {
@@ -85,9 +87,12 @@ public:
     this->Around.emplace(this->Options, this->Box, *raster, this->Masses, this->Areas);
     this->Found.Growth = this->Around->Growth();
     this->FillGrowth(*raster, stages["growth"]);
+    // The edges are divided before the first pass, since a straight edge stays straight between its
+    // end points.
     this->Divide([this](const Point<2>& middle) { return this->Lengths().WhereItGrows(middle); },
       stages["edges"]);
     Rounds passes(stages["passes"], 1); // how many there are is not known
+    // The flow's tolerance is refined to no less than this part of its first value.
     constexpr double finest = 1.0 / 64.0;
     double finer = 1.0;
     double stuckBefore = std::numeric_limits<double>::infinity();
@@ -118,7 +123,7 @@ public:
       options.AreaTolerance = std::min(1.0, (isCoarse ? coarser : finer) * options.AreaTolerance);
       if (this->Found.Overlap > leastOverlap && found.ForetoldError > this->Options.Tolerance)
       {
-        // Regions on each other cannot all have their areas: a more exact flow gains nothing.
+        // Overlapping regions cannot all have their areas, so a more exact flow gains nothing.
         options.AreaTolerance = std::max(options.AreaTolerance, FlowOptions::UsualTolerance);
       }
       if (!this->MoveAll(options, found, parts))
@@ -126,6 +131,8 @@ public:
         break;
       }
       const CartogramPass& done = this->Judge();
+      // `stuck` is the largest error of regions at their least density, `others` that of all other
+      // regions.
       double stuck = 0.0;
       double others = 0.0;
       for (std::size_t i = 0; i < this->Found.Errors.size(); ++i)
@@ -133,16 +140,20 @@ public:
         double& largest = values.Least[i] != 0 ? stuck : others;
         largest = std::max(largest, std::abs(this->Found.Errors[i]));
       }
-      // What the raster does not foretell is the flow's.
+      // An error that the raster does not foretell comes from the flow, which gets a finer
+      // tolerance.
       if (!isCoarse && found.ForetoldError < 0.5 * this->Options.Tolerance)
       {
         finer = std::max(finest, finer / coarser);
       }
-      // What is stuck, at its least density, gets better by its neighbours' parts of border cells.
+      // A region that is stuck at its least density improves through its neighbours' parts of
+      // border cells, so passes go on while its error halves.
       const double tolerance = this->Options.Tolerance;
       const bool isDone =
         (done.LargestError <= tolerance && this->Around->LeavesLand(this->Areas)) ||
         (!isTempered && others <= tolerance && stuck > 0.5 * stuckBefore);
+      // Overlapping regions end if the areas are what the raster foretells and do not improve by
+      // half.
       const bool isForetold = !isTempered && this->Found.Overlap > leastOverlap &&
         found.ForetoldError > tolerance && found.ForetoldError > 0.5 * foretoldBefore &&
         this->IsAsForetold(values);
@@ -158,6 +169,7 @@ public:
   }
 
 private:
+  // Overlaps become parts of the total area, and of each region's area.
   void FindOverlaps(const RegionRaster& raster)
   {
     std::vector<double>& overlaps = this->Found.Overlaps;
@@ -170,8 +182,8 @@ private:
     }
   }
 
-  // Whether areas are what the raster foretells of regions on each other, whose areas cannot all be
-  // right: no other pass makes them better.
+  // Returns whether the areas are those that the raster foretells for overlapping regions. They
+  // cannot all be right, and another pass does not improve them.
   bool IsAsForetold(const RegionValues& values) const
   {
     double total = 0.0;
@@ -188,9 +200,11 @@ private:
     return farthest <= 2.0 * this->Options.Tolerance;
   }
 
-  // What runs the other way round counts in areas, not in what rasters cover.
+  // Finds regions whose outlines cross: an area that runs in the reverse direction counts
+  // negatively in the polygon's area, but not in the raster's cover.
   void FindCrossing(const std::vector<double>& covered)
   {
+    // Rounding of the raster's exact cover is far below this part of the area.
     constexpr double part = 1e-3;
     for (std::size_t i = 0; i < covered.size(); ++i)
     {
@@ -206,7 +220,7 @@ private:
     return std::make_shared<const RegionRaster>(this->Map, this->Regions, this->Box.Side, progress);
   }
 
-  // Of the regions, as mass per cell.
+  // Returns the mean density of all regions, as mass per cell.
   double MeanDensity() const { return sumOf(this->Masses) / sumOf(this->Areas); }
 
   bool SpansWidely() const
@@ -219,10 +233,12 @@ private:
       least = std::min(least, density);
       most = std::max(most, density);
     }
+    // Regions below the least density get it, so that they do not widen the span.
     return most > wideSpan * std::max(least, leastRegionDensity * this->MeanDensity());
   }
 
-  // How many times as dense as all regions together cells are, at least 1.
+  // Fills the raster with the ratio of each region's density to the mean, at least 1: it is how
+  // much the region grows.
   void FillGrowth(const RegionRaster& raster, Progress& progress)
   {
     const double mean = this->MeanDensity();
@@ -236,6 +252,7 @@ private:
 
   EdgeLengths Lengths() const { return { this->Cells, this->Box.Side }; }
 
+  // Divides edges, and keeps for each new point its place in the map as it was given.
   template <class LongestAt>
   void Divide(const LongestAt& longestAt, Progress& progress)
   {
@@ -253,7 +270,7 @@ private:
     }
   }
 
-  // Whether errors are large and have fallen by half or more.
+  // Returns whether errors are large and have fallen to less than half.
   bool AreFarFromDone() const
   {
     constexpr double far = 10.0; // in tolerances
@@ -263,6 +280,8 @@ private:
       (passes.size() < 2 || largest < 0.5 * passes[passes.size() - 2].LargestError);
   }
 
+  // Fills the raster with densities that give each region its mass (RegionValues.h). With roots,
+  // the masses are area * mean * sqrt(density / mean): half the way on a logarithmic scale.
   RegionValues FillPass(const RegionRaster& raster, bool takesRoots, Stages& parts)
   {
     const double mean = this->MeanDensity();
@@ -287,13 +306,15 @@ private:
     fill(sea);
     if (this->Options.Sea == SeaDensity::Mean && this->Found.Overlap > leastOverlap)
     {
-      // Ground that regions share has the mass of all of them, and their areas count it for each.
+      // Land that several regions share has the mass of all of them, and their areas count it for
+      // each. So the sea gets the mean density of the land, not of the regions.
       fill(raster.MeanOnLand(this->Cells));
     }
     return values;
   }
 
-  // Returns whether the pass was done. Else points are where they were.
+  // Moves all points by the backward flow, from the density to the uniform measure. Returns whether
+  // the pass was done; otherwise the points are where they were.
   bool MoveAll(FlowOptions options, CartogramPass pass, Stages& parts)
   {
     const std::int64_t side = this->Box.Side;
@@ -308,6 +329,7 @@ private:
       this->Flow.emplace(DensitySource<2>(array), parts["tables"]);
     }
     std::vector<Point<2>>& points = this->Map.Points();
+    // Coincident points move once, so that borders stay closed to the last bit.
     const DistinctPoints<2> before(points, parts["points"]);
     std::vector<Point<2>> moved(before.Places().size());
     const std::vector<double> ringAreas = this->RingAreas();
@@ -323,6 +345,8 @@ private:
       {
         break;
       }
+      // A ring that turns over shows an error of the integration: more steps, up to MostSteps,
+      // reduce it.
       const int steps = 2 * std::max(report.NumberOfSteps, FlowOptions::FewestSteps);
       if (steps > FlowOptions::MostSteps || options.Integrator != Integrator::Multistep)
       {
@@ -347,9 +371,10 @@ private:
     return areas;
   }
 
-  // Rings that had an area and have none, or a negative one.
+  // Counts the rings that had an area and now have none, or a negative one.
   void CountTurnedRings(const std::vector<double>& before)
   {
+    // In squares of a cell.
     constexpr double rounding = 1e-9;
     const std::vector<double> now = this->RingAreas();
     this->Found.Folded = 0;
@@ -362,6 +387,7 @@ private:
     }
   }
 
+  // A point outside the box moves like the nearest point of its border, by the same displacement.
   void MoveFellows(const FlowOptions& options, Progress& progress)
   {
     if (this->Fellows.empty())
@@ -385,7 +411,7 @@ private:
     }
   }
 
-  // Of the areas as they are.
+  // Computes the relative errors of the current areas: area * (total mass / total area) / mass - 1.
   void FindErrors()
   {
     const double perArea = this->MeanDensity();
@@ -408,6 +434,7 @@ private:
     return pass;
   }
 
+  // Lists the regions at their least density that miss the tolerance, except those that overlap.
   void NameOutOfReach(const RegionValues& values)
   {
     for (std::size_t i = 0; i < this->Found.Errors.size(); ++i)
@@ -428,9 +455,9 @@ private:
   FellowPoints& Fellows;
   CartogramStart& Start;
   Progress Work;
-  std::vector<double> Areas; // of the regions, in cells
+  std::vector<double> Areas; // areas of the regions, in cells
   std::optional<Sea> Around;
-  std::vector<double> Cells; // of the raster
+  std::vector<double> Cells; // densities of the raster's cells, axis 0 fastest
   std::optional<RectifiedFlow<2>> Flow;
   CartogramResult Found;
 };

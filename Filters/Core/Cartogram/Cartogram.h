@@ -20,10 +20,10 @@ namespace RectifiedTransport
 
 class RegionRaster;
 
-// What a region has at least, of the mean density of all regions.
+// The least density of a region, relative to the mean density of all regions.
 constexpr double leastRegionDensity = 1e-4;
 
-// Regions that overlap by less, of all their area, count as regions side by side.
+// Regions that overlap by less than this part of their total area count as adjacent.
 constexpr double leastOverlap = 1e-4;
 
 // The density of the ground around the regions.
@@ -41,7 +41,7 @@ struct CartogramOptions
   double Margin = 0.1;            // on each side, of the longest side of the map
   SeaDensity Sea = SeaDensity::Mean;
   double SeaValue = 1.0;   // mass per area
-  double Tolerance = 0.01; // of the areas, relative
+  double Tolerance = 0.01; // relative error of the areas
   int MaximumPasses = 10;
   FlowOptions Flow; // its AreaTolerance is half of Tolerance
 };
@@ -81,22 +81,22 @@ struct CartogramResult
   // Regions whose outlines cross themselves, so that their areas are not clear: nothing is moved.
   std::vector<std::int32_t> Crossing;
   std::vector<CartogramPass> Passes;
-  std::vector<double> Errors; // of regions, relative, with sign
+  std::vector<double> Errors; // relative errors of the regions' areas, with sign
   // Regions whose least density is too much for them at this resolution, and which therefore miss
   // the tolerance. Those that lie on others are not among them.
   std::vector<std::int32_t> OutOfReach;
   std::int64_t Folded = 0;      // rings that turned over in a pass that was left out; 0 else
   std::int32_t FirstFolded = 0; // the region of the first of them
   double Growth = 1.0;          // what the area of all regions is to be multiplied by
-  double Overlap = 0.0;         // of regions, before, by all their area
+  double Overlap = 0.0;         // overlap of the regions before, relative to their total area
   std::int32_t Overlapping = 0; // a region with most of it
-  std::vector<double> Overlaps; // of each region, by its area
+  std::vector<double> Overlaps; // overlap of each region, relative to its area
   // Points that divide the map's edges, as it numbers them, and the places of all points before.
   std::vector<DividingPoint> Added;
   std::vector<Point<2>> Before;
 };
 
-// What of a map does not depend on masses: the raster of the map itself.
+// The part of a map that does not depend on masses: the raster of the map itself.
 struct CartogramStart
 {
   std::shared_ptr<const RegionRaster> Raster;

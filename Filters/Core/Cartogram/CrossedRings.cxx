@@ -16,11 +16,11 @@ namespace RectifiedTransport
 namespace
 {
 
-// Where a point of an edge lies between its ends.
+// Returns where a point of an edge lies between its ends, in [0, 1].
 double placeOn(const Point<2>& low, const Point<2>& high, const Point<2>& x)
 {
   const Point<2> along{ high[0] - low[0], high[1] - low[1] };
-  // The longer axis, as the square of a length may be no double.
+  // The longer axis has the most digits; the square of a length may overflow.
   const std::size_t axis = std::abs(along[0]) >= std::abs(along[1]) ? 0 : 1;
   return x == low ? 0.0
     : x == high   ? 1.0
@@ -29,14 +29,14 @@ double placeOn(const Point<2>& low, const Point<2>& high, const Point<2>& x)
 
 } // namespace
 
-// Adds the parts of the edges if rings of a region cross. Where they touch or lie on each other,
-// areas stay as they are.
+// Adds the parts of edges if rings of a region cross. Where rings only touch or coincide, areas
+// stay as they are.
 void RegionMap::FindParts(
   const std::vector<std::int64_t>& rings, EdgeParts& parts, Progress& progress)
 {
-  constexpr double rounding = 1e-6; // of the area
+  constexpr double rounding = 1e-6; // relative to the area
   RectifiedTransport::Rings outline;
-  std::vector<std::int64_t> corners; // of the outline's edges
+  std::vector<std::int64_t> corners; // corners at which the outline's edges begin
   double area = 0.0;
   for (const std::int64_t ring : rings)
   {
@@ -63,6 +63,7 @@ void RegionMap::FindParts(
   const std::vector<OutlineEdge> edges =
     regionOutlines(outline, std::vector<double>(rings.size(), 0.0), progress);
   endIfCancelled();
+  // If rings cross, the area by the even-odd rule differs from the signed sum of the rings' areas.
   const double evenOdd = sizeOfRegion(edges.data(), edges.data() + edges.size()).Area;
   if (std::abs(evenOdd - area) <= rounding * evenOdd)
   {
@@ -80,6 +81,7 @@ void RegionMap::FindParts(
     const bool isUp = a < b;
     const Point<2>& low = isUp ? a : b;
     const Point<2>& high = isUp ? b : a;
+    // Parts are stored from the lower end of an edge, so that both directions give the same places.
     const double from = placeOn(low, high, edge.From);
     const double to = placeOn(low, high, edge.To);
     parts[corners[Index(edge.Edge)]].push_back(
@@ -87,10 +89,12 @@ void RegionMap::FindParts(
   }
 }
 
+// Divides all edges at their crossings. The side of each part is looked up by its middle.
 std::vector<DividingPoint> RegionMap::DivideAtCrossings(const EdgeParts& parts, Progress& progress)
 {
   using Ends = std::pair<Point<2>, Point<2>>;
-  std::map<Ends, std::vector<double>> crossings; // of edges, also of others in the same places
+  // places on edges, by their ends; coincident edges share them
+  std::map<Ends, std::vector<double>> crossings;
   for (std::int64_t ring = 0; ring < this->Rings(); ++ring)
   {
     this->VisitCorners(ring, [&](std::int64_t corner, std::int64_t from, std::int64_t to) {
@@ -132,6 +136,8 @@ std::vector<DividingPoint> RegionMap::DivideAtCrossings(const EdgeParts& parts, 
     progress);
 }
 
+// Shoelace formula relative to a point of the region, over directed edges with the region on the
+// left.
 double RegionMap::CrossedArea(const std::vector<std::int64_t>& rings) const
 {
   double sum = 0.0;

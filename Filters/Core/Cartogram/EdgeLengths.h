@@ -21,22 +21,23 @@ struct EdgeLengths
   const std::vector<double>& Cells;
   std::int64_t Side;
 
-  // Edges are short where regions grow: cells have how many times as dense as all regions they are.
+  // Edges are short where regions grow: the cells have the ratio of density to mean, at least 1,
+  // and lengths grow with its square root.
   double WhereItGrows(const Point<2>& middle) const
   {
     return this->Longest() / std::sqrt(std::max(1.0, this->CellsAbout(middle).second));
   }
-  // Edges are short where densities differ from cell to cell, as points beside each other then move
-  // differently.
+  // Edges are short where densities differ between neighbouring cells, because neighbouring points
+  // then move differently.
   double ByContrast(const Point<2>& middle) const
   {
-    constexpr double mostParts = 8.0; // of a longest edge
+    constexpr double mostParts = 8.0; // parts of a longest edge
     const auto [least, largest] = this->CellsAbout(middle);
     return this->Longest() / std::clamp(std::sqrt(largest / least), 1.0, mostParts);
   }
   double Longest() const
   {
-    constexpr double edgesOfSide = 512.0; // the longest edges are this part of the box
+    constexpr double edgesOfSide = 512.0; // a longest edge is this part of the box's side
     return static_cast<double>(this->Side) / edgesOfSide;
   }
   // The least and the largest of the 3 x 3 cells around a place.

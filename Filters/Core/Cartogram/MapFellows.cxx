@@ -13,8 +13,8 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr int squares = 16;   // along each side of the raster
-constexpr int mostParts = 16; // of a square's side
+constexpr int squares = 16;   // squares of the graticule along each side of the raster
+constexpr int mostParts = 16; // points along a square's side
 
 // The squares that a map reaches along an axis, with the raster's margin around it.
 struct Reach
@@ -27,6 +27,7 @@ std::array<Reach, 2> reachOf(const RegionMap& map, double side)
 {
   const auto bounds = Bounds<2>::Of(map.Points());
   const double margin = 0.5 * (side - bounds.LongestSide());
+  // A map that ends on a line of the graticule up to rounding does not reach the next square.
   constexpr double rounding = 1e-6;
   std::array<Reach, 2> reach;
   for (std::size_t axis = 0; axis < 2; ++axis)
@@ -47,7 +48,7 @@ MapFellows::MapFellows(const MapPlace& place, const RegionMap& map)
   : Place(place)
 {
   const auto side = static_cast<double>(place.Box.Side);
-  // Not shorter than cells.
+  // The parts of a line are not shorter than cells.
   const int parts = std::clamp(static_cast<int>(place.Box.Side / squares), 1, mostParts);
   const std::array<Reach, 2> reach = reachOf(map, side);
   for (std::size_t axis = 0; axis < 2; ++axis)
@@ -89,7 +90,7 @@ Point<3> MapFellows::OverlayPoint(std::size_t point) const
   const Point<3>& before = this->OverlayBefore[point];
   const Point<3> place =
     this->Place.Blended(this->Before[at], this->Moved[at], this->Place.Frame.Distance(before));
-  // So far away that its index is infinite, its way is less than rounding.
+  // For a point so far away that its index is infinite, the displacement is below rounding.
   const bool isFinite = std::all_of(
     place.begin(), place.end(), [](double coordinate) { return std::isfinite(coordinate); });
   return isFinite ? place : before;

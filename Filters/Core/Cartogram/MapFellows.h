@@ -19,7 +19,7 @@ public:
 
   // Adds points of the overlay. Throws Failure if they are to be projected and cannot be.
   void AddOverlay(std::vector<Point<3>> points);
-  // To be moved: in index space.
+  // The points to be moved, in index space.
   FellowPoints& Points() { return this->Moved; }
 
   // How many points the graticule's lines have up to the end of each.
@@ -33,7 +33,7 @@ public:
 
 private:
   const MapPlace& Place;
-  FellowPoints Moved; // of the graticule, then of the overlay
+  FellowPoints Moved; // points of the graticule, then those of the overlay
   FellowPoints Before;
   std::vector<std::size_t> Ends;
   std::vector<Point<3>> OverlayBefore; // projected

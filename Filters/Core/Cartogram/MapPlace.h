@@ -21,7 +21,7 @@ struct MapPlace
   {
     return this->Box.ToIndex(this->Frame.ToPlane(place));
   }
-  // Between two places in index space, at a distance from the plane.
+  // Returns the place between two places in index space, at a distance from the plane.
   Point<3> Blended(const Point<2>& before, const Point<2>& after, double distance) const
   {
     const Point<2> between{ before[0] + this->Blend * (after[0] - before[0]),

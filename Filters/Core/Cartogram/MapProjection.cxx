@@ -15,12 +15,14 @@ namespace RectifiedTransport
 namespace
 {
 
+// The radius, in kilometres, of a sphere with the area of the earth.
 constexpr double radius = 6371.0;
 constexpr double radian = 3.14159265358979323846 / 180.0;
 constexpr double farthestEast = 360.0;
 constexpr double farthestNorth = 90.0;
 
-// Rounds degrees to 2^-50, a ten-thousandth of a micrometre on the ground.
+// Rounds degrees to 2^-50, a ten-thousandth of a micrometre on the ground, so that sine and cosine
+// have the same bits on every machine.
 CosineAndSine cosineAndSineOf(double degrees)
 {
   constexpr int bits = 50;

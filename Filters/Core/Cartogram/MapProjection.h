@@ -20,8 +20,8 @@ class MapProjection
 {
 public:
   MapProjection() = default;
-  // At the mean of the southernmost and the northernmost latitude. Throws Failure for places that
-  // are no longitudes and latitudes.
+  // Projects with p at the mean of the southernmost and the northernmost latitude. Throws Failure
+  // for places that are not longitudes and latitudes.
   explicit MapProjection(const std::vector<Point<3>>& places);
 
   // Keeps the third coordinate.
@@ -31,7 +31,7 @@ public:
   void Require(const std::vector<Point<3>>& places, const char* what) const;
 
 private:
-  double Cosine = 0.0; // of the latitude p; 0: none
+  double Cosine = 0.0; // cosine of the latitude p; 0 without a projection
 };
 
 } // namespace RectifiedTransport

@@ -88,6 +88,7 @@ private:
 
 bool looksLikeDegrees(const std::vector<Point<3>>& places)
 {
+  // Degrees of a country's latitude, or of a large map's extent.
   constexpr double wide = 20.0;
   const auto bounds = Bounds<2>::Of(places);
   const Point<2>& low = bounds.Low;

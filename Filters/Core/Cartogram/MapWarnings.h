@@ -16,7 +16,7 @@ namespace RectifiedTransport
 // wide, or as far from the equator as countries are.
 bool looksLikeDegrees(const std::vector<Point<3>>& places);
 
-// Adds what the areas of a cartogram miss, and what helps. `names` of regions.
+// Adds warnings on errors of a cartogram's areas, with a remedy. `names` are the regions' names.
 void addWarnings(const CartogramResult& result, const std::vector<std::string>& names,
   std::int64_t rings, double tolerance, std::vector<std::string>& warnings);
 

@@ -12,6 +12,7 @@ std::int32_t raiseMasses(std::vector<double>& masses, double leastShare)
 {
   const double equal =
     std::accumulate(masses.begin(), masses.end(), 0.0) / static_cast<double>(masses.size());
+  // A least share of 1 / n leaves only equal masses.
   if (leastShare * static_cast<double>(masses.size()) >= 1.0)
   {
     const auto raised =
@@ -28,7 +29,9 @@ std::int32_t raiseMasses(std::vector<double>& masses, double leastShare)
     {
       others += isRaised[i] != 0 ? 0.0 : masses[i];
     }
-    // So that raised ones have their share of what all have then.
+    // Raised masses m satisfy m = s (others + count m), so m = s * others / (1 - s * count).
+    // Raising lowers the share of the others, which may fall below s in turn; so the search
+    // repeats.
     const double least = leastShare * others / (1.0 - leastShare * count);
     const std::int32_t before = count;
     for (std::size_t i = 0; i < masses.size(); ++i)

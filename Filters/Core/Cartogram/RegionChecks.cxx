@@ -16,7 +16,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Regions that lack something.
+// Counts regions that lack something, and keeps the first one.
 class EmptyRegions
 {
 public:
@@ -27,7 +27,7 @@ public:
 
   void Add(std::size_t region) { this->First = this->Count++ == 0 ? region : this->First; }
   bool Any() const { return this->Count > 0; }
-  // "2 of 5 regions (40 %) have no area (the first is the region 'x')".
+  // Returns a text such as "2 of 5 regions (40 %) have no area (the first is the region 'x')".
   std::string Lack(const std::string& what) const
   {
     return describePart(this->Count, static_cast<std::int64_t>(this->Names.size()), "regions") +
@@ -59,6 +59,7 @@ PlaneFrame planeOfRegions(const std::vector<Point<3>>& places, const RingVisits&
     fail("The regions have no area; they must be polygons or closed lines in a plane");
   }
   const PlaneFrame frame = plane.Frame();
+  // The largest distance from the plane, relative to the map's extent.
   constexpr double flat = 1e-4;
   double farthest = 0.0;
   for (const Point<3>& place : places)
@@ -75,7 +76,7 @@ PlaneFrame planeOfRegions(const std::vector<Point<3>>& places, const RingVisits&
 
 double requireAreas(const std::vector<double>& areas, const std::vector<std::string>& names)
 {
-  constexpr double nothing = 1e-15; // of the sum
+  constexpr double nothing = 1e-15; // relative to the sum
   const double sum = std::accumulate(areas.begin(), areas.end(), 0.0);
   EmptyRegions empty(names);
   for (std::size_t i = 0; i < areas.size(); ++i)
@@ -96,7 +97,8 @@ std::int32_t completeMasses(std::vector<double>& masses, double leastShare,
   const std::vector<double>& areas, const std::vector<std::string>& names,
   std::vector<std::string>& warnings)
 {
-  constexpr double nothing = 1e-100; // of the mean density: less has errors that are no numbers
+  // relative to the mean density; for less, errors are not finite
+  constexpr double nothing = 1e-100;
   const double land = std::accumulate(areas.begin(), areas.end(), 0.0);
   const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
   EmptyRegions empty(names);

@@ -13,15 +13,15 @@
 namespace RectifiedTransport
 {
 
-// visit(points) of the closed rings, by the numbers of their points.
+// Calls visit(points) for each closed ring, with the numbers of its points.
 using RingVisits =
   std::function<void(const std::function<void(const std::vector<std::int64_t>&)>&)>;
 
 // Throws Failure if the rings have no area or the places are not in one plane.
 PlaneFrame planeOfRegions(const std::vector<Point<3>>& places, const RingVisits& visitRings);
 
-// Throws Failure if one of the areas is nothing beside their sum, which it returns. `names` of
-// regions.
+// Throws Failure if an area is nothing compared with their sum, which it returns. `names` are the
+// regions' names.
 double requireAreas(const std::vector<double>& areas, const std::vector<std::string>& names);
 
 // Gives regions without mass the least that a region has, and enlarges those below a share of the

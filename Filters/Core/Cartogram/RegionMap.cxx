@@ -13,6 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// An edge by the numbers of its ends, for a hash table of divided edges.
 struct Edge
 {
   std::int64_t Low;
@@ -27,6 +28,7 @@ struct EdgeHash
 {
   std::size_t operator()(const Edge& edge) const
   {
+    // The odd number nearest to 2^64 divided by the golden ratio (Fibonacci hashing).
     constexpr std::uint64_t odd = 0x9E3779B97F4A7C15u;
     const auto low = static_cast<std::uint64_t>(edge.Low);
     const auto high = static_cast<std::uint64_t>(edge.High);
@@ -51,7 +53,8 @@ void RegionMap::AddRing(std::int32_t region, const std::vector<std::int64_t>& po
   this->Turned.push_back(0);
 }
 
-// Relative to the ring's first point, so that maps far from the origin lose no digits.
+// Shoelace formula, relative to the ring's first point, so that maps far from the origin lose no
+// digits.
 double RegionMap::WindingArea(std::int64_t ring) const
 {
   const std::int64_t begin = this->Begins[Index(ring)];
@@ -71,6 +74,8 @@ double RegionMap::WindingArea(std::int64_t ring) const
   return 0.5 * sum;
 }
 
+// A ring that runs clockwise in the given map is turned: its area is positive until it folds. Holes
+// have positive areas, which are subtracted from their region.
 double RegionMap::AreaOf(std::int64_t ring) const
 {
   const auto crossed = this->Crossed.find(this->RegionOf(ring));
@@ -113,6 +118,8 @@ std::vector<std::vector<std::int64_t>> RegionMap::RingsOfRegions() const
   return rings;
 }
 
+// A ring that is inside an odd number of other rings of its region is a hole. This requires no
+// order of the rings and no direction.
 std::vector<DividingPoint> RegionMap::FindHoles(const Context& context)
 {
   Progress progress(context);
@@ -126,6 +133,7 @@ std::vector<DividingPoint> RegionMap::FindHoles(const Context& context)
   }
   for (std::vector<std::int64_t>& rings : this->RingsOfRegions())
   {
+    // Sorted by their lower ends along x, candidates for the inside of a ring are contiguous.
     std::sort(rings.begin(), rings.end(), [&](std::int64_t a, std::int64_t b) {
       return shapes[Index(a)].Low[0] < shapes[Index(b)].Low[0];
     });
@@ -145,6 +153,8 @@ std::vector<DividingPoint> RegionMap::FindHoles(const Context& context)
   return parts.empty() ? std::vector<DividingPoint>() : this->DivideAtCrossings(parts, progress);
 }
 
+// Computes the bounds of a ring and the middles of up to 5 of its edges, evenly spaced, for a
+// majority vote on what is inside.
 RegionMap::RingShape RegionMap::ShapeOf(std::int64_t ring) const
 {
   RingShape shape{ { HUGE_VAL, HUGE_VAL }, { -HUGE_VAL, -HUGE_VAL }, {} };
@@ -170,15 +180,16 @@ RegionMap::RingShape RegionMap::ShapeOf(std::int64_t ring) const
   return shape;
 }
 
-// Adds 1 for each of the rings, by their lower ends along x, that lies in a ring. Every edge meets
-// only the middles at its heights.
+// Adds 1 to `around` for each ring that lies in the ring `outer`; `rings` ascend by their lower
+// ends along x. A middle is inside if the ray from it along x crosses an odd number of edges
+// (even-odd rule). The middles are sorted by y, so that an edge visits only those at its heights.
 void RegionMap::CountAround(std::int64_t outer, const std::vector<std::int64_t>& rings,
   const std::vector<RingShape>& shapes, std::vector<int>& around, Progress& progress) const
 {
   struct Middle
   {
     Point<2> Place;
-    std::size_t Ring; // among the rings
+    std::size_t Ring; // index among the rings
     bool IsInside;
   };
   const RingShape& shape = shapes[Index(outer)];
@@ -215,6 +226,7 @@ void RegionMap::CountAround(std::int64_t outer, const std::vector<std::int64_t>&
     for (; middle != middles.end() && middle->Place[1] < high; ++middle)
     {
       progress.Add(1);
+      // The crossing of the edge at the middle's height; the ray goes towards larger x.
       const double x = a[0] + (middle->Place[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
       middle->IsInside = middle->IsInside != (x > middle->Place[0]);
     }
@@ -226,11 +238,13 @@ void RegionMap::CountAround(std::int64_t outer, const std::vector<std::int64_t>&
     const auto end = std::find_if(
       middle, middles.end(), [&](const Middle& other) { return other.Ring != middle->Ring; });
     const auto inside = std::count_if(middle, end, [](const Middle& one) { return one.IsInside; });
+    // A ring is inside if most of its middles are.
     around[middle->Ring] += 2 * inside > end - middle ? 1 : 0;
     middle = end;
   }
 }
 
+// Divides each edge into the fewest equal parts no longer than longestAt().
 std::vector<DividingPoint> RegionMap::Divide(
   const std::function<double(const Point<2>&)>& longestAt, const Context& context)
 {
@@ -250,6 +264,8 @@ std::vector<DividingPoint> RegionMap::Divide(
     progress);
 }
 
+// Directs an edge by the coordinates of its ends, so that coincident edges of different points are
+// divided in the same direction, with the same rounding.
 bool RegionMap::IsUp(std::int64_t from, std::int64_t to) const
 {
   const Point<2>& a = this->Places[Index(from)];
@@ -257,11 +273,14 @@ bool RegionMap::IsUp(std::int64_t from, std::int64_t to) const
   return a != b ? a < b : from < to;
 }
 
+// Rebuilds the rings with divided edges. New points are shared between rings by the numbers of the
+// edge's ends.
 std::vector<DividingPoint> RegionMap::DivideEdges(
   const std::function<void(const Point<2>&, const Point<2>&, std::vector<double>&)>& atOf,
   const std::function<Side(std::int64_t, double)>& sideOf, Progress& progress)
 {
-  std::unordered_map<Edge, std::int64_t, EdgeHash> firsts; // of the new points, from the lower end
+  // the first new point of each edge, from its lower end
+  std::unordered_map<Edge, std::int64_t, EdgeHash> firsts;
   std::vector<DividingPoint> added;
   std::vector<std::int64_t> corners;
   std::vector<std::int64_t> begins{ 0 };
@@ -281,6 +300,7 @@ std::vector<DividingPoint> RegionMap::DivideEdges(
       const auto parts = static_cast<std::int64_t>(at.size()) + 1;
       for (std::int64_t k = 0; !this->Crossed.empty() && k < parts; ++k)
       {
+        // A part's side is that at its middle.
         const std::int64_t part = isUp ? k : parts - 1 - k;
         const double begin = part > 0 ? at[Index(part) - 1] : 0.0;
         const double end = part + 1 < parts ? at[Index(part)] : 1.0;

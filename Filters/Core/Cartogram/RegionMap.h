@@ -45,7 +45,7 @@ public:
 
   std::vector<Point<2>>& Points() { return this->Places; }
   const std::vector<Point<2>>& Points() const { return this->Places; }
-  // Of all rings.
+  // The number of edges of all rings.
   std::int64_t Edges() const { return static_cast<std::int64_t>(this->Corners.size()); }
   std::int64_t Rings() const { return static_cast<std::int64_t>(this->Regions.size()); }
   std::int32_t RegionOf(std::int64_t ring) const { return this->Regions[Index(ring)]; }
@@ -66,7 +66,8 @@ public:
   // The rings of each region.
   std::vector<std::vector<std::int64_t>> RingsOfRegions() const;
 
-  // visit(from, to) of the edges of a ring, with the region on the left as it was in FindHoles.
+  // Calls visit(from, to) for the edges of a ring, directed so that the region was on the left in
+  // FindHoles.
   template <class Visit>
   void VisitEdges(std::int64_t ring, const Visit& visit) const
   {
@@ -86,7 +87,7 @@ public:
   // The area within a ring; negative if it has turned over since FindHoles. If rings of a region
   // cross, the first one has all of its area.
   double AreaOf(std::int64_t ring) const;
-  // Of regions, without their holes.
+  // Returns the areas of the regions, without their holes.
   std::vector<double> Areas(std::int32_t regions) const;
 
   // Divides edges into equal parts no longer than longestAt(middle of the edge). The new points are
@@ -131,13 +132,13 @@ private:
   using EdgeParts = std::map<std::int64_t, std::vector<EdgePart>>; // by corners
 
   static std::size_t Index(std::int64_t i) { return static_cast<std::size_t>(i); }
-  // visit(corner, from, to) of the edges of a ring, in its order and direction.
+  // Calls visit(corner, from, to) for the edges of a ring, in its order and direction.
   template <class Visit>
   void VisitCorners(std::int64_t ring, const Visit& visit) const
   {
     const std::int64_t begin = this->Begins[Index(ring)];
     const std::int64_t end = this->Begins[Index(ring) + 1];
-    const std::int64_t last = this->IsOpen(ring) ? end - 1 : end; // one beyond
+    const std::int64_t last = this->IsOpen(ring) ? end - 1 : end; // one beyond the last
     for (std::int64_t i = begin; i < last; ++i)
     {
       visit(i, this->Corners[Index(i)], this->Corners[Index(i + 1 < end ? i + 1 : begin)]);
@@ -152,20 +153,20 @@ private:
     const std::vector<RingShape>& shapes, std::vector<int>& around, Progress& progress) const;
   void FindParts(const std::vector<std::int64_t>& rings, EdgeParts& parts, Progress& progress);
   std::vector<DividingPoint> DivideAtCrossings(const EdgeParts& parts, Progress& progress);
-  // Divides edges where atOf(lower end, upper end, places) says, in rising order. Of the parts of
-  // an edge from a corner, sideOf(corner, place within) says the side.
+  // Divides edges at the places that atOf(lower end, upper end, places) lists, in rising order.
+  // sideOf(corner, place) gives the region's side for the part of an edge around a place.
   std::vector<DividingPoint> DivideEdges(
     const std::function<void(const Point<2>&, const Point<2>&, std::vector<double>&)>& atOf,
     const std::function<Side(std::int64_t, double)>& sideOf, Progress& progress);
 
   std::vector<Point<2>> Places;
-  std::vector<std::int64_t> Corners; // of all rings
+  std::vector<std::int64_t> Corners; // points of all rings
   std::vector<std::int64_t> Begins{ 0 };
   std::vector<std::int32_t> Regions;
   std::vector<unsigned char> Holes;
   std::vector<unsigned char> Turned; // whether a ring has its region on the right
   std::map<std::int32_t, std::vector<std::int64_t>> Crossed; // regions whose rings cross
-  std::vector<Side> Sides; // of the edges from corners, if rings cross
+  std::vector<Side> Sides; // side of each edge, by its first corner, if rings cross
 };
 
 } // namespace RectifiedTransport

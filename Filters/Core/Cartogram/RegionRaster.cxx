@@ -15,9 +15,9 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = std::int64_t{ 1 } << 12; // of cells, in loops
+constexpr std::int64_t grain = std::int64_t{ 1 } << 12; // cells a chunk
 
-// The rows of cells that a region lies in, in the grid.
+// The rows of cells that a region touches.
 struct Rows
 {
   std::int64_t First;
@@ -60,7 +60,7 @@ RegionRaster::RegionRaster(
   std::vector<std::vector<std::int64_t>> ringsOf = map.RingsOfRegions();
   ringsOf.resize(this->Whole.size());
   std::vector<Rows> rowsOfRegions;
-  // Bands of rows: what one takes is little.
+  // The raster is made in bands of rows, so that temporary memory is small.
   constexpr std::int64_t cellsOfBand = std::int64_t{ 1 } << 19;
   const std::int64_t band = std::max<std::int64_t>(1, cellsOfBand / side);
   std::int64_t edges = 0; // to visit, in all bands
@@ -81,6 +81,8 @@ RegionRaster::RegionRaster(
     const std::int64_t last = std::min(side, first + band);
     this->Owners.resize(static_cast<std::size_t>(last * side), -1);
     RegionCoverage coverage({ { side, side }, first, last, nullptr });
+    // Coverage finds the exact areas of a region in the cells of a band: runs of whole cells, and
+    // single cells with a part.
     mixed.clear();
     ends.clear();
     for (std::int32_t region = 0; region < regions; ++region)
@@ -100,6 +102,7 @@ RegionRaster::RegionRaster(
       }
       coverage.FinishSigned([&](std::int64_t begin, std::int64_t end, double area) {
         if (area == 1.0)
+        // Runs that touch are joined.
         {
           if (!ends.empty() && ends.back().Region == region && ends.back().Cell == begin)
           {
@@ -127,14 +130,16 @@ RegionRaster::RegionRaster(
 
 double RegionRaster::BytesOf(const RegionMap& map, std::int64_t side)
 {
-  // Of a region's share: in the raster, sorted in its band, and twice while factors are searched.
+  // The bytes for a region's share of a cell: in the raster, sorted in its band, and twice during
+  // the search for factors.
   constexpr double bytesOfShare = sizeof(Share) + sizeof(CellShare) + 6 * sizeof(double);
-  double crossed = 0.0; // cells, by edges
+  double crossed = 0.0; // cells that edges cross
   for (std::int64_t ring = 0; ring < map.Rings(); ++ring)
   {
     map.VisitEdges(ring, [&](std::int64_t from, std::int64_t to) {
       const Point<2>& a = map.Points()[static_cast<std::size_t>(from)];
       const Point<2>& b = map.Points()[static_cast<std::size_t>(to)];
+      // An edge crosses at most one cell, plus one for each row and column that it passes.
       crossed += 1.0 + std::abs(b[0] - a[0]) + std::abs(b[1] - a[1]);
     });
   }
@@ -142,8 +147,9 @@ double RegionRaster::BytesOf(const RegionMap& map, std::int64_t side)
   return cells * sizeof(std::int32_t) + crossed * bytesOfShare;
 }
 
-// Of a band. Regions leave before others begin, and in the opposite order: so that few sets of
-// regions in the same place come about.
+// Sets the owners of a band's cells from the ends of runs, by a sweep along the rows. At the same
+// cell, regions leave before others begin, and in the opposite order, so that few sets of
+// overlapping regions arise.
 void RegionRaster::SetOwners(std::vector<RunEnd>& ends)
 {
   std::sort(ends.begin(), ends.end(), [](const RunEnd& a, const RunEnd& b) {
@@ -162,7 +168,7 @@ void RegionRaster::SetOwners(std::vector<RunEnd>& ends)
   }
 }
 
-// The sets that cells have in the end, and how many cells have each.
+// Renumbers the sets that cells really have, and counts the whole cells of each.
 void RegionRaster::KeepSets()
 {
   std::vector<unsigned char> isUsed(static_cast<std::size_t>(this->Together.End()), 0);
@@ -196,8 +202,8 @@ void RegionRaster::KeepSets()
   }
 }
 
-// Of a band. Cells of an owner and others are mixed. A set is in the place of a region, until it is
-// put where it belongs.
+// Adds the shares of a band's cells. A cell with an owner and further regions is mixed; its owner's
+// set takes the place of a region until the shares are sorted.
 void RegionRaster::AddMixed(std::vector<CellShare>& mixed)
 {
   const std::size_t parts = mixed.size();
@@ -260,13 +266,13 @@ std::vector<double> RegionRaster::Covered() const
   return covered;
 }
 
-// The cells of each set that have no others.
+// Returns the number of cells that each set covers without other regions.
 std::vector<double> RegionRaster::CellsOfSets() const
 {
   return { this->WholeOfSets.begin(), this->WholeOfSets.end() };
 }
 
-// Adds to each region the values of the sets that it is in.
+// Adds each set's value to all regions in it.
 void RegionRaster::AddToRegions(
   const std::vector<double>& ofSets, std::vector<double>& ofRegions) const
 {
@@ -278,6 +284,7 @@ void RegionRaster::AddToRegions(
   }
 }
 
+// Cells without an owner are empty or mixed; of the mixed ones only the rest counts.
 double RegionRaster::Rest() const
 {
   double rest = static_cast<double>(std::count(this->Owners.begin(), this->Owners.end(), -1) -
@@ -299,7 +306,7 @@ void RegionRaster::ForMixed(Progress& progress, const Visit& visit) const
   });
 }
 
-// The values of regions, and the sums of those of each set.
+// Returns the values of the regions, followed by the sums over each set.
 std::vector<double> RegionRaster::SumsOfSets(const std::vector<double>& values) const
 {
   std::vector<double> sums = values;
@@ -313,6 +320,7 @@ std::vector<double> RegionRaster::SumsOfSets(const std::vector<double>& values) 
   return sums;
 }
 
+// A cell's density is the sum over regions of part * value, plus the rest times `around`.
 void RegionRaster::Fill(const std::vector<double>& values, double around,
   std::vector<double>& cells, const Context& context) const
 {
@@ -350,6 +358,7 @@ void RegionRaster::Scale(const std::vector<double>& exponents, double least,
   std::vector<double> factors(sums.size());
   std::transform(sums.begin(), sums.end(), factors.begin(),
     [](double exponent) { return exponential(exponent); });
+  // The factor may not reduce a cell below `least`, or below itself if it is less already.
   const auto scale = [least](double factor, double& cell) {
     cell = std::max(std::min(least, cell), factor * cell);
   };
@@ -378,6 +387,7 @@ double RegionRaster::Overlap(std::vector<double>& ofRegions) const
   ofRegions.assign(this->Whole.size(), 0.0);
   std::vector<double> ofSets = this->CellsOfSets();
   for (std::int32_t set = this->Together.First(); set < this->Together.End(); ++set)
+  // A set of n regions counts its cells n times, which is n - 1 too many.
   {
     double& more = ofSets[this->IndexOfSet(set)];
     more *= static_cast<double>(this->Together.CountOf(set) - 1);
@@ -389,6 +399,7 @@ double RegionRaster::Overlap(std::vector<double>& ofRegions) const
     {
       covered += shares[i].Part;
     }
+    // Parts of adjacent regions add up to 1 up to rounding.
     if (!(covered > 1.0 + rounding))
     {
       return;

@@ -30,9 +30,9 @@ public:
   struct Share
   {
     std::int32_t Region;
-    double Part; // of the cell
-    // The same by how often outlines run around it, which is negative where they cross and run the
-    // other way round: what counts in the region's area.
+    double Part; // part of the cell, in [0, 1]
+    // The same, weighted by the winding number of the outline, which is negative where outlines
+    // cross and run in reverse. This counts in the region's area.
     double Signed;
   };
 
@@ -54,10 +54,10 @@ public:
   std::vector<double> Covered() const;
   // What no region covers, in cells.
   double Rest() const;
-  // Of all regions, in the other cells.
+  // The number of shares of all regions in mixed cells.
   std::int64_t NumberOfShares() const { return static_cast<std::int64_t>(this->Shares.size()); }
-  // visit(set, shares, count) of each of the other cells that regions cover: a set whose regions
-  // cover it wholly, or -1, and the shares of others.
+  // Calls visit(set, shares, count) for each mixed cell: a set whose regions cover it wholly, or
+  // -1, and the shares of other regions.
   template <class Visit>
   void VisitMixed(const Visit& visit) const
   {
@@ -104,13 +104,13 @@ private:
   std::vector<double> CellsOfSets() const;
   void AddToRegions(const std::vector<double>& ofSets, std::vector<double>& ofRegions) const;
   std::vector<double> SumsOfSets(const std::vector<double>& values) const;
-  // visit(cell, set, shares, count), in parallel.
+  // Calls visit(cell, set, shares, count) in parallel.
   template <class Visit>
   void ForMixed(Progress& progress, const Visit& visit) const;
 
   std::int64_t CellsOfSide;
   RegionSets Together;
-  std::vector<std::int32_t> Owners; // of cells: sets, or -1
+  std::vector<std::int32_t> Owners; // set of each cell, or -1
   std::vector<double> Whole;
   std::vector<std::int64_t> WholeOfSets;
   std::vector<std::int64_t> Mixed;       // numbers of the other cells
@@ -119,7 +119,7 @@ private:
   std::vector<Share> Shares;
 };
 
-// The part of a cell that regions leave.
+// Returns the part of a cell that regions leave.
 double restOf(std::int32_t set, const RegionRaster::Share* shares, std::int64_t count);
 
 } // namespace RectifiedTransport

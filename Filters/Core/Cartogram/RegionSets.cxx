@@ -8,6 +8,8 @@
 namespace RectifiedTransport
 {
 
+// A set is stored as a linked list: a smaller set and its largest region. Toggling a region unwinds
+// the list down to it and adds the larger regions again.
 std::int32_t RegionSets::FindToggled(std::int32_t set, std::int32_t region)
 {
   const std::int64_t key = static_cast<std::int64_t>(set) << 32 | region;
@@ -51,6 +53,7 @@ std::int32_t RegionSets::FindToggled(std::int32_t set, std::int32_t region)
   return toggled;
 }
 
+// Sets become ranges of members; the linked lists and the cache are released.
 std::vector<std::int32_t> RegionSets::Keep(const std::vector<unsigned char>& isUsed)
 {
   const std::int32_t end = this->End();

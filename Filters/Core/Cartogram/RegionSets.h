@@ -57,11 +57,11 @@ private:
   struct Pair
   {
     std::int32_t Set;
-    std::int32_t Region; // above all of the set
+    std::int32_t Region; // larger than all regions of the set
   };
 
   std::int32_t FindToggled(std::int32_t set, std::int32_t region);
-  // Of a set that is not empty.
+  // Returns the last link of a set that is not empty.
   Pair PairOf(std::int32_t set) const
   {
     return set < this->Regions ? Pair{ Empty, set }
@@ -69,8 +69,8 @@ private:
   }
 
   std::int32_t Regions;
-  std::vector<Pair> Pairs; // of the sets of two or more
-  // What Toggled has found, by set and region. Neighbours mostly have the same sets.
+  std::vector<Pair> Pairs; // sets of two or more regions
+  // Results of Toggled, by set and region: neighbouring cells mostly have the same sets.
   std::unordered_map<std::int64_t, std::int32_t> Found;
   std::vector<std::size_t> Begins{ 0 };
   std::vector<std::int32_t> Members;

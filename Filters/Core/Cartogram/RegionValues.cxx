@@ -25,9 +25,11 @@ using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
 struct System
 {
   Matrix Common;            // M
-  std::vector<double> Rest; // the area in cells that regions share with the rest
+  std::vector<double> Rest; // the area, in cells, that each region shares with the rest
 };
 
+// Builds M with M_ij = sum over cells of (signed part of i) * (part of j), so that (M d)_i + around
+// * rest_i is the mass within region i.
 System systemOf(const RegionRaster& raster, Progress& progress)
 {
   const std::int32_t regions = raster.Regions();
@@ -42,18 +44,19 @@ System systemOf(const RegionRaster& raster, Progress& progress)
     entry(region, region) = raster.WholeCells(region);
   }
   const RegionSets& sets = raster.Sets();
-  std::vector<double> cellsOf; // of sets, mixed ones included
+  std::vector<double> cellsOf; // cells of each set, with mixed ones
   for (std::int32_t set = sets.First(); set < sets.End(); ++set)
   {
     cellsOf.push_back(static_cast<double>(raster.WholeCellsOfSet(set)));
   }
-  struct Beside // a share of a region in cells of a set
+  struct Beside // a share of a region in the cells of a set
   {
     double Part = 0.0;
     double Signed = 0.0;
   };
   std::map<std::pair<std::int32_t, std::int32_t>, Beside> besides; // by set and region
-  // Along a border cells mostly have the same regions as the cell before: entries are kept.
+  // Along a border, cells mostly have the same regions as the previous cell, so pointers to their
+  // entries are kept.
   std::vector<std::int32_t> regionsBefore;
   std::vector<double*> entriesBefore;
   raster.VisitMixed([&](std::int32_t set, const RegionRaster::Share* shares, std::int64_t count) {
@@ -121,8 +124,10 @@ System systemOf(const RegionRaster& raster, Progress& progress)
   return system;
 }
 
-// The exponents, by coordinate descent on the dual problem: in turn each region gets the one with
-// which its mass is right.
+// Finds the exponents x of the factors e^x of cells. Minimizing the relative entropy to the given
+// density under the constraints of the masses has the dual sum of cell masses - sum of x_i *
+// mass_i, which is convex. Coordinate descent on it gives each region in turn the exponent with
+// which its mass is right (iterative proportional fitting).
 class FactorSearch
 {
 public:
@@ -166,6 +171,7 @@ public:
 
   void Run(Progress& progress)
   {
+    // Sweeps end when every region is within the tolerance.
     constexpr int mostSweeps = 50;
     double worst = 1.0;
     for (int sweep = 0; sweep < mostSweeps && worst > this->Targets.Tolerance; ++sweep)
@@ -186,11 +192,11 @@ public:
   }
 
 private:
-  // Its cells have their own densities times a factor.
+  // A set of regions; its cells have their own densities times a common factor.
   struct Set
   {
-    double Density; // of cells without other regions
-    double Mass;    // of all cells
+    double Density; // density of cells without other regions
+    double Mass;    // mass of all its cells
     double Exponent;
     double Factor;
   };
@@ -209,7 +215,7 @@ private:
   struct Mass
   {
     double Now;
-    double Slope; // by the exponent
+    double Slope; // derivative with respect to the exponent
   };
 
   Mass MassOf(std::size_t region) const
@@ -240,9 +246,12 @@ private:
     return mass;
   }
 
-  // Newton's method on the mass's logarithm, which is convex; returns the error before.
+  // Newton's method on the logarithm of the mass as a function of the exponent, which is convex.
+  // Returns the error before the step.
   double Step(std::size_t region)
   {
+    // A step changes a cell by at most a factor of e^2, and exponents stay within +-40, where
+    // factors neither overflow nor vanish.
     constexpr double longest = 2.0;
     constexpr double farthest = 40.0;
     const Mass mass = this->MassOf(region);
@@ -278,17 +287,19 @@ private:
   const RegionRaster& Raster;
   const RegionTargets& Targets;
   RegionValues& Values;
-  std::vector<Set> Sets;   // of two regions or more
-  std::vector<Cell> Cells; // that are mixed
+  std::vector<Set> Sets;   // sets of two or more regions
+  std::vector<Cell> Cells; // mixed cells
   std::vector<std::vector<CellPart>> Parts;
-  std::vector<std::vector<std::size_t>> SetsOf; // regions
+  std::vector<std::vector<std::size_t>> SetsOf; // sets of each region
 };
 
-// The densities of regions, from bounds of them. Returns the largest error.
+// Solves for the regions' densities between their bounds, by projected Gauss-Seidel. Returns the
+// largest relative error.
 double solveForDensities(const RegionRaster& raster, const RegionTargets& targets,
   const std::vector<double>& lowest, const std::vector<double>& highest, RegionValues& found,
   Progress& progress)
 {
+  // Sweeps end when no density changes by more than 1e-5 of itself.
   constexpr int mostSweeps = 200;
   constexpr double smallestChange = 1e-5;
   const System system = systemOf(raster, progress);
@@ -315,6 +326,7 @@ double solveForDensities(const RegionRaster& raster, const RegionTargets& target
       {
         continue;
       }
+      // The equation of region i, solved for its own density and projected to its bounds.
       double& density = found.Densities[i];
       const double next =
         std::clamp(density + (targets.Masses[i] - massOf(i)) / own, lowest[i], highest[i]);
@@ -333,7 +345,7 @@ double solveForDensities(const RegionRaster& raster, const RegionTargets& target
   return worst;
 }
 
-// Whether many regions lie on each other: the system would have an entry for each two of them.
+// Returns whether many regions overlap: the matrix would have an entry for every pair of them.
 bool isCrowded(const RegionSets& sets)
 {
   constexpr std::int64_t mostPairs = std::int64_t{ 1 } << 22;
@@ -350,6 +362,8 @@ bool isCrowded(const RegionSets& sets)
 RegionValues findRegionValues(
   const RegionRaster& raster, const RegionTargets& targets, const Context& context)
 {
+  // The largest density, relative to mass / area: thin regions next to others would get extreme
+  // values.
   constexpr double most = 4.0;
   Progress progress(context);
   progress.Expect(2 * raster.NumberOfShares());

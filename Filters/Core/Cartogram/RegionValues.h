@@ -13,8 +13,8 @@ namespace RectifiedTransport
 
 struct RegionValues
 {
-  std::vector<double> Densities; // of the regions
-  // Of the factors that RegionRaster::Scale takes; empty if densities alone do.
+  std::vector<double> Densities; // densities of the regions
+  // The exponents for RegionRaster::Scale; empty if densities alone suffice.
   std::vector<double> Exponents;
   std::vector<double> Errors;       // relative, of the masses that regions have in the raster
   std::vector<unsigned char> Least; // whether a region has as little as it can and still too much
@@ -26,7 +26,7 @@ struct RegionTargets
   const std::vector<double>& Areas;  // in cells, positive
   double Around;                     // the density of the rest
   double Least;                      // the least density of a cell
-  double Tolerance;                  // of the masses, relative
+  double Tolerance;                  // relative error of the masses
 };
 
 // Densities are at least `Least`, or the mass by the area if that is less, and at most 4 times the

@@ -13,13 +13,14 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr double nothing = 1e-7; // of the mean density: the ground in SeaDensity Zero
+constexpr double nothing = 1e-7; // relative to the mean density: the ground with SeaDensity Zero
 
 double sumOf(const std::vector<double>& values)
 {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
+// Returns the density of the sea in the given map, at least 1e-7 of the mean.
 double densityBefore(const CartogramOptions& options, const CartogramBox& box, double mean,
   const std::vector<double>& masses, const std::vector<double>& areas)
 {
@@ -55,6 +56,8 @@ Sea::Sea(const CartogramOptions& options, const CartogramBox& box, const RegionR
   const double covered = all - rest;
   this->Land = sumOf(areas);
   this->Mass = rest * densityBefore(options, box, this->Mean, masses, areas);
+  // At the uniform measure, areas are in proportion to masses: land gets (its mass) / (all mass) of
+  // the box.
   this->GrowthOfLand = this->Mean * covered / (this->Mean * covered + this->Mass) * all / covered;
 }
 
@@ -72,6 +75,7 @@ double Sea::DensityOf(const RegionRaster& raster, const std::vector<double>& mas
   return std::max(mass / rest, nothing * mean);
 }
 
+// With the mean density the sea keeps its area, so the land does, too.
 bool Sea::LeavesLand(const std::vector<double>& areas) const
 {
   return this->Options.Sea == SeaDensity::Mean ||

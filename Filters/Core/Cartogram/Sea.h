@@ -11,8 +11,8 @@
 namespace RectifiedTransport
 {
 
-// The sea keeps the mass that its density gives it in the map as it is, and the land gets the rest
-// of the box. With the mean density, that of each pass, both keep their areas.
+// The sea keeps the mass that its density gives it in the given map, and the land gets the other
+// part of the box. With the mean density, which each pass computes anew, both keep their areas.
 class Sea
 {
 public:
@@ -20,7 +20,7 @@ public:
   Sea(const CartogramOptions& options, const CartogramBox& box, const RegionRaster& raster,
     const std::vector<double>& masses, const std::vector<double>& areas);
 
-  // What the area of all regions is to be multiplied by.
+  // Returns the factor by which the area of all regions is to grow.
   double Growth() const { return this->GrowthOfLand; }
   // The density of a pass, in mass per cell; `takesRoots` if its masses are plain masses times
   // roots of what they are to be.
@@ -32,8 +32,8 @@ public:
 private:
   const CartogramOptions& Options;
   double Mean;       // the density of all regions
-  double Mass = 0.0; // of the sea
-  double Land = 0.0; // before
+  double Mass = 0.0; // mass of the sea
+  double Land = 0.0; // area of the land before
   double GrowthOfLand = 1.0;
 };
 

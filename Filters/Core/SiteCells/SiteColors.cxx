@@ -32,7 +32,7 @@ void join(std::int64_t one, std::int64_t other, Neighbours& neighbours)
 }
 
 // Greedy colouring in the order of the ids: the smallest number that no neighbour of a lower id
-// has. A planar map rarely needs more than six.
+// has.
 std::vector<std::uint8_t> colourInOrder(const Neighbours& neighbours)
 {
   constexpr std::size_t most = std::numeric_limits<std::uint8_t>::max();
