@@ -17,14 +17,15 @@ template <int Dimension>
 class BlockCells
 {
 public:
-  // Of blocks on a lattice over the domain of a grid.
+  // For blocks on a lattice over the domain of a grid.
   BlockCells(const GridSize<Dimension>& lattice, const GridSize<Dimension>& grid)
     : Size(grid)
     , Step(latticeStep<Dimension>(lattice, grid))
   {
   }
 
-  // Those that blocks cover along an axis.
+  // Returns the cells that blocks cover along an axis. A block reaches from the centre of its first
+  // sample to that of the fourth after it, hence the 1/2.
   CoveredCells Covered(int axis, std::int64_t block, std::int64_t blocks = 1) const
   {
     constexpr std::int64_t size = MapBlocks<Dimension>::Size;
@@ -58,6 +59,8 @@ public:
       return;
     }
     const CoveredCells x = this->Covered(0, block[0]);
+    // The cells that are held may be a part of those of the block; other parts come with other
+    // batches.
     const double low = std::max(x.Low, static_cast<double>(cells.Low[0]));
     const double high = std::min(x.High, static_cast<double>(cells.End(0)));
     const std::int64_t count = cells.Count() / cells.Cells[0];
@@ -70,6 +73,7 @@ public:
         part *= this->Covered(axis, block[axis]).PartOf(cell[axis]);
       }
       const double* row = rows.Row(cell);
+      // The mass between two places of a row is a difference of prefix sums.
       mass += part * (rows.Before(row, high) - rows.Before(row, low));
       for (std::int64_t c = cells.Low[0]; c < cells.End(0); ++c)
       {

@@ -34,6 +34,7 @@ std::vector<double> countedOf(std::vector<double> errors)
   return errors;
 }
 
+// Each rank sends its `count` largest values only; the largest of all are among them.
 std::vector<double> largestOf(std::vector<double> own, std::int64_t count, const Ranks& ranks)
 {
   keepLargest(own, count);
@@ -50,7 +51,7 @@ std::vector<double> largestOf(std::vector<double> own, std::int64_t count, const
 BlockErrors largestErrors(std::vector<double> own, const Ranks& ranks)
 {
   const auto all = sumOverRanks(ranks, static_cast<std::int64_t>(own.size()));
-  // From the quantile on: n - floor(0.999 n), in integers.
+  // The values from the quantile on number n - floor(0.999 n) = ceil(n / 1000), in integers.
   const std::vector<double> largest = largestOf(std::move(own), (all + 999) / 1000, ranks);
   if (all == 0)
   {

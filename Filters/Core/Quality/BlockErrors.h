@@ -15,7 +15,7 @@ class Ranks;
 // In place of the mass or error of a block that does not count.
 constexpr double Uncounted = -1.0;
 
-// The errors of those that do, in their order.
+// Returns the errors that count, in their order.
 std::vector<double> countedOf(std::vector<double> errors);
 
 // The largest values of all ranks, `count` of them, or all if there are fewer; in no order.
@@ -25,12 +25,14 @@ std::vector<double> largestOf(std::vector<double> own, std::int64_t count, const
 // NaN if there are no blocks.
 struct BlockErrors
 {
-  double Quantile = std::numeric_limits<double>::quiet_NaN(); // of 99.9 % of the blocks
+  // the quantile of 99.9 % of the blocks
+  double Quantile = std::numeric_limits<double>::quiet_NaN();
   double Largest = std::numeric_limits<double>::quiet_NaN();
 };
 
-// Of the errors of the blocks of all ranks, n in all, numbered from 0 in ascending order: the
-// quantile is number floor(0.999 n). Each rank sends no more than a thousandth of n. Collective.
+// Finds the largest error and the quantile over the blocks of all ranks. With n errors numbered
+// from 0 in ascending order, the quantile is number floor(0.999 n). Each rank sends at most a
+// thousandth of n values. Collective.
 BlockErrors largestErrors(std::vector<double> own, const Ranks& ranks);
 
 } // namespace RectifiedTransport

@@ -52,7 +52,7 @@ public:
     }
     else if constexpr (Dimension == 2)
     {
-      // Anticlockwise: up on the right, to the left at the top.
+      // Anticlockwise, the boundary of a block goes up on the right and to the left at the top.
       const std::int64_t stride = strideOf(1 - axis);
       double sum = 0.0;
       for (std::int64_t i = 0; i < size; ++i)
@@ -63,6 +63,8 @@ public:
     }
     else
     {
+      // A face is divided into triangles in the same way for both blocks that share it, so that the
+      // integrals over it cancel.
       const std::int64_t alongU = strideOf((axis + 1) % Dimension);
       const std::int64_t alongV = strideOf((axis + 2) % Dimension);
       double sum = 0.0;
@@ -80,7 +82,7 @@ public:
     }
   }
 
-  // Which layers of a grid, `size` in all, the images of samples lie in.
+  // Returns the layers of a grid of `size` layers that contain the images of samples.
   LayerSpan LayersOf(const LatticePart<Dimension>& samples, std::int64_t size) const
   {
     double low = std::numeric_limits<double>::infinity();

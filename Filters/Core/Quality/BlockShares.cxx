@@ -13,7 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr double mostCells = 1 << 22; // of the density at a time
+constexpr double mostCells = 1 << 22; // cells of the density that a turn may need
 constexpr std::int64_t grain = 256;   // blocks a range
 
 template <int Dimension>
@@ -38,8 +38,8 @@ GridBox<Dimension> joined(const GridBox<Dimension>& a, const GridBox<Dimension>&
   return box;
 }
 
-// A rank's blocks in turns, for each of which it needs the density in one box: of several blocks,
-// or of some layers of a large one.
+// Divides a rank's blocks into turns, each with one box of the density: a box of several blocks,
+// or of some layers of one large block.
 template <int Dimension>
 class BlockTurns
 {
@@ -56,10 +56,10 @@ public:
   struct Turn
   {
     GridBox<Dimension> Box{};
-    std::int64_t First = 0; // of the blocks
+    std::int64_t First = 0; // first block
     std::int64_t Count = 0;
-    bool IsPart = false;  // of one block
-    bool IsFirst = false; // part of it
+    bool IsPart = false;  // the turn has a part of one block
+    bool IsFirst = false; // it is the first part of that block
   };
 
   // An empty turn if there are no more.
@@ -91,7 +91,7 @@ public:
   }
 
 private:
-  // Whole layers, at least one.
+  // Takes whole layers of a large block, at least one.
   void TakePart(Turn& turn)
   {
     constexpr int last = Dimension - 1;
@@ -114,7 +114,7 @@ private:
   const GridBlocks<Dimension>& Blocks;
   std::int64_t Next;
   const std::int64_t End;
-  std::int64_t Layers = 0; // of the next block that are done
+  std::int64_t Layers = 0; // layers of the next block that are done
 };
 
 } // namespace
@@ -129,6 +129,7 @@ void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dime
   };
   progress.Expect(count);
   BlockTurns<Dimension> turns(blocks, first, count);
+  // Ranks with fewer turns take empty ones, because preparing shares is collective.
   while (!onAllRanks(progress.Group(), !turns.HasMore()))
   {
     const auto turn = turns.Take();

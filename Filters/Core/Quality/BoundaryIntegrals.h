@@ -18,25 +18,26 @@ namespace RectifiedTransport
 // A triangle in space, anticlockwise from outside.
 using TriangleCorners = const double* const (&)[3];
 
-// Twice the area of its shadow along axis 0.
+// Returns twice the signed area of the triangle's projection along axis 0.
 inline double twiceShadow(TriangleCorners x)
 {
   return (x[1][1] - x[0][1]) * (x[2][2] - x[0][2]) - (x[1][2] - x[0][2]) * (x[2][1] - x[0][1]);
 }
 
-// For lengths, areas and volumes.
+// Integrals of (x_0, 0, ...), which add up to lengths, areas and volumes.
 class MeasureIntegral
 {
 public:
-  // Below a point of a line.
+  // The field at a point of a line.
   double Point(const double* x) const { return x[0]; }
-  // Along an edge, with the inside to the left.
+  // Along an edge with the inside on its left: the trapezoid rule, which is exact.
   double Edge(const double* a, const double* b) const
   {
     return 0.5 * (a[0] + b[0]) * (b[1] - a[1]);
   }
   double Triangle(TriangleCorners x) const
   {
+    // The mean of x_0 over the triangle times its projected area.
     return (x[0][0] + x[1][0] + x[2][0]) / 6.0 * twiceShadow(x);
   }
 };
@@ -48,8 +49,8 @@ enum class TriangleRule
   Exact     // by the parts in the grid's cells
 };
 
-// For the mass that is in the cells of some rows of a density, as they scale it; other parts of the
-// pieces do not count. Exact but for the first rule.
+// Integrals of the mass below a point, in the cells of some rows of a density and in its scaled
+// units. Pieces outside these cells do not count. All are exact, except the first rule.
 template <int Dimension>
 class MassIntegral
 {
@@ -72,7 +73,8 @@ public:
     return this->Rows.Before(this->Rows.Row(this->Cells.Low), inside);
   }
 
-  // Row by row.
+  // Row by row: the mass below is piecewise quadratic along an edge, so that its mean over the
+  // piece in each cell is exact.
   double Edge(const double* a, const double* b) const
   {
     const bool rises = a[1] < b[1];
@@ -87,6 +89,7 @@ public:
     const double width = high[0] - low[0];
     const double height = high[1] - low[1];
     const auto at = [&](double place) {
+      // The end itself keeps its coordinate to the last bit: neighbouring edges then close.
       return place == high[1] ? high[0] : low[0] + width * ((place - low[1]) / height);
     };
     double x = y == low[1] ? low[0] : at(y);
@@ -112,7 +115,7 @@ public:
 private:
   static constexpr int Last = Dimension - 1;
 
-  // The mean over the places between two of a row.
+  // Returns the mean of the mass below, over the places between two of a row.
   double MeanBefore(const double* row, double from, double to) const
   {
     const double low = std::min(from, to);
@@ -122,6 +125,7 @@ private:
     const std::int64_t last = std::min(static_cast<std::int64_t>(high), end);
     if (first == last)
     {
+      // Within one cell the mass below is linear, and its mean is the value in the middle.
       return this->Rows.Before(row, first, 0.5 * (low + high));
     }
     double sum = 0.0;
@@ -135,6 +139,7 @@ private:
     return sum / (high - low);
   }
 
+  // One-point quadrature: the mass below the centroid times the projected area.
   double TriangleByCentroid(TriangleCorners x) const
   {
     constexpr double third = 1.0 / 3.0;
@@ -171,14 +176,15 @@ private:
     return sum;
   }
 
-  // In a cell the mass below is linear along axis 0.
+  // Within a cell, the mass below is linear along axis 0, so area and moment of the projection
+  // integrate it exactly.
   double BelowPart(const SpacePolygon& part, const GridSize<3>& cell) const
   {
     if (!this->HasLayer(cell[Last]))
     {
       return 0.0;
     }
-    double area = 0.0; // of the shadow
+    double area = 0.0; // area of the projection
     double moment = 0.0;
     const auto floor = static_cast<double>(cell[0]);
     for (int i = 2; i < part.Count; ++i)
@@ -186,6 +192,7 @@ private:
       const auto& x = part.Corners;
       const double shadow = 0.5 * twiceShadow({ x[0], x[i - 1], x[i] });
       area += shadow;
+      // The moment about the cell's lower face: mean of the three corners times area.
       moment += shadow * ((x[0][0] - floor) + (x[i - 1][0] - floor) + (x[i][0] - floor)) / 3.0;
     }
     const double* row = this->Rows.Row(cell);

@@ -22,7 +22,7 @@ struct SpacePolygon
   void Add(const double* x) { std::copy_n(x, 3, this->Corners[this->Count++]); }
 };
 
-// Divides a polygon at the plane x[axis] = place; corners on it are in both parts.
+// Divides a polygon at the plane x[axis] = place. Corners on the plane are in both parts.
 inline void cut(
   const SpacePolygon& all, int axis, double place, SpacePolygon& below, SpacePolygon& above)
 {
@@ -42,6 +42,7 @@ inline void cut(
       {
         x[a] = last[a] + part * (next[a] - last[a]);
       }
+      // The cut is on the plane exactly, so that pieces of neighbouring cells match.
       x[axis] = place;
       below.Add(x);
       above.Add(x);
@@ -58,7 +59,8 @@ inline void cut(
   }
 }
 
-// Calls visit(polygon, cell) for the parts of a polygon in the cells of a grid, from `axis` down.
+// Calls visit(polygon, cell) for the parts of a polygon in the cells of a grid, axis by axis from
+// `Axis` down to 0.
 template <int Axis, class Visit>
 void visitCells(
   const SpacePolygon& polygon, const GridSize<3>& size, GridSize<3>& cell, const Visit& visit)
@@ -88,6 +90,7 @@ void visitCells(
   for (int next = 0; static_cast<double>(place + 1) < high; ++place, next = 1 - next)
   {
     cut(*rest, Axis, static_cast<double>(place + 1), below, parts[next]);
+    // Fewer than three corners have no area.
     if (below.Count > 2)
     {
       enter(below, place);

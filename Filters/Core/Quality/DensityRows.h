@@ -33,10 +33,11 @@ public:
   {
   }
 
-  // Of the whole density, as it is scaled: values that would pass the range of doubles are.
+  // Returns the mass of the whole density, scaled by a power of two if its values would leave the
+  // range of doubles.
   double TotalMass() const { return this->Total; }
 
-  // How many layers are taken at a time: at least one, else a few million cells.
+  // Returns how many layers are read at a time: about 4 million cells, and at least one layer.
   std::int64_t LayersAtOnce() const
   {
     constexpr double most = 1 << 22;
@@ -54,6 +55,7 @@ public:
       box.Low[0] = 0;
       box.Cells[0] = this->Density.Size[0];
     }
+    // Data that are already here are not read again.
     if (!this->Density.IsDistributed() && box.Low == this->Box.Low && box.Cells == this->Box.Cells)
     {
       return;
@@ -96,8 +98,8 @@ public:
   const LatticePart<Dimension>& Cells() const { return this->Box; }
   const GridSize<Dimension>& Size() const { return this->Density.Size; }
 
-  // The sums of the row of a cell of the box: at i the mass before cell i. The cell's
-  // number along axis 0 does not matter.
+  // Returns the prefix sums of the row of a cell of the box: entry i is the mass before cell i. The
+  // cell's number along axis 0 is ignored.
   const double* Row(GridSize<Dimension> cell) const
   {
     cell[0] = this->Box.Low[0];
@@ -111,7 +113,7 @@ public:
       std::min(static_cast<std::int64_t>(x), this->Box.Low[0] + this->Box.Cells[0] - 1);
     return this->Before(row, cell, x);
   }
-  // If the cell that it is in is known.
+  // The same, for a known cell that contains x.
   double Before(const double* row, std::int64_t cell, double x) const
   {
     return row[cell] + (x - static_cast<double>(cell)) * (row[cell + 1] - row[cell]);

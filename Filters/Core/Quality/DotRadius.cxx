@@ -18,11 +18,12 @@ namespace RectifiedTransport
 namespace
 {
 
-// The share of points that have a nearer neighbour. In a stippled photograph, the area of the dots
-// is then about three quarters of the ink, and black areas do not merge.
+// The quantile of nearest-neighbour distances: this share of points has a nearer neighbour. In a
+// stippled photograph, the area of the dots is then about three quarters of the ink, and black
+// areas do not merge.
 constexpr double DenseShare = 0.2;
 
-// Enough distances for a quantile.
+// A sample of this size determines the quantile well.
 constexpr std::int64_t SampleSize = std::int64_t{ 1 } << 16;
 
 std::vector<double> sampleOf(const double* distances, std::int64_t count, std::int64_t step)
@@ -61,6 +62,7 @@ double radiusOfDots(ConstPointSpan<3> points, const Context& context)
   const auto dense =
     all.begin() + static_cast<std::ptrdiff_t>(DenseShare * static_cast<double>(all.size()));
   std::nth_element(all.begin(), dense, all.end());
+  // Dots of half the distance touch.
   return 0.5 * *dense;
 }
 

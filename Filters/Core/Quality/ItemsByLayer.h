@@ -38,9 +38,11 @@ public:
     }
   }
 
-  // The items that lie in a batch, which is above the one before.
+  // Returns the items that lie in a batch. Batches must ascend.
   const std::vector<std::int64_t>& In(const LayerSpan& batch)
   {
+    // Items that end below the batch leave; items that begin in it enter, in the order of their
+    // beginnings.
     const auto isBelow = [&](std::int64_t item) { return this->Of(item).End <= batch.First; };
     this->Found.erase(
       std::remove_if(this->Found.begin(), this->Found.end(), isBelow), this->Found.end());

@@ -25,7 +25,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = 64; // blocks or faces
+constexpr std::int64_t grain = 64; // blocks or faces a chunk
 
 template <int Dimension>
 class BlocksRun
@@ -52,13 +52,15 @@ public:
     }
   }
 
-  // `shares` are those that the images of the blocks are to have of the mass, negative for blocks
-  // that do not count; none: those of the domain.
+  // `shares` are the wanted shares of the mass in the images of the blocks, negative for blocks
+  // that do not count. If empty, they are the blocks' shares of the domain.
   BlockErrors Forward(Progress& progress, std::vector<double> shares = {})
   {
     this->Wanted = std::move(shares);
     Stages stages(progress, { { "cells", 1 }, { "masses", 99 } });
     const LatticePart<Dimension> cells = this->CellsAround(stages["cells"]);
+    // In 1D and 2D, the integrals over faces are exact. Each face is integrated once and used by
+    // both of its blocks.
     if constexpr (Dimension < 3)
     {
       std::vector<ItemsByLayer> faces;
@@ -87,7 +89,7 @@ public:
     }
   }
 
-  // The masses of the blocks; negative for those that do not count.
+  // Returns the masses of the blocks, negative for those that do not count.
   std::vector<double> Masses(Progress& progress)
   {
     const auto count = static_cast<std::size_t>(this->Count);
@@ -112,7 +114,7 @@ public:
     return masses;
   }
 
-  // The same, in shares of the total.
+  // Returns the same as shares of the total mass.
   std::vector<double> Shares(Progress& progress)
   {
     std::vector<double> shares = this->Masses(progress);
@@ -123,6 +125,8 @@ public:
     return shares;
   }
 
+  // Backward, the image of a block at the uniform measure should have the measure mass / mean
+  // density.
   BlockErrors Backward(Progress& progress)
   {
     Stages stages(progress, { { "masses", 7 }, { "measures", 3 } });
@@ -139,7 +143,7 @@ public:
       {
         return Uncounted;
       }
-      const double wanted = mass / this->Mean(); // of the measure
+      const double wanted = mass / this->Mean(); // wanted measure
       return std::abs(this->Inside(this->Blocks.CellOf(block)) - wanted) / wanted;
     };
     return largestErrors(countedOf(this->Errors(errorOf, work)), this->Group);
@@ -148,7 +152,7 @@ public:
 private:
   double Mean() const { return this->Rows.TotalMass() / numberOfCells<Dimension>(this->Size); }
 
-  // Over faces across an axis, whose numbers are numberOf(0 ... count - 1).
+  // Adds the integrals over faces across an axis, with the numbers numberOf(0 ... count - 1).
   template <class Integral, class NumberOf>
   void AddThrough(const Integral& integral, int axis, std::int64_t count, const NumberOf& numberOf,
     Progress& progress)
@@ -164,8 +168,8 @@ private:
       64 * grain);
   }
 
-  // `samplesOf` gives the samples of an item. In one batch all lie in all layers, and in 1D mass
-  // below a layer counts, too.
+  // Sorts items by the layers of the grid that they lie in; `samplesOf` gives an item's samples. If
+  // one batch has all layers, every item is in it. In 1D the mass below a layer counts, too.
   template <class SamplesOf>
   ItemsByLayer ByLayer(std::int64_t count, const LatticePart<Dimension>& cells,
     const SamplesOf& samplesOf, Progress& progress)
@@ -194,8 +198,8 @@ private:
     return this->ByLayer(this->Count > 0 ? faces.Count() : 0, cells, samplesOf, progress);
   }
 
-  // The blocks that cover cells of a batch of layers, the first and the end: they are numbered by
-  // layers of blocks.
+  // Returns the first block that covers cells of a batch of layers, and the end: blocks are
+  // numbered by layers of blocks.
   std::array<std::int64_t, 2> BlocksIn(const LayerSpan& batch) const
   {
     const auto lies = [&](std::int64_t layer) { return this->Cells.Covered(Last, layer); };
@@ -213,9 +217,11 @@ private:
     return { (low - this->Blocks.Low[Last]) * inLayer, (high - this->Blocks.Low[Last]) * inLayer };
   }
 
-  // Fast for all blocks, then exactly for those that seem to have the largest errors.
+  // In 3D, first a fast pass for all blocks by one point a triangle, then exact integration of the
+  // blocks that seem to have the largest errors.
   BlockErrors ForwardInSpace(const LatticePart<Dimension>& cells, Progress& progress)
   {
+    // The worst twentieth is integrated exactly, fifty times as many blocks as the quantile needs.
     constexpr std::int64_t partExactly = 20;
     const Ranks& ranks = this->Group;
     Stages stages(progress, { { "all", 1 }, { "largest", 1 } });
@@ -246,6 +252,7 @@ private:
       }
     }
     this->AddInLayers(cells, blocks, TriangleRule::Exact, masses, stages["largest"]);
+    // All other blocks count as better than these.
     std::transform(errors.begin(), errors.end(), errors.begin(),
       [](double e) { return e < 0.0 ? Uncounted : 0.0; });
     for (const std::int64_t block : blocks)
@@ -255,7 +262,7 @@ private:
     return largestErrors(countedOf(std::move(errors)), ranks);
   }
 
-  // Adds the masses in the images of blocks.
+  // Adds the masses in the images of blocks, batch by batch.
   void AddInLayers(const LatticePart<Dimension>& cells, const std::vector<std::int64_t>& blocks,
     TriangleRule rule, std::vector<double>& masses, Progress& progress)
   {
@@ -274,7 +281,8 @@ private:
     });
   }
 
-  // In the rows that are held, each with sums that begin in the block's middle.
+  // Adds the masses in the rows that are held. Sums along rows begin in the block's middle, so that
+  // they are small and their differences between rows, too.
   void AddInside(const std::vector<std::int64_t>& blocks, TriangleRule rule,
     std::vector<double>& masses, Progress& progress)
   {
@@ -301,7 +309,7 @@ private:
       16 * grain);
   }
 
-  // Forward, of the mass in the image of a block.
+  // Returns the relative error, forward, of the mass in the image of a block.
   double MassError(std::int64_t block, double mass) const
   {
     double share = 1.0;
@@ -316,7 +324,8 @@ private:
     return share < 0.0 ? Uncounted : std::abs(mass / this->Rows.TotalMass() - share) / share;
   }
 
-  // What the integrals over the faces of a block add up to.
+  // Returns the integral over the closed boundary of a block: upper faces minus lower faces
+  // (Gauss's theorem).
   double Inside(const GridSize<Dimension>& block) const
   {
     double sum = 0.0;
@@ -332,7 +341,7 @@ private:
     return sum;
   }
 
-  // The grid cells that the images of the samples of this rank's blocks are in, or more.
+  // Returns the grid cells that contain the images of this rank's samples, or a larger part.
   LatticePart<Dimension> CellsAround(Progress& progress)
   {
     if (this->Count == 0 || (!this->Distributed && this->Rows.LayersAtOnce() >= this->Size[Last]))
@@ -362,8 +371,9 @@ private:
       [](const LatticePart<Dimension>& a, const LatticePart<Dimension>& b) { return a.With(b); });
   }
 
-  // Calls visit(batch, progress) with the rows of one batch after the other of the layers of the
-  // grid that the cells are in. Where batches begin does not depend on the cells.
+  // Calls visit(batch, progress) with the rows of one batch of layers after another. The
+  // beginnings of batches do not depend on the cells, so that sums have the same bits on every
+  // rank. Collective.
   template <class Visit>
   void InLayers(const LatticePart<Dimension>& cells, Progress& progress, const Visit& visit)
   {
@@ -377,7 +387,7 @@ private:
       layers.Low[Last] = std::min(low, this->Size[Last]);
       layers.Cells[Last] = low < cells.End(Last) ? std::min(each, this->Size[Last] - low) : 0;
       low += each;
-      // Other ranks may have more batches.
+      // Other ranks may have more batches, which this rank joins with empty boxes.
       Stages stages(parts[std::min(i, count - 1)], { { "reading", 1 }, { "visit", 4 } });
       this->Rows.Read(layers, stages["reading"]);
       if (!layers.IsEmpty())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well a sampled transport map keeps the measure: the errors of the areas or masses of blocks
-// of samples.
+// How well a sampled transport map preserves the measure: errors of the areas or masses in
+// blocks of samples.
 #ifndef RectifiedTransport_MapBlocks_h
 #define RectifiedTransport_MapBlocks_h
 
@@ -22,7 +22,7 @@ template <int Dimension>
 struct MapSamples
 {
   GridSize<Dimension> Lattice;
-  LatticePart<Dimension> Own;    // of this rank
+  LatticePart<Dimension> Own;    // samples that this rank owns
   LatticePart<Dimension> Within; // a larger part, whose images Positions are, axis 0 fastest
   ConstPointSpan<Dimension> Positions;
 };
@@ -36,7 +36,7 @@ struct MapBlocks
 {
   static constexpr std::int64_t Size = 4;
 
-  // Those of a rank, of all blocks of the lattice.
+  // Returns the blocks of a rank, as a part of all blocks of the lattice.
   static LatticePart<Dimension> Of(
     const GridSize<Dimension>& lattice, const LatticePart<Dimension>& own)
   {
@@ -51,7 +51,7 @@ struct MapBlocks
     return blocks;
   }
 
-  // The samples at their corners and between.
+  // Returns the samples at the blocks' corners and between them.
   static LatticePart<Dimension> SamplesOf(const LatticePart<Dimension>& blocks)
   {
     LatticePart<Dimension> samples{ {}, {} };

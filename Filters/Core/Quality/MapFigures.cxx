@@ -15,7 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Prepares the masses in the cells of a part of a lattice. Collective.
+// Prepares the sums that give the masses in the cells of a part of a lattice. Collective.
 template <int D>
 void prepareShares(
   const RectifiedFlow<D>& flow, const GridSize<D>& lattice, const LatticePart<D>& part)
@@ -32,8 +32,8 @@ void prepareShares(
   flow.PrepareShares(low, high);
 }
 
-// From the index space of the target to that of the samples, where images may be outside the
-// domain.
+// Converts images from the index space of the target to that of the samples, where they may be
+// outside the domain.
 template <int D>
 void takeFrom(const ImageGrid& target, const MapOnLattice<D>& map, Progress& progress)
 {
@@ -49,13 +49,15 @@ void takeFrom(const ImageGrid& target, const MapOnLattice<D>& map, Progress& pro
   });
 }
 
-// Writes all but costs. Derivatives depend on the positions of the layers before and after.
+// Writes everything except costs. Derivatives need the positions of the layers before and after.
 template <int D>
 void writeSamples(const MapOnLattice<D>& map, const Point<D>& step, const MapDisplacement<D>& moves,
   const MapValues& values, DisplacementSums& sums, Progress& progress)
 {
   const MapDerivatives<D> derivatives(map.Lattice, map.Wanted, map.Kept, step, map.Positions);
   const std::int64_t count = map.Wanted.Count();
+  // On several ranks in 3D, displacements overwrite positions layer by layer, so that
+  // derivatives of a layer are taken first.
   const bool isInPlace = D == 3 && progress.Group().AreSeveral();
   const std::int64_t layers = isInPlace ? map.Wanted.Cells[D - 1] : 1;
   const std::int64_t each = count / std::max<std::int64_t>(1, layers);
@@ -87,7 +89,7 @@ MapFigures writeMap(const MapOnLattice<D>& map, const RectifiedFlow<D>& flow,
   const bool hasOwn = map.Wanted.Contains(map.Own);
   if (begins)
   {
-    // Costs are those of the wanted samples.
+    // Costs belong to the wanted samples.
     prepareShares<D>(flow, map.Lattice, target ? map.Own.With(map.Wanted) : map.Own);
   }
   Stages stages(progress,
@@ -108,6 +110,8 @@ MapFigures writeMap(const MapOnLattice<D>& map, const RectifiedFlow<D>& flow,
   const MapDisplacement<D> moves = movesOf(map.Wanted);
   const MapFolds<D> folds(map.Lattice, begins);
   DisplacementSums sums;
+  // Figures count each sample once, on the rank that owns it, even if that rank writes another
+  // part.
   if (!hasOwn)
   {
     Progress& counting = stages["own part"];

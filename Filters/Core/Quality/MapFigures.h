@@ -47,7 +47,7 @@ struct MapValues
   double* Displacements; // in 3D they may begin one layer or more before the positions
   double* Divergences;
   double* Determinants;
-  double* Costs; // of a map with a target
+  double* Costs; // only for a map with a target
 };
 
 // Writes the values; positions are undefined afterwards. The map begins at the uniform measure

@@ -41,7 +41,8 @@ FoldCount MapFolds<Dimension>::Count(const LatticePart<Dimension>& part,
     progress);
 }
 
-// `determinantsOf` gives those of a row of samples, in a buffer or elsewhere.
+// Counts folds row by row. `determinantsOf` returns the determinants of a row of samples, in its
+// buffer or elsewhere.
 template <int Dimension>
 template <class Determinants>
 FoldCount MapFolds<Dimension>::CountRows(
@@ -51,7 +52,7 @@ FoldCount MapFolds<Dimension>::CountRows(
   {
     return {};
   }
-  // In 1D the row is cut.
+  // In 1D the single row is cut, so that threads share it.
   constexpr std::int64_t most = 1 << 13;
   const std::int64_t length = Dimension > 1 ? part.Cells[0] : std::min(most, part.Cells[0]);
   const std::int64_t rows = (part.Count() + length - 1) / length;
@@ -65,6 +66,8 @@ FoldCount MapFolds<Dimension>::CountRows(
         row.Cells[0] = std::min(length, part.End(0) - row.Low[0]);
         const double* determinants = determinantsOf(row, memory);
         GridSize<Dimension> sample = row.Low;
+        // The exact sum of areas does not depend on how samples are divided among threads and
+        // ranks.
         for (std::int64_t k = 0; k < row.Cells[0]; ++k, ++sample[0])
         {
           if (determinants[k] <= 0.0 && !this->IsCorner(sample) && this->HasMass(sample))
@@ -98,6 +101,7 @@ std::int64_t MapFolds<Dimension>::CountWithMass(
   return all;
 }
 
+// The two outermost samples along two axes: central differences there mix both faces.
 template <int Dimension>
 bool MapFolds<Dimension>::IsCorner(const GridSize<Dimension>& sample) const
 {
@@ -106,13 +110,13 @@ bool MapFolds<Dimension>::IsCorner(const GridSize<Dimension>& sample) const
   for (int axis = 0; axis < Dimension; ++axis)
   {
     const std::int64_t samples = this->Lattice[axis];
-    const bool isAxis = samples > 1; // else displacements do not change along it
+    const bool isAxis = samples > 1; // otherwise displacements do not change along it
     atBorder += isAxis && (sample[axis] < outermost || sample[axis] >= samples - outermost) ? 1 : 0;
   }
   return atBorder > 1;
 }
 
-// By the occupied grid cells: shares from tables have rounding errors.
+// Tests the occupied grid cells, since shares from tables have rounding errors.
 template <int Dimension>
 bool MapFolds<Dimension>::HasMass(const GridSize<Dimension>& sample) const
 {

@@ -18,7 +18,7 @@ class RectifiedFlow;
 struct FoldCount
 {
   std::int64_t Samples = 0;
-  ExactSum Area{}; // of their images, turned over, in cells of the lattice
+  ExactSum Area{}; // area of their images, with reversed orientation, in cells of the lattice
 
   void Add(const FoldCount& other)
   {
@@ -27,15 +27,15 @@ struct FoldCount
   }
 };
 
-// Counts the samples whose determinant of the map's Jacobian matrix is 0 or negative and whose cell
-// of the lattice has mass. Where faces of the domain meet, in its corners and in 3D at its edges,
-// the map has no derivative, and differences may give a negative one: the two outermost samples
-// along both axes do not count.
+// Counts the samples with det J <= 0, where J is the map's Jacobian matrix, whose cell of the
+// lattice has mass. In the corners of the domain, and in 3D at its edges, the map has no
+// derivative, and differences may give a negative determinant. So the two outermost samples along
+// both axes do not count.
 template <int Dimension>
 class MapFolds
 {
 public:
-  // Over the domain of a density, in whose cells samples need mass; nullptr if all have.
+  // For the domain of a density, in whose cells samples need mass; nullptr if all samples count.
   MapFolds(const GridSize<Dimension>& lattice, const RectifiedFlow<Dimension>* density)
     : Lattice(lattice)
     , Density(density)
@@ -46,7 +46,7 @@ public:
   // fastest. Throws Cancelled.
   FoldCount Count(const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
     const double* determinants, Progress& progress) const;
-  // The same by their images, as MapDerivatives takes them.
+  // The same from the samples' images, as MapDerivatives takes them.
   FoldCount Count(const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
     const Point<Dimension>& step, ConstPointSpan<Dimension> positions, Progress& progress) const;
   // The samples of a part whose cells have mass.

@@ -26,7 +26,7 @@ struct TreePoint
   std::int64_t Id;
 };
 
-// Points between two polls for cancellation.
+// Points between two checks for cancellation.
 constexpr std::int64_t mostAtOnce = std::int64_t{ 1 } << 15;
 
 class PointTree
@@ -41,7 +41,7 @@ public:
   void Build(ConstPointSpan<3> points, Progress& progress)
   {
     const std::int64_t count = this->Points.size();
-    // Every level of the tree reads each point twice.
+    // Every level of the tree reads each point twice: for the bounds and for the partition.
     std::int64_t passes = 2;
     for (std::int64_t rest = count; rest > leafPoints; rest /= 2)
     {
@@ -64,10 +64,11 @@ public:
   }
 
   const TreePoint& At(std::int64_t place) const { return this->Points.data()[place]; }
-  // Of all points.
+  // The bounds of all points.
   const ItemBox& Bounds() const { return this->Boxes.front(); }
 
-  // The least squared distance of a point from another one, or `best` if that is less.
+  // Returns the least squared distance of a point to another one, or `best` if that is less. The
+  // nearer child is searched first, so that the other one is often skipped.
   double Search(const TreePoint& point, double best, std::int64_t box = 0) const
   {
     const ItemBox& at = this->Boxes[static_cast<std::size_t>(box)];
@@ -123,8 +124,8 @@ private:
       progress.Add(last - first);
     }
   }
-  // Partitions the points of a box along its widest axis. Returns where the second part begins, the
-  // first point of the box if it is a leaf.
+  // Partitions the points of a box at the median along its widest axis. Returns where the second
+  // part begins, or the first point of the box if it is a leaf.
   std::int64_t Divide(const ItemBox& box, Progress& progress)
   {
     const std::size_t axis = box.Longest();
@@ -147,9 +148,9 @@ private:
 
 constexpr std::int64_t grain = 512;
 
-constexpr std::size_t mostAsked = std::size_t{ 1 } << 18; // points at a time, of one rank
+constexpr std::size_t mostAsked = std::size_t{ 1 } << 18; // points that a rank asks about at a time
 
-// A point and the least squared distance known.
+// A point and the least squared distance known so far.
 struct Query
 {
   double X[3];
@@ -172,8 +173,9 @@ std::vector<double> answersTo(
   return answers;
 }
 
-// Lowers the squared distances of this rank's points to those from the points of other ranks: one
-// of them after another answers for those that are nearer to its points' box than to a neighbour.
+// Lowers the squared distances of this rank's points to those from the points of other ranks. The
+// other ranks answer in turn, only for points that are nearer to the rank's box than to a known
+// neighbour. Collective.
 void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, const Ranks& ranks,
   Progress& progress)
 {
@@ -225,7 +227,7 @@ void nearestDistances(ConstPointSpan<3> points, double* distances, const Context
   stages["search"].ForEach(
     points.size(), grain,
     [&](std::int64_t i) {
-      // Neighbours in the tree are neighbours in space.
+      // Points that are consecutive in the tree are neighbours in space, so the caches help.
       const TreePoint& point = tree.At(i);
       const double squared = tree.Search(point, std::numeric_limits<double>::infinity());
       distances[point.Id] = areSeveral ? squared : std::sqrt(squared);

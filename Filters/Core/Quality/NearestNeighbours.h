@@ -9,10 +9,11 @@
 namespace RectifiedTransport
 {
 
-// Writes the distance of each point to the nearest other one, infinite if there is no other.
-// Collective: each rank of the context gives its own points; it costs least if they lie near those
-// of few other ranks. The boxes are divided at the median along their widest axis, so that clusters
-// cost no more than spread points: O(count log count). Throws std::bad_alloc and Cancelled.
+// Writes the distance of each point to the nearest other one; infinite if there is none.
+// Collective: each rank of the context gives its own points. It costs least if they lie near the
+// points of few other ranks only. Boxes are divided at the median along their widest axis, so that
+// clusters cost no more than spread points: O(count log count). Throws std::bad_alloc and
+// Cancelled.
 void nearestDistances(
   ConstPointSpan<3> points, double* distances, const Context& context = Context());
 

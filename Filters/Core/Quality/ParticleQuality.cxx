@@ -30,7 +30,7 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 constexpr std::int64_t noBlock = -1;
-constexpr double farOutside = 1e150; // sizes of the domain; its square is finite
+constexpr double farOutside = 1e150; // in sizes of the domain; its square is finite
 
 // The largest nearest-neighbour distance of points with one point in each `measure`, that of the
 // densest lattice packing: a regular row, the hexagonal lattice, the face-centred cubic lattice.
@@ -90,14 +90,14 @@ public:
   }
 
 private:
-  // Runs kernel(i) in order on this thread: for sums, whose order then never changes.
+  // Runs kernel(i) in order on this thread, for sums with a fixed order.
   template <class Kernel>
   void InOrder(std::int64_t count, Progress& progress, const Kernel& kernel)
   {
     progress.ForEachInOrder(count, grain, kernel);
   }
 
-  // The sum of value(i) over the particles of all ranks in their order.
+  // Returns the sum of value(i) over the particles of all ranks, in their order.
   template <class Value>
   double SumInOrder(Progress& progress, const Value& value)
   {
@@ -112,7 +112,7 @@ private:
       [&](double& running) { running = std::accumulate(share.begin(), share.end(), running); });
   }
 
-  // The mass of a particle relative to that of all.
+  // Returns the mass of a particle relative to the total.
   double Share(std::int64_t particle) const
   {
     return (this->Particles.Masses ? this->Particles.Masses[particle] : 1.0) / this->ParticleMass;
@@ -124,6 +124,8 @@ private:
     std::atomic<std::int64_t> outside{ 0 };
     std::atomic<std::int64_t> inEmpty{ 0 };
     progress.ForEach(this->Count, grain, [&](std::int64_t i) {
+      // Coordinates are scaled by the domain's size, so that squares of distances neither overflow
+      // nor vanish.
       const double* x = this->Particles.Points[i];
       std::transform(x, x + 3, this->Points.data() + 3 * i, [this](double coordinate) {
         return std::clamp(this->Scale.ToUnits(coordinate), -farOutside, farOutside);
@@ -174,7 +176,7 @@ private:
     });
   }
 
-  // The share of a particle, of a block.
+  // The share of a particle, and the block that it belongs to.
   struct BlockTerm
   {
     std::int64_t Block;
@@ -196,7 +198,7 @@ private:
       });
       return;
     }
-    // Those of the first rank's share of the order before those of the second.
+    // Terms of the first rank's part of the order precede those of the second.
     std::vector<std::vector<BlockTerm>> received(static_cast<std::size_t>(this->Group.Count()));
     {
       std::vector<BlockTerm> terms = this->Order->Bring([this](std::int64_t i) {
@@ -222,7 +224,8 @@ private:
     }
   }
 
-  // The relative L2 distance of two densities that are constant on blocks.
+  // Computes the relative L2 distance of two densities that are constant on blocks: ||p - q|| /
+  // ||q|| with the norm sum over blocks of share^2 / measure.
   void CompareBlocks(Progress& progress)
   {
     Stages stages(progress, { { "particles", 1 }, { "density", 1 }, { "errors", 1 } });
@@ -257,13 +260,13 @@ private:
     this->Quality.Blocks = largestErrors(std::move(errors), this->Group);
   }
 
-  // Divides the distance of each nearest neighbour by the largest spacing at the density of that
-  // place; -1 where it is not defined.
+  // Divides the distance to each nearest neighbour by the largest spacing at the local density; -1
+  // where it is not defined.
   void RelateSpacings(Progress& progress)
   {
     Stages stages(progress, { { "shares", 3 }, { "measures", 25 }, { "spacings", 2 } });
     double* spacing = this->Spacing.data();
-    // The points in units are no longer needed.
+    // The points in scaled units are no longer needed; their memory holds indices.
     const PointSpan<Dimension> index(this->Points.data(), this->Count);
     LargeBuffer<double> measures(this->Count);
     double* measure = measures.data();
@@ -275,6 +278,8 @@ private:
       measure[i] = isDefined ? share : 0.0;
       this->Grid.template NearestIndex<Dimension>(this->Particles.Points[i], index[i]);
     });
+    // The measure of the smallest box about a particle that holds its share is the reciprocal of
+    // the local density.
     this->Flow.MeasuresOfShares(
       index, boxAspect<Dimension>(this->Grid), measure, measure, stages["measures"]);
     const double side = this->Scale.ToUnits(root<Dimension>(this->Grid.CellMeasure()));
@@ -335,7 +340,7 @@ private:
   LargeBuffer<double> Found; // shares of the mass in each block
   LargeBuffer<double> Expected;
   double ParticleMass = 0.0;
-  std::optional<RankOrder> Order; // of the particles of several ranks
+  std::optional<RankOrder> Order; // order of the particles on several ranks
   ParticleQuality Quality;
 };
 

@@ -30,7 +30,7 @@ struct ParticleQuality
   std::int64_t Particles = 0;
   double TotalMass = 0.0;        // of the density: sum over grid cells of value times measure
   std::int64_t Outside = 0;      // of the domain
-  std::int64_t InEmptyCells = 0; // of the others, in grid cells without mass
+  std::int64_t InEmptyCells = 0; // particles inside the domain in grid cells without mass
   // The relative L2 distance between the particles' density and the given one, both averaged over
   // blocks of grid cells.
   double DensityError = 0.0;
@@ -43,8 +43,8 @@ struct ParticleQuality
   double MeanSpacing = 0.0;
 };
 
-// The smallest size of blocks, in grid cells along each axis, with which they hold `particles` of
-// `all` on average over the grid.
+// Returns the smallest size of blocks, in grid cells along each axis, with which a block holds
+// `particles` of `all` on average over the grid.
 template <int Dimension>
 std::int64_t blockSizeFor(const GridSize<Dimension>& cells, std::int64_t all, double particles)
 {
@@ -68,8 +68,8 @@ std::int64_t blockSizeFor(const GridSize<Dimension>& cells, std::int64_t all, do
   return large;
 }
 
-// The sides, in grid cells, of boxes about a particle with equal sides in physical space, up to a
-// common factor.
+// Returns the sides, in grid cells, of boxes about a particle that have equal sides in physical
+// space, up to a common factor.
 template <int Dimension>
 Point<Dimension> boxAspect(const ImageGrid& grid);
 
