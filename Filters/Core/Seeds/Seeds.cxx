@@ -60,7 +60,8 @@ void checkGrid(const GridSize<Dimension>& size)
 template <int Dimension>
 using AxisOrder = std::array<int, Dimension>;
 
-// Of equal axes the last first, so that rows run along axis 0.
+// Returns the axes by length, the shortest first. Equal axes are in descending order, so that rows
+// run along axis 0.
 template <int Dimension>
 AxisOrder<Dimension> shortestFirst(const Point<Dimension>& lengths)
 {
@@ -74,8 +75,8 @@ AxisOrder<Dimension> shortestFirst(const Point<Dimension>& lengths)
   return order;
 }
 
-// The number, a real one, along axis order[first] of the `count` equal cubes that fill a box of the
-// axes order[first] and after.
+// Returns the real number of cubes along axis order[first] if `count` equal cubes fill a box of the
+// axes order[first] and after: n = (count * product over later axes of l_first / l_k)^(1 / axes).
 template <int Dimension>
 double cubesAlong(
   const Point<Dimension>& lengths, const AxisOrder<Dimension>& order, int first, double count)
@@ -96,8 +97,8 @@ double cubesAlong(
   }
 }
 
-// Tries both roundings of every axis in turn, the shortest first; the axes after it compensate for
-// its rounding, so that only the last one's is left in the total.
+// Tries both roundings of the ideal number along every axis, the shortest first. Later axes
+// compensate for earlier rounding, so that only the last one's rounding remains in the total.
 template <int Dimension>
 class LatticeChoice
 {
@@ -118,7 +119,7 @@ private:
   {
     if (k == Dimension)
     {
-      // 1 % of the points missing costs as much as cells 10 % too long.
+      // 1 % too few or too many points cost as much as cells that are 10 % too long.
       const double cost = std::abs(1.0 / remaining - 1.0) + 0.1 * stretch;
       if (cost < this->Cost)
       {
@@ -146,14 +147,17 @@ private:
   GridSize<Dimension> Size;
 };
 
-// Divides the box into slabs across the shortest axis, of thickness in proportion to their numbers
-// of points, the slabs into rows, and the rows into boxes of one point.
+// Divides the box into slabs across the shortest axis, with thicknesses in proportion to their
+// numbers of points, then slabs into rows and rows into boxes of one point (stratified sampling for
+// any count).
 template <int Dimension>
 class JitteredBoxes
 {
 public:
   // Makes points from number `firstPoint` on.
   JitteredBoxes(const Point<Dimension>& lengths, std::uint64_t randomSeed, std::int64_t firstPoint,
+    // A point's random word depends only on its number and axis, so that any part of the pattern
+    // has the same bits.
     PointSpan<Dimension> unitPoints, Progress& progress)
     : Lengths(lengths)
     , Order(shortestFirst<Dimension>(lengths))
@@ -199,6 +203,7 @@ public:
   }
 
 private:
+  // The slabs' number makes boxes as near to cubes as possible.
   std::int64_t NumberOfSlabs(int k, std::int64_t count) const
   {
     if (k + 1 == Dimension)
@@ -230,6 +235,8 @@ void generateRandom(
   }
 }
 
+// Additive recurrence x_n = frac(x_0 + n * alpha_a) in 64-bit integers, whose overflow is the
+// fractional part.
 template <int Dimension>
 void generateLowDiscrepancy(
   std::uint64_t randomSeed, std::int64_t first, PointSpan<Dimension> unitPoints, Progress& progress)
@@ -268,7 +275,7 @@ void requireAllCells(const GridSize<Dimension>& size, std::int64_t points)
   }
 }
 
-// Calls visit(cell) for cells of a grid from number `first` on, axis 0 fastest.
+// Calls visit(cell) for the cells of a grid from number `first` on, axis 0 fastest.
 template <int Dimension, class F>
 void visitCells(const GridSize<Dimension>& size, std::int64_t first, std::int64_t points,
   const Context& context, F&& visit)
@@ -294,8 +301,8 @@ void visitCells(const GridSize<Dimension>& size, std::int64_t first, std::int64_
   }
 }
 
-// A point in each cell of a grid from number `first` on, axis 0 fastest: at placeIn() along each
-// axis.
+// Makes a point in each cell of a grid from number `first` on, axis 0 fastest: at placeIn() within
+// the cell along each axis.
 template <int Dimension, class Place>
 void generateInCells(const GridSize<Dimension>& size, std::int64_t first,
   PointSpan<Dimension> unitPoints, const Context& context, Place placeIn)
@@ -345,6 +352,8 @@ void generateSeedsFrom(SeedPattern pattern, const Point<Dimension>& lengths, std
     return;
   }
   Progress progress(context);
+  // Blue noise in 2D is made, cut and relaxed at its border, in 3D only made and cut: each step
+  // counts all seeds.
   constexpr int unitsOfBlueNoise = Dimension == 2 ? 3 : 2;
   progress.Expect(
     pattern == SeedPattern::BlueNoise ? unitsOfBlueNoise * count : Dimension * unitPoints.size());

@@ -17,22 +17,22 @@ namespace RectifiedTransport
 namespace
 {
 
-// How much longer steps are than the way to the centroid, so that one sweep is enough: below 2 the
-// energy does not grow. A centroid divides no chord of its cell worse than 1 : 2, so that steps of
-// up to 1.5 end in the cell.
+// The ratio of a step to the displacement to the centroid, so that one sweep is enough. Below 2 the
+// energy does not grow (over-relaxed Lloyd's method). A centroid divides no chord of its convex
+// cell worse than 1 : 2, so that steps with 1.5 end in the cell.
 constexpr double relaxation = 1.5;
-// The least distance that moves leave, in mean spacings: 0.86 of the hexagonal lattice's,
-// sqrt(2 / sqrt(3)).
+// The least distance that moves leave, in mean spacings: 0.86 of the spacing of the hexagonal
+// lattice, sqrt(2 / sqrt(3)).
 constexpr double smallestSpacing = 0.86 * 1.0745699318235418;
-// Layers of bins, which are at least a mean spacing wide: of the seeds that move (a second layer
-// would cost as much again for a twentieth of what the first gains), and of these and the ones
-// inside of them that bound their cells.
+// The layers of bins, which are at least a mean spacing wide: those with seeds that move (a second
+// layer would cost as much again for a twentieth of the gain), and those with seeds that bound
+// their cells.
 constexpr std::int64_t movedBins = 1;
 constexpr std::int64_t knownBins = 3;
 
 using Bin = std::array<std::int64_t, 2>;
 
-// Of the box, in mean spacings.
+// Returns the sides of the box in mean spacings.
 Point<2> sidesOf(const Point<2>& lengths, std::int64_t count)
 {
   Point<2> sides;
@@ -43,6 +43,7 @@ Point<2> sidesOf(const Point<2>& lengths, std::int64_t count)
   return sides;
 }
 
+// Bins are at least a mean spacing wide.
 Bin binsOf(const Point<2>& sides)
 {
   Bin bins;
@@ -53,8 +54,8 @@ Bin binsOf(const Point<2>& sides)
   return bins;
 }
 
-// Lengths are in mean spacings. Seeds are found by bins, of which there are only those at the
-// faces: the grid has a hole.
+// Lengths are in mean spacings. Seeds are found by bins. Only the bins near the faces exist: the
+// grid has a hole, so that memory is O(sqrt(count)).
 class WindowBorder
 {
 public:
@@ -73,22 +74,24 @@ public:
     this->Heads.assign(static_cast<std::size_t>(this->IndexOf(last) + 1), -1);
     const double area = this->BinSides[0] * this->BinSides[1];
     const double expected = static_cast<double>(this->Heads.size()) * area;
+    // Even patterns have about one seed per unit of area, with small deviations.
     this->Seeds.reserve(static_cast<std::size_t>(1.02 * expected + 32.0));
   }
 
-  // In the order of their numbers; ones that are not at the border change nothing.
+  // Call it in the order of the numbers; seeds that are not at the border change nothing.
   void Add(std::int64_t id, const double* x)
   {
     const Point<2> place = { x[0] * this->Sides[0], x[1] * this->Sides[1] };
     const Bin bin = this->BinOf(place);
     const std::int64_t depth = this->Depth(bin);
-    if (depth < knownBins) // not so for a seed next to the hole that rounding puts into it
+    if (depth < knownBins) // false for a seed next to the hole that rounding puts into it
     {
       this->Seeds.push_back({ place, id, this->Head(bin), depth < movedBins });
       this->Head(bin) = static_cast<std::int64_t>(this->Seeds.size()) - 1;
     }
   }
 
+  // Gauss-Seidel: each seed moves before the next cell is made.
   void Relax()
   {
     for (std::size_t i = 0; i < this->Seeds.size(); ++i)
@@ -101,7 +104,7 @@ public:
     }
   }
 
-  // To the seeds from number `first` on.
+  // Writes the moved seeds among those from number `first` on.
   void Write(std::int64_t first, PointSpan<2> unitPoints) const
   {
     for (const Seed& seed : this->Seeds)
@@ -119,10 +122,10 @@ private:
   {
     Point<2> X;
     std::int64_t Id;
-    std::int64_t Next; // in the same bin; -1 for none
+    std::int64_t Next; // next seed in the same bin; -1 for none
     bool Moves;
   };
-  // How many bins are between it and the faces.
+  // Returns how many bins are between a bin and the nearest face.
   std::int64_t Depth(const Bin& bin) const
   {
     return std::min({ bin[0], bin[1], this->Bins[0] - 1 - bin[0], this->Bins[1] - 1 - bin[1] });
@@ -157,7 +160,7 @@ private:
     const Point<2> centroid = this->Cell.Centroid();
     if (!std::isfinite(centroid[0]) || !std::isfinite(centroid[1]))
     {
-      return; // seeds so near that the area of the cell has no digits
+      return; // seeds are so near that the area of the cell has no digits
     }
     const Point<2> step = { relaxation * centroid[0], relaxation * centroid[1] };
     const double part = this->FreePart(seed, step);
@@ -170,7 +173,7 @@ private:
     }
   }
 
-  // Makes the cell of a seed.
+  // Clips the Voronoi cell of a seed out of the rectangle.
   void Cut(std::size_t seed)
   {
     const Point<2>& x = this->Seeds[seed].X;
@@ -180,7 +183,7 @@ private:
       [this](const Point<2>& other) { this->Cell.Cut(other); });
   }
 
-  // The part of a step that leaves all other seeds their distance.
+  // Returns the largest part of a step that keeps the distance to all other seeds.
   double FreePart(std::size_t seed, const Point<2>& step)
   {
     const double square = step[0] * step[0] + step[1] * step[1];
@@ -192,7 +195,7 @@ private:
         const double distance = other[0] * other[0] + other[1] * other[1];
         const double least = std::min(smallestSpacing * smallestSpacing, distance);
         const double along = step[0] * other[0] + step[1] * other[1];
-        // |part step - other|^2 = least
+        // The first solution of |part step - other|^2 = least.
         const double discriminant = along * along - square * (distance - least);
         if (along > 0.0 && discriminant > 0.0)
         {
@@ -202,8 +205,8 @@ private:
     return part;
   }
 
-  // Calls visit(other) for all other seeds, relative to that seed, whose distance is below the
-  // reach, which may fall meanwhile, and for some more.
+  // Calls visit(other), relative to the seed, for all other seeds within the reach and for some
+  // more. The reach may fall during the visits, as the cell shrinks.
   template <class Reach, class Visit>
   void VisitNear(std::size_t seed, const Reach& squaredReach, const Visit& visit)
   {
@@ -211,7 +214,7 @@ private:
     const std::int64_t farthest = std::max(this->Bins[0], this->Bins[1]);
     for (std::int64_t ring = 0; ring < farthest; ++ring)
     {
-      // What is nearer than that is in the rings before.
+      // Seeds nearer than that are in previous rings.
       const auto seen = static_cast<double>(std::max(ring - 1, std::int64_t{ 0 }));
       if (seen * seen >= squaredReach())
       {
@@ -221,6 +224,7 @@ private:
     }
   }
 
+  // Visits the bins on a square ring; rows between its ends have two bins only.
   template <class Reach, class Visit>
   void VisitRing(std::size_t seed, const Bin& centre, std::int64_t ring, const Reach& squaredReach,
     const Visit& visit)
@@ -256,13 +260,14 @@ private:
     }
   }
 
-  // Along an axis; 0 in the bin.
+  // Returns the distance to a bin along an axis; 0 within it.
   double DistanceFromBin(std::size_t axis, std::int64_t bin, double x) const
   {
     const double low = static_cast<double>(bin) * this->BinSides[axis];
     return std::max({ low - x, x - (low + this->BinSides[axis]), 0.0 });
   }
 
+  // Moves a seed to another bin's list.
   void Relink(std::size_t seed, const Bin& before, const Bin& after)
   {
     const auto id = static_cast<std::int64_t>(seed);
@@ -278,12 +283,12 @@ private:
 
   Progress& Work;
   const Point<2> Sides;
-  const Bin Bins; // how many along each axis
+  const Bin Bins; // number of bins along each axis
   Point<2> BinSides;
   Point<2> BinsPerSpacing;
-  Bin Hole; // how many of these are in the hole
+  Bin Hole; // number of bins in the hole along each axis
   std::vector<Seed> Seeds;
-  std::vector<std::int64_t> Heads; // of each bin the first seed, -1 for none
+  std::vector<std::int64_t> Heads; // first seed of each bin; -1 for none
   SeedCell Cell;
 };
 

@@ -11,6 +11,8 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
 } // namespace
 
+// The moment of a particle is mass * value; moments and masses are splatted alike, and their
+// quotient is the mean by mass.
 void writeMoments(
   const AdvectedValues& values, const SeriesMoment& moment, Progress& progress, double* moments)
 {
@@ -21,6 +23,7 @@ void writeMoments(
   });
 }
 
+// Cells without mass take the value in place, linear in time.
 void writeMeans(const AdvectedValues& values, double part, const LatticePart<3>& image,
   const LatticePart<3>& wanted, const double* masses, Progress& progress, double* sums)
 {

@@ -18,7 +18,8 @@ struct AdvectedValues
   std::array<const double*, 2> InPlace; // one per cell of the image, axis 0 fastest
   std::int64_t Stride;                  // from one particle or cell to the next
 
-  // Each value moves linearly in time; at an end that end's alone counts.
+  // Each value is linear in time; at an end, the value of that end alone counts, even if the other
+  // is not finite.
   static double Between(const std::array<const double*, 2>& ends, std::int64_t at, double part)
   {
     return part <= 0.0 ? ends[0][at]
@@ -27,12 +28,12 @@ struct AdvectedValues
   }
 };
 
-// The values of the particles at a moment times their masses. Throws Cancelled.
+// Writes the values of the particles at a moment times their masses. Throws Cancelled.
 void writeMoments(
   const AdvectedValues& values, const SeriesMoment& moment, Progress& progress, double* moments);
 
-// From the sums of these in a part of an image: their means; where there is no mass, the values in
-// place. Throws Cancelled.
+// Divides the sums of these in a part of an image by the masses. Cells without mass get the values
+// in place. Throws Cancelled.
 void writeMeans(const AdvectedValues& values, double part, const LatticePart<3>& image,
   const LatticePart<3>& wanted, const double* masses, Progress& progress, double* sums);
 

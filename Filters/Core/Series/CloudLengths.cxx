@@ -12,14 +12,15 @@ namespace RectifiedTransport
 namespace
 {
 
-// The length of one particle's share of a lattice's cell, in lengths of that cell.
+// Returns the length of one particle's share of a lattice cell, relative to the cell: n^(-1/D) for
+// n particles a cell.
 template <int D>
 double shareOfCell(const PivotLattice<D>& lattice)
 {
   return std::pow(static_cast<double>(lattice.Places.size()), -1.0 / D);
 }
 
-// Those of all ranks, in their order.
+// Returns the values of all ranks, in the order of the ranks.
 template <class T>
 std::vector<T> ofAllRanks(const Ranks& ranks, const T* own, std::int64_t count)
 {
@@ -38,7 +39,8 @@ std::vector<T> ofAllRanks(const Ranks& ranks, const T* own, std::int64_t count)
   return all;
 }
 
-// By the distances to both neighbours; negative ones are of none.
+// Returns the spacing from the distances to both neighbours; a negative distance means that there
+// is no neighbour. Where mass comes apart, one distance is much larger and is ignored.
 double spacingOf(double before, double after, double alone)
 {
   if (before < 0.0 || after < 0.0)
@@ -77,6 +79,7 @@ void addCloudsAtImages(const PivotLattice<D>& lattice, const ImageGrid& here,
     ofAllRanks(ranks, numbers.data(), static_cast<std::int64_t>(numbers.size()));
   const std::vector<double> all = ofAllRanks(ranks, images.data(), D * images.size());
   constexpr std::int64_t none = -1;
+  // The place of each particle number among the images, -1 for particles without mass.
   std::vector<std::int64_t> where(static_cast<std::size_t>(lattice.NumberOfParticles()), none);
   for (std::size_t i = 0; i < allNumbers.size(); ++i)
   {
@@ -91,6 +94,8 @@ void addCloudsAtImages(const PivotLattice<D>& lattice, const ImageGrid& here,
   float* added = lengths.data() + before;
   progress.ForEach(images.size(), grain, [&](std::int64_t i) {
     const std::int64_t number = numbers[static_cast<std::size_t>(i)];
+    // The neighbours along an axis are the particles at the same place of the neighbouring lattice
+    // cells.
     std::int64_t rest = number % static_cast<std::int64_t>(numberOfCells<D>(size));
     std::int64_t step = 1;
     for (int axis = 0; axis < D; ++axis)

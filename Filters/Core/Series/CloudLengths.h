@@ -16,7 +16,7 @@
 namespace RectifiedTransport
 {
 
-// The lengths of the cells of a grid, in those of another one.
+// Returns the lengths of the cells of a grid, in units of the cells of another one.
 template <int D>
 Point<D> cellsInCells(const ImageGrid& cells, const ImageGrid& unit)
 {
@@ -33,17 +33,17 @@ Point<D> cellsInCells(const ImageGrid& cells, const ImageGrid& unit)
   return lengths;
 }
 
-// Appends the lengths of clouds in the cells of a lattice of a grid: of one particle of several in
-// a cell, its share of the cell.
+// Appends the lengths of clouds in the cells of a lattice on a grid. With several particles in a
+// cell, each has its share of the cell.
 template <int D>
 void addCloudsInCells(const PivotLattice<D>& lattice, const ImageGrid& grid, std::int64_t count,
   std::vector<float>& lengths);
 
-// Appends those of particles in the cells of a lattice of `here` at their images, which are in the
-// index space of `there`; each particle is at its number in the lattice. Along an axis a length is
-// the mean of the distances to the images of both neighbours, or the smaller one if they differ by
-// a factor of two or more, as where mass comes apart. The images of all ranks count. Collective.
-// Throws std::bad_alloc and Cancelled.
+// Appends the lengths of particles in the cells of a lattice of `here` at their images, which are
+// in the index space of `there`; each particle is at its number in the lattice. Along an axis, a
+// length is the mean of the distances to the images of both neighbours. It is the smaller distance
+// if they differ by a factor of two or more, for example where mass comes apart. The images of all
+// ranks count. Collective. Throws std::bad_alloc and Cancelled.
 template <int D>
 void addCloudsAtImages(const PivotLattice<D>& lattice, const ImageGrid& here,
   const ImageGrid& there, const std::vector<std::int64_t>& numbers, ConstPointSpan<D> images,

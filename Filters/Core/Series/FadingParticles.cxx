@@ -18,12 +18,12 @@ namespace RectifiedTransport
 namespace
 {
 
-// The particles of one step, in the cells of its density that have mass.
+// The particles of one step, in those cells of its density that have mass.
 template <int D>
 struct StepParticles
 {
   PivotLattice<D> Lattice;
-  LargeBuffer<double> Points; // in the density's index space
+  LargeBuffer<double> Points; // places in the density's index space, interleaved
   std::vector<double> Masses;
   std::vector<std::int64_t> Numbers;
 
@@ -31,6 +31,9 @@ struct StepParticles
   PointSpan<D> Span() { return { this->Points.data(), this->Count() }; }
 };
 
+// Places particles by their numbers in the lattice, which are independent of the ranks: number n is
+// at place n / (lattice cells) of lattice cell n % (lattice cells). Each gets the mass of its cell
+// divided by the particles in a cell.
 template <int D>
 StepParticles<D> placeParticles(const SeriesStep& step, int perCell, const Ranks& ranks)
 {
@@ -40,6 +43,7 @@ StepParticles<D> placeParticles(const SeriesStep& step, int perCell, const Ranks
   const Point<D> side = latticeStep<D>(lattice, step.Grid.Size<D>());
   const auto all = LatticePart<D>::WholeOf(lattice);
   const auto cells = LatticePart<D>::WholeOf(step.Grid.Size<D>());
+  // A lattice finer than the grid has several of its cells in one cell of the grid.
   const auto valueOf = [&](std::int64_t number) {
     GridSize<D> cell = all.CellOf(number % all.Count());
     for (int axis = 0; axis < D; ++axis)
@@ -74,6 +78,8 @@ StepParticles<D> placeParticles(const SeriesStep& step, int perCell, const Ranks
   return particles;
 }
 
+// The particles of an interval: those of the first step, then those of the second one. From and To
+// have the positions of both sets at both ends of the interval.
 template <int D>
 class ParticleMaker
 {
@@ -93,6 +99,7 @@ public:
     this->Made.Masses = LargeBuffer<double>(this->Made.Count());
     std::copy(this->Second.Masses.begin(), this->Second.Masses.end(),
       std::copy(this->First.Masses.begin(), this->First.Masses.end(), this->Made.Masses.data()));
+    // On several ranks, the second step's numbers follow all of the first step's.
     if (ranks.AreSeveral())
     {
       const std::int64_t before = this->First.Lattice.NumberOfParticles();
@@ -104,6 +111,7 @@ public:
     }
   }
 
+  // Each set begins (or ends) in its own step's cells, and the map moves it to the other step.
   SeriesParticles Make(const MoveBetween<D>& move, Progress& progress)
   {
     Stages stages(progress, { { "starts", 1 }, { "move", 98 }, { "images", 1 } });
@@ -113,15 +121,19 @@ public:
     this->WriteFirst(firstGrid, *this->From, stages["starts"]);
     this->WriteSecond(secondGrid, *this->To, stages["starts"]);
     addCloudsInCells<D>(this->First.Lattice, firstGrid, this->First.Count(), from);
+    // With mass in one step only, there is no transport: particles stay in place and only fade.
     if (this->FirstStep.Mass > 0.0 && this->SecondStep.Mass > 0.0)
     {
       move(this->First.Span(), this->Second.Span(), stages["move"]);
       this->WriteFirst(secondGrid, *this->To, stages["images"]);
       this->WriteSecond(firstGrid, *this->From, stages["images"]);
+      // The cost is the mean squared displacement over the mass of the first step.
       const std::int64_t first = this->First.Count();
       this->Made.Cost = meanSquareOfWays(firstGrid, this->From->Span().Part(0, first),
         this->To->Span().Part(0, first), this->Made.Masses.data(), this->FirstStep.Mass,
         stages["images"]);
+      // Clouds stretch with the map: lengths at the images are measured between neighbouring
+      // images.
       addCloudsAtImages<D>(this->Second.Lattice, secondGrid, firstGrid, this->Second.Numbers,
         this->Second.Span(), stages["images"], from);
       addCloudsAtImages<D>(this->First.Lattice, firstGrid, secondGrid, this->First.Numbers,
@@ -174,6 +186,8 @@ double meanSquareOfWays(const ImageGrid& grid, ConstPointSpan<3> from, ConstPoin
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
   const LengthScale scale(grid);
+  // Exact sums do not depend on the division among threads and ranks; distances in units of the
+  // domain neither overflow nor vanish.
   const auto own = sumExactly<ExactSum>(
     progress, from.size(), grain, [&](std::int64_t first, std::int64_t last, ExactSum& sum) {
       for (std::int64_t i = first; i < last; ++i)

@@ -17,9 +17,9 @@ using MoveBetween =
   std::function<void(PointSpan<D> first, PointSpan<D> second, Progress& progress)>;
 
 // Particles of the first step begin in its cells, `perCell` in each with the cell's mass, and fade
-// linearly; those of the second step end in its cells and grow. Both sets are of one density that
-// moves, so that at both ends it is exactly that of the step. If a step has no mass, the particles
-// of the other one stay where they are. Sets no bound. Collective. Throws std::bad_alloc,
+// linearly. Particles of the second step end in its cells and grow. Both sets represent one moving
+// density, which is exactly the step's density at both ends. If a step has no mass, the
+// particles of the other one stay where they are. Sets no bound. Collective. Throws std::bad_alloc,
 // Cancelled, and what `move` throws.
 template <int D>
 SeriesParticles makeFadingParticles(const SeriesStep& from, const SeriesStep& to, int perCell,

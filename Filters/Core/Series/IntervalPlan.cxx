@@ -11,7 +11,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// What a series shows changes no more with better ones.
+// Better maps than these do not visibly change a series.
 OptimalMapOptions optionsOfIntervals(std::int64_t cells)
 {
   constexpr std::int64_t few = 1 << 15; // the bound is loose on coarse grids
@@ -35,6 +35,7 @@ PlanEnd<D> endOf(
 
 double bytesOfIntervalFlows(const SeriesStep& from, const SeriesStep& to)
 {
+  // Tables of two densities, and the positions during the advection, in bytes a cell.
   constexpr double each = 40.0;
   return each * static_cast<double>(std::max(from.Grid.NumberOfCells(), to.Grid.NumberOfCells()));
 }

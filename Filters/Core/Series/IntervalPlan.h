@@ -11,7 +11,7 @@
 namespace RectifiedTransport
 {
 
-// About what flows with whole tables and the advection of points take.
+// Returns about how many bytes the flows take with whole tables and the advection of points.
 double bytesOfIntervalFlows(const SeriesStep& from, const SeriesStep& to);
 
 // Both steps have mass, and the box contains their grids; lengths are in its LengthScale. The

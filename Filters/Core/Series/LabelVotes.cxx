@@ -18,7 +18,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// In the middle between two steps both have as much mass, but for the errors of the map.
+// In the middle of an interval, both steps have the same mass up to errors of the map. Masses
+// within this part of each other count as equal.
 constexpr double equalMasses = 0.02;
 
 template <int D>
@@ -27,7 +28,7 @@ CloudRow rowOf(const LabelVote<D>& vote, int axis, const GridSize<D>& size)
   return cloudRow(vote.Centre[axis], vote.Lengths[axis], size[axis]);
 }
 
-// The winners of a few layers of cells across the last axis.
+// Counts the votes in a few layers of cells across the last axis.
 template <int D>
 class LayerCount
 {
@@ -39,6 +40,7 @@ public:
   {
   }
 
+  // A cloud gives each cell the mass of their overlap.
   void Add(const LabelVote<D>& vote, std::int64_t label)
   {
     CloudRows<D> rows;
@@ -62,6 +64,7 @@ public:
 
   void Write(std::int64_t* winners)
   {
+    // Most cells have votes for one label only, so that just the other votes are sorted and summed.
     std::stable_sort(this->Others.begin(), this->Others.end(), [](const Other& a, const Other& b) {
       return std::tie(a.Cell, a.Label) < std::tie(b.Cell, b.Label);
     });
@@ -75,6 +78,7 @@ public:
         sum.Mass += begin->Mass;
       }
       Sum& best = this->Firsts[static_cast<std::size_t>(cell)];
+      // Equal masses go to the smaller label, so that rounding does not decide.
       const bool areEqual = std::abs(sum.Mass - best.Mass) <= equalMasses * best.Mass;
       const bool isBetter = areEqual ? sum.Label < best.Label : sum.Mass > best.Mass;
       best = isBetter ? sum : best;
@@ -96,7 +100,7 @@ private:
     double Mass;
   };
 
-  // In most cells there is one label.
+  // Most cells have only one label.
   void AddTo(std::int64_t cell, std::int64_t label, double mass)
   {
     Sum& first = this->Firsts[static_cast<std::size_t>(cell)];
@@ -118,7 +122,7 @@ private:
   std::vector<Other> Others;
 };
 
-// The votes of all ranks that reach the wanted cells of this rank, in order.
+// Returns the votes of all ranks that reach this rank's part, in the order of their numbers.
 template <int D>
 std::vector<LabelVote<D>> exchangeVotes(std::vector<LabelVote<D>> own, const LatticePart<D>& part,
   const GridSize<D>& size, const Ranks& ranks)
@@ -159,7 +163,7 @@ LabelVotes<D>::LabelVotes(std::vector<LabelVote<D>> votes, const GridSize<D>& si
       ranks.AreSeveral() ? exchangeVotes<D>(std::move(votes), part, size, ranks) : std::move(votes))
   , Begins(static_cast<std::size_t>(size[D - 1]) + 1, 0)
 {
-  // In the order of the layers in which they begin, and else in their own one.
+  // In the order of the layers in which the votes begin; within a layer their order stays.
   const auto layerOf = [&](const LabelVote<D>& vote) {
     return static_cast<std::size_t>(rowOf<D>(vote, D - 1, size).First);
   };
@@ -184,7 +188,8 @@ std::vector<std::int64_t> LabelVotes<D>::Count(
   constexpr std::int64_t atOnce = std::int64_t{ 1 } << 14;
   const std::int64_t layers = this->Part.Cells[D - 1];
   const std::int64_t cells = this->Part.Count() / layers;
-  // Several layers, as a range also reads the clouds that begin before it.
+  // A chunk has several layers, because it also reads the clouds that begin up to CloudRow::Most
+  // layers before it.
   const std::int64_t grain = std::max<std::int64_t>(2 * CloudRow::Most, atOnce / cells);
   progress.For(
     layers, grain,

@@ -22,21 +22,21 @@ struct LabelVote
   float Lengths[D]; // in cells
   double Mass;
   std::int64_t Tuple;
-  std::int64_t Number; // the cloud's, among those of all ranks
+  std::int64_t Number; // number of the cloud among those of all ranks
 };
 
 template <int D>
 class LabelVotes
 {
 public:
-  // The votes in a part of a grid. Each rank gets those of all ranks that reach its part, in the
-  // order of their numbers. Collective. Throws std::bad_alloc.
+  // Prepares the votes in a part of a grid. Each rank gets the votes of all ranks that reach its
+  // part, in the order of their numbers. Collective. Throws std::bad_alloc.
   LabelVotes(std::vector<LabelVote<D>> votes, const GridSize<D>& size, const LatticePart<D>& part,
     const Ranks& ranks);
 
-  // For each cell of the part what has most of the mass there, of equal masses the least number; -1
-  // if there is no mass. `equal`: for each tuple, what its mass counts for. Throws std::bad_alloc
-  // and Cancelled.
+  // Returns for each cell of the part the label with most of the mass there, the smallest one if
+  // masses are equal; -1 without mass. equal[t] is the label that tuple t counts for. Throws
+  // std::bad_alloc and Cancelled.
   std::vector<std::int64_t> Count(const std::vector<std::int64_t>& equal, Progress& progress) const;
 
 private:

@@ -14,7 +14,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// The cell of a grid at an index, or the nearest one.
+// Returns the cell of a grid at an index, or the nearest one.
 template <int D>
 std::int64_t cellAt(const ImageGrid& grid, const double* index)
 {
@@ -68,13 +68,14 @@ double SeriesLabels::BytesOfVotes(std::int64_t particles) const
   return sizeof(LabelVote<3>) * 2.0 * this->Parts * static_cast<double>(particles);
 }
 
-// From the centre of a cloud to that of a part, of the cloud's length.
+// Returns the offset of a part's centre from the cloud's centre, in lengths of the cloud.
 double SeriesLabels::OffsetOf(int part, int axis) const
 {
   return this->Parts == 1 ? 0.0 : (part >> axis & 1) == 0 ? -0.25 : 0.25;
 }
 
-// Lengths are in cells of the grid; 1 if there are none.
+// Adds the tuple under the centre of each part of each particle. Lengths are in cells of the grid;
+// 1 if there are none.
 template <int D>
 void SeriesLabels::AddTuples(
   std::size_t end, ConstPointSpan<3> points, const std::vector<float>& lengths)
@@ -100,6 +101,8 @@ void SeriesLabels::AddTuples(
   }
 }
 
+// Each part of a cloud votes with its mass for its tuples; a tracked particle divides the vote
+// between both steps by the time.
 template <int D>
 void SeriesLabels::Find(const SeriesMoment& moment, const ImageGrid& grid,
   const LatticePart<D>& wanted, const std::vector<std::vector<std::int64_t>>& equal,
@@ -153,7 +156,8 @@ void SeriesLabels::Find(const SeriesMoment& moment, const ImageGrid& grid,
   }
 }
 
-// Takes the step that is nearer in time, if both have the place or neither has.
+// Returns the tuple at a place itself. The step that is nearer in time is taken if both grids
+// contain the place, or neither does.
 template <int D>
 std::int64_t SeriesLabels::InPlace(
   const ImageGrid& grid, const GridSize<D>& cell, double part) const

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values that have nothing between them, such as integers and texts, and move along with particles.
+// Values that cannot be interpolated, such as integers and texts, and are advected with particles.
 #ifndef RectifiedTransport_SeriesLabels_h
 #define RectifiedTransport_SeriesLabels_h
 
@@ -15,8 +15,9 @@
 namespace RectifiedTransport
 {
 
-// For each tuple of both steps the number of the first equal one, those of the second step after
-// all of the first one. Equal tuples, and no others, have the same key. Throws std::bad_alloc.
+// Returns for each tuple of both steps the number of the first tuple that is equal to it. The
+// second step's tuples follow all of the first one's. Exactly the equal tuples have the same key.
+// Throws std::bad_alloc.
 using TupleKey = std::function<std::string(std::size_t step, std::int64_t tuple)>;
 std::vector<std::int64_t> findEqual(
   const std::array<std::int64_t, 2>& tuples, const TupleKey& keyOf);
@@ -30,14 +31,14 @@ class SeriesLabels
 {
 public:
   SeriesLabels() = default;
-  // `grids`: their cells have the tuples of both steps. `isAcross`: the densities are not in the
-  // cells of these grids, but around their corners, or the reverse. Then several tuples share a
-  // particle's cloud, which has a part for each of its 2^d quarters. Throws std::bad_alloc.
+  // The cells of `grids` have the tuples of both steps. With `isAcross`, the densities are not in
+  // the cells of these grids but around their corners, or the reverse. Then several tuples share a
+  // particle's cloud, which is divided into its 2^d orthants. Throws std::bad_alloc.
   SeriesLabels(
     const std::array<ImageGrid, 2>& grids, bool isAcross, const SeriesParticles& particles);
 
   std::int64_t TuplesOfFirst() const { return this->Grids[0].NumberOfCells(); }
-  // The votes of so many particles.
+  // Returns the bytes that the votes of so many particles take.
   double BytesOfVotes(std::int64_t particles) const;
 
   // Numbers of tuples for the wanted cells of a grid.
@@ -58,7 +59,7 @@ private:
 
   std::array<ImageGrid, 2> Grids;
   int Parts = 1;
-  // One for each part of each particle, at both ends of its way.
+  // One tuple for each part of each particle, at both ends of its way.
   std::array<std::vector<std::int64_t>, 2> Tuples;
 };
 

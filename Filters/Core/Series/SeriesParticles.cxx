@@ -33,6 +33,7 @@ bool writeVelocities(
   return areFinite;
 }
 
+// At the ends of the interval, particles of the other step have no mass and are left out.
 SeriesMoment::SeriesMoment(const SeriesParticles& particles, double part)
   : Particles(particles)
   , PartOfWay(part)
@@ -41,6 +42,8 @@ SeriesMoment::SeriesMoment(const SeriesParticles& particles, double part)
 {
 }
 
+// Straight ways, x(s) = (1 - s) from + s to: displacement interpolation. Masses fade by 1 - s and
+// grow by s.
 void SeriesMoment::Write(double mass, PointSpan<3> points, double* masses, Progress& progress)
 {
   const double part = this->PartOfWay;

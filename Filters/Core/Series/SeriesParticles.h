@@ -48,8 +48,8 @@ struct SeriesParticles
   std::shared_ptr<const SeriesPositions> To;
   LargeBuffer<double> Masses;        // where they are not faded
   std::vector<std::int64_t> Numbers; // among those of all ranks; may be empty on a single rank
-  // Tracked particles are of both steps. Of others, the first ones are of the first step and fade,
-  // the rest is of the second step and grows.
+  // Tracked particles belong to both steps. Otherwise, the first OfFirst particles belong to the
+  // first step and fade; the rest belongs to the second step and grows.
   bool AreTracked = false;
   std::int64_t OfFirst = 0;
   // Lengths of the clouds along the axes of index space at both ends of the way, interleaved, in
@@ -58,7 +58,7 @@ struct SeriesParticles
   std::array<std::vector<float>, 2> Clouds;
   std::array<ImageGrid, 2> Grids; // those of both steps, where there are clouds
   double Cost = 0.0;              // the mean over the first step's mass of |To - From|^2
-  double Bound = 0.0;             // of the least cost; 0 without an optimal map
+  double Bound = 0.0;             // lower bound of the least cost; 0 without an optimal map
   bool HasBound = false;
   std::string Warning; // why the flow took the place of the optimal map; else empty
 
@@ -74,7 +74,7 @@ bool writeVelocities(
 class SeriesMoment
 {
 public:
-  // `part` of the way. The particles must outlive this object.
+  // `part` is the part of the way that is done. The particles must outlive this object.
   SeriesMoment(const SeriesParticles& particles, double part);
 
   const SeriesParticles& All() const { return this->Particles; }

@@ -20,6 +20,7 @@ void SeriesTracks::SetSettings(const MovingSettings& settings, int ranks)
 bool SeriesTracks::Knows(const Name& next, const Ranks& ranks)
 {
   const auto number = static_cast<std::size_t>(this->Checked);
+  // All ranks must agree, as the moves are collective.
   const bool isKnown = number < this->Names.size() && this->Names[number] == next;
   if (onAllRanks(ranks, isKnown))
   {

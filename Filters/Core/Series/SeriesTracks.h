@@ -30,13 +30,13 @@ public:
   // Forgets positions that other settings made.
   void SetSettings(const MovingSettings& settings, int ranks);
   const MovingSettings& Settings() const { return this->Chosen; }
-  // At how many steps, from the first one on, positions are known.
+  // Returns the number of steps, from the first one on, at which positions are known.
   int Count() const { return this->Checked; }
   // The steps may have changed: each has to be given again to Knows, which keeps the positions up
   // to the first one that has.
   void Recheck() { this->Checked = 0; }
-  // Whether the positions at the next step, of this name, are known on all ranks; they then count.
-  // Else forgets those from this step on. Collective.
+  // Returns whether the positions at the next step, which has this name, are known on all ranks;
+  // they then count. Otherwise forgets the positions from this step on. Collective.
   bool Knows(const Name& next, const Ranks& ranks);
 
   // Finds the positions at the next step, which are not known; `before` is the grid of the step
@@ -57,8 +57,8 @@ private:
   MovingSettings Chosen{ 0, true };
   int NumberOfRanks = 0;
   TrackedParticles Tracked;
-  std::vector<Name> Names; // of the steps
-  int Checked = 0;         // of these
+  std::vector<Name> Names; // name of each step
+  int Checked = 0;         // steps that were checked since Recheck
 };
 
 } // namespace RectifiedTransport

@@ -28,7 +28,7 @@ TimePlace StepTimes::Find(double time) const
   place.Second = place.First + 1;
   const double begin = (*this)[place.First];
   const double end = (*this)[place.Second];
-  // Of the largest numbers the difference is none, but that of their halves is.
+  // The difference of the largest doubles overflows; the difference of their halves does not.
   const double part = std::isfinite(end - begin)
     ? (time - begin) / (end - begin)
     : (0.5 * time - 0.5 * begin) / (0.5 * end - 0.5 * begin);

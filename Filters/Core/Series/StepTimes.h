@@ -20,11 +20,11 @@ struct TimePlace
 class StepTimes
 {
 public:
-  // Of no steps.
+  // A series without steps.
   StepTimes() = default;
-  // The finite ones of given times, in ascending order, without repeated ones.
+  // Takes the finite times, in ascending order, without repeated ones.
   StepTimes(const double* times, std::size_t count);
-  // Of one step.
+  // A series of one step.
   explicit StepTimes(double time)
     : Times{ time }
   {
@@ -37,7 +37,7 @@ public:
   // step, the place is in the interval that begins there, if there is one.
   TimePlace Find(double time) const;
   double Clamp(double time) const;
-  // `each` equal parts of every interval.
+  // Returns the times of `each` equal parts of every interval.
   std::vector<double> Resampled(int each) const;
 
 private:

@@ -11,6 +11,8 @@
 namespace RectifiedTransport
 {
 
+// The first step's particles are samples of its density: the flow moves the pivot lattice, so that
+// all particles have the same mass.
 template <int D>
 void TrackedParticles::Begin(const SeriesStep& step, int perCell, Progress& progress)
 {
@@ -56,6 +58,7 @@ SeriesParticles TrackedParticles::Between(int from, int to, const Ranks& ranks) 
   particles.To = second.Positions;
   particles.OfFirst = first.Positions->Count();
   particles.Masses = LargeBuffer<double>(particles.OfFirst);
+  // All particles have the mass 1 / (number of particles), as a share of a step's mass.
   std::fill_n(
     particles.Masses.data(), particles.OfFirst, 1.0 / static_cast<double>(this->Particles));
   particles.Numbers.resize(static_cast<std::size_t>(particles.OfFirst));

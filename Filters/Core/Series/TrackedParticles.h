@@ -12,7 +12,7 @@
 namespace RectifiedTransport
 {
 
-// What a map says of itself when it has moved particles to the next step.
+// What a map reports after it has moved particles to the next step.
 struct MoveReport
 {
   double Bound = 0.0; // bounds the mean squared distance from below

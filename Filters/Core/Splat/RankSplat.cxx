@@ -19,6 +19,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// A particle as it is sent. With its key, the receiver restores the order of all particles.
 template <class Real>
 struct SentParticle
 {
@@ -27,6 +28,7 @@ struct SentParticle
   Real Place[3];
 };
 
+// Returns whether a kernel from the cells `first` on, with `kept` cells an axis, reaches a part.
 template <int Dimension>
 bool reaches(
   const LatticePart<Dimension>& part, const std::int32_t* first, const std::int32_t* kept)
@@ -39,7 +41,7 @@ bool reaches(
   return isReached;
 }
 
-// What a rank sends to each, and how many of its particles are outside.
+// The particles that a rank sends to each rank, and how many of its own are outside.
 template <class Real>
 struct Sent
 {
@@ -47,6 +49,7 @@ struct Sent
   std::int64_t Outside = 0;
 };
 
+// A particle at the border of parts goes to several ranks; each adds only to its own cells.
 template <int Dimension, class Real>
 Sent<Real> distribute(const SplatSetup<Dimension, Real>& setup, const std::int64_t* keys,
   const std::vector<LatticePart<Dimension>>& wanted, Progress& progress)
@@ -81,7 +84,8 @@ Sent<Real> distribute(const SplatSetup<Dimension, Real>& setup, const std::int64
   return sent;
 }
 
-// The particles of all ranks that reach this one, in order.
+// The particles of all ranks that reach this one, in the order of their keys. The exchange gives
+// them by rank and index, and the sort by keys is stable.
 template <class Real>
 class ReceivedParticles
 {

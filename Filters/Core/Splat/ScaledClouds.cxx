@@ -19,7 +19,8 @@ namespace
 
 using Counter = std::atomic<std::int64_t>;
 
-// A plain addition on one thread, which takes a fifth of the time.
+// Adds a mass, rounded to a whole number of units. On one thread a plain addition takes a fifth of
+// the time of an atomic one.
 inline void add(Counter& to, double value, bool isAlone)
 {
   const auto units = static_cast<std::int64_t>(value + 0.5);
@@ -31,12 +32,13 @@ inline void add(Counter& to, double value, bool isAlone)
   to.fetch_add(units, std::memory_order_relaxed);
 }
 
+// Integer additions commute exactly, so that threads may add in any order.
 template <int D>
 void deposit(const ScaledClouds<D>& clouds, const ImageGrid& grid, int exponent, Progress& progress,
   Counter* cells)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
-  // In two steps, neither of which overflows.
+  // Two factors, neither of which overflows.
   const double scales[2] = { std::ldexp(1.0, exponent / 2),
     std::ldexp(1.0, exponent - exponent / 2) };
   const GridSize<D> size = grid.Size<D>();
@@ -61,7 +63,7 @@ void deposit(const ScaledClouds<D>& clouds, const ImageGrid& grid, int exponent,
   });
 }
 
-// Adds what the other ranks have of the cells that this one wants.
+// Adds what the other ranks deposited in the cells that this rank wants.
 template <int D>
 std::vector<std::int64_t> sumOfRanks(
   const Counter* cells, const GridSize<D>& size, const LatticePart<D>& wanted, const Ranks& ranks)
@@ -99,7 +101,7 @@ template <int D>
 void splatClouds(const ScaledClouds<D>& clouds, const ImageGrid& grid, double most,
   const LatticePart<D>& wanted, double* density, Progress& progress)
 {
-  // Sums of at most twice `most`, with rounding, stay below 2^62.
+  // The unit is 2^-exponent: a sum of at most twice `most`, with rounding, stays below 2^62.
   const int exponent = most > 0.0 ? 60 - std::ilogb(most) : 0;
   const std::unique_ptr<Counter[]> counters(
     new Counter[static_cast<std::size_t>(grid.NumberOfCells())]());

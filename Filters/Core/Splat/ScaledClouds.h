@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles as clouds, boxes of even mass that are aligned with the axes of a grid and change their
-// lengths on the way.
+// Particles as clouds: boxes of constant density, aligned with the axes of a grid, whose lengths
+// change along the way.
 #ifndef RectifiedTransport_ScaledClouds_h
 #define RectifiedTransport_ScaledClouds_h
 
@@ -29,7 +29,8 @@ struct CloudRow
   std::int64_t End() const { return this->First + this->Count; }
 };
 
-// What is beyond the border is cut.
+// The cloud is cut at the border and keeps its mass. A length of at least 1e-6 cells avoids a
+// division by zero.
 inline CloudRow cloudRow(double centre, double length, std::int64_t cells)
 {
   const double end = static_cast<double>(cells);
@@ -75,7 +76,7 @@ struct ScaledClouds
 {
   ConstPointSpan<3> Centres; // physical
   const double* Masses;
-  // Where the way begins and where it ends; along D axes, interleaved. May be null, for points.
+  // Lengths where the way begins and where it ends, along D axes, interleaved; nullptr for points.
   std::array<const float*, 2> Lengths;
   double Part; // done of the way
   // The units of the lengths, in cells of the grid: those of the clouds before `Second`, and of the
@@ -83,7 +84,7 @@ struct ScaledClouds
   std::array<Point<D>, 2> Units;
   std::int64_t Second;
 
-  // In the domain of a grid.
+  // Returns the centre of a cloud in the index space of a grid, moved into the domain.
   Point<D> CentreIn(const ImageGrid& grid, std::int64_t cloud) const
   {
     Point<D> index;
@@ -91,7 +92,8 @@ struct ScaledClouds
     grid.ClampToDomain<D>(index.data());
     return index;
   }
-  // In cells of the grid.
+  // Returns the length of a cloud along an axis, in cells of the grid: linear in the part of the
+  // way.
   double Length(std::int64_t cloud, int axis) const
   {
     const double length = (1.0 - this->Part) * this->Lengths[0][D * cloud + axis] +

@@ -15,8 +15,8 @@
 namespace RectifiedTransport
 {
 
-// Particles. A chunk of a lattice that is splat in its own order is a few cells high: few chunks
-// reach two slabs, and only their weights are computed twice.
+// Particles in a chunk. A chunk of a lattice in its own order is a few cells high, so that few
+// chunks reach two slabs; only their weights are computed twice.
 constexpr std::int64_t splatChunk = 512;
 
 template <int Dimension, class Real>
@@ -57,8 +57,8 @@ public:
   // After FindChunks: whether most chunks reach more cells than caches hold.
   bool IsScattered() const { return this->Scattered; }
 
-  // After FindChunks: cuts the cells in memory into at most `wanted` slabs. Returns the mean number
-  // of slabs that a chunk reaches.
+  // After FindChunks: cuts the cells in memory into at most `wanted` slabs of about equal work.
+  // Returns the mean number of slabs that a chunk reaches.
   double CutSlabs(std::int64_t wanted)
   {
     const std::int32_t start = this->Job->Box.Low[Dimension - 1];
@@ -70,6 +70,8 @@ public:
     for (std::int32_t cut = 1;
          cut < planes && static_cast<std::int64_t>(this->Cuts.size()) < wanted; ++cut)
     {
+      // A new slab begins when the work of the planes so far reaches its share; chunks across the
+      // cut are visited once more.
       const double work = this->Work[static_cast<std::size_t>(cut) - 1];
       if (work >= share * static_cast<double>(this->Cuts.size()))
       {
@@ -82,7 +84,7 @@ public:
   }
 
   std::int64_t NumberOfSlabs() const { return static_cast<std::int64_t>(this->Cuts.size()) - 1; }
-  // The next run from a chunk on; an empty one if there is none.
+  // Returns the next run from a chunk on, or an empty one.
   Run NextRun(std::int64_t slab, std::int64_t chunk) const
   {
     const std::int32_t low = this->Cuts[static_cast<std::size_t>(slab)];
@@ -148,7 +150,8 @@ private:
 
   void SumPlanes()
   {
-    // As differences from plane to plane at first.
+    // First as differences between planes; prefix sums then give the work and the crossings. A
+    // chunk's work is 1, spread evenly over its planes.
     const std::int32_t start = this->Job->Box.Low[Dimension - 1];
     const auto planes = static_cast<std::size_t>(this->Job->Box.High[Dimension - 1] - start);
     this->Work.assign(planes + 1, 0.0);
@@ -187,7 +190,7 @@ private:
   BoxOfParticles<Dimension, Real> Reach = nullptr;
   std::vector<Chunk> Chunks;
   bool Scattered = false;
-  std::vector<double> Work;            // of the planes up to each
+  std::vector<double> Work;            // work of the planes up to each one
   std::vector<std::int64_t> Crossings; // chunks that reach both sides of each plane's lower face
   std::vector<std::int32_t> Cuts;
 };

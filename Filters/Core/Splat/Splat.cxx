@@ -19,20 +19,21 @@ namespace RectifiedTransport
 namespace
 {
 
-// Particles of a slice: few enough that long work has several slices, dense enough that loading a
-// tile into the cache pays, and numbered within the slice in 32 bits.
+// A slice of particles is small enough that long work has several slices, dense enough that loading
+// a tile into the cache pays, and short enough for 32-bit numbers within it.
 constexpr double shortestSlice = 1 << 22; // shares of particles in cells
 constexpr double densestSlice = 0.25;     // particles a cell
 constexpr std::int64_t longestSlice = std::int64_t{ 1 } << 24;
 
-// How many slabs a chunk may reach in the mean, as its weights are computed for each: for more
-// slabs than tasks, and before sorting the particles into tiles is cheaper. It is, too, if chunks
-// are scattered over more cells than caches hold. (A single task gains nothing from a sort: cache
-// misses overlap.)
+// The mean number of slabs that a chunk may reach, since its weights are computed for each. Up to
+// 1.2 there may be more slabs than tasks, for balance; beyond 8, sorting particles into tiles is
+// cheaper. It is cheaper, too, if chunks are scattered over more cells than the caches hold. (A
+// single task gains nothing from sorting: its cache misses overlap.)
 constexpr double fewVisits = 1.2;
 constexpr double mostVisits = 8.0;
 constexpr std::int64_t mostSlabs = 4; // a task
 
+// Wider kernels have so many cells that sorting gains nothing. Groups of tiles are the tasks.
 constexpr std::int64_t widestSorted = 16;
 constexpr std::int64_t groupsOfTiles = 256;
 
@@ -60,6 +61,7 @@ public:
       stride *= part.Cells[a];
       reached *= this->Job.Kept[a];
     }
+    // Slices of wide kernels have fewer particles, as each has `reached` shares.
     const double shortest = std::clamp(shortestSlice / reached, 64.0, shortestSlice / 8.0);
     this->Step = static_cast<std::int64_t>(shortest);
     const double dense =
@@ -129,6 +131,7 @@ private:
     }
   }
 
+  // One task adds everything in order, without any partition.
   void AddInOrder(std::int64_t first, std::int64_t count, Progress& progress)
   {
     this->MakeScratch(1);
@@ -159,6 +162,8 @@ private:
     });
   }
 
+  // A tile has all its particles in their order, so that the sum in a cell is that of a serial
+  // loop.
   void AddByTiles(std::int64_t first, std::int64_t count, Progress& progress)
   {
     this->Outside += this->Tiles.Sort(this->Kernels.Find, first, count, progress);
@@ -183,7 +188,8 @@ private:
     });
   }
 
-  // In steps between polls for cancellation that are short for kernels of any width.
+  // Adds a range of particles in steps that are short for kernels of any width, with a poll for
+  // cancellation between them.
   std::int64_t AddRange(std::int64_t first, std::int64_t count, const CellBox<Dimension>* box,
     std::int64_t task, Progress& progress)
   {
@@ -196,13 +202,14 @@ private:
     return outside;
   }
 
-  // What a kernel is to clip particles to; null where they lie within the box as far as they lie
-  // within the grid.
+  // Returns the box to which a kernel clips particles, or nullptr if they lie within the box as far
+  // as they lie within the grid.
   const CellBox<Dimension>* BoxOf(const CellBox<Dimension>& box, bool isInside) const
   {
     return isInside && this->IsWhole ? nullptr : &box;
   }
 
+  // Kernels of variable width need memory for their weights along each axis.
   void MakeScratch(std::int64_t tasks)
   {
     this->ScratchEach = this->Kernels.Width > 0 ? 0 : std::int64_t{ Dimension } * this->Job.Width;

@@ -19,7 +19,7 @@ namespace RectifiedTransport
 enum class SplatKernel
 {
   CloudInCell,
-  NearestCell, // of a point on a face, the upper cell
+  NearestCell, // for a point on a face, the upper cell
   TriangularShapedCloud,
   // Truncated at three standard deviations. Its values at the cells' centres are multiplied by the
   // linear function that makes their sum 1 and keeps the centroid.
@@ -60,9 +60,9 @@ struct SplatReport
 };
 
 // Writes `scale` times the mass of the grid cells of a part, axis 0 fastest, at most 2^30 cells an
-// axis; bitwise as in the whole grid. Particles that reach none of them may be left out. The terms
-// of a cell are added in the order of the particles: for every executor, the result is bitwise that
-// of a serial loop. Throws std::bad_alloc and Cancelled.
+// axis; the bits are those of the whole grid. Particles that reach none of the cells may be left
+// out. Terms are added to a cell in the order of the particles, so that the result has the bits of
+// a serial loop for every executor. Throws std::bad_alloc and Cancelled.
 template <int Dimension, class Real>
 SplatReport splatMass(const SplatParticles<Dimension, Real>& particles,
   const GridSize<Dimension>& size, const LatticePart<Dimension>& part, const SplatOptions& options,

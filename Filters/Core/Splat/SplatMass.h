@@ -30,7 +30,8 @@ inline double sumOfCells(const double* cells, std::int64_t count, Progress& prog
     std::plus<>());
 }
 
-// The cells of a grid, axis 0 fastest, that a rank sums up: whole chunks, as even shares as may be.
+// The cells of a grid, axis 0 fastest, that a rank adds up: whole chunks, in shares as equal as
+// possible.
 struct CellShare
 {
   LatticePart<3> Layers; // those that hold them

@@ -22,7 +22,7 @@ public:
   {
     this->Job.Particles = particles;
     this->Job.Renormalize = options.Boundary == SplatBoundary::Renormalize;
-    // Weights of two cells that keep the centroid are those of the CloudInCell.
+    // The weights of two cells that keep the centroid are those of CloudInCell.
     constexpr double twoCells = 1.0 / 3.0;
     const bool isNarrow = options.Kernel == SplatKernel::Gaussian && options.Radius <= twoCells;
     const SplatKernel kernel = isNarrow ? SplatKernel::CloudInCell : options.Kernel;
@@ -48,6 +48,8 @@ public:
 private:
   void UseGaussian(double radius)
   {
+    // Truncated at three standard deviations. Weights at a distance from the nearest centre are
+    // products of exp(-k^2 / 2 s^2), tabulated here, and two exponentials of the offset.
     this->Job.Cut = 3.0 * radius;
     this->Job.PerVariance = 1.0 / (radius * radius);
     this->Job.Width = static_cast<std::int32_t>(2.0 * this->Job.Cut) + 1;
@@ -60,7 +62,7 @@ private:
     this->Job.AtOffset = this->AtOffset.data();
   }
 
-  std::vector<double> AtOffset; // of the Job
+  std::vector<double> AtOffset; // the table that the Job points to
 };
 
 } // namespace RectifiedTransport

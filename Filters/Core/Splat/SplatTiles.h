@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sorts particles by the tiles of the grid that they reach, keeping their order within a tile.
-// Tasks for the tiles then add spatially unordered particles and compute no other weights.
+// Tasks for tiles then add particles that are scattered in space, and compute only the weights of
+// their own.
 #ifndef RectifiedTransport_SplatTiles_h
 #define RectifiedTransport_SplatTiles_h
 
@@ -28,7 +29,8 @@ public:
   // Divides the cells in memory into tiles. The job must have the cells.
   void Divide()
   {
-    // Tiles of 32768 cells, 256 kB.
+    // Tiles of 32768 cells take 256 kB, which fits a second-level cache. Large grids have larger
+    // tiles, so that the counters stay few.
     constexpr int least = Dimension == 1 ? 15 : Dimension == 2 ? 7 : 5;
     constexpr std::int64_t mostTiles = std::int64_t{ 1 } << 16;
     for (int shift = least;; ++shift)
@@ -52,7 +54,8 @@ public:
   std::int64_t Sort(
     FindCells<Dimension, Real> find, std::int64_t first, std::int64_t count, Progress& progress)
   {
-    constexpr std::int64_t parts = 64; // of the particles, counted and sorted separately
+    // parts of the particles, which are counted and sorted separately
+    constexpr std::int64_t parts = 64;
     const std::int64_t part = std::max<std::int64_t>((count + parts - 1) / parts, splatBlock);
     const std::int64_t used = (count + part - 1) / part;
     this->Position.assign(static_cast<std::size_t>(used * this->NumberOfTiles), 0);
@@ -83,6 +86,8 @@ public:
         outside += visitPart(number, [counts](std::int64_t tile, std::int64_t) { ++counts[tile]; });
       }
     });
+    // Counting sort: first all counts, then their prefix sums (tile by tile, part by part within a
+    // tile, for a stable order), then the indices.
     std::int64_t sum = 0;
     for (std::int64_t tile = 0; tile < this->NumberOfTiles; ++tile)
     {
@@ -180,8 +185,8 @@ private:
   int Shift[Dimension];
   std::int64_t Tiles[Dimension];
   std::int64_t NumberOfTiles = 1;
-  std::vector<std::int64_t> Start;    // of every tile, and the end
-  std::vector<std::int64_t> Position; // of every tile in every part of the particles
+  std::vector<std::int64_t> Start;    // first index of every tile, and the end
+  std::vector<std::int64_t> Position; // next index for every tile in every part of the particles
   std::vector<std::uint32_t> Index;
 };
 

@@ -90,7 +90,7 @@ struct Axes
 };
 
 // A block of particles. Coordinate a of particle i is number 3 i + a, as in memory: a transposition
-// would cost more than the weights.
+// would cost more than the weights do.
 struct Block
 {
   int Count;
@@ -184,7 +184,7 @@ RT_INLINE void findBounds(const SplatJob<Dimension, Real>& job, const Real* poin
   }
 }
 
-// All of the grid without a box.
+// Returns the box or, without one, the whole grid.
 template <int Dimension, class Real>
 RT_INLINE CellBox<Dimension> boxOrGrid(
   const SplatJob<Dimension, Real>& job, const CellBox<Dimension>* box)
