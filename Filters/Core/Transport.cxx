@@ -26,7 +26,7 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 
-// The map between the uniform measure and a density.
+// Makes the plan between the uniform measure and a density.
 template <int D>
 TransportPlan<D> makePlan(
   const BoxDensity<D>& density, const MethodOptions& options, Progress& progress)
@@ -38,7 +38,7 @@ TransportPlan<D> makePlan(
   return TransportPlan<D>(planEnd(density), plan, progress);
 }
 
-// The density of ink in a picture.
+// The density of ink in a picture: white minus grey, at least 0.
 class Ink final : public DensityValues
 {
 public:
@@ -62,6 +62,7 @@ private:
   const double White;
 };
 
+// Points of 1 or 2 dimensions become points in space with zeros.
 template <int D>
 std::vector<Point<3>> inSpace(ConstPointSpan<D> points)
 {
@@ -73,7 +74,7 @@ std::vector<Point<3>> inSpace(ConstPointSpan<D> points)
   return placed;
 }
 
-// The sites' figures, as arrays of their own.
+// Calls write() with arrays for the sites' figures, and keeps them in `division`.
 template <int D, class Measure>
 void measure(std::size_t sites, EqualMassDivision<D>& division, const Measure& write)
 {
@@ -89,6 +90,7 @@ void measure(std::size_t sites, EqualMassDivision<D>& division, const Measure& w
   }
 }
 
+// Pixels by the flow: labels, then masses, centroids and costs of the labelled pixels.
 template <int D>
 void divideByFlow(const std::vector<Point<3>>& sites, const BoxDensity<D>& density,
   const CellOptions<D>& options, Progress& progress, EqualMassDivision<D>& division)
@@ -106,6 +108,8 @@ void divideByFlow(const std::vector<Point<3>>& sites, const BoxDensity<D>& densi
   });
 }
 
+// Polygons of a power diagram: their masses and costs are exact, while labels are those of pixel
+// centres.
 void divideByPower(const std::vector<Point<3>>& sites, const BoxDensity<2>& density,
   Progress& progress, EqualMassDivision<2>& division)
 {
@@ -154,6 +158,8 @@ std::vector<Point<Dimension>> sample(const BoxDensity<Dimension>& density, std::
   const UnitSeeds<Dimension> pattern(options.Pattern, density.Sides(), count, options.RandomSeed);
   std::vector<Point<Dimension>> points(static_cast<std::size_t>(pattern.Count()));
   pattern.Generate(points, stages["seeds"]);
+  // Points of the unit box become points of index space, in which the plan works, and then of the
+  // box.
   Point<Dimension> cells;
   std::copy(density.Cells().begin(), density.Cells().end(), cells.begin());
   scalePoints<Dimension>(cells, points, stages["seeds"]);
@@ -180,7 +186,8 @@ SampledMap<Dimension> map(const BoxDensity<Dimension>& density,
   sampled.Determinant.resize(size);
   const auto plan = makePlan(density, options.Map, stages["map"]);
   const auto seeds = FlowSeeds<Dimension>::Lattice(sampled.Samples);
-  std::vector<Point<Dimension>>& images = sampled.Displacement; // at first
+  // until they are replaced by displacements
+  std::vector<Point<Dimension>>& images = sampled.Displacement;
   if (options.Direction == FlowDirection::Forward)
   {
     plan.Forward(seeds, images, stages["samples"]);
@@ -189,6 +196,7 @@ SampledMap<Dimension> map(const BoxDensity<Dimension>& density,
   {
     plan.Backward(seeds, images, stages["samples"]);
   }
+  // Derivatives are central differences of the images on the lattice, in index space.
   const Point<Dimension> step = latticeStep<Dimension>(sampled.Samples, density.Cells());
   const MapDerivatives<Dimension> derivatives(sampled.Samples, step, images);
   stages["derivatives"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
@@ -201,6 +209,7 @@ SampledMap<Dimension> map(const BoxDensity<Dimension>& density,
     Point<Dimension>& moved = images[static_cast<std::size_t>(i)];
     for (int axis = 0; axis < Dimension; ++axis)
     {
+      // The displacement T(x) - x in lengths, from the centre of the sample.
       const double centre = (static_cast<double>(cell[axis]) + 0.5) * step[axis];
       moved[axis] = (moved[axis] - centre) * sides[axis];
     }
@@ -255,13 +264,14 @@ std::vector<Point<Dimension>> relax(ConstPointSpan<Dimension> points,
   Progress progress(context);
   Stages stages(progress, { { "tables", 3 }, { "relaxation", 97 } });
   const Point<Dimension> sides = cellSides(density);
+  // From lengths to index space, and back at the end.
   Point<Dimension> perCell;
   std::transform(
     sides.begin(), sides.end(), perCell.begin(), [](double side) { return 1.0 / side; });
   std::vector<Point<Dimension>> relaxed(static_cast<std::size_t>(points.size()));
   std::copy_n(points.data(), points.size() * Dimension, PointSpan<Dimension>(relaxed).data());
   scalePoints<Dimension>(perCell, relaxed, stages["tables"]);
-  // Only ratios matter, and squares of the lengths may be no doubles.
+  // Only the ratio of the sides matters; squares of the lengths may overflow.
   Point<Dimension> spacing = sides;
   const double longest = *std::max_element(sides.begin(), sides.end());
   for (double& side : spacing)

@@ -52,7 +52,7 @@ public:
     : BoxDensity(std::make_shared<DensityArray<Dimension, T>>(values, cells), cells, sides)
   {
   }
-  // Values that are read in another way.
+  // Takes values that are read in another way.
   BoxDensity(std::shared_ptr<const DensityValues> values, const GridSize<Dimension>& cells,
     const Point<Dimension>& sides);
 
@@ -77,8 +77,8 @@ struct MethodOptions
 {
   MapMethod Method = MapMethod::RectifiedFlow;
   FlowOptions Flow; // for RectifiedFlow
-  // For Optimal, > 0: iterations end when one raises the bound of the cost by less than a quarter
-  // of this part of it.
+  // For Optimal, above 0: the iteration ends when one step raises the lower bound of the cost by
+  // less than a quarter of this part of it.
   double Tolerance = 1e-3;
 };
 
@@ -124,18 +124,19 @@ SampledMap<Dimension> map(const BoxDensity<Dimension>& density,
 struct BlendOptions
 {
   FlowOptions Flow;
-  // That are moved for each cell of the result: above 0. If it is a Dimension-th power they are a
-  // lattice.
+  // The number of particles that are moved for each cell of the result: above 0. If it is a
+  // Dimension-th power, they form a lattice.
   std::int64_t ParticlesPerCell = 4;
   BlendedMass Mass = BlendedMass::Linear;
-  // What spreads the particles' mass over cells. The grid is that of the result.
+  // The kernel that spreads the particles' mass over cells. The grid is that of the result.
   SplatOptions Splat = { SplatKernel::TriangularShapedCloud };
 };
 
 struct MorphOptions : BlendOptions
 {
-  // Optimal: straight ways of nearly least cost between the two densities. If their grid is too
-  // coarse for it (OptimalMap::MassError above a tenth), those of RectifiedFlow.
+  // Optimal: straight displacements of nearly least cost between the two densities. If their grid
+  // is too coarse for it (OptimalMap::MassError above a tenth), the displacements are those of
+  // RectifiedFlow.
   MapMethod Method = MapMethod::RectifiedFlow;
   double Tolerance = 1e-3; // as MethodOptions::Tolerance
 };
@@ -191,8 +192,8 @@ struct CellOptions
 {
   SiteCellShape Shape = SiteCellShape::Flow;
   GridSize<Dimension> Pixels{}; // along each axis of the box; 0: as the density has cells
-  FlowOptions Flow;             // of SiteCellShape::Flow
-  CostNorm Norm;                // of SiteCellShape::Flow; Power has squared distances
+  FlowOptions Flow;             // for SiteCellShape::Flow
+  CostNorm Norm;                // for SiteCellShape::Flow; Power has squared distances
 };
 
 template <int Dimension>
@@ -200,7 +201,7 @@ struct EqualMassDivision
 {
   GridSize<Dimension> Pixels{};
   std::vector<std::int64_t> Labels; // the site of each pixel, axis 0 fastest; -1: no mass
-  // One for each site: the mass of its cell, the centroid of that, its share of the cost.
+  // One entry for each site: the mass of its cell, the cell's centroid, and its share of the cost.
   std::vector<double> Masses;
   std::vector<Point<Dimension>> Centroids;
   std::vector<double> Costs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Densities between densities: particles of the uniform measure that are moved to each of them.
+// Blends of densities: particles of the uniform measure are moved to each of them.
 #include "Core/Blend/MovedCells.h"
 #include "Core/Flow/PivotLattice.h"
 #include "Core/Flow/RectifiedFlow.h"
@@ -20,7 +20,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// The pivot's particles in one of the densities.
+// A density and the pivot's particles in it.
 template <int D>
 struct BlendedInput
 {
@@ -53,8 +53,8 @@ public:
     }
   }
 
-  // Particles keep their places in the first density, and have those in the second that the optimal
-  // map gives them, if the grids resolve it.
+  // Particles keep their places in the first density. In the second one they get the places to
+  // which the optimal map takes them, if the grids resolve it.
   void MoveOptimally(double tolerance, Progress& progress)
   {
     Stages stages(progress, { { "map", 70 }, { "images", 30 } });
@@ -81,7 +81,9 @@ public:
     b.Positions = this->InSpace(points, b.Density);
   }
 
-  // The weights sum to 1.
+  // Makes the density for weights w_i with the sum 1. Particles at sum of w_i T_i(x) carry the
+  // mass, except near a density: there its own cells, moved with the particles, take over an
+  // increasing share.
   MadeDensity<D> Make(const std::vector<double>& weights, Progress& progress) const
   {
     Stages stages(progress, { { "mean", 2 }, { "splat", 3 }, { "input", 5 } });
@@ -112,7 +114,7 @@ public:
   }
 
 private:
-  // The box that all have, and the largest number of cells along each axis.
+  // Finds the common box and the largest number of cells along each axis.
   void FindGrid(const std::vector<BoxDensity<D>>& densities)
   {
     if (densities.empty())
@@ -131,6 +133,7 @@ private:
     this->Grid = gridOf<D>(this->Cells, densities.front().Sides());
   }
 
+  // Moves the pivot's particles, which represent the uniform measure, to a density.
   BlendedInput<D> MoveTo(
     const BoxDensity<D>& density, const PivotLattice<D>& pivot, Progress& progress) const
   {
@@ -141,7 +144,7 @@ private:
     return { density, flow.Total() * cellMeasure(density), this->InSpace(positions, density) };
   }
 
-  // From the index space of a density.
+  // Converts points from the index space of a density to lengths.
   std::vector<Point<3>> InSpace(
     const std::vector<Point<D>>& points, const BoxDensity<D>& density) const
   {
@@ -179,7 +182,7 @@ private:
     return mean;
   }
 
-  // A density with another mass on the common grid.
+  // Resamples a density to the common grid by exact overlaps, and scales it to another mass.
   std::vector<double> Resample(const BlendedInput<D>& input, double mass, Progress& progress) const
   {
     PlacedCells<D> placed{ input.Density.Cells(), {}, {} };

@@ -16,6 +16,7 @@
 namespace RectifiedTransport
 {
 
+// The sides of a cell, in lengths.
 template <int D>
 Point<D> cellSides(const BoxDensity<D>& density)
 {
@@ -27,6 +28,7 @@ Point<D> cellSides(const BoxDensity<D>& density)
   return sides;
 }
 
+// The measure of a cell: a value times this is a mass.
 template <int D>
 double cellMeasure(const BoxDensity<D>& density)
 {
@@ -34,7 +36,7 @@ double cellMeasure(const BoxDensity<D>& density)
   return std::accumulate(sides.begin(), sides.end(), 1.0, std::multiplies<>());
 }
 
-// The grid of cells that fill the box [0, sides].
+// Returns the grid of cells that fills the box [0, sides].
 template <int D>
 ImageGrid gridOf(const GridSize<D>& cells, const Point<D>& sides)
 {
@@ -70,6 +72,7 @@ void requireSameBox(const BoxDensity<D>& a, const BoxDensity<D>& b)
   }
 }
 
+// The end of a plan at a density on the box [0, sides].
 template <int D>
 PlanEnd<D> planEnd(const BoxDensity<D>& density)
 {

@@ -13,9 +13,9 @@
 namespace RectifiedTransport
 {
 
-// Writes `scale` times the masses of the cells of a part, clouds in cells. `masses` may be nullptr:
-// all are 1. `keys` may be nullptr, see splatOnRanks. One rank alone gets the whole grid.
-// Collective.
+// Writes `scale` times the masses in the cells of a part, with the CloudInCell kernel. `masses` may
+// be nullptr if all are 1; for `keys`, which may be nullptr, see splatOnRanks. A single rank gets
+// the whole grid. Collective.
 template <int D>
 void splatInCells(ConstPointSpan<3> points, const double* masses, const std::int64_t* keys,
   const ImageGrid& grid, const LatticePart<D>& wanted, double scale, double* cells,

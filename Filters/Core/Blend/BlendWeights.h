@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mass of what is between densities, and how it becomes one of them.
+// The mass of a blend of densities, and how the blend becomes one of them.
 #ifndef RectifiedTransport_BlendWeights_h
 #define RectifiedTransport_BlendWeights_h
 
@@ -12,12 +12,12 @@
 namespace RectifiedTransport
 {
 
-// The mass of what is between densities of masses m_i, by their weights w_i with the sum 1.
+// The mass of a blend of densities with masses m_i and weights w_i, whose sum is 1.
 enum class BlendedMass
 {
   Linear,    // sum of w_i m_i
   Geometric, // product of m_i^w_i
-  Source,    // that of the first density
+  Source,    // the mass of the first density
   Normalize  // 1
 };
 
@@ -38,8 +38,9 @@ inline double blendedMass(
   return mode == BlendedMass::Linear ? sum : product;
 }
 
-// The part of the mass that the cells of the density of the largest weight carry; particles carry
-// the rest. It grows from 0 at a weight of .9 to 1 at a weight of 1, so that there is no jump.
+// Returns the part of the mass that the cells of the density with the largest weight carry;
+// particles carry the rest. The part grows from 0 at a weight of .9 to 1 at a weight of 1, so that
+// the blend is continuous.
 inline double shareOfHeaviest(double weight)
 {
   constexpr double nearby = 0.1; // how far below 1 a weight is near it
@@ -48,8 +49,8 @@ inline double shareOfHeaviest(double weight)
   return share > rounding ? share : 0.0;
 }
 
-// Gives a density of mass `own` another mass. In this order no density overflows, however far apart
-// the masses are; equal masses change no bit.
+// Scales a density of mass `own` to another mass. In this order no value overflows, however
+// different the masses are, and equal masses change no bit.
 inline void rescaleMass(double own, double mass, double* density, std::int64_t count)
 {
   if (mass != own)

@@ -16,16 +16,17 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
-// The centres of the own cells with mass, moved.
+// The centres of the own cells with mass, after their motion.
 struct MovedCentres
 {
   LargeBuffer<double> Places;
   std::vector<double> Masses;
-  std::vector<std::int64_t> Numbers; // in the grid
+  std::vector<std::int64_t> Numbers; // cell numbers in the grid
 };
 
-// For each own cell the sum over the particles in it of their moves along an axis of index space;
-// for the axis D their number.
+// Returns for each own cell the sum over the particles in it of their displacement along an axis of
+// index space, or for axis D their number. The sums are splats, so that they have the same bits for
+// every number of threads and ranks.
 template <int D>
 LargeBuffer<double> sumMoves(const MovedCells<D>& cells, int axis, Progress& progress)
 {
@@ -50,6 +51,8 @@ LargeBuffer<double> sumMoves(const MovedCells<D>& cells, int axis, Progress& pro
   return sums;
 }
 
+// Moves the centre of each cell with mass by the mean displacement (sum of displacements) /
+// (number of particles), clamped to the domain.
 template <int D>
 MovedCentres moveCentres(
   const MovedCells<D>& cells, const std::vector<LargeBuffer<double>>& moves, Progress& progress)
@@ -108,6 +111,7 @@ void addMovedCells(
   const MovedCentres centres = moveCentres(cells, moves, stages["splat"]);
   const auto count = static_cast<std::int64_t>(centres.Masses.size());
   LargeBuffer<double> moved(wanted.Count());
+  // Each cell's mass is splatted at its new centre, in the order of the cells' numbers.
   splatInCells<D>({ centres.Places.data(), count }, centres.Masses.data(), centres.Numbers.data(),
     cells.Grid, wanted, 1.0 / cells.Grid.CellMeasure(), moved.data(), stages["splat"]);
   std::transform(moved.data(), moved.data() + wanted.Count(), density, density, std::plus<>());

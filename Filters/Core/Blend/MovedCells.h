@@ -15,7 +15,7 @@ namespace RectifiedTransport
 
 class Progress;
 
-// A part of the cells for each rank; no cell is in two of them.
+// Divides cells into a part for each rank, without overlap, along their longest axis.
 template <int D>
 LatticePart<D> partOfRank(LatticePart<D> cells, const Ranks& ranks)
 {
@@ -27,22 +27,22 @@ LatticePart<D> partOfRank(LatticePart<D> cells, const Ranks& ranks)
   return cells;
 }
 
-// Cells of a grid with a density, and this rank's particles: where they are in that density, and
-// where they are now, physical.
+// Cells of a grid with a density, and this rank's particles: their physical places in that density
+// and at present.
 template <int D>
 struct MovedCells
 {
   const ImageGrid& Grid;
-  LatticePart<D> Own;    // each cell is of one rank
+  LatticePart<D> Own;    // each cell belongs to one rank
   const double* Density; // one value per own cell
   ConstPointSpan<3> From;
   ConstPointSpan<3> To;
 };
 
-// Adds the density of the cells, each moved by the mean move of the particles in it; cells without
-// particles stay. `density` is that of the cells of a part, which each rank wants. The same bits
-// for every number of threads and ranks. Memory: about 8 (6 + D) bytes a cell and 8 a particle.
-// Collective. Throws std::bad_alloc and Cancelled.
+// Adds the density of the cells, each moved by the mean displacement of the particles in it; cells
+// without particles stay. `density` has the cells of the part that each rank wants. The bits are
+// the same for every number of threads and ranks. Memory: about 8 (6 + D) bytes a cell and 8 a
+// particle. Collective. Throws std::bad_alloc and Cancelled.
 template <int D>
 void addMovedCells(
   const MovedCells<D>& cells, const LatticePart<D>& wanted, Progress& progress, double* density);

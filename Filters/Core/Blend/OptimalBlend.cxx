@@ -19,10 +19,10 @@ namespace
 {
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
-constexpr int mostRounds = 20; // for a barycenter
+constexpr int mostRounds = 20; // fixed-point iterations of a barycenter
 
-// Particles and maps in index spaces, in which densities differ, and in the lengths of the common
-// directions.
+// Particles and maps are in the index spaces of the densities, which differ, and in lengths along
+// the axes that all of them share.
 template <int D>
 class OptimalBlender
 {
@@ -61,6 +61,8 @@ private:
                                  : this->Densities[i].Positions;
   }
 
+  // The maps of a round that is repeated need few iterations; those of the last round get more of
+  // them and a refined bound.
   PlanOptions OptionsOf(int leastIterations, bool refines) const
   {
     PlanOptions options;
@@ -94,6 +96,8 @@ private:
     return physical;
   }
 
+  // The slack of a pair (x, y) is |x - y|^2 / 2 - phi(x) - psi(y) >= 0 for the dual potentials: it
+  // is 0 where the coupling is optimal.
   void AddSlack(const TransportPlan<D>& plan, double weight, ConstPointSpan<D> points,
     ConstPointSpan<D> images, Progress& progress)
   {
@@ -108,8 +112,8 @@ private:
     });
   }
 
-  // From particles in the index space of a source, under the map or, where that does not reach the
-  // density, by the given positions.
+  // Moves particles from the index space of a source by the map. If the map does not reach the
+  // density, particles keep the given positions, and there is a warning.
   void Follow(const TransportPlan<D>& plan, std::size_t target, ConstPointSpan<3> starts,
     const ImageGrid& startGrid, bool areSamples, double weight, Progress& progress)
   {
@@ -146,6 +150,7 @@ private:
     }
   }
 
+  // Two densities: one map from the first to the second.
   void BlendPair()
   {
     const BlendedDensity<D>& source = this->Densities[0];
@@ -155,6 +160,8 @@ private:
     this->Follow(plan, 1, source.Positions, source.Grid, true, 1.0, stages["images"]);
   }
 
+  // The weighted mean of the positions in all densities, sum of w_i x_i, is the next support of the
+  // barycenter.
   LargeBuffer<double> MeanOf(Progress& progress)
   {
     LargeBuffer<double> mean(3 * this->Count);
@@ -167,6 +174,7 @@ private:
     return mean;
   }
 
+  // Densities of weight 0 have no influence and get no maps.
   std::vector<std::size_t> Used() const
   {
     std::vector<std::size_t> used;
@@ -180,11 +188,11 @@ private:
     return used;
   }
 
-  // Whether the particles are at the same places in all these densities, up to rounding: then the
-  // densities are the same, and their mean is where they are.
+  // Returns whether the particles have the same places in all these densities, up to rounding. Then
+  // the densities are the same, and the barycenter is where the particles are.
   bool AreOne(const std::vector<std::size_t>& used)
   {
-    constexpr double rounding = 1e-5; // in cells; the flow amplifies that of the densities
+    constexpr double rounding = 1e-5; // in cells; the flow amplifies the rounding of the densities
     const double most = rounding * std::pow(this->Options.Geometry.CellMeasure(), 1.0 / D);
     const double* first = this->Densities[used.front()].Positions.data();
     const bool areOne = std::all_of(used.begin() + 1, used.end(), [&](std::size_t i) {
@@ -196,6 +204,7 @@ private:
     return onAllRanks(this->Work.Group(), areOne);
   }
 
+  // The fixed-point iteration, then a last round that also measures bound and slack.
   void BlendAll()
   {
     const std::vector<std::size_t> used = this->Used();
@@ -230,6 +239,8 @@ private:
       const auto before = this->Result.Moved;
       const double functional = this->TakeRound(used, false, rounds.Next());
       const std::vector<double>& all = this->Result.Functional;
+      // The functional is the sum of w_i W2^2(mean, density i), estimated by the lower bounds. It
+      // decreases in exact arithmetic; a round that does not lower it is undone.
       const double fall = all.empty() ? functional : all.back() - functional;
       if (fall <= 0.0)
       {
@@ -244,7 +255,8 @@ private:
     }
   }
 
-  // One map to each density from that of the mean. Returns the weighted mean of their bounds.
+  // Makes a map from the density of the mean to each density. Returns the weighted mean of their
+  // lower bounds, which estimates the functional.
   double TakeRound(const std::vector<std::size_t>& used, bool isLast, Progress& progress)
   {
     const ImageGrid& geometry = this->Options.Geometry;

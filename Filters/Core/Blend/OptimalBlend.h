@@ -44,23 +44,25 @@ struct OptimalPositions
 {
   // By the densities; nullptr where particles stay.
   std::vector<PointBuffer> Moved;
-  // For each particle what its ways cost more than the bound allows for, halved: the weighted mean
-  // over the densities. In squared physical lengths.
+  // For each particle, half of what its displacements cost more than the bound allows for, as a
+  // weighted mean over the densities. In squared physical lengths.
   LargeBuffer<double> Slack;
   double Bound =
     0.0; // bounds the cost between two densities, or the weighted mean from the barycenter
   double Cost = 0.0; // with a barycenter: the cost that Bound bounds
   // If IsOptimal, from the barycenter: the weighted mean of the bounds, for each iteration.
   std::vector<double> Functional;
-  // Where the optimal map does not reach a density, whose particles stay: its number, and why.
+  // If the optimal map does not reach a density, whose particles then stay: its number, and the
+  // reason.
   std::vector<std::pair<std::size_t, std::string>> Warnings;
 };
 
-// With two densities, the particles of the first one go to their images in the second. With more,
-// the particles go to the mean of their images, until that lowers the functional no more:
-// Alvarez-Esteban, del Barrio, Cuesta-Albertos and Matran, "A fixed-point approach to barycenters
-// in Wasserstein space", Journal of Mathematical Analysis and Applications 441, 2016. Collective.
-// Throws InvalidDensity, std::overflow_error (LengthScale), std::bad_alloc and Cancelled.
+// With two densities, the particles of the first one move to their images in the second one. With
+// more, the particles move to the mean of their images until that does not lower the functional any
+// more (Alvarez-Esteban, del Barrio, Cuesta-Albertos and Matran, "A fixed-point approach to
+// barycenters in Wasserstein space", Journal of Mathematical Analysis and Applications 441, 2016).
+// Collective. Throws InvalidDensity, std::overflow_error (LengthScale), std::bad_alloc and
+// Cancelled.
 template <int Dimension>
 OptimalPositions blendOptimally(const std::vector<BlendedDensity<Dimension>>& densities,
   const OptimalBlendOptions& options, const Context& context = Context());

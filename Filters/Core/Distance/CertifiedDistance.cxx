@@ -12,6 +12,8 @@ namespace RectifiedTransport
 namespace
 {
 
+// One iteration suffices for bounds: every feasible pair of dual potentials bounds the distance
+// from below.
 OptimalMapOptions optionsOfBounds()
 {
   OptimalMapOptions options;
@@ -27,7 +29,7 @@ template <int Dimension>
 SquaredBracket bracketDistance(const DensitySource<Dimension>& a, const DensitySource<Dimension>& b,
   const Point<Dimension>& sides, const Context& context)
 {
-  constexpr double enough = 0.02; // a per cent of the distance
+  constexpr double enough = 0.02; // relative to the square: one per cent of the distance
   Progress progress(context);
   Stages stages(progress, { { "lower bound", 40 }, { "upper bound", 60 } });
   PlanOptions options;
@@ -37,7 +39,7 @@ SquaredBracket bracketDistance(const DensitySource<Dimension>& a, const DensityS
     PlanEnd<Dimension>({ b, {}, sides }), options, stages["lower bound"]);
   SquaredBracket bracket;
   bracket.Lower = plan.LowerBound();
-  // Where they meet, rounding may part them the wrong way.
+  // If both bounds meet, rounding may exchange them.
   bracket.Upper = std::max(bracket.Lower,
     plan.Certificate()->UpperBound(stages["upper bound"], (1.0 + enough) * bracket.Lower));
   return bracket;

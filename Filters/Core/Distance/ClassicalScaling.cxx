@@ -16,7 +16,8 @@ namespace
 
 using Matrix = Eigen::MatrixXd;
 
-// Less the means of rows and columns: the products of the points, if there are such points.
+// Double centring, B = -1/2 J D^2 J with J = 1 - 1/n: if points with these distances exist, B_ij
+// are the inner products of their offsets from the centroid.
 Matrix productsOf(const std::vector<double>& distances, Eigen::Index count)
 {
   Matrix products(count, count);
@@ -44,7 +45,8 @@ Matrix productsOf(const std::vector<double>& distances, Eigen::Index count)
   return products;
 }
 
-// The sign of an eigenvector is arbitrary.
+// The sign of an eigenvector is arbitrary: its entry of largest magnitude, the first one up to
+// rounding, is made positive.
 double signOf(const Eigen::VectorXd& vector)
 {
   constexpr double rounding = 1e-9;
@@ -59,6 +61,7 @@ double signOf(const Eigen::VectorXd& vector)
   return 1.0;
 }
 
+// Computes Kruskal's stress over all pairs.
 double stressOf(const std::vector<double>& distances, const ScaledPoints& points, std::size_t count,
   int dimensions)
 {
@@ -93,7 +96,7 @@ ScaledPoints scaleClassically(
   const auto axes = static_cast<std::size_t>(dimensions);
   ScaledPoints points;
   points.Coordinates.assign(static_cast<std::size_t>(count) * axes, 0.0);
-  // Relative to the largest one, so that no square overflows.
+  // Relative to the largest distance, no square overflows.
   const double unit = count > 0 ? *std::max_element(distances.begin(), distances.end()) : 0.0;
   if (!(unit > 0.0))
   {
@@ -102,7 +105,8 @@ ScaledPoints scaleClassically(
   std::vector<double> scaled = distances;
   std::for_each(scaled.begin(), scaled.end(), [=](double& d) { d /= unit; });
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(productsOf(scaled, count));
-  // In rising order.
+  // Eigenvalues are in rising order. Coordinate k is sqrt(lambda_k) v_k; negative eigenvalues,
+  // which non-Euclidean distances have, are left out.
   for (std::int64_t k = 0; k < std::min<std::int64_t>(dimensions, count); ++k)
   {
     const double value = solver.eigenvalues()[count - 1 - k];

@@ -13,7 +13,7 @@ namespace RectifiedTransport
 
 struct ScaledPoints
 {
-  // Of point i the coordinate along axis k is at i * dimensions + k.
+  // The coordinate of point i along axis k is at i * dimensions + k.
   std::vector<double> Coordinates;
   // The part of the distances that is lost: the root of sum (d - e)^2 / sum d^2 over all pairs,
   // where d are the given distances and e those of the points. 0 if all d are 0.

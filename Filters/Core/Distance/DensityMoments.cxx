@@ -18,6 +18,7 @@ namespace
 
 using Matrix = Eigen::Matrix3d;
 
+// Sums of f, f x and f x x^T over the cells' centres.
 struct RawMoments
 {
   double Mass = 0.0;
@@ -32,6 +33,8 @@ struct RawMoments
   }
 };
 
+// The symmetric root of a positive semidefinite matrix; eigenvalues that rounding makes negative
+// count as 0.
 Matrix rootOf(const Matrix& matrix)
 {
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(matrix);
@@ -52,7 +55,8 @@ DensityMoments momentsOf(const DensityValues& density, const GridSize<Dimension>
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
   Progress progress(context);
-  // From the centre of the box, in which numbers do not cancel.
+  // Places are relative to the centre of the box, so that the covariance E(x x^T) - m m^T cancels
+  // little.
   const auto readChunk = [&](std::int64_t first, std::int64_t last) {
     std::vector<double> values(static_cast<std::size_t>(last - first));
     density.Read(first, last - first, values.data());
@@ -99,7 +103,7 @@ DensityMoments momentsOf(const DensityValues& density, const GridSize<Dimension>
       const double covariance = raw.Second(row, column) / raw.Mass - mean[row] * mean[column];
       moments.Covariance[a][b] = moments.Covariance[b][a] = covariance;
     }
-    // Of the uniform measure on a cell.
+    // The variance of the uniform measure on a cell, side^2 / 12, is added to that of the centres.
     const double side = sides[a] / static_cast<double>(cells[a]);
     moments.Covariance[a][a] = std::max(0.0, moments.Covariance[a][a]) + side * side / 12.0;
   }
@@ -108,6 +112,7 @@ DensityMoments momentsOf(const DensityValues& density, const GridSize<Dimension>
 
 double leastSquaredDistance(const DensityMoments& a, const DensityMoments& b)
 {
+  // Gelbrich: |m_a - m_b|^2 + tr(A + B - 2 (A^1/2 B A^1/2)^1/2).
   double square = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -119,7 +124,7 @@ double leastSquaredDistance(const DensityMoments& a, const DensityMoments& b)
   const Matrix root = rootOf(first);
   const double cross = rootOf(root * second * root).trace();
   const double traces = first.trace() + second.trace();
-  // Less what rounding of the moments and roots may add.
+  // Subtract what rounding of the moments and roots may add, so that the bound stays valid.
   constexpr double rounding = 1e-7;
   return std::max(0.0, square + std::max(0.0, traces - 2.0 * cross - rounding * traces));
 }

@@ -11,16 +11,16 @@
 namespace RectifiedTransport
 {
 
-// Of a density, divided by its mass, that is constant on its cells. Entries of axes beyond its
-// dimension are 0.
+// The moments of a density, divided by its mass, that is constant on its cells. Entries of axes
+// beyond its dimension are 0.
 struct DensityMoments
 {
   std::array<double, 3> Mean{};                      // in lengths from the box's corner
   std::array<std::array<double, 3>, 3> Covariance{}; // in squared lengths
 };
 
-// Of a density of this process with a positive mass that fills a box of these sides. Throws
-// Cancelled.
+// Computes the moments of a density in this process, with a positive mass, on a box of these sides.
+// Throws Cancelled.
 template <int Dimension>
 DensityMoments momentsOf(const DensityValues& density, const GridSize<Dimension>& cells,
   const Point<Dimension>& sides, const Context& context = Context());

@@ -18,7 +18,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// As many maps are made together, each by one thread.
+// So many maps are made at the same time, each by one thread.
 constexpr std::size_t mapsAtOnce = 16;
 // Larger densities are mapped one after the other, each by all threads.
 constexpr double mostCellsOfThread = 0x1p18;
@@ -31,7 +31,7 @@ GridSize<D> sizeOf(const GridSize<3>& cells)
   return size;
 }
 
-// The sides of a box, in its LengthScale.
+// Returns the sides of a box, in its LengthScale.
 template <int D>
 Point<D> sidesOf(const ImageGrid& box)
 {
@@ -42,7 +42,8 @@ Point<D> sidesOf(const ImageGrid& box)
   return sides;
 }
 
-// Each rank has made one of the maps first, first + 1 ...; gives all to all.
+// Each rank has made one of the maps first, first + 1, ...; this gives all of them to all ranks.
+// Collective.
 void shareMaps(
   std::vector<std::shared_ptr<ReferenceImages>>& maps, std::size_t first, const Ranks& ranks)
 {
@@ -65,7 +66,7 @@ void shareMaps(
   }
 }
 
-// So that a result does not depend on the order of the densities.
+// Orders a pair, so that a result does not depend on the order of the densities.
 template <class Name>
 std::pair<Name, Name> ordered(const Name& a, const Name& b)
 {
@@ -92,7 +93,8 @@ double memoryOfPair(const GridSize<3>& cells)
   return memoryForBracket<D>(sizeOf<D>(cells));
 }
 
-// work(item, context) for all items, on this rank.
+// Calls work(item, context) for all items on this rank: small ones in parallel, each on one thread,
+// large ones in turn with all threads.
 template <class Work>
 void forItems(std::int64_t count, double cells, Progress& progress, const Work& work)
 {
@@ -115,7 +117,8 @@ void forItems(std::int64_t count, double cells, Progress& progress, const Work& 
   }
 }
 
-// The items of [0, count) that this rank does: every so many, as neighbours may be alike.
+// Returns the items of [0, count) that this rank does: every n-th, because neighbouring items may
+// take similar time.
 std::vector<std::int64_t> itemsOfRank(std::int64_t count, const Ranks& ranks)
 {
   std::vector<std::int64_t> items;
@@ -139,6 +142,7 @@ bool DistanceSet::Add(Name name, const ImageGrid& grid, Values values, const Con
 {
   this->Box = this->Given.empty() ? grid : this->Box;
   GridSize<3> cells = grid.Size<3>();
+  // A density's key has its name, its cells and the sides of its box: equal keys have equal maps.
   std::fill(cells.begin() + grid.Dimension(), cells.end(), 1);
   name.insert(name.end(), cells.begin(), cells.end());
   const Point<3> sides = sidesOf<3>(this->Box);
@@ -154,6 +158,8 @@ bool DistanceSet::Add(Name name, const ImageGrid& grid, Values values, const Con
       momentsIn<3>)(density.Cell.get(), cells, this->Box, *context.Threads);
     const bool waits = std::any_of(this->Waiting.begin(), this->Waiting.end(),
       [&](std::size_t other) { return this->Given[other].Key == density.Key; });
+    // Equal densities share a map. A density that waits keeps its values on the rank that makes its
+    // map only.
     const bool isNew = !waits && this->Maps.count(density.Key) == 0;
     const auto place = static_cast<int>(this->Waiting.size() % ranks);
     if (!isNew || place != context.Group->Own())
@@ -215,6 +221,7 @@ void DistanceSet::MakeMapsIn(Progress& progress)
       made[place] = std::make_shared<ReferenceImages>(mapReference<D>(values, sides, context));
       density.Cell = nullptr;
     });
+  // Maps are exchanged in rounds of one a rank, so that memory for messages stays small.
   for (std::size_t first = 0; first < made.size() && ranks.AreSeveral();
        first += static_cast<std::size_t>(ranks.Count()))
   {
@@ -254,14 +261,14 @@ std::vector<DistancePair> DistanceSet::Find(const Context& context)
     {
       SquaredBracket pair;
       const auto found = this->Known().find(ordered(this->Given[i].Key, this->Given[j].Key));
-      if (found != this->Known().end()) // else both are the same
+      if (found != this->Known().end()) // otherwise both are the same
       {
         pair = found->second;
       }
       if (isLinearized)
       {
         pair.Lower = leastSquaredDistance(this->Given[i].Moments, this->Given[j].Moments);
-        // Where both meet, the errors of the maps may part them the wrong way.
+        // If both bounds meet, the errors of the maps may exchange them.
         pair.Upper = std::max(pair.Upper, pair.Lower);
       }
       const double lower = lengthOf(pair.Lower);
@@ -310,6 +317,7 @@ template <int D>
 void DistanceSet::FindMissing(Progress& progress)
 {
   const Ranks& ranks = progress.Group();
+  // Missing pairs are sorted, so that all ranks divide the same list.
   const std::vector<NamePair> missing = this->MissingPairs();
   const std::vector<std::int64_t> own =
     itemsOfRank(static_cast<std::int64_t>(missing.size()), ranks);
@@ -333,7 +341,8 @@ void DistanceSet::FindMissing(Progress& progress)
   }
 }
 
-// So that memory does not grow with each change of the inputs.
+// Forgets all results of densities that were not given, so that memory does not grow with each
+// change of the inputs.
 void DistanceSet::KeepOnlyGiven()
 {
   std::set<Name> given;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The distances between all pairs of densities in one box. Those that are known are kept for the
-// next set of densities, whatever their order.
+// The distances between all pairs of densities in one box. Known distances are kept for the next
+// set of densities, in any order.
 #ifndef RectifiedTransport_DistanceSet_h
 #define RectifiedTransport_DistanceSet_h
 
@@ -57,9 +57,9 @@ public:
   double MemoryForMaps() const;
   void MakeMaps(const Context& context);
 
-  // The pairs (0, 1), (0, 2) ... (1, 2) ..., after MakeMaps. The distance is the lower bound of
-  // Certified and the upper one of Linearized, which the moments of the densities bound from below.
-  // Keeps what is known of these densities alone.
+  // Returns the pairs (0, 1), (0, 2) ... (1, 2) ..., after MakeMaps. The distance is the lower
+  // bound with Certified, and the upper bound with Linearized, for which the moments of the
+  // densities give the lower one. Keeps only what is known of these densities.
   double MemoryForPairs() const;
   std::vector<DistancePair> Find(const Context& context);
 
@@ -92,7 +92,7 @@ private:
 
   std::int64_t Solutions = 0;
   DistanceMethod Method = DistanceMethod::Linearized;
-  ImageGrid Box; // that of the first density
+  ImageGrid Box; // the box of the first density
   std::vector<Density> Given;
   std::vector<std::size_t> Waiting; // densities that have no map yet
   std::map<Name, std::shared_ptr<const ReferenceImages>> Maps;

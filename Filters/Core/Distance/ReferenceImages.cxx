@@ -16,6 +16,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Distances need no certificate, and samples no corrected masses.
 OptimalMapOptions optionsOfMaps()
 {
   OptimalMapOptions options;
@@ -29,6 +30,8 @@ OptimalMapOptions optionsOfMaps()
 template <int Dimension>
 GridSize<Dimension> referenceLattice(const Point<Dimension>& sides)
 {
+  // The side of a cube for each sample, (product of the sides / samples)^(1 / D); logarithms avoid
+  // overflow.
   double logarithm = -std::log(ReferenceSamples);
   for (const double side : sides)
   {
@@ -59,6 +62,7 @@ ReferenceImages mapReference(
   const auto samples = static_cast<std::int64_t>(numberOfCells<Dimension>(lattice));
   ReferenceImages images{ LargeBuffer<double>(samples * Dimension) };
   const PointSpan<Dimension> places(images.Coordinates.data(), samples);
+  // The optimal map from the uniform measure takes the same samples to each density.
   plan.Forward(FlowSeeds<Dimension>::Lattice(lattice), places, stages["images"]);
   for (std::int64_t i = 0; i < samples; ++i)
   {
@@ -80,7 +84,8 @@ double memoryForReference(const GridSize<Dimension>& cells, const Point<Dimensio
 template <int Dimension>
 double meanSquaredDistance(const ReferenceImages& a, const ReferenceImages& b)
 {
-  // A fixed number of partial sums, which the compiler may keep in any width of registers.
+  // A fixed number of partial sums, which a compiler may keep in registers of any width without
+  // changing bits.
   constexpr std::size_t lanes = 8;
   std::array<double, lanes> sums{};
   const double* p = a.Coordinates.data();

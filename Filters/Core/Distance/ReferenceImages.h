@@ -27,7 +27,7 @@ GridSize<Dimension> referenceLattice(const Point<Dimension>& sides);
 
 struct ReferenceImages
 {
-  LargeBuffer<double> Coordinates; // of the samples' images, interleaved, in lengths
+  LargeBuffer<double> Coordinates; // images of the samples, interleaved, in lengths
 };
 
 // The images of the samples under the optimal map to a density that fills a box of these sides.
@@ -36,7 +36,7 @@ template <int Dimension>
 ReferenceImages mapReference(const DensitySource<Dimension>& density, const Point<Dimension>& sides,
   const Context& context = Context());
 
-// The most bytes that mapReference takes, with what it returns.
+// Returns the most bytes that mapReference takes, including its result.
 template <int Dimension>
 double memoryForReference(const GridSize<Dimension>& cells, const Point<Dimension>& sides);
 

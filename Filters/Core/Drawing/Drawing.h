@@ -38,7 +38,7 @@ struct DrawingPage
   double StrokeWidth;   // of all strokes
 };
 
-// What is inside of polygons.
+// Which points are inside a set of polygons.
 enum class FillRule
 {
   Any, // of polygons that turn the same way
@@ -57,7 +57,7 @@ public:
 
   virtual void Begin(const DrawingPage& page) = 0;
   virtual void FillDisc(const PagePoint& centre, double radius, Colour colour) = 0;
-  // As one area: no seams show where polygons touch.
+  // Fills polygons as one area: no seams show where they touch.
   virtual void FillPolygons(
     const std::vector<PagePath>& polygons, FillRule rule, Colour colour) = 0;
   // A path with round ends and corners; a closed one returns to its first point.

@@ -17,7 +17,7 @@ class OutputFile;
 // Compresses in the format of zlib.
 using Compress = std::string(std::string_view data);
 
-// The file must outlive the drawing. SVG 1.1, and PDF 1.4 (ISO 32000-1).
+// Drawings in SVG 1.1 and PDF 1.4 (ISO 32000-1). The file must outlive the drawing.
 std::unique_ptr<Drawing> newSvgDrawing(OutputFile& file);
 std::unique_ptr<Drawing> newPdfDrawing(OutputFile& file, Compress* compress);
 

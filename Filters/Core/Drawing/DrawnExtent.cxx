@@ -11,6 +11,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Returns a point if it is finite; otherwise throws a Failure that names its index.
 Eigen::Vector3d finite(const double* point, std::int64_t number)
 {
   const Eigen::Map<const Eigen::Vector3d> place(point);
@@ -60,7 +61,7 @@ void DrawnExtent::SetRadiusOfDots(double radius)
 
 double DrawnExtent::RadiusWithoutNeighbours() const
 {
-  constexpr double share = 0.01; // of the longest side
+  constexpr double share = 0.01; // part of the longest side
   const double longest = this->Points.sizes().maxCoeff();
   return longest > 0.0 ? share * longest : 1.0;
 }

@@ -15,10 +15,10 @@ using DrawnBounds = Eigen::AlignedBox3d;
 
 struct DrawnExtent
 {
-  // The point of this number, of a line, of a polygon or of a dot with a radius. Throws
-  // Failure unless all is finite and the radius is not negative.
+  // Includes a point of a line, of a polygon or of a dot with a radius; `number` is its index.
+  // Throws Failure unless all values are finite and the radius is not negative.
   void Include(const double* point, std::int64_t number, double radius);
-  // The point of a dot that has the radius of all such dots. Throws the same.
+  // Includes the point of a dot that has the common radius of such dots. Throws the same.
   void IncludeDot(const double* point, std::int64_t number);
   // Gives the dots this radius.
   void SetRadiusOfDots(double radius);
@@ -27,9 +27,9 @@ struct DrawnExtent
   double RadiusWithoutNeighbours() const;
 
   DrawnBounds Points;
-  DrawnBounds Dots;              // without a radius of their own
-  DrawnBounds Rest;              // with the others' radii
-  std::int64_t NumberOfDots = 0; // of Dots
+  DrawnBounds Dots;              // dots without a radius of their own
+  DrawnBounds Rest;              // other shapes, with their radii
+  std::int64_t NumberOfDots = 0; // number of points in Dots
   bool HasStrokes = false;
 };
 

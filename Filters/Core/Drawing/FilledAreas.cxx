@@ -9,11 +9,14 @@ namespace RectifiedTransport
 
 void FilledAreas::Add(const PagePath& polygon, Colour colour)
 {
-  constexpr std::size_t mostPolygons = 50000; // so that programs need not take long to read an area
+  // polygons of an area; programs read larger ones slowly
+  constexpr std::size_t mostPolygons = 50000;
   if (!(colour == this->ColourOfAll) || this->Polygons.size() == mostPolygons)
   {
     this->Draw();
   }
+  // All polygons get the same orientation: with the nonzero winding rule, overlaps then stay
+  // filled.
   double twice = 0.0; // the area
   for (std::size_t i = 0; i < polygon.size(); ++i)
   {
@@ -27,6 +30,7 @@ void FilledAreas::Add(const PagePath& polygon, Colour colour)
     std::reverse(this->Polygons.back().begin() + 1, this->Polygons.back().end());
   }
   this->ColourOfAll = colour;
+  // Transparent polygons are drawn one by one, since each overlap counts.
   if (colour.Opacity < 255)
   {
     this->Draw();

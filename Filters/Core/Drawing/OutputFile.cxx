@@ -18,8 +18,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// Within it, a pipe without a reader and a file that may not grow do not end the program: writing
-// fails.
+// Blocks SIGPIPE and SIGXFSZ while it exists. Writing to a pipe without a reader, or to a file that
+// may not grow, then fails instead of ending the program.
 class WriteSignals
 {
 public:
@@ -34,7 +34,7 @@ public:
   WriteSignals(const WriteSignals&) = delete;
   WriteSignals& operator=(const WriteSignals&) = delete;
 
-  // Call it after a failure.
+  // Removes a pending signal. Call it after a failure.
   void Drop() const
   {
     sigset_t pending;
@@ -76,8 +76,10 @@ OutputFile::~OutputFile()
 
 void OutputFile::OpenPart()
 {
-  constexpr int most = 1000; // that killed programs have left, or that others write just now
+  // hidden files that killed programs left, or that others write at present
+  constexpr int most = 1000;
   const bool isNew = !this->Target.Existing.IsOpen();
+  // O_EXCL never opens a file of another program, and O_NOFOLLOW no link that someone put there.
   for (int i = 0; i < most && !this->File.IsOpen() && (i == 0 || errno == EEXIST); ++i)
   {
     const std::string part =
@@ -119,7 +121,7 @@ void OutputFile::Write(std::string_view bytes)
   }
 }
 
-// Where a pipe is full.
+// Waits until a full pipe can be written, at most two minutes.
 void OutputFile::WaitForReader() const
 {
   constexpr int longest = 120000; // milliseconds
@@ -137,6 +139,8 @@ void OutputFile::Close()
   this->Target.Require(this->File.Close());
   const int folder = this->Target.Folder.Get();
   this->Target.Require(this->Part.empty() ||
+    // rename() replaces an earlier file atomically: readers see the old or the new file, never a
+    // part.
     renameat(folder, this->Part.c_str(), folder, this->Target.File.c_str()) == 0);
   this->Part.clear();
 }

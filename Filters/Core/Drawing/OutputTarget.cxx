@@ -27,7 +27,8 @@ constexpr int folderAccess = O_PATH; // does not need the right to list it
 constexpr int folderAccess = O_RDONLY;
 #endif
 
-// The number of an open descriptor of this process, as which a path names a file; -1: it does not.
+// Returns the number of an open descriptor of this process if a path names its file in that way,
+// otherwise -1.
 int ownDescriptor(const std::string& path)
 {
   for (const std::string folder : { "/dev/fd/", "/proc/self/fd/" })
@@ -43,7 +44,8 @@ int ownDescriptor(const std::string& path)
   return -1;
 }
 
-// The folders before the name may be links, too, which the system follows.
+// Follows links at the end of a path. Folders before the name may be links, too; the system follows
+// these.
 std::filesystem::path followLinks(const OutputTarget& target)
 {
   constexpr int most = 40; // as in Linux
@@ -63,10 +65,12 @@ std::filesystem::path followLinks(const OutputTarget& target)
   return path;
 }
 
-// By the given name: the system may not follow links that others have made in shared folders.
+// Opens by the given name: in shared folders, the system may not follow links that others have
+// made.
 void openExisting(OutputTarget& target)
 {
   const std::string& name = target.Name;
+  // Without O_TRUNC and with O_NONBLOCK, opening changes no file and waits for no reader.
   FileDescriptor file(open(name.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   if (!file.IsOpen())
   {
@@ -94,6 +98,8 @@ void openExisting(OutputTarget& target)
   (S_ISREG(status.st_mode) ? target.Existing : target.Direct) = std::move(file);
 }
 
+// Opens the folder, so that later steps refer to it even if its path changes, and checks that the
+// file found there is the one that was opened.
 void openFolder(OutputTarget& target, const std::filesystem::path& path)
 {
   const std::filesystem::path folder = path.parent_path();
@@ -160,14 +166,14 @@ void copyAccess(const FileDescriptor& earlier, const FileDescriptor& file)
   };
   if (fstat(earlier.Get(), &status) != 0)
   {
-    return; // the file stays its owner's alone
+    return; // then only the owner has access
   }
   constexpr mode_t ofGroup = 070;
   mode_t mode = status.st_mode & 0777;
   if (fchown(file.Get(), status.st_uid, status.st_gid) != 0 &&
     fchown(file.Get(), static_cast<uid_t>(-1), status.st_gid) != 0)
   {
-    mode &= ~ofGroup | (mode << 3); // another group may do what all may
+    mode &= ~ofGroup | (mode << 3); // another group may do what everyone may
   }
 #ifdef __linux__
   constexpr const char* list = "system.posix_acl_access";

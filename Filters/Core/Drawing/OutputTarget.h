@@ -51,9 +51,9 @@ struct OutputTarget
   void Require(bool isDone) const;
 };
 
-// Follows symbolic links, if the system would. A descriptor of this process, such as /dev/stdout,
-// is written on. Throws Failure for folders, block devices, sockets, pipes that no
-// program reads, files that may not be written and folders that do not exist.
+// Follows symbolic links, if the system would. Writes to a descriptor of this process, such as
+// /dev/stdout, directly. Throws Failure for folders, block devices, sockets, pipes that no program
+// reads, files that may not be written and folders that do not exist.
 OutputTarget findOutputTarget(const std::string& name);
 
 // Gives a new file the owner, the group, the access list and the mode of an earlier one, or less

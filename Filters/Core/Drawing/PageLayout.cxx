@@ -12,7 +12,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Leaves out the shortest axis, the last one if several are as short.
+// Leaves out the shortest axis, or the last one of those that are equally short.
 std::array<Eigen::Index, 2> longestAxes(const DrawnBounds& bounds)
 {
   Eigen::Index last = 0;
@@ -28,14 +28,15 @@ PageLayout::PageLayout(const std::array<Eigen::Index, 2>& axes, const DrawnBound
   , Origin{ bounds.min()[axes[0]], bounds.min()[axes[1]] }
   , Margins{ margin, margin }
 {
-  constexpr double rounding = 1e-9;       // of lengths
-  constexpr double shortestHeight = 1e-3; // of a page whose polygons have no area
+  constexpr double rounding = 1e-9;       // relative to the lengths
+  constexpr double shortestHeight = 1e-3; // for a page whose polygons have no area
   const double width = bounds.sizes()[axes[0]];
   const double height = bounds.sizes()[axes[1]];
   if (!std::isfinite(width) || !std::isfinite(height))
   {
     fail("The input has a length past the largest double; its coordinates must be smaller");
   }
+  // Data on a vertical line determine the scale by their height.
   const bool isVertical = width <= rounding * height;
   const double length = isVertical ? height : width;
   this->Unit = length > 0.0 ? (pageWidth - 2.0 * margin) / length : 1.0;

@@ -11,8 +11,8 @@
 namespace RectifiedTransport
 {
 
-// The first axis points to the right, the second up. The bounds fill the width but for the margin
-// on all four sides. If all of them lie on one vertical line, its length does instead.
+// The first axis points to the right, the second one up. The bounds fill the width, except for the
+// margin on all four sides. If they are a vertical line, its length fills the width instead.
 class PageLayout
 {
 public:
@@ -43,14 +43,14 @@ struct PageSettings
 {
   double Width;
   double Margin;                // on all four sides
-  std::array<double, 6> Bounds; // of the data on the page; all 0: of what is drawn
+  std::array<double, 6> Bounds; // bounds of the data on the page; all 0: bounds of the drawn shapes
   double LineWidth;
 
   bool HasBounds() const { return this->Bounds != std::array<double, 6>{}; }
   // Throws Failure unless they are ascending along at least two axes.
   void CheckBounds() const;
-  // A page in a format whose sides are not longer than this. Throws Failure for margins
-  // past the width, bounds that are too small for what is drawn and pages that are too long.
+  // Returns a page in a format whose sides are at most `longestSide`. Throws Failure for margins
+  // beyond the width, bounds that are too small for the drawn shapes, and pages that are too long.
   PageLayout Layout(const DrawnExtent& extent, double longestSide) const;
 
 private:

@@ -15,9 +15,11 @@ namespace
 {
 
 constexpr double PointsPerMillimetre = 72.0 / 25.4;
+// Streams of this size, one MiB, compress well and need little memory.
 constexpr std::size_t ContentSize = std::size_t{ 1 } << 20;
 
-// Four Bezier curves.
+// The unit disc as four cubic Bezier curves; with control points at 0.55228 their radius is exact
+// to 3e-4.
 constexpr const char* unitDisc = "1 0 m\n"
                                  "1 0.55228 0.55228 1 0 1 c\n"
                                  "-0.55228 1 -1 0.55228 -1 0 c\n"
@@ -36,7 +38,7 @@ std::string opacityName(std::size_t opacity)
 }
 
 // VTK's libharu has neither compression nor shapes that are drawn many times, and keeps the page in
-// memory: 260 bytes a disc instead of about 7.
+// memory: a disc takes 260 bytes instead of about 7.
 class PdfDrawing final : public Drawing
 {
 public:
@@ -138,7 +140,7 @@ private:
     this->File.Write("\nendobj\n");
   }
 
-  // `entries` of the stream's dictionary.
+  // Writes a compressed stream; `entries` are those of its dictionary.
   void WriteStream(std::size_t number, const std::string& entries, std::string_view data)
   {
     const std::string packed = this->Pack(data);
@@ -147,6 +149,8 @@ private:
         " >>\nstream\n" + packed + "\nendstream");
   }
 
+  // Writes the cross-reference table, with the offset of each object, and the trailer (ISO 32000-1,
+  // 7.5.4).
   void WriteTable(std::size_t root)
   {
     const std::int64_t table = this->File.Size();
@@ -163,6 +167,7 @@ private:
     this->File.Write(text);
   }
 
+  // Writes the opacity and the colour only where they change.
   void UseColour(Colour colour, bool ofStrokes)
   {
     if (colour.Opacity != this->Opacity)
@@ -181,7 +186,7 @@ private:
     const double red = colour.Red / 255.0;
     const double green = colour.Green / 255.0;
     const double blue = colour.Blue / 255.0;
-    if (red == green && green == blue) // printed with black ink alone
+    if (red == green && green == blue) // prints with black ink alone
     {
       appendAll(this->Text, red, ofStrokes ? " G\n" : " g\n");
     }
@@ -201,7 +206,7 @@ private:
     }
   }
 
-  // Writes the content so far if it is long enough to be compressed well.
+  // Writes the content so far, if it is long enough to compress well.
   void Flush()
   {
     if (this->Text.size() >= ContentSize)
@@ -219,15 +224,15 @@ private:
 
   OutputFile& File;
   Compress* const Pack;
-  std::vector<std::int64_t> Offsets; // of the objects in the file
+  std::vector<std::int64_t> Offsets; // offset of each object in the file
   std::vector<std::size_t> Contents; // the page's streams
-  std::string Text;                  // of the next one
+  std::string Text;                  // content of the next stream
   PagePoint Size{};
   // The graphics state of the content so far.
   Colour FillColour;
   Colour StrokeColour;
   std::uint8_t Opacity = 255;
-  std::bitset<256> Opacities; // that are used
+  std::bitset<256> Opacities; // opacities that are used
   std::size_t Disc = 0;       // the object of the unit disc
 };
 

@@ -12,6 +12,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// The text is written in pieces of this size, so that memory stays small for millions of shapes.
 constexpr std::size_t BufferSize = std::size_t{ 1 } << 16;
 
 class SvgDrawing final : public Drawing
@@ -22,6 +23,7 @@ public:
   {
   }
 
+  // Millimetres; all readers take numbers of this size.
   double LongestSide() const override { return 1e6; }
 
   void Begin(const DrawingPage& page) override
@@ -35,6 +37,8 @@ public:
       size[0], "mm\" height=\"", size[1], "mm\" viewBox=\"0 0 ", size[0], ' ', size[1], "\">\n");
     const double margin = page.ClippedMargin;
     this->IsClipped = margin > 0.0;
+    // The page has its origin at the lower left; SVG has it at the upper left, so that y becomes
+    // height - y.
     if (this->IsClipped)
     {
       appendAll(this->Text, "<clipPath id=\"inside\"><rect x=\"", margin, "\" y=\"", margin,
@@ -54,6 +58,8 @@ public:
   void FillPolygons(const std::vector<PagePath>& polygons, FillRule rule, Colour colour) override
   {
     this->EnterGroup(Group::Fills);
+    // One polygon element is shorter than a path; several polygons with a common fill rule need one
+    // path.
     if (polygons.size() == 1)
     {
       this->Text += "<polygon points=\"";
@@ -97,6 +103,7 @@ private:
     Strokes
   };
 
+  // Shapes of a kind share a group with their common attributes, which keeps files small.
   void EnterGroup(Group group)
   {
     if (group == this->Open)
@@ -121,7 +128,7 @@ private:
     this->Open = group;
   }
 
-  // With what differs from the group's opaque black.
+  // Ends a shape with the attributes that differ from the group's opaque black.
   void EndShape(const char* paint, Colour colour)
   {
     if (colour.Red + colour.Green + colour.Blue > 0)

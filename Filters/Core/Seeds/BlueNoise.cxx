@@ -15,7 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// The points from number `first` on, of `count`.
+// Writes the points from number `first` on, out of `count`, and relaxes those at the border in 2D.
 template <int Dimension>
 void cutWindow(const Point<Dimension>& lengths, std::int64_t count, std::uint64_t randomSeed,
   std::int64_t first, PointSpan<Dimension> unitPoints, Progress& progress)
@@ -32,7 +32,7 @@ void cutWindow(const Point<Dimension>& lengths, std::int64_t count, std::uint64_
   };
   if constexpr (Dimension == 2)
   {
-    std::vector<BorderSeed> border; // of all, as their cells depend on one another
+    std::vector<BorderSeed> border; // all seeds at the border, as their cells depend on one another
     const BorderBand band(lengths, count);
     window.Emit([&](const Point<2>& point) {
       if (band.Holds(point.data()))
@@ -54,6 +54,7 @@ void generateJitteredLine(std::int64_t count, std::uint64_t randomSeed, std::int
 {
   const double n = static_cast<double>(count);
   for (std::int64_t i = first; i < first + unitPoints.size(); ++i)
+  // One point in each of `count` equal intervals, within its middle half.
   {
     const double jitter = unitReal(randomWord(randomSeed, static_cast<std::uint64_t>(i)));
     *unitPoints[i - first] = (static_cast<double>(i) + 0.25 + 0.5 * jitter) / n;
@@ -61,9 +62,9 @@ void generateJitteredLine(std::int64_t count, std::uint64_t randomSeed, std::int
   }
 }
 
-// The pattern of the other axes, with an additive recurrence along a thin one. Its step is the
-// golden ratio in 2D and the square root of 2 in 3D: different ones, as both apply where two axes
-// are thin.
+// Makes the pattern of the other axes and an additive recurrence along a thin one. Its step is the
+// golden ratio in 2D and the square root of 2 in 3D. They differ because both apply if two axes are
+// thin.
 template <int Dimension>
 void generateFlat(const Point<Dimension>& lengths, int thin, std::int64_t count,
   std::uint64_t randomSeed, std::int64_t first, PointSpan<Dimension> unitPoints, Progress& progress)
@@ -73,7 +74,7 @@ void generateFlat(const Point<Dimension>& lengths, int thin, std::int64_t count,
   {
     rest[a] = lengths[a < thin ? a : a + 1];
   }
-  // In the first part of the memory, which is overwritten from its end on.
+  // The pattern is made in the first part of the memory, which is then overwritten from its end on.
   const PointSpan<Dimension - 1> across(unitPoints.data(), unitPoints.size());
   generateBlueNoise<Dimension - 1>(rest, count, randomSeed, first, across, progress);
   constexpr std::uint64_t step = Dimension == 2 ? 0x9E3779B97F4A7C15u : 0x6A09E667F3BCC909u;
@@ -107,8 +108,9 @@ void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
   }
   else
   {
-    // The least thickness of the box for the full pattern, in mean spacings, to the power of the
-    // dimension: there the pattern of one dimension less has the same smallest spacing.
+    // The least thickness of the box for the full pattern, in mean spacings to the power of the
+    // dimension. At this thickness, the pattern of one dimension less has the same smallest
+    // spacing.
     constexpr double thinnest = Dimension == 2 ? 0.4 : 1.0;
     const int thin =
       static_cast<int>(std::min_element(lengths.begin(), lengths.end()) - lengths.begin());

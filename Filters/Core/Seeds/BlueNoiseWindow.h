@@ -52,7 +52,7 @@ inline WindowMatrix<3> windowAxes<3>()
     .finished();
 }
 
-// One of the symmetries of the square or the cube: permutes and flips the columns.
+// Applies one of the symmetries of the square or the cube: permutes and flips the columns.
 template <int Dimension>
 WindowMatrix<Dimension> withWindowSymmetry(WindowMatrix<Dimension> axes, std::uint64_t choice)
 {
@@ -129,7 +129,7 @@ public:
     }
   }
 
-  // Calls visit(point) for each, in their order.
+  // Calls visit(point) for each point, in their order.
   template <class VisitPoint>
   void Emit(const VisitPoint& visit) const
   {
@@ -167,6 +167,8 @@ public:
 private:
   using Cell = std::array<std::int64_t, Dimension>;
 
+  // Projects the tile's points to the window's axes, and counts the points of its bins: the first
+  // TileLevel bits of the coordinates, interleaved, are the bin in Morton order.
   void PrepareTile()
   {
     this->Tile.resize(NumberOfPoints * Dimension);
@@ -199,7 +201,7 @@ private:
     }
   }
 
-  // Written out: Eigen's product may add in another order, which changes bits.
+  // Written out, because Eigen's product may add in another order, which would change bits.
   double Project(int a, const Point<Dimension>& vector) const
   {
     double sum = 0.0;
@@ -210,7 +212,7 @@ private:
     return sum;
   }
 
-  // The cube of tiles, a power of two on a side, that contains the window of size `outer`.
+  // Finds the cube of tiles, a power of two on a side, that contains the window of size `outer`.
   void PlaceRoot(double outer)
   {
     double extent = 0.0;
@@ -222,6 +224,7 @@ private:
       {
         const double step = this->Axes(a, b) * this->Sides[a] * outer;
         lowest += std::min(step, 0.0);
+        // The inner window must hold fewer than Count points, and the outer one more.
         highest += std::max(step, 0.0);
       }
       this->Root[b] = static_cast<std::int64_t>(std::floor(lowest)) * (1 << TileLevel);
@@ -272,8 +275,8 @@ private:
     std::nth_element(band.begin(), last, band.end());
     this->LastSize = *last;
     this->Ties = missing - std::count_if(band.begin(), last, [&](double s) { return s < *last; });
-    // The middle between the last point inside and the first outside, so that points have similar
-    // distances from the upper and the lower faces.
+    // The window ends in the middle between the last point inside and the first one outside, so
+    // that points have similar distances to the upper and the lower faces.
     const double next = *std::min_element(last + 1, band.end());
     this->Size = *last + 0.5 * (next - *last);
     return true;
@@ -313,6 +316,8 @@ private:
     {
       offset[b] = static_cast<double>(cell[b]) * binSide - this->Corner[b];
     }
+    // The bounds of the cell along each axis of the window: those of a corner plus the extent of a
+    // tile.
     bool inside = true;
     for (int a = 0; a < Dimension; ++a)
     {
@@ -372,8 +377,8 @@ private:
   std::int64_t Count;
   WindowMatrix<Dimension> Axes;
   WindowMatrix<Dimension> ToWindow;
-  Point<Dimension> Sides;  // of the window of size 1, in tiles
-  Point<Dimension> Corner; // in the tile at the origin
+  Point<Dimension> Sides;  // sides of the window of size 1, in tiles
+  Point<Dimension> Corner; // corner of the window, in the tile at the origin
   Point<Dimension> Below;  // extent along v of a tile from its corner, <= 0
   Point<Dimension> Above;  // the same, >= 0
   Point<Dimension> Slack;
@@ -383,7 +388,7 @@ private:
   int RootLevel;
   double LastSize = 0.0; // the smallest size that contains the last point
   std::int64_t Ties = 0; // points of exactly that size to take
-  double Size = 0.0;     // of the window that becomes the unit box
+  double Size = 0.0;     // size of the window that becomes the unit box
 };
 
 } // namespace RectifiedTransport

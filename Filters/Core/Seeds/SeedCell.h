@@ -23,9 +23,10 @@ public:
     this->FindRadius();
   }
 
-  // Cuts away what is nearer to another seed, which must not be at the origin.
+  // Cuts away the half-plane that is nearer to another seed, which must not be at the origin.
   void Cut(const Point<2>& other)
   {
+    // The bisector is at half the distance: other . x = |other|^2 / 2.
     const double square = other[0] * other[0] + other[1] * other[1];
     if (square >= this->SquaredReach())
     {
@@ -44,11 +45,13 @@ public:
     }
   }
 
-  // No farther seed can cut the cell: twice the radius, squared.
+  // A farther seed cannot cut the cell: twice the radius, squared.
   double SquaredReach() const { return 4.0 * this->SquaredRadius; }
 
   Point<2> Centroid() const
   {
+    // The centroid as an integral over triangles from the seed: sum of cross (a + b) / (3 sum of
+    // cross), where cross is twice a triangle's area.
     double area = 0.0;
     Point<2> moment{};
     for (std::size_t k = 0; k < this->Corners.size(); ++k)
@@ -69,6 +72,7 @@ private:
     return corner + 1 < this->Corners.size() ? corner + 1 : 0;
   }
 
+  // Clips by the half-plane (Sutherland and Hodgman).
   void KeepInside()
   {
     this->Kept.clear();
@@ -103,7 +107,7 @@ private:
 
   std::vector<Point<2>> Corners; // counter-clockwise
   std::vector<Point<2>> Kept;
-  std::vector<double> Excess; // of each corner beyond the bisector
+  std::vector<double> Excess; // excess of each corner beyond the bisector
   double SquaredRadius = 0.0;
 };
 

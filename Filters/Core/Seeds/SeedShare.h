@@ -15,10 +15,10 @@
 namespace RectifiedTransport
 {
 
-// The seeds of a rank among those of all.
+// The seeds of a rank among the seeds of all ranks.
 struct SeedShare
 {
-  // Divides a pattern of so many seeds, which may be more than any integer.
+  // Divides a pattern of `pattern` seeds, which may exceed every integer.
   SeedShare(double pattern, int ranks, int rank)
     : All(static_cast<std::int64_t>(std::min(pattern, most)))
   {
@@ -26,7 +26,7 @@ struct SeedShare
     this->First = share.First;
     this->Count = pattern > most ? pattern / ranks : static_cast<double>(share.Count);
   }
-  // Counts seeds that each rank has. Collective.
+  // Counts the seeds that each rank has. Collective.
   SeedShare(std::int64_t own, const Ranks& ranks)
     : Count(static_cast<double>(own))
   {
@@ -43,7 +43,7 @@ struct SeedShare
   std::int64_t All = 0;
 
 private:
-  static constexpr double most = 9e18; // as an integer
+  static constexpr double most = 9e18; // the largest number of seeds that an integer counts
 };
 
 // Writes the seeds of a pattern from number `first` on, in the index space of a grid. Throws

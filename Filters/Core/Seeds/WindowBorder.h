@@ -42,11 +42,11 @@ struct BorderSeed
 // come nearer to each other than 0.86 of the spacing of the hexagonal lattice, or than they were if
 // that is less. Seeds are moved one after the other on the calling thread.
 //
-// `border` has all seeds of the band, by their numbers; unitPoints are the seeds from number `first`
-// on, out of `count`. There is at least one seed, and no two coincide. Seeds that move should have
-// their neighbours within two mean spacings, as in any even pattern: seeds farther inside are
-// ignored. Takes O(sqrt(count)) memory and time; O(count) in strips, where all are at the border.
-// Adds the number of seeds and of moved seeds to the progress. Throws Cancelled.
+// `border` has all seeds of the band, by their numbers; unitPoints are the seeds from number
+// `first` on, out of `count`. There is at least one seed, and no two coincide. Seeds that move
+// should have their neighbours within two mean spacings, as in any even pattern: seeds farther
+// inside are ignored. Takes O(sqrt(count)) memory and time; O(count) in strips, where all are at
+// the border. Adds the number of seeds and of moved seeds to the progress. Throws Cancelled.
 void relaxBorder(const Point<2>& lengths, std::int64_t count, const std::vector<BorderSeed>& border,
   std::int64_t first, PointSpan<2> unitPoints, Progress& progress);
 

@@ -10,13 +10,13 @@ namespace RectifiedTransport
 
 class Progress;
 
-// As splatMass, for the particles of all ranks of the progress, in the order of the ranks and then
-// of their particles. Each rank gets the cells of its part `wanted`; parts may be empty and may
-// overlap. `keys`, one for each particle, may be null: if all ranks that have particles give keys,
-// the terms of a cell are added in the order of the keys (equal keys: by rank, then by index).
-// Returns how many particles of all ranks are outside. Memory: about 100 bytes for each particle
-// that a rank sends, and as much for each that reaches its part. Collective. Throws std::bad_alloc
-// and Cancelled.
+// The same as splatMass for the particles of all ranks of the progress, in the order of the ranks
+// and then of their particles. Each rank gets the cells of its part `wanted`; parts may be empty
+// and may overlap. `keys`, one for each particle, may be nullptr. If all ranks that have particles
+// give keys, the terms of a cell are added in the order of the keys (equal keys: by rank, then by
+// index). Returns how many particles of all ranks are outside. Memory: about 100 bytes for each
+// particle that a rank sends, and as much for each that reaches its part. Collective. Throws
+// std::bad_alloc and Cancelled.
 template <int Dimension, class Real>
 std::int64_t splatOnRanks(const SplatParticles<Dimension, Real>& particles,
   const std::int64_t* keys, const GridSize<Dimension>& size, const LatticePart<Dimension>& wanted,

@@ -193,8 +193,8 @@ public:
   double FindSize(const TableView<Dimension>& tables, double all, Bracket bracket) const
   {
     auto& [below, excessBelow, above, excessAbove] = bracket;
-    // The relative precision of h. It is far above the rounding of the sums, so that the function
-    // is monotonous at this scale; 200 steps end the search for any other.
+    // The relative precision of h, far above the rounding of the sums, so that the function is
+    // monotonous at this scale. The number of steps is bounded in any case.
     constexpr double precision = 1e-9;
     for (int step = 0; above - below > precision * above && step < 200; ++step)
     {

@@ -12,9 +12,8 @@ namespace
 // share one set. `rowStride` is the stride of the previous axis, 0 for the first.
 std::int64_t spreadStride(std::int64_t lines, std::int64_t rowStride)
 {
-  // First-level caches have 64 sets of 64-byte lines. Up to 10 neighbouring rows stay 3 sets apart,
-  // and in 3D the 3 x 7 rows around a plane stay 2 sets apart, because an interpolation reads two
-  // adjacent records.
+  // First-level caches have 64 sets of 64-byte lines. Up to 10 neighbouring rows stay 3 sets apart;
+  // in 3D, rows and planes within 3 of each other stay 2 sets apart.
   constexpr std::int64_t sets = 64;
   constexpr int reach = 10;
   constexpr std::int64_t apart = 3;

@@ -101,7 +101,7 @@ public:
   void Pass(double* end) { this->Next = end; }
 
 private:
-  // The size of huge pages on x86-64, 2 MiB. With small pages one touch of many is simply wasted.
+  // The size of huge pages on x86-64, 2 MiB.
   static constexpr std::int64_t pageBytes = std::int64_t{ 1 } << 21;
   static constexpr auto doubleBytes = static_cast<std::int64_t>(sizeof(double));
 

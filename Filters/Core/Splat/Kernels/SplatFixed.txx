@@ -9,7 +9,7 @@ RT_INLINE FourCells truncated(const Four& x)
   return __builtin_convertvector(x, FourCells);
 }
 
-// One less, with wrap-around: cells of particles far outside are any number.
+// Subtracts one with wrap-around: the cell of a particle far outside may be any number.
 RT_INLINE FourCells before(const FourCells& cells)
 {
   return (FourCells)((FourOf<std::uint32_t>::Type)cells - 1);
@@ -43,7 +43,7 @@ struct CloudInCellWeights
   }
 };
 
-// Order 0: all in the particle's own cell.
+// Order 0: the whole mass goes to the particle's own cell.
 struct NearestCellWeights
 {
   static constexpr int Width = 1;
@@ -135,7 +135,7 @@ RT_INLINE bool weighBlock(
   return (inside[0] & inside[1] & inside[2] & inside[3]) != 0;
 }
 
-// The box of the cells that the particles of a block reach, if none is near the border.
+// Returns the box of the cells that the particles of a block reach, if none is near the border.
 template <int Dimension, class Weights>
 RT_INLINE CellBox<Dimension> boxOf(const WeighedBlock<Weights>& weighed)
 {
@@ -282,8 +282,8 @@ RT_INLINE Covered coveredBy(const CellBox<Dimension>& reached, const CellBox<Dim
   return covered;
 }
 
-// The splat of a range of particles, block by block. Most blocks lie inside of the grid and of the
-// box: these need no test of each particle.
+// Splats a range of particles, block by block. Most blocks lie inside the grid and the box, and
+// need no test of single particles.
 template <int Dimension, class Weights, class Real>
 class FixedSplat
 {
@@ -337,8 +337,8 @@ public:
     return outside;
   }
 
-  // See BoxOfParticles. Cells are monotonic in the coordinate: those of the bounds, widened by the
-  // rounding of the map, bound those of all particles.
+  // See BoxOfParticles. The cell is monotonic in the coordinate, so the cells of the bounds,
+  // widened by the rounding of the map, bound those of all particles.
   static CellBox<Dimension> Reach(
     const SplatJob<Dimension, Real>& job, std::int64_t first, std::int64_t count)
   {
@@ -389,7 +389,7 @@ private:
     return 0;
   }
 
-  // The weights of particles that are in index space already.
+  // Weighs particles that are already in index space; returns how many are outside.
   int WeighPlaced()
   {
     this->IsInside = weighBlock<true, false>(this->JobAxes, this->Particles.X, this->Weighed);

@@ -31,7 +31,7 @@ RT_INLINE std::int32_t ceiling(double x)
   return truncated + (truncated < x ? 1 : 0);
 }
 
-// The grid cell of a coordinate and the first one that the Gaussian reaches.
+// The grid cell of a coordinate, and the first cell that the Gaussian reaches.
 struct GaussianPlace
 {
   RT_INLINE GaussianPlace(double x, std::int32_t size, double cut)
@@ -47,7 +47,7 @@ struct GaussianPlace
   std::int32_t First;
 };
 
-// The weights of one axis.
+// Computes the weights along one axis.
 template <int Dimension, class Real>
 RT_INLINE void weighGaussian(const SplatJob<Dimension, Real>& job, int a, double x, double* weight)
 {
@@ -114,7 +114,8 @@ RT_INLINE void findGaussian(
   }
 }
 
-// Adds particle i to the cells of a box. Of a particle that reaches none no weight is computed.
+// Adds particle i to the cells of a box. No weights are computed for a particle that reaches
+// none of them.
 template <int Dimension, class Real>
 RT_INLINE void addGaussian(const SplatJob<Dimension, Real>& job, const Block& block,
   const std::int32_t* first, int i, const CellBox<Dimension>& box, double* scratch)
@@ -210,6 +211,9 @@ struct GaussianSplat
     return outside;
   }
 
+  // Bounds the cells of the particles, see BoxOfParticles. `below` is at least the distance from a
+  // particle's own cell to the first cell that the Gaussian reaches; 3 cells less are at most that
+  // distance.
   static CellBox<Dimension> Reach(
     const SplatJob<Dimension, Real>& job, std::int64_t first, std::int64_t count)
   {

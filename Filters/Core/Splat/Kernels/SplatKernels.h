@@ -26,7 +26,7 @@ struct CellBox
 template <int Dimension>
 struct CellMemory
 {
-  double* Cells; // of the box alone, axis 0 fastest
+  double* Cells; // values of the box's cells, axis 0 fastest
   std::int64_t Stride[Dimension];
   std::int64_t Start; // the sum of stride times cell of the box's first cell
 };
@@ -50,10 +50,10 @@ struct SplatJob
   const double* AtOffset;
 };
 
-// Adds particles [first, first + count), or with an index particles first + index[0], ..., first +
-// index[count - 1], in this order, to the cells of a box (null: all of the grid). `scratch` is of
-// Width doubles an axis; only the Gaussian needs it. Returns how many are outside, of those whose
-// first cell is in the box along the last axis.
+// Adds particles [first, first + count) or, with an index, particles first + index[0], ..., first +
+// index[count - 1], in this order, to the cells of a box (nullptr: the whole grid). `scratch` has
+// Width doubles for each axis; only the Gaussian needs it. Returns how many particles are outside,
+// among those whose first cell along the last axis is in the box.
 template <int Dimension, class Real>
 using AddParticles = std::int64_t (*)(const SplatJob<Dimension, Real>& job, std::int64_t first,
   const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* box, double* scratch);
@@ -85,7 +85,7 @@ SplatKernels<Dimension, Real> splatKernelsSSE2(SplatKernel kernel);
 template <int Dimension, class Real>
 SplatKernels<Dimension, Real> splatKernelsAVX2(SplatKernel kernel);
 
-// All compute the same bits. AVX512 uses those of AVX2.
+// The sets compute the same bits. AVX512 uses that of AVX2.
 template <int Dimension, class Real>
 SplatKernels<Dimension, Real> splatKernels(
   SplatKernel kernel, InstructionSet set = instructionSet());
