@@ -24,6 +24,8 @@ namespace RectifiedTransport
 namespace
 {
 
+// Points or samples in a chunk. Chunks are fixed, so that sums are the same for any number of
+// threads.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 
 // Makes the plan between the uniform measure and a density.
@@ -78,6 +80,8 @@ std::vector<Point<3>> inSpace(ConstPointSpan<D> points)
 template <int D, class Measure>
 void measure(std::size_t sites, EqualMassDivision<D>& division, const Measure& write)
 {
+  // One mass, centroid and cost for each site; centroids come as points in space and lose their
+  // zeros.
   division.Masses.resize(sites);
   division.Costs.resize(sites);
   std::vector<Point<3>> centroids(sites);
@@ -96,11 +100,13 @@ void divideByFlow(const std::vector<Point<3>>& sites, const BoxDensity<D>& densi
   const CellOptions<D>& options, Progress& progress, EqualMassDivision<D>& division)
 {
   Stages stages(progress, { { "tables", 4 }, { "labels", 90 }, { "statistics", 6 } });
+  // Pixels may be finer or coarser than the density's cells: their masses are integrals of it.
   const ImageGrid pixels = gridOf<D>(division.Pixels, density.Sides());
   const RectifiedFlow<D> flow(density.Source(), stages["tables"]);
   const DensitySiteCells<D> divided(
     sites, pixels, density.Source(), flow.Total(), stages["labels"]);
   divided.Label(flow, division.Labels.data(), options.Flow, stages["labels"]);
+  // The flow's total is the sum of values; times the measure of a cell it is a mass.
   const double mass = flow.Total() * cellMeasure(density);
   measure<D>(sites.size(), division, [&](const SiteCellStatistics& statistics) {
     return measureSiteCells<D>(
@@ -115,6 +121,7 @@ void divideByPower(const std::vector<Point<3>>& sites, const BoxDensity<2>& dens
 {
   Stages stages(progress, { { "density", 2 }, { "cells", 90 }, { "labels", 8 } });
   const std::int64_t cells = density.Cells()[0] * density.Cells()[1];
+  // Power diagrams need no flow: the sum of values is taken here.
   const double total = summarize(*density.Source().Whole(), cells, stages["density"]).Total;
   const PowerSiteCells power(sites, gridOf<2>(division.Pixels, density.Sides()), density.Source(),
     total * cellMeasure(density), stages["cells"]);
@@ -164,7 +171,9 @@ std::vector<Point<Dimension>> sample(const BoxDensity<Dimension>& density, std::
   std::copy(density.Cells().begin(), density.Cells().end(), cells.begin());
   scalePoints<Dimension>(cells, points, stages["seeds"]);
   MethodOptions method = options.Map;
+  // The flow may choose its tables by the number of particles.
   method.Flow.Particles = pattern.Count();
+  // Samples are the images T(x_i) of seeds x_i that sample the uniform measure.
   const auto plan = makePlan(density, method, stages["map"]);
   plan.Forward(FlowSeeds<Dimension>(points).AsSamples(), points, stages["points"]);
   scalePoints<Dimension>(cellSides(density), points, stages["points"]);
@@ -181,6 +190,7 @@ SampledMap<Dimension> map(const BoxDensity<Dimension>& density,
   sampled.Samples = options.Samples == GridSize<Dimension>{} ? density.Cells() : options.Samples;
   const auto count = static_cast<std::int64_t>(numberOfCells<Dimension>(sampled.Samples));
   const auto size = static_cast<std::size_t>(count);
+  // A vector, a divergence and a determinant for each sample, axis 0 fastest.
   sampled.Displacement.resize(size);
   sampled.Divergence.resize(size);
   sampled.Determinant.resize(size);
@@ -197,6 +207,7 @@ SampledMap<Dimension> map(const BoxDensity<Dimension>& density,
     plan.Backward(seeds, images, stages["samples"]);
   }
   // Derivatives are central differences of the images on the lattice, in index space.
+  // The distance of neighbouring samples, in cells of the density: the step of the differences.
   const Point<Dimension> step = latticeStep<Dimension>(sampled.Samples, density.Cells());
   const MapDerivatives<Dimension> derivatives(sampled.Samples, step, images);
   stages["derivatives"].For(count, grain, [&](std::int64_t first, std::int64_t last) {
@@ -222,6 +233,7 @@ DistanceBounds distance(
   const BoxDensity<Dimension>& a, const BoxDensity<Dimension>& b, const Context& context)
 {
   requireSameBox(a, b);
+  // The bracket is of W2^2, and roots keep its order.
   const SquaredBracket squared =
     bracketDistance<Dimension>(a.Source(), b.Source(), a.Sides(), context);
   return { std::sqrt(squared.Lower), std::sqrt(squared.Upper) };
@@ -238,6 +250,7 @@ EqualMassDivision<Dimension> cells(ConstPointSpan<Dimension> sites,
     throw std::invalid_argument("there are no sites; there must be at least one");
   }
   EqualMassDivision<Dimension> division;
+  // By default a pixel is a cell of the density.
   division.Pixels = options.Pixels == GridSize<Dimension>{} ? density.Cells() : options.Pixels;
   division.Labels.resize(static_cast<std::size_t>(numberOfCells<Dimension>(division.Pixels)));
   const std::vector<Point<3>> placed = inSpace<Dimension>(sites);
@@ -268,6 +281,7 @@ std::vector<Point<Dimension>> relax(ConstPointSpan<Dimension> points,
   Point<Dimension> perCell;
   std::transform(
     sides.begin(), sides.end(), perCell.begin(), [](double side) { return 1.0 / side; });
+  // A copy of the points, which is relaxed in place in index space.
   std::vector<Point<Dimension>> relaxed(static_cast<std::size_t>(points.size()));
   std::copy_n(points.data(), points.size() * Dimension, PointSpan<Dimension>(relaxed).data());
   scalePoints<Dimension>(perCell, relaxed, stages["tables"]);
@@ -303,6 +317,7 @@ std::vector<Point<2>> stipple(const BoxDensity<2>& picture, std::int64_t count,
 {
   Progress progress(context);
   Stages stages(progress, { { "white", 1 }, { "sample", 19 }, { "relax", 80 } });
+  // The reader of greys must outlive the density of ink, which reads through it.
   const auto greys = picture.Source().Whole();
   BoxDensity<2> ink = picture;
   if (options.Invert)

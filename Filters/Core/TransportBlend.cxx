@@ -43,6 +43,8 @@ public:
       throw std::invalid_argument("ParticlesPerCell is " +
         std::to_string(options.ParticlesPerCell) + "; it must be at least 1");
     }
+    // The pivot is a lattice of particles with equal masses, the same for all densities: particle
+    // i of each is an image of the same point x_i of the uniform measure.
     const PivotLattice<D> pivot = pivotLattice<D>(this->Cells, options.ParticlesPerCell);
     this->Count = pivot.NumberOfParticles();
     Parts parts(progress, static_cast<std::int64_t>(densities.size()));
@@ -63,11 +65,13 @@ public:
     PlanOptions options;
     options.IsOptimal = true;
     options.Optimal.Tolerance = tolerance;
+    // One map from the first density to the second takes the place of the composition of two flows.
     const TransportPlan<D> plan(planEnd(a.Density), planEnd(b.Density), options, stages["map"]);
     if (!plan.IsOptimal())
     {
       return;
     }
+    // From lengths to the index space of the first density.
     std::vector<Point<D>> points(a.Positions.size());
     const Point<D> cells = cellSides(a.Density);
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -90,8 +94,10 @@ public:
     const auto heaviest = std::max_element(weights.begin(), weights.end());
     const BlendedInput<D>& input =
       this->Inputs[static_cast<std::size_t>(heaviest - weights.begin())];
+    // Near a density, particles would blur its cells: there the cells themselves carry this share.
     const double share = shareOfHeaviest(*heaviest);
     const double mass = this->MassOf(weights);
+    // At a density itself, the result is exactly that density, resampled.
     if (*heaviest == 1.0)
     {
       return { this->Cells, this->Resample(input, mass, stages["input"]) };
@@ -99,11 +105,14 @@ public:
     const std::vector<Point<3>> mean = this->MeanOf(weights, stages["mean"]);
     MadeDensity<D> made{ this->Cells,
       std::vector<double>(static_cast<std::size_t>(this->Grid.NumberOfCells())) };
+    // The mass of each particle; the splat divides masses by the measure of a cell to get a
+    // density.
     const double each = (1.0 - share) * mass / static_cast<double>(this->Count);
     splatMass<D, double>({ mean, nullptr, each, this->Grid.template ToIndexMap<D>() }, this->Cells,
       this->Options.Splat, 1.0 / this->Grid.CellMeasure(), made.Values.data(), stages["splat"]);
     if (share > 0.0)
     {
+      // Cells move by the mean displacement of the particles in them, from the density to the mean.
       const std::vector<double> values = this->Resample(input, share * mass, stages["input"]);
       const auto whole = LatticePart<D>::WholeOf(this->Cells);
       addMovedCells<D>({ this->Grid, whole, values.data(), ConstPointSpan<3>(input.Positions),
@@ -138,6 +147,7 @@ private:
     const BoxDensity<D>& density, const PivotLattice<D>& pivot, Progress& progress) const
   {
     Stages stages(progress, { { "tables", 5 }, { "flow", 95 } });
+    // Positions are T_i(x) for the density's flow T_i.
     const RectifiedFlow<D> flow(density.Source(), stages["tables"]);
     std::vector<Point<D>> positions(static_cast<std::size_t>(this->Count));
     transportPivot<D>(flow, pivot, positions, this->Options.Flow, stages["flow"]);
@@ -160,6 +170,7 @@ private:
     return placed;
   }
 
+  // Returns the mass of the blend, by the options' rule.
   double MassOf(const std::vector<double>& weights) const
   {
     std::vector<double> masses;
@@ -170,6 +181,8 @@ private:
     return blendedMass(this->Options.Mass, masses, weights);
   }
 
+  // Returns the points sum of w_i T_i(x), which are the displacement interpolation of the coupling
+  // that all flows induce.
   std::vector<Point<3>> MeanOf(const std::vector<double>& weights, Progress& progress) const
   {
     std::vector<WeightedPositions> parts;
@@ -185,6 +198,8 @@ private:
   // Resamples a density to the common grid by exact overlaps, and scales it to another mass.
   std::vector<double> Resample(const BlendedInput<D>& input, double mass, Progress& progress) const
   {
+    // Both grids fill the same box, so a cell of the density has cells / size cells of the common
+    // grid.
     PlacedCells<D> placed{ input.Density.Cells(), {}, {} };
     for (int axis = 0; axis < D; ++axis)
     {
@@ -219,6 +234,7 @@ std::vector<MadeDensity<Dimension>> morph(const BoxDensity<Dimension>& a,
       throw std::invalid_argument("a time is " + std::to_string(time) + "; it must be from 0 to 1");
     }
   }
+  // The maps are made once; each time then needs a mean of positions and a splat.
   const bool isOptimal = options.Method == MapMethod::Optimal;
   Progress progress(context);
   Stages stages(progress,
@@ -251,6 +267,7 @@ MadeDensity<Dimension> barycenter(const std::vector<BoxDensity<Dimension>>& dens
       " weights with the sum " + std::to_string(sum) + " for " + std::to_string(densities.size()) +
       " densities; there must be one for each, 0 and more, with a positive and finite sum");
   }
+  // The weights are normalized to the sum 1.
   std::vector<double> shares(weights.size());
   std::transform(
     weights.begin(), weights.end(), shares.begin(), [=](double weight) { return weight / sum; });

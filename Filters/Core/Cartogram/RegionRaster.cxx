@@ -30,6 +30,7 @@ struct Rows
   }
 };
 
+// Finds the rows of a region, and the number of its edges, which measures the work.
 Rows rowsOf(const RegionMap& map, const std::vector<std::int64_t>& rings, std::int64_t side)
 {
   double low = HUGE_VAL;
@@ -62,6 +63,7 @@ RegionRaster::RegionRaster(
   std::vector<Rows> rowsOfRegions;
   // The raster is made in bands of rows, so that temporary memory is small.
   constexpr std::int64_t cellsOfBand = std::int64_t{ 1 } << 19;
+  // The number of rows in a band.
   const std::int64_t band = std::max<std::int64_t>(1, cellsOfBand / side);
   std::int64_t edges = 0; // to visit, in all bands
   for (const std::vector<std::int64_t>& rings : ringsOf)
@@ -76,6 +78,7 @@ RegionRaster::RegionRaster(
   this->Owners.reserve(static_cast<std::size_t>(side * side));
   std::vector<CellShare> mixed;
   std::vector<RunEnd> ends;
+  // Each band visits only the regions that touch it.
   for (std::int64_t first = 0; first < side; first += band)
   {
     const std::int64_t last = std::min(side, first + band);
@@ -157,6 +160,7 @@ void RegionRaster::SetOwners(std::vector<RunEnd>& ends)
       : a.IsBegin != b.IsBegin ? b.IsBegin
                                : (a.Region < b.Region) == a.IsBegin && a.Region != b.Region;
   });
+  // The set of regions that cover the current cell as a whole.
   std::int32_t set = RegionSets::Empty;
   for (std::size_t i = 0; i < ends.size(); ++i)
   {
@@ -172,6 +176,7 @@ void RegionRaster::SetOwners(std::vector<RunEnd>& ends)
 void RegionRaster::KeepSets()
 {
   std::vector<unsigned char> isUsed(static_cast<std::size_t>(this->Together.End()), 0);
+  // Calls use(set) for the set of every cell, whole or mixed.
   const auto visit = [this](const auto& use) {
     for (std::vector<std::int32_t>* sets : { &this->Owners, &this->SetsOfMixed })
     {
@@ -185,6 +190,7 @@ void RegionRaster::KeepSets()
     }
   };
   visit([&](std::int32_t set) { isUsed[static_cast<std::size_t>(set)] = 1; });
+  // Sets that arose only within the sweep are dropped.
   const std::vector<std::int32_t> numbers = this->Together.Keep(isUsed);
   visit([&](std::int32_t& set) { set = numbers[static_cast<std::size_t>(set)]; });
   this->WholeOfSets.assign(
@@ -206,6 +212,7 @@ void RegionRaster::KeepSets()
 // set takes the place of a region until the shares are sorted.
 void RegionRaster::AddMixed(std::vector<CellShare>& mixed)
 {
+  // An owner of a mixed cell covers it as a whole: it gets a share of 1.
   const std::size_t parts = mixed.size();
   for (std::size_t i = 0; i < parts; ++i)
   {
@@ -238,6 +245,7 @@ void RegionRaster::AddMixed(std::vector<CellShare>& mixed)
   }
 }
 
+// With a set that covers the cell there is no rest, even if parts add up to less than 1.
 double restOf(std::int32_t set, const RegionRaster::Share* shares, std::int64_t count)
 {
   double rest = set >= 0 ? 0.0 : 1.0;
@@ -250,6 +258,8 @@ double restOf(std::int32_t set, const RegionRaster::Share* shares, std::int64_t 
 
 std::vector<double> RegionRaster::Covered() const
 {
+  // The area of a region: whole cells of its own, whole cells of its sets, and its parts of mixed
+  // cells.
   std::vector<double> covered = this->Whole;
   std::vector<double> ofSets = this->CellsOfSets();
   this->VisitMixed([&](std::int32_t set, const Share* shares, std::int64_t count) {
@@ -328,8 +338,10 @@ void RegionRaster::Fill(const std::vector<double>& values, double around,
   const auto all = static_cast<std::int64_t>(this->Owners.size());
   const auto mixed = static_cast<std::int64_t>(this->Mixed.size());
   progress.Expect(all + mixed);
+  // Cells without regions have `around`; mixed cells are overwritten by the second loop.
   cells.clear();
   cells.reserve(this->Owners.size());
+  // Overlapping regions add up their densities.
   const std::vector<double> sums = this->SumsOfSets(values);
   progress.ForEachInOrder(all, grain, [&](std::int64_t i) {
     const std::int32_t owner = this->Owners[static_cast<std::size_t>(i)];
@@ -355,6 +367,7 @@ void RegionRaster::Scale(const std::vector<double>& exponents, double least,
   const auto mixed = static_cast<std::int64_t>(this->Mixed.size());
   progress.Expect(all + mixed);
   const std::vector<double> sums = this->SumsOfSets(exponents);
+  // Exponents of overlapping regions add up, so that their factors multiply.
   std::vector<double> factors(sums.size());
   std::transform(sums.begin(), sums.end(), factors.begin(),
     [](double exponent) { return exponential(exponent); });
@@ -394,6 +407,7 @@ double RegionRaster::Overlap(std::vector<double>& ofRegions) const
     sum += more;
   }
   this->VisitMixed([&](std::int32_t set, const Share* shares, std::int64_t count) {
+    // The regions that cover the cell, each with its part; more than 1 is an overlap.
     double covered = set >= 0 ? static_cast<double>(this->Together.CountOf(set)) : 0.0;
     for (std::int64_t i = 0; i < count; ++i)
     {
@@ -418,6 +432,7 @@ double RegionRaster::Overlap(std::vector<double>& ofRegions) const
   return sum;
 }
 
+// The mean weights each cell by the part that regions cover.
 double RegionRaster::MeanOnLand(const std::vector<double>& cells) const
 {
   double mass = 0.0;

@@ -23,6 +23,7 @@ constexpr std::size_t mapsAtOnce = 16;
 // Larger densities are mapped one after the other, each by all threads.
 constexpr double mostCellsOfThread = 0x1p18;
 
+// Returns the first D of three numbers of cells.
 template <int D>
 GridSize<D> sizeOf(const GridSize<3>& cells)
 {
@@ -48,6 +49,7 @@ void shareMaps(
   std::vector<std::shared_ptr<ReferenceImages>>& maps, std::size_t first, const Ranks& ranks)
 {
   const std::size_t own = first + static_cast<std::size_t>(ranks.Own());
+  // A rank beyond the last map sends nothing.
   const bool hasOne = own < maps.size();
   const std::vector<Bytes> all =
     ranks.Gather(hasOne ? toBytes(maps[own]->Coordinates.data(),
@@ -100,6 +102,7 @@ void forItems(std::int64_t count, double cells, Progress& progress, const Work& 
 {
   if (cells <= mostCellsOfThread)
   {
+    // One map a thread: its context has no threads of its own, but can be cancelled.
     static const SerialExecutor serial;
     progress.ForEach(
       count, 1,
@@ -112,6 +115,7 @@ void forItems(std::int64_t count, double cells, Progress& progress, const Work& 
   for (std::int64_t i = 0; i < count; ++i)
   {
     Context context = parts[i];
+    // Each rank works on another item, so that the work is not collective.
     context.Group = &SoloRanks::Get();
     work(i, context);
   }
@@ -140,6 +144,7 @@ void DistanceSet::Begin(DistanceMethod method)
 
 bool DistanceSet::Add(Name name, const ImageGrid& grid, Values values, const Context& context)
 {
+  // The first density determines the box and so the unit of length.
   this->Box = this->Given.empty() ? grid : this->Box;
   GridSize<3> cells = grid.Size<3>();
   // A density's key has its name, its cells and the sides of its box: equal keys have equal maps.
@@ -161,6 +166,7 @@ bool DistanceSet::Add(Name name, const ImageGrid& grid, Values values, const Con
     // Equal densities share a map. A density that waits keeps its values on the rank that makes its
     // map only.
     const bool isNew = !waits && this->Maps.count(density.Key) == 0;
+    // Maps are assigned to ranks in turn.
     const auto place = static_cast<int>(this->Waiting.size() % ranks);
     if (!isNew || place != context.Group->Own())
     {
@@ -172,6 +178,7 @@ bool DistanceSet::Add(Name name, const ImageGrid& grid, Values values, const Con
     }
   }
   this->Given.push_back(std::move(density));
+  // Enough densities wait to give each thread of every rank a map.
   return this->Waiting.size() >= mapsAtOnce * ranks;
 }
 
@@ -212,6 +219,7 @@ void DistanceSet::MakeMapsIn(Progress& progress)
   const auto count = static_cast<std::int64_t>(this->Waiting.size());
   const std::vector<std::int64_t> own = itemsOfRank(count, ranks);
   const Point<D> sides = sidesOf<D>(this->Box);
+  // This rank's maps now, all maps after the exchange.
   std::vector<std::shared_ptr<ReferenceImages>> made(this->Waiting.size());
   forItems(static_cast<std::int64_t>(own.size()), this->CellsOfMaps(), progress,
     [&](std::int64_t item, const Context& context) {
@@ -251,6 +259,7 @@ std::vector<DistancePair> DistanceSet::Find(const Context& context)
     &DistanceSet::FindMissing<2>, &DistanceSet::FindMissing<3>);
   (this->*find)(progress);
   this->KeepOnlyGiven();
+  // Squares were computed in units of the box; they neither overflow nor vanish.
   const LengthScale scale(this->Box);
   const auto lengthOf = [&](double square) { return scale.LengthFromUnits(std::sqrt(square)); };
   const bool isLinearized = this->Method == DistanceMethod::Linearized;
@@ -282,6 +291,7 @@ std::vector<DistancePair> DistanceSet::Find(const Context& context)
 std::vector<DistanceSet::NamePair> DistanceSet::MissingPairs() const
 {
   const auto& known = this->Pairs[static_cast<std::size_t>(this->Method)];
+  // Each pair once, even if several given densities are equal.
   std::set<NamePair> missing;
   for (std::size_t i = 0; i < this->Given.size(); ++i)
   {
@@ -304,6 +314,7 @@ SquaredBracket DistanceSet::FindPair(const NamePair& pair, const Context& contex
   {
     return { 0.0, meanSquaredDistance<D>(*this->Maps.at(pair.first), *this->Maps.at(pair.second)) };
   }
+  // Any of the given densities with this key has the values.
   const auto valuesOf = [this](const Name& name) -> DensityArray<D, double> {
     const auto density = std::find_if(this->Given.begin(), this->Given.end(),
       [&](const Density& given) { return given.Key == name; });
@@ -321,6 +332,7 @@ void DistanceSet::FindMissing(Progress& progress)
   const std::vector<NamePair> missing = this->MissingPairs();
   const std::vector<std::int64_t> own =
     itemsOfRank(static_cast<std::int64_t>(missing.size()), ranks);
+  // A bracket for each pair of this rank, in the order of `own`.
   std::vector<SquaredBracket> found(own.size());
   const bool isCertified = this->Method == DistanceMethod::Certified;
   forItems(static_cast<std::int64_t>(own.size()),
@@ -336,6 +348,7 @@ void DistanceSet::FindMissing(Progress& progress)
     const std::vector<SquaredBracket> theirs = fromBytes<SquaredBracket>(all[rank]);
     for (std::size_t i = 0; i < theirs.size(); ++i)
     {
+      // Rank r did the pairs r, r + n, r + 2 n, ... of the list.
       this->Known()[missing[rank + i * all.size()]] = theirs[i];
     }
   }

@@ -71,6 +71,7 @@ void openExisting(OutputTarget& target)
 {
   const std::string& name = target.Name;
   // Without O_TRUNC and with O_NONBLOCK, opening changes no file and waits for no reader.
+  // Pipes and devices are written directly; plain files are replaced.
   FileDescriptor file(open(name.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   if (!file.IsOpen())
   {
@@ -102,6 +103,7 @@ void openExisting(OutputTarget& target)
 // file found there is the one that was opened.
 void openFolder(OutputTarget& target, const std::filesystem::path& path)
 {
+  // The folder is needed to make the hidden file beside the target.
   const std::filesystem::path folder = path.parent_path();
   target.File = path.filename().string();
   target.Folder = FileDescriptor(
@@ -111,6 +113,8 @@ void openFolder(OutputTarget& target, const std::filesystem::path& path)
   {
     return;
   }
+  // Compare the opened file with the one that the folder has under this name: a deleted file, for
+  // example, has no name any more.
   struct stat opened
   {
   };
@@ -133,6 +137,7 @@ void OutputTarget::Require(bool isDone) const
 {
   if (!isDone)
   {
+    // The system's own words for the error come first.
     const std::string reason = errno != 0 ? std::strerror(errno) : "unknown error";
     fail("FileName '", this->Name, "' cannot be written (", reason,
       "); its folder must exist and have room, and the folder and the file must be writable");
@@ -144,6 +149,7 @@ OutputTarget findOutputTarget(const std::string& name)
   OutputTarget target;
   target.Name = name;
   const std::filesystem::path path = followLinks(target);
+  // A descriptor of this process is duplicated, so that closing the output leaves it open.
   const int own = ownDescriptor(path.string());
   if (own >= 0)
   {
@@ -168,6 +174,8 @@ void copyAccess(const FileDescriptor& earlier, const FileDescriptor& file)
   {
     return; // then only the owner has access
   }
+  // Owner and group are restored if the system allows it. If not, the new group gets no more rights
+  // than everyone.
   constexpr mode_t ofGroup = 070;
   mode_t mode = status.st_mode & 0777;
   if (fchown(file.Get(), status.st_uid, status.st_gid) != 0 &&
@@ -177,6 +185,7 @@ void copyAccess(const FileDescriptor& earlier, const FileDescriptor& file)
   }
 #ifdef __linux__
   constexpr const char* list = "system.posix_acl_access";
+  // The access control list of the earlier file, if it has one; larger lists count as not readable.
   std::array<char, 4096> entries{};
   const ssize_t size = fgetxattr(earlier.Get(), list, entries.data(), entries.size());
   if (size < 0 && errno != ERANGE)

@@ -28,6 +28,7 @@ public:
 
   void Begin(const DrawingPage& page) override
   {
+    // The user unit is a millimetre: the view box has the size of the page.
     const PagePoint& size = page.Size;
     this->Height = size[1];
     this->StrokeWidth = page.StrokeWidth;
@@ -35,6 +36,7 @@ public:
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"",
       size[0], "mm\" height=\"", size[1], "mm\" viewBox=\"0 0 ", size[0], ' ', size[1], "\">\n");
+    // A clip path hides what reaches into the margin.
     const double margin = page.ClippedMargin;
     this->IsClipped = margin > 0.0;
     // The page has its origin at the lower left; SVG has it at the upper left, so that y becomes
@@ -67,6 +69,7 @@ public:
     }
     else
     {
+      // One path with a subpath for each polygon: no seams show between them.
       this->Text += "<path d=\"";
       for (const PagePath& corners : polygons)
       {
@@ -82,6 +85,7 @@ public:
   void Stroke(const PagePath& path, bool isClosed, Colour colour) override
   {
     this->EnterGroup(Group::Strokes);
+    // A closed line is a polygon without a fill, which joins its ends.
     this->Text += isClosed ? "<polygon points=\"" : "<polyline points=\"";
     this->AppendPoints(path);
     this->Text += '"';
@@ -96,6 +100,7 @@ public:
   }
 
 private:
+  // The kind of shapes in the open group.
   enum class Group
   {
     None,
@@ -133,6 +138,7 @@ private:
   {
     if (colour.Red + colour.Green + colour.Blue > 0)
     {
+      // Seven characters, #rrggbb, and the end.
       char value[8];
       std::snprintf(value, sizeof(value), "#%02x%02x%02x", colour.Red, colour.Green, colour.Blue);
       appendAll(this->Text, ' ', paint, "=\"", value, '"');
@@ -149,6 +155,7 @@ private:
     }
   }
 
+  // Appends "x,y " for each point, without the last blank.
   void AppendPoints(const PagePath& points)
   {
     for (const PagePoint& point : points)

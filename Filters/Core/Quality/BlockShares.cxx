@@ -16,6 +16,7 @@ namespace
 constexpr double mostCells = 1 << 22; // cells of the density that a turn may need
 constexpr std::int64_t grain = 256;   // blocks a range
 
+// Returns the corners of a box as points of index space.
 template <int Dimension>
 std::pair<Point<Dimension>, Point<Dimension>> sidesOf(const GridBox<Dimension>& box)
 {
@@ -26,6 +27,7 @@ std::pair<Point<Dimension>, Point<Dimension>> sidesOf(const GridBox<Dimension>& 
   return { low, high };
 }
 
+// Returns the smallest box that contains two boxes.
 template <int Dimension>
 GridBox<Dimension> joined(const GridBox<Dimension>& a, const GridBox<Dimension>& b)
 {
@@ -78,6 +80,7 @@ public:
       this->TakePart(turn);
       return turn;
     }
+    // Blocks join the turn while the box around them stays within the bound.
     for (++this->Next; this->HasMore(); ++this->Next, ++turn.Count)
     {
       const GridBox<Dimension> larger = joined(turn.Box, this->Blocks.Box(this->Next));
@@ -96,6 +99,7 @@ private:
   {
     constexpr int last = Dimension - 1;
     const std::int64_t end = turn.Box.High[last];
+    // The number of cells in a layer of the box.
     const double layer = turn.Box.Cells() / static_cast<double>(end - turn.Box.Low[last]);
     turn.IsPart = true;
     turn.IsFirst = this->Layers == 0;
@@ -104,6 +108,7 @@ private:
       std::max<std::int64_t>(1, static_cast<std::int64_t>(mostCells / layer)));
     turn.Box.High[last] = turn.Box.Low[last] + layers;
     this->Layers += layers;
+    // The block is done with its last layer.
     if (turn.Box.High[last] == end)
     {
       this->Layers = 0;
@@ -133,10 +138,12 @@ void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dime
   while (!onAllRanks(progress.Group(), !turns.HasMore()))
   {
     const auto turn = turns.Take();
+    // Makes tables of the box where the flow has none of the whole density. Collective.
     flow.PrepareShares(turn.Box.Low, turn.Box.High);
     double* found = shares + (turn.First - first);
     if (turn.IsPart)
     {
+      // The share of a large block is the sum of those of its parts.
       *found = shareIn(turn.Box) + (turn.IsFirst ? 0.0 : *found);
       progress.EndSlice(turn.IsFirst ? 1 : 0);
       continue;

@@ -22,6 +22,7 @@ std::int64_t cellAt(const ImageGrid& grid, const double* index)
   GridSize<D> cell;
   for (int axis = 0; axis < D; ++axis)
   {
+    // Any place within the last cell, so that the index of a point on the upper border is valid.
     const double last = static_cast<double>(size[axis]) - 0.5;
     cell[axis] = static_cast<std::int64_t>(std::clamp(index[axis], 0.0, last));
   }
@@ -34,6 +35,7 @@ std::vector<std::int64_t> findEqual(
   const std::array<std::int64_t, 2>& tuples, const TupleKey& keyOf)
 {
   std::vector<std::int64_t> equal;
+  // The number of the first tuple with each key.
   std::unordered_map<std::string, std::int64_t> known;
   for (std::size_t step = 0; step < 2; ++step)
   {
@@ -57,6 +59,7 @@ SeriesLabels::SeriesLabels(
   , Parts(isAcross ? 1 << grids[0].Dimension() : 1)
 {
   using Self = SeriesLabels;
+  // The tuples at both ends of the way: those of the first step at From, of the second one at To.
   const auto add = dispatchDimension(
     grids[0].Dimension(), &Self::AddTuples<1>, &Self::AddTuples<2>, &Self::AddTuples<3>);
   (this->*add)(0, particles.From->Span(), particles.Clouds[0]);
@@ -109,6 +112,7 @@ void SeriesLabels::Find(const SeriesMoment& moment, const ImageGrid& grid,
   Progress& progress, const Take& take) const
 {
   const SeriesParticles& particles = moment.All();
+  // Centres and lengths of the clouds at the moment, in cells of the grid.
   const ScaledClouds<D> clouds = moment.CloudsIn<D>(grid);
   const std::int64_t* numbers = moment.Numbers();
   std::vector<LabelVote<D>> cast;
@@ -121,6 +125,7 @@ void SeriesLabels::Find(const SeriesMoment& moment, const ImageGrid& grid,
     for (int part = 0; part < this->Parts; ++part)
     {
       LabelVote<D> vote;
+      // The number orders votes in the same way on any number of ranks.
       vote.Number = numbers ? numbers[i] : particle;
       for (int axis = 0; axis < D; ++axis)
       {
@@ -130,6 +135,8 @@ void SeriesLabels::Find(const SeriesMoment& moment, const ImageGrid& grid,
       }
       for (std::size_t end = 0; end < 2; ++end)
       {
+        // A tracked particle gives both tuples their part of the time; other particles vote only
+        // for their own step.
         const double ofEnd = end == 0 ? 1.0 - moment.Part() : moment.Part();
         const bool isOwn = (particle < particles.OfFirst) == (end == 0);
         const double share = particles.AreTracked ? ofEnd : isOwn ? 1.0 : 0.0;
@@ -142,6 +149,7 @@ void SeriesLabels::Find(const SeriesMoment& moment, const ImageGrid& grid,
       }
     }
   }
+  // The votes are exchanged once and counted for every array, whose labels differ.
   const LabelVotes<D> votes(std::move(cast), grid.Size<D>(), wanted, progress.Group());
   for (std::size_t array = 0; array < equal.size(); ++array)
   {
@@ -168,6 +176,7 @@ std::int64_t SeriesLabels::InPlace(
   double x[3];
   grid.ToPhysical<D>(centre, x);
   double nearest[D];
+  // The grids of both steps may cover different boxes.
   const bool isInFirst = this->Grids[0].NearestIndex<D>(x, nearest);
   const bool isInSecond = this->Grids[1].NearestIndex<D>(x, nearest);
   const bool isFirst = isInFirst == isInSecond ? part <= 0.5 : isInFirst;

@@ -27,6 +27,7 @@ public:
     , Mirrored(grid.IsMirrored())
     , Labels(labels)
   {
+    // The nodes of a plane across the last axis; -1 until a node has a point.
     std::int64_t nodes = 1;
     for (int a = 0; a < Dimension - 1; ++a)
     {
@@ -48,9 +49,12 @@ public:
   }
 
 private:
+  // Cells and nodes have three indices; those beyond the dimension are 0.
   using Cell = std::int64_t[3];
   static constexpr int Corners = SiteCellOutlines<Dimension>::Corners;
 
+  // Returns the label of a cell; -1 outside the domain, so that the border of the domain is an
+  // outline, too.
   std::int64_t LabelAt(const Cell& cell) const
   {
     std::int64_t pixel = 0;
@@ -65,6 +69,8 @@ private:
     return this->Labels[pixel];
   }
 
+  // Adds the faces of a layer of pixels: those across the other axes, and those on its lower plane.
+  // The last layer is beyond the domain and has only the latter.
   void AddLayer(std::int64_t layer)
   {
     Cell cell = { 0, 0, 0 };
@@ -79,6 +85,7 @@ private:
       this->Place(pixel, cell);
       this->AddFace(cell, Dimension - 1);
     }
+    // The upper plane becomes the lower one of the next layer, and its points stay shared.
     std::swap(this->Lower, this->Upper);
     std::fill(this->Upper.begin(), this->Upper.end(), none);
   }
@@ -103,6 +110,7 @@ private:
     }
   }
 
+  // Sets the indices of a pixel within its layer.
   void Place(std::int64_t pixel, Cell& cell) const
   {
     for (int a = 0; a < Dimension - 1; ++a)
@@ -124,6 +132,8 @@ private:
     {
       return;
     }
+    // The right-handed order about the axis faces outwards for the cell below, and the reverse
+    // order for the cell above.
     std::int64_t corners[Corners];
     this->FindCorners(cell, axis, corners);
     // A mirrored grid reverses the orientation of all faces.
@@ -142,6 +152,7 @@ private:
     }
   }
 
+  // Adds a face to the outline of a site's cell.
   void Append(const std::int64_t* corners, std::int64_t site)
   {
     this->Found.CornerIds.insert(this->Found.CornerIds.end(), corners, corners + Corners);
@@ -164,6 +175,7 @@ private:
     }
     else
     {
+      // Cyclic axes keep the quad right-handed for every axis.
       const int first = (axis + 1) % 3;
       const int second = (axis + 2) % 3;
       Cell node = { cell[0], cell[1], cell[2] };

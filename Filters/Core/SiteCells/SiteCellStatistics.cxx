@@ -38,6 +38,7 @@ struct CellSum
   }
 };
 
+// Returns |d|^2, the usual cost, without a power.
 double squaredLength(const double* d)
 {
   return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
@@ -77,6 +78,8 @@ void addPixels(const ImageGrid& grid, const std::int64_t* labels, ConstPointSpan
   CellSum<Dimension>* sums)
 {
   const GridSize<Dimension> size = grid.Size<Dimension>();
+  // The centre of the first pixel in index space; later ones follow by increments, without
+  // divisions.
   double index[Dimension];
   std::int64_t rest = first;
   for (int axis = 0; axis < Dimension; ++axis)
@@ -89,6 +92,7 @@ void addPixels(const ImageGrid& grid, const std::int64_t* labels, ConstPointSpan
     const std::int64_t label = labels[pixel];
     if (label >= 0)
     {
+      // Costs are of physical distances.
       double x[3];
       grid.ToPhysical<Dimension>(index, x);
       const double* site = sites[label];
@@ -125,8 +129,10 @@ std::vector<CellSum<Dimension>> sumCells(const ImageGrid& grid, const std::int64
   const std::int64_t chunks = std::clamp<std::int64_t>(pixels / (16 * sites.size()), 1, 1024);
   const std::int64_t chunk = (pixels + chunks - 1) / chunks;
   using Sums = std::vector<CellSum<Dimension>>;
+  // A sum for each site in each chunk.
   std::vector<Sums> parts(
     static_cast<std::size_t>(chunks), Sums(static_cast<std::size_t>(sites.size())));
+  // The usual cost has a loop of its own, without calls to pow().
   const bool isSquare = norm.Norm == 2.0 && norm.Exponent == 2.0;
   progress.For(pixels, chunk, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t begin = first; begin < last; begin += chunk)
@@ -145,6 +151,7 @@ std::vector<CellSum<Dimension>> sumCells(const ImageGrid& grid, const std::int64
       }
     }
   });
+  // Chunks are added in their order.
   Sums all(static_cast<std::size_t>(sites.size()));
   for (const Sums& part : parts)
   {
@@ -156,6 +163,8 @@ std::vector<CellSum<Dimension>> sumCells(const ImageGrid& grid, const std::int64
   return all;
 }
 
+// Throws if the cost is not finite, for example because the exponent is too large for the
+// distances.
 void requireCost(double cost, const CostNorm& norm)
 {
   if (!std::isfinite(cost))
@@ -176,6 +185,7 @@ double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* l
     cells.Grid(), labels, cells.Sites(), [](std::int64_t) { return 1.0; }, norm, progress);
   const SiteDensity<Dimension>& shared = cells.Pixels();
   const double pixels = numberOfCells<Dimension>(shared.Size());
+  // The cost is a mean over all pixels, so each site has its sum divided by their number.
   double total = 0.0;
   for (std::int64_t i = 0; i < cells.NumberOfSites(); ++i)
   {
@@ -190,6 +200,7 @@ double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* l
     total += statistics.Cost[i];
   }
   requireCost(total, norm);
+  // Areas of the cells; sites in one pixel share their pixels equally.
   const double measure = cells.Grid().CellMeasure();
   if (!std::isfinite(pixels * measure))
   {
@@ -225,11 +236,13 @@ double measureSiteCells(const DensitySiteCells<Dimension>& cells, const std::int
   };
   const std::vector<CellSum<Dimension>> sums =
     sumCells<Dimension>(cells.Grid(), labels, cells.Sites(), weightOf, norm, progress);
+  // Weights are shares of the mass, so that their sums are masses and costs already.
   double total = 0.0;
   for (std::int64_t i = 0; i < cells.NumberOfSites(); ++i)
   {
     const CellSum<Dimension>& sum = sums[static_cast<std::size_t>(i)];
     double mean[Dimension];
+    // A site cell without mass has no centroid; its site takes the place of it.
     std::copy_n(cells.IndexSites()[i], Dimension, mean);
     for (int axis = 0; axis < Dimension && sum.Weight > 0.0; ++axis)
     {
