@@ -36,6 +36,7 @@ public:
     , Count(densities.front().Positions.size())
     , All(static_cast<double>(sumOverRanks(progress.Group(), this->Count)))
   {
+    // nullptr as long as the particles keep the positions that were given.
     this->Result.Moved.resize(densities.size());
     this->Result.Slack = LargeBuffer<double>(this->Count);
     std::fill_n(this->Result.Slack.data(), this->Count, 0.0);
@@ -55,6 +56,7 @@ public:
   }
 
 private:
+  // Returns the particles' positions in density i: moved by the optimal map, or as given.
   ConstPointSpan<3> PositionsIn(std::size_t i) const
   {
     return this->Result.Moved[i] ? ConstPointSpan<3>(this->Result.Moved[i]->data(), this->Count)
@@ -74,6 +76,7 @@ private:
     return options;
   }
 
+  // Returns physical positions in the index space of a grid, moved into the domain.
   LargeBuffer<double> IndexOf(const ImageGrid& grid, ConstPointSpan<3> positions)
   {
     LargeBuffer<double> index(this->Count * D);
@@ -89,6 +92,7 @@ private:
     return index;
   }
 
+  // Returns points of an index space as physical positions.
   PointBuffer PhysicalOf(const ImageGrid& grid, ConstPointSpan<D> points, Progress& progress)
   {
     const auto physical = std::make_shared<LargeBuffer<double>>(3 * this->Count);
@@ -141,6 +145,7 @@ private:
     if (areSamples)
     {
       this->AddSlack(plan, weight, points, { images.data(), this->Count }, progress);
+      // Bounds, costs and slacks of several densities are combined with the weights.
       this->Result.Bound += weight * this->Scale.CostFromUnits(plan.LowerBound());
       if (!this->Options.IsPair)
       {
@@ -236,11 +241,13 @@ private:
     Rounds rounds(progress, usual);
     for (int round = 0; round < mostRounds; ++round)
     {
+      // The previous positions, if this round turns out to be worse.
       const auto before = this->Result.Moved;
       const double functional = this->TakeRound(used, false, rounds.Next());
       const std::vector<double>& all = this->Result.Functional;
       // The functional is the sum of w_i W2^2(mean, density i), estimated by the lower bounds. It
       // decreases in exact arithmetic; a round that does not lower it is undone.
+      // The first round has nothing to compare with and always counts.
       const double fall = all.empty() ? functional : all.back() - functional;
       if (fall <= 0.0)
       {
@@ -265,6 +272,8 @@ private:
     const ConstPointSpan<3> mean(buffer.data(), this->Count);
     const GridSize<D> size = geometry.Size<D>();
     LargeBuffer<double> density(geometry.NumberOfCells()); // each rank has the whole
+    // The barycenter as a density: the particles at the mean positions, splatted on the common
+    // grid.
     splatInCells<D>(mean, nullptr, nullptr, geometry, LatticePart<D>::WholeOf(size), 1.0,
       density.data(), stages["density"]);
     const DensityArray<D, double> values(density.data(), size);

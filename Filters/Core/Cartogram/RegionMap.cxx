@@ -81,6 +81,7 @@ double RegionMap::AreaOf(std::int64_t ring) const
   const auto crossed = this->Crossed.find(this->RegionOf(ring));
   if (this->IsOpen(ring) || crossed != this->Crossed.end())
   {
+    // If rings of a region cross, only their common area is defined; the first ring has it.
     const bool isFirst = crossed != this->Crossed.end() && crossed->second.front() == ring;
     return isFirst ? this->CrossedArea(crossed->second) : 0.0;
   }
@@ -131,6 +132,7 @@ std::vector<DividingPoint> RegionMap::FindHoles(const Context& context)
     shapes.push_back(this->ShapeOf(ring));
     progress.Add(this->CountOf(ring));
   }
+  // Rings of different regions do not matter to each other.
   for (std::vector<std::int64_t>& rings : this->RingsOfRegions())
   {
     // Sorted by their lower ends along x, candidates for the inside of a ring are contiguous.
@@ -193,6 +195,7 @@ void RegionMap::CountAround(std::int64_t outer, const std::vector<std::int64_t>&
     bool IsInside;
   };
   const RingShape& shape = shapes[Index(outer)];
+  // The middles of edges of all rings that may be inside.
   std::vector<Middle> middles;
   const auto first = std::lower_bound(rings.begin(), rings.end(), shape.Low[0],
     [&](std::int64_t ring, double low) { return shapes[Index(ring)].Low[0] < low; });
@@ -218,6 +221,8 @@ void RegionMap::CountAround(std::int64_t outer, const std::vector<std::int64_t>&
   this->VisitCorners(outer, [&](std::int64_t, std::int64_t from, std::int64_t to) {
     const Point<2>& a = this->Places[Index(from)];
     const Point<2>& b = this->Places[Index(to)];
+    // A half-open interval of heights, so that a ray through a corner crosses exactly one of its
+    // edges.
     const double low = std::min(a[1], b[1]);
     const double high = std::max(a[1], b[1]);
     auto middle = std::lower_bound(middles.begin(), middles.end(), low,

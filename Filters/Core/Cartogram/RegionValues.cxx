@@ -35,12 +35,14 @@ System systemOf(const RegionRaster& raster, Progress& progress)
   const std::int32_t regions = raster.Regions();
   System system{ Matrix(regions, regions),
     std::vector<double>(static_cast<std::size_t>(regions), 0.0) };
+  // A hash map holds the few pairs of regions that share cells.
   std::unordered_map<std::int64_t, double> entries; // by row * regions + column
   const auto entry = [&](std::int32_t row, std::int32_t column) -> double& {
     return entries[static_cast<std::int64_t>(row) * regions + column];
   };
   for (std::int32_t region = 0; region < regions; ++region)
   {
+    // Whole cells of a region contribute 1 each to its diagonal.
     entry(region, region) = raster.WholeCells(region);
   }
   const RegionSets& sets = raster.Sets();
@@ -76,6 +78,7 @@ System systemOf(const RegionRaster& raster, Progress& progress)
         }
       }
     }
+    // The part of the cell with the density around the regions.
     const double rest = restOf(set, shares, count);
     double* const* ofCell = entriesBefore.data();
     for (std::int64_t i = 0; i < count; ++i)
@@ -101,6 +104,7 @@ System systemOf(const RegionRaster& raster, Progress& progress)
   for (std::int32_t set = sets.First(); set < sets.End(); ++set)
   {
     progress.Check();
+    // Regions of a set cover its cells as a whole: each pair of them shares every cell.
     const double cells = cellsOf[static_cast<std::size_t>(set - sets.First())];
     sets.VisitRegions(set, [&](std::int32_t row) {
       sets.VisitRegions(set, [&](std::int32_t column) { entry(row, column) += cells; });
@@ -108,6 +112,7 @@ System systemOf(const RegionRaster& raster, Progress& progress)
   }
   for (const auto& [place, beside] : besides)
   {
+    // A share beside a set meets each region of the set, whose part is 1.
     const std::int32_t region = place.second;
     sets.VisitRegions(place.first, [&, &share = beside](std::int32_t other) {
       entry(other, region) += share.Part;
@@ -141,6 +146,7 @@ public:
     const RegionSets& sets = raster.Sets();
     for (std::int32_t set = sets.First(); set < sets.End(); ++set)
     {
+      // A set's cells have the sum of its regions' densities.
       double density = 0.0;
       sets.VisitRegions(set, [&](std::int32_t region) {
         density += values.Densities[static_cast<std::size_t>(region)];
@@ -160,6 +166,7 @@ public:
           density += shares[i].Part * values.Densities[region];
           this->Parts[region].push_back({ this->Cells.size(), shares[i].Part, shares[i].Signed });
         }
+        // The least density of a cell may not exceed its density before.
         this->Cells.push_back({ density, std::min(density, targets.Least), set });
         if (set >= 0)
         {
@@ -176,6 +183,7 @@ public:
     double worst = 1.0;
     for (int sweep = 0; sweep < mostSweeps && worst > this->Targets.Tolerance; ++sweep)
     {
+      // The largest error before the steps of this sweep.
       worst = 0.0;
       for (std::size_t region = 0; region < this->Parts.size(); ++region)
       {
@@ -186,6 +194,7 @@ public:
     for (std::size_t region = 0; region < this->Parts.size(); ++region)
     {
       double& error = this->Values.Errors[region];
+      // A positive error that remains belongs to a region at its least density.
       error = this->MassOf(region).Now / this->Targets.Masses[region] - 1.0;
       this->Values.Least[region] = error > this->Targets.Tolerance ? 1 : 0;
     }
@@ -218,6 +227,8 @@ private:
     double Slope; // derivative with respect to the exponent
   };
 
+  // Returns the mass in a region and its derivative with respect to the region's exponent. Cells at
+  // their least density have the derivative 0.
   Mass MassOf(std::size_t region) const
   {
     const double density = this->Values.Densities[region];
@@ -262,6 +273,7 @@ private:
       return error;
     }
     double& exponent = this->Values.Exponents[region];
+    // The Newton step for log(mass(x)) = log(wanted): the derivative of log(mass) is slope / mass.
     const double step = naturalLogarithm(wanted / mass.Now) * mass.Now / mass.Slope;
     const double next =
       std::clamp(exponent + std::clamp(step, -longest, longest), -farthest, farthest);
@@ -269,6 +281,8 @@ private:
     {
       Cell& cell = this->Cells[part.Cell];
       const double before = cell.Density;
+      // Only the cells of this region change, so the densities and the sets' masses are updated in
+      // place.
       cell.Density *= exponential(part.Part * (next - exponent));
       if (cell.Set >= 0)
       {
@@ -313,6 +327,7 @@ double solveForDensities(const RegionRaster& raster, const RegionTargets& target
     }
     return mass;
   };
+  // The largest relative change of a density in a sweep.
   double change = 1.0;
   for (int sweep = 0; sweep < mostSweeps && change > smallestChange; ++sweep)
   {
@@ -321,6 +336,7 @@ double solveForDensities(const RegionRaster& raster, const RegionTargets& target
     for (std::size_t i = 0; i < regions; ++i)
     {
       const auto index = static_cast<Eigen::Index>(i);
+      // The diagonal is positive, unless the region lies outside the raster.
       const double own = system.Common.coeff(index, index);
       if (!(own > 0.0))
       {
@@ -338,6 +354,7 @@ double solveForDensities(const RegionRaster& raster, const RegionTargets& target
   for (std::size_t i = 0; i < regions; ++i)
   {
     constexpr double rounding = 1e-9;
+    // The residual of the equations, relative to the mass.
     found.Errors[i] = massOf(i) / targets.Masses[i] - 1.0;
     found.Least[i] = found.Densities[i] <= lowest[i] * (1.0 + rounding);
     worst = std::max(worst, std::abs(found.Errors[i]));
@@ -374,6 +391,7 @@ RegionValues findRegionValues(
   std::vector<double> highest(regions);
   for (std::size_t i = 0; i < regions; ++i)
   {
+    // The density of a region that shares no cell: mass by area, the first guess.
     const double plain = targets.Masses[i] / targets.Areas[i];
     lowest[i] = std::min(targets.Least, plain);
     highest[i] = std::max(most * plain, lowest[i]);

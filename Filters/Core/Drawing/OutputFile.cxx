@@ -82,6 +82,7 @@ void OutputFile::OpenPart()
   // O_EXCL never opens a file of another program, and O_NOFOLLOW no link that someone put there.
   for (int i = 0; i < most && !this->File.IsOpen() && (i == 0 || errno == EEXIST); ++i)
   {
+    // The process number and a counter make the name unique among running programs.
     const std::string part =
       ".rectifiedtransport-" + std::to_string(getpid()) + "-" + std::to_string(i) + ".part";
     this->File = FileDescriptor(openat(this->Target.Folder.Get(), part.c_str(),
@@ -91,6 +92,8 @@ void OutputFile::OpenPart()
   this->Target.Require(this->File.IsOpen());
   if (!isNew)
   {
+    // The new file has the rights of the one that it replaces; until now, only its owner can read
+    // it.
     copyAccess(this->Target.Existing, this->File);
     this->Target.Existing.Close();
   }
@@ -98,6 +101,7 @@ void OutputFile::OpenPart()
 
 void OutputFile::Write(std::string_view bytes)
 {
+  // Signals are blocked on this thread only while it writes.
   const WriteSignals signals;
   this->Written += static_cast<std::int64_t>(bytes.size());
   while (!bytes.empty())
@@ -113,6 +117,7 @@ void OutputFile::Write(std::string_view bytes)
     }
     else if (errno != EINTR)
     {
+      // sigwait() may change errno, which the message reports.
       const int reason = errno;
       signals.Drop();
       errno = reason;

@@ -27,11 +27,13 @@ constexpr const char* unitDisc = "1 0 m\n"
                                  "0.55228 -1 1 -0.55228 1 0 c\n"
                                  "f\n";
 
+// An indirect reference to an object, of generation 0.
 std::string reference(std::size_t object)
 {
   return std::to_string(object) + " 0 R ";
 }
 
+// The name of the graphics state with an opacity.
 std::string opacityName(std::size_t opacity)
 {
   return "/Opacity" + std::to_string(opacity);
@@ -54,9 +56,11 @@ public:
   {
     this->Size = page.Size;
     this->File.Write("%PDF-1.4\n%\xE2\xE3\xCF\xD3\n"); // the second line marks a binary file
+    // The unit disc is a form that each disc draws with its own matrix.
     this->Disc = this->NewObject();
     this->WriteStream(
       this->Disc, "/Type /XObject /Subtype /Form /BBox [-1 -1 1 1] /Resources << >>", unitDisc);
+    // The user space becomes millimetres (72 / 25.4 points), with round ends and joins of lines.
     appendAll(this->Text, "2.834646 0 0 2.834646 0 0 cm\n", page.StrokeWidth, " w 1 J 1 j\n");
     const double margin = page.ClippedMargin;
     if (margin > 0.0)
@@ -69,6 +73,8 @@ public:
   void FillDisc(const PagePoint& centre, double radius, Colour colour) override
   {
     this->UseColour(colour, false);
+    // The matrix scales the unit disc to its radius and moves it to its centre; q and Q restore the
+    // state.
     appendAll(this->Text, "q ", radius, " 0 0 ", radius, ' ', centre[0], ' ', centre[1],
       " cm /Disc Do Q\n");
     this->Flush();
@@ -82,6 +88,7 @@ public:
       this->AppendPath(corners);
       this->Text += "h\n";
     }
+    // f* is the even-odd rule, f the nonzero winding rule.
     this->Text += rule == FillRule::Odd ? "f*\n" : "f\n";
     this->Flush();
   }
@@ -97,6 +104,7 @@ public:
   void End() override
   {
     this->WriteContent();
+    // An extended graphics state for each opacity in use; PDF 1.4 has transparency only there.
     std::string states;
     for (std::size_t opacity = 0; opacity < this->Opacities.size(); ++opacity)
     {
@@ -106,6 +114,8 @@ public:
         appendAll(states, opacityName(opacity), " << /ca ", value, " /CA ", value, " >>\n");
       }
     }
+    // Numbers are taken before the objects are written, because page and page tree refer to each
+    // other.
     const std::size_t pages = this->NewObject();
     const std::size_t page = this->NewObject();
     std::string contents;
@@ -143,6 +153,7 @@ private:
   // Writes a compressed stream; `entries` are those of its dictionary.
   void WriteStream(std::size_t number, const std::string& entries, std::string_view data)
   {
+    // The length of the compressed data is known before it is written.
     const std::string packed = this->Pack(data);
     this->WriteObject(number,
       "<< " + entries + " /Filter /FlateDecode /Length " + std::to_string(packed.size()) +
@@ -155,6 +166,7 @@ private:
   {
     const std::int64_t table = this->File.Size();
     const std::string count = std::to_string(this->Offsets.size() + 1);
+    // Entry 0 heads the list of free objects.
     std::string text = "xref\n0 " + count + "\n0000000000 65535 f \n";
     for (const std::int64_t offset : this->Offsets)
     {
@@ -198,6 +210,7 @@ private:
 
   void AppendPath(const PagePath& path)
   {
+    // The first point moves, the others draw lines.
     const char* operation = " m\n";
     for (const PagePoint& point : path)
     {

@@ -26,6 +26,7 @@ public:
   // Begins with the rectangle.
   void Begin(const Point<2>& site, const Point<2>& lengths)
   {
+    // Coordinates relative to the site keep their digits, however far it is from the origin.
     const Point<2> low = { -site[0], -site[1] };
     const Point<2> high = { lengths[0] - site[0], lengths[1] - site[1] };
     this->Polygon = { { low, -1 }, { { high[0], low[1] }, -1 }, { high, -1 },
@@ -97,6 +98,7 @@ private:
       }
       if (isInside == (this->Excess[next] > 0.0))
       {
+        // The corner where the side crosses the bisector.
         const double part = this->Excess[k] / (this->Excess[k] - this->Excess[next]);
         const Point<2>& a = corner.X;
         const Point<2>& b = this->Polygon[next].X;
@@ -108,6 +110,7 @@ private:
     this->FindRadius();
   }
 
+  // The radius decides which bisectors and boxes can still cut the cell.
   void FindRadius()
   {
     this->SquaredRadius = 0.0;
@@ -162,6 +165,7 @@ void PowerDiagram::Update(const double* weights, Progress& progress)
 
 void PowerDiagram::CutByKnown(const double* weights, Progress& progress)
 {
+  // The previous cells tell which neighbours to try first.
   std::swap(this->Last, this->Now);
   this->Now.Clear(this->NumberOfCells(), this->NumberOfChunks());
   progress.For(
@@ -285,6 +289,7 @@ void PowerDiagram::CutByAll(
     firstSlice);
 }
 
+// Cuts the cell of a site by the neighbours of a known cell, with the new weights.
 void PowerDiagram::CutByNeighbours(
   const Cell& known, std::int64_t id, const double* weights, Cutter& cutter) const
 {
@@ -320,6 +325,7 @@ void PowerDiagram::Cells::Store(
   this->Places[static_cast<std::size_t>(site)] = { chunk, first, cutter.Size() };
 }
 
+// Cuts the cell by all sites that the tree cannot rule out.
 void PowerDiagram::CutByRivals(std::int64_t site, double weight, Cutter& cutter) const
 {
   this->Tree.VisitRivals(this->SiteOf(site), weight, cutter,

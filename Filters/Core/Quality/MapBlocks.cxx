@@ -46,6 +46,7 @@ public:
     for (int axis = 0; axis < Dimension; ++axis)
     {
       this->Faces[axis] = this->Blocks;
+      // n blocks along an axis have n + 1 faces across it; each starts with the integral 0.
       ++this->Faces[axis].Cells[axis];
       this->Through[axis].assign(
         static_cast<std::size_t>(this->Count > 0 ? this->Faces[axis].Count() : 0), 0.0);
@@ -58,6 +59,7 @@ public:
   {
     this->Wanted = std::move(shares);
     Stages stages(progress, { { "cells", 1 }, { "masses", 99 } });
+    // The density is read only where the images of this rank's blocks lie.
     const LatticePart<Dimension> cells = this->CellsAround(stages["cells"]);
     // In 1D and 2D, the integrals over faces are exact. Each face is integrated once and used by
     // both of its blocks.
@@ -94,6 +96,7 @@ public:
   {
     const auto count = static_cast<std::size_t>(this->Count);
     std::vector<double> masses(count, 0.0);
+    // The least value of a cell under each block decides whether the block counts.
     std::vector<double> least(count, std::numeric_limits<double>::infinity());
     this->InLayers(
       this->Cells.Of(this->Blocks), progress, [&](const LayerSpan& batch, Progress& work) {
@@ -109,6 +112,7 @@ public:
       });
     for (std::size_t i = 0; i < count; ++i)
     {
+      // Blocks with thin cells have relative errors without meaning.
       masses[i] = least[i] > leastOfMean * this->Mean() ? masses[i] : Uncounted;
     }
     return masses;
@@ -202,6 +206,7 @@ private:
   // numbered by layers of blocks.
   std::array<std::int64_t, 2> BlocksIn(const LayerSpan& batch) const
   {
+    // The cells under a layer of blocks, along the last axis.
     const auto lies = [&](std::int64_t layer) { return this->Cells.Covered(Last, layer); };
     std::int64_t low = this->Blocks.Low[Last];
     std::int64_t high = this->Blocks.End(Last);
@@ -213,6 +218,7 @@ private:
     {
       --high;
     }
+    // Blocks in a layer.
     const std::int64_t inLayer = this->Count / std::max<std::int64_t>(1, this->Blocks.Cells[Last]);
     return { (low - this->Blocks.Low[Last]) * inLayer, (high - this->Blocks.Low[Last]) * inLayer };
   }
@@ -226,6 +232,7 @@ private:
     const Ranks& ranks = this->Group;
     Stages stages(progress, { { "all", 1 }, { "largest", 1 } });
     std::vector<double> masses(static_cast<std::size_t>(this->Count), 0.0);
+    // All blocks in the first pass, the worst ones in the second.
     std::vector<std::int64_t> blocks(masses.size());
     std::iota(blocks.begin(), blocks.end(), std::int64_t{ 0 });
     this->AddInLayers(cells, blocks, TriangleRule::Centroid, masses, stages["all"]);
@@ -241,6 +248,8 @@ private:
     {
       return {};
     }
+    // The smallest of the largest errors of all ranks: this rank's blocks above it are integrated
+    // again.
     const double least = *std::min_element(largest.begin(), largest.end());
     blocks.clear();
     for (std::int64_t block = 0; block < this->Count; ++block)
@@ -297,6 +306,7 @@ private:
         {
           sample = size * sample + size / 2;
         }
+        // Prefix sums start at the image of the block's central sample.
         const MassIntegral<Dimension> mass(this->Rows, *this->Images.At(middle), rule);
         for (int axis = 0; axis < Dimension; ++axis)
         {
@@ -312,6 +322,7 @@ private:
   // Returns the relative error, forward, of the mass in the image of a block.
   double MassError(std::int64_t block, double mass) const
   {
+    // A block of 4^D samples has this share of the domain.
     double share = 1.0;
     for (const std::int64_t samples : this->Map.Lattice)
     {
@@ -378,6 +389,7 @@ private:
   void InLayers(const LatticePart<Dimension>& cells, Progress& progress, const Visit& visit)
   {
     const std::int64_t each = this->Rows.LayersAtOnce();
+    // Batches begin at multiples of their size, on all ranks.
     std::int64_t low = cells.Low[Last] / each * each;
     const std::int64_t count = std::max<std::int64_t>(1, (cells.End(Last) - low + each - 1) / each);
     Parts parts(progress, count);

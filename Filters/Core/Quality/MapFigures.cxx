@@ -85,6 +85,8 @@ MapFigures writeMap(const MapOnLattice<D>& map, const RectifiedFlow<D>& flow,
 {
   const Ranks& ranks = progress.Group();
   const Point<D> step = latticeStep<D>(map.Lattice, map.Geometry.template Size<D>());
+  // The density at which the map begins, with the weights of samples; nullptr for the uniform
+  // measure.
   const RectifiedFlow<D>* begins = direction == FlowDirection::Backward ? &flow : nullptr;
   const bool hasOwn = map.Wanted.Contains(map.Own);
   if (begins)
@@ -124,6 +126,7 @@ MapFigures writeMap(const MapOnLattice<D>& map, const RectifiedFlow<D>& flow,
     figures.Folds = folds.Count(map.Own, map.Wanted, values.Determinants, stages["samples"]);
   }
   const DisplacementSums all = sumOverRanks(ranks, sums);
+  // Sums are exact, so the cost does not depend on the ranks.
   figures.Cost = moves.MeanSquare(all);
   if (target)
   {

@@ -70,6 +70,7 @@ FoldCount MapFolds<Dimension>::CountRows(
         // ranks.
         for (std::int64_t k = 0; k < row.Cells[0]; ++k, ++sample[0])
         {
+          // A folded sample; its area counts as the reversed part of its image.
           if (determinants[k] <= 0.0 && !this->IsCorner(sample) && this->HasMass(sample))
           {
             ++found.Samples;
@@ -89,6 +90,7 @@ std::int64_t MapFolds<Dimension>::CountWithMass(
   {
     return part.IsEmpty() ? 0 : part.Count();
   }
+  // Integers add up exactly in any order.
   std::atomic<std::int64_t> all{ 0 };
   progress.For(part.Count(), grain, [&](std::int64_t first, std::int64_t last) {
     std::int64_t found = 0;
@@ -130,6 +132,7 @@ bool MapFolds<Dimension>::HasMass(const GridSize<Dimension>& sample) const
   for (int axis = 0; axis < Dimension; ++axis)
   {
     const auto place = static_cast<double>(sample[axis]);
+    // The cells of the density that the sample's cell covers, in part or as a whole.
     const CoveredCells covered(place * step[axis], (place + 1.0) * step[axis], size[axis]);
     cells.Low[axis] = covered.First;
     cells.Cells[axis] = covered.End - covered.First;

@@ -71,6 +71,7 @@ public:
   // nearer child is searched first, so that the other one is often skipped.
   double Search(const TreePoint& point, double best, std::int64_t box = 0) const
   {
+    // A leaf is searched point by point; coincident points end the search.
     const ItemBox& at = this->Boxes[static_cast<std::size_t>(box)];
     if (at.Second < 0)
     {
@@ -87,6 +88,7 @@ public:
       return best;
     }
     const std::int64_t children[2] = { box + 1, at.Second };
+    // A child farther than the best distance cannot hold a nearer point.
     const double gaps[2] = { this->Gap(point, children[0]), this->Gap(point, children[1]) };
     const int nearer = gaps[1] < gaps[0] ? 1 : 0;
     for (const int child : { nearer, 1 - nearer })
@@ -157,6 +159,7 @@ struct Query
   double Best;
 };
 
+// Answers the queries of other ranks, whose points have no number here.
 std::vector<double> answersTo(
   const std::vector<Query>& queries, const PointTree& tree, Progress& progress)
 {
@@ -179,11 +182,13 @@ std::vector<double> answersTo(
 void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, const Ranks& ranks,
   Progress& progress)
 {
+  // All ranks know the boxes of all points.
   const std::vector<ItemBox> boxes = gatherValues(ranks, tree.Bounds());
   Parts parts(progress, ranks.Count() - 1);
   for (int step = 1; step < ranks.Count(); ++step)
   {
     Progress& part = parts[step - 1];
+    // In step s, each rank asks the rank s after it, so that all ranks answer at the same time.
     const auto other = static_cast<std::size_t>((ranks.Own() + step) % ranks.Count());
     std::int64_t next = boxes[other].Last > 0 ? 0 : count;
     do
@@ -196,6 +201,7 @@ void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, c
         const double best = squared[point.Id];
         if (PointTree::GapTo(point, boxes[other]) < best)
         {
+          // The known distance goes along and prunes the search on the other rank.
           queries[other].push_back({ { point.X[0], point.X[1], point.X[2] }, best });
           asked.push_back(point.Id);
         }

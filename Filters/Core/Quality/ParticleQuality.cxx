@@ -73,8 +73,11 @@ public:
       { { "blocks", 10 }, { "masses", 10 }, { "cost", 5 }, { "shares", 15 }, { "neighbours", 27 },
         { "spacings", 30 }, { "average", 3 } });
     this->Quality.Particles = sumOverRanks(this->Group, this->Count);
+    // Values times the measure of a cell, in physical units.
     this->Quality.TotalMass = this->Flow.Total() * this->Grid.CellMeasure();
     this->Place(stages["blocks"]);
+    // On several ranks, sums follow a global order of the particles, so that their bits do not
+    // depend on how particles are distributed.
     if (this->Group.AreSeveral())
     {
       this->Order.emplace(this->Count, this->Particles.Order, 1, this->Group, stages["masses"]);
@@ -107,6 +110,7 @@ private:
       this->InOrder(this->Count, progress, [&](std::int64_t i) { sum += value(i); });
       return sum;
     }
+    // Each rank gets a part of the order, and the running sum goes from rank to rank.
     const std::vector<double> share = this->Order->Bring(value);
     return sumInTurn(this->Group, sum,
       [&](double& running) { running = std::accumulate(share.begin(), share.end(), running); });
@@ -137,6 +141,7 @@ private:
         this->Block.data()[i] = noBlock;
         return;
       }
+      // Particles in cells without mass show an error of the transport.
       if (!this->Flow.HasMass(index))
       {
         ++inEmpty;
@@ -154,6 +159,7 @@ private:
       this->ParticleMass = static_cast<double>(this->Quality.Particles);
       return;
     }
+    // Masses are relative to their sum, as only the distribution is compared.
     const double total =
       this->SumInOrder(progress, [this](std::int64_t i) { return this->Particles.Masses[i]; });
     if (!(total > 0.0) || std::isinf(total))
@@ -170,6 +176,7 @@ private:
     {
       return;
     }
+    // The mean squared displacement, weighted by mass.
     this->Quality.TransportCost = this->SumInOrder(progress, [this](std::int64_t i) {
       const double* d = this->Particles.Displacements[i];
       return this->Share(i) * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -201,6 +208,7 @@ private:
     // Terms of the first rank's part of the order precede those of the second.
     std::vector<std::vector<BlockTerm>> received(static_cast<std::size_t>(this->Group.Count()));
     {
+      // Terms go to the ranks that own their blocks, without those of particles outside.
       std::vector<BlockTerm> terms = this->Order->Bring([this](std::int64_t i) {
         return BlockTerm{ this->Block.data()[i], this->Share(i) };
       });
@@ -232,6 +240,7 @@ private:
     this->AddShares(stages["particles"]);
     const double* found = this->Found.data();
     const double* expected = this->Expected.data();
+    // The density's own share of the mass in each block, from its tables.
     findBlockShares<Dimension>(this->Flow, this->Blocks, this->OwnBlocks.First,
       this->OwnBlocks.Count, this->Expected.data(), stages["density"]);
     struct Squares
@@ -242,6 +251,8 @@ private:
     const Squares squares = sumInTurn(this->Group, Squares(), [&](Squares& sums) {
       this->InOrder(this->OwnBlocks.Count, stages["errors"], [&](std::int64_t i) {
         const double measure = this->Blocks.Box(this->OwnBlocks.First + i).Cells();
+        // A share divided by the measure is a density; the square of it times the measure is its
+        // part of the norm.
         const double off = found[i] - expected[i];
         sums.Difference += off * off / measure;
         sums.Norm += expected[i] * expected[i] / measure;
@@ -252,6 +263,7 @@ private:
     std::vector<double> errors;
     this->InOrder(this->OwnBlocks.Count, stages["errors"], [&](std::int64_t i) {
       const double measure = this->Blocks.Box(this->OwnBlocks.First + i).Cells() / cells;
+      // A relative error means little in blocks with hardly any mass.
       if (expected[i] > leastOfMean * measure)
       {
         errors.push_back(std::abs(found[i] - expected[i]) / expected[i]);
@@ -282,6 +294,7 @@ private:
     // the local density.
     this->Flow.MeasuresOfShares(
       index, boxAspect<Dimension>(this->Grid), measure, measure, stages["measures"]);
+    // The side of a cube with the measure of a cell: distances are physical, measures in cells.
     const double side = this->Scale.ToUnits(root<Dimension>(this->Grid.CellMeasure()));
     stages["spacings"].ForEach(this->Count, grain, [=](std::int64_t i) {
       spacing[i] =
@@ -302,6 +315,7 @@ private:
       : std::vector<double>();
     const double* all = this->Order ? brought.data() : this->Spacing.data();
     const std::int64_t count = this->Order ? this->Order->Count() : this->Count;
+    // Sum, minimum and number of the relative spacings, in the order of the particles.
     const Spacings found = sumInTurn(this->Group, Spacings(), [&](Spacings& sums) {
       this->InOrder(count, progress, [&](std::int64_t i) {
         if (all[i] >= 0.0)
@@ -354,6 +368,7 @@ Point<Dimension> boxAspect(const ImageGrid& grid)
   Point<Dimension> aspect = grid.Lengths<Dimension>();
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // Cells for each unit of length along an axis.
     aspect[axis] = static_cast<double>(size[axis]) / scale.ToUnits(aspect[axis]);
   }
   return aspect;

@@ -13,6 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// A point with its number in the given order.
 template <int Dimension>
 struct NumberedPoint
 {
@@ -36,6 +37,7 @@ bool isBefore(const NumberedPoint<Dimension>& a, const NumberedPoint<Dimension>&
   return a.Number < b.Number;
 }
 
+// Returns the axis along which the points have the largest extent.
 template <int Dimension>
 int widestAxis(const NumberedPoint<Dimension>* first, const NumberedPoint<Dimension>* last)
 {

@@ -37,6 +37,7 @@ RelaxedPoints<Dimension>::RelaxedPoints(
 {
   for (std::size_t i = 0; i < this->X.size(); ++i)
   {
+    // From index space to the frame, and into the domain.
     const double index = points.data()[i];
     if (!std::isfinite(index))
     {
@@ -132,6 +133,7 @@ void RelaxedPoints<Dimension>::Write(
       const double x = this->X[static_cast<std::size_t>(i * Dimension + axis)];
       // A coordinate that did not change keeps its bits: x * side / side may differ by rounding.
       const bool isMoved = x != this->Given[static_cast<std::size_t>(point * Dimension + axis)];
+      // Back to index space, at the point's original place in the order.
       double& index = points[point][axis];
       index = std::clamp(
         isMoved ? x / this->Frame.CellSides[axis] : index, 0.0, static_cast<double>(size[axis]));

@@ -57,6 +57,7 @@ SpacingTree<Dimension>::SpacingTree(const RectifiedFlow<Dimension>& flow,
   {
     for (int axis = 0; axis < Dimension; ++axis)
     {
+      // The sides of a box depend only on its depth.
       this->SidesOfDepth[static_cast<std::size_t>(depth)][axis] =
         std::ldexp(this->RootSides[axis], -this->Halvings(axis, depth));
     }
@@ -74,6 +75,7 @@ double SpacingTree<Dimension>::ExactSpacing(const Point<Dimension>& x) const
   Point<Dimension> index;
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // From the frame to the density's index space.
     index[axis] = std::clamp(
       x[axis] / this->Frame.CellSides[axis], 0.0, static_cast<double>(this->Flow.Size()[axis]));
   }
@@ -101,6 +103,8 @@ bool SpacingTree<Dimension>::IsSpacingBelow(double side, const Point<Dimension>&
     high[axis] = (x[axis] + 0.5 * side) / this->Frame.CellSides[axis];
   }
   constexpr double doubt = 1e-6; // more than the error of the search
+  // A cube that is cut by the domain's border has no simple relation to the definition, so the
+  // exact spacing decides.
   const double shares =
     isInside ? this->Flow.Share(low, high) * static_cast<double>(this->Points) : 1.0;
   return std::abs(shares - 1.0) > doubt ? shares > 1.0 : side > this->ExactSpacing(x);
@@ -126,6 +130,7 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
   for (int depth = 0; first < this->Boxes.size(); ++depth)
   {
     const std::size_t last = this->Boxes.size();
+    // Bytes, as threads write to neighbouring entries.
     std::vector<char> divided(last - first, 0);
     const Point<Dimension>& sides = this->Sides(depth);
     const double widest = *std::max_element(sides.begin(), sides.end());
@@ -201,6 +206,7 @@ void SpacingTree<Dimension>::OrderLeaves(Progress& progress)
     {
       const std::int64_t middle = (range.Low[longest] + range.High[longest]) / 2;
       ranges.push_back(range);
+      // The lower half is pushed last, so that it is visited first.
       ranges.back().Low[longest] = middle;
       ranges.push_back(range);
       ranges.back().High[longest] = middle;
@@ -246,6 +252,7 @@ void SpacingTree<Dimension>::Number(Progress& progress)
       Node node = box.Low;
       for (int axis = 0; axis < Dimension; ++axis)
       {
+        // Corner c is at the upper end of the axes of the bits of c.
         node[axis] += (corner >> axis & 1) * this->Width(axis, box.Depth);
       }
       box.Nodes[static_cast<std::size_t>(corner)] = numbers[node];
@@ -363,6 +370,7 @@ typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
   bool isInside = true;
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // The place in units of the finest leaf, relative to the guessed leaf.
     const std::int64_t above = in.Low[axis] + in.Fixed[axis] - leaf.Low[axis];
     isInside = isInside && above >= 0 && above < this->Width(axis, leaf.Depth);
   }
@@ -395,6 +403,7 @@ typename SpacingTree<Dimension>::RootPlace SpacingTree<Dimension>::LocateRoot(
 template <int Dimension>
 std::int64_t SpacingTree<Dimension>::LeafIn(std::int64_t root, const Node& fixed) const
 {
+  // The first child of the box, or the leaf's code, which is negative.
   std::int64_t first;
   int depth = 0;
   for (std::int64_t box = root; (first = this->Children[static_cast<std::size_t>(box)]) >= 0;
@@ -423,6 +432,7 @@ typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::PlaceIn(
   Place place{ leaf, {}, &this->Sides(depth) };
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // The fixed-point digits above the leaf's level are its index within the root.
     const int halvings = this->Halvings(axis, depth);
     place.At[axis] = in.At[axis] * static_cast<double>(std::int64_t{ 1 } << halvings) -
       static_cast<double>(in.Fixed[axis] >> (DeepestLevel - halvings));

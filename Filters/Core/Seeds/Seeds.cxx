@@ -115,6 +115,8 @@ public:
   const GridSize<Dimension>& Best() const { return this->Size; }
 
 private:
+  // Chooses the number along the k-th shortest axis. `remaining` is the number of points for the
+  // other axes, `stretch` the sum of relative deviations from cubes so far.
   void Try(GridSize<Dimension> size, int k, double remaining, double stretch)
   {
     if (k == Dimension)
@@ -128,6 +130,7 @@ private:
       }
       return;
     }
+    // Cubes would have this real number of layers; a whole number must be near it.
     const double ideal = cubesAlong<Dimension>(this->Lengths, this->Order, k, remaining);
     const double lower = std::max(std::floor(ideal), 1.0);
     const double upper = std::max(std::ceil(ideal), 1.0);
@@ -173,12 +176,14 @@ public:
   void Fill(int k, std::int64_t first, std::int64_t count) const
   {
     const std::int64_t slabs = this->NumberOfSlabs(k, count);
+    // The first slabs have one point more, if the number of points is not a multiple.
     const std::int64_t smaller = count / slabs;
     const std::int64_t larger = count % slabs;
     std::int64_t begin = 0;
     for (std::int64_t slab = 0; slab < slabs; ++slab)
     {
       const std::int64_t size = smaller + (slab < larger ? 1 : 0);
+      // Only the points of the wanted part are written; slabs without any are skipped.
       const std::int64_t from = std::max(first + begin, this->FirstPoint);
       const std::int64_t end =
         std::min(first + begin + size, this->FirstPoint + this->UnitPoints.size());
@@ -187,6 +192,8 @@ public:
         const int axis = this->Order[k];
         const double jitter =
           unitReal(randomWord(this->RandomSeed, static_cast<std::uint64_t>(i) * Dimension + axis));
+        // The slab is [begin, begin + size) / count of the box, so that the measure of every box is
+        // 1 / count.
         const double place = static_cast<double>(begin) + jitter * static_cast<double>(size);
         this->UnitPoints[i - this->FirstPoint][axis] = place / static_cast<double>(count);
       }
@@ -227,6 +234,7 @@ template <int Dimension>
 void generateRandom(
   std::uint64_t randomSeed, std::int64_t first, PointSpan<Dimension> unitPoints, Progress& progress)
 {
+  // Coordinate a of point i is random word number Dimension * i + a.
   std::uint64_t counter = static_cast<std::uint64_t>(first) * Dimension;
   for (std::int64_t i = 0; i < unitPoints.size() * Dimension; ++i)
   {
@@ -243,6 +251,7 @@ void generateLowDiscrepancy(
 {
   for (int a = 0; a < Dimension; ++a)
   {
+    // A random shift by the seed, and the step times the first number.
     std::uint64_t fraction = randomWord(randomSeed, static_cast<std::uint64_t>(a)) +
       static_cast<std::uint64_t>(first) * lowDiscrepancyStep<Dimension>(a);
     for (std::int64_t i = 0; i < unitPoints.size(); ++i)
@@ -254,6 +263,7 @@ void generateLowDiscrepancy(
   }
 }
 
+// Throws unless the pattern has `points` seeds from number `first` on.
 void requirePart(std::int64_t first, std::int64_t points, double all)
 {
   if (first < 0 || static_cast<double>(points) > all - static_cast<double>(first))
@@ -263,6 +273,7 @@ void requirePart(std::int64_t first, std::int64_t points, double all)
   }
 }
 
+// Throws unless there is memory for one seed in each cell.
 template <int Dimension>
 void requireAllCells(const GridSize<Dimension>& size, std::int64_t points)
 {
@@ -368,6 +379,7 @@ void generateSeedsFrom(SeedPattern pattern, const Point<Dimension>& lengths, std
       return generateLowDiscrepancy<Dimension>(randomSeed, first, unitPoints, progress);
     case SeedPattern::Random:
       return generateRandom<Dimension>(randomSeed, first, unitPoints, progress);
+    // A lattice is no pattern of an exact count.
     case SeedPattern::Lattice:
       break;
   }

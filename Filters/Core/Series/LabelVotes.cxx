@@ -22,6 +22,7 @@ namespace
 // within this part of each other count as equal.
 constexpr double equalMasses = 0.02;
 
+// Returns the cells that a vote's cloud covers along an axis.
 template <int D>
 CloudRow rowOf(const LabelVote<D>& vote, int axis, const GridSize<D>& size)
 {
@@ -49,6 +50,7 @@ public:
       rows[static_cast<std::size_t>(axis)] = rowOf<D>(vote, axis, this->Size);
     }
     visitRows<D>(rows, vote.Mass, [&](std::int64_t row, std::int64_t plane, double mass) {
+      // The first cell of the row; the others follow along axis 0.
       const std::int64_t at[3] = { rows[0].First, row, plane };
       GridSize<D> cell;
       std::copy_n(at, D, cell.begin());
@@ -70,6 +72,7 @@ public:
     });
     for (auto begin = this->Others.begin(); begin != this->Others.end();)
     {
+      // Votes are sorted by cell and label, so that each run is the mass of one label in one cell.
       Sum sum{ begin->Label, 0.0 };
       const std::int64_t cell = begin->Cell;
       for (; begin != this->Others.end() && begin->Cell == cell && begin->Label == sum.Label;
@@ -93,6 +96,7 @@ private:
     std::int64_t Label;
     double Mass;
   };
+  // A vote for another label than the cell's first one.
   struct Other
   {
     std::int64_t Cell;
@@ -133,6 +137,7 @@ std::vector<LabelVote<D>> exchangeVotes(std::vector<LabelVote<D>> own, const Lat
     given.emplace_back();
     std::copy_if(
       own.begin(), own.end(), std::back_inserter(given.back()), [&](const LabelVote<D>& vote) {
+        // A vote goes to every rank whose part its cloud overlaps.
         bool reaches = !wanted.IsEmpty();
         for (int axis = 0; axis < D && reaches; ++axis)
         {
@@ -171,6 +176,7 @@ LabelVotes<D>::LabelVotes(std::vector<LabelVote<D>> votes, const GridSize<D>& si
     [&](const LabelVote<D>& a, const LabelVote<D>& b) { return layerOf(a) < layerOf(b); });
   for (const LabelVote<D>& vote : this->Votes)
   {
+    // Counting sort: the first vote of each layer.
     ++this->Begins[layerOf(vote) + 1];
   }
   std::partial_sum(this->Begins.begin(), this->Begins.end(), this->Begins.begin());
@@ -180,6 +186,7 @@ template <int D>
 std::vector<std::int64_t> LabelVotes<D>::Count(
   const std::vector<std::int64_t>& equal, Progress& progress) const
 {
+  // A label for each cell of the part, axis 0 fastest; -1 without mass.
   std::vector<std::int64_t> winners(static_cast<std::size_t>(this->Part.Count()), -1);
   if (this->Part.IsEmpty())
   {
@@ -187,6 +194,7 @@ std::vector<std::int64_t> LabelVotes<D>::Count(
   }
   constexpr std::int64_t atOnce = std::int64_t{ 1 } << 14;
   const std::int64_t layers = this->Part.Cells[D - 1];
+  // Cells in a layer of the part.
   const std::int64_t cells = this->Part.Count() / layers;
   // A chunk has several layers, because it also reads the clouds that begin up to CloudRow::Most
   // layers before it.
@@ -198,6 +206,7 @@ std::vector<std::int64_t> LabelVotes<D>::Count(
       some.Low[D - 1] += first;
       some.Cells[D - 1] = last - first;
       LayerCount<D> count(some, this->Size);
+      // A cloud that begins up to CloudRow::Most layers below may still reach the first layer.
       const std::int64_t low = std::max<std::int64_t>(0, some.Low[D - 1] - CloudRow::Most);
       const std::int64_t begin = this->Begins[static_cast<std::size_t>(low)];
       const std::int64_t end = this->Begins[static_cast<std::size_t>(some.End(D - 1))];

@@ -88,6 +88,7 @@ void equalize(const SiteGroups& groups, const PixelMasses<Dimension>& masses,
 {
   constexpr int mostRounds = 8;
   Stages stages(progress, { { "specks", 5 }, { "rounds", 30 } });
+  // The labels of the flow have isolated pixels, which no border could move.
   joinSpecks<Dimension>(groups, masses, labels, stages["specks"]);
   Rounds rounds(stages["rounds"], 1);
   for (int round = 0; round < mostRounds; ++round)
@@ -205,6 +206,7 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimensio
       { "labels", 74 }, { "groups", 1 }, { "merge", 2 } });
   std::vector<Point<Dimension>> even(this->Inside); // images of the sites under the backward flow
   rescale<Dimension>(even, size, flow.Size(), stages["scales"]);
+  // Both grids have the same domain, so only a scaling is between their index spaces.
   report = flow.Backward(even, even, refined(options), stages["sites"]);
   rescale<Dimension>(even, flow.Size(), size, stages["sites"]);
   // A density with the mass 1 in each image of a site is the target of the second flow.
@@ -212,10 +214,12 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimensio
   SiteGroups groups = sites.Groups();
   if (groups.NumberOfGroups() == 1)
   {
+    // A single group gets all pixels.
     std::fill_n(labels, pixels, std::int64_t{ 0 });
     return groups;
   }
   {
+    // The images of all pixels' centres at the uniform measure, interleaved.
     LargeBuffer<double> memory(pixels * Dimension);
     const PointSpan<Dimension> positions(memory.data(), pixels);
     flow.Backward(
@@ -241,6 +245,7 @@ void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& fl
   const GridSize<Dimension> size = masses.Size();
   Progress progress(context);
   Stages stages(progress, { { "masses", 3 }, { "points", 3 }, { "labels", 4 } });
+  // The mass of each group's pixels, in integer units.
   std::vector<std::int64_t> mass(static_cast<std::size_t>(groups.NumberOfGroups()), 0);
   std::int64_t heaviest = 0;
   stages["masses"].ForEachInOrder(masses.NumberOfPixels(), grain, [&](std::int64_t pixel) {
@@ -272,6 +277,7 @@ void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& fl
   for (std::size_t i = 0; i < without.size(); ++i)
   {
     const std::int64_t owner = labels[numberOfCellAt<Dimension>(points[i].data(), size)];
+    // The group that each group joins; itself, if it stays.
     joined[without[i]] = mass[owner] > 0 ? owner : labels[heaviest];
   }
   SiteGroups merged;

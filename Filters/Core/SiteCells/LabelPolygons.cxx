@@ -19,6 +19,7 @@ constexpr std::int64_t none = -1;
 constexpr std::int64_t rowsOfBand = 16;
 constexpr double rounding = 1e-9; // pixels; errors of the clipping of polygons
 
+// A closed interval, empty at first.
 struct Interval
 {
   double Low = std::numeric_limits<double>::infinity();
@@ -47,6 +48,7 @@ public:
 
   void Run(Progress& progress)
   {
+    // The number of bands, the last of which may be narrower.
     const std::int64_t bands = (this->Size[1] + rowsOfBand - 1) / rowsOfBand;
     this->FindBands(bands, progress);
     progress.ForEach(
@@ -61,6 +63,7 @@ private:
     std::int64_t End;
   };
 
+  // Returns the extent of a polygon along an axis.
   Interval ExtentOf(std::int64_t polygon, std::size_t axis) const
   {
     Interval extent;

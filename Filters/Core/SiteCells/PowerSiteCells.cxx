@@ -29,6 +29,7 @@ public:
   }
 };
 
+// Power diagrams need Euclidean distances in the plane, so the axes must be perpendicular.
 bool hasRightAngles(const ImageGrid& grid)
 {
   // The cosine of the angle between the axes is below this.
@@ -121,6 +122,7 @@ void PowerSiteCells::Solve(
   {
     const double* x = sites[static_cast<std::int64_t>(i)];
     Point<2> index;
+    // Sites outside the domain are counted, but used at their places.
     this->Outside += grid.NearestIndex<2>(x, index.data()) ? 0 : 1;
     // The squared height over the plane adds a constant to a site's distances: it changes the cost,
     // not the cells.
@@ -134,12 +136,14 @@ void PowerSiteCells::Solve(
     }
     flat[i] = { index[0] * this->PixelSides[0], index[1] * this->PixelSides[1] };
   }
+  // The cost refers to the given places, however sites are moved for the diagram.
   const std::vector<Point<2>> given = flat;
   // A site far outside the domain leaves little room to the others, so they are separated by less.
   const double scale = std::clamp(moveIntoDomain(sides, flat), 1e-5, 1.0);
   separateSites(flat, leastSiteDistance * scale, SiteBounds(), stages["sites"]);
   moveIntoDomain(sides, flat); // those that were at one point are still crowded
 
+  // The density with the mass `sites`, in units of the mean spacing: every cell has the mass 1.
   EqualMassPartition partition(RowMoments(density,
                                  { sides[0] / static_cast<double>(density.Size[0]),
                                    sides[1] / static_cast<double>(density.Size[1]) },
@@ -186,6 +190,7 @@ void PowerSiteCells::Keep(const EqualMassPartition& partition, const std::vector
     }
     const EqualMassPartition::CellIntegrals& integrals = partition.Integrals(site);
     const Point<2>& centroid = integrals.Centroid;
+    // From masses that sum to the number of sites to shares that sum to 1.
     this->Shares.push_back(integrals.Mass / count);
     this->Centroids.push_back(
       { centroid[0] / this->PixelSides[0], centroid[1] / this->PixelSides[1] });
@@ -216,6 +221,7 @@ double PowerSiteCells::Measure(const SiteCellStatistics& statistics) const
   {
     throw std::overflow_error("The domain's area passes the largest double; scale the sites");
   }
+  // The cost is the sum of the cells' parts.
   double total = 0.0;
   for (std::size_t i = 0; i < this->Costs.size(); ++i)
   {

@@ -37,6 +37,7 @@ struct Node
   std::int64_t Y;
 };
 
+// Returns the next side of the same pixel, counter-clockwise.
 Edge turnedLeft(const Edge& edge)
 {
   return { edge.X, edge.Y, (edge.Side + 1) % 4 };
@@ -49,6 +50,7 @@ Edge across(const Edge& edge, int side)
   return { edge.X + steps[side][0], edge.Y + steps[side][1], edge.Side };
 }
 
+// Returns the node at the end of an edge.
 Node headOf(const Edge& edge)
 {
   return { edge.X + (edge.Side < 2 ? 1 : 0), edge.Y + (edge.Side == 1 || edge.Side == 2 ? 1 : 0) };
@@ -206,6 +208,7 @@ private:
   void CutFrom(const Hole& hole)
   {
     const auto cut = [&](std::int64_t x, std::int64_t y) {
+      // A cut runs between two pixels of the polygon; it ends at the next ring.
       const bool isInside =
         this->LabelAt(x, y) == hole.Label && this->LabelAt(x, y - 1) == hole.Label;
       if (isInside)

@@ -68,6 +68,7 @@ Sent<Real> distribute(const SplatSetup<Dimension, Real>& setup, const std::int64
       {
         const std::int64_t particle = first + i;
         SentParticle<Real> record;
+        // Equal keys keep the order of ranks and particles, because the sort is stable.
         record.Key = keys ? keys[particle] : 0;
         record.Mass = particles.Masses ? particles.Masses[particle] : particles.Mass;
         std::copy_n(particles.Points[particle], 3, record.Place);
@@ -109,6 +110,7 @@ public:
     }
     sortByKey(all, progress);
     const auto count = static_cast<std::int64_t>(all.size());
+    // The splat takes coordinates and masses in separate arrays.
     this->Places = LargeBuffer<Real>(3 * count);
     this->Masses = LargeBuffer<double>(count);
     Real* place = this->Places.data();
@@ -137,11 +139,14 @@ std::int64_t splatOnRanks(const SplatParticles<Dimension, Real>& particles,
 {
   const Ranks& ranks = progress.Group();
   Stages stages(progress, { { "exchange", 2 }, { "splat", 8 } });
+  // The keys count only if every rank with particles has them.
   const bool haveKeys = onAllRanks(ranks, keys || particles.Points.size() == 0);
   const SplatSetup<Dimension, Real> setup(particles, size, options);
   Sent<Real> sent = distribute<Dimension, Real>(
     setup, haveKeys ? keys : nullptr, gatherValues(ranks, wanted), stages["exchange"]);
   const ReceivedParticles<Real> received(std::move(sent.ToRanks), ranks, stages["exchange"]);
+  // Every rank adds the particles that reach its cells in the global order, so a cell has the
+  // bits of a serial sum.
   splatMass<Dimension, Real>(
     { received.Points(), received.MassesOfPoints(), 0.0, particles.ToIndex }, size, wanted, options,
     scale, cells, stages["splat"]);

@@ -75,6 +75,7 @@ RowInspection inspect(
 {
   const RowInspection row = tableKernels().Inspect(values, count);
   inspectLargest(values, count, index, row.Smallest, row.Largest, found);
+  // The kernel only counts wrong values; their places are searched if there are any.
   if (row.Wrong > 0)
   {
     findWrong(values, count, index, found);
@@ -114,6 +115,7 @@ DensitySummary summarize(const double* values, std::int64_t count, std::int64_t 
 
 void merge(const DensitySummary& part, DensitySummary& whole)
 {
+  // The smaller of two indices, of which -1 means none.
   const auto first = [](std::int64_t a, std::int64_t b) {
     return a < 0 ? b : b < 0 ? a : std::min(a, b);
   };

@@ -50,6 +50,7 @@ void BorderMaxFlow::Plan(const std::vector<std::int64_t>& excess,
   // flow of shortest paths.
   while (this->FindDistances())
   {
+    // Each cell tries its neighbours from the first one again.
     this->Next.assign(this->FirstNeighbour.begin(), this->FirstNeighbour.end() - 1);
     for (std::int64_t cell = 0; cell < this->Cells; ++cell)
     {
@@ -118,6 +119,7 @@ bool BorderMaxFlow::FindDistances()
     for (std::int64_t i = this->FirstNeighbour[cell]; i < this->FirstNeighbour[cell + 1]; ++i)
     {
       const Neighbour& from = this->Neighbours[i];
+      // The residual edge leads from the neighbour to this cell, so its sign is reversed.
       if (this->Distance[from.Cell] == unreached && this->Movable[from.Cell] > 0 &&
         this->Capacity(from.Border, -from.Sign) > 0)
       {
@@ -173,6 +175,7 @@ bool BorderMaxFlow::IsAdmissible(std::int64_t cell, const Neighbour& to) const
 // Sends as much along the path as its narrowest border, its cells' pixels and both ends allow.
 void BorderMaxFlow::Augment(std::int64_t start)
 {
+  // The bottleneck of the path.
   std::int64_t amount = this->Excess[start];
   std::int64_t cell = start;
   for (const std::int64_t step : this->Path)

@@ -55,6 +55,7 @@ public:
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
     for (int round = 0, idle = 0; round < mostRounds && idle < mostIdleRounds; ++round, ++idle)
     {
+      // The number of pixels that are in the wrong cells; 0 ends the rounds.
       const std::int64_t excess = this->TotalExcess();
       if (excess == 0)
       {
@@ -141,6 +142,7 @@ private:
     std::vector<std::int64_t> order(static_cast<std::size_t>(this->Cells));
     std::iota(order.begin(), order.end(), std::int64_t{ 0 });
     std::stable_sort(order.begin(), order.end(), [this](std::int64_t a, std::int64_t b) {
+      // Compares the excess for each site by cross multiplication.
       return this->Excess[a] * this->Sites.SitesIn(b) > this->Excess[b] * this->Sites.SitesIn(a);
     });
     for (const std::int64_t cell : order)
@@ -188,6 +190,7 @@ private:
     for (int axis = 0; axis < Dimension; ++axis)
     {
       const auto size = this->Rows.Size[axis];
+      // Offsets from the old and the new site along an axis, in pixels.
       const auto old = static_cast<double>(x % size - a % size);
       const auto now = static_cast<double>(x % size - b % size);
       cost += this->Weight[axis] * (now * now - old * old);
@@ -207,6 +210,7 @@ private:
     {
       first[i + 1] = first[i] + (this->Borders[i].Flow != 0 ? this->Borders[i].Extent : 0);
     }
+    // One for each face of a border with a flow, grouped by borders.
     std::vector<Candidate> candidates(static_cast<std::size_t>(first.back()));
     std::vector<std::int64_t> next(first);
     this->VisitBorders(progress, [&](std::int64_t pixel, std::int64_t other) {
@@ -225,6 +229,7 @@ private:
                                               : Candidate{ this->CostOf(other, high, low), other };
       }
     });
+    // The borders that still have moves.
     std::vector<std::size_t> pending;
     for (std::size_t i = 0; i < this->Borders.Size(); ++i)
     {

@@ -27,6 +27,8 @@ public:
     , Work(progress)
     , Part(masses.NumberOfPixels())
   {
+    // First all pixels are connected to their predecessors, then every root gets the number of a
+    // part.
     this->VisitPixels([this](std::int64_t pixel) { this->Connect(pixel); });
     // The first pixel of a part is its root, since Connect() joins to the smaller one: the pass in
     // order meets it first.
@@ -49,6 +51,7 @@ public:
   // Returns whether there are any.
   bool FindSpecks(std::int64_t groups, std::int64_t mostMass)
   {
+    // The heaviest part of each group is the group's main part; of equal ones, the first.
     std::vector<const PartOfGroup*> heaviest(static_cast<std::size_t>(groups), nullptr);
     for (const PartOfGroup& part : this->Parts)
     {
@@ -69,6 +72,7 @@ public:
   std::int64_t Join()
   {
     using Face = std::pair<std::int64_t, std::int64_t>; // a speck, and the group beside it
+    // One entry for each face between a speck and a main or large part, by the group of the latter.
     std::vector<Face> faces;
     const auto add = [&](std::int64_t speck, std::int64_t other) {
       const PartOfGroup& beside = this->Parts[static_cast<std::size_t>(other)];
@@ -110,6 +114,7 @@ public:
   }
 
 private:
+  // A connected part: its group, its mass, and whether it is a speck.
   struct PartOfGroup
   {
     std::int64_t Owner;
@@ -154,6 +159,7 @@ private:
     return pixel;
   }
 
+  // Joins the tree of a pixel to those of the pixels before it in the same group.
   void Connect(std::int64_t pixel)
   {
     this->PartOf(pixel) = pixel;

@@ -33,6 +33,7 @@ public:
   {
     if (pixel < this->RowBegin || pixel >= this->RowEnd)
     {
+      // Pixels ascend, so a new row is rare.
       std::int64_t row = pixel / this->Size[0];
       this->RowBegin = row * this->Size[0];
       this->RowEnd = this->RowBegin + this->Size[0];
@@ -85,6 +86,7 @@ public:
       }
       return this->Work.Add(pixelCount);
     }
+    // The bounds of the pixels, in pixels.
     const Box box = this->FindBox(pixels, pixelCount);
     const int axis = this->ChooseAxis(sites, siteCount, box);
     // The sites are divided at their median along the axis, and the pixels in proportion to the
@@ -108,6 +110,7 @@ private:
     GridSize<Dimension> High{};
   };
 
+  // Calls visit(pixel, coordinates) for pixels in their order, with checks for cancellation.
   template <class Visit>
   void ForPixels(const std::int64_t* pixels, std::int64_t count, const Visit& visit)
   {
@@ -160,6 +163,7 @@ private:
         low = std::min(low, x);
         high = std::max(high, x);
       }
+      // Extents are compared as lengths, since pixels need not be squares.
       const double spread = this->Spacing[axis] * (high - low);
       const double length =
         this->Spacing[axis] * static_cast<double>(box.High[axis] - box.Low[axis]);
@@ -218,6 +222,7 @@ private:
     const Box& box, bool areCounted)
   {
     const std::int64_t low = box.Low[axis];
+    // The weight of each layer of pixels across the axis.
     this->Layers.assign(static_cast<std::size_t>(box.High[axis] - low + 1), 0);
     std::int64_t all = 0;
     this->ForPixels(pixels, count, [&](std::int64_t pixel, const GridSize<Dimension>& place) {
@@ -227,6 +232,7 @@ private:
     });
     const std::int64_t last = box.High[axis] - low;
     std::int64_t border = 0; // the layer that the parts share
+    // The weight that the lower half still needs when the border layer is reached.
     std::int64_t left = LowerPart(all, siteCount);
     while (border < last && left > this->Layers[border])
     {
@@ -241,9 +247,12 @@ private:
       if (layer == border)
       {
         const std::int64_t own = this->WeightOf(pixel, areCounted);
+        // A pixel goes to the lower half if at least half of its weight is needed there.
         isLower = left > 0 && 2 * left >= own;
         left -= isLower ? own : 0;
       }
+      // A stable partition: lower pixels move to the front in place, upper ones to the buffer and
+      // back.
       *(isLower ? lower : upper)++ = pixel;
     });
     const std::int64_t part = lower - pixels;
@@ -277,6 +286,7 @@ void split(const SiteGroups& groups, const GridSize<Dimension>& size,
   stages["counts"].ForEachInOrder(pixels, sliceOfPixels, [&](std::int64_t pixel) {
     first[owners[pixel] + 1] += groups.SitesIn(owners[pixel]) > 1 ? 1 : 0;
   });
+  // The buffer is as large as the largest cell that is split.
   const std::int64_t largest = *std::max_element(first.begin(), first.end());
   for (std::int64_t cell = 0; cell < cells; ++cell)
   {
