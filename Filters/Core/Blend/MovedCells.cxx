@@ -31,6 +31,7 @@ template <int D>
 LargeBuffer<double> sumMoves(const MovedCells<D>& cells, int axis, Progress& progress)
 {
   const std::int64_t count = cells.From.size();
+  // The displacement of each particle along the axis, in cells.
   LargeBuffer<double> terms(axis < D ? count : 0);
   if (axis < D)
   {
@@ -57,6 +58,7 @@ template <int D>
 MovedCentres moveCentres(
   const MovedCells<D>& cells, const std::vector<LargeBuffer<double>>& moves, Progress& progress)
 {
+  // Only cells with mass move.
   std::vector<std::int64_t> own;
   for (std::int64_t i = 0; i < cells.Own.Count(); ++i)
   {
@@ -77,6 +79,7 @@ MovedCentres moveCentres(
     {
       const auto n = static_cast<std::size_t>(i);
       const GridSize<D> cell = cells.Own.CellOf(own[n]);
+      // The number of particles in the cell, by the splat's weights.
       const double particles = moves[D].data()[own[n]];
       double index[D];
       for (int axis = 0; axis < D; ++axis)

@@ -107,6 +107,7 @@ public:
       {
         raster = this->RasterNow(parts["raster"]);
       }
+      // Only the first pass may take roots; later ones see smaller contrasts.
       const bool isTempered = pass == 0 && this->SpansWidely();
       const RegionValues values = this->FillPass(*raster, isTempered, parts);
       if (pass > 0)

@@ -40,6 +40,7 @@ void RegionMap::FindParts(
   double area = 0.0;
   for (const std::int64_t ring : rings)
   {
+    // The signed sum of the rings, which counts an area for each turn around it.
     area += this->IsHole(ring) ? -this->AreaOf(ring) : this->AreaOf(ring);
     this->VisitCorners(ring, [&](std::int64_t corner, std::int64_t from, std::int64_t) {
       progress.Add(2);
@@ -78,6 +79,7 @@ void RegionMap::FindParts(
   {
     const Point<2>& a = outline.At(edge.Edge);
     const Point<2>& b = outline.At(outline.Next(edge.Edge));
+    // The edge's own direction decides on which side the region is.
     const bool isUp = a < b;
     const Point<2>& low = isUp ? a : b;
     const Point<2>& high = isUp ? b : a;
@@ -114,6 +116,7 @@ std::vector<DividingPoint> RegionMap::DivideAtCrossings(const EdgeParts& parts, 
   }
   for (auto& [ends, places] : crossings)
   {
+    // Each crossing is listed by both parts that it ends.
     std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());
   }

@@ -25,6 +25,7 @@ struct Reach
 
 std::array<Reach, 2> reachOf(const RegionMap& map, double side)
 {
+  // The graticule covers the map and the raster's margin around it, clipped to the raster.
   const auto bounds = Bounds<2>::Of(map.Points());
   const double margin = 0.5 * (side - bounds.LongestSide());
   // A map that ends on a line of the graticule up to rounding does not reach the next square.
@@ -57,6 +58,7 @@ MapFellows::MapFellows(const MapPlace& place, const RegionMap& map)
     const Reach along = reach[1 - axis];
     for (int line = across.First; line <= across.Last; ++line)
     {
+      // A line has points between the squares, too, so that it can bend.
       for (int i = parts * along.First; i <= parts * along.Last; ++i)
       {
         Point<2> point;
@@ -67,11 +69,13 @@ MapFellows::MapFellows(const MapPlace& place, const RegionMap& map)
       this->Ends.push_back(this->Moved.size());
     }
   }
+  // The places before the motion, for blends of both.
   this->Before = this->Moved;
 }
 
 void MapFellows::AddOverlay(std::vector<Point<3>> points)
 {
+  // The overlay has the projection of the map.
   this->Place.Projection.Require(points, "Overlay");
   const std::size_t first = this->Moved.size();
   this->Moved.resize(first + points.size());

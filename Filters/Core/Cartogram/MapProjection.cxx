@@ -30,6 +30,7 @@ CosineAndSine cosineAndSineOf(double degrees)
     static_cast<std::int64_t>(std::round(std::ldexp(degrees, bits))), std::int64_t{ 360 } << bits);
 }
 
+// Returns whether a place can be a longitude and a latitude; longitudes may go around once more.
 bool isOnEarth(const Point<3>& place)
 {
   constexpr double rounding = 1e-6;
@@ -43,6 +44,7 @@ MapProjection::MapProjection(const std::vector<Point<3>>& places)
   : Cosine(1.0)
 {
   this->Require(places, "input");
+  // The latitude p is the middle between the southernmost and the northernmost one.
   double low = HUGE_VAL;
   double high = -HUGE_VAL;
   for (const Point<3>& place : places)

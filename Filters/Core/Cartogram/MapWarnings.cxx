@@ -31,6 +31,8 @@ public:
   {
     for (std::size_t i = 0; i < result.Errors.size(); ++i)
     {
+      // Counts the missed regions, notes whether any of them overlaps others, and finds the worst
+      // one.
       const bool isMissed = std::abs(result.Errors[i]) > tolerance;
       this->Count += isMissed ? 1 : 0;
       this->AreOnOthers = this->AreOnOthers || (isMissed && result.Overlaps[i] > tolerance);
@@ -46,11 +48,13 @@ public:
       return;
     }
     const auto regions = static_cast<std::int64_t>(this->Names.size());
+    // The number comes first, then the reason that helps most.
     const std::string part = describePart(this->Count, regions, "regions") + " miss Tolerance";
     warnings.push_back(part + (this->Result.OutOfReach.empty() ? this->Farthest() : this->Small()));
   }
 
 private:
+  // Names the worst region; the remedy depends on whether regions overlap.
   std::string Farthest() const
   {
     return " (the region " + this->Names[this->Worst] + " by " +
@@ -61,6 +65,7 @@ private:
           : "raise MaximumIterations or Resolution");
   }
 
+  // Names the regions that are too small for cells of the raster, up to five of them.
   std::string Small() const
   {
     constexpr std::size_t most = 5;
@@ -93,6 +98,7 @@ bool looksLikeDegrees(const std::vector<Point<3>>& places)
   const auto bounds = Bounds<2>::Of(places);
   const Point<2>& low = bounds.Low;
   const Point<2>& high = bounds.High;
+  // The borders of the earth, with some rounding of files.
   const bool isOnEarth =
     low[0] >= -180.001 && high[0] <= 180.001 && low[1] >= -90.001 && high[1] <= 90.001;
   const bool isWide = bounds.LongestSide() > wide;
@@ -103,6 +109,7 @@ bool looksLikeDegrees(const std::vector<Point<3>>& places)
 void addWarnings(const CartogramResult& result, const std::vector<std::string>& names,
   std::int64_t rings, double tolerance, std::vector<std::string>& warnings)
 {
+  // Overlaps are a fault of the map, and come before errors that follow from them.
   if (result.Overlap > leastOverlap)
   {
     warnings.push_back("Regions overlap by " + percentText(result.Overlap) +

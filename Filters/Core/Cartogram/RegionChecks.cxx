@@ -44,6 +44,8 @@ private:
 
 PlaneFrame planeOfRegions(const std::vector<Point<3>>& places, const RingVisits& visitRings)
 {
+  // The plane is fitted to the rings, weighted by their areas, so that open lines and stray points
+  // do not tilt it.
   RingPlane plane;
   std::vector<Point<3>> ring;
   visitRings([&](const std::vector<std::int64_t>& points) {
@@ -61,6 +63,7 @@ PlaneFrame planeOfRegions(const std::vector<Point<3>>& places, const RingVisits&
   const PlaneFrame frame = plane.Frame();
   // The largest distance from the plane, relative to the map's extent.
   constexpr double flat = 1e-4;
+  // Every point must be near the plane, or the map is not flat.
   double farthest = 0.0;
   for (const Point<3>& place : places)
   {
@@ -79,6 +82,7 @@ double requireAreas(const std::vector<double>& areas, const std::vector<std::str
   constexpr double nothing = 1e-15; // relative to the sum
   const double sum = std::accumulate(areas.begin(), areas.end(), 0.0);
   EmptyRegions empty(names);
+  // An area that rounding alone may produce has no density.
   for (std::size_t i = 0; i < areas.size(); ++i)
   {
     if (!(areas[i] > nothing * sum))
@@ -104,6 +108,7 @@ std::int32_t completeMasses(std::vector<double>& masses, double leastShare,
   EmptyRegions empty(names);
   for (std::size_t i = 0; i < masses.size(); ++i)
   {
+    // A region without mass cannot have the area 0 in the cartogram; it gets the least density.
     const double area = areas[i] / land;
     if (!(masses[i] / total > nothing * area))
     {

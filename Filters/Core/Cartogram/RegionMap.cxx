@@ -194,6 +194,7 @@ void RegionMap::CountAround(std::int64_t outer, const std::vector<std::int64_t>&
     std::size_t Ring; // index among the rings
     bool IsInside;
   };
+  // Only rings whose bounds are within those of the outer ring can lie in it.
   const RingShape& shape = shapes[Index(outer)];
   // The middles of edges of all rings that may be inside.
   std::vector<Middle> middles;
@@ -329,6 +330,7 @@ std::vector<DividingPoint> RegionMap::DivideEdges(
         corners.push_back(first->second + (isUp ? k : parts - k) - 1);
       }
     });
+    // The last point of an open line begins no edge.
     if (this->IsOpen(ring) && this->CountOf(ring) > 0)
     {
       corners.push_back(this->CornerOf(ring, this->CountOf(ring) - 1));

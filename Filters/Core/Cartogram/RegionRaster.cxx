@@ -68,6 +68,7 @@ RegionRaster::RegionRaster(
   std::int64_t edges = 0; // to visit, in all bands
   for (const std::vector<std::int64_t>& rings : ringsOf)
   {
+    // The work of a region is its edges times the bands that it touches.
     const Rows rows = rowsOf(map, rings, side);
     rowsOfRegions.push_back(rows);
     edges +=
@@ -420,6 +421,7 @@ double RegionRaster::Overlap(std::vector<double>& ofRegions) const
     }
     for (std::int64_t i = 0; i < count; ++i)
     {
+      // All regions of the cell share the excess.
       ofRegions[static_cast<std::size_t>(shares[i].Region)] += covered - 1.0;
     }
     if (set >= 0)

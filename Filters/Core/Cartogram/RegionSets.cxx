@@ -12,6 +12,7 @@ namespace RectifiedTransport
 // the list down to it and adds the larger regions again.
 std::int32_t RegionSets::FindToggled(std::int32_t set, std::int32_t region)
 {
+  // Both numbers in one key.
   const std::int64_t key = static_cast<std::int64_t>(set) << 32 | region;
   const auto found = this->Found.find(key);
   if (found != this->Found.end())
@@ -19,6 +20,7 @@ std::int32_t RegionSets::FindToggled(std::int32_t set, std::int32_t region)
     return found->second;
   }
   std::int32_t toggled = set;
+  // A region larger than all of the set is simply appended.
   if (this->PairOf(set).Region < region)
   {
     toggled = this->End();
@@ -36,6 +38,7 @@ std::int32_t RegionSets::FindToggled(std::int32_t set, std::int32_t region)
       above.push_back(this->PairOf(toggled).Region);
       toggled = this->PairOf(toggled).Set;
     }
+    // The region is removed if the set has it, and added otherwise.
     if (above.back() == region)
     {
       above.pop_back();
@@ -70,6 +73,7 @@ std::vector<std::int32_t> RegionSets::Keep(const std::vector<unsigned char>& isU
       continue;
     }
     numbers[static_cast<std::size_t>(set)] = kept++;
+    // The links of a set lead from its largest region down to its smallest one.
     std::int32_t part = set;
     while (part >= this->Regions)
     {

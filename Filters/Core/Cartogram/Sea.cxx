@@ -35,6 +35,7 @@ double densityBefore(const CartogramOptions& options, const CartogramBox& box, d
   }
   else if (options.Sea == SeaDensity::Value)
   {
+    // From mass per area to mass per cell.
     density = options.SeaValue * box.Cell * box.Cell;
   }
   return std::max(density, nothing * mean);
@@ -51,6 +52,7 @@ Sea::Sea(const CartogramOptions& options, const CartogramBox& box, const RegionR
   {
     return;
   }
+  // The area of the box in cells, and the part that regions cover.
   const double all = static_cast<double>(box.Side) * static_cast<double>(box.Side);
   const double rest = raster.Rest();
   const double covered = all - rest;
@@ -70,6 +72,7 @@ double Sea::DensityOf(const RegionRaster& raster, const std::vector<double>& mas
   {
     return mean;
   }
+  // With roots, the sea's mass is halfway on a logarithmic scale, too.
   const double plain = rest * this->Mean;
   const double mass = takesRoots ? plain * std::sqrt(this->Mass / plain) : this->Mass;
   return std::max(mass / rest, nothing * mean);

@@ -21,6 +21,7 @@ using Matrix = Eigen::MatrixXd;
 Matrix productsOf(const std::vector<double>& distances, Eigen::Index count)
 {
   Matrix products(count, count);
+  // Means of the squared distances over each row, and over all.
   std::vector<double> means(static_cast<std::size_t>(count), 0.0);
   double mean = 0.0;
   for (Eigen::Index i = 0; i < count; ++i)
@@ -79,6 +80,7 @@ double stressOf(const std::vector<double>& distances, const ScaledPoints& points
         square += way * way;
       }
       const double d = distances[i * count + j];
+      // Squared deviations of the distances, relative to the squared distances.
       lost += (d - std::sqrt(square)) * (d - std::sqrt(square));
       all += d * d;
     }
@@ -104,6 +106,8 @@ ScaledPoints scaleClassically(
   }
   std::vector<double> scaled = distances;
   std::for_each(scaled.begin(), scaled.end(), [=](double& d) { d /= unit; });
+  // The eigenvectors of B with the largest eigenvalues span the best Euclidean approximation
+  // (Torgerson).
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(productsOf(scaled, count));
   // Eigenvalues are in rising order. Coordinate k is sqrt(lambda_k) v_k; negative eigenvalues,
   // which non-Euclidean distances have, are left out.

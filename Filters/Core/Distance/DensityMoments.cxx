@@ -64,6 +64,7 @@ DensityMoments momentsOf(const DensityValues& density, const GridSize<Dimension>
     for (std::int64_t i = first; i < last; ++i)
     {
       const double mass = values[static_cast<std::size_t>(i - first)];
+      // The centre of the cell; coordinates beyond the dimension are 0.
       double x[3]{};
       std::int64_t rest = i;
       for (int axis = 0; axis < Dimension; ++axis)
@@ -88,6 +89,7 @@ DensityMoments momentsOf(const DensityValues& density, const GridSize<Dimension>
     all.Add(chunk);
     return all;
   };
+  // Chunks are added in their order, for the same bits with any number of threads.
   const RawMoments raw =
     reduceChunks(progress, static_cast<std::int64_t>(numberOfCells<Dimension>(cells)), grain,
       RawMoments(), readChunk, join);
@@ -100,6 +102,7 @@ DensityMoments momentsOf(const DensityValues& density, const GridSize<Dimension>
     for (std::size_t b = 0; b <= a; ++b)
     {
       const auto column = static_cast<Eigen::Index>(b);
+      // E(x_a x_b) - E(x_a) E(x_b).
       const double covariance = raw.Second(row, column) / raw.Mass - mean[row] * mean[column];
       moments.Covariance[a][b] = moments.Covariance[b][a] = covariance;
     }

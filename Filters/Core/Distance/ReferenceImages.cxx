@@ -68,6 +68,7 @@ ReferenceImages mapReference(
   {
     for (int axis = 0; axis < Dimension; ++axis)
     {
+      // From cells to lengths.
       places[i][axis] *= sides[axis] / static_cast<double>(density.Size[axis]);
     }
   }
@@ -77,6 +78,7 @@ ReferenceImages mapReference(
 template <int Dimension>
 double memoryForReference(const GridSize<Dimension>& cells, const Point<Dimension>& sides)
 {
+  // The plan, and the images of the samples.
   return TransportPlan<Dimension>::MemoryFor(cells, cells, optionsOfMaps()) +
     sizeof(double) * Dimension * numberOfCells<Dimension>(referenceLattice<Dimension>(sides));
 }

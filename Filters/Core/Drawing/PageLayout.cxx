@@ -16,6 +16,7 @@ namespace
 std::array<Eigen::Index, 2> longestAxes(const DrawnBounds& bounds)
 {
   Eigen::Index last = 0;
+  // The search from the back finds the last of several shortest axes.
   bounds.sizes().reverse().minCoeff(&last);
   return { last == 2 ? 1 : 0, last == 0 ? 1 : 2 };
 }
@@ -39,12 +40,14 @@ PageLayout::PageLayout(const std::array<Eigen::Index, 2>& axes, const DrawnBound
   // Data on a vertical line determine the scale by their height.
   const bool isVertical = width <= rounding * height;
   const double length = isVertical ? height : width;
+  // Millimetres for a unit of length; a single point has no length and any unit.
   this->Unit = length > 0.0 ? (pageWidth - 2.0 * margin) / length : 1.0;
   if (!std::isfinite(this->Unit))
   {
     fail("The input is ", length, " long, too little for a page; its coordinates must be larger");
   }
   this->Sides = { pageWidth, std::max(this->Unit * height + 2.0 * margin, shortestHeight) };
+  // The width is centred, which only matters for a vertical line.
   this->Margins[0] = 0.5 * (pageWidth - this->Unit * width);
 }
 
@@ -56,6 +59,7 @@ void PageSettings::CheckBounds() const
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double length = bounds[2 * axis + 1] - bounds[2 * axis];
+    // An axis has a positive length, or no extent at all, which at most one may have.
     ascending += length > 0.0 && std::isfinite(length) ? 1 : 0;
     equal += length == 0.0 ? 1 : 0;
   }
@@ -75,6 +79,7 @@ PageLayout PageSettings::LayoutInBounds(const DrawnBounds& drawn) const
   const DrawnBounds shown(Eigen::Vector3d(bounds[0], bounds[2], bounds[4]),
     Eigen::Vector3d(bounds[1], bounds[3], bounds[5]));
   const PageLayout layout(longestAxes(shown), shown, this->Width, this->Margin);
+  // Both corners of the drawn shapes bound all their coordinates on the page.
   for (const double* corner : { drawn.min().data(), drawn.max().data() })
   {
     for (const double distance : layout.At(corner))
@@ -91,6 +96,7 @@ PageLayout PageSettings::LayoutInBounds(const DrawnBounds& drawn) const
 
 PageLayout PageSettings::Layout(const DrawnExtent& extent, double longestSide) const
 {
+  // Strokes reach half their width beyond the points; given bounds are used as they are.
   const bool fitsStrokes = extent.HasStrokes && !this->HasBounds();
   const double margin = this->Margin + (fitsStrokes ? 0.5 * this->LineWidth : 0.0);
   if (!(2.0 * margin < this->Width))
@@ -102,6 +108,7 @@ PageLayout PageSettings::Layout(const DrawnExtent& extent, double longestSide) c
     ? this->LayoutInBounds(extent.Rest)
     : PageLayout(longestAxes(extent.Points), extent.Rest, this->Width, margin);
   const Point<2>& size = layout.Size();
+  // Formats limit the size of a page.
   const double longest = std::max(size[0], size[1]);
   if (longest > longestSide)
   {

@@ -86,6 +86,7 @@ void RowMoments::Accumulate(double total, const DensitySummary& found, Progress&
   const double all = reduceChunks(
     progress, this->Size[1], 1, 0.0, sum, [](double a, double b) { return a + b; },
     this->RowsOfSlice());
+  // From scaled values to masses that sum to `total`.
   const double scale = total / all;
   // Each row gets the prefix sums of its cells' masses, and the moments of blocks of 16 cells about
   // their first cell.
@@ -191,6 +192,7 @@ struct RowMoments::Way
 template <class Visit>
 void RowMoments::VisitCells(const Point<2>& from, const Point<2>& to, const Visit& visit) const
 {
+  // The side in cells of the grid.
   const Point<2> start = { from[0] / this->Scale[0], from[1] / this->Scale[1] };
   const Point<2> end = { to[0] / this->Scale[0], to[1] / this->Scale[1] };
   Way x(start[0], end[0], this->Size[0]);
@@ -201,6 +203,7 @@ void RowMoments::VisitCells(const Point<2>& from, const Point<2>& to, const Visi
   {
     // The next face along the side, and its part of the length. Clamping makes the parts
     // monotonous.
+    // The nearer face is crossed next: one of y if `isRow`.
     const bool isRow = y.Next < x.Next;
     const double part = std::clamp(std::min(x.Next, y.Next), done, 1.0);
     const Point<2> face = { start[0] + part * (end[0] - start[0]),
@@ -220,6 +223,7 @@ void RowMoments::Prefetch(const Point<2>& low, const Point<2>& high) const
   constexpr std::int64_t mostLines = 256; // a part of the first-level cache
   const GridSize<2> first = this->CellAt(low);
   const GridSize<2> last = this->CellAt(high);
+  // Cache lines in a row of the box, of which the last one may be partly used.
   const std::int64_t lines = (last[0] - first[0]) / cellsOfLine + 2;
   if (lines * (last[1] - first[1] + 1) > mostLines)
   {

@@ -33,6 +33,8 @@ public:
 
   void Place(std::int64_t site)
   {
+    // The spiral is around the given place. Its state is kept with the square, so that many
+    // coincident sites do not repeat its first places.
     const Point<2> given = { this->Sites[site][0], this->Sites[site][1] };
     Square& home = this->Squares[this->SquareOf(given)];
     Point<2> x = given;
@@ -58,6 +60,7 @@ public:
     }
     this->Sites[site][0] = x[0];
     this->Sites[site][1] = x[1];
+    // The site is listed in the square of its final place.
     std::int64_t& first = this->Squares[this->SquareOf(x)].First;
     this->Next[static_cast<std::size_t>(site)] = first;
     first = site;
@@ -70,6 +73,7 @@ private:
   {
     std::size_t operator()(const Key& key) const
     {
+      // Multiplication and shifts spread the bits of neighbouring squares over the table.
       const auto mix = [](std::uint64_t x) {
         x = (x ^ (x >> 31)) * 0x9e3779b97f4a7c15;
         return x ^ (x >> 29);

@@ -27,6 +27,7 @@ void SiteTree::Build(ConstPointSpan<2> sites, Progress& progress)
   this->Boxes = makeBoxTree<Box>(
     sites.size(),
     [&](std::int64_t first, std::int64_t last) {
+      // The bounds of the places now; those of the weights follow in SetWeights().
       Box box{ {}, {}, 0.0, {}, 0.0, first, last, -1 };
       this->Bound(box);
       progress.Add(last - first);
@@ -37,6 +38,7 @@ void SiteTree::Build(ConstPointSpan<2> sites, Progress& progress)
       {
         return box.First;
       }
+      // Halved at the median along the longer side; numbers decide between equal coordinates.
       const std::size_t axis = box.High[1] - box.Low[1] > box.High[0] - box.Low[0] ? 1 : 0;
       const std::int64_t middle = box.First + (box.Last - box.First) / 2;
       const auto at = [this](std::int64_t i) { return this->Sites.begin() + i; };
@@ -84,6 +86,7 @@ void SiteTree::SetWeights(const double* weights, Progress& progress)
 void SiteTree::BoundWeights(Box& box) const
 {
   const Point<2> middle = { (box.Low[0] + box.High[0]) / 2.0, (box.Low[1] + box.High[1]) / 2.0 };
+  // Sums for the least-squares fit of the weights, about the middle of the box.
   double x = 0.0;
   double y = 0.0;
   double w = 0.0;
@@ -115,6 +118,7 @@ void SiteTree::BoundWeights(Box& box) const
   yy -= y * y / count;
   xw -= x * w / count;
   yw -= y * w / count;
+  // The normal equations of the slope: (xx xy; xy yy) slope = (xw; yw).
   const double determinant = xx * yy - xy * xy;
   // Sites on a line determine no slope across it; then the plane is level.
   constexpr double flat = 1e-6;

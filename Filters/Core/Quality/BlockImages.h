@@ -37,7 +37,9 @@ public:
     {
       sample[a] = size * face[a];
     }
+    // The image of the face's first sample; others follow by strides in memory.
     const double* first = this->At(sample);
+    // Doubles from a sample's image to that of the next one along an axis.
     const auto strideOf = [this](int a) {
       std::int64_t stride = Dimension;
       for (int b = 0; b < a; ++b)

@@ -33,6 +33,7 @@ FoldCount MapFolds<Dimension>::Count(const LatticePart<Dimension>& part,
     part,
     [&](const LatticePart<Dimension>& row, std::vector<double>& memory) {
       const auto count = static_cast<std::size_t>(row.Count());
+      // Determinants and divergences of one row; only the former are used.
       memory.resize(2 * count);
       MapDerivatives<Dimension>(this->Lattice, row, within, step, positions)
         .Write(0, row.Count(), memory.data() + count, memory.data());
@@ -126,6 +127,7 @@ bool MapFolds<Dimension>::HasMass(const GridSize<Dimension>& sample) const
   {
     return true;
   }
+  // The cells of the density under the sample's cell of the lattice.
   const GridSize<Dimension>& size = this->Density->Size();
   const Point<Dimension> step = latticeStep<Dimension>(this->Lattice, size);
   LatticePart<Dimension> cells;

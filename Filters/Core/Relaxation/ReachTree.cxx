@@ -64,6 +64,7 @@ void ReachTree<Dimension>::Begin(std::int64_t points)
 {
   this->Count = points;
   this->Sorted.resize(static_cast<std::size_t>((points + repulsionBlock - 1) / repulsionBlock));
+  // A balanced tree over the blocks, whose shape depends only on their number.
   this->Boxes = BlockTree<Dimension>(this->Blocks());
 }
 
@@ -111,6 +112,7 @@ void ReachTree<Dimension>::Build(
   progress.Check();
   Polls polls(progress);
   this->Boxes.ForEach([&](std::int64_t firstBlock, std::int64_t lastBlock) {
+    // The points of the blocks [firstBlock, lastBlock).
     auto* first = numbered.data() + firstBlock * repulsionBlock;
     auto* last = numbered.data() + std::min(lastBlock * repulsionBlock, this->Size());
     const bool isBlock = lastBlock - firstBlock == 1;
@@ -127,6 +129,7 @@ void ReachTree<Dimension>::Build(
     const std::int64_t middle = BlockTree<Dimension>::middleOf(firstBlock, lastBlock);
     std::nth_element(first, numbered.data() + middle * repulsionBlock, last, before);
   });
+  // The number that each point had before.
   this->Places.resize(numbered.size());
   for (std::size_t i = 0; i < numbered.size(); ++i)
   {

@@ -146,6 +146,7 @@ void RelaxationDescent<Dimension>::ShortenDirection()
     {
       squared += step[axis] * step[axis];
     }
+    // The length of the step in the point's spacings.
     const double length = std::sqrt(squared) / this->Spacings[point];
     for (int axis = 0; axis < Dimension && length > this->Settings.LongestStep; ++axis)
     {

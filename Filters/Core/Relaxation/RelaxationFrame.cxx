@@ -38,6 +38,7 @@ RelaxationFrame<Dimension>::RelaxationFrame(
   double measure = 1.0 / static_cast<double>(std::max<std::int64_t>(points, 1));
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // Sides relative to the longest one, so that their product neither overflows nor vanishes.
     this->CellSides[axis] = std::max(spacing[axis] / largest, thinnest);
     this->Sides[axis] = this->CellSides[axis] * static_cast<double>(size[axis]);
     measure *= this->Sides[axis];

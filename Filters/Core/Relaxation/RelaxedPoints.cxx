@@ -92,6 +92,7 @@ void RelaxedPoints<Dimension>::MoveAside(std::int64_t point, double distance, st
 {
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // A random word for each axis and ordinal gives a displacement in [-distance, distance].
     const auto stream = static_cast<std::uint64_t>(axis);
     const double aside = distance * (2.0 * unitReal(randomWord(stream, ordinal)) - 1.0);
     const double side = this->Frame.Sides[axis];

@@ -49,6 +49,7 @@ template <int Dimension>
 double affordableSpacing(const SpacingTree<Dimension>& tree, ConstPointSpan<Dimension> points,
   double reach, Progress& progress)
 {
+  // With few points, all pairs are affordable.
   const double affordable = affordableNeighbours<Dimension>(points.size());
   if (static_cast<double>(points.size()) <= affordable)
   {

@@ -119,6 +119,7 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
   const auto roots = static_cast<std::int64_t>(numberOfCells<Dimension>(this->Roots));
   for (std::int64_t root = 0; root < roots; ++root)
   {
+    // The root's lower corner, in units of the finest leaf.
     Box box{ LatticePart<Dimension>::WholeOf(this->Roots).CellOf(root), 0 };
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -157,6 +158,7 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
         continue;
       }
       this->Children.push_back(static_cast<std::int64_t>(this->Boxes.size()));
+      // The first child has the parent's lower corner.
       this->Boxes.push_back(this->Boxes[i]);
       ++this->Boxes.back().Depth;
       // Child k has bit j of k set if it is the upper half along the j-th axis that is halved.
@@ -312,6 +314,7 @@ std::int64_t SpacingTree<Dimension>::WidestLeafAt(const Node& node) const
     bool isInside = true;
     for (int axis = Dimension; axis-- > 0;)
     {
+      // The width of a root in these units.
       const std::int64_t width = this->Width(axis, 0);
       const std::int64_t at = node[axis] - ((side >> axis & 1) ? 0 : 1);
       isInside = isInside && at >= 0 && at < this->Roots[axis] * width;

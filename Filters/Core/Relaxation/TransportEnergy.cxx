@@ -13,6 +13,7 @@ namespace RectifiedTransport
 double TransportEnergy::Evaluate(
   ConstPointSpan<2> points, PointSpan<2> gradient, double* spacings, Progress& progress)
 {
+  // Each evaluation solves the dual problem, beginning with the last weights.
   if (!this->Partition.Solve(points, progress))
   {
     return std::numeric_limits<double>::infinity();

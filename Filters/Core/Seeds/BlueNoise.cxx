@@ -21,8 +21,10 @@ void cutWindow(const Point<Dimension>& lengths, std::int64_t count, std::uint64_
   std::int64_t first, PointSpan<Dimension> unitPoints, Progress& progress)
 {
   BlueNoiseWindow<Dimension> window(lengths, count, randomSeed, progress);
+  // The size of the window that holds exactly `count` points.
   window.FindSize();
   std::int64_t number = 0;
+  // Points are numbered in the order in which the window emits them.
   const auto write = [&](const Point<Dimension>& point) {
     if (number >= first && number - first < unitPoints.size())
     {
@@ -114,6 +116,7 @@ void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
     constexpr double thinnest = Dimension == 2 ? 0.4 : 1.0;
     const int thin =
       static_cast<int>(std::min_element(lengths.begin(), lengths.end()) - lengths.begin());
+    // The thickness along the thinnest axis, in mean spacings, to the power of the dimension.
     double power = static_cast<double>(count);
     for (double length : lengths)
     {

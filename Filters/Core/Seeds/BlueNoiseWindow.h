@@ -91,6 +91,7 @@ public:
   {
     for (int a = 0; a < Dimension; ++a)
     {
+      // The window's area in tiles is count / NumberOfPoints, with the box's proportions.
       double power = static_cast<double>(count) / NumberOfPoints;
       for (int b = 0; b < Dimension; ++b)
       {
@@ -102,6 +103,7 @@ public:
       this->Above[a] = 0.0;
       for (int b = 0; b < Dimension; ++b)
       {
+        // v = ToWindow x for offsets x from the corner, in tiles.
         this->ToWindow(a, b) = this->Axes(a, b) / this->Sides[a];
         this->Below[a] += std::min(this->ToWindow(a, b), 0.0);
         this->Above[a] += std::max(this->ToWindow(a, b), 0.0);
@@ -143,6 +145,8 @@ public:
       }
       visit(point);
     };
+    // If several points are exactly at the border, only as many as are missing belong to the
+    // window.
     std::int64_t ties = this->Ties;
     this->Visit(
       this->LastSize, this->LastSize,
@@ -215,6 +219,7 @@ private:
   // Finds the cube of tiles, a power of two on a side, that contains the window of size `outer`.
   void PlaceRoot(double outer)
   {
+    // The bounding box of the window in tiles, rounded down at its lower corner.
     double extent = 0.0;
     for (int b = 0; b < Dimension; ++b)
     {
@@ -266,6 +271,7 @@ private:
           }
         }
       });
+    // The window of Count points ends at the missing-th point of the band.
     const std::int64_t missing = this->Count - inside;
     if (missing < 1 || missing >= static_cast<std::int64_t>(band.size()))
     {

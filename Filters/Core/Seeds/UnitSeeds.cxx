@@ -20,6 +20,7 @@ UnitSeeds<Dimension>::UnitSeeds(SeedPattern pattern, const Point<Dimension>& len
 {
   if (this->OnGrid)
   {
+    // A lattice has the number of cells that comes nearest to `count` with cells near to cubes.
     this->Grid = latticeSize<Dimension>(lengths, count);
     this->Number = numberOfCells<Dimension>(this->Grid);
   }
@@ -34,6 +35,7 @@ UnitSeeds<Dimension>::UnitSeeds(
   , RandomSeed(randomSeed)
   , Number(numberOfCells<Dimension>(grid))
 {
+  // Other patterns have no point for each cell of a grid.
   if (pattern != SeedPattern::Lattice && pattern != SeedPattern::Jittered)
   {
     throw std::invalid_argument(
@@ -44,6 +46,7 @@ UnitSeeds<Dimension>::UnitSeeds(
 template <int Dimension>
 void UnitSeeds<Dimension>::Generate(PointSpan<Dimension> unitPoints, const Context& context) const
 {
+  // A count beyond the largest integer differs from every size, so it fails here.
   if (static_cast<double>(unitPoints.size()) != this->Number)
   {
     throw std::invalid_argument("there is memory for " + std::to_string(unitPoints.size()) +
@@ -56,6 +59,7 @@ template <int Dimension>
 void UnitSeeds<Dimension>::GenerateFrom(
   std::int64_t first, PointSpan<Dimension> unitPoints, const Context& context) const
 {
+  // Every pattern can make any part of its seeds, with the same bits as the whole.
   if (!this->OnGrid)
   {
     generateSeedsFrom<Dimension>(this->Pattern, this->Lengths,

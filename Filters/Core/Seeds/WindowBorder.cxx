@@ -157,6 +157,7 @@ private:
   {
     Point<2>& x = this->Seeds[seed].X;
     this->Cut(seed);
+    // The centroid relative to the seed.
     const Point<2> centroid = this->Cell.Centroid();
     if (!std::isfinite(centroid[0]) || !std::isfinite(centroid[1]))
     {
@@ -193,6 +194,7 @@ private:
       seed, [reach]() { return reach * reach; },
       [&step, &part, square](const Point<2>& other) {
         const double distance = other[0] * other[0] + other[1] * other[1];
+        // Seeds that are nearer already may keep their distance.
         const double least = std::min(smallestSpacing * smallestSpacing, distance);
         const double along = step[0] * other[0] + step[1] * other[1];
         // The first solution of |part step - other|^2 = least.

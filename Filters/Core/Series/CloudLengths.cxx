@@ -28,6 +28,7 @@ std::vector<T> ofAllRanks(const Ranks& ranks, const T* own, std::int64_t count)
   {
     return std::vector<T>(own, own + count);
   }
+  // The first entry of each rank in the common array, and the end.
   std::vector<std::int64_t> starts = { 0 };
   for (const std::int64_t part : gatherValues(ranks, count))
   {
@@ -86,6 +87,7 @@ void addCloudsAtImages(const PivotLattice<D>& lattice, const ImageGrid& here,
     where[static_cast<std::size_t>(allNumbers[i])] = static_cast<std::int64_t>(i);
   }
   const GridSize<D>& size = lattice.Lattice;
+  // Images are in cells of `there`, lengths in cells of `here`.
   const Point<D> unit = cellsInCells<D>(there, here);
   const Point<D> side = latticeStep<D>(size, here.Size<D>());
   const double share = shareOfCell<D>(lattice);

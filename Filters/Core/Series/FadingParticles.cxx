@@ -39,6 +39,8 @@ StepParticles<D> placeParticles(const SeriesStep& step, int perCell, const Ranks
 {
   StepParticles<D> particles;
   particles.Lattice = pivotLattice<D>(step.Grid.Size<D>(), perCell);
+  // The lattice has at least the cells of the grid, with one or more places in each of its own
+  // cells.
   const GridSize<D>& lattice = particles.Lattice.Lattice;
   const Point<D> side = latticeStep<D>(lattice, step.Grid.Size<D>());
   const auto all = LatticePart<D>::WholeOf(lattice);
@@ -52,6 +54,7 @@ StepParticles<D> placeParticles(const SeriesStep& step, int perCell, const Ranks
     }
     return step.Values[cells.NumberOf(cell)];
   };
+  // Ranks divide the particles by their numbers, before those without mass are left out.
   const RankShare share(particles.Lattice.NumberOfParticles(), ranks);
   const double measure = step.Grid.CellMeasure() / static_cast<double>(perCell);
   for (std::int64_t n = share.First; n < share.First + share.Count; ++n)
@@ -97,6 +100,7 @@ public:
     this->Made.OfFirst = this->First.Count();
     this->Made.Grids = { from.Grid, to.Grid };
     this->Made.Masses = LargeBuffer<double>(this->Made.Count());
+    // Masses of the first step's particles, then those of the second step's.
     std::copy(this->Second.Masses.begin(), this->Second.Masses.end(),
       std::copy(this->First.Masses.begin(), this->First.Masses.end(), this->Made.Masses.data()));
     // On several ranks, the second step's numbers follow all of the first step's.

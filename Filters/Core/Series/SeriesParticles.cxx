@@ -22,6 +22,7 @@ bool writeVelocities(
     bool isFinite = true;
     for (std::int64_t i = first; i < last; ++i)
     {
+      // Ways are straight and of constant speed.
       v[i] = time > 0.0 ? (to[i] - from[i]) / time : 0.0;
       isFinite = isFinite && std::isfinite(v[i]);
     }
@@ -48,12 +49,15 @@ void SeriesMoment::Write(double mass, PointSpan<3> points, double* masses, Progr
 {
   const double part = this->PartOfWay;
   const std::int64_t count = this->Count();
+  // Positions at both ends of the way, with the weights 1 - s and s.
   const std::vector<WeightedPositions> ends = {
     { this->Particles.From->Span().Part(this->Begin, count), 1.0 - part },
     { this->Particles.To->Span().Part(this->Begin, count), part }
   };
+  // Masses are for whole particles; tracked ones have shares of the mass at the moment.
   const double ofFirst = this->Particles.AreTracked ? mass : 1.0 - part;
   const double* whole = this->Particles.Masses.data() + this->Begin;
+  // The first particle of the second step, among those that have mass.
   const std::int64_t second = this->Particles.OfFirst - this->Begin;
   progress.For(count, grainOfPositions, [&](std::int64_t first, std::int64_t last) {
     writeWeightedMean(ends, first, last, points);
@@ -79,6 +83,7 @@ ScaledClouds<D> SeriesMoment::CloudsIn(const ImageGrid& grid) const
     this->Particles.OfFirst - this->Begin };
   for (std::size_t end = 0; end < 2 && !this->Particles.Clouds[0].empty(); ++end)
   {
+    // Lengths are in cells of the particle's own step, so they need a unit for each step's grid.
     clouds.Lengths[end] = this->Particles.Clouds[end].data() + D * this->Begin;
     clouds.Units[end] = cellsInCells<D>(this->Particles.Grids[end], grid);
   }

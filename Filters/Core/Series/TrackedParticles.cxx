@@ -18,6 +18,7 @@ void TrackedParticles::Begin(const SeriesStep& step, int perCell, Progress& prog
 {
   const PivotLattice<D> pivot = pivotLattice<D>(step.Grid.Size<D>(), perCell);
   this->Particles = pivot.NumberOfParticles();
+  // Each rank tracks its share of the particles, by their numbers.
   const RankShare share(this->Particles, progress.Group());
   const DensityArray<D, double> density(step.Values, step.Grid.Size<D>());
   Stages stages(progress, { { "tables", 2 }, { "positions", 8 } });
@@ -33,6 +34,8 @@ void TrackedParticles::Follow(
 {
   Stages stages(progress, { { "start", 1 }, { "move", 96 }, { "images", 3 } });
   const ConstPointSpan<3> from = this->Steps.back().Positions->Span();
+  // The particles in the index space of the previous step; rounding may put them outside of its
+  // domain.
   LargeBuffer<double> points(from.size() * D);
   stages["start"].ForEach(from.size(), grainOfPositions, [&](std::int64_t i) {
     before.ToIndex<D>(from[i], points.data() + D * i);
@@ -43,6 +46,7 @@ void TrackedParticles::Follow(
   auto images = std::make_shared<SeriesPositions>(from.size());
   writePhysical<D>(grid, { points.data(), from.size() }, stages["images"], images->Span());
   step.Positions = images;
+  // The mean squared displacement over all particles, which have equal masses.
   step.Cost = meanSquareOfWays(before, from, step.Positions->Span(), nullptr,
     static_cast<double>(this->Particles), stages["images"]);
   this->Steps.push_back(std::move(step));
@@ -61,6 +65,7 @@ SeriesParticles TrackedParticles::Between(int from, int to, const Ranks& ranks) 
   // All particles have the mass 1 / (number of particles), as a share of a step's mass.
   std::fill_n(
     particles.Masses.data(), particles.OfFirst, 1.0 / static_cast<double>(this->Particles));
+  // Consecutive numbers, beginning with the rank's share.
   particles.Numbers.resize(static_cast<std::size_t>(particles.OfFirst));
   std::iota(
     particles.Numbers.begin(), particles.Numbers.end(), RankShare(this->Particles, ranks).First);

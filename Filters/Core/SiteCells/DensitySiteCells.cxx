@@ -129,6 +129,7 @@ DensitySiteCells<Dimension>::DensitySiteCells(ConstPointSpan<3> sites, const Ima
     outside += grid.NearestIndex<Dimension>(sites[i], inside[i]) ? 0 : 1;
   });
   this->Outside = outside;
+  // The masses of the pixels, which need not be cells of the density.
   this->Pixels.emplace(density, total, grid.Size<Dimension>(), stages["pixels"]);
   if (sites.size() > this->Pixels->PixelsWithMass())
   {

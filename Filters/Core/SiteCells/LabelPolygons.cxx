@@ -157,6 +157,7 @@ private:
   void CloseGaps(std::int64_t* labels) const
   {
     const std::int64_t* end = labels + this->Size[0];
+    // The first labelled pixel also fills a gap at the row's beginning.
     const std::int64_t* first = std::find_if(
       static_cast<const std::int64_t*>(labels), end, [](std::int64_t label) { return label >= 0; });
     std::int64_t last = first == end ? 0 : *first;

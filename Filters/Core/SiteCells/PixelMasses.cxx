@@ -63,6 +63,7 @@ public:
   void Visit(std::int64_t row, const Write& write)
   {
     const std::int64_t cells = this->Density.Size[0];
+    // The density integrated over the row's extent across axis 0: one value for each cell along it.
     std::fill(this->Sums.begin(), this->Sums.end(), 0.0);
     this->AddRows(row, Dimension - 1, 0, 1.0);
     // Both ends are in units in which a cell has as many as there are pixels, and a pixel as many
@@ -130,6 +131,7 @@ PixelMasses<Dimension>::PixelMasses(const DensitySource<Dimension>& density, dou
   constexpr double whole = static_cast<double>(std::int64_t{ 1 } << 58);
   constexpr std::int64_t pixelsOfChunk = std::int64_t{ 1 } << 15;
   const auto count = static_cast<std::int64_t>(numberOfCells<Dimension>(pixels));
+  // A mass for each pixel in units of 2^-58 of the total, axis 0 fastest.
   this->Units = LargeBuffer<std::int64_t>(count);
   const std::int64_t width = pixels[0];
   const auto read = [&](std::int64_t first, std::int64_t last) {

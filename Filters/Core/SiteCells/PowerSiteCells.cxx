@@ -110,6 +110,7 @@ void PowerSiteCells::Solve(
   const Point<2> lengths = grid.Lengths<2>();
   this->Unit =
     std::sqrt(lengths[0]) * std::sqrt(lengths[1]) / std::sqrt(static_cast<double>(sites.size()));
+  // Sides of the domain and of a pixel, in mean spacings.
   const GridSize<2> size = grid.Size<2>();
   Point<2> sides;
   for (std::size_t a = 0; a < 2; ++a)

@@ -151,6 +151,8 @@ private:
   void FindRings(Progress& progress)
   {
     this->Outer.clear();
+    // Every ring has an edge below a pixel, so one bit for each pixel marks the rings that are
+    // found.
     this->Seen.assign(static_cast<std::size_t>(this->Size[0] * this->Size[1]), false);
     const std::int64_t rows = std::max<std::int64_t>(1, pixelsOfStep / this->Size[0]);
     progress.ForEachInOrder(

@@ -22,6 +22,7 @@ SiteCells<Dimension>::SiteCells(
   , Inside(static_cast<std::size_t>(sites.size()))
 {
   const GridSize<Dimension> size = grid.Size<Dimension>();
+  // Every site needs at least one pixel.
   if (static_cast<double>(sites.size()) > numberOfCells<Dimension>(size))
   {
     throw std::invalid_argument(
@@ -69,6 +70,7 @@ FlowReport SiteCells<Dimension>::Label(
     stages["labels"].ForEach(
       pixels, grain, [&](std::int64_t pixel) { labels[pixel] = sites.Find(labels[pixel]); });
   }
+  // The sides of a pixel in physical space: distances are physical.
   Point<Dimension> spacing = this->Place.template Lengths<Dimension>();
   for (int axis = 0; axis < Dimension; ++axis)
   {

@@ -18,6 +18,7 @@ using Neighbours = std::vector<std::vector<std::int64_t>>;
 
 void join(std::int64_t one, std::int64_t other, Neighbours& neighbours)
 {
+  // Each pair is stored once, at the site with the higher id; -1 is no site.
   const auto [low, high] = std::minmax(one, other);
   if (low < 0)
   {
@@ -48,6 +49,7 @@ std::vector<std::uint8_t> colourInOrder(const Neighbours& neighbours)
         usedBy[colour] = site;
       }
     }
+    // The first colour that no neighbour of a lower id uses.
     const auto free =
       std::find_if(usedBy.begin(), usedBy.end(), [site](std::size_t last) { return last != site; });
     colours[site] = static_cast<std::uint8_t>(free - usedBy.begin());

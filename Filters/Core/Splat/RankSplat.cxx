@@ -36,6 +36,7 @@ bool reaches(
   bool isReached = !part.IsEmpty();
   for (int a = 0; a < Dimension; ++a)
   {
+    // Half-open ranges of cells overlap along every axis.
     isReached = isReached && first[a] < part.End(a) && first[a] + kept[a] > part.Low[a];
   }
   return isReached;

@@ -23,6 +23,7 @@ using Counter = std::atomic<std::int64_t>;
 // the time of an atomic one.
 inline void add(Counter& to, double value, bool isAlone)
 {
+  // Masses are not negative, so adding one half rounds to the nearest integer.
   const auto units = static_cast<std::int64_t>(value + 0.5);
   if (isAlone)
   {
@@ -44,6 +45,7 @@ void deposit(const ScaledClouds<D>& clouds, const ImageGrid& grid, int exponent,
   const GridSize<D> size = grid.Size<D>();
   const bool isAlone = progress.Threads().Concurrency() == 1;
   progress.ForEach(clouds.Centres.size(), grain, [&](std::int64_t i) {
+    // A cloud's share of a cell is the product of its parts along the axes.
     const Point<D> centre = clouds.CentreIn(grid, i);
     CloudRows<D> rows;
     for (int axis = 0; axis < D; ++axis)
@@ -68,6 +70,7 @@ template <int D>
 std::vector<std::int64_t> sumOfRanks(
   const Counter* cells, const GridSize<D>& size, const LatticePart<D>& wanted, const Ranks& ranks)
 {
+  // Each rank has the sums of its own clouds in the whole grid.
   const auto all = LatticePart<D>::WholeOf(size);
   const auto valuesIn = [&](const LatticePart<D>& part) {
     std::vector<std::int64_t> values(static_cast<std::size_t>(part.IsEmpty() ? 0 : part.Count()));
@@ -83,6 +86,7 @@ std::vector<std::int64_t> sumOfRanks(
     return valuesIn(wanted);
   }
   std::vector<std::vector<std::int64_t>> parts;
+  // Each rank sends every other rank the sums in the cells that the other one wants.
   for (const LatticePart<D>& part : gatherValues(ranks, wanted))
   {
     parts.push_back(valuesIn(part));

@@ -89,6 +89,7 @@ public:
   {
     const std::int32_t low = this->Cuts[static_cast<std::size_t>(slab)];
     const std::int32_t high = this->Cuts[static_cast<std::size_t>(slab) + 1];
+    // Whether a chunk reaches the slab, and whether it reaches no other one.
     const auto reaches = [&](std::int64_t c) {
       const Chunk& planes = this->Chunks[static_cast<std::size_t>(c)];
       return planes.Low < high && planes.High > low;
@@ -134,6 +135,7 @@ private:
     constexpr double cellsInCaches = 1 << 20; // 8 MB
     const CellBox<Dimension>& box = this->Job->Box;
     Chunk chunk{ box.Low[last], box.Low[last], false };
+    // The cells in memory that the chunk reaches; 0 if there are none.
     double cells = 1.0;
     for (int a = 0; a < Dimension; ++a)
     {

@@ -57,12 +57,14 @@ public:
       this->Job.Box.Low[a] = static_cast<std::int32_t>(part.Low[a]);
       this->Job.Box.High[a] = static_cast<std::int32_t>(part.Low[a] + part.Cells[a]);
       this->Job.Memory.Stride[a] = stride;
+      // Offsets in memory are those of the grid's cells less this start.
       this->Job.Memory.Start += stride * part.Low[a];
       stride *= part.Cells[a];
       reached *= this->Job.Kept[a];
     }
     // Slices of wide kernels have fewer particles, as each has `reached` shares.
     const double shortest = std::clamp(shortestSlice / reached, 64.0, shortestSlice / 8.0);
+    // Particles between two checks for cancellation: the wider the kernel, the fewer.
     this->Step = static_cast<std::int64_t>(shortest);
     const double dense =
       std::min(densestSlice * static_cast<double>(stride), static_cast<double>(longestSlice));
@@ -114,6 +116,7 @@ private:
     double visits = 0.0;
     for (std::int64_t slabs = mostSlabs; slabs > 0; slabs /= 2)
     {
+      // Halve the number of slabs until few chunks are visited twice.
       visits = this->Slabs.CutSlabs(slabs * tasks);
       if (visits <= fewVisits)
       {
@@ -171,6 +174,7 @@ private:
     {
       return;
     }
+    // Groups of consecutive tiles are tasks.
     const std::int64_t tiles = this->Tiles.Count();
     const std::int64_t groups = std::min(tiles, groupsOfTiles);
     this->MakeScratch(groups);

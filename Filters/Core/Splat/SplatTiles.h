@@ -56,10 +56,13 @@ public:
   {
     // parts of the particles, which are counted and sorted separately
     constexpr std::int64_t parts = 64;
+    // Particles in a part; the last part may have fewer.
     const std::int64_t part = std::max<std::int64_t>((count + parts - 1) / parts, splatBlock);
     const std::int64_t used = (count + part - 1) / part;
     this->Position.assign(static_cast<std::size_t>(used * this->NumberOfTiles), 0);
     this->Start.resize(static_cast<std::size_t>(this->NumberOfTiles + 1));
+    // Calls visit(tile, particle) for the particles of a part and the tiles that each of them
+    // reaches. Returns how many are outside.
     const auto visitPart = [&](std::int64_t number, const auto& visit) {
       constexpr std::int64_t found = 16 * splatBlock; // at a time
       std::int32_t cells[3 * found];
@@ -152,6 +155,7 @@ private:
   template <class Visit>
   void VisitTiles(const std::int32_t* cells, const Visit& visit) const
   {
+    // The first and the last tile along each axis.
     std::int64_t low[3] = { 0, 0, 0 };
     std::int64_t high[3] = { 0, 0, 0 };
     for (int a = 0; a < Dimension; ++a)

@@ -73,6 +73,7 @@ void inspectLargest(const double* values, std::int64_t count, std::int64_t index
 RowInspection inspect(
   const double* values, std::int64_t count, std::int64_t index, DensitySummary& found)
 {
+  // One pass gives sum, moment, extremes and the number of wrong values.
   const RowInspection row = tableKernels().Inspect(values, count);
   inspectLargest(values, count, index, row.Smallest, row.Largest, found);
   // The kernel only counts wrong values; their places are searched if there are any.

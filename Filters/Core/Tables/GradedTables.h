@@ -155,6 +155,7 @@ private:
     const Ranks& ranks = progress.Group();
     const Layers own = density.IsDistributed() ? this->LayersOf(ranks, ranks.Own())
                                                : Layers{ 0, this->NumberOfLayers() };
+    // A summary for each layer, merged in their order.
     std::vector<DensitySummary> found(static_cast<std::size_t>(this->NumberOfLayers()));
     Stages stages(progress, { { "reading", 9 }, { "sums", 1 } });
     {
@@ -293,6 +294,7 @@ private:
         sum += cells[i];
         moment += cells[i] * (static_cast<double>(i) + 0.5);
       }
+      // The record at the node above the box.
       double* sums = records + (node + 1) * record;
       sums[0] += sum;
       sums[1] += moment;

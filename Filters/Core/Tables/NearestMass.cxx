@@ -74,6 +74,7 @@ std::int64_t nearestInRow(const std::uint64_t* row, std::int64_t columns, double
   const auto column = [last](double at) {
     return static_cast<std::int64_t>(std::max(0.0, std::min(at, last)));
   };
+  // The search goes from the column of x in both directions.
   const std::int64_t start = column(x);
   const std::int64_t below = nearestBelow(row, start, column(x - limit));
   const std::int64_t above = nearestAbove(row, start, column(x + limit));
@@ -131,6 +132,7 @@ Point<Dimension> nearestMass(
   double thinnest = std::numeric_limits<double>::max(); // side across the rows
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // The cell of the point, or the nearest one in the domain.
     centre[axis] =
       std::min(static_cast<std::int64_t>(std::max(point[axis], 0.0)), tables.Cells[axis] - 1);
     farthest = axis > 0 ? std::max(farthest, tables.Cells[axis]) : farthest;

@@ -82,6 +82,7 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
   {
     ++tables.LevelCount;
   }
+  // The width of a cell on the coarsest level; sizes that it divides have no narrower last cell.
   const std::int64_t widest = std::int64_t{ 1 } << ((tables.LevelCount - 1) * levelShift);
   // Sizes in bytes must fit into 64 bits.
   if (TableView<Dimension>::Record * numberOfCorners<Dimension>(size) > 1e17)

@@ -70,6 +70,7 @@ void BorderMaxFlow::Plan(const std::vector<std::int64_t>& excess,
 // Makes adjacency lists from the borders, by counting sort.
 void BorderMaxFlow::FindNeighbours()
 {
+  // The first neighbour of each cell, by prefix sums of their numbers.
   this->FirstNeighbour.assign(static_cast<std::size_t>(this->Cells) + 1, 0);
   for (const SiteCellBorder& border : this->Borders)
   {
@@ -187,6 +188,7 @@ void BorderMaxFlow::Augment(std::int64_t start)
   amount = std::min(amount, -this->Excess[cell]);
   this->Excess[start] -= amount;
   this->Excess[cell] += amount;
+  // Second pass: the flow of every border on the path changes by the amount.
   cell = start;
   for (const std::int64_t step : this->Path)
   {

@@ -137,6 +137,7 @@ private:
     std::int64_t left = pixels % this->Sites.NumberOfSites();
     for (std::int64_t cell = 0; cell < this->Cells; ++cell)
     {
+      // Pixels that the cell has beyond the quotient for each of its sites.
       this->Excess[cell] = this->Count[cell] - each * this->Sites.SitesIn(cell);
     }
     std::vector<std::int64_t> order(static_cast<std::size_t>(this->Cells));
@@ -170,6 +171,7 @@ private:
         std::int64_t sum, std::int64_t excess) { return sum + std::max<std::int64_t>(excess, 0); });
   }
 
+  // Finds the borders of the current cells; the extent of each is its number of faces.
   void FindBorders(Progress& progress)
   {
     this->Borders.Clear();

@@ -370,6 +370,7 @@ private:
   // first + index[begin], .... Returns how many are outside.
   RT_INLINE int Weigh(std::int64_t first, const std::uint32_t* index, std::int64_t begin, int count)
   {
+    // Gathered, short or oblique blocks are read into memory of their own first.
     this->Particles.Count = count;
     if (index || count < splatBlock || !this->JobAxes.AreParallel)
     {

@@ -47,6 +47,7 @@ double densityOfEmptyCells(const EmptyRule& rule, const FilledCells& filled)
   {
     return std::isfinite(filled.Least) ? filled.Least : 0.0;
   }
+  // The mean density of the filled cells.
   const double mean = filled.Mass.Value() / cells;
   return std::isfinite(mean) ? mean : 0.0; // too much mass is an error of the tables
 }
@@ -71,6 +72,7 @@ double fillEmptyParts(const double* covered, std::int64_t cells, FilledCells fil
         part.Cells.Add(shareOf(cell));
       }
     }));
+  // All parts without data have the same density, weighted by their share of the cell.
   const double empty = densityOfEmptyCells(rule, filled);
   progress.ForEach(
     cells, grain, [&](std::int64_t cell) { values[cell] += (1.0 - shareOf(cell)) * empty; });
