@@ -163,6 +163,8 @@ std::vector<Point<Dimension>> sample(const BoxDensity<Dimension>& density, std::
   Progress progress(context);
   Stages stages(progress, { { "seeds", 15 }, { "map", 25 }, { "points", 60 } });
   const UnitSeeds<Dimension> pattern(options.Pattern, density.Sides(), count, options.RandomSeed);
+  // Seeds first, then their images in place: the pattern may have more or fewer points than `count`
+  // if it is a lattice.
   std::vector<Point<Dimension>> points(static_cast<std::size_t>(pattern.Count()));
   pattern.Generate(points, stages["seeds"]);
   // Points of the unit box become points of index space, in which the plan works, and then of the
@@ -187,6 +189,7 @@ SampledMap<Dimension> map(const BoxDensity<Dimension>& density,
   Progress progress(context);
   Stages stages(progress, { { "map", 25 }, { "samples", 65 }, { "derivatives", 10 } });
   SampledMap<Dimension> sampled;
+  // By default, one sample at the centre of each cell of the density.
   sampled.Samples = options.Samples == GridSize<Dimension>{} ? density.Cells() : options.Samples;
   const auto count = static_cast<std::int64_t>(numberOfCells<Dimension>(sampled.Samples));
   const auto size = static_cast<std::size_t>(count);
@@ -253,6 +256,7 @@ EqualMassDivision<Dimension> cells(ConstPointSpan<Dimension> sites,
   // By default a pixel is a cell of the density.
   division.Pixels = options.Pixels == GridSize<Dimension>{} ? density.Cells() : options.Pixels;
   division.Labels.resize(static_cast<std::size_t>(numberOfCells<Dimension>(division.Pixels)));
+  // Site cells work in physical space, of which a box takes the first axes.
   const std::vector<Point<3>> placed = inSpace<Dimension>(sites);
   if (options.Shape == SiteCellShape::Flow)
   {
@@ -278,6 +282,7 @@ std::vector<Point<Dimension>> relax(ConstPointSpan<Dimension> points,
   Stages stages(progress, { { "tables", 3 }, { "relaxation", 97 } });
   const Point<Dimension> sides = cellSides(density);
   // From lengths to index space, and back at the end.
+  // Cells for each unit of length.
   Point<Dimension> perCell;
   std::transform(
     sides.begin(), sides.end(), perCell.begin(), [](double side) { return 1.0 / side; });
@@ -320,6 +325,7 @@ std::vector<Point<2>> stipple(const BoxDensity<2>& picture, std::int64_t count,
   // The reader of greys must outlive the density of ink, which reads through it.
   const auto greys = picture.Source().Whole();
   BoxDensity<2> ink = picture;
+  // Dark pixels have much ink: the density is white - grey.
   if (options.Invert)
   {
     const std::int64_t pixels = picture.Cells()[0] * picture.Cells()[1];

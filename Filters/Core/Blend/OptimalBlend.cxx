@@ -105,6 +105,7 @@ private:
   void AddSlack(const TransportPlan<D>& plan, double weight, ConstPointSpan<D> points,
     ConstPointSpan<D> images, Progress& progress)
   {
+    // One value for each particle, in the squared units of the plan.
     LargeBuffer<double> slack(this->Count);
     plan.Certificate()->Slack(points, images, slack.data(), progress);
     double* sum = this->Result.Slack.data();
@@ -132,6 +133,8 @@ private:
     if (plan.IsOptimal())
     {
       images = LargeBuffer<double>(this->Count * D);
+      // Samples of the source may be corrected so that their images have equal masses; other points
+      // may not.
       const FlowSeeds<D> seeds(points);
       plan.Forward(
         areSamples ? seeds.AsSamples() : seeds, { images.data(), this->Count }, progress);
@@ -212,6 +215,7 @@ private:
   // The fixed-point iteration, then a last round that also measures bound and slack.
   void BlendAll()
   {
+    // The densities with a positive weight.
     const std::vector<std::size_t> used = this->Used();
     const bool isOptimal = this->Options.IsOptimal;
     if (this->AreOne(used))
@@ -227,6 +231,7 @@ private:
     {
       this->TakeRounds(used, stages["rounds"]);
     }
+    // The last round has the final maps; its functional is listed only if it is the lowest.
     const double last = this->TakeRound(used, true, stages["last round"]);
     std::vector<double>& all = this->Result.Functional;
     if (!all.empty() && last < all.back())

@@ -289,6 +289,7 @@ private:
     std::vector<double> masses(this->Masses.size());
     for (std::size_t i = 0; i < masses.size(); ++i)
     {
+      // The mass of the region at the mean density.
       const double plain = this->Areas[i] * mean;
       masses[i] = takesRoots ? plain * std::sqrt(this->Masses[i] / plain) : this->Masses[i];
     }
@@ -333,6 +334,7 @@ private:
     // Coincident points move once, so that borders stay closed to the last bit.
     const DistinctPoints<2> before(points, parts["points"]);
     std::vector<Point<2>> moved(before.Places().size());
+    // Areas before the pass, with which turned rings are found.
     const std::vector<double> ringAreas = this->RingAreas();
     Rounds flows(parts["flow"], 1);
     for (;;)

@@ -139,6 +139,7 @@ std::vector<DividingPoint> RegionMap::FindHoles(const Context& context)
     std::sort(rings.begin(), rings.end(), [&](std::int64_t a, std::int64_t b) {
       return shapes[Index(a)].Low[0] < shapes[Index(b)].Low[0];
     });
+    // How many other rings of the region each ring lies in.
     std::vector<int> around(rings.size(), 0);
     for (const std::int64_t outer : rings)
     {
@@ -148,6 +149,7 @@ std::vector<DividingPoint> RegionMap::FindHoles(const Context& context)
     {
       const std::size_t ring = Index(rings[i]);
       this->Holes[ring] = around[i] % 2 == 1;
+      // An outer ring should run anticlockwise and a hole clockwise; others are turned.
       this->Turned[ring] = (this->WindingArea(rings[i]) < 0.0) != this->IsHole(rings[i]);
     }
     this->FindParts(rings, parts, progress);
@@ -327,6 +329,8 @@ std::vector<DividingPoint> RegionMap::DivideEdges(
       }
       for (std::int64_t k = 1; k < parts; ++k)
       {
+        // The new points from this ring's first end to its second one, in either direction of the
+        // edge.
         corners.push_back(first->second + (isUp ? k : parts - k) - 1);
       }
     });

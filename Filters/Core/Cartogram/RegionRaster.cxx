@@ -77,6 +77,8 @@ RegionRaster::RegionRaster(
   Progress progress(context);
   progress.Expect(edges);
   this->Owners.reserve(static_cast<std::size_t>(side * side));
+  // The shares of partly covered cells in a band, and the ends of runs of whole cells, for all
+  // regions.
   std::vector<CellShare> mixed;
   std::vector<RunEnd> ends;
   // Each band visits only the regions that touch it.
@@ -104,6 +106,8 @@ RegionRaster::RegionRaster(
             map.Points()[static_cast<std::size_t>(to)]);
         });
       }
+      // Areas are signed: a part of an outline that runs in reverse counts negatively, hence the
+      // clamped part and the signed one.
       coverage.FinishSigned([&](std::int64_t begin, std::int64_t end, double area) {
         if (area == 1.0)
         // Runs that touch are joined.
@@ -217,6 +221,7 @@ void RegionRaster::AddMixed(std::vector<CellShare>& mixed)
   const std::size_t parts = mixed.size();
   for (std::size_t i = 0; i < parts; ++i)
   {
+    // The cell no longer has an owner; all its regions are in the list.
     std::int32_t& owner = this->Owners[static_cast<std::size_t>(mixed[i].Cell)];
     if (owner >= 0)
     {
@@ -350,6 +355,8 @@ void RegionRaster::Fill(const std::vector<double>& values, double around,
   });
   this->ForMixed(
     progress, [&](std::int64_t cell, std::int32_t set, const Share* shares, std::int64_t count) {
+      // The densities of the set's regions count for the whole cell; otherwise the rest of the cell
+      // has the density around.
       double value =
         set >= 0 ? sums[static_cast<std::size_t>(set)] : around * restOf(set, shares, count);
       for (std::int64_t k = 0; k < count; ++k)
@@ -385,6 +392,8 @@ void RegionRaster::Scale(const std::vector<double>& exponents, double least,
   });
   this->ForMixed(
     progress, [&](std::int64_t cell, std::int32_t set, const Share* shares, std::int64_t count) {
+      // The factor of a mixed cell is exp(sum of part * exponent), a geometric mean of the regions'
+      // factors.
       double exponent = set >= 0 ? sums[static_cast<std::size_t>(set)] : 0.0;
       for (std::int64_t k = 0; k < count; ++k)
       {

@@ -184,6 +184,7 @@ bool DistanceSet::Add(Name name, const ImageGrid& grid, Values values, const Con
 
 double DistanceSet::CellsOfMaps() const
 {
+  // The largest density decides whether maps are made one a thread or in turn.
   double cells = 0.0;
   for (const std::size_t waiting : this->Waiting)
   {
@@ -221,6 +222,8 @@ void DistanceSet::MakeMapsIn(Progress& progress)
   const Point<D> sides = sidesOf<D>(this->Box);
   // This rank's maps now, all maps after the exchange.
   std::vector<std::shared_ptr<ReferenceImages>> made(this->Waiting.size());
+  // Each item is a density that waits for its map; its values are released as soon as the map is
+  // made.
   forItems(static_cast<std::int64_t>(own.size()), this->CellsOfMaps(), progress,
     [&](std::int64_t item, const Context& context) {
       const auto place = static_cast<std::size_t>(own[static_cast<std::size_t>(item)]);
@@ -268,6 +271,7 @@ std::vector<DistancePair> DistanceSet::Find(const Context& context)
   {
     for (std::size_t j = i + 1; j < this->Given.size(); ++j)
     {
+      // Zero for equal densities, which have no entry.
       SquaredBracket pair;
       const auto found = this->Known().find(ordered(this->Given[i].Key, this->Given[j].Key));
       if (found != this->Known().end()) // otherwise both are the same
@@ -290,6 +294,7 @@ std::vector<DistancePair> DistanceSet::Find(const Context& context)
 
 std::vector<DistanceSet::NamePair> DistanceSet::MissingPairs() const
 {
+  // Linearized and certified distances are kept apart.
   const auto& known = this->Pairs[static_cast<std::size_t>(this->Method)];
   // Each pair once, even if several given densities are equal.
   std::set<NamePair> missing;
@@ -342,6 +347,7 @@ void DistanceSet::FindMissing(Progress& progress)
       found[place] = this->FindPair<D>(missing[static_cast<std::size_t>(own[place])], context);
     });
   this->Solutions += isCertified ? static_cast<std::int64_t>(missing.size()) : 0;
+  // All ranks get the brackets of all pairs.
   const std::vector<Bytes> all = ranks.Gather(toBytes(found));
   for (std::size_t rank = 0; rank < all.size(); ++rank)
   {

@@ -75,6 +75,7 @@ void openExisting(OutputTarget& target)
   FileDescriptor file(open(name.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   if (!file.IsOpen())
   {
+    // The most frequent mistakes have messages of their own.
     if (errno == EISDIR)
     {
       fail("FileName '", name, "' is a folder; it must be a file");
@@ -85,6 +86,7 @@ void openExisting(OutputTarget& target)
         "' is a pipe that no program reads, or a socket; it must be a file, or a program must "
         "read the pipe before");
     }
+    // A file that does not exist is made anew.
     target.Require(errno == ENOENT);
     return;
   }

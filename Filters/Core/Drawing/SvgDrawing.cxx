@@ -119,6 +119,7 @@ private:
     {
       this->Text += "</g>\n";
     }
+    // Opaque black is the default of both groups, since most drawings have it.
     if (group == Group::Fills)
     {
       this->Text += "<g fill=\"#000000\" stroke=\"none\">\n";

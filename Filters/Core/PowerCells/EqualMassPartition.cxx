@@ -215,6 +215,8 @@ void EqualMassPartition::IntegrateSides(std::int64_t place)
     sides.clear();
   }
   const std::int64_t site = this->Cells.SiteAt(place);
+  // Sides are stored by chunks of cells in the diagram's order, which is the order in which they
+  // are computed.
   this->Places[static_cast<std::size_t>(site)] = { chunk, static_cast<std::int64_t>(sides.size()) };
   const PowerDiagram::Cell cell = this->Cells[site];
   for (std::int64_t k = 0; k < cell.Count; ++k)
@@ -489,6 +491,7 @@ void EqualMassPartition::IntegrateCells(Progress& progress)
 EqualMassPartition::CellIntegrals EqualMassPartition::IntegrateCell(std::int64_t site) const
 {
   const PowerDiagram::Cell cell = this->Cells[site];
+  // The mean of the corners, which is in the cell.
   Point<2> middle{};
   for (std::int64_t k = 0; k < cell.Count; ++k)
   {

@@ -153,6 +153,7 @@ void PowerDiagram::Update(const double* weights, Progress& progress)
   this->CutByKnown(weights, progress);
   for (int round = 0; round < mostRounds; ++round)
   {
+    // Only cells that fail to fit their neighbours are cut again.
     const std::vector<std::int64_t> doubtful = this->FindDoubtful(progress);
     if (doubtful.empty())
     {
@@ -229,6 +230,7 @@ std::int64_t PowerDiagram::Compare(std::int64_t site)
     this->Doubt(site);
   }
   std::int64_t corners = 0;
+  // The previous corner: a corner between two sides on the border is one of the rectangle's.
   std::int64_t before = cell.Count - 1;
   for (std::int64_t k = 0; k < cell.Count; before = k++)
   {
@@ -238,6 +240,7 @@ std::int64_t PowerDiagram::Compare(std::int64_t site)
       corners += cell[before].Neighbour < 0 ? 1 : 0;
       continue;
     }
+    // The neighbour must have a side with this cell.
     const Cell other = (*this)[j];
     std::int64_t same = 0;
     while (same < other.Count && other[same].Neighbour != site)
@@ -280,6 +283,7 @@ void PowerDiagram::CutByAll(
       for (std::int64_t i = first; i < last; ++i)
       {
         const std::int64_t site = sites[static_cast<std::size_t>(i)];
+        // Known neighbours make the cell small at once, so that few boxes of the tree remain.
         this->CutByNeighbours((*this)[site], site, weights, cutter);
         this->CutByRivals(site, weights[site], cutter);
         this->Now.Store(this->SiteOf(site), site, firstChunk + i / cellsOfChunk, cutter);

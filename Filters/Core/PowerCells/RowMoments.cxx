@@ -93,6 +93,8 @@ void RowMoments::Accumulate(double total, const DensitySummary& found, Progress&
   const auto accumulate = [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t j = first; j < last; ++j)
     {
+      // Prefix sums begin anew in every row: along a row, a polygon's integral is a difference of
+      // two of them.
       double before = 0.0;
       Masses* masses = this->RowAt(j);
       Moments* blocks = this->Blocks.data() + j * this->BlocksPerRow();
@@ -102,6 +104,8 @@ void RowMoments::Accumulate(double total, const DensitySummary& found, Progress&
         const double own = masses[i].Own * unit * scale;
         masses[i] = { before, own };
         before += own;
+        // Each cell's mass at its beginning, in cells from the block's first one. Cells become
+        // constant densities by Spread() later.
         blocks[i / cellsOfBlock].Add(own, static_cast<double>(i % cellsOfBlock));
       }
     }
@@ -340,6 +344,8 @@ void RowMoments::AddSide(const Point<2>& from, const Point<2>& to, const GridSiz
   const auto zero = static_cast<double>(origin[1]);
   this->VisitCells(from, to,
     [&](std::int64_t column, std::int64_t row, const Point<2>& a, const Point<2>& b, double) {
+      // The moments from the origin's column to the cell's lower face; what remains is the part
+      // within the cell, up to u.
       const Moments before = integral.To(column, row);
       const double own = integral.Own();
       const auto low = static_cast<double>(column - origin[0]);
@@ -352,6 +358,8 @@ void RowMoments::AddSide(const Point<2>& from, const Point<2>& to, const GridSiz
         // sides of the integral of M_k(x, y) y^l dy, where M_k(x, y) is the integral of f s^k from
         // the origin to x along the row.
         const double u = x - static_cast<double>(column);
+        // The Gauss weight of both points is 1 on [-1, 1], so half the height multiplies each
+        // value.
         const double m = half * (before.Mass + own * u);
         mass += m;
         first[0] += half * (before.First + own * u * (low + u / 2.0));
@@ -375,6 +383,8 @@ double RowMoments::AddSideMass(const Point<2>& from, const Point<2>& to, double&
   double below = 0.0;
   this->VisitCells(from, to,
     [&](std::int64_t column, std::int64_t row, const Point<2>& a, const Point<2>& b, double part) {
+      // The cumulative mass up to the middle of the piece, times its height, is the integral: the
+      // trapezoid below the side.
       const Masses& masses = this->RowAt(row)[column];
       const auto begin = static_cast<double>(column);
       const double own = this->WithEven(masses.Own, 1.0);

@@ -101,6 +101,7 @@ private:
     const std::int64_t end = turn.Box.High[last];
     // The number of cells in a layer of the box.
     const double layer = turn.Box.Cells() / static_cast<double>(end - turn.Box.Low[last]);
+    // The box of this turn: the layers from those that are done, as many as the bound allows.
     turn.IsPart = true;
     turn.IsFirst = this->Layers == 0;
     turn.Box.Low[last] += this->Layers;
@@ -133,6 +134,7 @@ void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dime
     return flow.Share(low, high);
   };
   progress.Expect(count);
+  // The number of turns differs between ranks, because their densities and blocks do.
   BlockTurns<Dimension> turns(blocks, first, count);
   // Ranks with fewer turns take empty ones, because preparing shares is collective.
   while (!onAllRanks(progress.Group(), !turns.HasMore()))

@@ -71,6 +71,8 @@ public:
         faces.push_back(this->FacesByLayer(axis, cells, stages["cells"]));
       }
       this->InLayers(cells, stages["masses"], [&](const LayerSpan& batch, Progress& work) {
+        // The density in the rows of this batch; parts of faces in other rows come with other
+        // batches.
         const MassIntegral<Dimension> mass(this->Rows);
         for (int axis = 0; axis < Dimension; ++axis)
         {
@@ -100,6 +102,7 @@ public:
     std::vector<double> least(count, std::numeric_limits<double>::infinity());
     this->InLayers(
       this->Cells.Of(this->Blocks), progress, [&](const LayerSpan& batch, Progress& work) {
+        // A block may reach into several batches, and each adds the mass in its own rows.
         const auto blocks = this->BlocksIn(batch);
         const std::int64_t begin = blocks[0];
         work.For(blocks[1] - begin, grain, [&](std::int64_t first, std::int64_t last) {
@@ -166,6 +169,7 @@ private:
       count, grain,
       [&](std::int64_t i) {
         const std::int64_t face = numberOf(i);
+        // The integral of the part of the face's image that is in the current rows.
         this->Through[axis][static_cast<std::size_t>(face)] +=
           this->Images.Across(axis, faces.CellOf(face), integral);
       },
@@ -194,6 +198,7 @@ private:
   {
     const LatticePart<Dimension>& faces = this->Faces[axis];
     const auto samplesOf = [&, axis](std::int64_t i) {
+      // The samples of a face: those of a block, but only one layer along the axis.
       LatticePart<Dimension> samples =
         MapBlocks<Dimension>::SamplesOf({ faces.CellOf(i), oneBlock() });
       samples.Cells[axis] = 1;
@@ -239,6 +244,7 @@ private:
     const auto errorOf = [&](std::int64_t block) {
       return this->MassError(block, masses[static_cast<std::size_t>(block)]);
     };
+    // Approximate relative errors, which only select the blocks for exact integration.
     std::vector<double> errors = this->Errors(errorOf, stages["all"]);
     const std::vector<double> own = countedOf(errors);
     const std::int64_t all = sumOverRanks(ranks, static_cast<std::int64_t>(own.size()));

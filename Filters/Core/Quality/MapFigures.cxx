@@ -23,6 +23,7 @@ void prepareShares(
   const Point<D> step = latticeStep<D>(lattice, flow.Size());
   GridSize<D> low{};
   GridSize<D> high{};
+  // The box of grid cells that the part's cells cover, with one more for rounding.
   for (int a = 0; a < D && part.Count() > 0; ++a)
   {
     low[a] = static_cast<std::int64_t>(static_cast<double>(part.Low[a]) * step[a]);
@@ -59,6 +60,7 @@ void writeSamples(const MapOnLattice<D>& map, const Point<D>& step, const MapDis
   // On several ranks in 3D, displacements overwrite positions layer by layer, so that
   // derivatives of a layer are taken first.
   const bool isInPlace = D == 3 && progress.Group().AreSeveral();
+  // One layer at a time where results overwrite positions, otherwise all at once.
   const std::int64_t layers = isInPlace ? map.Wanted.Cells[D - 1] : 1;
   const std::int64_t each = count / std::max<std::int64_t>(1, layers);
   const LatticePart<D> counted = map.Wanted.Contains(map.Own) ? map.Own : LatticePart<D>{ {}, {} };
@@ -97,6 +99,7 @@ MapFigures writeMap(const MapOnLattice<D>& map, const RectifiedFlow<D>& flow,
   Stages stages(progress,
     { { "blocks", 20 }, { "target", target ? 8.0 : 0.0 }, { "own part", hasOwn ? 0.0 : 35.0 },
       { "samples", hasOwn ? 70.0 : 35.0 }, { "figures", target ? 8.0 : 0.0 } });
+  // Figures of all samples on all ranks.
   MapFigures figures;
   const MapSamples<D> samples{ map.Lattice, map.Own, map.Kept, map.Positions };
   figures.Blocks = target

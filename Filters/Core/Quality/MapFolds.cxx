@@ -55,6 +55,8 @@ FoldCount MapFolds<Dimension>::CountRows(
   }
   // In 1D the single row is cut, so that threads share it.
   constexpr std::int64_t most = 1 << 13;
+  // Rows are the units of work: a row's determinants are computed or found together, and counted
+  // one after the other.
   const std::int64_t length = Dimension > 1 ? part.Cells[0] : std::min(most, part.Cells[0]);
   const std::int64_t rows = (part.Count() + length - 1) / length;
   return sumExactly<FoldCount>(progress, rows, std::max<std::int64_t>(1, most / length),
@@ -109,6 +111,8 @@ template <int Dimension>
 bool MapFolds<Dimension>::IsCorner(const GridSize<Dimension>& sample) const
 {
   constexpr std::int64_t outermost = 2;
+  // Counts the axes along which the sample is at a face of the domain; two or more make a corner or
+  // an edge.
   int atBorder = 0;
   for (int axis = 0; axis < Dimension; ++axis)
   {

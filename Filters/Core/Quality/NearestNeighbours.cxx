@@ -169,6 +169,7 @@ std::vector<double> answersTo(
     [&](std::int64_t i) {
       const Query& query = queries[static_cast<std::size_t>(i)];
       constexpr std::int64_t notHere = -1;
+      // The smaller of the known squared distance and that to the nearest point here.
       answers[static_cast<std::size_t>(i)] =
         tree.Search({ { query.X[0], query.X[1], query.X[2] }, notHere }, query.Best);
     },
@@ -184,12 +185,14 @@ void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, c
 {
   // All ranks know the boxes of all points.
   const std::vector<ItemBox> boxes = gatherValues(ranks, tree.Bounds());
+  // One step for each other rank.
   Parts parts(progress, ranks.Count() - 1);
   for (int step = 1; step < ranks.Count(); ++step)
   {
     Progress& part = parts[step - 1];
     // In step s, each rank asks the rank s after it, so that all ranks answer at the same time.
     const auto other = static_cast<std::size_t>((ranks.Own() + step) % ranks.Count());
+    // A rank without points has nothing to answer.
     std::int64_t next = boxes[other].Last > 0 ? 0 : count;
     do
     {

@@ -260,6 +260,7 @@ private:
     });
     this->Quality.DensityError = std::sqrt(squares.Difference / squares.Norm);
     const double cells = numberOfCells<Dimension>(this->Grid.template Size<Dimension>());
+    // Relative errors of the blocks of this rank, in their order.
     std::vector<double> errors;
     this->InOrder(this->OwnBlocks.Count, stages["errors"], [&](std::int64_t i) {
       const double measure = this->Blocks.Box(this->OwnBlocks.First + i).Cells() / cells;
@@ -284,6 +285,7 @@ private:
     double* measure = measures.data();
     stages["shares"].ForEach(this->Count, grain, [=](std::int64_t i) {
       const double share = this->Share(i);
+      // A spacing needs a particle inside the domain, with mass, that has a neighbour.
       const bool isDefined =
         this->Block.data()[i] != noBlock && share > 0.0 && !std::isinf(spacing[i]);
       spacing[i] = isDefined ? spacing[i] : -1.0;

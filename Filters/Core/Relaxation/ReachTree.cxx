@@ -115,6 +115,8 @@ void ReachTree<Dimension>::Build(
     // The points of the blocks [firstBlock, lastBlock).
     auto* first = numbered.data() + firstBlock * repulsionBlock;
     auto* last = numbered.data() + std::min(lastBlock * repulsionBlock, this->Size());
+    // Within a block, points are sorted completely, so that their order does not depend on how
+    // nth_element arranges equal parts.
     const bool isBlock = lastBlock - firstBlock == 1;
     const int axis = isBlock ? 0 : widestAxis<Dimension>(first, last);
     const auto before = [&polls, axis](const auto& a, const auto& b) {
@@ -212,6 +214,7 @@ int ReachTree<Dimension>::Fill(std::int64_t block, RepulsionBlock<Dimension>& in
     {
       into.X[axis][lane] = from.X[axis][at];
     }
+    // Targets have no masses: the kernels sum the sources' masses at them.
     into.Spacing[lane] = from.Spacing[at];
     into.Square[lane] = from.Square[at];
   }
@@ -243,6 +246,7 @@ void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t bl
   {
     found.Points.resize(found.Blocks.size() * repulsionBlock);
   }
+  // The points of the listed blocks that may reach the target block, by their numbers in the order.
   found.Count = this->Kernels.Select(targets.Boxes[block], reach, this->Points(),
     found.Blocks.data(), static_cast<std::int64_t>(found.Blocks.size()), found.Points.data());
 }

@@ -58,6 +58,7 @@ ReachTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progress)
         Point<Dimension> highIndex;
         for (int axis = 0; axis < Dimension; ++axis)
         {
+          // The half of the leaf along this axis, in the frame and in index space.
           const double from = low[axis] + ((part >> axis & 1) ? 0.5 : 0.0) * sides[axis];
           lowIndex[axis] = from / this->Frame.CellSides[axis];
           highIndex[axis] = (from + 0.5 * sides[axis]) / this->Frame.CellSides[axis];
@@ -87,6 +88,7 @@ ReachTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progress)
         scaledPoint<Dimension>(centroid, spacing, mass * this->Count);
     },
     firstSlice);
+  // Leaves without mass attract nothing.
   sources.erase(std::remove_if(sources.begin(), sources.end(),
                   [](const ScaledPoint<Dimension>& source) { return !(source.Mass > 0.0); }),
     sources.end());

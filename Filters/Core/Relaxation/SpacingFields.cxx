@@ -28,6 +28,7 @@ double SpacingTree<Dimension>::Linear(
     double weight = 1.0;
     for (int axis = 0; axis < Dimension; ++axis)
     {
+      // Multilinear weights of the leaf's corners.
       weight *= (corner >> axis & 1) ? place.At[axis] : 1.0 - place.At[axis];
     }
     const auto node = static_cast<std::size_t>(nodes[static_cast<std::size_t>(corner)]);

@@ -229,6 +229,7 @@ void SpacingTree<Dimension>::OrderLeaves(Progress& progress)
         continue;
       }
       const int depth = this->Boxes[static_cast<std::size_t>(box)].Depth;
+      // A box has 2^halved children.
       int halved = 0;
       for (int axis = 0; axis < Dimension; ++axis)
       {
@@ -246,6 +247,7 @@ void SpacingTree<Dimension>::OrderLeaves(Progress& progress)
 template <int Dimension>
 void SpacingTree<Dimension>::Number(Progress& progress)
 {
+  // There are about as many nodes as leaves.
   NodeNumbers<Dimension> numbers(this->LeafBoxes.size());
   for (Leaf& box : this->LeafBoxes)
   {

@@ -122,6 +122,8 @@ private:
     if (k == Dimension)
     {
       // 1 % too few or too many points cost as much as cells that are 10 % too long.
+      // `remaining` is count / (product of the sizes) here, so the first term is the relative
+      // error of the number of points.
       const double cost = std::abs(1.0 / remaining - 1.0) + 0.1 * stretch;
       if (cost < this->Cost)
       {
@@ -190,6 +192,7 @@ public:
       for (std::int64_t i = from; i < end; ++i)
       {
         const int axis = this->Order[k];
+        // Uniform in [0, 1), from the point's number and the axis.
         const double jitter =
           unitReal(randomWord(this->RandomSeed, static_cast<std::uint64_t>(i) * Dimension + axis));
         // The slab is [begin, begin + size) / count of the box, so that the measure of every box is
@@ -197,6 +200,8 @@ public:
         const double place = static_cast<double>(begin) + jitter * static_cast<double>(size);
         this->UnitPoints[i - this->FirstPoint][axis] = place / static_cast<double>(count);
       }
+      // Slabs that hold none of the wanted points are not divided further, so that a part costs
+      // only its own share.
       if (from < end)
       {
         if (k + 1 < Dimension)
@@ -230,6 +235,7 @@ private:
   Progress& Work;
 };
 
+// Independent uniform coordinates from a counter-based generator, which can begin at any point.
 template <int Dimension>
 void generateRandom(
   std::uint64_t randomSeed, std::int64_t first, PointSpan<Dimension> unitPoints, Progress& progress)
@@ -295,6 +301,7 @@ void visitCells(const GridSize<Dimension>& size, std::int64_t first, std::int64_
   requirePart(first, points, numberOfCells<Dimension>(size));
   Progress progress(context);
   progress.Expect(points);
+  // The first cell's indices; the others follow by increments with carries.
   GridSize<Dimension> cell{};
   for (int a = 0; a < Dimension && points > 0; ++a)
   {

@@ -131,6 +131,7 @@ template <int D>
 std::vector<LabelVote<D>> exchangeVotes(std::vector<LabelVote<D>> own, const LatticePart<D>& part,
   const GridSize<D>& size, const Ranks& ranks)
 {
+  // The votes for each rank.
   std::vector<std::vector<LabelVote<D>>> given;
   for (const LatticePart<D>& wanted : gatherValues(ranks, part))
   {

@@ -184,6 +184,8 @@ void DensitySiteCells<Dimension>::LabelIntervals(std::int64_t* labels) const
   std::int64_t before = 0;
   for (std::int64_t pixel = 0; pixel < masses.NumberOfPixels(); ++pixel)
   {
+    // The middle of the pixel's mass in the cumulative distribution; site k has the interval [k, k
+    // + 1) / sites of it.
     const double middle = static_cast<double>(before) + 0.5 * static_cast<double>(masses[pixel]);
     const auto place = static_cast<std::size_t>(std::min(middle / total * sites, sites - 1.0));
     labels[pixel] = order[place];
@@ -211,6 +213,7 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimensio
   report = flow.Backward(even, even, refined(options), stages["sites"]);
   rescale<Dimension>(even, flow.Size(), size, stages["sites"]);
   // A density with the mass 1 in each image of a site is the target of the second flow.
+  // A pixel of the uniform measure holds the images of one group of sites.
   const SiteDensity<Dimension> sites(size, even);
   SiteGroups groups = sites.Groups();
   if (groups.NumberOfGroups() == 1)
@@ -263,6 +266,7 @@ void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& fl
     if (mass[group] == 0)
     {
       without.push_back(group);
+      // All sites of a group are in one pixel, so the first one stands for them.
       points.push_back(even[static_cast<std::size_t>(groups.Site(group, 0))]);
     }
   }

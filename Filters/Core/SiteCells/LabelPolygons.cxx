@@ -146,6 +146,7 @@ private:
       }
       if ((a[1] < y && y < b[1]) || (b[1] < y && y < a[1]))
       {
+        // The side crosses the row's centre line strictly between its ends.
         section.Add(a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]));
       }
     }

@@ -105,6 +105,7 @@ private:
       below *= this->Pixels[a];
     }
     const std::int64_t pixel = row / below;
+    // The rows of density cells under the row of pixels along this axis, with exact parts.
     const AxisOverlap across(this->Density.Size[axis], this->Pixels[axis]);
     for (std::int64_t c = across.First(pixel), end = across.End(pixel); c < end; ++c)
     {
@@ -142,6 +143,7 @@ PixelMasses<Dimension>::PixelMasses(const DensitySource<Dimension>& density, dou
     {
       std::int64_t* units = this->Units.data() + row * width;
       masses.Visit(row, [&](std::int64_t i, double mass) {
+        // Rounding errors are at most half a unit a pixel, far below the rounding of a double sum.
         units[i] = std::llround(mass / total * whole);
         found.Total += units[i];
         found.Heaviest = std::max(found.Heaviest, units[i]);

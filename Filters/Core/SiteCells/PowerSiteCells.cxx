@@ -61,6 +61,7 @@ double moveIntoDomain(const Point<2>& sides, std::vector<Point<2>>& sites)
 {
   // A smaller scale would gain no digits.
   constexpr double crowded = 2.0;
+  // The bounds of the sites, compared with the rectangle.
   const RectangleFit fit(sites, sides);
   if (fit.IsInside && fit.Scale < crowded)
   {
@@ -140,6 +141,7 @@ void PowerSiteCells::Solve(
   // The cost refers to the given places, however sites are moved for the diagram.
   const std::vector<Point<2>> given = flat;
   // A site far outside the domain leaves little room to the others, so they are separated by less.
+  // The distance that separates sites is scaled like the sites, within bounds.
   const double scale = std::clamp(moveIntoDomain(sides, flat), 1e-5, 1.0);
   separateSites(flat, leastSiteDistance * scale, SiteBounds(), stages["sites"]);
   moveIntoDomain(sides, flat); // those that were at one point are still crowded
@@ -189,6 +191,7 @@ void PowerSiteCells::Keep(const EqualMassPartition& partition, const std::vector
       }
       this->Corners.push_back(index);
     }
+    // Mass, centroid and spread of the cell, in mean spacings.
     const EqualMassPartition::CellIntegrals& integrals = partition.Integrals(site);
     const Point<2>& centroid = integrals.Centroid;
     // From masses that sum to the number of sites to shares that sum to 1.

@@ -48,6 +48,7 @@ double squaredLength(const double* d)
 // overflow.
 double costOf(const double* d, const CostNorm& norm)
 {
+  // With p infinite, this component is the norm itself.
   const double largest = std::max({ std::abs(d[0]), std::abs(d[1]), std::abs(d[2]) });
   double length = largest;
   if (largest > 0.0 && !std::isinf(norm.Norm))

@@ -57,6 +57,8 @@ void inspectLargest(const double* values, std::int64_t count, std::int64_t index
     found.BelowMaximum = std::max(found.BelowMaximum, largest);
     return;
   }
+  // A new maximum: the previous one becomes the candidate for the second largest value, and
+  // counting begins again.
   if (largest > found.Maximum)
   {
     found.BelowMaximum = found.Maximum;
@@ -108,6 +110,8 @@ DensitySummary summarize(const double* values, std::int64_t count, std::int64_t 
   DensitySummary found;
   if (count > 0)
   {
+    // Values that are not finite make the total not finite, too, and are reported by their own
+    // count.
     found.Total = std::accumulate(values, values + count, 0.0);
     inspect(values, count, index, found);
   }

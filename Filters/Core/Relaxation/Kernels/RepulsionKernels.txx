@@ -105,6 +105,7 @@ std::int64_t selectPoints(const BlockBounds<Dimension>& bounds, double reach,
         gap = gap > Lanes{} ? gap : Lanes{};
         squared += gap * gap;
       }
+      // A mask of -1 or 0 for each lane.
       const auto are = squared < reach * (load(block.Square + lane) + bounds.Largest);
       __builtin_memcpy(isInReach + lane, &are, sizeof(are));
     }

@@ -26,6 +26,7 @@ void BorderMaxFlow::Clear()
 
 std::int64_t BorderMaxFlow::Add(std::int64_t low, std::int64_t high)
 {
+  // Borders are numbered in the order in which they are found.
   const auto next = static_cast<std::int64_t>(this->Borders.size());
   const auto [found, isNew] = this->Numbers.try_emplace(this->Key(low, high), next);
   if (isNew)

@@ -118,6 +118,7 @@ private:
     {
       const std::int64_t cell = empty.back();
       empty.pop_back();
+      // The pixel of the cell's sites, which belongs to another cell so far.
       std::int64_t& owner = this->Owners[this->Sites.Pixel(cell)];
       if (--this->Count[owner] == 0)
       {
@@ -267,6 +268,7 @@ private:
   bool MoveFirst(
     SiteCellBorder& border, const Candidate* candidates, std::int64_t& next, std::int64_t end)
   {
+    // The flow is from `from` to `to`, one pixel at a time, cheapest first.
     const int sign = border.Flow > 0 ? 1 : -1;
     const std::int64_t from = sign > 0 ? border.Low : border.High;
     const std::int64_t to = sign > 0 ? border.High : border.Low;

@@ -43,6 +43,7 @@ public:
     , Weight(squaredSides<Dimension>(spacing))
     , Borders(this->Count)
   {
+    // The mean mass of a pixel, at least one unit: the scale on which a pixel counts as light.
     this->MeanMass = std::max<std::int64_t>(1, masses.Total() / masses.NumberOfPixels());
     this->FirstFace.resize(static_cast<std::size_t>(this->Rows.Count) + 1);
   }
@@ -65,9 +66,12 @@ public:
       double all = 0.0;
       for (const std::int64_t excess : this->Excess)
       {
+        // The total deviation decides about progress, the range of the deviations about the end.
         all += static_cast<double>(std::abs(excess));
       }
       const auto [lowest, highest] = std::minmax_element(this->Excess.begin(), this->Excess.end());
+      // Two groups that differ by less than the heaviest pixel cannot become more equal by moving
+      // it.
       const std::int64_t range = *highest - *lowest;
       if (all < gain * least)
       {

@@ -91,6 +91,8 @@ public:
       });
     });
     std::sort(faces.begin(), faces.end());
+    // A speck joins the group with most of its faces, the one with the lowest number if several
+    // have as many.
     std::int64_t joined = 0;
     for (auto face = faces.begin(); face != faces.end(); ++joined)
     {

@@ -151,6 +151,7 @@ private:
   // pixels.
   int ChooseAxis(const std::int64_t* sites, std::int64_t count, const Box& box) const
   {
+    // The largest extent and its axis, for the sites and for the pixels.
     std::pair<double, int> bySites(0.0, -1);
     std::pair<double, int> byPixels(-1.0, 0);
     for (int axis = 0; axis < Dimension; ++axis)
@@ -183,6 +184,7 @@ private:
     {
       // If few heavy pixels leave a half fewer pixels with mass than it has sites, pixels are
       // counted instead of weighed.
+      // The numbers of pixels with mass in the lower half and in all.
       std::int64_t lower = 0;
       std::int64_t all = 0;
       for (std::int64_t i = 0; i < count; ++i)

@@ -235,9 +235,11 @@ void addPart(const SplatJob<Dimension, Real>& job, const WeighedBlock<Weights>& 
     std::int32_t first = weighed.First[3 * i + a];
     if (first < 0 || first + width > size)
     {
+      // At the border of the grid, weights outside are redistributed or dropped.
       first = keepInside(first, width, job.Kept[a], size, job.Renormalize, weight[a]);
     }
     start += first * job.Memory.Stride[a];
+    // The range of the particle's cells that is in the box.
     begin[a] = larger(box.Low[a] - first, 0);
     end[a] = smaller(box.High[a] - first, job.Kept[a]);
   }
@@ -442,6 +444,7 @@ private:
         reached.Low[a] = this->Weighed.First[3 * i + a];
         reached.High[a] = reached.Low[a] + Weights::Width;
       }
+      // Inside the grid no weight needs correction, so a covered particle takes the fast way.
       const Covered covered = coveredBy(reached, this->Box);
       if (covered == Covered::All)
       {

@@ -54,6 +54,7 @@ bool isUnusualLargest(const DensitySummary& found, double raw, std::int64_t valu
 {
   const double largest = found.Maximum;
   const double next = found.BelowMaximum;
+  // No finding in a constant density, or if the largest value carries little.
   if (values < fewest || !(largest > found.Minimum) || !(shareByValues(found) > mostOfMass))
   {
     return false;
@@ -62,6 +63,7 @@ bool isUnusualLargest(const DensitySummary& found, double raw, std::int64_t valu
   {
     return true;
   }
+  // A single cell with most of the mass is unusual if any other value is positive.
   if (found.Maxima == 1)
   {
     return next > 0.0;
