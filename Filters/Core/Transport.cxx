@@ -199,7 +199,7 @@ SampledMap<Dimension> map(const BoxDensity<Dimension>& density,
   sampled.Determinant.resize(size);
   const auto plan = makePlan(density, options.Map, stages["map"]);
   const auto seeds = FlowSeeds<Dimension>::Lattice(sampled.Samples);
-  // until they are replaced by displacements
+  // The images take the memory of the displacements, which replace them at the end.
   std::vector<Point<Dimension>>& images = sampled.Displacement;
   if (options.Direction == FlowDirection::Forward)
   {

@@ -45,7 +45,7 @@ private:
     Eigen::Index NonZeros() const { return this->m_matrix.nonZeros(); }
   };
 
-  // a pointer, as Eigen's factorizations do not move
+  // It is held by a pointer, because Eigen's factorizations do not move.
   std::unique_ptr<Factorization> Factor = std::make_unique<Factorization>();
 };
 

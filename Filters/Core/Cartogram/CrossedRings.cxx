@@ -95,7 +95,7 @@ void RegionMap::FindParts(
 std::vector<DividingPoint> RegionMap::DivideAtCrossings(const EdgeParts& parts, Progress& progress)
 {
   using Ends = std::pair<Point<2>, Point<2>>;
-  // places on edges, by their ends; coincident edges share them
+  // The places of crossings on edges, by the ends of the edge: coincident edges share them.
   std::map<Ends, std::vector<double>> crossings;
   for (std::int64_t ring = 0; ring < this->Rings(); ++ring)
   {

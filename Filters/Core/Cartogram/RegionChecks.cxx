@@ -101,7 +101,7 @@ std::int32_t completeMasses(std::vector<double>& masses, double leastShare,
   const std::vector<double>& areas, const std::vector<std::string>& names,
   std::vector<std::string>& warnings)
 {
-  // relative to the mean density; for less, errors are not finite
+  // Relative to the mean density: with less, errors would not be finite.
   constexpr double nothing = 1e-100;
   const double land = std::accumulate(areas.begin(), areas.end(), 0.0);
   const double total = std::accumulate(masses.begin(), masses.end(), 0.0);

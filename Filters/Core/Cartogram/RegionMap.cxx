@@ -287,7 +287,7 @@ std::vector<DividingPoint> RegionMap::DivideEdges(
   const std::function<void(const Point<2>&, const Point<2>&, std::vector<double>&)>& atOf,
   const std::function<Side(std::int64_t, double)>& sideOf, Progress& progress)
 {
-  // the first new point of each edge, from its lower end
+  // The first new point of each edge, counted from its lower end.
   std::unordered_map<Edge, std::int64_t, EdgeHash> firsts;
   std::vector<DividingPoint> added;
   std::vector<std::int64_t> corners;

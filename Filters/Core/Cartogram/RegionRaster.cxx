@@ -110,8 +110,8 @@ RegionRaster::RegionRaster(
       // clamped part and the signed one.
       coverage.FinishSigned([&](std::int64_t begin, std::int64_t end, double area) {
         if (area == 1.0)
-        // Runs that touch are joined.
         {
+          // Runs that touch are joined.
           if (!ends.empty() && ends.back().Region == region && ends.back().Cell == begin)
           {
             ends.back().Cell = end;
@@ -409,8 +409,8 @@ double RegionRaster::Overlap(std::vector<double>& ofRegions) const
   double sum = 0.0;
   ofRegions.assign(this->Whole.size(), 0.0);
   std::vector<double> ofSets = this->CellsOfSets();
-  for (std::int32_t set = this->Together.First(); set < this->Together.End(); ++set)
   // A set of n regions counts its cells n times, which is n - 1 too many.
+  for (std::int32_t set = this->Together.First(); set < this->Together.End(); ++set)
   {
     double& more = ofSets[this->IndexOfSet(set)];
     more *= static_cast<double>(this->Together.CountOf(set) - 1);

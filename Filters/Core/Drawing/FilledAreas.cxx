@@ -9,7 +9,7 @@ namespace RectifiedTransport
 
 void FilledAreas::Add(const PagePath& polygon, Colour colour)
 {
-  // polygons of an area; programs read larger ones slowly
+  // Programs read areas of more polygons slowly.
   constexpr std::size_t mostPolygons = 50000;
   if (!(colour == this->ColourOfAll) || this->Polygons.size() == mostPolygons)
   {

@@ -76,7 +76,7 @@ OutputFile::~OutputFile()
 
 void OutputFile::OpenPart()
 {
-  // hidden files that killed programs left, or that others write at present
+  // Killed programs leave hidden files, and other programs write some at present.
   constexpr int most = 1000;
   const bool isNew = !this->Target.Existing.IsOpen();
   // O_EXCL never opens a file of another program, and O_NOFOLLOW no link that someone put there.

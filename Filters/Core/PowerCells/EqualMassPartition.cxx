@@ -15,7 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// cells whose sides are integrated before the first check
+// The number of cells whose sides are integrated before the first check for cancellation.
 constexpr std::int64_t firstSlice = 1 << 10;
 constexpr std::int64_t firstAdded = 1 << 15; // cells whose few side masses are added before it
 // The tolerance of Newton's method. Nearly all solutions are better by an order of magnitude or
@@ -371,7 +371,7 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
   Vector trial(this->Weights.size());
   double damping = smallestDamping;
   double firstPart = 1.0;
-  // part to which the last step reduced the residual
+  // The last step reduced the residual to this part of it.
   double reduction = std::numeric_limits<double>::infinity();
   bool isRetry = false;
   for (int shortSteps = 0; this->Found.Largest > tolerance;)

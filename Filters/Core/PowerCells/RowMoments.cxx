@@ -283,10 +283,10 @@ public:
       this->AddCells(std::min(column, this->Origin), std::max(column, this->Origin));
       this->Sum = { sign * this->Sum.Mass, sign * this->Sum.First, sign * this->Sum.Second };
     }
-    // A step to a neighbouring column adds or removes one cell; only a new row needs a sum over
-    // blocks.
     else if (column > this->Column)
     {
+      // A step to a neighbouring column adds or removes one cell; only a new row needs a sum over
+      // blocks.
       this->Sum.Add(this->Cells[this->Column].Own, this->Offset(this->Column));
     }
     else if (column < this->Column)
@@ -384,7 +384,7 @@ double RowMoments::AddSideMass(const Point<2>& from, const Point<2>& to, double&
   this->VisitCells(from, to,
     [&](std::int64_t column, std::int64_t row, const Point<2>& a, const Point<2>& b, double part) {
       // The cumulative mass up to the middle of the piece, times its height, is the integral: the
-      // trapezoid below the side.
+      // trapezoid beside the side.
       const Masses& masses = this->RowAt(row)[column];
       const auto begin = static_cast<double>(column);
       const double own = this->WithEven(masses.Own, 1.0);

@@ -144,7 +144,7 @@ private:
   double EvenShare = 0.0;
   bool Empty = false;
   LargeBuffer<Masses> CellMasses;
-  // moments of masses at the beginnings of cells, relative to the block's first cell
+  // The moments of masses at the beginnings of cells, relative to the block's first cell.
   LargeBuffer<Moments> Blocks;
   LargeBuffer<std::uint64_t> Occupied; // a bit a cell, rows of whole words
 };

@@ -25,7 +25,7 @@ std::vector<double> largestOf(std::vector<double> own, std::int64_t count, const
 // NaN if there are no blocks.
 struct BlockErrors
 {
-  // the quantile of 99.9 % of the blocks
+  // The quantile that 99.9 % of the blocks do not exceed.
   double Quantile = std::numeric_limits<double>::quiet_NaN();
   double Largest = std::numeric_limits<double>::quiet_NaN();
 };

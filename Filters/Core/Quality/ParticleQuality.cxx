@@ -292,7 +292,7 @@ private:
       measure[i] = isDefined ? share : 0.0;
       this->Grid.template NearestIndex<Dimension>(this->Particles.Points[i], index[i]);
     });
-    // The measure of the smallest box about a particle that holds its share is the reciprocal of
+    // The measure of the smallest box about a particle that holds its share is the share divided by
     // the local density.
     this->Flow.MeasuresOfShares(
       index, boxAspect<Dimension>(this->Grid), measure, measure, stages["measures"]);

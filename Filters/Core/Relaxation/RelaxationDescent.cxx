@@ -15,7 +15,7 @@ namespace
 // Pairs (s, y) of the L-BFGS method, each of two vectors of the size of x.
 constexpr std::size_t pairsKept = 6;
 constexpr int mostEvaluations = 12; // along one direction; each shortens the step to at most half
-// Armijo's part c of the first-order change: f(x + s) <= f(x) + c g . s
+// Armijo's part c of the first-order change: a step s is accepted if f(x + s) <= f(x) + c g . s.
 constexpr double sufficient = 1e-4;
 constexpr int stepsBetweenSorts = 8; // points move little against each other in so few steps
 
@@ -68,10 +68,10 @@ RelaxationReport RelaxationDescent<Dimension>::Run(
   return report;
 }
 
-template <int Dimension>
-bool RelaxationDescent<Dimension>::Step(Progress& progress)
 // A step tries, in this order: the L-BFGS direction; the scaled gradient, after a reset of the
 // Hessian; and a step in which points at forbidden places need not leave them.
+template <int Dimension>
+bool RelaxationDescent<Dimension>::Step(Progress& progress)
 {
   const bool isFresh = this->Hessian.IsEmpty();
   bool isDone = this->Search(true, progress);

@@ -83,9 +83,9 @@ void SpacingTree<Dimension>::FindMixed(Field& field, bool first, Progress& progr
       }
       if (!first)
       {
-        for (int a = 0; a < Dimension; ++a)
         // Both orders of differentiation approximate the mixed derivative; their mean is symmetric
         // in the axes.
+        for (int a = 0; a < Dimension; ++a)
         {
           for (int b = 0; b < a; ++b)
           {

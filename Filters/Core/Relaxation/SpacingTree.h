@@ -27,7 +27,7 @@ template <int Dimension>
 class SpacingTree
 {
 public:
-  // coordinates in units of the finest possible leaf
+  // The coordinates are in units of the finest possible leaf.
   using Node = std::array<std::int64_t, Dimension>;
   template <class Value>
   using FieldOf = std::vector<HermiteData<Dimension, Value>>; // data at the nodes

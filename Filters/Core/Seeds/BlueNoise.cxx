@@ -55,8 +55,8 @@ void generateJitteredLine(std::int64_t count, std::uint64_t randomSeed, std::int
   PointSpan<1> unitPoints, Progress& progress)
 {
   const double n = static_cast<double>(count);
-  for (std::int64_t i = first; i < first + unitPoints.size(); ++i)
   // One point in each of `count` equal intervals, within its middle half.
+  for (std::int64_t i = first; i < first + unitPoints.size(); ++i)
   {
     const double jitter = unitReal(randomWord(randomSeed, static_cast<std::uint64_t>(i)));
     *unitPoints[i - first] = (static_cast<double>(i) + 0.25 + 0.5 * jitter) / n;

@@ -229,7 +229,6 @@ private:
       {
         const double step = this->Axes(a, b) * this->Sides[a] * outer;
         lowest += std::min(step, 0.0);
-        // The inner window must hold fewer than Count points, and the outer one more.
         highest += std::max(step, 0.0);
       }
       this->Root[b] = static_cast<std::int64_t>(std::floor(lowest)) * (1 << TileLevel);
@@ -273,6 +272,7 @@ private:
       });
     // The window of Count points ends at the missing-th point of the band.
     const std::int64_t missing = this->Count - inside;
+    // The inner window must hold fewer than Count points, and the outer one more.
     if (missing < 1 || missing >= static_cast<std::int64_t>(band.size()))
     {
       return false;

@@ -165,7 +165,7 @@ void PowerSiteCells::Solve(
 
 void PowerSiteCells::Keep(const EqualMassPartition& partition, const std::vector<Point<2>>& sites)
 {
-  // sides shorter than this part of the domain's length are points
+  // Sides shorter than this part of the domain's length are points.
   constexpr double rounding = 1e-13;
   const GridSize<2> size = this->Place.Size<2>();
   const auto count = static_cast<double>(sites.size());

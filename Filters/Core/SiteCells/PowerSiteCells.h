@@ -70,7 +70,7 @@ private:
   std::vector<double> Heights;       // squared distances of the sites from the plane
   std::int64_t Outside = 0;
   std::vector<Point<2>> Corners; // corners of the cells, counter-clockwise, in index space
-  // first corner of each site's cell, and the number of all corners
+  // The first corner of each site's cell, and the number of all corners.
   std::vector<std::int64_t> First;
   std::vector<double> Shares;      // shares of the area or of the mass
   std::vector<Point<2>> Centroids; // in index space

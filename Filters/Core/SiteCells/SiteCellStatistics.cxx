@@ -208,8 +208,8 @@ double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* l
     throw std::overflow_error(
       "The domain's length, area or volume passes the largest double; scale the sites");
   }
-  for (std::int64_t k = 0; k < shared.NumberOfPixels(); ++k)
   // Sites in one pixel share the mass of their cells equally, to the last bit.
+  for (std::int64_t k = 0; k < shared.NumberOfPixels(); ++k)
   {
     double all = 0.0;
     for (std::int64_t i = 0; i < shared.SitesIn(k); ++i)

@@ -57,8 +57,8 @@ FlowReport SiteCells<Dimension>::Label(
   FlowReport report;
   if (sites.NumberOfPixels() == 1)
   {
-    std::fill_n(labels, pixels, std::int64_t{ 0 });
     // One pixel with sites gets all pixels: there is nothing to transport.
+    std::fill_n(labels, pixels, std::int64_t{ 0 });
   }
   else
   {

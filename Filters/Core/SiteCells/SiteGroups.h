@@ -24,7 +24,7 @@ struct SiteGroups
     return this->Sites[this->First[group] + i];
   }
 
-  // first entry of each group in Sites, and the number of all sites
+  // The first entry of each group in Sites, and the number of all sites.
   std::vector<std::int64_t> First;
   std::vector<std::int64_t> Sites;
 };

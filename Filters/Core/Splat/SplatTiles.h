@@ -54,7 +54,7 @@ public:
   std::int64_t Sort(
     FindCells<Dimension, Real> find, std::int64_t first, std::int64_t count, Progress& progress)
   {
-    // parts of the particles, which are counted and sorted separately
+    // The parts of the particles are counted and sorted separately.
     constexpr std::int64_t parts = 64;
     // Particles in a part; the last part may have fewer.
     const std::int64_t part = std::max<std::int64_t>((count + parts - 1) / parts, splatBlock);

@@ -15,8 +15,8 @@ namespace RectifiedTransport
 
 // The exponent of the power of two to scale a density of this maximum by; 0 for usual maxima.
 inline int scalingOf(double maximum)
-// Sums of f times a centre and a number of cells stay in the range of doubles up to here.
 {
+  // Sums of f times a centre and a number of cells stay in the range of doubles up to here.
   constexpr double extreme = 1e200;
   return maximum > extreme || maximum < 1.0 / extreme
     ? std::max(-1000, std::min(1000, -std::ilogb(maximum)))

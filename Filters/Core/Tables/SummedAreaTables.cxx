@@ -100,8 +100,8 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
   {
     offset[level] = total;
     GridSize<Dimension> nodes;
-    for (int axis = 0; axis < Dimension; ++axis)
     // Nodes at every 4^l-th cell, and one at the end.
+    for (int axis = 0; axis < Dimension; ++axis)
     {
       nodes[axis] = ((size[axis] - 1) >> (level * levelShift)) + 2;
     }

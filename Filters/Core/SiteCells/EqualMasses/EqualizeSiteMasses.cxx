@@ -61,7 +61,7 @@ public:
     {
       // A gain is a reduction of the total deviation by 1 %.
       constexpr double gain = 0.99;
-      // units of mass; pixels of equal mass differ by that much
+      // Rounding may make pixels of equal mass differ by so many units.
       constexpr std::int64_t rounding = 16;
       double all = 0.0;
       for (const std::int64_t excess : this->Excess)
@@ -304,7 +304,7 @@ private:
   // behind it.
   void PushBehind(std::int64_t pixel, std::int64_t from, std::int64_t to)
   {
-    // pixels lighter than 1 / 64 of the mean count as nearly without mass
+    // Pixels of at most 1 / 64 of the mean mass count as nearly without mass.
     constexpr std::int64_t light = 64;
     if (this->Masses[pixel] > this->MeanMass / light)
     {
