@@ -38,6 +38,7 @@ void DivisionPoll::Poll()
     (Current->Part.End - Current->Part.Begin) * std::min(Current->Done / Current->All, 1.0));
   if (Current->Polled.ShouldStop())
   {
+    // Eigen's loops have no other way out than an exception.
     throw Cancelled();
   }
 }
@@ -60,6 +61,8 @@ void SparseCholesky::AnalyzeInOrder(const Matrix& lower)
 // Eigen's analyzePattern(), with a poll after its search of an order.
 void SparseCholesky::Factorization::Analyze(const Matrix& lower, Progress& progress)
 {
+  // The order of elimination decides how many non-zeros the factor has; `pattern` becomes the
+  // matrix in that order, only its upper triangle.
   Matrix upper(lower.rows(), lower.cols());
   CholMatrixType const* pattern = nullptr;
 #if EIGEN_MAJOR_VERSION >= 5
@@ -91,6 +94,7 @@ bool SparseCholesky::Factorize(const Matrix& lower, Progress& progress, const St
 
 SparseCholesky::Vector SparseCholesky::Solve(const Vector& right) const
 {
+  // With P A P^T = L D L^T this solves L, D and L^T in turn, between P and P^T.
   return this->Factor->solve(right);
 }
 

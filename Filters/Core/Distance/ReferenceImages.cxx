@@ -86,6 +86,9 @@ double memoryForReference(const GridSize<Dimension>& cells, const Point<Dimensio
 template <int Dimension>
 double meanSquaredDistance(const ReferenceImages& a, const ReferenceImages& b)
 {
+  // The linearized distance is the mean of |T_a(x_i) - T_b(x_i)|^2 over the samples x_i of the
+  // uniform measure, where T_a and T_b are the optimal maps to the densities.
+  //
   // A fixed number of partial sums, which a compiler may keep in registers of any width without
   // changing bits.
   constexpr std::size_t lanes = 8;
@@ -112,6 +115,7 @@ double meanSquaredDistance(const ReferenceImages& a, const ReferenceImages& b)
   {
     sum += (p[i] - q[i]) * (p[i] - q[i]);
   }
+  // The sum has all coordinates, the mean is over samples.
   return sum / static_cast<double>(count / Dimension);
 }
 

@@ -19,6 +19,8 @@ constexpr std::int64_t leafSites = 6;
 
 void SiteTree::Build(ConstPointSpan<2> sites, Progress& progress)
 {
+  // The sites are sorted with the tree, so that each box has the sites [First, Last) of this array;
+  // `Id` is the number of a site in the caller's order.
   this->Sites.resize(static_cast<std::size_t>(sites.size()));
   for (std::int64_t i = 0; i < sites.size(); ++i)
   {
@@ -52,6 +54,7 @@ void SiteTree::Build(ConstPointSpan<2> sites, Progress& progress)
 
 void SiteTree::Bound(Box& box) const
 {
+  // Infinite bounds the wrong way round are those of no sites.
   constexpr double infinity = std::numeric_limits<double>::infinity();
   box.Low.fill(infinity);
   box.High.fill(-infinity);
@@ -127,6 +130,7 @@ void SiteTree::BoundWeights(Box& box) const
   {
     box.Slope = { (yy * xw - xy * yw) / determinant, (xx * yw - xy * xw) / determinant };
   }
+  // The offset is the maximum of weight - Slope . x over the sites of the box.
   box.Offset = -std::numeric_limits<double>::infinity();
   for (std::int64_t i = box.First; i < box.Last; ++i)
   {

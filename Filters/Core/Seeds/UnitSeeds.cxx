@@ -22,6 +22,7 @@ UnitSeeds<Dimension>::UnitSeeds(SeedPattern pattern, const Point<Dimension>& len
   {
     // A lattice has the number of cells that comes nearest to `count` with cells near to cubes.
     this->Grid = latticeSize<Dimension>(lengths, count);
+    // The number is a double, since the product of the sizes may exceed 64 bits.
     this->Number = numberOfCells<Dimension>(this->Grid);
   }
 }

@@ -211,9 +211,9 @@ struct GaussianSplat
     return outside;
   }
 
-  // Bounds the cells of the particles, see BoxOfParticles. `below` is at least the distance from a
-  // particle's own cell to the first cell that the Gaussian reaches; 3 cells less are at most that
-  // distance.
+  // Bounds the cells of the particles, see BoxOfParticles. The first cell that the Gaussian
+  // reaches lies at most `below` and at least `below` - 3 cells before the particle's own cell,
+  // since both are rounded.
   static CellBox<Dimension> Reach(
     const SplatJob<Dimension, Real>& job, std::int64_t first, std::int64_t count)
   {
