@@ -4,6 +4,7 @@
 #include "Bridge/Run/StepReport.h"
 #include "Core/Blend/OptimalBlend.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Geometry/MeanSquare.h"
 
 #include <algorithm>
 #include <functional>
@@ -167,7 +168,8 @@ void compareEnds(const BlendRun& run, Progress& progress, BlendPositions& found)
 {
   const ConstPointSpan<3> from = spanOf(found.Positions[0]);
   const ConstPointSpan<3> to = spanOf(found.Positions[1]);
-  found.Cost = meanSquare(from, to, run.Particles, LengthScale(run.Geometry), progress);
+  found.Cost =
+    meanSquareOfWays(LengthScale(run.Geometry), from, to, nullptr, run.Particles, progress);
   found.Displacements = displacementsOf(from, to, progress);
 }
 

@@ -3,8 +3,8 @@
 
 #include "Core/Blend/BlendSplat.h"
 #include "Core/Flow/WeightedMean.h"
+#include "Core/Geometry/MeanSquare.h"
 #include "Core/Geometry/PhysicalPoints.h"
-#include "Core/Parallel/ExactSum.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 
@@ -152,8 +152,9 @@ private:
       this->Result.Bound += weight * this->Scale.CostFromUnits(plan.LowerBound());
       if (!this->Options.IsPair)
       {
-        this->Result.Cost +=
-          weight * meanSquare(starts, this->PositionsIn(target), this->All, this->Scale, progress);
+        this->Result.Cost += weight *
+          meanSquareOfWays(
+            this->Scale, starts, this->PositionsIn(target), nullptr, this->All, progress);
       }
     }
   }
@@ -317,20 +318,6 @@ OptimalPositions blendOptimally(const std::vector<BlendedDensity<D>>& densities,
 {
   Progress progress(context);
   return OptimalBlender<D>(densities, options, progress).Run();
-}
-
-double meanSquare(ConstPointSpan<3> from, ConstPointSpan<3> to, double all,
-  const LengthScale& scale, const Context& context)
-{
-  Progress progress(context);
-  const auto own = sumExactly<ExactSum>(
-    progress, from.size(), grain, [&](std::int64_t first, std::int64_t last, ExactSum& sum) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        sum.Add(scale.SquaredDistanceInUnits(from[i], to[i]));
-      }
-    });
-  return scale.CostFromUnits(sumOverRanks(progress.Group(), own).Value() / all);
 }
 
 template decltype(blendOptimally<1>) blendOptimally<1>;

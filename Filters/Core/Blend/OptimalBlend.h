@@ -67,11 +67,6 @@ template <int Dimension>
 OptimalPositions blendOptimally(const std::vector<BlendedDensity<Dimension>>& densities,
   const OptimalBlendOptions& options, const Context& context = Context());
 
-// The mean over `all` particles, those of all ranks, of the squared distances between the physical
-// points of this one. Collective.
-double meanSquare(ConstPointSpan<3> from, ConstPointSpan<3> to, double all,
-  const LengthScale& scale, const Context& context = Context());
-
 } // namespace RectifiedTransport
 
 #endif

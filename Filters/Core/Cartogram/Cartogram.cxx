@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -29,11 +28,6 @@ namespace
 constexpr double wideSpan = 99.9;
 // The factor on the flow's tolerance in a pass that another one follows: it need not be exact.
 constexpr double coarser = 4.0;
-
-double sumOf(const std::vector<double>& values)
-{
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
 
 double largestOf(const std::vector<double>& errors)
 {

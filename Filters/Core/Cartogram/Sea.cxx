@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 
 namespace RectifiedTransport
 {
@@ -14,11 +13,6 @@ namespace
 {
 
 constexpr double nothing = 1e-7; // relative to the mean density: the ground with SeaDensity Zero
-
-double sumOf(const std::vector<double>& values)
-{
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
 
 // Returns the density of the sea in the given map, at least 1e-7 of the mean.
 double densityBefore(const CartogramOptions& options, const CartogramBox& box, double mean,

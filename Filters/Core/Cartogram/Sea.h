@@ -6,10 +6,17 @@
 #include "Core/Cartogram/Cartogram.h"
 #include "Core/Cartogram/RegionRaster.h"
 
+#include <numeric>
 #include <vector>
 
 namespace RectifiedTransport
 {
+
+// The mass or the area of all regions together.
+inline double sumOf(const std::vector<double>& values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
 
 // The sea keeps the mass that its density gives it in the given map, and the land gets the other
 // part of the box. With the mean density, which each pass computes anew, both keep their areas.

@@ -2,10 +2,8 @@
 #include "Core/Series/FadingParticles.h"
 
 #include "Core/Flow/PivotLattice.h"
-#include "Core/Geometry/LengthScale.h"
+#include "Core/Geometry/MeanSquare.h"
 #include "Core/Geometry/PhysicalPoints.h"
-#include "Core/Parallel/ExactSum.h"
-#include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankShare.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Series/CloudLengths.h"
@@ -133,7 +131,7 @@ public:
       this->WriteSecond(firstGrid, *this->From, stages["images"]);
       // The cost is the mean squared displacement over the mass of the first step.
       const std::int64_t first = this->First.Count();
-      this->Made.Cost = meanSquareOfWays(firstGrid, this->From->Span().Part(0, first),
+      this->Made.Cost = meanSquareOfWays(LengthScale(firstGrid), this->From->Span().Part(0, first),
         this->To->Span().Part(0, first), this->Made.Masses.data(), this->FirstStep.Mass,
         stages["images"]);
       // Clouds stretch with the map: lengths at the images are measured between neighbouring
@@ -183,25 +181,6 @@ SeriesParticles makeFadingParticles(const SeriesStep& from, const SeriesStep& to
   const MoveBetween<D>& move, Progress& progress)
 {
   return ParticleMaker<D>(from, to, perCell, progress.Group()).Make(move, progress);
-}
-
-double meanSquareOfWays(const ImageGrid& grid, ConstPointSpan<3> from, ConstPointSpan<3> to,
-  const double* masses, double all, Progress& progress)
-{
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
-  const LengthScale scale(grid);
-  // Exact sums do not depend on the division among threads and ranks; distances in units of the
-  // domain neither overflow nor vanish.
-  const auto own = sumExactly<ExactSum>(
-    progress, from.size(), grain, [&](std::int64_t first, std::int64_t last, ExactSum& sum) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        const double weight = masses ? masses[i] / all : 1.0;
-        sum.Add(weight * scale.SquaredDistanceInUnits(from[i], to[i]));
-      }
-    });
-  const double sum = sumOverRanks(progress.Group(), own).Value();
-  return scale.CostFromUnits(masses ? sum : sum / all);
 }
 
 template decltype(makeFadingParticles<1>) makeFadingParticles<1>;

@@ -25,11 +25,6 @@ template <int D>
 SeriesParticles makeFadingParticles(const SeriesStep& from, const SeriesStep& to, int perCell,
   const MoveBetween<D>& move, Progress& progress);
 
-// The mean of |to - from|^2 over particles of all ranks, by their parts masses[i] / all; for null,
-// over `all` particles of equal masses. Collective. Throws std::overflow_error and Cancelled.
-double meanSquareOfWays(const ImageGrid& grid, ConstPointSpan<3> from, ConstPointSpan<3> to,
-  const double* masses, double all, Progress& progress);
-
 } // namespace RectifiedTransport
 
 #endif

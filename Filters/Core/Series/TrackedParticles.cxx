@@ -2,6 +2,7 @@
 #include "Core/Series/TrackedParticles.h"
 
 #include "Core/Flow/PivotPositions.h"
+#include "Core/Geometry/MeanSquare.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Series/FadingParticles.h"
 
@@ -47,7 +48,7 @@ void TrackedParticles::Follow(
   writePhysical<D>(grid, { points.data(), from.size() }, stages["images"], images->Span());
   step.Positions = images;
   // The mean squared displacement over all particles, which have equal masses.
-  step.Cost = meanSquareOfWays(before, from, step.Positions->Span(), nullptr,
+  step.Cost = meanSquareOfWays(LengthScale(before), from, step.Positions->Span(), nullptr,
     static_cast<double>(this->Particles), stages["images"]);
   this->Steps.push_back(std::move(step));
 }
