@@ -13,8 +13,6 @@
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewProxy.h"
 
-#include <string>
-
 vtkStandardNewMacro(vtkSMVectorWriterInitializationHelper);
 
 namespace

@@ -23,7 +23,6 @@
 #include <array>
 #include <cstdint>
 #include <numeric>
-#include <string>
 
 namespace RectifiedTransport::Bridge
 {

@@ -168,8 +168,7 @@ void compareEnds(const BlendRun& run, Progress& progress, BlendPositions& found)
 {
   const ConstPointSpan<3> from = spanOf(found.Positions[0]);
   const ConstPointSpan<3> to = spanOf(found.Positions[1]);
-  found.Cost =
-    meanSquareOfWays(LengthScale(run.Geometry), from, to, nullptr, run.Particles, progress);
+  found.Cost = meanSquare(LengthScale(run.Geometry), from, to, nullptr, run.Particles, progress);
   found.Displacements = displacementsOf(from, to, progress);
 }
 

@@ -25,7 +25,6 @@
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -17,7 +17,6 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <iterator>
 #include <utility>
 

@@ -12,7 +12,6 @@
 #include "vtkPoints.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace RectifiedTransport::Bridge

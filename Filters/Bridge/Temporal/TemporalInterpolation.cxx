@@ -22,7 +22,6 @@
 
 #include <algorithm>
 #include <sstream>
-#include <utility>
 
 namespace RectifiedTransport::Bridge
 {

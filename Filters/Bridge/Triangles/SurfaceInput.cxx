@@ -19,7 +19,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>

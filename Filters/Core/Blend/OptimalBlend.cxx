@@ -153,8 +153,7 @@ private:
       if (!this->Options.IsPair)
       {
         this->Result.Cost += weight *
-          meanSquareOfWays(
-            this->Scale, starts, this->PositionsIn(target), nullptr, this->All, progress);
+          meanSquare(this->Scale, starts, this->PositionsIn(target), nullptr, this->All, progress);
       }
     }
   }

@@ -168,7 +168,7 @@ private:
   void FindOverlaps(const RegionRaster& raster)
   {
     std::vector<double>& overlaps = this->Found.Overlaps;
-    this->Found.Overlap = raster.Overlap(overlaps) / sumOf(this->Areas);
+    this->Found.Overlap = raster.Overlap(overlaps) / sumAll(this->Areas);
     this->Found.Overlapping = static_cast<std::int32_t>(
       std::max_element(overlaps.begin(), overlaps.end()) - overlaps.begin());
     for (std::size_t i = 0; i < overlaps.size(); ++i)
@@ -189,7 +189,7 @@ private:
     double farthest = 0.0;
     for (std::size_t i = 0; i < this->Masses.size(); ++i)
     {
-      const double foretold = (1.0 + values.Errors[i]) * sumOf(this->Masses) / total;
+      const double foretold = (1.0 + values.Errors[i]) * sumAll(this->Masses) / total;
       farthest = std::max(farthest, std::abs((1.0 + this->Found.Errors[i]) / foretold - 1.0));
     }
     return farthest <= 2.0 * this->Options.Tolerance;
@@ -216,7 +216,7 @@ private:
   }
 
   // Returns the mean density of all regions, as mass per cell.
-  double MeanDensity() const { return sumOf(this->Masses) / sumOf(this->Areas); }
+  double MeanDensity() const { return sumAll(this->Masses) / sumAll(this->Areas); }
 
   bool SpansWidely() const
   {
@@ -288,7 +288,7 @@ private:
       masses[i] = takesRoots ? plain * std::sqrt(this->Masses[i] / plain) : this->Masses[i];
     }
     const double sea = this->Around->DensityOf(raster, masses, this->Areas, takesRoots);
-    const double least = leastRegionDensity * sumOf(masses) / sumOf(this->Areas);
+    const double least = leastRegionDensity * sumAll(masses) / sumAll(this->Areas);
     RegionValues values = findRegionValues(
       raster, { masses, this->Areas, sea, least, this->Options.Tolerance }, parts["densities"]);
     Rounds fills(parts["cells"], 1);

@@ -40,7 +40,7 @@ double densityBefore(const CartogramOptions& options, const CartogramBox& box, d
 Sea::Sea(const CartogramOptions& options, const CartogramBox& box, const RegionRaster& raster,
   const std::vector<double>& masses, const std::vector<double>& areas)
   : Options(options)
-  , Mean(sumOf(masses) / sumOf(areas))
+  , Mean(sumAll(masses) / sumAll(areas))
 {
   if (options.Sea == SeaDensity::Mean)
   {
@@ -50,7 +50,7 @@ Sea::Sea(const CartogramOptions& options, const CartogramBox& box, const RegionR
   const double all = static_cast<double>(box.Side) * static_cast<double>(box.Side);
   const double rest = raster.Rest();
   const double covered = all - rest;
-  this->Land = sumOf(areas);
+  this->Land = sumAll(areas);
   this->Mass = rest * densityBefore(options, box, this->Mean, masses, areas);
   // At the uniform measure, areas are in proportion to masses: land gets (its mass) / (all mass) of
   // the box.
@@ -60,7 +60,7 @@ Sea::Sea(const CartogramOptions& options, const CartogramBox& box, const RegionR
 double Sea::DensityOf(const RegionRaster& raster, const std::vector<double>& masses,
   const std::vector<double>& areas, bool takesRoots) const
 {
-  const double mean = sumOf(masses) / sumOf(areas);
+  const double mean = sumAll(masses) / sumAll(areas);
   const double rest = this->Options.Sea == SeaDensity::Mean ? 0.0 : raster.Rest();
   if (!(rest > 0.0))
   {
@@ -76,7 +76,7 @@ double Sea::DensityOf(const RegionRaster& raster, const std::vector<double>& mas
 bool Sea::LeavesLand(const std::vector<double>& areas) const
 {
   return this->Options.Sea == SeaDensity::Mean ||
-    std::abs(sumOf(areas) / (this->Land * this->GrowthOfLand) - 1.0) <= this->Options.Tolerance;
+    std::abs(sumAll(areas) / (this->Land * this->GrowthOfLand) - 1.0) <= this->Options.Tolerance;
 }
 
 } // namespace RectifiedTransport

@@ -13,7 +13,7 @@ namespace RectifiedTransport
 {
 
 // The mass or the area of all regions together.
-inline double sumOf(const std::vector<double>& values)
+inline double sumAll(const std::vector<double>& values)
 {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }

@@ -8,7 +8,7 @@
 namespace RectifiedTransport
 {
 
-double meanSquareOfWays(const LengthScale& scale, ConstPointSpan<3> from, ConstPointSpan<3> to,
+double meanSquare(const LengthScale& scale, ConstPointSpan<3> from, ConstPointSpan<3> to,
   const double* masses, double all, Progress& progress)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 12;

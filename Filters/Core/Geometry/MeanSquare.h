@@ -14,7 +14,7 @@ class Progress;
 // The mean of |to - from|^2, in physical units, over particles of all ranks, by their parts
 // masses[i] / all; for null, over `all` particles of equal masses. Collective. Throws
 // std::overflow_error and Cancelled.
-double meanSquareOfWays(const LengthScale& scale, ConstPointSpan<3> from, ConstPointSpan<3> to,
+double meanSquare(const LengthScale& scale, ConstPointSpan<3> from, ConstPointSpan<3> to,
   const double* masses, double all, Progress& progress);
 
 } // namespace RectifiedTransport

@@ -131,7 +131,7 @@ public:
       this->WriteSecond(firstGrid, *this->From, stages["images"]);
       // The cost is the mean squared displacement over the mass of the first step.
       const std::int64_t first = this->First.Count();
-      this->Made.Cost = meanSquareOfWays(LengthScale(firstGrid), this->From->Span().Part(0, first),
+      this->Made.Cost = meanSquare(LengthScale(firstGrid), this->From->Span().Part(0, first),
         this->To->Span().Part(0, first), this->Made.Masses.data(), this->FirstStep.Mass,
         stages["images"]);
       // Clouds stretch with the map: lengths at the images are measured between neighbouring

@@ -48,7 +48,7 @@ void TrackedParticles::Follow(
   writePhysical<D>(grid, { points.data(), from.size() }, stages["images"], images->Span());
   step.Positions = images;
   // The mean squared displacement over all particles, which have equal masses.
-  step.Cost = meanSquareOfWays(LengthScale(before), from, step.Positions->Span(), nullptr,
+  step.Cost = meanSquare(LengthScale(before), from, step.Positions->Span(), nullptr,
     static_cast<double>(this->Particles), stages["images"]);
   this->Steps.push_back(std::move(step));
 }
