@@ -4,7 +4,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/../CMake/setup.sh"
 
 # The main job, and what else a newcomer should see. None needs the meshes that are fetched.
-usual=(StippleImage SampleVolume WarpedPhotograph Cartogram Territories PlumeEnsemble)
+usual=(StippleImage SampleVolume WarpedPhotograph Cartogram Districts PlumeEnsemble)
 
 usage()
 {
