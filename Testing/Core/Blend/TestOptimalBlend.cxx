@@ -2,6 +2,7 @@
 // Blends whose particles are known: translations, means of translations, and equal densities.
 #include "Core/Blend/OptimalBlend.h"
 #include "Core/Flow/PivotLattice.h"
+#include "Core/Geometry/MeanSquare.h"
 #include "Core/Geometry/PhysicalPoints.h"
 #include "Core/Parallel/Progress.h"
 #include "OptimalMap/MapPoints.h"
@@ -90,8 +91,9 @@ TEST(OptimalBlend, TranslatesBetweenTwo)
   EXPECT_LT(sum / static_cast<double>(from.size()), 0.5 / side);
   // The cost is the bound and twice the mean slack, but for the errors of the nodes.
   const ConstPointSpan<3> images(found.Moved[1]->data(), static_cast<std::int64_t>(from.size()));
-  const double cost =
-    meanSquare(from, images, static_cast<double>(from.size()), LengthScale(blend.Options.Geometry));
+  Progress progress{ Context() };
+  const double cost = meanSquare(LengthScale(blend.Options.Geometry), from, images, nullptr,
+    static_cast<double>(from.size()), progress);
   EXPECT_NEAR(cost, found.Bound + 2.0 * meanOf(found.Slack), 0.002);
 }
 
