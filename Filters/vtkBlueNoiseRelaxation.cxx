@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBlueNoiseRelaxation.h"
 
-#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/Cells/CellCheck.h"
 #include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Data/PointInput.h"
 #include "Bridge/Density/InputDensity.h"

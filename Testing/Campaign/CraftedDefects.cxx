@@ -4,7 +4,7 @@
 
 #include "Input.h"
 
-#include "Bridge/Data/CellTypes.h"
+#include "Bridge/Data/Cells/CellTypes.h"
 
 #include "vtkAMRBox.h"
 #include "vtkCellArray.h"

@@ -3,7 +3,7 @@
 
 #include "Bridge/Blocks/HyperTreeCells.h"
 #include "Bridge/Blocks/RefinedGrids.h"
-#include "Bridge/Data/CellTypes.h"
+#include "Bridge/Data/Cells/CellTypes.h"
 #include "Core/Messages/Failure.h"
 
 #include "vtkCellArray.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Cartogram/OverlayParts.h"
 
-#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/Cells/CellCheck.h"
 #include "Bridge/Data/PointInput.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
 #include "Bridge/Run/Memory.h"

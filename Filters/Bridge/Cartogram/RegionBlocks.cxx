@@ -2,7 +2,7 @@
 #include "Bridge/Cartogram/RegionBlocks.h"
 
 #include "Bridge/Cartogram/UnifiedTypes.h"
-#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/Cells/CellCheck.h"
 #include "Bridge/Data/CopiedTuples.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/Stages.h"

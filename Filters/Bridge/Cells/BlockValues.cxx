@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Cells/BlockValues.h"
 
-#include "Bridge/Data/MeshCells.h"
+#include "Bridge/Data/Cells/MeshCells.h"
 #include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/Settings/ComponentChoice.h"

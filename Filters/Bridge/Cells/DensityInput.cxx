@@ -3,9 +3,9 @@
 
 #include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Blocks/OptionalArray.h"
-#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/Cells/CellCheck.h"
+#include "Bridge/Data/Cells/MeshCells.h"
 #include "Bridge/Data/DefaultArray.h"
-#include "Bridge/Data/MeshCells.h"
 #include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/PiecesDensity.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Data/ParticleSet.h"
 
-#include "Bridge/Data/ParticleCells.h"
+#include "Bridge/Data/Cells/ParticleCells.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/ExactSum.h"

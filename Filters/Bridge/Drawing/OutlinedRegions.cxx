@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Drawing/OutlinedRegions.h"
 
-#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/Cells/CellCheck.h"
 #include "Bridge/Data/CopiedTuples.h"
 #include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Data/TupleValues.h"

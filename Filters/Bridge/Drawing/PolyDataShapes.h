@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_PolyDataShapes_h
 #define RectifiedTransport_PolyDataShapes_h
 
-#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/Cells/CellCheck.h"
 #include "Bridge/Data/GhostFlags.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Progress.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/MeshInversion.h"
 
-#include "Bridge/Data/MeshCells.h"
+#include "Bridge/Data/Cells/MeshCells.h"
 #include "Core/Geometry/Dispatch.h"
 
 #include "vtkCellType.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/ParticleExchange.h"
 
-#include "Bridge/Data/ParticleCells.h"
+#include "Bridge/Data/Cells/ParticleCells.h"
 #include "Bridge/Ranks/CommonArrays.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Core/Geometry/Distributed/PlaceOwners.h"

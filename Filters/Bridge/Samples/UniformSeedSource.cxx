@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Samples/UniformSeedSource.h"
 
-#include "Bridge/Data/ParticleCells.h"
+#include "Bridge/Data/Cells/ParticleCells.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Seeds/SeedShare.h"
 

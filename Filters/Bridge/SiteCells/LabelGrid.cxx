@@ -2,7 +2,7 @@
 #include "Bridge/SiteCells/LabelGrid.h"
 
 #include "Bridge/Blocks/DensityBlocks.h"
-#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/Cells/CellCheck.h"
 #include "Bridge/Data/DefaultArray.h"
 #include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Data/PointInput.h"

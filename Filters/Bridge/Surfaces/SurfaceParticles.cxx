@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Surfaces/SurfaceParticles.h"
 
-#include "Bridge/Data/ParticleCells.h"
+#include "Bridge/Data/Cells/ParticleCells.h"
 #include "Bridge/Data/SampledArrays.h"
 #include "Bridge/Run/CostModel.h"
 #include "Bridge/Run/FieldValue.h"

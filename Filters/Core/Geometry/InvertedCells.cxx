@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Geometry/InvertedCells.h"
 
-#include <Eigen/LU>
+#include "Core/Geometry/SimplexDeterminant.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,20 +14,16 @@ namespace RectifiedTransport
 namespace
 {
 
-// The signed length, area or volume of the simplex that begins at a vertex: det(edges) / D!.
+// The signed length, area or volume of the simplex that begins at a vertex.
 template <int D>
 double simplexMeasure(ConstPointSpan<D> vertices, std::int64_t first)
 {
-  constexpr double simplicesOfBox[] = { 1.0, 1.0, 2.0, 6.0 };
-  Eigen::Matrix<double, D, D> edges;
-  for (int i = 0; i < D; ++i)
+  std::array<Point<D>, D + 1> corners;
+  for (Point<D>& corner : corners)
   {
-    for (int a = 0; a < D; ++a)
-    {
-      edges(a, i) = vertices[first + i + 1][a] - vertices[first][a];
-    }
+    std::copy_n(vertices[first++], D, corner.data());
   }
-  return edges.determinant() / simplicesOfBox[D];
+  return determinant(corners) / simplicesOfBox<D>;
 }
 
 // A bound for what rounding may make of a measure that is 0: errors of coordinates (64 units in the

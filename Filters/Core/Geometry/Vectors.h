@@ -47,6 +47,11 @@ inline double squaredDistance(const Point<3>& a, const Point<3>& b)
   return dot(a - b, a - b);
 }
 
+inline double squaredDistance(const Point<2>& a, const Point<2>& b)
+{
+  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
+}
+
 inline double lengthOf(const Point<3>& vector)
 {
   return std::sqrt(dot(vector, vector));

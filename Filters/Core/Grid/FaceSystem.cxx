@@ -260,7 +260,6 @@ void FaceSystem<Dimension>::Coarsen(const Level& fine, Level& coarse, Progress& 
     progress);
 }
 
-// Makes all levels from the weights of the finest one.
 template <int Dimension>
 void FaceSystem<Dimension>::Prepare(Progress& progress)
 {
@@ -308,7 +307,6 @@ void FaceSystem<Dimension>::Restrict(const Level& fine, Level& coarse, Progress&
     progress);
 }
 
-// x += the coarse correction, piecewise constant.
 template <int Dimension>
 void FaceSystem<Dimension>::Prolong(const Level& coarse, Level& fine, Progress& progress)
 {
@@ -356,7 +354,6 @@ void FaceSystem<Dimension>::RelaxOnce(
   std::swap(level.X, level.Other);
 }
 
-// Smooths by the four Chebyshev steps in their order.
 template <int Dimension>
 void FaceSystem<Dimension>::Relax(Level& level, bool fromZero, Progress& progress)
 {
@@ -366,7 +363,7 @@ void FaceSystem<Dimension>::Relax(Level& level, bool fromZero, Progress& progres
   }
 }
 
-// Smooths by the same steps in the opposite order.
+// Smooths by the four Chebyshev steps in the opposite order.
 template <int Dimension>
 void FaceSystem<Dimension>::RelaxBack(Level& level, Progress& progress)
 {

@@ -22,6 +22,17 @@ struct NodeGrid
   GridSize<Dimension> Cells;  // along each axis an even number, at least 2
   Point<Dimension> Spacing{}; // distances of nodes, in lengths; the box is [0, Cells * Spacing]
 
+  // The lattice of `cells` over the box [0, lengths].
+  static NodeGrid In(const GridSize<Dimension>& cells, const Point<Dimension>& lengths)
+  {
+    NodeGrid grid{ cells, {} };
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      grid.Spacing[axis] = lengths[axis] / static_cast<double>(cells[axis]);
+    }
+    return grid;
+  }
+
   std::int64_t NumberOfCells() const
   {
     return static_cast<std::int64_t>(numberOfCells<Dimension>(this->Cells));

@@ -59,63 +59,6 @@ void checkSides(const Point<Dimension>& sides)
   }
 }
 
-// Whether the density's cells cover the whole box, [0, 1] along each axis.
-template <int Dimension>
-bool fillsBox(const BoxedDensity<Dimension>& density)
-{
-  bool fills = true;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    fills = fills && density.Low[axis] == 0.0 && density.High[axis] == 1.0;
-  }
-  return fills;
-}
-
-// Whether the density is the uniform measure on the box. Its map to nodes is known, so its cells
-// need no memory.
-template <int Dimension>
-bool isUniformInBox(const BoxedDensity<Dimension>& density)
-{
-  return density.Density.IsUniform() && fillsBox(density);
-}
-
-// Without voids the gradient of the potential is a map that mass determines everywhere. The
-// weighted equation raises the bound for such pairs only.
-template <int Dimension>
-bool hasMassEverywhere(const BoxedDensity<Dimension>& density)
-{
-  return !density.Density.HasVoids() && fillsBox(density);
-}
-
-// The lattice of (cells + 1)^Dimension nodes over the box [0, lengths].
-template <int Dimension>
-NodeGrid<Dimension> gridOf(const GridSize<Dimension>& cells, const Point<Dimension>& lengths)
-{
-  NodeGrid<Dimension> grid{ cells, {} };
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    grid.Spacing[axis] = lengths[axis] / static_cast<double>(cells[axis]);
-  }
-  return grid;
-}
-
-// The affine map from the density's index space to cells of the nodes: Low is where cell 0 begins,
-// Sides are the sides of a cell.
-template <int Dimension>
-CellPlacement<Dimension> placementOn(
-  const BoxedDensity<Dimension>& density, const GridSize<Dimension>& nodeCells)
-{
-  CellPlacement<Dimension> placement;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    const auto cells = static_cast<double>(nodeCells[axis]);
-    placement.Low[axis] = density.Low[axis] * cells;
-    placement.Sides[axis] = (density.High[axis] - density.Low[axis]) * cells /
-      static_cast<double>(density.Density.Size()[axis]);
-  }
-  return placement;
-}
-
 // sum_i a_i b_i, by a fixed number of partial sums, which the compiler may keep in any width of
 // registers. So the bits do not depend on the instruction set.
 double sumOfProducts(const double* a, const double* b, std::int64_t count)
@@ -193,8 +136,8 @@ PotentialSolver<Dimension>::PotentialSolver(const BoxedDensity<Dimension>& sourc
   , Lengths(sides)
   , Options(options)
   , Rounding(1e-13 * squaredDiagonal<Dimension>(sides))
-  , IsWeighted(!isUniformInBox(source) && !isUniformInBox(target) && hasMassEverywhere(source) &&
-      hasMassEverywhere(target))
+  , IsWeighted(!source.IsUniformInBox() && !target.IsUniformInBox() && source.HasMassEverywhere() &&
+      target.HasMassEverywhere())
   , Nodes{}
 {
   checkSides<Dimension>(sides);
@@ -235,7 +178,7 @@ void PotentialSolver<Dimension>::Solve(Progress& progress)
   std::vector<Point<Dimension>> cellSides;
   for (const BoxedDensity<Dimension>& given : this->Given)
   {
-    if (!isUniformInBox(given))
+    if (!given.IsUniformInBox())
     {
       Point<Dimension> sides;
       for (int axis = 0; axis < Dimension; ++axis)
@@ -291,16 +234,16 @@ void PotentialSolver<Dimension>::MakeCells(
     const BoxedDensity<Dimension>& given = this->Given[i];
     std::vector<NodeValues>& cells = this->LevelCells[i];
     cells.clear();
-    if (isUniformInBox(given))
+    if (given.IsUniformInBox())
     {
       continue;
     }
     cells.resize(levels.size());
-    cells.back() = cellMasses(given.Density, placementOn<Dimension>(given, levels.back()),
-      gridOf<Dimension>(levels.back(), this->Lengths), progress);
+    cells.back() = cellMasses(given.Density, given.PlacementOn(levels.back()),
+      NodeGrid<Dimension>::In(levels.back(), this->Lengths), progress);
     for (std::size_t level = levels.size() - 1; level-- > 0;)
     {
-      const NodeGrid<Dimension> grid = gridOf<Dimension>(levels[level], this->Lengths);
+      const NodeGrid<Dimension> grid = NodeGrid<Dimension>::In(levels[level], this->Lengths);
       cells[level] =
         coarserCells<Dimension>(cells[level + 1].data(), levels[level + 1], grid, progress);
     }
@@ -317,7 +260,7 @@ void PotentialSolver<Dimension>::Begin(const std::vector<GridSize<Dimension>>& l
   const GridSize<Dimension> before = this->Nodes.Cells;
   const GridSize<Dimension>& cells = levels[level];
   const bool isFinest = level + 1 == levels.size();
-  this->Nodes = gridOf<Dimension>(cells, this->Lengths);
+  this->Nodes = NodeGrid<Dimension>::In(cells, this->Lengths);
   const std::int64_t nodes = this->Nodes.NumberOfNodes();
   this->Excess = 0.0;
   for (std::size_t i = 0; i < this->Given.size(); ++i)
@@ -325,7 +268,7 @@ void PotentialSolver<Dimension>::Begin(const std::vector<GridSize<Dimension>>& l
     const BoxedDensity<Dimension>& given = this->Given[i];
     SolverSide<Dimension>& side = this->Sides[i];
     side = SolverSide<Dimension>();
-    side.Placement = placementOn<Dimension>(given, cells);
+    side.Placement = given.PlacementOn(cells);
     if (!this->LevelCells[i].empty())
     {
       side.Cells = std::move(this->LevelCells[i][level]);
@@ -432,7 +375,7 @@ void PotentialSolver<Dimension>::FindDefect(Scratch& scratch, int side, Progress
   // A cell is pushed forward by samples, as many along an axis as it is stretched to cells. If only
   // bounds are wanted and there are no voids, cells below the mean mass have half as many.
   SampleFineness fineness;
-  if (this->Options.ForBounds && hasMassEverywhere(this->Given[Index(1 - side)]))
+  if (this->Options.ForBounds && this->Given[Index(1 - side)].HasMassEverywhere())
   {
     fineness.OfLightCells = 0.5;
     fineness.LightMass = 1.0; // the mean
@@ -524,7 +467,7 @@ double PotentialSolver<Dimension>::RefinedBound(Progress& progress) const
   {
     return this->Bound();
   }
-  grid = gridOf<Dimension>(grid.Cells, this->Lengths);
+  grid = NodeGrid<Dimension>::In(grid.Cells, this->Lengths);
   NodeValues potential =
     prolong<Dimension>(this->Sides[0].Potential, this->Nodes.Cells, grid.Cells, progress);
   // D = 2 (sum_i mu_i phi_i + sum_j nu_j psi_j) - Excess, a side at a time: psi = phi^c replaces
@@ -534,7 +477,7 @@ double PotentialSolver<Dimension>::RefinedBound(Progress& progress) const
   {
     costTransform<Dimension>(grid, potential.data(), potential.data(), progress);
     const BoxedDensity<Dimension>& given = this->Given[Index(side)];
-    const auto placement = placementOn<Dimension>(given, grid.Cells);
+    const auto placement = given.PlacementOn(grid.Cells);
     bound +=
       // integral of the potential's interpolant over the density, without hats at finer nodes in
       // memory.

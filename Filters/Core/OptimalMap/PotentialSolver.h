@@ -28,6 +28,37 @@ struct BoxedDensity
   const CellDensity<Dimension>& Density;
   Point<Dimension> Low{};
   Point<Dimension> High{};
+
+  // Whether the cells cover the whole box.
+  bool FillsBox() const
+  {
+    bool fills = true;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      fills = fills && this->Low[axis] == 0.0 && this->High[axis] == 1.0;
+    }
+    return fills;
+  }
+  // Whether it is the uniform measure on the box. Its map to nodes is known, so its cells need no
+  // memory.
+  bool IsUniformInBox() const { return this->Density.IsUniform() && this->FillsBox(); }
+  // Without voids the gradient of the potential is a map that mass determines everywhere. The
+  // weighted equation raises the bound for such pairs only.
+  bool HasMassEverywhere() const { return !this->Density.HasVoids() && this->FillsBox(); }
+  // The affine map from its index space to cells of the nodes: Low is where cell 0 begins, Sides
+  // are the sides of a cell.
+  CellPlacement<Dimension> PlacementOn(const GridSize<Dimension>& nodeCells) const
+  {
+    CellPlacement<Dimension> placement;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const auto cells = static_cast<double>(nodeCells[axis]);
+      placement.Low[axis] = this->Low[axis] * cells;
+      placement.Sides[axis] = (this->High[axis] - this->Low[axis]) * cells /
+        static_cast<double>(this->Density.Size()[axis]);
+    }
+    return placement;
+  }
 };
 
 // One of the two densities on the nodes. All arrays have one value a node, but Cells has one a cell

@@ -2,6 +2,7 @@
 #include "Core/Overlap/Overlap.h"
 
 #include "Core/Geometry/CutPolygon.h"
+#include "Core/Geometry/SimplexDeterminant.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,33 +28,6 @@ CellRange cellsBetween(double low, double high)
   const double first = std::floor(low);
   return { static_cast<std::int64_t>(first),
     static_cast<std::int64_t>(std::max(std::ceil(high) - 1.0, first)) };
-}
-
-// D! times the signed measure of a simplex: the determinant of its edge vectors from vertex 0.
-double determinant(const std::array<Point<1>, 2>& v)
-{
-  return v[1][0] - v[0][0];
-}
-
-double determinant(const std::array<Point<2>, 3>& v)
-{
-  return (v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[1][1] - v[0][1]) * (v[2][0] - v[0][0]);
-}
-
-double determinant(const std::array<Point<3>, 4>& v)
-{
-  double e[3][3];
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      // Rows are edge vectors; det = e_0 . (e_1 x e_2).
-      e[i][a] = v[i + 1][a] - v[0][a];
-    }
-  }
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
-    e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-    e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
 // The faces of a simplex of positive determinant, counterclockwise seen from outside.
@@ -395,9 +369,7 @@ std::array<CellRange, D> cellsOf(const LinearSimplex<D>& simplex, const GridSlab
 template <int D>
 double measureOf(const LinearSimplex<D>& simplex)
 {
-  // D! simplices with a corner in common make up a box.
-  constexpr double simplicesOfBox = D == 3 ? 6.0 : D;
-  return std::abs(determinant(simplex.Vertices)) / simplicesOfBox;
+  return std::abs(determinant(simplex.Vertices)) / simplicesOfBox<D>;
 }
 
 template <int D>

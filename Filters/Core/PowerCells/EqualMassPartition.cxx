@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/PowerCells/EqualMassPartition.h"
 
+#include "Core/Geometry/Vectors.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/PowerCells/RectangleFit.h"
 
@@ -15,23 +16,16 @@ namespace RectifiedTransport
 namespace
 {
 
-// The number of cells whose sides are integrated before the first check for cancellation.
-constexpr std::int64_t firstSlice = 1 << 10;
+constexpr std::int64_t firstSlice = 1 << 10; // cells integrated before the first check for abort
 constexpr std::int64_t firstAdded = 1 << 15; // cells whose few side masses are added before it
 // The tolerance of Newton's method. Nearly all solutions are better by an order of magnitude or
 // more, since the last step converges quadratically. It is below massTolerance.
 constexpr double solvedTo = 4e-7;
-constexpr int mostSteps = 2000; // in one solution
-// The tolerance for a density that is partly even, on the way to the given one.
-constexpr double nearlySolved = 0.1;
+constexpr int mostSteps = 2000;      // in one solution
+constexpr double nearlySolved = 0.1; // the tolerance for densities that are partly even
 // The least damping, relative to the mean of the diagonal: it only fixes the additive constant of
 // the weights, and hardly changes the step.
 constexpr double smallestDamping = 1e-13;
-
-double squaredDistance(const Point<2>& a, const Point<2>& b)
-{
-  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
-}
 
 } // namespace
 
@@ -99,26 +93,23 @@ void EqualMassPartition::FindFirstWeights()
 
 bool EqualMassPartition::SolveFromHere(Progress& progress)
 {
-  // Below this mass of the smallest cell, the warm start is given up for the first weights; 1e-9 is
-  // the least mass with which Newton's method can begin.
-  constexpr double tooLittle = 1e-3;
+  constexpr double tooLittle = 1e-3; // masses below it end the warm start
   if (this->Evaluate(this->Weights, progress).Least < tooLittle)
   {
     this->FindFirstWeights();
     this->Evaluate(this->Weights, progress);
   }
-  constexpr double none = 1e-9;
+  constexpr double none = 1e-9;      // Newton's method needs more in each cell
   constexpr int mostShortSteps = 20; // the way from an even density is not as long as more of them
   return this->Found.Least > none && this->Ascend(solvedTo, mostShortSteps, progress);
 }
 
 // Continuation from the even density. Its cells have mass with the first weights. If the even share
 // falls from s to s', the mass of each cell is at least s' / s of what it was, so that Newton's
-// method can begin there. The steps grow while they succeed and shrink when they fail.
+// method can begin there.
 bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
 {
-  // The ratio s / s' of a step: at most 64, and at least 1.001, below which the method has failed.
-  constexpr double smallestRatio = 1.001;
+  constexpr double smallestRatio = 1.001; // least s / s' of a step; below it the method fails
   constexpr double largestRatio = 64.0;
   constexpr int mostShortSteps = 500;
   // An even share this small changes no cell's mass by more than a fifth of the tolerance.
@@ -142,8 +133,7 @@ bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
     else
     {
       this->Weights = solved;
-      // A failed step is halved on the scale of log(share).
-      ratio = std::sqrt(ratio);
+      ratio = std::sqrt(ratio); // halves the step of log(share)
       if (ratio < smallestRatio || this->Steps >= mostSteps)
       {
         return false;
@@ -226,8 +216,7 @@ void EqualMassPartition::IntegrateSides(std::int64_t place)
 }
 
 // The derivative of cell i's mass by the weight of j is -(integral of the density along their
-// common side) / (2 |x_i - x_j|): the bisector moves by 1 / (2 |x_i - x_j|) for each unit of the
-// weight.
+// common side) / (2 |x_i - x_j|): the bisector moves by 1 / (2 |x_i - x_j|) a unit of the weight.
 EqualMassPartition::Side EqualMassPartition::Integrate(std::int64_t site, std::int64_t k) const
 {
   const PowerDiagram::Cell cell = this->Cells[site];
@@ -310,8 +299,7 @@ EqualMassPartition::Deviation EqualMassPartition::EvaluateRevived(
   return found;
 }
 
-// Returns a weight with which the cell has a mass between `least` and 1 in the diagram of the last
-// evaluation, where it had less. The other weights stay.
+// Returns a weight with which a cell that had less mass than `least` has `least` to 1; others stay.
 double EqualMassPartition::RevivingWeight(std::int64_t site, double weight, double least) const
 {
   std::vector<PowerDiagram::Corner> corners;
@@ -329,7 +317,6 @@ double EqualMassPartition::RevivingWeight(std::int64_t site, double weight, doub
   double step = 1e-3; // about a thirtieth of the mean spacing, as a length
   double high = low + step;
   double mass = massWith(high);
-  // The bracket grows until the mass at its upper end is sufficient.
   while (mass < least && std::isfinite(step))
   {
     low = high;
@@ -337,9 +324,8 @@ double EqualMassPartition::RevivingWeight(std::int64_t site, double weight, doub
     high += step;
     mass = massWith(high);
   }
-  // The aim is the geometric mean of the bounds `least` and 1.
   constexpr int mostTries = 40;
-  const double aim = std::sqrt(least);
+  const double aim = std::sqrt(least); // the geometric mean of the bounds `least` and 1
   double found = high;
   for (int tries = 0; tries < mostTries && !(mass >= least && mass <= 1.0); ++tries)
   {
@@ -356,14 +342,12 @@ double EqualMassPartition::RevivingWeight(std::int64_t site, double weight, doub
 // cells of (integral of (|x - site_i|^2 - w_i) over cell i) + sum of w_i, with the gradient 1 -
 // mass_i. A step is accepted if it reduces the residual |1 - mass|, or if F still rises along it at
 // its end. The second kind is the only one if parts of the density do not touch, since their
-// potentials may differ by a lot. Damping shortens such steps.
+// potentials may differ by a lot.
 bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progress)
 {
-  // The least part of a Newton step that is tried, and the part below which a step counts as short.
-  constexpr double shortest = 1e-4;
+  constexpr double shortest = 1e-4; // the least part of a Newton step that is tried
   constexpr double isShort = 0.25;
-  // The least relative reduction of the residual, so that every step makes progress.
-  constexpr double leastGain = 1e-3;
+  constexpr double leastGain = 1e-3; // the residual's least relative reduction by a step
   constexpr double firstDamping = 1e-7;
   // Kitagawa, Merigot and Thibert keep every cell's mass above half of the least initial mass: then
   // the Hessian has no zero mode except constants, and the damped method converges.
@@ -371,8 +355,7 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
   Vector trial(this->Weights.size());
   double damping = smallestDamping;
   double firstPart = 1.0;
-  // The last step reduced the residual to this part of it.
-  double reduction = std::numeric_limits<double>::infinity();
+  double reduction = std::numeric_limits<double>::infinity(); // the residual's, by the last step
   bool isRetry = false;
   for (int shortSteps = 0; this->Found.Largest > tolerance;)
   {
@@ -387,8 +370,7 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
       reduction = std::numeric_limits<double>::infinity();
       ++shortSteps;
     };
-    // With the factor of a step that reduced the residual to a part, another step reduces it to
-    // about twice that part. If this is enough, the last step needs no new factorization.
+    // With the last step's factor, another one reduces the residual to about twice that part.
     const bool isLast = 2.0 * reduction * this->Found.Largest < tolerance;
     if (!(isLast || this->FactorizeHere(damping, progress)) || !this->FindDirection())
     {
@@ -398,8 +380,7 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
     const Deviation before = this->Found;
     double part = firstPart;
     bool isAccepted = false;
-    // Backtracking: Armijo's condition with 1/2 for the norm of the residual, which falls like 1 -
-    // part for an exact Newton step.
+    // Backtracking: Armijo's condition with 1/2 for the norm of the residual.
     while (part >= shortest && !isAccepted)
     {
       for (std::size_t i = 0; i < trial.size(); ++i)
@@ -420,9 +401,8 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
       continue;
     }
     this->Weights.swap(trial);
-    // After a short step the next search begins at four times its part, not at the whole step.
     shortSteps += part < isShort ? 1 : 0;
-    firstPart = std::min(1.0, 4.0 * part);
+    firstPart = std::min(1.0, 4.0 * part); // after a short step not the whole one
     reduction = this->Found.Norm / before.Norm;
     // A good step reduces the damping quickly; after a retry the damping stays for one step.
     const bool isGood = reduction < 0.25;
@@ -432,8 +412,7 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
   return true;
 }
 
-// Returns the directional derivative of the dual function at weights that were evaluated, along the
-// step to them: (1 - mass) . (weights - Weights).
+// The dual's derivative at evaluated weights along the step to them: (1 - mass) . step.
 double EqualMassPartition::Slope(const Vector& weights) const
 {
   double slope = 0.0;
@@ -476,8 +455,6 @@ bool EqualMassPartition::FindDirection()
   return this->System.Solve(this->Direction);
 }
 
-// Integrates mass, centroid and spread of all cells, for which the gradient and the cost need more
-// than masses.
 void EqualMassPartition::IntegrateCells(Progress& progress)
 {
   this->Integrated.resize(this->Cells.Sites().size());
@@ -491,8 +468,7 @@ void EqualMassPartition::IntegrateCells(Progress& progress)
 EqualMassPartition::CellIntegrals EqualMassPartition::IntegrateCell(std::int64_t site) const
 {
   const PowerDiagram::Cell cell = this->Cells[site];
-  // The mean of the corners, which is in the cell.
-  Point<2> middle{};
+  Point<2> middle{}; // the mean of the corners, which is in the cell
   for (std::int64_t k = 0; k < cell.Count; ++k)
   {
     middle[0] += cell[k].X[0] / static_cast<double>(cell.Count);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Data/CellCheck.h"
+#include "Bridge/Data/Cells/CellCheck.h"
 
-#include "Bridge/Data/CellTypes.h"
+#include "Bridge/Data/Cells/CellTypes.h"
 #include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Data/IntegerArrays.h"
 #include "Core/Messages/Failure.h"

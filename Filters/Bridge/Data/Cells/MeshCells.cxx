@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Data/MeshCells.h"
+#include "Bridge/Data/Cells/MeshCells.h"
 
 #include "Bridge/Data/GhostFlags.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Data/ParticleCells.h"
+#include "Bridge/Data/Cells/ParticleCells.h"
 
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Progress.h"
