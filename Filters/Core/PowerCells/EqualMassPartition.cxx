@@ -370,7 +370,7 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
       reduction = std::numeric_limits<double>::infinity();
       ++shortSteps;
     };
-    // With the last step's factor, another one reduces the residual to about twice that part.
+    // With the last step's factor, another step reduces the residual to about 2 `reduction` of it.
     const bool isLast = 2.0 * reduction * this->Found.Largest < tolerance;
     if (!(isLast || this->FactorizeHere(damping, progress)) || !this->FindDirection())
     {
