@@ -402,7 +402,7 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
     }
     this->Weights.swap(trial);
     shortSteps += part < isShort ? 1 : 0;
-    firstPart = std::min(1.0, 4.0 * part); // after a short step not the whole one
+    firstPart = std::min(1.0, 4.0 * part); // the next search starts shorter after a short step
     reduction = this->Found.Norm / before.Norm;
     // A good step reduces the damping quickly; after a retry the damping stays for one step.
     const bool isGood = reduction < 0.25;
