@@ -181,8 +181,9 @@ vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid, Progre
   }
   const int corners = 1 << axes.size();
   // A cell has its box, its corners and their numbers.
-  const double bytes = sizeof(Bounds) + corners * (3 * sizeof(double) + sizeof(vtkIdType));
-  withMemory({ purpose, static_cast<double>(grid->GetNumberOfCells()) * bytes }, [&]() {
+  const std::size_t bytes = sizeof(Bounds) + corners * (3 * sizeof(double) + sizeof(vtkIdType));
+  const auto number = static_cast<double>(grid->GetNumberOfCells());
+  withMemory({ purpose, number * static_cast<double>(bytes) }, [&]() {
     const Leaves leaves = leavesOf(grid, progress);
     vtkNew<vtkPoints> points;
     points->SetData(cornersOf(leaves, axes));
