@@ -99,7 +99,9 @@ need()
   fi
   say "Installing by apt:$missing"
   # Packages that an interrupted installation left unpacked prevent all others from being installed.
-  logged "$apt_log" as_root env DEBIAN_FRONTEND=noninteractive dpkg --configure -a || return 1
+  # dpkg does not wait for an installation that is under way, as apt does.
+  logged "$apt_log" as_root env DEBIAN_FRONTEND=noninteractive timeout 300 \
+    bash -c 'until dpkg --configure -a; do [ $? = 2 ] || exit 1; sleep 5; done' || return 1
   logged "$apt_log" apt_get update -q || return 1
   # shellcheck disable=SC2086
   announce_installation $missing
