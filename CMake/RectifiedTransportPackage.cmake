@@ -3,16 +3,19 @@
 include(CMakePackageConfigHelpers)
 
 set(package_folder "${CMAKE_BINARY_DIR}/${cmake_destination}")
-export(
-  EXPORT RectifiedTransportCore
-  NAMESPACE RectifiedTransport::
-  FILE "${package_folder}/RectifiedTransportCore-targets.cmake")
-install(
-  EXPORT RectifiedTransportCore
-  NAMESPACE RectifiedTransport::
-  FILE RectifiedTransportCore-targets.cmake
-  DESTINATION "${cmake_destination}"
-  COMPONENT development)
+set(components Core Surfaces)
+foreach (component IN LISTS components)
+  export(
+    EXPORT RectifiedTransport${component}
+    NAMESPACE RectifiedTransport::
+    FILE "${package_folder}/RectifiedTransport${component}-targets.cmake")
+  install(
+    EXPORT RectifiedTransport${component}
+    NAMESPACE RectifiedTransport::
+    FILE RectifiedTransport${component}-targets.cmake
+    DESTINATION "${cmake_destination}"
+    COMPONENT development)
+endforeach ()
 
 # Private dependencies are in the link interface of static libraries only.
 get_target_property(core_links RectifiedTransportCore INTERFACE_LINK_LIBRARIES)
@@ -23,7 +26,6 @@ endif ()
 if (core_links MATCHES "OpenMP::")
   string(APPEND core_dependencies "find_dependency(OpenMP COMPONENTS CXX)\n")
 endif ()
-set(components Core)
 if (RectifiedTransport_BUILD_VTK)
   list(APPEND components VTK)
 endif ()

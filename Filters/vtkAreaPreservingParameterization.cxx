@@ -6,7 +6,7 @@
 #include "Bridge/Triangles/SurfaceInput.h"
 #include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
-#include "Core/Parameterization/CornerSettings.h"
+#include "Surfaces/Parameterization/CornerSettings.h"
 
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"

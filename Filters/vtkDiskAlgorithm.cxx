@@ -2,7 +2,7 @@
 #include "vtkDiskAlgorithm.h"
 
 #include "Bridge/Run/Settings/IndexedList.h"
-#include "Core/Parameterization/CornerSettings.h"
+#include "Surfaces/Parameterization/CornerSettings.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 

@@ -10,7 +10,7 @@
 #include "Bridge/Triangles/SurfaceInput.h"
 #include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
-#include "Core/Parameterization/CornerSettings.h"
+#include "Surfaces/Parameterization/CornerSettings.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"

@@ -123,14 +123,18 @@ run_asan()
 # thread does everything there is none: the tests that are left out have no threads.
 run_tsan()
 {
-  local folder="$root/build-tsan" archer
+  local folder="$root/build-tsan" archer library
   need clang libomp-dev || return 1
   archer="$(dirname "$(readlink -f "$(command -v clang)")")/../lib/libarcher.so"
-  target=RectifiedTransportCoreTests configure_and_build "$folder" --preset tsan || return 1
+  target="RectifiedTransportCoreTests RectifiedTransportSurfacesTests" \
+    configure_and_build "$folder" --preset tsan || return 1
   say "Tests of $folder"
-  OMP_NUM_THREADS=3 OMP_TOOL_LIBRARIES="$archer" \
-    TSAN_OPTIONS="ignore_noninstrumented_modules=1 allocator_may_return_null=1 halt_on_error=1" \
-    "$folder/bin/RectifiedTransportCoreTests" --gtest_brief=1 --gtest_filter="$parallel_tests"
+  for library in Core Surfaces; do
+    OMP_NUM_THREADS=3 OMP_TOOL_LIBRARIES="$archer" \
+      TSAN_OPTIONS="ignore_noninstrumented_modules=1 allocator_may_return_null=1 halt_on_error=1" \
+      "$folder/bin/RectifiedTransport${library}Tests" --gtest_brief=1 \
+      --gtest_filter="$parallel_tests" || return 1
+  done
 }
 
 # ParaView and libvtk9-dev exclude each other as packages; unpacked they do not meet.

@@ -6,7 +6,7 @@
 #include "KnotInput.h"
 
 #include "Core/Geometry/EqualPoints.h"
-#include "Core/Mesh/SurfaceOrientation.h"
+#include "Surfaces/Mesh/SurfaceOrientation.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Quality/NearestNeighbours.h"
 #include "Core/Seeds/Seeds.h"

@@ -3,8 +3,8 @@
 // against the paper's, and with the polish.
 #include "BenchmarkInputs.h"
 
-#include "Core/Parameterization/AreaPreservingMap.h"
-#include "Core/Parameterization/MassRaster.h"
+#include "Surfaces/Parameterization/AreaPreservingMap.h"
+#include "Surfaces/Parameterization/MassRaster.h"
 #include "PaperTransport.h"
 
 #include <algorithm>

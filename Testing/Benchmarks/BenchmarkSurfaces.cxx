@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points spread evenly over surfaces: time, memory and evenness, of 8192 to a million.
-#include "Core/SurfaceRelaxation/SurfaceRelaxation.h"
+#include "Surfaces/SurfaceRelaxation/SurfaceRelaxation.h"
 #include "FreshMemory.h"
 #include "PeakMemory.h"
 #include "SurfaceRelaxation/SurfaceMeasures.h"

@@ -99,14 +99,14 @@ function (check_core)
   file(WRITE "${WORK}/Core.cxx" "${CMAKE_MATCH_1}")
   build_of_page(OfCore Documentation/Core.md "${WORK}/Core.cxx" "" ${without_vtk})
   check_loaded("${WORK}/OfCore/my_program" ${ARGN})
-  file(STRINGS "${SOURCE}/Documentation/Core.md" lines REGEX "Core/[A-Za-z]+/[A-Za-z]+[.]h")
-  string(REGEX MATCHALL "Core/[A-Za-z]+/[A-Za-z]+[.]h" documented "${lines}")
+  file(STRINGS "${SOURCE}/Documentation/Core.md" lines REGEX "(Core|Surfaces)/[A-Za-z]+/[A-Za-z]+[.]h")
+  string(REGEX MATCHALL "(Core|Surfaces)/[A-Za-z]+/[A-Za-z]+[.]h" documented "${lines}")
   foreach (header IN LISTS documented)
     if (NOT EXISTS "${WORK}/moved/include/RectifiedTransport/${header}")
       message(FATAL_ERROR "Documentation/Core.md names ${header}, which is not installed")
     endif ()
   endforeach ()
-  refuse("it has no component Tables, but Core and VTK" "${CMAKE_COMMAND}"
+  refuse("it has no component Tables, but Core, Surfaces and VTK" "${CMAKE_COMMAND}"
     -S "${SOURCE}/Testing/Install/Headers" -B "${WORK}/Refused" -G Ninja
     "-DCMAKE_PREFIX_PATH=${WORK}/moved" "-DCOMPONENTS=Core\;Tables" ${without_vtk})
 endfunction ()

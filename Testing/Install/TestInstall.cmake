@@ -5,7 +5,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/InstallChecks.cmake")
 file(REMOVE_RECURSE "${WORK}")
 install_and_move("${BUILD}" "${VTK}") # the one outside place that it has to know
 
-set(ours vtkRectifiedTransport RectifiedTransportCore)
+set(ours vtkRectifiedTransport RectifiedTransportCore RectifiedTransportSurfaces)
 foreach (example IN ITEMS Downstream LiveStippling StippleImage)
   build_against_moved("Examples/${example}" "${example}")
   check_loaded("${WORK}/${example}/${example}" ${ours})

@@ -28,4 +28,5 @@ def X(file, right, wrong):
 
 
 CORE = "Filters/Core/"
+SURFACES = "Filters/Surfaces/"
 BRIDGE = "Filters/Bridge/"

@@ -3,7 +3,7 @@
 import importlib
 import pathlib
 
-from mutation import BRIDGE, CORE, E, S, X
+from mutation import BRIDGE, CORE, E, S, SURFACES, X
 
 # These once passed all tests.
 SURVIVED = [
@@ -29,7 +29,7 @@ SURVIVED = [
     E(CORE + "Parallel/Progress.cxx", "«slice < units / shortParts»", "false"),
     E(CORE + "Quality/ParticleQuality.cxx", "static_cast<double>(size[axis]) / scale.ToUnits(aspect[axis])",
       "1.0"),
-    E(CORE + "Mesh/SurfaceOrientation.cxx", "area += sign * «areaOf(surface, queue[next])»",
+    E(SURFACES + "Mesh/SurfaceOrientation.cxx", "area += sign * «areaOf(surface, queue[next])»",
       "1.0"),
     S(BRIDGE + "Ensembles/DensityBlend.cxx", "array->Modified();", ";"),
     E(CORE + "Flow/PivotLattice.cxx", "«report.MovedToMass» +=", "report.MovedToMass = 0"),
@@ -86,25 +86,25 @@ OTHERS = [
     # cells, solids, quality
     E(CORE + "SiteCells/EqualMasses/BorderMaxFlow.cxx", "this->Capacity(from.Border, «-from.Sign») > 0", "from.Sign"),
     E(CORE + "SiteCells/SiteDensity.cxx", "«*next < first + count»", "*next <= first + count - 2"),
-    E(CORE + "Solid/SolidLines.cxx", "std::ceil(coordinate - «0.5»); // the", "0.25"),
-    E(CORE + "Solid/SignedVolumes.cxx", "(end - a[0]) + (end - b[0]) + «(end - c[0])»", "(end - b[0])"),
-    E(CORE + "Solid/BodyWeights.cxx", "side > 0 ? «triangle < this->Triangle» : triangle", "triangle > this->Triangle"),
-    E(CORE + "Solid/OrientedBodies.cxx", "const int same = «-this->DirectionOf(a)» * this->DirectionOf(b);", "this->DirectionOf(a)"),
-    E(CORE + "Solid/ClosedMesh.cxx", "if («a != b && b != c && c != a»)", "true"),
-    E(CORE + "Mesh/EdgeSides.h", "next < last && «highOf(*next) == other»",
+    E(SURFACES + "Solid/SolidLines.cxx", "std::ceil(coordinate - «0.5»); // the", "0.25"),
+    E(SURFACES + "Solid/SignedVolumes.cxx", "(end - a[0]) + (end - b[0]) + «(end - c[0])»", "(end - b[0])"),
+    E(SURFACES + "Solid/BodyWeights.cxx", "side > 0 ? «triangle < this->Triangle» : triangle", "triangle > this->Triangle"),
+    E(SURFACES + "Solid/OrientedBodies.cxx", "const int same = «-this->DirectionOf(a)» * this->DirectionOf(b);", "this->DirectionOf(a)"),
+    E(SURFACES + "Solid/ClosedMesh.cxx", "if («a != b && b != c && c != a»)", "true"),
+    E(SURFACES + "Mesh/EdgeSides.h", "next < last && «highOf(*next) == other»",
       "highOf(*next) >= other"),
-    E(CORE + "Mesh/PlaceOnSide.h", "const bool isWithin = «gap <= limit»", "true"),
-    E(CORE + "Mesh/Repair/TJunctions.cxx", "if («found.IsMatched» && !std::binary_search", "true"),
-    E(CORE + "Mesh/Repair/SplitTriangle.cxx", "return «(i + 2) % 3»;", "i"),
-    E(CORE + "Mesh/Repair/SplitSurface.cxx", "weights[side] = «1.0 - junction.Place»", "junction.Place"),
-    E(CORE + "Mesh/Repair/TJunctionRepair.cxx", "«other.TJunctions > repair.TJunctions»", "false"),
-    S(CORE + "Solid/ClosedMesh.cxx", "this->NumberOfTJunctions = split.NumberOfTJunctions();", ";"),
-    E(CORE + "SurfaceRelaxation/SurfaceDensity.h", "if («this->Values.AtPoints && this->Surface.IsPart(triangle)»)",
+    E(SURFACES + "Mesh/PlaceOnSide.h", "const bool isWithin = «gap <= limit»", "true"),
+    E(SURFACES + "Mesh/Repair/TJunctions.cxx", "if («found.IsMatched» && !std::binary_search", "true"),
+    E(SURFACES + "Mesh/Repair/SplitTriangle.cxx", "return «(i + 2) % 3»;", "i"),
+    E(SURFACES + "Mesh/Repair/SplitSurface.cxx", "weights[side] = «1.0 - junction.Place»", "junction.Place"),
+    E(SURFACES + "Mesh/Repair/TJunctionRepair.cxx", "«other.TJunctions > repair.TJunctions»", "false"),
+    S(SURFACES + "Solid/ClosedMesh.cxx", "this->NumberOfTJunctions = split.NumberOfTJunctions();", ";"),
+    E(SURFACES + "SurfaceRelaxation/SurfaceDensity.h", "if («this->Values.AtPoints && this->Surface.IsPart(triangle)»)",
       "false"),
-    E(CORE + "Parameterization/MapDistortion.cxx", "return «shape.Height < MapDistortion::NeedleHeight * shape.Length»",
+    E(SURFACES + "Parameterization/MapDistortion.cxx", "return «shape.Height < MapDistortion::NeedleHeight * shape.Length»",
       "false"),
-    E(CORE + "Mesh/DiskTriangles.cxx", "if («!this->IsPart(place.Triangle)»)", "true"),
-    E(CORE + "SurfaceRelaxation/TriangleMasses.cxx", "if («surface.IsPart(triangle)»)", "false"),
+    E(SURFACES + "Mesh/DiskTriangles.cxx", "if («!this->IsPart(place.Triangle)»)", "true"),
+    E(SURFACES + "SurfaceRelaxation/TriangleMasses.cxx", "if («surface.IsPart(triangle)»)", "false"),
     E(CORE + "Tables/BoxShare.cxx", "«std::clamp(this->Centre[axis] + h * this->Aspect[axis], 0.0, size)»",
       "this->Centre[axis] + h * this->Aspect[axis]"),
     E(CORE + "Flow/MapDerivatives.cxx", "«below && above» ? 2.0 * this->Step[axis]", "below || above"),
@@ -125,7 +125,7 @@ OTHERS = [
     E(CORE + "Geometry/Boxes/CommonGrid.cxx", "finest = «std::min(finest, std::abs(side.Spacing))»",
       "std::max(finest, std::abs(side.Spacing))"),
     E(CORE + "Flow/MapDisplacement.cxx", "return «this->Density->Share(low, high)»;", "1.0"),
-    E(CORE + "Mesh/PolygonCutter.cxx", "isOdd = «i % 2 == 1»", "false"),
+    E(SURFACES + "Mesh/PolygonCutter.cxx", "isOdd = «i % 2 == 1»", "false"),
     E(CORE + "SiteCells/EqualMasses/JoinSpecks.cxx", "«part.Mass <= mostMass» &&", "false"),
     E(CORE + "SiteCells/PixelMasses.cxx", "(*this)[pixel] > 0 ? labels[pixel] : «-1»", "0"),
     E(CORE + "SiteCells/SiteCellPolygons.cxx", "if («area > 0»)", "true"),
@@ -290,7 +290,7 @@ OTHERS = [
     E(CORE + "Overlap/EdgeCrossings.cxx",
       "(rings.Edges() > few && «!haveCrossings(rings, progress)»)", "true"),
     E(CORE + "Resampling/RegionShapes.cxx", "if (mayBeSimple && «isSimple»)", "true"),
-    E(CORE + "Solid/SolidLines.cxx", "if («covered < counted»)", "false"),
+    E(SURFACES + "Solid/SolidLines.cxx", "if («covered < counted»)", "false"),
     E(BRIDGE + "Data/SampledArrays.cxx",
       "«number >= static_cast<double>(std::numeric_limits<Value>::max())»", "false"),
     # missing data

@@ -174,7 +174,7 @@ class Tests:
         rooms = pathlib.Path(file).parent.parts[2:]
         word = re.compile(rf"\b{pathlib.Path(file).stem}\b")
         names = {f"Test{room}\\w*" for room in rooms}
-        for path in [*self.source.glob("Testing/C*/**/Test*.cxx"),
+        for path in [*self.source.glob("Testing/[CS]*/**/Test*.cxx"),
                      *self.source.glob("Testing/Python/*/Test*.py")]:
             text = path.read_text()
             if word.search(text) or set(rooms) & set(path.parent.parts):
@@ -184,7 +184,7 @@ class Tests:
     def groups(self, file):
         """Lists of numbers: what is near the change and what is quick comes first."""
         near = self.near(file)
-        inside = file.startswith("Filters/Core/")
+        inside = file.startswith(("Filters/Core/", "Filters/Surfaces/"))
         left = [test for test in self.found if inside or not test[1].startswith("core.")]
         for closest, longest in ORDER:
             group = [test for test in left if test[2] < longest and (not closest or near(test[1]))]

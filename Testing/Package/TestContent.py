@@ -15,6 +15,7 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 
 PACKAGE = "rectifiedtransport"
+LIBRARIES = ("Core", "Surfaces")
 OPTIONS = None
 
 
@@ -64,6 +65,7 @@ class Content(unittest.TestCase):
                    os.path.join(self.libraries, "cmake/RectifiedTransport/"),
                    os.path.join(self.libraries, "vtk/hierarchy/RectifiedTransport/"),
                    os.path.join(self.libraries, "libRectifiedTransportCore."),
+                   os.path.join(self.libraries, "libRectifiedTransportSurfaces."),
                    os.path.join(self.libraries, "libvtkRectifiedTransport")]
         if OPTIONS.python_dir:
             allowed.append(os.path.join("usr", OPTIONS.python_dir, "rectifiedtransport/"))
@@ -134,12 +136,12 @@ class Content(unittest.TestCase):
             self.assertTrue({"postinst", "prerm"} <= set(self.control))
 
     def test_development(self):
-        """Headers and libraries of Core, and of the filters where they were built, and the CMake package."""
+        """Headers and libraries of Core and Surfaces, and of the filters where they were built, and the CMake package."""
         cmake = os.path.join(self.libraries, "cmake/RectifiedTransport")
         self.assertIn('PACKAGE_VERSION "%s"' % OPTIONS.version,
                       self.text(cmake, "RectifiedTransportConfigVersion.cmake"))
-        targets = [self.text(cmake, "RectifiedTransportCore-targets.cmake")]
-        expected = {"Core/Flow/RectifiedFlow.h", "Core/Seeds/Seeds.h"}
+        targets = [self.text(cmake, "RectifiedTransport%s-targets.cmake" % name) for name in LIBRARIES]
+        expected = {"Core/Flow/RectifiedFlow.h", "Core/Seeds/Seeds.h", "Surfaces/Mesh/DiskMesh.h"}
         if os.path.join(cmake, "RectifiedTransport-targets.cmake") in self.files:
             targets.append(self.text(cmake, "RectifiedTransport-targets.cmake"))
             expected |= {os.path.basename(path) for path in glob.glob(
@@ -149,9 +151,10 @@ class Content(unittest.TestCase):
             self.assertFalse(OPTIONS.plugin_dir or OPTIONS.python_dir)
         for header in expected:
             self.assertIn(os.path.join("usr/include/RectifiedTransport", header), self.files)
-        self.assertIn("RectifiedTransport::Core", "".join(targets))
-        self.assertTrue([path for path in self.files if os.path.join(
-            self.libraries, "libRectifiedTransportCore.") in path])
+        for name in LIBRARIES:
+            self.assertIn("RectifiedTransport::" + name, "".join(targets))
+            self.assertTrue([path for path in self.files if os.path.join(
+                self.libraries, "libRectifiedTransport%s." % name) in path])
 
     def test_documents(self):
         """The licence's own words in Debian's form, and the changes of the project."""

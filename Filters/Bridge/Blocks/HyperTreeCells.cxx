@@ -181,9 +181,8 @@ vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid, Progre
   }
   const int corners = 1 << axes.size();
   // A cell has its box, its corners and their numbers.
-  const std::size_t bytes = sizeof(Bounds) + corners * (3 * sizeof(double) + sizeof(vtkIdType));
-  const auto number = static_cast<double>(grid->GetNumberOfCells());
-  withMemory({ purpose, number * static_cast<double>(bytes) }, [&]() {
+  const vtkIdType bytes = sizeof(Bounds) + corners * (3 * sizeof(double) + sizeof(vtkIdType));
+  withMemory({ purpose, static_cast<double>(grid->GetNumberOfCells() * bytes) }, [&]() {
     const Leaves leaves = leavesOf(grid, progress);
     vtkNew<vtkPoints> points;
     points->SetData(cornersOf(leaves, axes));

@@ -6,8 +6,8 @@
 #include "Bridge/Triangles/TriangleInput.h"
 #include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
-#include "Core/Parameterization/AreaPreservingMap.h"
-#include "Core/Seams/CutSurfaceMap.h"
+#include "Surfaces/Parameterization/AreaPreservingMap.h"
+#include "Surfaces/Seams/CutSurfaceMap.h"
 
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"

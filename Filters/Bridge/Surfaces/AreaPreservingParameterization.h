@@ -4,8 +4,8 @@
 #define RectifiedTransport_AreaPreservingParameterization_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Parameterization/CornerSettings.h"
-#include "Core/Parameterization/ParameterizationReport.h"
+#include "Surfaces/Parameterization/CornerSettings.h"
+#include "Surfaces/Parameterization/ParameterizationReport.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;

@@ -4,7 +4,7 @@
 #define RectifiedTransport_SurfaceDensityArray_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/SurfaceRelaxation/SurfaceMasses.h"
+#include "Surfaces/SurfaceRelaxation/SurfaceMasses.h"
 
 #include "vtkDataArray.h"
 #include "vtkSmartPointer.h"

@@ -10,8 +10,8 @@
 #include "Bridge/Triangles/TriangleInput.h"
 #include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
-#include "Core/Parameterization/AreaPreservingMap.h"
-#include "Core/SurfaceRelaxation/SurfaceRelaxation.h"
+#include "Surfaces/Parameterization/AreaPreservingMap.h"
+#include "Surfaces/SurfaceRelaxation/SurfaceRelaxation.h"
 
 #include "vtkPolyData.h"
 

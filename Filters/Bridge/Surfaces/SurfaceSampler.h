@@ -4,9 +4,9 @@
 #define RectifiedTransport_SurfaceSampler_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Parameterization/CornerSettings.h"
-#include "Core/SurfaceSampling/SurfaceSamples.h"
-#include "Core/SurfaceSampling/SurfaceSamplingReport.h"
+#include "Surfaces/Parameterization/CornerSettings.h"
+#include "Surfaces/SurfaceSampling/SurfaceSamples.h"
+#include "Surfaces/SurfaceSampling/SurfaceSamplingReport.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;

@@ -3,10 +3,10 @@
 
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/PolygonInput.h"
-#include "Core/Mesh/Repair/RepairText.h"
+#include "Surfaces/Mesh/Repair/RepairText.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"
-#include "Core/Solid/SolidPolygons.h"
+#include "Surfaces/Solid/SolidPolygons.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"

@@ -5,7 +5,7 @@
 
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Solid/ClosedMesh.h"
+#include "Surfaces/Solid/ClosedMesh.h"
 
 #include <array>
 #include <optional>

@@ -5,7 +5,7 @@
 
 #include "Bridge/Data/IntegerArrays.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Mesh/CutPolygons.h"
+#include "Surfaces/Mesh/CutPolygons.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 

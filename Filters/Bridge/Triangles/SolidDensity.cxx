@@ -10,7 +10,7 @@
 #include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
-#include "Core/Solid/SolidCoverage.h"
+#include "Surfaces/Solid/SolidCoverage.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"

@@ -5,7 +5,7 @@
 #include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/PolygonInput.h"
-#include "Core/Mesh/Repair/TJunctions.h"
+#include "Surfaces/Mesh/Repair/TJunctions.h"
 #include "Core/Parallel/Stages.h"
 
 #include "vtkCellData.h"

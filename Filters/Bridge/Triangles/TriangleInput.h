@@ -5,15 +5,15 @@
 #define RectifiedTransport_TriangleInput_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Mesh/DiskTriangles.h"
-#include "Core/Mesh/Repair/RepairText.h"
-#include "Core/Mesh/SurfaceTriangles.h"
-#include "Core/Mesh/WholeTriangles.h"
+#include "Surfaces/Mesh/DiskTriangles.h"
+#include "Surfaces/Mesh/Repair/RepairText.h"
+#include "Surfaces/Mesh/SurfaceTriangles.h"
+#include "Surfaces/Mesh/WholeTriangles.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parameterization/ConformalMap.h"
-#include "Core/Seams/OpenedSurface.h"
+#include "Surfaces/Parameterization/ConformalMap.h"
+#include "Surfaces/Seams/OpenedSurface.h"
 
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"

@@ -15,7 +15,6 @@ CORE = {  # besides Messages, which all may include
     "Device": {"Parallel"},
     "Geometry": {"Parallel"},
     "Drawing": {"Parallel", "Geometry"},
-    "Mesh": {"Parallel", "Geometry"},
     "Tables": {"Parallel", "Geometry"},
     "Flow": {"Parallel", "Device", "Geometry", "Tables"},
     "Grid": {"Parallel", "Geometry"},
@@ -34,12 +33,15 @@ CORE = {  # besides Messages, which all may include
     "Splat": {"Parallel", "Geometry"},
     "Overlap": {"Parallel", "Geometry"},
     "Resampling": {"Parallel", "Geometry", "Tables", "Overlap"},
-    "Solid": {"Parallel", "Geometry", "Mesh"},
-    "Parameterization": {"Parallel", "Algebra", "Geometry", "Mesh", "Tables", "Flow"},
-    "SurfaceRelaxation": {"Parallel", "Geometry", "Mesh", "Tables"},
-    "Seams": {"Parallel", "Geometry", "Mesh", "Parameterization"},
-    "SurfaceSampling": {"Parallel", "Geometry", "Mesh", "Tables", "Flow", "Seeds",
-                        "Parameterization"},
+}
+SURFACES = {  # of Surfaces, and of Core; besides Messages, which all may include
+    "Mesh": (set(), {"Parallel", "Geometry"}),
+    "Solid": ({"Mesh"}, {"Parallel", "Geometry"}),
+    "Parameterization": ({"Mesh"}, {"Parallel", "Algebra", "Geometry", "Tables", "Flow"}),
+    "SurfaceRelaxation": ({"Mesh"}, {"Parallel", "Geometry", "Tables"}),
+    "Seams": ({"Mesh", "Parameterization"}, {"Parallel", "Geometry"}),
+    "SurfaceSampling": ({"Mesh", "Parameterization"},
+                        {"Parallel", "Geometry", "Tables", "Flow", "Seeds"}),
 }
 # Of the folders within OptimalMap: those there, and of Core.
 OPTIMAL_MAP = {
@@ -77,19 +79,37 @@ def sources(*pattern):
                 yield os.path.relpath(path, FILTERS), file.read()
 
 
+def included(path, text):
+    """The files that a source includes by names in quotes, with their paths from Filters."""
+    for name in re.findall(r'#include "(.*)"', text):
+        yield os.path.normpath(os.path.join(os.path.dirname(path), name)) if name.startswith(".") else name
+
+
 class Includes(unittest.TestCase):
-    def check(self, top, allowed):
+    def check(self, top, allowed, within=None):
+        """Of the library `within`, else of their own one, rooms of `top` include those that are allowed."""
+        within = within or top
         found = 0
         for path, text in sources(top, "*", "**", "*"):
             own = path.split(os.sep)[1]
-            for folder in re.findall(r'#include "(?:%s|\.\.)/(\w+)/' % top, text):
-                found += 1
-                with self.subTest(path, includes=folder):
-                    self.assertIn(folder, allowed[own] | {own, "Messages"})
+            for name in included(path, text):
+                library, _, rest = name.partition("/")
+                folder = rest.partition("/")[0]
+                if library == within and "/" in rest:
+                    found += 1
+                    with self.subTest(path, includes=folder):
+                        self.assertIn(folder, allowed[own] | {"Messages", own if within == top else ""})
         self.assertGreater(found, 50)
 
     def test_core(self):
         self.check("Core", CORE)
+
+    def test_surfaces(self):
+        self.check("Surfaces", {room: rooms for room, (rooms, _) in SURFACES.items()})
+        self.check("Surfaces", {room: rooms for room, (_, rooms) in SURFACES.items()}, "Core")
+        for path, text in sources("Core", "**", "*"):
+            self.assertEqual([name for name in included(path, text) if name.startswith("Surfaces/")], [],
+                             path)
 
     def test_optimal_map(self):
         for room, (rooms, folders) in OPTIMAL_MAP.items():
@@ -110,9 +130,9 @@ class Includes(unittest.TestCase):
     def test_pipeline(self):
         """What VTK's executive lacks knows nothing of runs."""
         for path, text in sources("Bridge", "Run", "Pipeline", "*"):
-            for included in re.findall(r'#include "(Bridge/(?!VTKCompatibility).*)"', text):
-                with self.subTest(path, includes=included):
-                    self.assertTrue(included.startswith("Bridge/Run/Pipeline/"))
+            for name in re.findall(r'#include "(Bridge/(?!VTKCompatibility).*)"', text):
+                with self.subTest(path, includes=name):
+                    self.assertTrue(name.startswith("Bridge/Run/Pipeline/"))
 
     def outside(self, pattern, *places):
         """The files outside of some places in which a pattern is found."""
@@ -135,20 +155,21 @@ class Includes(unittest.TestCase):
                                                           for place in ("Store", "Run", "Density"))), [])
 
     def test_relative_paths(self):
-        """Public headers of Core include each other by them, where no other project's folder Core can come
-        in between; all others name the path from Filters."""
-        with open(os.path.join(FILTERS, "Core", "CMakeLists.txt"), encoding="utf-8") as file:
-            listed = re.search(r"^set\(public_headers\n(.*?)\)$", file.read(), re.MULTILINE | re.DOTALL)
-        public = {os.path.join("Core", header) for header in listed.group(1).split()}
-        self.assertGreater(len(public), 40)
+        """Public headers of Core and Surfaces include each other by them, where no other project's folder
+        Core can come in between; all others name the path from Filters."""
+        public = set()
+        for library in ("Core", "Surfaces"):
+            with open(os.path.join(FILTERS, library, "CMakeLists.txt"), encoding="utf-8") as file:
+                listed = re.search(r"^set\(public_headers\n(.*?)\)$", file.read(), re.MULTILINE | re.DOTALL)
+            public |= {os.path.join(library, header) for header in listed.group(1).split()}
+        self.assertGreater(len(public), 80)
         for path, text in sources("**", "*"):
-            for included in re.findall(r'#include "(.*)"', text):
-                with self.subTest(path, includes=included):
+            for name in re.findall(r'#include "(.*)"', text):
+                with self.subTest(path, includes=name):
                     if path in public:
-                        self.assertIn(os.path.normpath(os.path.join(os.path.dirname(path), included)),
-                                      public)
+                        self.assertIn(os.path.normpath(os.path.join(os.path.dirname(path), name)), public)
                     else:
-                        self.assertFalse(included.startswith("."))
+                        self.assertFalse(name.startswith("."))
 
     def test_transport(self):
         """Transport.h includes what it likes of Core; only its own sources include it."""
@@ -156,9 +177,10 @@ class Includes(unittest.TestCase):
             if not path.startswith(os.path.join("Core", "Transport")):
                 self.assertNotIn('"Core/Transport', text, path)
 
-    def test_core_knows_neither_vtk_nor_bridge(self):
-        for path, text in sources("Core", "**", "*"):
-            self.assertNotRegex(text, r'#include [<"](vtk|Bridge/)', path)
+    def test_mathematics_knows_neither_vtk_nor_bridge(self):
+        for library in ("Core", "Surfaces"):
+            for path, text in sources(library, "**", "*"):
+                self.assertNotRegex(text, r'#include [<"](vtk|Bridge/)', path)
 
     def test_headers_of_filters(self):
         """Only a filter's own source and its subclasses include its header."""
@@ -175,13 +197,12 @@ class Includes(unittest.TestCase):
 
     def test_headers_of_filters_include_no_worker(self):
         for path, text in sources("vtk*.h"):
-            for included in re.findall(r'#include "((?:Bridge|Core)/.*)"', text):
+            for name in re.findall(r'#include "((?:Bridge|Core|Surfaces)/.*)"', text):
                 with self.subTest(path):
-                    self.assertEqual(included, "Bridge/VTKCompatibility.h")
+                    self.assertEqual(name, "Bridge/VTKCompatibility.h")
 
     def test_kernels_know_no_eigen(self):
-        kernels = {**dict(sources("Core", "**", "*.txx")),
-                   **dict(sources("Core", "*", "Kernels", "*"))}
+        kernels = {**dict(sources("**", "*.txx")), **dict(sources("*", "*", "Kernels", "*"))}
         self.assertIn(os.path.join("Core", "Flow", "Kernels", "Vectors.txx"), list(kernels))
         for path, text in kernels.items():
             self.assertFalse("Eigen" in text, path)

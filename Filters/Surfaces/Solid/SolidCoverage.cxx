@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Surfaces/Solid/SolidCoverage.h"
+
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Stages.h"
+#include "Surfaces/Solid/BodyWeights.h"
+#include "Surfaces/Solid/SignedVolumes.h"
+#include "Surfaces/Solid/SolidLines.h"
+#include "Surfaces/Solid/TriangleLayers.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Index = std::int64_t;
+
+// Layers of cells across axis 2 are independent tasks. In each, exact signed volumes come first;
+// lines then correct the rows in which windings other than 0 and 1 occur.
+class CoverageRun
+{
+public:
+  CoverageRun(const TriangleSurface& surface, const TriangleLayers& layers,
+    const signed char* weights, const GridSize<3>& cells, const LatticePart<3>& part,
+    int supersampling, double* coverage, Progress& progress)
+    : Surface(surface)
+    , Layers(layers)
+    , Weights(weights)
+    , Cells(cells)
+    , Part(part)
+    , Squares(supersampling)
+    , Coverage(coverage)
+    , Work(progress)
+  {
+    // A bound for the rounding of index coordinates and of sums where faces lie on the borders of
+    // cells: 8 units in the last place of the grid's size. Grids below 16 cells count as 16.
+    const Index longest = std::max({ cells[0], cells[1], cells[2], Index{ 16 } });
+    this->Rounding = 8.0 * std::numeric_limits<double>::epsilon() * static_cast<double>(longest);
+  }
+
+  // A range kernel over the layers of the part.
+  void CoverLayers(Index first, Index last)
+  {
+    std::unique_ptr<LayerWork> layerWork = this->TakeWork();
+    for (Index layer = first; layer < last && !this->Work.ShouldStop(); ++layer)
+    {
+      this->AddVolumes(this->Part.Low[2] + layer, layerWork->Volumes);
+      layerWork->Lines.FindCrossings(this->Part.Low[2] + layer, this->Work);
+      if (this->Work.IsCancelled()) // then crossings may be missing
+      {
+        return;
+      }
+      this->WriteLayer(layer, *layerWork);
+    }
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Idle.push_back(std::move(layerWork));
+  }
+
+  Index OpenLines() const { return this->NumberOfOpenLines; }
+
+private:
+  // What a thread needs for a layer.
+  struct LayerWork
+  {
+    SignedVolumes Volumes;
+    SolidLines Lines;
+    std::vector<double> Row; // values of all cells along axis 0
+  };
+
+  // Memory is kept from range to range, one LayerWork for each thread that runs at a time.
+  std::unique_ptr<LayerWork> TakeWork()
+  {
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      if (!this->Idle.empty())
+      {
+        std::unique_ptr<LayerWork> idle = std::move(this->Idle.back());
+        this->Idle.pop_back();
+        return idle;
+      }
+    }
+    return std::unique_ptr<LayerWork>(new LayerWork{ { this->Cells, this->Part },
+      { this->Surface, this->Layers, this->Weights, this->Cells, this->Part, this->Squares },
+      std::vector<double>(static_cast<std::size_t>(this->Cells[0])) });
+  }
+
+  // Bodies of the weight 0 bound nothing.
+  void AddVolumes(Index layer, SignedVolumes& volumes)
+  {
+    volumes.Begin(layer);
+    for (Index at = this->Layers.Begin(layer); at < this->Layers.End(layer); ++at)
+    {
+      // Polled every 4096 triangles.
+      if ((at & 0xfff) == 0xfff && this->Work.ShouldStop())
+      {
+        return;
+      }
+      const Index triangle = this->Layers.Triangle(at);
+      if (this->Weights[triangle] != 0)
+      {
+        volumes.Add(cornersOf(this->Surface, triangle), this->Weights[triangle]);
+      }
+    }
+  }
+
+  // Rows of the layer: volumes where triangles have a part, lines where they cross. Volumes have
+  // all cells along axis 0, as sums run along it; the part takes its own.
+  void WriteLayer(Index layer, LayerWork& layerWork)
+  {
+    const Index columns = this->Part.Cells[0];
+    for (Index j = 0; j < this->Part.Cells[1]; ++j)
+    {
+      if ((j & 0x1f) == 0x1f && this->Work.ShouldStop())
+      {
+        return;
+      }
+      double* row = this->Coverage + (layer * this->Part.Cells[1] + j) * columns;
+      const bool hasVolumes = layerWork.Volumes.HasRow(j);
+      const bool hasLines = layerWork.Lines.HasRow(j);
+      if (!hasVolumes && !hasLines)
+      {
+        std::fill_n(row, columns, 0.0);
+        continue;
+      }
+      double* values = layerWork.Row.data();
+      if (hasVolumes)
+      {
+        layerWork.Volumes.WriteRow(j, this->Rounding, values);
+      }
+      else
+      {
+        std::fill_n(values, this->Cells[0], 0.0);
+      }
+      this->NumberOfOpenLines += hasLines ? layerWork.Lines.CorrectRow(j, values) : 0;
+      // Where lines correct a cell, they may do so by too much: their share of a cell is a sample.
+      std::transform(values + this->Part.Low[0], values + this->Part.Low[0] + columns, row,
+        [](double value) { return std::max(0.0, std::min(value, 1.0)); });
+    }
+  }
+
+  TriangleSurface Surface;
+  const TriangleLayers& Layers;
+  const signed char* Weights; // by triangles: 1, 0 or -1
+  GridSize<3> Cells;
+  LatticePart<3> Part;
+  int Squares;      // squares along an axis of a cell
+  double Rounding;  // in cells, by face of a cell
+  double* Coverage; // by cells of the part, axis 0 fastest
+  Progress& Work;
+  std::atomic<Index> NumberOfOpenLines{ 0 };
+  std::mutex Mutex;
+  std::vector<std::unique_ptr<LayerWork>> Idle;
+};
+
+} // namespace
+
+CoverageReport coverSolid(const SolidSurface& surface, const GridSize<3>& cells, int supersampling,
+  double* coverage, const Context& context)
+{
+  return coverPartOfSolid(
+    surface, cells, LatticePart<3>::WholeOf(cells), supersampling, coverage, context);
+}
+
+CoverageReport coverPartOfSolid(const SolidSurface& surface, const GridSize<3>& cells,
+  const LatticePart<3>& part, int supersampling, double* coverage, const Context& context)
+{
+  if (part.Count() == 0)
+  {
+    return {};
+  }
+  Progress progress(context);
+  Stages stages(progress, { { "weights", 1 }, { "layers", 1 }, { "cells", 8 } });
+  const LargeBuffer<signed char> weights = weighBodies(surface, stages["weights"]);
+  const TriangleLayers layers(
+    surface.Triangles, cells[2], part.Low[2], part.Low[2] + part.Cells[2], stages["layers"]);
+  Progress& work = stages["cells"];
+  CoverageRun run(
+    surface.Triangles, layers, weights.data(), cells, part, supersampling, coverage, work);
+  work.For(
+    part.Cells[2], 1, [&run](Index first, Index last) { run.CoverLayers(first, last); }, 1);
+  return { run.OpenLines() };
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Surfaces/Surfaces.h"
+
+#include "Core/Geometry/Boxes/SolidGrid.h"
+#include "Core/Geometry/ImageGrid.h"
+#include "Core/Geometry/PointBounds.h"
+#include "Core/Messages/Failure.h"
+#include "Core/Parallel/Stages.h"
+#include "Surfaces/Seams/CutSurfaceMap.h"
+#include "Surfaces/Seams/OpenedSurface.h"
+#include "Surfaces/Solid/ClosedMesh.h"
+#include "Surfaces/Solid/SolidCoverage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// The bounds of the triangles' points: points of no triangle do not count. Throws
+// std::invalid_argument for points that are not finite or do not exist.
+std::array<double, 6> boundsOf(const TriangleSurface& surface)
+{
+  for (std::int64_t i = 0; i < surface.Points.size(); ++i)
+  {
+    const double* point = surface.Points[i];
+    if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
+    {
+      throw std::invalid_argument("point " + std::to_string(i) + " is not finite");
+    }
+  }
+  if (surface.NumberOfTriangles < 1)
+  {
+    throw std::invalid_argument("the surface has no triangles");
+  }
+  Bounds<3> bounds;
+  for (std::int64_t corner = 0; corner < 3 * surface.NumberOfTriangles; ++corner)
+  {
+    bounds.Add(surface.Points[cornerPoint(surface, corner)]);
+  }
+  return { bounds.Low[0], bounds.High[0], bounds.Low[1], bounds.High[1], bounds.Low[2],
+    bounds.High[2] };
+}
+
+// The grid around a surface; what is wrong with it is an error of the options.
+ImageGrid gridAround(
+  const std::array<double, 6>& bounds, int resolution, const SolidOptions& options)
+{
+  try
+  {
+    return solidGrid(bounds, resolution, options.Padding);
+  }
+  catch (const Failure& failure)
+  {
+    throw std::invalid_argument(failure.what());
+  }
+}
+
+} // namespace
+
+Parameterization parameterize(
+  const TriangleSurface& surface, const ParameterizationOptions& options, const Context& context)
+{
+  Progress progress(context);
+  Stages stages(progress, { { "seams", 40 }, { "map", 55 }, { "distortion", 5 } });
+  OpenedSurface opened(surface, options.Seams, stages["seams"]);
+  const CutSurfaceMap map = mapCutSurface(opened.Cut(), options.Map, stages["map"]);
+  opened.PlaceFlatTriangles(map.Positions);
+
+  Parameterization flat;
+  flat.Coverage = map.Coverage;
+  for (std::int64_t i = 0; i < opened.NumberOfPoints(); ++i)
+  {
+    const std::int64_t point = opened.PointOf(i);
+    flat.Origins.push_back(opened.OriginOf(i));
+    flat.Positions.push_back(
+      point < 0 ? Point<2>{} : map.Positions[static_cast<std::size_t>(point)]);
+  }
+  flat.Triangles.assign(opened.Triangles(), opened.Triangles() + 3 * surface.NumberOfTriangles);
+  for (std::int64_t triangle = 0; triangle < surface.NumberOfTriangles; ++triangle)
+  {
+    flat.Disks.push_back(opened.Cut().DiskOf(triangle));
+  }
+  const CutTriangles triangles(opened.Cut(), surface);
+  flat.Distortion =
+    measureDistortion(triangles.Measured(), scaledToUnitArea(map), stages["distortion"]);
+  return flat;
+}
+
+std::vector<PlaceOnTriangle> sample(const TriangleSurface& surface, std::int64_t count,
+  const SurfaceDensityValues& density, const SurfaceSampleOptions& options, const Context& context)
+{
+  SurfaceRelaxationOptions relaxation;
+  relaxation.NumberOfSamples = count;
+  relaxation.Iterations = options.Iterations;
+  relaxation.RandomSeed = options.RandomSeed;
+  const SurfaceRelaxation relaxed = relaxOnSurface(surface, density, relaxation, context);
+  return { relaxed.Places.data(), relaxed.Places.data() + relaxed.Places.size() };
+}
+
+SolidCells solid(const TriangleSurface& surface, int resolution, const SolidOptions& options,
+  const Context& context)
+{
+  if (options.Supersampling < 1)
+  {
+    throw std::invalid_argument(
+      "Supersampling is " + std::to_string(options.Supersampling) + "; it must be 1 or more");
+  }
+  Progress progress(context);
+  Stages stages(
+    progress, { { "points", 20 }, { "edges", 20 }, { "orientation", 10 }, { "coverage", 50 } });
+  const std::array<double, 6> bounds = boundsOf(surface);
+  const ImageGrid grid = gridAround(bounds, resolution, options);
+  const std::int64_t corners = 3 * surface.Points.size();
+  LargeBuffer<double> coordinates(corners);
+  std::copy_n(surface.Points.data(), corners, coordinates.data());
+  ClosedMesh mesh(std::move(coordinates), stages["points"]);
+  const std::string problem = mesh.Close(
+    [&](ClosedMesh& faces, Progress&) {
+      faces.Reserve(surface.NumberOfTriangles);
+      for (std::int64_t corner = 0; corner < 3 * surface.NumberOfTriangles; corner += 3)
+      {
+        faces.Add({ surface.Triangles[corner], surface.Triangles[corner + 1],
+          surface.Triangles[corner + 2] });
+      }
+    },
+    ClosingDistances(bounds, false), stages["edges"]);
+  if (!problem.empty())
+  {
+    throw std::invalid_argument("the surface " + problem);
+  }
+  mesh.MoveToCells(grid, bounds, stages["orientation"]);
+  if (!mesh.Orient(stages["orientation"]))
+  {
+    throw std::invalid_argument("the surface has one side only, so that it has no inside");
+  }
+  SolidCells covered;
+  std::copy_n(grid.Origin().data(), 3, covered.Low.begin());
+  covered.CellSide = grid.Spacing()[0];
+  covered.Cells = grid.Size<3>();
+  covered.Values.resize(static_cast<std::size_t>(numberOfCells<3>(covered.Cells)));
+  coverSolid(
+    mesh.Solid(), covered.Cells, options.Supersampling, covered.Values.data(), stages["coverage"]);
+  return covered;
+}
+
+} // namespace RectifiedTransport
