@@ -12,14 +12,15 @@ if (RectifiedTransport_BUILD_PARAVIEW_PLUGIN)
   include("${PROJECT_SOURCE_DIR}/CMake/RectifiedTransportHelp.cmake")
 endif ()
 
+vtk_module_find_modules(module_files "${PROJECT_SOURCE_DIR}/Filters")
 vtk_module_scan(
-  MODULE_FILES "${PROJECT_SOURCE_DIR}/vtk.module"
+  MODULE_FILES ${module_files} "${PROJECT_SOURCE_DIR}/vtk.module"
   REQUEST_MODULES RectifiedTransport::vtkRectifiedTransport
   PROVIDES_MODULES modules
   ENABLE_TESTS "${tests}")
 
-# A function, for the scope of CMAKE_SOURCE_DIR: relative to the folder above, the module is a
-# subfolder, as vtk_module_build expects; relative to the root it would be the root itself.
+# A function, for the scope of CMAKE_SOURCE_DIR: relative to the folder above, all modules are
+# subfolders, as vtk_module_build expects; relative to the root one would be the root itself.
 function (rectified_transport_build_module)
   set(CMAKE_SOURCE_DIR "${PROJECT_SOURCE_DIR}/..")
   vtk_module_build(
@@ -48,6 +49,8 @@ if (RectifiedTransport_WRAP_PYTHON)
   set(python_package "${RectifiedTransport_PYTHON_DIR}/rectifiedtransport")
   configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
     "${CMAKE_BINARY_DIR}/${python_package}/__init__.py" @ONLY)
+  configure_file("${PROJECT_SOURCE_DIR}/Python/vtkRectifiedTransport.py"
+    "${CMAKE_BINARY_DIR}/${python_package}/vtkRectifiedTransport.py" COPYONLY)
   set(arrays __init__.py _blends.py _data.py _maps.py _numbers.py _points.py
     _run.py)
   foreach (name IN LISTS arrays)
@@ -55,7 +58,7 @@ if (RectifiedTransport_WRAP_PYTHON)
       "${CMAKE_BINARY_DIR}/${python_package}/arrays/${name}" COPYONLY)
   endforeach ()
   install(
-    FILES "${CMAKE_BINARY_DIR}/${python_package}/__init__.py"
+    FILES "${CMAKE_BINARY_DIR}/${python_package}/__init__.py" Python/vtkRectifiedTransport.py
     DESTINATION "${python_package}"
     COMPONENT python)
   list(TRANSFORM arrays PREPEND "${PROJECT_SOURCE_DIR}/Python/arrays/")

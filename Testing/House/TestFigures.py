@@ -146,6 +146,14 @@ const char* other = "\\"// nor this";
         self.write("Filters/Bridge/Run/Memory.h", '#include "Bridge/Blend/Blend.h"\n')
         self.assertGreaterEqual(self.value("bridge_floors"), 99)
 
+    def test_large_folders(self):
+        for number in range(30):
+            self.write("Filters/Core/Flow/%d.h" % number, "")
+            self.write("Filters/Core/Flow/Deep/%d.h" % number, "")
+        self.assertEqual(self.value("large_folders"), 0)
+        self.write("Filters/Core/Flow/30.h", "")
+        self.assertEqual(self.value("large_folders"), 1)
+
     def doubled(self):
         return FIGURES["doubled"].count(Tree(self.root))
 
@@ -192,8 +200,8 @@ const char* other = "\\"// nor this";
         self.assertEqual(len(doubled_names(Tree(self.root), ["Testing/Core"])), 1)
 
     def test_enumerators(self):
-        self.write("Filters/vtkA.h", "enum Kind\n{\n  FLOW = 1, // first, always\n  MAP,\n  LAST\n};\n")
-        self.write("Filters/vtkB.h", "enum Method\n{\n  FLOW = 1,\n  MAP = 3\n};\n")
+        self.write("Filters/Meshes/vtkA.h", "enum Kind\n{\n  FLOW = 1, // first, always\n  MAP,\n  LAST\n};\n")
+        self.write("Filters/Meshes/vtkB.h", "enum Method\n{\n  FLOW = 1,\n  MAP = 3\n};\n")
         self.write("Filters/Core/vtkC.h", "enum Method\n{\n  FLOW\n};\n")
         self.assertEqual(FIGURES["enumerators_of_two_values"].count(Tree(self.root)), ["MAP"])
 
@@ -201,7 +209,7 @@ const char* other = "\\"// nor this";
         text = "void run(int a, Progress& progress, double end);\nvoid walk(Progress& progress);\n"
         self.write("Filters/Core/Flow/Flow.h", text)
         self.write("Filters/Bridge/Run/Run.h", text)
-        self.write("Filters/vtkMap.h", text)
+        self.write("Filters/Meshes/vtkMap.h", text)
         self.assertEqual(self.value("progress_signatures"), 2)
 
     def test_fragments(self):

@@ -136,6 +136,13 @@ def bridge_rooms(tree):
     return len({path.split("/")[2] for path in tree.under(BRIDGE) if path.count("/") > 2})
 
 
+@figure("make a folder of some of the files")
+def large_folders(tree):
+    """Folders of Filters with more than 30 files. Nobody reads longer lists."""
+    folders = collections.Counter(os.path.dirname(path) for path in tree.files(["Filters"], ("",)))
+    return sum(number > 30 for number in folders.values())
+
+
 @figure("include fewer folders, through one header that offers what is needed of them")
 def bridge_most_known(tree):
     """The most folders of Bridge and Core that one folder of Bridge includes. A change in any of them

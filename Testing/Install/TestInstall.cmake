@@ -5,7 +5,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/InstallChecks.cmake")
 file(REMOVE_RECURSE "${WORK}")
 install_and_move("${BUILD}" "${VTK}") # the one outside place that it has to know
 
-set(ours vtkRectifiedTransport RectifiedTransportCore RectifiedTransportSurfaces)
+set(ours vtkRectifiedTransportCommon vtkRectifiedTransportDensities RectifiedTransportCore)
 foreach (example IN ITEMS Downstream LiveStippling StippleImage)
   build_against_moved("Examples/${example}" "${example}")
   check_loaded("${WORK}/${example}/${example}" ${ours})
@@ -24,7 +24,7 @@ check_core(RectifiedTransportCore)
 check_subfolder()
 
 file(GLOB_RECURSE libraries
-  "${WORK}/moved/RectifiedTransport.so" "${WORK}/moved/vtkRectifiedTransport.so")
+  "${WORK}/moved/RectifiedTransport.so" "${WORK}/moved/vtkRectifiedTransportDensities*.so")
 foreach (library IN LISTS libraries)
   check_loaded("${library}" ${ours})
 endforeach ()

@@ -16,6 +16,7 @@ import xml.etree.ElementTree as ElementTree
 
 PACKAGE = "rectifiedtransport"
 LIBRARIES = ("Core", "Surfaces")
+MODULES = ("Common", "Densities", "Drawing", "Meshes")
 OPTIONS = None
 
 
@@ -125,18 +126,20 @@ class Content(unittest.TestCase):
         if OPTIONS.python_dir:
             folder = os.path.join("usr", OPTIONS.python_dir, "rectifiedtransport")
             self.assertIn("vtkRectifiedTransport", self.text(folder, "__init__.py"))
+            self.assertIn("Densities", self.text(folder, "vtkRectifiedTransport.py"))
             for path in glob.glob(os.path.join(OPTIONS.source, "Python", "arrays", "*.py")):
                 with open(path, encoding="utf-8") as file:
                     self.assertEqual(self.text(folder, "arrays", os.path.basename(path)), file.read())
             self.assertRegex(self.fields()["Depends"], r"\bpython3-numpy\b")
-            self.assertTrue([path for path in self.files
-                             if re.match(re.escape(folder) + r"/vtkRectifiedTransport\..*so$|" +
-                                         re.escape(folder) + r"/vtkRectifiedTransport\.so$", path)])
+            for module in MODULES:
+                self.assertTrue([path for path in self.files if re.match(
+                    re.escape(folder) + r"/vtkRectifiedTransport%s\.(.*\.)?so$" % module, path)])
             self.assertRegex(self.fields()["Depends"], r"\bpython3 \(>= 3\.\d+~\)")
             self.assertTrue({"postinst", "prerm"} <= set(self.control))
 
     def test_development(self):
-        """Headers and libraries of Core and Surfaces, and of the filters where they were built, and the CMake package."""
+        """Headers and libraries of Core and Surfaces, and of the filters where they were built, and the CMake
+        package."""
         cmake = os.path.join(self.libraries, "cmake/RectifiedTransport")
         self.assertIn('PACKAGE_VERSION "%s"' % OPTIONS.version,
                       self.text(cmake, "RectifiedTransportConfigVersion.cmake"))
@@ -145,8 +148,10 @@ class Content(unittest.TestCase):
         if os.path.join(cmake, "RectifiedTransport-targets.cmake") in self.files:
             targets.append(self.text(cmake, "RectifiedTransport-targets.cmake"))
             expected |= {os.path.basename(path) for path in glob.glob(
-                os.path.join(OPTIONS.source, "Filters", "vtk*.h"))}
-            self.assertIn(os.path.join(self.libraries, "libvtkRectifiedTransport.so"), self.files)
+                os.path.join(OPTIONS.source, "Filters", "*", "vtk*.h"))}
+            for module in MODULES:
+                self.assertIn(os.path.join(self.libraries, "libvtkRectifiedTransport%s.so" % module),
+                              self.files)
         else:
             self.assertFalse(OPTIONS.plugin_dir or OPTIONS.python_dir)
         for header in expected:

@@ -5,9 +5,9 @@
 
 #include "Core/Flow/FlowSeeds.h"
 #include "Core/Flow/Particles/LatticeOrder.h"
-#include "Core/Geometry/CountText.h"
 #include "Core/Geometry/GridSize.h"
 #include "Core/Geometry/LatticePart.h"
+#include "Core/Messages/CountText.h"
 
 #include <cstdint>
 #include <stdexcept>

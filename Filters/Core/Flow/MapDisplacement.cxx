@@ -3,7 +3,7 @@
 
 #include "Core/Flow/Particles/LatticeOrder.h"
 #include "Core/Flow/RectifiedFlow.h"
-#include "Core/Geometry/CountText.h"
+#include "Core/Messages/CountText.h"
 
 #include <stdexcept>
 #include <string>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Seeds/Seeds.h"
 
-#include "Core/Geometry/CountText.h"
 #include "Core/Geometry/LowDiscrepancy.h"
 #include "Core/Geometry/ReproducibleMath.h"
+#include "Core/Messages/CountText.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Seeds/BlueNoise.h"
 

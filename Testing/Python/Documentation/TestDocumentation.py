@@ -29,7 +29,7 @@ def blocks():
 
 
 # Where the names of files in the text begin, and what is made only when something runs.
-ROOTS = ("", "Filters", "Filters/Core")
+ROOTS = ("", "Filters", "Filters/Core", "Filters/Surfaces")
 MADE = ("Examples/output", "build")
 
 
@@ -94,7 +94,7 @@ class Pages(unittest.TestCase):
             text, whole = read(page)
             spans = re.findall(r"`([^`\n]+)`", text)
             named = [name for span in spans for name in path.findall(span)]
-            named += re.findall(r"#include [<\"](?:RectifiedTransport/)?(Core/[^>\"]+)", whole)
+            named += re.findall(r"#include [<\"](?:RectifiedTransport/)?((?:Core|Surfaces)/[^>\"]+)", whole)
             for name in named:
                 if name.startswith(MADE):
                     continue

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The defaults of the XML, the C++ constructors and the documentation are the same."""
+import glob
 import os
 import re
 import unittest
@@ -39,7 +40,8 @@ def printed(prop, value):
 
 def header_comment(class_name, name):
     """The comment above a property's setter in the header of a class or of its superclasses."""
-    with open(os.path.join(SOURCE, "Filters", class_name + ".h"), encoding="utf-8") as file:
+    path, = glob.glob(os.path.join(SOURCE, "Filters", "*", class_name + ".h"))
+    with open(path, encoding="utf-8") as file:
         header = file.read()
     pattern = r"/\*\*((?:(?!\*/).)*)\*/\s*vtkSet\w*Macro\(%s,"
     found = re.search(pattern % name, header, re.DOTALL)
