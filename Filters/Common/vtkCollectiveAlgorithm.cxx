@@ -2,13 +2,13 @@
 #include "vtkCollectiveAlgorithm.h"
 
 #include "Bridge/Blocks/GatheredInputs.h"
-#include "Bridge/Data/IgnoredFlags.h"
+#include "Bridge/Data/GhostArrayType.h"
 #include "Bridge/Data/ImageGrids.h"
-#include "Bridge/Ranks/FieldsOfFirst.h"
-#include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Ranks/FieldBroadcast.h"
+#include "Bridge/Ranks/RankConsistency.h"
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
-#include "Bridge/Run/Inputs/WholeInputs.h"
+#include "Bridge/Run/Inputs/InputRequests.h"
 #include "Bridge/Run/Pipeline/ConsumerExtents.h"
 #include "Bridge/Run/Pipeline/EarlyUpdate.h"
 #include "Bridge/Run/Pipeline/InputFields.h"
@@ -53,7 +53,7 @@ void makeOutputLike(vtkPointSet* input, vtkInformationVector* outputVector, int 
 
 //------------------------------------------------------------------------------
 vtkCollectiveAlgorithm::vtkCollectiveAlgorithm()
-  : Whole(new WholeInputs)
+  : Whole(new InputRequests)
   , Early(new EarlyUpdate)
 {
 }
@@ -163,7 +163,7 @@ int vtkCollectiveAlgorithm::ProcessInformation(
 int vtkCollectiveAlgorithm::ProcessData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  warnOfIgnoredFlags(this, inputVector);
+  warnOfGhostArrayType(this, inputVector);
   int result = this->ProcessPass(request, inputVector, outputVector);
   while (std::exchange(this->HasNextPass, false))
   {
@@ -243,7 +243,7 @@ int vtkCollectiveAlgorithm::GatherAndRun(
   // The others have those of their inputs, which the executive passed on.
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
-    takeFieldsOfFirst(vtkDataObject::GetData(outputVector, port)->GetFieldData(), *this->Run);
+    broadcastFields(vtkDataObject::GetData(outputVector, port)->GetFieldData(), *this->Run);
   }
   return result;
 }

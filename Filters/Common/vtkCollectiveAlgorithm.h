@@ -32,7 +32,7 @@ namespace Bridge
 {
 class EarlyUpdate;
 class RankRun;
-class WholeInputs;
+class InputRequests;
 } // namespace Bridge
 } // namespace RectifiedTransport
 
@@ -246,7 +246,7 @@ private:
     vtkInformationVector* outputVector);
   void EndRun();
   bool IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector);
-  std::unique_ptr<RectifiedTransport::Bridge::WholeInputs> Whole;
+  std::unique_ptr<RectifiedTransport::Bridge::InputRequests> Whole;
   std::unique_ptr<RectifiedTransport::Bridge::EarlyUpdate> Early;
   std::unique_ptr<RectifiedTransport::Bridge::RankRun>
     Run; // during RequestData and RequestInformation

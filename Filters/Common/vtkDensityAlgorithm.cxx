@@ -9,7 +9,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/Settings/MissingData.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"

@@ -27,7 +27,7 @@ const char* const DeviceTexts[] = { "CPU", "OpenCL" };
 struct vtkTransportAlgorithm::vtkDevice
 {
   std::string Name;
-  KeptDevice Kept;
+  CachedDevice Kept;
   vtkNew<vtkStringArray> Names; // that were asked for last
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Blends of densities: particles of the uniform measure are moved to each of them.
-#include "Core/Blend/MovedCells.h"
+#include "Core/Blend/AdvectedCells.h"
 #include "Core/Flow/PivotLattice.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Flow/WeightedMean.h"
@@ -115,8 +115,8 @@ public:
       // Cells move by the mean displacement of the particles in them, from the density to the mean.
       const std::vector<double> values = this->Resample(input, share * mass, stages["input"]);
       const auto whole = LatticePart<D>::WholeOf(this->Cells);
-      addMovedCells<D>({ this->Grid, whole, values.data(), ConstPointSpan<3>(input.Positions),
-                         ConstPointSpan<3>(mean) },
+      addAdvected<D>({ this->Grid, whole, values.data(), ConstPointSpan<3>(input.Positions),
+                       ConstPointSpan<3>(mean) },
         whole, stages["input"], made.Values.data());
     }
     return made;

@@ -46,7 +46,7 @@ vtkDataObject* overlayOf(vtkInformationVector* port)
 
 struct vtkCartogram::vtkInternals
 {
-  KeptMap Kept;
+  MapCache Cache;
 };
 
 //------------------------------------------------------------------------------
@@ -147,7 +147,7 @@ int vtkCartogram::RequestData(
     vtkDataObject::GetData(outputVector, 2)->GetFieldData()->Initialize();
   }
   this->WarnOnFirstRank(worker.Run(blocks, vtkCompositeDataSet::SafeDownCast(input) != nullptr,
-    this->Internals->Kept, stages["cartogram"], outputs));
+    this->Internals->Cache, stages["cartogram"], outputs));
   return 1;
 }
 

@@ -3,8 +3,8 @@
 
 #include "Bridge/Data/Cells/CellCheck.h"
 #include "Bridge/Data/PointInput.h"
-#include "Bridge/Density/GrownDensity.h"
 #include "Bridge/Density/InputDensity.h"
+#include "Bridge/Density/PaddedDensity.h"
 #include "Bridge/Flow/DensityEqualizingWarp.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/FieldValue.h"

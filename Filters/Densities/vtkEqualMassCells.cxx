@@ -14,7 +14,7 @@
 #include "Bridge/SiteCells/EqualMassCells.h"
 #include "Bridge/SiteCells/LabelGrid.h"
 #include "Bridge/SiteCells/SiteColorArray.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Messages/PropertyCheck.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportBlend.h"
 
-#include "Bridge/Blocks/GivenInputs.h"
+#include "Bridge/Blocks/ConnectedInputs.h"
 #include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Ensembles/DensityBlend.h"
@@ -143,8 +143,8 @@ int vtkTransportBlend::RequestInformation(
       }
       // The information of other data has no extents.
       this->UpdateInputBeforeData(port, inputVector, outputVector, i);
-      const GivenInputs blocks = gatherBlocks(vtkDataObject::GetData(input), this->BlocksAreInputs);
-      for (const GivenInput& block : blocks.All)
+      const auto blocks = gatherBlocks(vtkDataObject::GetData(input), this->BlocksAreInputs);
+      for (const ConnectedInput& block : blocks.All)
       {
         const int number = static_cast<int>(grids.size());
         grids.push_back({ this->FindDensityGrid(block.Data, port, number), "" });
@@ -165,20 +165,20 @@ int vtkTransportBlend::RequestInformation(
 std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inputVector,
   const char* const* names, RectifiedTransport::Progress& progress)
 {
-  const GivenInputs given =
+  const ConnectedInputs connected =
     gatherInputs(inputVector, this->GetNumberOfInputPorts(), this->BlocksAreInputs);
-  requireSameNumber(given.All.size(), this->GetRanks());
-  this->WarnOnFirstRank(describeOthers(given));
+  requireSameNumber(connected.All.size(), this->GetRanks());
+  this->WarnOnFirstRank(describeSkipped(connected));
   std::vector<BlendInput> inputs;
-  Parts parts(progress, static_cast<std::int64_t>(given.All.size()));
-  for (const GivenInput& one : given.All)
+  Parts parts(progress, static_cast<std::int64_t>(connected.All.size()));
+  for (const ConnectedInput& one : connected.All)
   {
     inputs.emplace_back();
     BlendInput& input = inputs.back();
     const std::size_t number = inputs.size();
     input.Name = names
       ? names[number - 1]
-      : "Input " + std::to_string(number) + " of " + std::to_string(given.All.size());
+      : "Input " + std::to_string(number) + " of " + std::to_string(connected.All.size());
     input.PositionName = names ? input.Name + "Position" : "";
     input.Density = withName(input.Name, [&]() {
       return this->ReadDensity(one.Data, parts[static_cast<std::int64_t>(number) - 1], one.Port,

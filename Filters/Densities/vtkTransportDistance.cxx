@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportDistance.h"
 
-#include "Bridge/Blocks/GivenInputs.h"
+#include "Bridge/Blocks/ConnectedInputs.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Ensembles/DensityDistances.h"
-#include "Bridge/Ranks/FieldsOfFirst.h"
+#include "Bridge/Ranks/FieldBroadcast.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Pipeline/OutputInformation.h"
 #include "Bridge/Run/Settings/IndexedList.h"
@@ -188,7 +188,7 @@ int vtkTransportDistance::RequestData(
     writeCoordinates(inputs, pairs, this->NumberOfCoordinates, stages["tables"],
       vtkTable::GetData(outputVector, 2));
   }
-  takeFieldsOfFirst(vtkTable::GetData(outputVector, 2)->GetFieldData(), this->GetRanks());
+  broadcastFields(vtkTable::GetData(outputVector, 2)->GetFieldData(), this->GetRanks());
   return 1;
 }
 
@@ -202,14 +202,14 @@ void vtkTransportDistance::EndPasses()
 bool vtkTransportDistance::AddInputs(
   vtkInformationVector** inputVector, RectifiedTransport::Progress& progress)
 {
-  const GivenInputs given = gatherInputs(inputVector, 1, true);
-  requireSameNumber(given.All.size(), this->GetRanks());
-  this->WarnOnFirstRank(describeOthers(given));
-  const std::string all = std::to_string(given.All.size());
-  Parts parts(progress, static_cast<std::int64_t>(given.All.size()));
-  for (std::size_t i = 0; i < given.All.size() && this->Internals->HasAll; ++i)
+  const ConnectedInputs connected = gatherInputs(inputVector, 1, true);
+  requireSameNumber(connected.All.size(), this->GetRanks());
+  this->WarnOnFirstRank(describeSkipped(connected));
+  const std::string all = std::to_string(connected.All.size());
+  Parts parts(progress, static_cast<std::int64_t>(connected.All.size()));
+  for (std::size_t i = 0; i < connected.All.size() && this->Internals->HasAll; ++i)
   {
-    const GivenInput& input = given.All[i];
+    const ConnectedInput& input = connected.All[i];
     const std::string number = std::to_string(i + 1);
     const std::string named = this->GetInputName(input.Connection);
     const std::string name = !input.Block.empty() ? input.Block : named;

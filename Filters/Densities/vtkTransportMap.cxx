@@ -4,14 +4,14 @@
 #include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Flow/TransportMap.h"
-#include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Ranks/RankConsistency.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Settings/MissingData.h"
 #include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Run/Settings/TargetArray.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Device/DeviceUse.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Messages/PropertyCheck.h"
@@ -174,7 +174,7 @@ int vtkTransportMap::RequestData(
   vtkImageData* output = vtkImageData::GetData(outputVector);
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
   const Extent wanted = extentToGive(map.SampleGrid(*density).Extent(), outputInformation, ranks);
-  std::optional<MapGoal> goal;
+  std::optional<TargetDensity> goal;
   if (isToTarget)
   {
     goal.emplace(

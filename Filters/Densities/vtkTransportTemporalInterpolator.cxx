@@ -8,7 +8,7 @@
 #include "Bridge/Run/Pipeline/OutputInformation.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"
 #include "Bridge/Run/Settings/SplatSettings.h"
-#include "Bridge/Temporal/KeptSteps.h"
+#include "Bridge/Temporal/StepCache.h"
 #include "Bridge/Temporal/TemporalInterpolation.h"
 #include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/RankExchange.h"
@@ -74,7 +74,7 @@ struct vtkTransportTemporalInterpolator::vtkInternals
 {
   StepTimes Times;       // the times of the input, as announced
   bool IsSeries = false; // else Times is the time of the one input
-  KeptSteps Steps;
+  StepCache Steps;
   TemporalInterpolation Interpolation;
   int AllPasses = 1;            // how many this execution is going to take
   int Passes = 0;               // how many of them are done
@@ -146,7 +146,7 @@ int vtkTransportTemporalInterpolator::RequestInformation(
     // The information of other data has no extents.
     this->UpdateInputBeforeData(0, inputVector, outputVector);
   }
-  const ImageGrid grid = this->AnnouncedDensityGrid(input, 0, KeptSteps::Most);
+  const ImageGrid grid = this->AnnouncedDensityGrid(input, 0, StepCache::Most);
   if (!grid.IsEmpty())
   {
     announceGrid(grid, outputVector->GetInformationObject(0));
@@ -159,7 +159,7 @@ int vtkTransportTemporalInterpolator::RequestInformation(
 int vtkTransportTemporalInterpolator::MissingStep(double time)
 {
   const StepTimes& times = this->Internals->Times;
-  const TimePlace place = times.Find(time);
+  const TimeInterval place = times.Find(time);
   std::array<int, 2> needed = { place.First, place.Second };
   const int tracked = this->Internals->Interpolation.Tracks().Count();
   if (this->TrackParticles && tracked <= place.Second)
@@ -194,7 +194,7 @@ void vtkTransportTemporalInterpolator::RequestStep(
   }
   if (own.Agreed < 0)
   {
-    own.Changed = own.Steps.ForgetOutdated(this) || own.Changed;
+    own.Changed = own.Steps.RemoveOutdated(this) || own.Changed;
   }
   const int missing = own.Agreed >= 0 ? own.Agreed : this->MissingStep(time);
   // Without one that is missing, what the input is of already.
@@ -287,8 +287,8 @@ void vtkTransportTemporalInterpolator::RunPass(
     tracks.Recheck();
   }
   own.Changed = !own.IsSeries; // without steps nothing tells which time the data are of
-  own.Steps.Keep(own.Times[own.Requested], vtkDataObject::GetData(inputVector[0], 0));
-  const TimePlace place = own.Times.Find(time);
+  own.Steps.Insert(own.Times[own.Requested], vtkDataObject::GetData(inputVector[0], 0));
+  const TimeInterval place = own.Times.Find(time);
   if (own.Passes++ == 0)
   {
     // Tracked particles need one step after the other; else one may be missing yet.
@@ -329,7 +329,7 @@ bool vtkTransportTemporalInterpolator::ReadStep(
   read.Number = step;
   read.Title = titleOf(step, own.Times);
   const int place = own.Steps.Use(own.Times[step]);
-  KeptStep& kept = own.Steps[place];
+  CachedStep& kept = own.Steps[place];
   return withName(read.Title, [&]() {
     read.Input = this->ReadDensity(kept.Data, progress, 0, place);
     if (!read.Input)
@@ -381,8 +381,8 @@ void vtkTransportTemporalInterpolator::Interpolate(
   double time, RectifiedTransport::Progress& progress, vtkInformationVector* outputVector)
 {
   vtkInternals& own = *this->Internals;
-  const TimePlace place = own.Times.Find(time);
-  TemporalMoment moment;
+  const TimeInterval place = own.Times.Find(time);
+  TemporalInput moment;
   moment.Part = place.Part;
   moment.Length = own.Times[place.Second] - own.Times[place.First];
   Stages stages(progress, { { "reading", 1 }, { "interpolation", 9 } });

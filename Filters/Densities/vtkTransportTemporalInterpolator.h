@@ -60,7 +60,7 @@ namespace RectifiedTransport
 {
 namespace Bridge
 {
-struct TemporalMoment;
+struct TemporalInput;
 struct TemporalSettings;
 struct TemporalStep;
 } // namespace Bridge

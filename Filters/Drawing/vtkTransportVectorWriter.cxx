@@ -86,7 +86,7 @@ int vtkTransportVectorWriter::RequestData(
   writer.Check();
   AlgorithmProgress progress(this, this->Threading);
 
-  std::vector<DrawnData> data;
+  std::vector<LayerData> data;
   int withColours = 0;
   int withRadii = 0;
   const std::vector<DensityBlock> blocks = densityBlocks(vtkDataObject::GetData(inputVector[0]));

@@ -3,7 +3,7 @@
 
 #include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Ranks/GatheredData.h"
-#include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Ranks/RankConsistency.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
 #include "Bridge/Run/Settings/AssociationSettings.h"

@@ -6,8 +6,8 @@
 #include "Core/Geometry/PointBounds.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/Stages.h"
+#include "Surfaces/Seams/CutOpenSurface.h"
 #include "Surfaces/Seams/CutSurfaceMap.h"
-#include "Surfaces/Seams/OpenedSurface.h"
 #include "Surfaces/Solid/ClosedMesh.h"
 #include "Surfaces/Solid/SolidCoverage.h"
 
@@ -69,9 +69,9 @@ Parameterization parameterize(
 {
   Progress progress(context);
   Stages stages(progress, { { "seams", 40 }, { "map", 55 }, { "distortion", 5 } });
-  OpenedSurface opened(surface, options.Seams, stages["seams"]);
+  CutOpenSurface opened(surface, options.Seams, stages["seams"]);
   const CutSurfaceMap map = mapCutSurface(opened.Cut(), options.Map, stages["map"]);
-  opened.PlaceFlatTriangles(map.Positions);
+  opened.PlaceDegenerate(map.Positions);
 
   Parameterization flat;
   flat.Coverage = map.Coverage;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Display/vtkFilledOutlinesRepresentation.h"
 
-#include "Bridge/Drawing/FilledOutlines.h"
+#include "Bridge/Drawing/OutlineFilling.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"

@@ -5,11 +5,11 @@
 #include "BenchmarkInputs.h"
 #include "KnotInput.h"
 
-#include "Core/Geometry/EqualPoints.h"
-#include "Surfaces/Mesh/SurfaceOrientation.h"
+#include "Core/Geometry/CoincidentPoints.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Quality/NearestNeighbours.h"
 #include "Core/Seeds/Seeds.h"
+#include "Surfaces/Mesh/SurfaceOrientation.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCleanPolyData.h>

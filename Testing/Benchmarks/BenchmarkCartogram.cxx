@@ -39,12 +39,12 @@ void report(const MapFile& before, const RegionMap& after, benchmark::State& sta
 }
 
 // Lines across the box, as vtkCartogram draws them.
-FellowPoints graticule(const CartogramBox& box)
+OverlayPoints graticule(const CartogramBox& box)
 {
   constexpr int spaces = 16;
   constexpr int parts = 256;
   const auto side = static_cast<double>(box.Side);
-  FellowPoints points;
+  OverlayPoints points;
   for (int line = 0; line <= spaces; ++line)
   {
     for (int i = 0; i <= parts; ++i)
@@ -79,9 +79,9 @@ void makeCartogram(benchmark::State& state, const std::string& path)
     {
       place = box.ToIndex(place);
     }
-    FellowPoints fellows = graticule(box);
+    OverlayPoints overlays = graticule(box);
     CartogramStart start;
-    result = runCartogram(map, file.Masses, box, options, fellows, start, executor);
+    result = runCartogram(map, file.Masses, box, options, overlays, start, executor);
   }
   state.counters["megabytes"] = peakMemory() / 1e6;
   state.counters["passes"] = static_cast<double>(result.Passes.size());

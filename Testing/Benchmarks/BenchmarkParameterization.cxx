@@ -3,9 +3,9 @@
 // against the paper's, and with the polish.
 #include "BenchmarkInputs.h"
 
+#include "PaperTransport.h"
 #include "Surfaces/Parameterization/AreaPreservingMap.h"
 #include "Surfaces/Parameterization/MassRaster.h"
-#include "PaperTransport.h"
 
 #include <algorithm>
 #include <cmath>

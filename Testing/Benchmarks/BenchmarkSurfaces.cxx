@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points spread evenly over surfaces: time, memory and evenness, of 8192 to a million.
-#include "Surfaces/SurfaceRelaxation/SurfaceRelaxation.h"
 #include "FreshMemory.h"
 #include "PeakMemory.h"
 #include "SurfaceRelaxation/SurfaceMeasures.h"
 #include "SurfaceRelaxation/Surfaces.h"
+#include "Surfaces/SurfaceRelaxation/SurfaceRelaxation.h"
 
 #include <benchmark/benchmark.h>
 

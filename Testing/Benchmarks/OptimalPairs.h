@@ -26,11 +26,11 @@ struct OptimalPair
   using Choice = std::function<bool(const Point<Dimension>&)>;
 
   OptimalPair(std::string name, DensityMaker<Dimension> source, DensityMaker<Dimension> target,
-    Choice isStill = nullptr)
+    Choice isFixed = nullptr)
     : Name(std::move(name))
     , Source(std::move(source))
     , Target(std::move(target))
-    , IsStill(std::move(isStill))
+    , IsStill(std::move(isFixed))
   {
   }
 
@@ -184,7 +184,7 @@ inline std::vector<OptimalPair<2>> optimalPairs2D(std::int64_t side)
   const auto turned = [=](double turn) {
     return on([=](const auto& p) { return turnedGaussian(p, turn); });
   };
-  const auto isStill = [](const Point<2>& p) { return PairPoint(p).IsInBall(0.3, 0.3, 0.5, 0.12); };
+  const auto isFixed = [](const Point<2>& p) { return PairPoint(p).IsInBall(0.3, 0.3, 0.5, 0.12); };
   const auto lines = [=](double width) {
     return on([=](const PairPoint& p) { return line(p, static_cast<double>(side), width); });
   };
@@ -194,12 +194,12 @@ inline std::vector<OptimalPair<2>> optimalPairs2D(std::int64_t side)
   return { { "blobs", on(blobs), on(otherBlobs) }, { "star_ring", on(star), on(ring) },
     { "disks_filaments", on(twoDisks), on(filaments) }, { "star_cross", on(star), on(cross) },
     { "turned_Gaussians", turned(0.3), turned(1.3) },
-    { "unequal_disks_moved", with(0.55, 1.0, 0.0), with(0.8, 0.9, 0.0), isStill },
-    { "unequal_disks", with(0.8, 1.0, 0.0), with(0.8, 0.9, 0.0), isStill },
+    { "unequal_disks_moved", with(0.55, 1.0, 0.0), with(0.8, 0.9, 0.0), isFixed },
+    { "unequal_disks", with(0.8, 1.0, 0.0), with(0.8, 0.9, 0.0), isFixed },
     { "disk_line_2", disk, lines(2.0) }, { "disk_line_4", disk, lines(4.0) },
-    { "still_void", with(0.55, 1.0, 0.0), with(0.8, 1.0, 0.0), isStill },
-    { "still_background", with(0.55, 1.0, 0.01), with(0.8, 1.0, 0.01), isStill },
-    { "still_Gaussians", gaussians(0.5), gaussians(0.75), isStill },
+    { "still_void", with(0.55, 1.0, 0.0), with(0.8, 1.0, 0.0), isFixed },
+    { "still_background", with(0.55, 1.0, 0.01), with(0.8, 1.0, 0.01), isFixed },
+    { "still_Gaussians", gaussians(0.5), gaussians(0.75), isFixed },
     { "uniform_star", uniform, on(star) }, { "uniform_filaments", uniform, on(filaments) },
     { "ring_star", on(ring), on(star) }, { "filaments_disks", on(filaments), on(twoDisks) },
     { "cross_blobs", on(cross), on(blobs) } };

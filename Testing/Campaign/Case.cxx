@@ -86,7 +86,7 @@ public:
     this->Print(this->Properties.Describe());
     this->PrintInputs();
     this->Filter = this->Kind.New();
-    connect(this->Filter, this->GivenInputs);
+    connect(this->Filter, this->ConnectedInputs);
     this->Properties.Apply(this->Filter);
     const std::int64_t runs = this->Random.Of({ 1, 1, 2, 2, 3, 4 });
     for (std::int64_t i = 0; i < runs; ++i)
@@ -119,9 +119,9 @@ public:
 private:
   void MakeInputs()
   {
-    this->GivenInputs = this->Kind.DrawInputs(this->Random, this->Properties);
+    this->ConnectedInputs = this->Kind.DrawInputs(this->Random, this->Properties);
     this->ArePlain = true;
-    for (auto& port : this->GivenInputs)
+    for (auto& port : this->ConnectedInputs)
     {
       for (Input& input : port)
       {
@@ -136,16 +136,16 @@ private:
   {
     const State state = this->Properties.IsOdd() ? State::Odd : State::Sound;
     return worse(
-      this->ArePlain ? this->Kind.Expect(this->Filter, this->GivenInputs) : State::Open, state);
+      this->ArePlain ? this->Kind.Expect(this->Filter, this->ConnectedInputs) : State::Open, state);
   }
 
   void Print(const std::string& text) { this->Result.Log += text + "\n"; }
 
   void PrintInputs()
   {
-    for (std::size_t port = 0; port < this->GivenInputs.size(); ++port)
+    for (std::size_t port = 0; port < this->ConnectedInputs.size(); ++port)
     {
-      for (const Input& input : this->GivenInputs[port])
+      for (const Input& input : this->ConnectedInputs[port])
       {
         const char* const states[] = { "sound", "empty", "odd", "faulty", "open" };
         this->Print("  port " + std::to_string(port) + " (" +
@@ -177,14 +177,14 @@ private:
         this->MakeInputs();
         this->Print("other inputs" + this->Properties.Describe(before));
         this->PrintInputs();
-        connect(this->Filter, this->GivenInputs);
+        connect(this->Filter, this->ConnectedInputs);
         this->Properties.Apply(this->Filter);
         break;
       }
       case 2:
       case 3:
         this->Print("written in place");
-        for (auto& port : this->GivenInputs)
+        for (auto& port : this->ConnectedInputs)
         {
           for (Input& input : port)
           {
@@ -250,7 +250,7 @@ private:
   void RunDownstream()
   {
     if (this->Last.IsEmpty || !this->ArePlain || !this->Random.Chance(0.3) ||
-      changesGrid(this->GivenInputs))
+      changesGrid(this->ConnectedInputs))
     {
       return;
     }
@@ -301,7 +301,7 @@ private:
   void CompareFresh()
   {
     const vtkSmartPointer<vtkAlgorithm> fresh = this->Kind.New();
-    connect(fresh, this->GivenInputs);
+    connect(fresh, this->ConnectedInputs);
     this->Properties.Apply(fresh);
     Findings findings;
     const Outcome other = update(fresh, {}, findings);
@@ -344,7 +344,7 @@ private:
     }
     if (!failed && !outcome.IsEmpty && this->ArePlain)
     {
-      this->Kind.Check(this->Filter, this->GivenInputs, findings);
+      this->Kind.Check(this->Filter, this->ConnectedInputs, findings);
     }
   }
 
@@ -360,7 +360,7 @@ private:
   RandomSource Random;
   const FilterKind& Kind;
   Settings Properties;
-  Inputs GivenInputs;
+  Inputs ConnectedInputs;
   bool ArePlain = true;
   vtkSmartPointer<vtkAlgorithm> Filter;
   Outcome Last;

@@ -2,7 +2,7 @@
 #include "Bridge/Blocks/DensityBlocks.h"
 
 #include "Bridge/Blocks/HyperTreeCells.h"
-#include "Bridge/Blocks/RefinedGrids.h"
+#include "Bridge/Blocks/RefinedCells.h"
 #include "Bridge/Data/Cells/CellTypes.h"
 #include "Core/Messages/Failure.h"
 
@@ -105,7 +105,7 @@ std::vector<Leaf> leavesOf(vtkCompositeDataSet* data)
   return leaves;
 }
 
-void OtherLeaves::Add(vtkDataObject* leaf, const std::string& name)
+void SkippedLeaves::Add(vtkDataObject* leaf, const std::string& name)
 {
   if (this->Count++ == 0)
   {
@@ -118,20 +118,20 @@ std::string blocksText(std::int64_t count)
   return std::to_string(count) + (count == 1 ? " block" : " blocks");
 }
 
-void failOthers(const std::string& what, std::int64_t count, const OtherLeaves& others)
+void failSkipped(const std::string& what, std::int64_t count, const SkippedLeaves& skipped)
 {
   throw Failure(what + " no image, mesh or grid, but " + blocksText(count) + " of another type" +
-    others.FirstText());
+    skipped.FirstText());
 }
 
 // The data sets that have points, each with its name and number: hyper tree grids become meshes of
 // their leaves, and cells of AMR grids that finer levels cover are marked as refined. Other leaves
 // are counted, for messages.
 std::vector<DensityBlock> densityBlocks(
-  vtkDataObject* data, OtherLeaves* others, Progress* progress, const Ranks& ranks)
+  vtkDataObject* data, SkippedLeaves* skipped, Progress* progress, const Ranks& ranks)
 {
   std::vector<DensityBlock> blocks;
-  OtherLeaves left;
+  SkippedLeaves left;
   const std::uint64_t time = timeOf(data);
   const auto add = [&](vtkDataObject* object, const std::string& name, std::int64_t number) {
     vtkSmartPointer<vtkDataSet> set = vtkDataSet::SafeDownCast(object);
@@ -150,7 +150,7 @@ std::vector<DensityBlock> densityBlocks(
     }
   };
   const vtkSmartPointer<vtkCompositeDataSet> grids =
-    withRefinedMarked(vtkOverlappingAMR::SafeDownCast(data), ranks);
+    markRefinedCells(vtkOverlappingAMR::SafeDownCast(data), ranks);
   auto* composite = grids ? grids.Get() : vtkCompositeDataSet::SafeDownCast(data);
   if (!composite)
   {
@@ -160,9 +160,9 @@ std::vector<DensityBlock> densityBlocks(
   {
     add(leaf.Data, leaf.Text(), leaf.Number);
   }
-  if (others)
+  if (skipped)
   {
-    *others = left;
+    *skipped = left;
   }
   return blocks;
 }

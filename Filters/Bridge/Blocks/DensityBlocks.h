@@ -62,7 +62,7 @@ struct Leaf
 std::vector<Leaf> leavesOf(vtkCompositeDataSet* data);
 
 // Leaves that are passed over since they are not data sets with cells, such as tables.
-struct OtherLeaves
+struct SkippedLeaves
 {
   void Add(vtkDataObject* leaf, const std::string& name);
   // " (the first a vtkTable, block 2 of the input)"; empty without any.
@@ -79,14 +79,14 @@ struct OtherLeaves
 // "1 block", "2 blocks".
 std::string blocksText(std::int64_t count);
 
-// Throws the Failure for what has `count` leaves, all of them others; `what` begins it.
-[[noreturn]] void failOthers(
-  const std::string& what, std::int64_t count, const OtherLeaves& others);
+// Throws the Failure for what has `count` leaves, all of them skipped; `what` begins it.
+[[noreturn]] void failSkipped(
+  const std::string& what, std::int64_t count, const SkippedLeaves& skipped);
 
 // The data sets with points: the object itself, or the leaves of a composite; the cells of hyper
 // tree grids. AMR cells covered by finer ones are marked as refined. Other leaves are left out and
-// recorded in `others`. Collective. Throws Failure as withRefinedMarked, and Cancelled.
-std::vector<DensityBlock> densityBlocks(vtkDataObject* data, OtherLeaves* others = nullptr,
+// recorded in `skipped`. Collective. Throws Failure as markRefinedCells, and Cancelled.
+std::vector<DensityBlock> densityBlocks(vtkDataObject* data, SkippedLeaves* skipped = nullptr,
   Progress* progress = nullptr, const Ranks& ranks = SoloRanks::Get());
 
 // Adds everything that a block's points and cells are made of, with ghost flags; and all arrays.

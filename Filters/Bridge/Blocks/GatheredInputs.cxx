@@ -4,7 +4,7 @@
 #include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Ranks/GatheredData.h"
 #include "Bridge/Ranks/ImagePieces.h"
-#include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Ranks/RankConsistency.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 

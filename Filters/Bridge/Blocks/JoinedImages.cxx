@@ -4,8 +4,8 @@
 #include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Geometry/Boxes/JoinedBoxes.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/BoxUnion.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/LatticeExtent.h"
 
@@ -94,10 +94,10 @@ std::optional<std::vector<Part>> partsOf(
 }
 
 // The values of the parts with mass.
-std::vector<JoinedBox> boxesOf(const std::vector<Part>& parts, int owner)
+std::vector<UnionBox> boxesOf(const std::vector<Part>& parts, int owner)
 {
   const bool onPoints = owner == vtkDataObject::POINT;
-  std::vector<JoinedBox> boxes;
+  std::vector<UnionBox> boxes;
   for (std::size_t p = 0; p < parts.size(); ++p)
   {
     const Part& part = parts[p];
@@ -152,7 +152,7 @@ vtkSmartPointer<vtkDataArray> joinArrays(const std::vector<Part>& parts, int own
   withRequiredMemory(memory, [&]() { joined->SetNumberOfTuples(all.Count()); });
   joined->Fill(0.0);
   // The first image that has a value gives it.
-  const std::vector<JoinedBox> boxes = boxesOf(parts, owner);
+  const std::vector<UnionBox> boxes = boxesOf(parts, owner);
   for (auto box = boxes.rbegin(); box != boxes.rend(); ++box)
   {
     vtkDataArray* from = arrayOf(parts[box->Number]);
@@ -196,18 +196,18 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
   }
   const int ofDensity = onPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
   const TupleBox all = tuplesOf(whole, ofDensity, whole);
-  ValueGivers givers;
+  ValueOwners owners;
   withMemory({ "the lattice of images that are joined",
                numberOfValues(grid) * (sizeof(std::int64_t) + sizeof(std::int32_t)) },
     [&]() {
-      givers.Values.resize(static_cast<std::size_t>(all.Count()));
-      givers.Boxes.assign(static_cast<std::size_t>(all.Count()), -1);
+      owners.Values.resize(static_cast<std::size_t>(all.Count()));
+      owners.Boxes.assign(static_cast<std::size_t>(all.Count()), -1);
     });
-  const auto mayShare = [&](std::size_t giver, std::int64_t value, std::size_t part,
+  const auto mayShare = [&](std::size_t owner, std::int64_t value, std::size_t part,
                           std::int64_t other) {
-    return onPoints && areSame((*parts)[giver].Array, value, (*parts)[part].Array, other);
+    return onPoints && areSame((*parts)[owner].Array, value, (*parts)[part].Array, other);
   };
-  if (!findGivers(boxesOf(*parts, ofDensity), all, mayShare, givers))
+  if (!findValueOwners(boxesOf(*parts, ofDensity), all, mayShare, owners))
   {
     return nullptr;
   }
@@ -239,14 +239,14 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
     }
   }
   if (std::any_of(
-        givers.Boxes.begin(), givers.Boxes.end(), [](std::int32_t owner) { return owner < 0; }))
+        owners.Boxes.begin(), owners.Boxes.end(), [](std::int32_t owner) { return owner < 0; }))
   {
     auto flags = newArray<vtkUnsignedCharArray>(
-      vtkDataSetAttributes::GhostArrayName(), 1, static_cast<vtkIdType>(givers.Boxes.size()));
+      vtkDataSetAttributes::GhostArrayName(), 1, static_cast<vtkIdType>(owners.Boxes.size()));
     const auto hidden =
       static_cast<unsigned char>(onPoints ? int{ vtkDataSetAttributes::HIDDENPOINT }
                                           : int{ vtkDataSetAttributes::HIDDENCELL });
-    std::transform(givers.Boxes.begin(), givers.Boxes.end(), flags->GetPointer(0),
+    std::transform(owners.Boxes.begin(), owners.Boxes.end(), flags->GetPointer(0),
       [hidden](std::int32_t owner) { return owner < 0 ? hidden : static_cast<unsigned char>(0); });
     joined->GetAttributes(ofDensity)->AddArray(flags);
   }

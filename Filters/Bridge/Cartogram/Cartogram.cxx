@@ -4,7 +4,7 @@
 #include "Bridge/Data/PointInput.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Cartogram/MapFellows.h"
+#include "Core/Cartogram/MapOverlays.h"
 #include "Core/Cartogram/MapPlace.h"
 #include "Core/Cartogram/MapProjection.h"
 #include "Core/Cartogram/MapWarnings.h"
@@ -56,9 +56,9 @@ void divideEdge(vtkPointData* data, vtkIdType point, const DividingPoint& added)
   }
 }
 
-void writeGraticule(const MapFellows& fellows, vtkPolyData* output)
+void writeGraticule(const MapOverlays& overlays, vtkPolyData* output)
 {
-  const std::vector<std::size_t>& ends = fellows.LineEnds();
+  const std::vector<std::size_t>& ends = overlays.LineEnds();
   const auto number = [](std::size_t i) { return static_cast<vtkIdType>(i); };
   const vtkIdType count = number(ends.back());
   const auto coordinates = newArray<vtkDoubleArray>("Points", 3, count);
@@ -67,7 +67,7 @@ void writeGraticule(const MapFellows& fellows, vtkPolyData* output)
   for (vtkIdType i = 0; i < count; ++i)
   {
     ids->SetValue(i, i);
-    coordinates->SetTypedTuple(i, fellows.GraticulePoint(static_cast<std::size_t>(i)).data());
+    coordinates->SetTypedTuple(i, overlays.GraticulePoint(static_cast<std::size_t>(i)).data());
   }
   offsets->SetValue(0, 0);
   std::transform(ends.begin(), ends.end(), offsets->GetPointer(1), number);
@@ -81,15 +81,15 @@ void writeGraticule(const MapFellows& fellows, vtkPolyData* output)
 
 // One run: the regions become rings in the plane of the map and then in the index space of a square
 // box; runCartogram moves their points until areas are proportional to masses; graticule and
-// overlay move along as fellows; all go back to the plane in space.
+// overlay move along; all go back to the plane in space.
 class CartogramJob
 {
 public:
-  CartogramJob(const CartogramWorker& worker, RegionCells cells, KeptMap& kept,
+  CartogramJob(const CartogramWorker& worker, RegionCells cells, MapCache& cache,
     const CartogramOutputs& outputs)
     : Worker(worker)
     , Cells(std::move(cells))
-    , Kept(kept)
+    , Cache(cache)
     , Outputs(outputs)
   {
   }
@@ -128,13 +128,13 @@ public:
     }
     progress.Check();
     const MapPlace place{ this->Projection, *this->Frame, this->Box, this->Worker.Blend };
-    MapFellows fellows(place, this->Map);
-    addOverlay(this->Outputs.Overlay, fellows, stages["overlay"]);
+    MapOverlays overlays(place, this->Map);
+    addOverlay(this->Outputs.Overlay, overlays, stages["overlay"]);
     CartogramStart start = this->FindStart(stages["comparison"]);
     this->RequireMemory();
     this->Result = runCartogram(this->Map, this->Cells.Masses, this->Box, this->Worker.Options,
-      fellows.Points(), start, stages["cartogram"]);
-    this->Kept.Start = start;
+      overlays.Points(), start, stages["cartogram"]);
+    this->Cache.Start = start;
     if (!this->Result.Crossing.empty())
     {
       fail("The outline of the region ", this->Cells.Names[Index(this->Result.Crossing.front())],
@@ -143,8 +143,8 @@ public:
     addWarnings(this->Result, this->Cells.Names, this->Map.Rings(), this->Worker.Options.Tolerance,
       this->Warnings);
     this->WriteRegions(place, stages["regions"]);
-    writeGraticule(fellows, this->Outputs.Graticule);
-    writeOverlay(fellows, this->Outputs.Overlay, stages["moved overlay"]);
+    writeGraticule(overlays, this->Outputs.Graticule);
+    writeOverlay(overlays, this->Outputs.Overlay, stages["moved overlay"]);
     progress.Check();
     return std::move(this->Warnings);
   }
@@ -243,12 +243,12 @@ private:
     content.AddNumber(static_cast<std::uint64_t>(this->Worker.Options.Resolution));
     content.AddNumber(this->Worker.IsInDegrees ? 1 : 0);
     content.AddNumbers(&this->Worker.Options.Margin, 1);
-    if (content.IsSameAs(this->Kept.Content, progress))
+    if (content.IsSameAs(this->Cache.Content, progress))
     {
-      return this->Kept.Start;
+      return this->Cache.Start;
     }
     content.Hash(progress);
-    this->Kept = { std::move(content), {} }; // an abort may follow
+    this->Cache = { std::move(content), {} }; // an abort may follow
     return {};
   }
 
@@ -371,7 +371,7 @@ private:
 
   const CartogramWorker& Worker;
   RegionCells Cells;
-  KeptMap& Kept;
+  MapCache& Cache;
   const CartogramOutputs& Outputs;
   std::vector<std::string> Warnings;
   std::vector<Point<3>> Places; // the input's points, projected if they are in degrees
@@ -390,11 +390,11 @@ private:
 } // namespace
 
 std::vector<std::string> CartogramWorker::Run(const std::vector<DensityBlock>& blocks,
-  bool isComposite, KeptMap& kept, Progress& progress, const CartogramOutputs& outputs) const
+  bool isComposite, MapCache& cache, Progress& progress, const CartogramOutputs& outputs) const
 {
   Stages stages(progress, { { "regions", 2 }, { "cartogram", 98 } });
   RegionCells cells = readRegions(blocks, isComposite, this->Arrays, stages["regions"]);
-  return CartogramJob(*this, std::move(cells), kept, outputs).Run(stages["cartogram"]);
+  return CartogramJob(*this, std::move(cells), cache, outputs).Run(stages["cartogram"]);
 }
 
 } // namespace RectifiedTransport::Bridge

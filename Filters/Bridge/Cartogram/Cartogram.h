@@ -25,7 +25,7 @@ namespace RectifiedTransport::Bridge
 {
 
 // Kept between runs: what depends on the regions' shapes alone.
-struct KeptMap
+struct MapCache
 {
   DataIdentity Content;
   CartogramStart Start;
@@ -49,7 +49,7 @@ struct CartogramWorker
 
   // Returns warnings. Throws Failure, InvalidDensity and Cancelled.
   std::vector<std::string> Run(const std::vector<DensityBlock>& blocks, bool isComposite,
-    KeptMap& kept, Progress& progress, const CartogramOutputs& outputs) const;
+    MapCache& cache, Progress& progress, const CartogramOutputs& outputs) const;
 };
 
 } // namespace RectifiedTransport::Bridge

@@ -57,7 +57,7 @@ std::vector<OverlayPart> overlayParts(vtkDataObject* overlay, vtkDataObject* out
   return parts;
 }
 
-void addOverlay(const std::vector<OverlayPart>& parts, MapFellows& fellows, Progress& progress)
+void addOverlay(const std::vector<OverlayPart>& parts, MapOverlays& overlays, Progress& progress)
 {
   for (const OverlayPart& part : parts)
   {
@@ -65,12 +65,12 @@ void addOverlay(const std::vector<OverlayPart>& parts, MapFellows& fellows, Prog
     visitPoints(part.Input, "Overlay", progress, [&](std::int64_t i, const double* x) {
       points[static_cast<std::size_t>(i)] = { x[0], x[1], x[2] };
     });
-    fellows.AddOverlay(std::move(points));
+    overlays.AddOverlay(std::move(points));
   }
 }
 
 void writeOverlay(
-  const MapFellows& fellows, const std::vector<OverlayPart>& parts, Progress& progress)
+  const MapOverlays& overlays, const std::vector<OverlayPart>& parts, Progress& progress)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
   std::int64_t before = 0;
@@ -79,7 +79,7 @@ void writeOverlay(
     const std::int64_t count = part.Input->GetNumberOfPoints();
     const auto places = newArray<vtkDoubleArray>("Points", 3, count);
     progress.ForEach(count, grain, [&](std::int64_t i) {
-      places->SetTypedTuple(i, fellows.OverlayPoint(static_cast<std::size_t>(before + i)).data());
+      places->SetTypedTuple(i, overlays.OverlayPoint(static_cast<std::size_t>(before + i)).data());
     });
     vtkNew<vtkPoints> points;
     points->SetData(places);

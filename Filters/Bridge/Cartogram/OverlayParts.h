@@ -4,7 +4,7 @@
 #define RectifiedTransport_OverlayParts_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Cartogram/MapFellows.h"
+#include "Core/Cartogram/MapOverlays.h"
 #include "Core/Parallel/Progress.h"
 
 #include <vector>
@@ -28,10 +28,10 @@ struct OverlayPart
 std::vector<OverlayPart> overlayParts(vtkDataObject* overlay, vtkDataObject* output);
 
 // Adds the points of all parts to what moves along with a map. Throws Failure and Cancelled.
-void addOverlay(const std::vector<OverlayPart>& parts, MapFellows& fellows, Progress& progress);
+void addOverlay(const std::vector<OverlayPart>& parts, MapOverlays& overlays, Progress& progress);
 // Sets the points of the outputs after the move. Throws Failure and Cancelled.
 void writeOverlay(
-  const MapFellows& fellows, const std::vector<OverlayPart>& parts, Progress& progress);
+  const MapOverlays& overlays, const std::vector<OverlayPart>& parts, Progress& progress);
 
 } // namespace RectifiedTransport::Bridge
 

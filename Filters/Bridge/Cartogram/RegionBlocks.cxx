@@ -3,7 +3,7 @@
 
 #include "Bridge/Cartogram/UnifiedTypes.h"
 #include "Bridge/Data/Cells/CellCheck.h"
-#include "Bridge/Data/CopiedTuples.h"
+#include "Bridge/Data/TupleCopy.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/Stages.h"
 

@@ -4,7 +4,7 @@
 #include "Bridge/Cartogram/RegionBlocks.h"
 #include "Bridge/Data/DefaultArray.h"
 #include "Bridge/Data/TupleValues.h"
-#include "Bridge/Run/NumbersOfText.h"
+#include "Bridge/Run/TextToNumbers.h"
 #include "Core/Cartogram/RegionList.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/Stages.h"
@@ -148,7 +148,7 @@ private:
     if (!chosen.empty() && chosen != "None")
     {
       // Rivers and other cells that are no regions may have an empty text.
-      const NumbersOfText numbers = numbersOf(cells->GetAbstractArray(chosen.c_str()), true,
+      const TextToNumbers numbers = parseNumbers(cells->GetAbstractArray(chosen.c_str()), true,
         [this](vtkIdType cell) { return "of the region " + this->NameOf(cell); });
       this->Mass = numbers.Array;
       if (!this->Mass)

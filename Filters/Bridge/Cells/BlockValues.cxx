@@ -26,7 +26,7 @@ std::string nameOf(const DensityBlock& block)
 
 DensityRules rulesOf(const DensityBlock& block, const DensityRules& rules)
 {
-  return takenRules(block.Array, nameOf(block), rules);
+  return resolveRules(block.Array, nameOf(block), rules);
 }
 
 } // namespace

@@ -8,11 +8,11 @@
 #include "Bridge/Data/DefaultArray.h"
 #include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Density/DensityImage.h"
-#include "Bridge/Density/PiecesDensity.h"
+#include "Bridge/Density/PartitionedDensity.h"
 #include "Bridge/Ranks/ImagePieces.h"
-#include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Ranks/RankConsistency.h"
 #include "Bridge/Run/ArrayList.h"
-#include "Bridge/Run/NumbersOfText.h"
+#include "Bridge/Run/TextToNumbers.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 
@@ -50,7 +50,7 @@ std::string describeArrays(vtkDataSet* data)
 vtkSmartPointer<vtkDataArray> numbersIn(
   vtkAbstractArray* array, const DensityChoice& choice, vtkDataSet* data, const std::string& what)
 {
-  const NumbersOfText numbers = numbersOf(array, choice.Rules.Missing.AreNaN);
+  const TextToNumbers numbers = parseNumbers(array, choice.Rules.Missing.AreNaN);
   if (array && !numbers.Array)
   {
     const char* name = array->GetName();
@@ -136,16 +136,16 @@ std::unique_ptr<InputDensity> readPieces(
     requireSameOnRanks(ranks, chosen, "The density is ", "it must be the same array on all");
   const bool onPoints = common.rfind("the point", 0) == 0;
   const std::string name = common.substr(common.find("array ") + 6);
-  return std::make_unique<PiecesDensity>(std::move(pieces), name, onPoints, choice.Rules);
+  return std::make_unique<PartitionedDensity>(std::move(pieces), name, onPoints, choice.Rules);
 }
 
-void reportOthers(const DensityChoice& choice, const OtherLeaves& others, const Ranks& ranks)
+void reportOthers(const DensityChoice& choice, const SkippedLeaves& others, const Ranks& ranks)
 {
   const auto count = sumOverRanks(ranks, others.Count);
   const auto sets = sumOverRanks(ranks, others.DataSets);
   if (count > 0 && sets == 0)
   {
-    failOthers("The density has", count, others);
+    failSkipped("The density has", count, others);
   }
   if (count > 0)
   {
@@ -332,7 +332,7 @@ std::unique_ptr<InputDensity> DensityInput::Read(
     // Once for each change of a density: what does not change it may run the filter, too.
     density->SetListener([this, warn = choice.Warn](
                            const std::vector<std::string>& lines, const DataIdentity& content) {
-      const DataIdentity before = std::exchange(this->Told, content);
+      const DataIdentity before = std::exchange(this->Warned, content);
       if (!content.HasHash() || !content.IsByContent(before))
       {
         std::for_each(lines.begin(), lines.end(), warn);
@@ -345,7 +345,7 @@ std::unique_ptr<InputDensity> DensityInput::Read(
 std::unique_ptr<InputDensity> DensityInput::ReadBlocks(
   const DensityChoice& choice, vtkDataObject* input, Progress& progress)
 {
-  OtherLeaves others;
+  SkippedLeaves others;
   const Ranks& ranks = progress.Group();
   std::vector<DensityBlock> blocks = densityBlocks(input, &others, &progress, ranks);
   if (ranks.AreSeveral())

@@ -49,7 +49,7 @@ private:
 
   ResampledDensity Resampled;
   GatheredBlocks Gathered;
-  DataIdentity Told; // the data whose unusual values were reported
+  DataIdentity Warned; // the data whose suspect values were reported
 };
 
 } // namespace RectifiedTransport::Bridge

@@ -2,19 +2,19 @@
 #include "Bridge/Cells/ResampledDensity.h"
 
 #include "Bridge/Blocks/JoinedImages.h"
-#include "Bridge/Cells/ParticlesInCells.h"
+#include "Bridge/Cells/CellSampling.h"
 #include "Bridge/Data/DefaultArray.h"
 #include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Resampling/CellFrame.h"
 #include "Core/Resampling/CellSums.h"
 #include "Core/Resampling/Reading/SetMessages.h"
 #include "Core/Resampling/RegionShapes.h"
-#include "Core/Tables/Reading/FilledCells.h"
+#include "Core/Tables/Reading/OccupiedCells.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -88,9 +88,9 @@ public:
   }
 
 private:
-  std::vector<std::string> Describe(const UnusualValues& /*values*/) const override
+  std::vector<std::string> Describe(const SuspectValues& /*values*/) const override
   {
-    return this->Made.Unusual;
+    return this->Made.Suspect;
   }
 
   const ResampledDensity& Made;
@@ -181,8 +181,8 @@ void ResampledDensity::Resample(
   this->Image->GetCellData()->SetScalars(density);
   const ValuePlaces places{ {}, {}, {}, blocks.OnPoints ? "points" : "cells", 0, taken.Invert,
     taken.IsOfSeveral(), fillValuesOf(read.front().Data->GetFieldData()) };
-  this->Unusual =
-    describeUnusual(this->Blocks.Cells, this->Blocks.Findings, places, grid, progress);
+  this->Suspect =
+    describeSuspect(this->Blocks.Cells, this->Blocks.Findings, places, grid, progress);
 }
 
 // Writes the mean of the cells' densities over each cell of the grid.
@@ -216,7 +216,7 @@ void ResampledDensity::FillEmpty(
   withMemory({ "what the input's cells cover", numberOfValues(grid) * sizeof(double) },
     [&]() { covered = LargeBuffer<double>(grid.NumberOfCells()); });
   this->AddCells(grid, ground, progress, covered.data());
-  FilledCells filled;
+  OccupiedCells filled;
   for (const SetFindings& set : this->Blocks.Findings)
   {
     filled.Least = std::min(filled.Least, set.Least);

@@ -56,7 +56,7 @@ private:
   // one, and findings about values that are probably not meant.
   BlockValues Blocks;
   std::optional<CellLattice> Lattice;
-  std::vector<std::string> Unusual;
+  std::vector<std::string> Suspect;
   std::vector<std::string> Lost;
   double Empty = 0.0; // the density of what their cells do not cover
 };

@@ -4,7 +4,7 @@
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/MpiController.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"

@@ -4,7 +4,7 @@
 #include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Run/NumbersOfText.h"
+#include "Bridge/Run/TextToNumbers.h"
 #include "Core/Messages/NotFiniteValues.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
@@ -78,7 +78,7 @@ struct ReadMasses
 vtkSmartPointer<vtkDataArray> requireMasses(
   vtkPointSet* points, vtkAbstractArray* found, const std::string& text)
 {
-  const NumbersOfText numbers = numbersOf(found);
+  const TextToNumbers numbers = parseNumbers(found);
   if (!numbers.Array)
   {
     throw Failure(text + " is not numeric (" + numbers.Wrong + "); the input has " +

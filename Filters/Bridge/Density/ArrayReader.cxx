@@ -128,11 +128,11 @@ void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const s
   }
 }
 
-DensityRules takenRules(vtkDataArray* array, const std::string& name, const DensityRules& rules)
+DensityRules resolveRules(vtkDataArray* array, const std::string& name, const DensityRules& rules)
 {
   DensityRules taken = rules;
   const int components = array->GetNumberOfComponents();
-  taken.Component = takenComponent(
+  taken.Component = resolveComponent(
     name, rules.Component, automaticComponent(array->GetDataType(), components), components);
   return taken;
 }

@@ -28,7 +28,7 @@ void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const s
 
 // The rules with the component that is taken of an array, which messages call `name`. Throws
 // Failure if the array does not have it.
-DensityRules takenRules(vtkDataArray* array, const std::string& name, const DensityRules& rules);
+DensityRules resolveRules(vtkDataArray* array, const std::string& name, const DensityRules& rules);
 
 // What netCDF and GDAL write: _FillValue, missing_value, NO_DATA_VALUE. `fields` may be nullptr.
 std::vector<FillValue> fillValuesOf(vtkFieldData* fields);

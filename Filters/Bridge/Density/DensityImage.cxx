@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/DensityImage.h"
 
+#include "Bridge/Data/ArraySampling.h"
 #include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Data/ImageGrids.h"
-#include "Bridge/Data/SampledArrays.h"
 #include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Run/Fingerprint.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Parallel/Progress.h"
 
 #include "vtkDataArray.h"
@@ -81,7 +81,7 @@ void DensityImage::Prepare(FlowTables /*tables*/, Progress& progress)
   if (this->FillsEmpty())
   {
     this->SetEmpty(
-      densityOfEmptyCells(this->Rules.Empty, this->FindFilled({ this->AllTuples() }, progress)));
+      densityOfEmptyCells(this->Rules.Empty, this->Occupied({ this->AllTuples() }, progress)));
   }
 }
 
@@ -139,14 +139,14 @@ TupleBox DensityImage::AllTuples() const
   return tuplesOf(extent, this->Owner(), extent);
 }
 
-FilledCells DensityImage::FindFilled(const std::vector<TupleBox>& boxes, Progress& progress) const
+OccupiedCells DensityImage::Occupied(const std::vector<TupleBox>& boxes, Progress& progress) const
 {
   const TupleBox all = this->AllTuples();
-  FilledCells filled;
+  OccupiedCells filled;
   for (const TupleBox& box : boxes)
   {
-    filled.Add(sumExactly<FilledCells>(
-      progress, box.Count(), grain, [&](std::int64_t first, std::int64_t last, FilledCells& part) {
+    filled.Add(sumExactly<OccupiedCells>(progress, box.Count(), grain,
+      [&](std::int64_t first, std::int64_t last, OccupiedCells& part) {
         std::vector<double> values(static_cast<std::size_t>(last - first));
         std::vector<unsigned char> empty(values.size());
         // Runs of cells that follow each other in both.

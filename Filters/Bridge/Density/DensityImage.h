@@ -5,7 +5,7 @@
 
 #include "Bridge/Density/InputDensity.h"
 #include "Core/Tables/Reading/DensityReader.h"
-#include "Core/Tables/Reading/FilledCells.h"
+#include "Core/Tables/Reading/OccupiedCells.h"
 
 #include <memory>
 
@@ -41,7 +41,7 @@ public:
   LargestValue FindWhite(Progress& progress);
   void SetWhite(double white, Progress& progress);
   LowestValue FindClamped(Progress& progress) const;
-  FilledCells FindFilled(const std::vector<TupleBox>& boxes, Progress& progress) const;
+  OccupiedCells Occupied(const std::vector<TupleBox>& boxes, Progress& progress) const;
   void SetEmpty(double density);
 
 private:

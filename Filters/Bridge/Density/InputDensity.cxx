@@ -71,7 +71,7 @@ InputDensity::~InputDensity() = default;
 
 void InputDensity::SetForm(const ArrayForm& form, const std::vector<std::uint64_t>& times)
 {
-  this->Rules.Component = takenComponent(this->Name, this->Rules.Component,
+  this->Rules.Component = resolveComponent(this->Name, this->Rules.Component,
     automaticComponent(form.Type, form.Components), form.Components);
   this->Read = readingBy(this->Rules, this->NameOfArray(), form.Components);
   this->MayBeEmpty = this->Rules.Missing.Are() || form.HasPointGhosts ||
@@ -129,22 +129,22 @@ int InputDensity::Owner() const
   return this->Geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
 }
 
-std::vector<std::string> InputDensity::Describe(const UnusualValues& values) const
+std::vector<std::string> InputDensity::Describe(const SuspectValues& values) const
 {
   // The largest density may be what empty cells count as.
   if (this->Rules.Empty.Cells == EmptyCells::Value && this->Empty >= values.Found.Maximum)
   {
     return {};
   }
-  return describeUnusual(values,
+  return describeSuspect(values,
     { this->Name, this->Name, this->Name, this->Geometry.IsOnPoints() ? "points" : "cells",
       this->Geometry.NumberOfCells(), this->Rules.Invert, this->Rules.IsOfSeveral(),
       this->FillValues });
 }
 
-void InputDensity::TellUnusual(const UnusualValues& values, Progress& progress)
+void InputDensity::ReportSuspect(const SuspectValues& values, Progress& progress)
 {
-  if (!this->Tell)
+  if (!this->Notify)
   {
     return;
   }
@@ -159,7 +159,7 @@ void InputDensity::TellUnusual(const UnusualValues& values, Progress& progress)
     content = this->Identity();
     content.Hash(progress);
   }
-  this->Tell(lines, content);
+  this->Notify(lines, content);
 }
 
 void InputDensity::ThrowInvalid(const DensitySummary& summary) const

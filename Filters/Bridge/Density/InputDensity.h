@@ -6,13 +6,13 @@
 #include "Bridge/Store/DataIdentity.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowTables.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/Points.h"
 #include "Core/Tables/Density.h"
 #include "Core/Tables/Reading/DensityRules.h"
-#include "Core/Tables/Reading/UnusualValues.h"
+#include "Core/Tables/Reading/SuspectValues.h"
 
 #include "vtkSmartPointer.h"
 
@@ -114,16 +114,16 @@ public:
   // What empty cells count as, from Prepare on.
   double EmptyDensity() const { return this->Empty; }
   // What Prepare found about the values, without the summary of the densities.
-  const UnusualValues& Unusual() const { return this->Known; }
+  const SuspectValues& Suspect() const { return this->Known; }
   // Precedes each line if a filter has several inputs.
   void SetInputName(const std::string& name) { this->InputName = name; }
   // Receives one line for each finding of values that are probably not meant, and their content.
   // Without lines, it gets no content.
   using Listener =
     std::function<void(const std::vector<std::string>& lines, const DataIdentity& content)>;
-  void SetListener(const Listener& listener) { this->Tell = listener; }
+  void SetListener(const Listener& listener) { this->Notify = listener; }
   // Call it when the values have been read, by this filter or another one. Collective.
-  virtual void TellUnusual(const UnusualValues& values, Progress& progress);
+  virtual void ReportSuspect(const SuspectValues& values, Progress& progress);
 
   // Throws the Failure for values that are no density.
   [[noreturn]] void ThrowInvalid(const DensitySummary& summary) const;
@@ -156,12 +156,12 @@ protected:
   // The value read as white, as soon as Known has it.
   double White() const;
   // The findings about values, one line each.
-  virtual std::vector<std::string> Describe(const UnusualValues& values) const;
+  virtual std::vector<std::string> Describe(const SuspectValues& values) const;
 
   ImageGrid Geometry;
   DensityRules Rules;
   DensityReading Read; // from SetForm on
-  UnusualValues Known;
+  SuspectValues Known;
   double Empty = 0.0;
   std::vector<FillValue> FillValues; // those in the input's field data
 
@@ -189,7 +189,7 @@ private:
 
   const std::string Name;
   std::string InputName;
-  Listener Tell;
+  Listener Notify;
   bool MayBeEmpty = false; // some cells
   bool MustFindEmpty = false;
   DataIdentity Reading; // the parameters of reading the values, and their times

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Drawing/TransportVectorWriter.h"
 
-#include "Bridge/Data/CopiedTuples.h"
-#include "Bridge/Drawing/DrawnLayer.h"
+#include "Bridge/Data/TupleCopy.h"
+#include "Bridge/Drawing/DrawingLayer.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Drawing/Drawing.h"
@@ -30,7 +30,7 @@ std::string titleOf(const char* property, vtkAbstractArray* array)
   return std::string(property) + " '" + (array->GetName() ? array->GetName() : "") + "'";
 }
 
-bool isStroked(const DrawnLayer& layer, const Shape& shape)
+bool isStroked(const DrawingLayer& layer, const Shape& shape)
 {
   return shape.Kind == ShapeKind::Line ||
     (shape.Kind == ShapeKind::Polygon && !layer.Colours.AreGiven());
@@ -38,13 +38,13 @@ bool isStroked(const DrawnLayer& layer, const Shape& shape)
 
 // The positions of the dots without a radius of their own, 3 values a dot.
 LargeBuffer<double> dotsOf(
-  const std::vector<DrawnLayer>& layers, std::int64_t count, Progress& progress)
+  const std::vector<DrawingLayer>& layers, std::int64_t count, Progress& progress)
 {
   LargeBuffer<double> dots = withMemory({ "the places of " + std::to_string(count) + " dots",
                                           3.0 * sizeof(double) * static_cast<double>(count) },
     [&]() { return LargeBuffer<double>(3 * count); });
   double* next = dots.data();
-  for (const DrawnLayer& layer : layers)
+  for (const DrawingLayer& layer : layers)
   {
     layer.Shapes.ForEach(progress, [&](const Shape& shape) {
       if (shape.Kind == ShapeKind::Dot && layer.NeedsRadius())
@@ -56,7 +56,7 @@ LargeBuffer<double> dotsOf(
   return dots;
 }
 
-void include(const DrawnLayer& layer, const Shape& shape, DrawnExtent& extent)
+void include(const DrawingLayer& layer, const Shape& shape, DrawingExtent& extent)
 {
   extent.HasStrokes = extent.HasStrokes || isStroked(layer, shape);
   const bool isDot = shape.Kind == ShapeKind::Dot;
@@ -75,12 +75,12 @@ void include(const DrawnLayer& layer, const Shape& shape, DrawnExtent& extent)
 }
 
 // VTK's own colours over the values of all data sets.
-vtkSmartPointer<vtkScalarsToColors> tableOf(const std::vector<DrawnData>& data)
+vtkSmartPointer<vtkScalarsToColors> tableOf(const std::vector<LayerData>& data)
 {
   constexpr int component = 0;
   double least = std::numeric_limits<double>::infinity();
   double greatest = -least;
-  for (const DrawnData& drawn : data)
+  for (const LayerData& drawn : data)
   {
     auto* array = vtkDataArray::SafeDownCast(drawn.Colours);
     if (array && !areColours(array))
@@ -132,12 +132,12 @@ void TransportVectorWriter::Check() const
 // on the radius, as dots at the border must fit on the page, so dots enter it without a radius
 // first.
 void TransportVectorWriter::Run(
-  const std::vector<DrawnData>& data, Drawing& drawing, Progress& progress) const
+  const std::vector<LayerData>& data, Drawing& drawing, Progress& progress) const
 {
   std::int64_t shapes = 0;
   std::int64_t points = 0; // where there are radii twice
   vtkSmartPointer<vtkScalarsToColors> table = this->LookupTable;
-  for (const DrawnData& drawn : data)
+  for (const LayerData& drawn : data)
   {
     shapes += drawn.Shapes.Count();
     vtkPolyData* own = drawn.Shapes.Data();
@@ -157,17 +157,17 @@ void TransportVectorWriter::Run(
     }
   }
 
-  std::vector<DrawnLayer> layers;
+  std::vector<DrawingLayer> layers;
   layers.reserve(data.size());
   Stages stages(progress, { { "points", 1 }, { "extent", 1 }, { "spacing", 3 }, { "drawing", 5 } });
   Progress& reading = stages["points"].Expect(points);
-  for (const DrawnData& drawn : data)
+  for (const LayerData& drawn : data)
   {
     layers.emplace_back(drawn, this->FillOutlines, table, reading);
   }
   Progress& visits = stages["extent"].Expect(2 * shapes);
-  DrawnExtent extent;
-  for (const DrawnLayer& layer : layers)
+  DrawingExtent extent;
+  for (const DrawingLayer& layer : layers)
   {
     layer.Shapes.ForEach(visits, [&](const Shape& shape) { include(layer, shape, extent); });
   }
@@ -180,7 +180,7 @@ void TransportVectorWriter::Run(
       radius = radiusOfDots({ dots.data(), extent.NumberOfDots }, stages["spacing"]);
       radius = radius > 0.0 ? radius : extent.RadiusWithoutNeighbours();
     }
-    for (DrawnLayer& layer : layers)
+    for (DrawingLayer& layer : layers)
     {
       layer.Radius = radius;
     }
@@ -196,7 +196,7 @@ void TransportVectorWriter::Run(
   drawing.Begin(
     { layout.Size(), this->Page.HasBounds() ? this->Page.Margin : 0.0, this->Page.LineWidth });
   Progress& painting = stages["drawing"].Expect(shapes);
-  for (const DrawnLayer& layer : layers)
+  for (const DrawingLayer& layer : layers)
   {
     layer.Draw(layout, drawing, painting);
   }

@@ -26,7 +26,7 @@ namespace RectifiedTransport::Bridge
 {
 
 // One of the data sets on a page. What is later lies on top.
-struct DrawnData
+struct LayerData
 {
   PolyDataShapes Shapes;
   vtkAbstractArray* Colours; // nullptr: black
@@ -46,7 +46,7 @@ struct TransportVectorWriter
   void Check() const;
 
   // Throws Failure, Cancelled and std::bad_alloc.
-  void Run(const std::vector<DrawnData>& data, Drawing& drawing, Progress& progress) const;
+  void Run(const std::vector<LayerData>& data, Drawing& drawing, Progress& progress) const;
 };
 
 } // namespace RectifiedTransport::Bridge

@@ -75,7 +75,7 @@ public:
 
   const LinearizedMap& operator[](std::size_t input) const
   {
-    return *this->Slots[input].Kept<const LinearizedMap>();
+    return *this->Slots[input].Cached<const LinearizedMap>();
   }
   const DataIdentity& Identity(std::size_t input) const { return this->Slots[input].Identity(); }
 

@@ -2,12 +2,12 @@
 #include "Bridge/Ensembles/DensityBlend.h"
 
 #include "Bridge/Data/ImageGrids.h"
-#include "Bridge/Plan/PlainDensity.h"
+#include "Bridge/Plan/DensityQueries.h"
 #include "Bridge/Ranks/ParticleExchange.h"
-#include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Ranks/RankConsistency.h"
 #include "Bridge/Run/CostModel.h"
 #include "Bridge/Run/StepReport.h"
-#include "Core/Blend/MovedCells.h"
+#include "Core/Blend/AdvectedCells.h"
 #include "Core/Flow/WeightedMean.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/Dispatch.h"
@@ -69,7 +69,7 @@ void reuseOrMake(
 }
 
 // The density of an input, as it was read, on its way with this rank's particles.
-struct MovedInput
+struct AdvectedInput
 {
   InputDensity& Density;
   double OwnMass;       // the mass that the density has
@@ -80,7 +80,7 @@ struct MovedInput
 
 // Writes the density, with its mass, on the wanted tuples of a grid that covers its domain. Nothing
 // has moved. To the bit, if the masses and the cells are the same. Collective.
-void writeInput(const MovedInput& input, const ImageGrid& grid, const TupleBox& wanted,
+void writeInput(const AdvectedInput& input, const ImageGrid& grid, const TupleBox& wanted,
   Progress& progress, double* values)
 {
   writeDensityOn(grid, input.Density, wanted, progress, values);
@@ -88,7 +88,7 @@ void writeInput(const MovedInput& input, const ImageGrid& grid, const TupleBox& 
 }
 
 template <int D>
-void addMoved(const MovedInput& input, const ImageGrid& grid, const TupleBox& wanted,
+void addMoved(const AdvectedInput& input, const ImageGrid& grid, const TupleBox& wanted,
   Progress& progress, double* density)
 {
   Stages stages(progress, { { "input", 1 }, { "cells", 9 } });
@@ -99,14 +99,14 @@ void addMoved(const MovedInput& input, const ImageGrid& grid, const TupleBox& wa
   const auto spanOf = [](vtkDoubleArray* points) -> ConstPointSpan<3> {
     return { points->GetPointer(0), points->GetNumberOfTuples() };
   };
-  addMovedCells<D>(
+  addAdvected<D>(
     { grid, latticePartOf<D>(own, grid), given.data(), spanOf(input.From), spanOf(input.To) },
     latticePartOf<D>(wanted, grid), stages["cells"], density);
 }
 
 // Adds the density of its cells, each moved by the mean move of the particles in it; cells without
 // particles stay. The same bits for every number of threads and ranks. Collective.
-void addMovedInput(const MovedInput& input, const ImageGrid& grid, const TupleBox& wanted,
+void addAdvectedInput(const AdvectedInput& input, const ImageGrid& grid, const TupleBox& wanted,
   Progress& progress, double* density)
 {
   const double cells = static_cast<double>(wanted.Count());
@@ -282,7 +282,7 @@ void DensityBlend::WriteDensity(const BlendRun& run, const BlendPositions& found
     [](const BlendInput& a, const BlendInput& b) { return a.Weight < b.Weight; });
   const auto number = static_cast<std::size_t>(heaviest - run.Inputs.begin());
   const double share = shareOfHeaviest(heaviest->Weight);
-  const MovedInput input{ *heaviest->Density, this->Maps[number].TotalMass, share * mass,
+  const AdvectedInput input{ *heaviest->Density, this->Maps[number].TotalMass, share * mass,
     found.Positions[number], this->Means };
   if (heaviest->Weight == 1.0)
   {
@@ -294,7 +294,7 @@ void DensityBlend::WriteDensity(const BlendRun& run, const BlendPositions& found
     { geometry, run.Settings.Splat, true }, box, stages["splat"], this->Density);
   if (share > 0.0)
   {
-    addMovedInput(input, geometry, box, stages["input"], this->Density->GetPointer(0));
+    addAdvectedInput(input, geometry, box, stages["input"], this->Density->GetPointer(0));
   }
 }
 

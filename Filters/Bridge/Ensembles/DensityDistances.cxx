@@ -88,15 +88,15 @@ DistanceInput readDistanceInput(InputDensity& density, Progress& progress)
 void DensityDistances::Begin(DistanceMethod method)
 {
   this->Method = method;
-  this->Given.clear();
+  this->Entries.clear();
   this->Distances.Begin(method);
 }
 
 void DensityDistances::Add(DistanceInput input, Progress& progress)
 {
-  if (!this->Given.empty())
+  if (!this->Entries.empty())
   {
-    const DistanceInput& first = this->Given.front();
+    const DistanceInput& first = this->Entries.front();
     requireSameBox({ first.Grid, first.Title }, { input.Grid, input.Title });
     // The potentials that certify a distance need both densities on the same cells. Linearized
     // compares maps from one reference, which takes any grids in the same box.
@@ -111,8 +111,8 @@ void DensityDistances::Add(DistanceInput input, Progress& progress)
   const std::shared_ptr<const double> values(
     input.Values->GetPointer(0), [kept = input.Values](const double*) {});
   input.Values = nullptr;
-  this->Given.push_back(std::move(input));
-  const DistanceInput& added = this->Given.back();
+  this->Entries.push_back(std::move(input));
+  const DistanceInput& added = this->Entries.back();
   if (this->Distances.Add(added.Identity.Content(), added.Grid, values, progress))
   {
     this->MakeMaps(progress);

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_DensityDistances_h
 #define RectifiedTransport_DensityDistances_h
 
-#include "Bridge/Plan/PlainDensity.h"
+#include "Bridge/Plan/DensityQueries.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Distance/DistanceSet.h"
 
@@ -49,7 +49,7 @@ public:
   // With Linearized, may compute maps. Collective. Throws Failure, where densities have not the
   // same box, and Cancelled.
   void Add(DistanceInput input, Progress& progress);
-  const std::vector<DistanceInput>& Inputs() const { return this->Given; }
+  const std::vector<DistanceInput>& Inputs() const { return this->Entries; }
   // The number of maps and pairs of Certified that have been found, on all ranks.
   std::int64_t NumberOfSolutions() const { return this->Distances.NumberOfSolutions(); }
 
@@ -61,7 +61,7 @@ private:
   void MakeMaps(Progress& progress);
 
   DistanceMethod Method = DistanceMethod::Linearized;
-  std::vector<DistanceInput> Given; // without their values
+  std::vector<DistanceInput> Entries; // without their values
   DistanceSet Distances;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/MapField.h"
 
-#include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Ranks/RankConsistency.h"
 #include "Core/Geometry/Distributed/BoxExchange.h"
 
 #include "vtkDataSetAttributes.h"

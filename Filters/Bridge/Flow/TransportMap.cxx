@@ -7,7 +7,7 @@
 #include "Bridge/Run/StepReport.h"
 #include "Core/Equalize/CorrectedImages.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Messages/PartText.h"
@@ -38,14 +38,14 @@ ImageGrid boxOf(const NamedGrid& source, const NamedGrid& target)
   return commonGrid({ source, target }, values, MostCells::Any);
 }
 
-// What the optimal map to a goal is of.
-DataIdentity identityOf(const DataIdentity& source, const DataIdentity& target,
-  const ImageGrid& sourceGrid, const MapGoal& goal, const OptimalSetting& setting)
+// What the optimal map to a target is of.
+DataIdentity identityOf(const DataIdentity& source, const DataIdentity& targetData,
+  const ImageGrid& sourceGrid, const TargetDensity& target, const OptimalSetting& setting)
 {
   DataIdentity identity = source;
-  identity.Add(target);
+  identity.Add(targetData);
   identity.AddGrid(sourceGrid);
-  identity.AddGrid(goal.Density.Grid());
+  identity.AddGrid(target.Density.Grid());
   identity.AddNumbers(&setting.Tolerance, 1);
   identity.AddNumber(setting.IsOptimal ? 1 : 0);
   identity.AddNumber(setting.Certifies ? 1 : 0);
@@ -69,11 +69,11 @@ template <int D>
 class MapMaker
 {
 public:
-  MapMaker(const TransportMap& map, InputDensity& density, MapGoal* goal, const ImageGrid& samples,
-    const Extent& wanted, FlowCache& cache, Progress& progress)
+  MapMaker(const TransportMap& map, InputDensity& density, TargetDensity* target,
+    const ImageGrid& samples, const Extent& wanted, FlowCache& cache, Progress& progress)
     : Map(map)
     , Density(density)
-    , Goal(goal)
+    , Target(target)
     , Samples(samples)
     , Wanted(wanted)
     , Cache(cache)
@@ -81,8 +81,8 @@ public:
     , Lattice(samples.Size<D>())
     , All(numberOfCells<D>(this->Lattice))
     , Count(this->All / progress.Group().Count())
-    , IsBackward(goal || map.Backward)
-    , Equalizes(!goal && map.Backward && map.EqualizeAreas)
+    , IsBackward(target || map.Backward)
+    , Equalizes(!target && map.Backward && map.EqualizeAreas)
     , Options(this->Equalizes ? AreaCorrection<D>::OptionsFor(map.Flow) : map.Flow)
   {
   }
@@ -90,16 +90,16 @@ public:
   TransportMap::Report Make(vtkImageData* output)
   {
     const auto cells = static_cast<double>(
-      this->Density.Grid().NumberOfCells() + (this->Goal ? this->GoalCells() : 0));
+      this->Density.Grid().NumberOfCells() + (this->Target ? this->CellsOfTarget() : 0));
     const bool equalizes = this->Equalizes;
     const double count = this->Count;
     const bool countsMasses = D == 3 && this->IsBackward;
     const double steps = Cost::flow(this->Options, D) * count;
     Stages stages(this->Work,
       { { "tables", Cost::tables(this->Cache, this->Density) },
-        { "target tables", this->GoalCost() },
+        { "target tables", this->CostOfTarget() },
         { "optimal map", this->MustSolve() ? Cost::OptimalCell * cells : 0.0 },
-        { "samples", this->Goal ? 2.0 * steps : steps },
+        { "samples", this->Target ? 2.0 * steps : steps },
         { "areas", equalizes ? Cost::equalization(this->Options, D) * cells : 0.0 },
         { "correction", equalizes ? Cost::Seed * count : 0.0 },
         { "reading", Cost::Reading * cells / this->Work.Group().Count() },
@@ -108,8 +108,8 @@ public:
     MapField<D> field(this->Density.Grid(), this->Samples,
       tuplesOf(this->Wanted, owner, this->Samples.Extent()),
       "a map of " + describeSize<D>(this->Lattice) + " samples (see SampleDimensions)",
-      this->Work.Group(), this->Goal != nullptr);
-    this->RequireMemoryForGoal();
+      this->Work.Group(), this->Target != nullptr);
+    this->RequireMemoryForTarget();
     applyGrid(this->Samples, output);
     output->SetExtent(this->Wanted.data());
 
@@ -121,7 +121,7 @@ public:
     const MapFigures figures = this->Write(flow, field, stages, output->GetAttributes(owner));
     addFieldValue(output, "TotalMass", shared.TotalMass());
     addFieldValue(output, "TransportCost", figures.Cost);
-    addBound<D>(plan, this->Goal ? this->Goal->Box : this->Density.Grid(), figures.Cost,
+    addBound<D>(plan, this->Target ? this->Target->Box : this->Density.Grid(), figures.Cost,
       this->Density.Grid(), output);
     const Ranks& ranks = this->Work.Group();
     const std::int64_t moved = sumOverRanks(ranks, reports.back().MovedToMass);
@@ -139,41 +139,41 @@ public:
   }
 
 private:
-  std::int64_t GoalCells() const { return this->Goal->Density.Grid().NumberOfCells(); }
-  double GoalCost() const
+  std::int64_t CellsOfTarget() const { return this->Target->Density.Grid().NumberOfCells(); }
+  double CostOfTarget() const
   {
-    return this->Goal ? Cost::tables(this->Goal->Cache.Tables, this->Goal->Density) : 0.0;
+    return this->Target ? Cost::tables(this->Target->Cache.Tables, this->Target->Density) : 0.0;
   }
   bool MustSolve() const
   {
     const OptimalSetting& setting = this->Map.Optimal;
-    if (!this->Goal)
+    if (!this->Target)
     {
       return Cost::optimal(this->Cache, this->Density, setting) > 0.0;
     }
     return setting.NeedsMap() &&
-      !this->Goal->Cache.Map.Holds(identityOf(this->Density.Identity(),
-        this->Goal->Density.Identity(), this->Density.Grid(), *this->Goal, setting));
+      !this->Target->Cache.Map.Holds(identityOf(this->Density.Identity(),
+        this->Target->Density.Identity(), this->Density.Grid(), *this->Target, setting));
   }
 
   // Before the tables: they would take long for nothing.
-  void RequireMemoryForGoal() const
+  void RequireMemoryForTarget() const
   {
     const Ranks& ranks = this->Work.Group();
-    if (this->Goal && !onAllRanks(ranks, !this->MustSolve()))
+    if (this->Target && !onAllRanks(ranks, !this->MustSolve()))
     {
       const double tables = RectifiedFlow<D>::MemoryFor(this->Density.Grid().Size<D>()) +
-        RectifiedFlow<D>::MemoryFor(this->Goal->Density.Grid().Size<D>());
-      requireMemory(this->GoalMemory().With(tables));
+        RectifiedFlow<D>::MemoryFor(this->Target->Density.Grid().Size<D>());
+      requireMemory(this->MemoryForTarget().With(tables));
     }
   }
-  MemoryPlan GoalMemory() const
+  MemoryPlan MemoryForTarget() const
   {
     return memoryOfOptimalMap<D>(this->Density.Grid().Size<D>(),
-      this->Goal->Density.Grid().Size<D>(), { this->Map.Optimal }, this->Work.Group());
+      this->Target->Density.Grid().Size<D>(), { this->Map.Optimal }, this->Work.Group());
   }
 
-  FlowTables TablesOf(const InputDensity& density, FlowDirection direction, bool isLattice) const
+  FlowTables Tables(const InputDensity& density, FlowDirection direction, bool isLattice) const
   {
     return requireTables(chooseTables<D>(this->Map.Tables, density.Grid().Size<D>(),
       { this->Options, direction, this->Count, isLattice,
@@ -182,9 +182,9 @@ private:
 
   const SharedFlow& UpdateTables(Stages& stages)
   {
-    const FlowTables tables = this->TablesOf(
+    const FlowTables tables = this->Tables(
       this->Density, this->IsBackward ? FlowDirection::Backward : FlowDirection::Forward, true);
-    if (!this->Goal)
+    if (!this->Target)
     {
       return this->Cache.Update(this->Density, stages["tables"], tables, { this->Map.Optimal });
     }
@@ -200,33 +200,33 @@ private:
       }
     };
     const SharedFlow& shared =
-      update(this->Cache, this->Density, this->Goal->SourceName, tables, stages["tables"]);
+      update(this->Cache, this->Density, this->Target->SourceName, tables, stages["tables"]);
     this->Cache.ForgetMaps(); // to the uniform measure
-    update(this->Goal->Cache.Tables, this->Goal->Density, this->Goal->Name,
-      this->TablesOf(this->Goal->Density, FlowDirection::Forward, false), stages["target tables"]);
+    update(this->Target->Cache.Tables, this->Target->Density, this->Target->Name,
+      this->Tables(this->Target->Density, FlowDirection::Forward, false), stages["target tables"]);
     return shared;
   }
 
   TransportPlan<D> Plan(Progress& progress)
   {
-    return this->Goal
-      ? this->PlanToGoal(progress)
+    return this->Target
+      ? this->PlanToTarget(progress)
       : this->Cache.template Plan<D>({ this->Map.Optimal }, this->Options, this->Density, progress);
   }
 
-  TransportPlan<D> PlanToGoal(Progress& progress)
+  TransportPlan<D> PlanToTarget(Progress& progress)
   {
     const OptimalSetting& setting = this->Map.Optimal;
-    TargetCache& kept = this->Goal->Cache;
+    TargetCache& kept = this->Target->Cache;
     PlanEnd<D> source =
-      planEnd<D>(PlanEnd<D>::In(this->Goal->Box, this->Density.Grid()), this->Density);
-    PlanEnd<D> target =
-      planEnd<D>(PlanEnd<D>::In(this->Goal->Box, this->Goal->Density.Grid()), this->Goal->Density);
+      planEnd<D>(PlanEnd<D>::In(this->Target->Box, this->Density.Grid()), this->Density);
+    PlanEnd<D> target = planEnd<D>(
+      PlanEnd<D>::In(this->Target->Box, this->Target->Density.Grid()), this->Target->Density);
     source.Flow = this->Cache.template Flow<D>();
     target.Flow = kept.Tables.Flow<D>();
     PlanOptions options = planOptions(setting, this->Options);
     options.Optimal.LeastIterations = leastIterations(setting.IsOptimal);
-    const MemoryPlan memory = this->GoalMemory();
+    const MemoryPlan memory = this->MemoryForTarget();
     Stages stages(progress, { { "map", 9 }, { "check", 1 } });
     typename TransportPlan<D>::Map map;
     if (setting.NeedsMap())
@@ -238,7 +238,7 @@ private:
       };
       map = kept.Map.Get<typename TransportPlan<D>::Map::element_type>(
         identityOf(this->Cache.Identity(), kept.Tables.Identity(), this->Density.Grid(),
-          *this->Goal, setting),
+          *this->Target, setting),
         this->Work.Group(), stages["map"], Sharing::Process, solve);
     }
     else
@@ -249,12 +249,12 @@ private:
       memory, [&]() { return TransportPlan<D>(source, target, options, stages["check"], map); });
   }
 
-  // With a goal, reports both flows.
+  // With a target, reports both flows.
   std::vector<FlowReport> MoveSamples(
     const TransportPlan<D>& plan, MapField<D>& field, Progress& progress) const
   {
     const auto seeds = FlowSeeds<D>::Lattice(this->Lattice, field.Parts());
-    if (!this->Goal)
+    if (!this->Target)
     {
       return plan.Move(this->Map.Backward ? FlowDirection::Backward : FlowDirection::Forward, seeds,
         field.Positions(), progress);
@@ -288,12 +288,12 @@ private:
     // Whole tables may have been made by another filter: these values are read piece by piece.
     this->Density.Prepare(FlowTables::Tiled, stages["reading"]);
     std::optional<MapTarget<D>> target;
-    if (this->Goal)
+    if (this->Target)
     {
-      InputDensity& density = this->Goal->Density;
+      InputDensity& density = this->Target->Density;
       density.Prepare(FlowTables::Tiled, stages["reading"]);
       target.emplace(MapTarget<D>{ density.Grid(),
-        { density.Source<D>(), this->Goal->Cache.Tables.template Flow<D>()->Total() } });
+        { density.Source<D>(), this->Target->Cache.Tables.template Flow<D>()->Total() } });
     }
     return field.Write(flow, this->IsBackward ? FlowDirection::Backward : FlowDirection::Forward,
       this->Density.Source<D>(), stages["write"], output, target ? &*target : nullptr);
@@ -301,7 +301,7 @@ private:
 
   const TransportMap& Map;
   InputDensity& Density;
-  MapGoal* const Goal;
+  TargetDensity* const Target;
   const ImageGrid& Samples;
   Extent Wanted; // VTK takes no constant one
   FlowCache& Cache;
@@ -315,17 +315,17 @@ private:
 };
 
 template <int D>
-TransportMap::Report makeMap(const TransportMap& map, InputDensity& density, MapGoal* goal,
+TransportMap::Report makeMap(const TransportMap& map, InputDensity& density, TargetDensity* target,
   const ImageGrid& samples, const Extent& wanted, FlowCache& cache, Progress& progress,
   vtkImageData* output)
 {
-  return MapMaker<D>(map, density, goal, samples, wanted, cache, progress).Make(output);
+  return MapMaker<D>(map, density, target, samples, wanted, cache, progress).Make(output);
 }
 
 } // namespace
 
-MapGoal::MapGoal(const InputDensity& source, const std::string& sourceName, InputDensity& target,
-  const std::string& targetName, TargetCache& cache)
+TargetDensity::TargetDensity(const InputDensity& source, const std::string& sourceName,
+  InputDensity& target, const std::string& targetName, TargetCache& cache)
   : Density(target)
   , SourceName(sourceName)
   , Name(targetName)
@@ -339,14 +339,14 @@ ImageGrid TransportMap::SampleGrid(const InputDensity& density) const
   return gridWithValues(density.Grid(), this->SampleDimensions.data(), "SampleDimensions");
 }
 
-TransportMap::Report TransportMap::Run(InputDensity& density, MapGoal* goal, const Extent& wanted,
-  FlowCache& cache, Progress& progress, vtkImageData* output) const
+TransportMap::Report TransportMap::Run(InputDensity& density, TargetDensity* target,
+  const Extent& wanted, FlowCache& cache, Progress& progress, vtkImageData* output) const
 {
   const ImageGrid samples = this->SampleGrid(density);
   const Extent part = intersectionOf(wanted, samples.Extent());
   passArrays(density, samples, part, output);
   return dispatchDimension(samples.Dimension(), makeMap<1>, makeMap<2>, makeMap<3>)(
-    *this, density, goal, samples, part, cache, progress, output);
+    *this, density, target, samples, part, cache, progress, output);
 }
 
 } // namespace RectifiedTransport::Bridge

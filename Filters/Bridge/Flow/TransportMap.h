@@ -18,10 +18,10 @@ struct TargetCache
 };
 
 // The density that a map leads to from another one.
-struct MapGoal
+struct TargetDensity
 {
   // Throws Failure for grids of different axes, planes or directions.
-  MapGoal(const InputDensity& source, const std::string& sourceName, InputDensity& target,
+  TargetDensity(const InputDensity& source, const std::string& sourceName, InputDensity& target,
     const std::string& targetName, TargetCache& cache);
 
   InputDensity& Density;
@@ -37,7 +37,7 @@ struct TransportMap
   FlowOptions Flow;
   TableSetting Tables;
   OptimalSetting Optimal;
-  bool Backward;                       // to the uniform measure; has no effect with a goal
+  bool Backward;                       // to the uniform measure; has no effect with a target
   bool EqualizeAreas;                  // only for Backward
   std::array<int, 3> SampleDimensions; // 0 keeps the number of the density's values
 
@@ -45,7 +45,7 @@ struct TransportMap
   {
     ImageGrid Grid; // the grid of all samples
     double Samples;
-    std::vector<FlowReport> Flows; // with a goal that of the source, then that of the target
+    std::vector<FlowReport> Flows; // with a target that of the source, then that of the target
     TransportReport Transport;
     std::int64_t MovedToMass; // from empty cells of the density that the map leads to
     std::int64_t Folded;
@@ -58,9 +58,9 @@ struct TransportMap
 
   // Writes the map's fields, sampled on a grid on the density's domain, into an image, which gets
   // this grid. If it is the density's grid, the image also gets the arrays of the input. Each rank
-  // gets the part of the grid in the extent that it wants. `goal` may be nullptr. Collective.
+  // gets the part of the grid in the extent that it wants. `target` may be nullptr. Collective.
   // Throws Failure and Cancelled.
-  Report Run(InputDensity& density, MapGoal* goal, const std::array<int, 6>& wanted,
+  Report Run(InputDensity& density, TargetDensity* target, const std::array<int, 6>& wanted,
     FlowCache& cache, Progress& progress, vtkImageData* output) const;
 };
 

@@ -2,7 +2,7 @@
 #include "Bridge/Plan/FlowCache.h"
 
 #include "Bridge/Run/Memory.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
@@ -40,7 +40,7 @@ const SharedFlow& FlowCache::Update(
   InputDensity& density, Progress& progress, FlowTables tables, const OptimalNeeds& needs)
 {
   // Nobody else may own what is kept here while other tables take its memory.
-  if (!this->Tables.IsEmpty() && this->Tables.Kept<SharedFlow>()->Tables() != tables)
+  if (!this->Tables.IsEmpty() && this->Tables.Cached<SharedFlow>()->Tables() != tables)
   {
     this->Release();
   }
@@ -58,7 +58,7 @@ const SharedFlow& FlowCache::Update(
   flow->Attach(density, stages["tables"]);
   if (!isKnown)
   {
-    density.TellUnusual(flow->Unusual(), stages["tables"]);
+    density.ReportSuspect(flow->Suspect(), stages["tables"]);
   }
   return *flow;
 }

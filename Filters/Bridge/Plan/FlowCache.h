@@ -34,7 +34,7 @@ public:
   template <int D>
   std::shared_ptr<const RectifiedFlow<D>> Flow() const
   {
-    const auto shared = this->Tables.Kept<const SharedFlow>();
+    const auto shared = this->Tables.Cached<const SharedFlow>();
     return { shared, &shared->template Flow<D>() };
   }
   const DataIdentity& Identity() const { return this->Tables.Identity(); }

@@ -5,7 +5,7 @@
 
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Parallel/Ranks.h"
 #include "Core/Plan/TransportPlan.h"
 

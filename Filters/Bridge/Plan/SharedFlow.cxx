@@ -2,7 +2,7 @@
 #include "Bridge/Plan/SharedFlow.h"
 
 #include "Bridge/Run/Memory.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Parallel/Stages.h"
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace RectifiedTransport::Bridge
 // infinite one, has no flow.
 template <int D>
 SharedFlow::SharedFlow(RectifiedFlow<D> flow, FlowTables tables, const InputDensity& density)
-  : Kept(std::move(flow))
+  : Flows(std::move(flow))
   , Kind(tables)
   , Mass(this->Flow<D>().Total() * density.Grid().CellMeasure())
 {
@@ -28,7 +28,7 @@ SharedFlow::SharedFlow(RectifiedFlow<D> flow, FlowTables tables, const InputDens
     found.Total = this->Mass;
     density.ThrowInvalid(found);
   }
-  this->Values = density.Unusual();
+  this->Values = density.Suspect();
   this->Values.Found = this->Flow<D>().Summary();
   this->Built.Modified();
 }
@@ -41,7 +41,7 @@ std::shared_ptr<SharedFlow> SharedFlow::Make(InputDensity& density, FlowTables t
   std::optional<RectifiedFlow<D>> old;
   if (previous && tables == FlowTables::Whole && previous->HasFlow<D>())
   {
-    old = std::move(*std::get_if<RectifiedFlow<D>>(&previous->Kept));
+    old = std::move(*std::get_if<RectifiedFlow<D>>(&previous->Flows));
   }
   previous.reset();
   Stages stages(progress, { { "reading", 1 }, { "tables", 9 } });
@@ -76,7 +76,7 @@ void SharedFlow::Attach(InputDensity& density, Progress& progress)
     density.Prepare(this->Kind, progress);
     const auto set = [&](auto dimension) {
       constexpr int D = decltype(dimension)::value;
-      if (auto* flow = std::get_if<RectifiedFlow<D>>(&this->Kept))
+      if (auto* flow = std::get_if<RectifiedFlow<D>>(&this->Flows))
       {
         flow->SetDensity(density.Source<D>());
       }

@@ -30,16 +30,16 @@ public:
   template <int D>
   const RectifiedFlow<D>& Flow() const
   {
-    return std::get<RectifiedFlow<D>>(this->Kept);
+    return std::get<RectifiedFlow<D>>(this->Flows);
   }
   template <int D>
   bool HasFlow() const
   {
-    return std::holds_alternative<RectifiedFlow<D>>(this->Kept);
+    return std::holds_alternative<RectifiedFlow<D>>(this->Flows);
   }
   // Density times cell measure, summed.
   double TotalMass() const { return this->Mass; }
-  const UnusualValues& Unusual() const { return this->Values; }
+  const SuspectValues& Suspect() const { return this->Values; }
   FlowTables Tables() const { return this->Kind; }
   vtkMTimeType BuildTime() const { return this->Built.GetMTime(); }
 
@@ -47,10 +47,10 @@ public:
   void Attach(InputDensity& density, Progress& progress);
 
 private:
-  std::variant<std::monostate, RectifiedFlow<1>, RectifiedFlow<2>, RectifiedFlow<3>> Kept;
+  std::variant<std::monostate, RectifiedFlow<1>, RectifiedFlow<2>, RectifiedFlow<3>> Flows;
   FlowTables Kind;
   double Mass;
-  UnusualValues Values;
+  SuspectValues Values;
   vtkTimeStamp Built;
 };
 

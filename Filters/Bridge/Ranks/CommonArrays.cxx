@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/CommonArrays.h"
 
-#include "Bridge/Data/CopiedTuples.h"
+#include "Bridge/Data/TupleCopy.h"
 #include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Parallel/RankExchange.h"
 

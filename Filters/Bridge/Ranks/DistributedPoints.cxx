@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/DistributedPoints.h"
 
-#include "Bridge/Data/CopiedTuples.h"
 #include "Bridge/Data/GhostFlags.h"
-#include "Bridge/Ranks/SameOnRanks.h"
-#include "Bridge/Ranks/ShortArrays.h"
+#include "Bridge/Data/TupleCopy.h"
+#include "Bridge/Ranks/RankConsistency.h"
+#include "Bridge/Ranks/TruncatedArrays.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Geometry/Distributed/RepeatedPoints.h"
+#include "Core/Geometry/Distributed/DuplicatePoints.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkArrayDispatch.h"
@@ -76,7 +76,7 @@ std::vector<unsigned char> repeatedIn(
   vtkDataArray* ids = own->GetPointData()->GetGlobalIds();
   const bool isWhole = ids && ids->GetNumberOfTuples() >= own->GetNumberOfPoints();
   ids = onAllRanks(ranks, isWhole || counted.Count() == 0) ? ids : nullptr;
-  return repeatedPoints(
+  return duplicatePoints(
     counted.Count(),
     [&](std::int64_t i) { return identityOf(own, static_cast<vtkIdType>(counted.Point(i)), ids); },
     ranks);
@@ -176,7 +176,7 @@ vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& rank
   {
     return set;
   }
-  const ShortArrays tooShort(set);
+  const TruncatedArrays tooShort(set);
   const vtkSmartPointer<vtkPointSet> whole = tooShort.RemovedFrom(set.Get());
   vtkNew<vtkIdList> kept;
   kept->SetNumberOfIds(count);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/GatheredData.h"
 
-#include "Bridge/Data/CopiedTuples.h"
 #include "Bridge/Data/GhostFlags.h"
+#include "Bridge/Data/TupleCopy.h"
 #include "Bridge/Ranks/DataSetBytes.h"
 #include "Bridge/Ranks/DistributedPoints.h"
-#include "Bridge/Ranks/ShortArrays.h"
+#include "Bridge/Ranks/TruncatedArrays.h"
 #include "Bridge/Run/SampledFingerprint.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
@@ -53,7 +53,7 @@ bool isFirst(const std::vector<Keys>& all, std::size_t rank, const Key& key)
 
 void append(const DataPart& part, Bytes& to)
 {
-  const ShortArrays tooShort(part.Data);
+  const TruncatedArrays tooShort(part.Data);
   const std::string text = tooShort.Text();
   const Bytes data = bytesOfDataSet(tooShort.RemovedFrom(part.Data.Get()));
   const std::uint64_t lengths[3] = { part.Name.size(), text.size(), data.size() };
@@ -75,7 +75,7 @@ std::vector<DataPart> partsFrom(const Bytes& bytes)
     DataPart part;
     part.Name.assign(at, at + lengths[0]);
     at += lengths[0];
-    const ShortArrays tooShort = ShortArrays(std::string(at, at + lengths[1]));
+    const TruncatedArrays tooShort = TruncatedArrays(std::string(at, at + lengths[1]));
     at += lengths[1];
     part.Data = dataSetOfBytes(at, lengths[2]);
     tooShort.AddEmptyTo(part.Data);
@@ -264,7 +264,7 @@ vtkSmartPointer<vtkPointSet> withoutGhostCells(vtkPointSet* set)
   {
     return set;
   }
-  const ShortArrays tooShort(set);
+  const TruncatedArrays tooShort(set);
   const auto copy = vtkSmartPointer<vtkPointSet>::Take(set->NewInstance());
   copy->ShallowCopy(tooShort.RemovedFrom(set));
   if (auto* surface = vtkPolyData::SafeDownCast(copy))
@@ -347,10 +347,10 @@ vtkSmartPointer<vtkPointSet> joinParts(std::vector<DataPart> parts, PointSetKind
   {
     return vtkPointSet::SafeDownCast(parts.front().Data);
   }
-  ShortArrays tooShort;
+  TruncatedArrays tooShort;
   for (const DataPart& part : parts)
   {
-    tooShort.Add(ShortArrays(part.Data));
+    tooShort.Add(TruncatedArrays(part.Data));
   }
   for (DataPart& part : parts)
   {

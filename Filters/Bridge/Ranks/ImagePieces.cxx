@@ -2,7 +2,7 @@
 #include "Bridge/Ranks/ImagePieces.h"
 
 #include "Bridge/Data/ImageGrids.h"
-#include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Ranks/RankConsistency.h"
 #include "Core/Geometry/Distributed/BoxExchange.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"

@@ -4,7 +4,7 @@
 #define RectifiedTransport_ImagePieces_h
 
 #include "Bridge/Ranks/CommonArrays.h"
-#include "Bridge/Ranks/ShortArrays.h"
+#include "Bridge/Ranks/TruncatedArrays.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/Distributed/ImagePiece.h"
 #include "Core/Geometry/Distributed/PlaceOwners.h"
@@ -57,7 +57,7 @@ private:
 
   const Ranks& Processes;
   const vtkSmartPointer<vtkImageData> Own;
-  ShortArrays TooShort; // on any rank
+  TruncatedArrays TooShort; // on any rank
   ArrayKinds Arrays;
   JoinedPieces Joined;
 };

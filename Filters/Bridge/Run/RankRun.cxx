@@ -2,7 +2,7 @@
 #include "Bridge/Run/RankRun.h"
 
 #include "Bridge/Run/MpiController.h"
-#include "Bridge/Run/RankMeeting.h"
+#include "Bridge/Run/RankBarrier.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/Context.h"
 
@@ -273,7 +273,7 @@ std::vector<Bytes> MpiRun::Transfer(
 std::unique_ptr<RankRun> meet(
   const std::string& filter, bool withData, std::chrono::duration<double> longest)
 {
-  meetRanks(filter, withData, longest);
+  waitForRanks(filter, withData, longest);
   return std::make_unique<MpiRun>(mpiController());
 }
 

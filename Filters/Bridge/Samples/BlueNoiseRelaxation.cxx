@@ -2,8 +2,8 @@
 #include "Bridge/Samples/BlueNoiseRelaxation.h"
 
 #include "Bridge/Data/SeedInput.h"
+#include "Bridge/Plan/DensityQueries.h"
 #include "Bridge/Plan/FlowCosts.h"
-#include "Bridge/Plan/PlainDensity.h"
 #include "Core/Messages/Failure.h"
 
 #include "vtkDoubleArray.h"

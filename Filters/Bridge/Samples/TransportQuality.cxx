@@ -5,7 +5,7 @@
 #include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Data/PointInput.h"
 #include "Bridge/Plan/FlowCosts.h"
-#include "Bridge/Run/NumbersOfText.h"
+#include "Bridge/Run/TextToNumbers.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Quality/GridBlocks.h"
@@ -39,7 +39,7 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 vtkSmartPointer<vtkDataArray> findArray(vtkPointSet* particles, const char* name, int components)
 {
   vtkAbstractArray* found = particles->GetPointData()->GetAbstractArray(name);
-  const NumbersOfText numbers = numbersOf(found);
+  const TextToNumbers numbers = parseNumbers(found);
   const vtkSmartPointer<vtkDataArray>& array = numbers.Array;
   if (found && (!array || array->GetNumberOfComponents() != components))
   {

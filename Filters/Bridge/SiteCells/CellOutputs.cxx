@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/SiteCells/CellOutputs.h"
 
-#include "Bridge/Data/CopiedTuples.h"
+#include "Bridge/Data/TupleCopy.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Progress.h"

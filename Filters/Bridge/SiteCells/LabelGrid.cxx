@@ -8,7 +8,7 @@
 #include "Bridge/Data/PointInput.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 

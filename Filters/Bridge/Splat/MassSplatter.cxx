@@ -7,11 +7,11 @@
 #include "Bridge/Ranks/CommonArrays.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Ranks/ImagePieces.h"
-#include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Ranks/RankConsistency.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/DistributedSplat.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Geometry/Distributed/BoxExchange.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankOrder.h"
@@ -90,7 +90,7 @@ double inOrder(
   const std::int64_t count = points.Counted().Count();
   const RankOrder order(count, points.Keys(), PointMasses::Chunk, ranks, progress);
   const std::vector<double> share =
-    order.Bring([=](std::int64_t i) { return masses ? masses[i] : 1.0; });
+    order.Redistribute([=](std::int64_t i) { return masses ? masses[i] : 1.0; });
   const double total = sumChunks(share.data(), order.Count(), PointMasses::Chunk, ranks);
   if (!std::isfinite(total))
   {

@@ -50,7 +50,7 @@ public:
   // Identifies what is kept; hashed.
   const DataIdentity& Identity() const { return this->Of; }
   template <class T>
-  std::shared_ptr<T> Kept() const
+  std::shared_ptr<T> Cached() const
   {
     return std::static_pointer_cast<T>(this->Object);
   }
@@ -70,13 +70,13 @@ public:
     // Times are local: a rank on which the last run failed may be alone in having to make it.
     if (onAllRanks(ranks, this->Holds(of)))
     {
-      return this->Kept<T>();
+      return this->Cached<T>();
     }
     of.Hash(progress);
     if (onAllRanks(ranks, this->HoldsContent(of)))
     {
       this->Of = std::move(of);
-      return this->Kept<T>();
+      return this->Cached<T>();
     }
     const bool isShared = sharing == Sharing::Process && of.HasHash();
     auto found = isShared ? Store::find(typeid(T), of) : nullptr;
@@ -84,7 +84,7 @@ public:
     {
       this->Object = std::move(found);
       this->Of = std::move(of);
-      return this->Kept<T>();
+      return this->Cached<T>();
     }
     found.reset();
     std::shared_ptr<void> previous = std::move(this->Object);

@@ -177,7 +177,7 @@ auto withFlowMemory(std::int64_t points, int resolution, const Map& map)
 
 // Which point of the input each point is, and which component each cell; -1 for cells that are no
 // triangles with area.
-void attachOrigins(const OpenedSurface& surface, vtkIdType firstCell, vtkPolyData* output)
+void attachOrigins(const CutOpenSurface& surface, vtkIdType firstCell, vtkPolyData* output)
 {
   const vtkIdType points = output->GetNumberOfPoints();
   auto origins = newArray<vtkIdTypeArray>("PointIds", 1, points);
@@ -267,7 +267,7 @@ ParameterizationReport AreaPreservingParameterization::MapOpened(
   TriangleInput& read, Progress& progress, vtkPolyData* output) const
 {
   Stages stages(progress, { { "seams", 40 }, { "map", 45 }, { "distortion", 3 }, { "output", 2 } });
-  OpenedSurface surface = read.Opened(stages["seams"]);
+  CutOpenSurface surface = read.Opened(stages["seams"]);
   const CutSurface& cut = surface.Cut();
   const CutSurfaceMap map = withFlowMemory(cut.NumberOfPoints(), this->Resolution, [&]() {
     return mapCutSurface(cut, { this->Resolution, this->Polish }, stages["map"]);
@@ -286,7 +286,7 @@ ParameterizationReport AreaPreservingParameterization::MapOpened(
     stages["distortion"]);
   distortions.Repeat(cut.Repeated(), read.FirstCell());
   const MapDistortion figures = measureDistortion(triangles, scaled, stages["distortion"]);
-  surface.PlaceFlatTriangles(map.Positions);
+  surface.PlaceDegenerate(map.Positions);
   read.CopyOpened(surface, stages["output"], output);
   distortions.Attach(output->GetCellData());
   attachOrigins(surface, read.FirstCell(), output);

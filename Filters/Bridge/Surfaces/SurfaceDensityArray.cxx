@@ -5,7 +5,7 @@
 #include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Run/NumbersOfText.h"
+#include "Bridge/Run/TextToNumbers.h"
 #include "Bridge/Triangles/TriangleInput.h"
 
 #include "vtkCellData.h"
@@ -34,7 +34,7 @@ SurfaceDensityArray::SurfaceDensityArray(
   vtkPolyData* surface, vtkAbstractArray* found, bool onPoints, const std::string& name)
   : OnPoints(onPoints)
 {
-  const NumbersOfText numbers = numbersOf(found);
+  const TextToNumbers numbers = parseNumbers(found);
   this->Values = numbers.Array;
   if (!this->Values)
   {
@@ -49,7 +49,7 @@ SurfaceDensityArray::SurfaceDensityArray(
 }
 
 SurfaceMasses SurfaceDensityArray::MassesOf(
-  const TriangleInput& input, const PlacedTriangles& surface, Progress& progress) const
+  const TriangleInput& input, const TriangleDomain& surface, Progress& progress) const
 {
   vtkPolyData* data = input.Input();
   const unsigned char* ghosts = ghostFlags(data, vtkDataObject::CELL, "input surface");

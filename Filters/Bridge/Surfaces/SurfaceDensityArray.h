@@ -34,7 +34,7 @@ public:
   // The masses of triangles that were made of an input's. Throws Failure and Cancelled, as
   // Core's SurfaceMasses does.
   SurfaceMasses MassesOf(
-    const TriangleInput& input, const PlacedTriangles& surface, Progress& progress) const;
+    const TriangleInput& input, const TriangleDomain& surface, Progress& progress) const;
 
 private:
   vtkSmartPointer<vtkDataArray> Values; // nullptr for 1

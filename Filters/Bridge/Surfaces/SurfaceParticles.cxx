@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Surfaces/SurfaceParticles.h"
 
+#include "Bridge/Data/ArraySampling.h"
 #include "Bridge/Data/Cells/ParticleCells.h"
-#include "Bridge/Data/SampledArrays.h"
 #include "Bridge/Run/CostModel.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
@@ -46,7 +46,7 @@ Eigen::Vector3d normalOf(const TriangleSurface& surface, std::int64_t triangle)
 vtkSmartPointer<vtkDoubleArray> writeParticles(
   const SurfacePlaces& on, double totalMass, Progress& progress, vtkPolyData* output)
 {
-  const PlacedTriangles& surface = on.Surface;
+  const TriangleDomain& surface = on.Surface;
   const LargeBuffer<PlaceOnTriangle>& places = on.Places;
   const std::int64_t count = places.size();
   auto points = newArray<vtkDoubleArray>("Points", 3, count);
@@ -85,19 +85,19 @@ vtkSmartPointer<vtkDoubleArray> writeParticles(
   return points;
 }
 
-class PlacesOnSurface : public SampledPlaces
+class SurfaceProbe : public ProbeLocations
 {
 public:
-  explicit PlacesOnSurface(const SurfacePlaces& on)
+  explicit SurfaceProbe(const SurfacePlaces& on)
     : On(on)
   {
   }
 
   std::int64_t Count() const override { return this->On.Places.size(); }
-  SampledPlace Find(std::int64_t place) const override
+  ProbeLocation Find(std::int64_t place) const override
   {
     const PlaceOnTriangle& on = this->On.Places.data()[place];
-    SampledPlace found{};
+    ProbeLocation found{};
     found.Count = 3;
     const PointWeights in = this->On.Surface.InGiven(on);
     std::copy_n(in.Points.data(), 3, found.Points);
@@ -120,7 +120,7 @@ void writeSurfaceParticles(
   const vtkSmartPointer<vtkDoubleArray> points =
     writeParticles(on, totalMass, stages["points"], output);
   setParticles(output, points, 1, stages["cells"]);
-  sampleArrays({ { input }, "input surface", true }, PlacesOnSurface(on), stages["arrays"],
+  sampleArrays({ { input }, "input surface", true }, SurfaceProbe(on), stages["arrays"],
     output->GetPointData());
   addFieldValue(output, "TotalMass", totalMass);
 }

@@ -28,7 +28,7 @@ struct SurfacePlaces
 
   const SurfaceInput& Input;
   const TriangleInput& Triangles; // made from the input's surface
-  const PlacedTriangles& Surface;
+  const TriangleDomain& Surface;
   const LargeBuffer<PlaceOnTriangle>& Places;
 };
 

@@ -74,7 +74,7 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
   requireMemory({ particles, bytes });
 
   TriangleInput read(input, "it must be a surface", stages["input"]);
-  const WholeTriangles surface = read.Whole(stages["triangles"]);
+  const AllTriangles surface = read.Whole(stages["triangles"]);
   options.Rounding = surface.Rounding();
   const SurfaceMasses masses = density.MassesOf(read, surface, stages["masses"]);
   const SurfaceDensityValues relative = masses.Density();

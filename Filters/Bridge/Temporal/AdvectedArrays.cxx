@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Temporal/AdvectedArrays.h"
 
+#include "Bridge/Data/ArraySampling.h"
 #include "Bridge/Data/ImageGrids.h"
-#include "Bridge/Data/SampledArrays.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Series/AdvectedMeans.h"
@@ -155,7 +155,7 @@ void AdvectedArrays::MakeOf(int owner, const AdvectedImage& first, const Advecte
 
 // Value at a place: the sum of m v over the particles that are splat there, divided by the sum of
 // m. The denominator is the same for all arrays of an association and is splat once.
-void AdvectedArrays::Write(const SeriesMoment& moment, const ImageGrid& geometry,
+void AdvectedArrays::Write(const SeriesSnapshot& moment, const ImageGrid& geometry,
   const SplatOptions& splat, const Extent& wanted, Progress& progress, vtkImageData* output) const
 {
   for (const int owner : { vtkDataObject::CELL, vtkDataObject::POINT })
@@ -186,7 +186,7 @@ void AdvectedArrays::Write(const SeriesMoment& moment, const ImageGrid& geometry
 // One component at a time, so that the scratch memory is a double a particle and one a tuple,
 // whatever the number of components. `moments` has m v of each particle, with v = (1 - s) v0 + s v1
 // at the share s of the interval.
-void AdvectedArrays::WriteOne(const Advected& advected, const SeriesMoment& moment,
+void AdvectedArrays::WriteOne(const Advected& advected, const SeriesSnapshot& moment,
   const SplatTarget& target, const TupleBox& wanted, vtkDoubleArray* mass, Progress& progress,
   vtkImageData* output) const
 {

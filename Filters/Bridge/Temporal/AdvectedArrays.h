@@ -50,7 +50,7 @@ public:
   // The names of arrays that one of the two lacks.
   const std::vector<std::string>& Missing() const { return this->Lacking; }
   // Adds the arrays on an extent of the image. Collective.
-  void Write(const SeriesMoment& moment, const ImageGrid& geometry, const SplatOptions& splat,
+  void Write(const SeriesSnapshot& moment, const ImageGrid& geometry, const SplatOptions& splat,
     const Extent& wanted, Progress& progress, vtkImageData* output) const;
 
 private:
@@ -65,7 +65,7 @@ private:
   };
   void MakeOf(int owner, const AdvectedImage& first, const AdvectedImage& second,
     const SeriesParticles& particles, const ImageGrid& geometry, Progress& progress);
-  void WriteOne(const Advected& advected, const SeriesMoment& moment, const SplatTarget& target,
+  void WriteOne(const Advected& advected, const SeriesSnapshot& moment, const SplatTarget& target,
     const TupleBox& wanted, vtkDoubleArray* mass, Progress& progress, vtkImageData* output) const;
 
   std::vector<Advected> Arrays;

@@ -60,7 +60,7 @@ vtkSmartPointer<vtkAbstractArray> copyOf(vtkAbstractArray* array)
 }
 
 template <int D>
-void find(const SeriesLabels& labels, const SeriesMoment& moment, const ImageGrid& grid,
+void find(const SeriesLabels& labels, const SeriesSnapshot& moment, const ImageGrid& grid,
   const TupleBox& wanted, const std::vector<std::vector<std::int64_t>>& equal, Progress& progress,
   const SeriesLabels::Take& take)
 {
@@ -128,7 +128,7 @@ void AdvectedLabels::Make(int owner, const std::vector<std::string>& names,
     });
 }
 
-void AdvectedLabels::Write(const SeriesMoment& moment, const ImageGrid& geometry,
+void AdvectedLabels::Write(const SeriesSnapshot& moment, const ImageGrid& geometry,
   const Extent& wanted, Progress& progress, vtkImageData* output) const
 {
   if (this->Arrays.empty())

@@ -41,7 +41,7 @@ public:
     const AdvectedImage& second, const SeriesParticles& particles);
   // Adds the arrays on an extent of the image. Collective. The same for every number of threads and
   // ranks. Throws Failure and Cancelled.
-  void Write(const SeriesMoment& moment, const ImageGrid& geometry, const Extent& wanted,
+  void Write(const SeriesSnapshot& moment, const ImageGrid& geometry, const Extent& wanted,
     Progress& progress, vtkImageData* output) const;
 
 private:

@@ -5,7 +5,7 @@
 #include "Bridge/Plan/DensityPlan.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/ParticleExchange.h"
-#include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Ranks/RankConsistency.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Series/FadingParticles.h"
@@ -60,7 +60,7 @@ std::unique_ptr<const TransportPlan<D>> solve(const StepDensity& from, const Ste
 // Makes particles of both steps that fade into each other.
 template <int D>
 SeriesParticles fade(const StepDensity& from, const StepDensity& to, const ImageGrid& box,
-  const MovingSettings& settings, Progress& progress)
+  const TrackSettings& settings, Progress& progress)
 {
   double bound = 0.0;
   std::string warning;
@@ -81,7 +81,7 @@ SeriesParticles fade(const StepDensity& from, const StepDensity& to, const Image
 }
 
 SeriesParticles makeParticles(const StepDensity& from, const StepDensity& to, const ImageGrid& box,
-  const MovingSettings& settings, Progress& progress)
+  const TrackSettings& settings, Progress& progress)
 {
   const double particles = settings.ParticlesPerCell *
     (static_cast<double>(from.Grid.NumberOfCells()) + static_cast<double>(to.Grid.NumberOfCells()));
@@ -118,7 +118,7 @@ std::string extend(SeriesTracks& tracks, const StepDensity* before, const StepDe
   return warning;
 }
 
-double massAt(const TemporalMoment& moment)
+double massAt(const TemporalInput& moment)
 {
   return (1.0 - moment.Part) * moment.First.Density->Mass +
     moment.Part * moment.Second.Density->Mass;
@@ -142,7 +142,7 @@ Extent extentOfRank(const Extent& whole, vtkInformation* announced, const Ranks&
 }
 
 vtkSmartPointer<vtkDoubleArray> velocitiesOf(
-  const SeriesParticles& particles, const TemporalMoment& moment, Progress& progress)
+  const SeriesParticles& particles, const TemporalInput& moment, Progress& progress)
 {
   auto velocities = newArray<vtkDoubleArray>("Velocity", 3, particles.Count());
   const bool areFinite = writeVelocities(
@@ -173,7 +173,7 @@ vtkSmartPointer<vtkDoubleArray> partOf(
 }
 
 template <int D>
-void writeClouds(const SeriesMoment& moment, const SplatTarget& target, double most,
+void writeClouds(const SeriesSnapshot& moment, const SplatTarget& target, double most,
   const TupleBox& wanted, double* density, Progress& progress)
 {
   const ImageGrid& grid = target.Geometry;
@@ -185,7 +185,7 @@ void writeClouds(const SeriesMoment& moment, const SplatTarget& target, double m
 }
 
 // Writes the density of particles in the wanted cells; `most`: the largest mass of the interval.
-void writeDensity(const SeriesMoment& moment, const SplatTarget& target, double most,
+void writeDensity(const SeriesSnapshot& moment, const SplatTarget& target, double most,
   const TupleBox& wanted, Progress& progress, vtkDoubleArray* density)
 {
   requireFiniteDensity(most, target, "The particles' masses", "or the cells larger");
@@ -216,7 +216,7 @@ AdvectedImage advectedImage(const TemporalStep& step, const Extent& wanted)
   return { step.Input->ImageIn(wanted), step.Density->Grid, step.Density->ArrayName };
 }
 
-std::string describeMissing(const TemporalMoment& moment, const AdvectedArrays& arrays)
+std::string describeMissing(const TemporalInput& moment, const AdvectedArrays& arrays)
 {
   std::string names;
   for (const std::string& name : arrays.Missing())
@@ -229,7 +229,7 @@ std::string describeMissing(const TemporalMoment& moment, const AdvectedArrays& 
       "; between them there is no such array (all steps should have the same arrays)";
 }
 
-std::string describeEmpty(const TemporalMoment& moment)
+std::string describeEmpty(const TemporalInput& moment)
 {
   const bool isFirst = !(moment.First.Density->Mass > 0.0);
   const bool isSecond = !(moment.Second.Density->Mass > 0.0);
@@ -243,7 +243,7 @@ std::string describeEmpty(const TemporalMoment& moment)
 
 } // namespace
 
-std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment,
+std::vector<std::string> TemporalInterpolation::Run(const TemporalInput& moment,
   const TemporalSettings& settings, Progress& progress, const TemporalOutput& output)
 {
   Stages stages(progress, { { "map", 8 }, { "particles", 1 }, { "image", 1 } });
@@ -256,7 +256,7 @@ std::vector<std::string> TemporalInterpolation::Run(const TemporalMoment& moment
   const ImageGrid& geometry = isStep ? nearest.Density->Grid : between;
   applyGrid(geometry, output.Image);
   // The particles before they go to their owners.
-  SeriesMoment now(particles, moment.Part);
+  SeriesSnapshot now(particles, moment.Part);
   const std::int64_t count = now.Count();
   const auto points = newArray<vtkDoubleArray>("Points", 3, count);
   const auto masses = newArray<vtkDoubleArray>("Mass", 1, count);
@@ -322,7 +322,7 @@ std::string TemporalInterpolation::Track(
   return warning;
 }
 
-TemporalInterpolation::Interval& TemporalInterpolation::Find(const TemporalMoment& moment,
+TemporalInterpolation::Interval& TemporalInterpolation::Find(const TemporalInput& moment,
   const TemporalSettings& settings, Progress& progress, std::vector<std::string>& warnings)
 {
   Stages stages(progress, { { "interval", 9 }, { "arrays", settings.AdvectsArrays ? 1.0 : 0.0 } });
@@ -370,7 +370,7 @@ TemporalInterpolation::Interval& TemporalInterpolation::Find(const TemporalMomen
 }
 
 TemporalInterpolation::Interval TemporalInterpolation::Make(
-  const TemporalMoment& moment, const TemporalSettings& settings, Progress& progress)
+  const TemporalInput& moment, const TemporalSettings& settings, Progress& progress)
 {
   Stages stages(progress, { { "particles", 98 }, { "velocities", 2 } });
   Interval interval;
@@ -401,7 +401,7 @@ TemporalInterpolation::Interval TemporalInterpolation::Make(
 
 // Adds what particles have besides places and masses, and gives them to their ranks.
 void TemporalInterpolation::WriteParticles(const Interval& interval, const ImageGrid& geometry,
-  const SeriesMoment& moment, Progress& progress, const TemporalOutput& output)
+  const SeriesSnapshot& moment, Progress& progress, const TemporalOutput& output)
 {
   vtkPointData* data = output.Particles->GetPointData();
   data->SetVectors(partOf(interval.Velocities, moment.First(), moment.Count()));

@@ -5,7 +5,7 @@
 #define RectifiedTransport_TemporalInterpolation_h
 
 #include "Bridge/Temporal/AdvectedArrays.h"
-#include "Bridge/Temporal/KeptSteps.h"
+#include "Bridge/Temporal/StepCache.h"
 #include "Core/Series/SeriesTracks.h"
 
 #include <list>
@@ -21,7 +21,7 @@ namespace RectifiedTransport::Bridge
 
 struct TemporalSettings
 {
-  MovingSettings Moving;
+  TrackSettings Moving;
   bool TracksParticles;
   bool AdvectsArrays;
   SplatOptions Splat;
@@ -36,7 +36,7 @@ struct TemporalStep
 };
 
 // With one step alone, First and Second are the same and Length is 0.
-struct TemporalMoment
+struct TemporalInput
 {
   TemporalStep First;
   TemporalStep Second;
@@ -57,7 +57,7 @@ class TemporalInterpolation
 public:
   // With TracksParticles: its positions must reach the second step. Returns warnings of new
   // intervals. Keeps the last two intervals.
-  std::vector<std::string> Run(const TemporalMoment& moment, const TemporalSettings& settings,
+  std::vector<std::string> Run(const TemporalInput& moment, const TemporalSettings& settings,
     Progress& progress, const TemporalOutput& output);
 
   SeriesTracks& Tracks() { return this->Tracked; }
@@ -73,7 +73,7 @@ private:
   {
     std::shared_ptr<const StepDensity> First;
     std::shared_ptr<const StepDensity> Second;
-    MovingSettings Settings;
+    TrackSettings Settings;
     double Length;
     int Ranks;
     SeriesParticles Particles;
@@ -82,11 +82,11 @@ private:
     AdvectedArrays Arrays;
   };
 
-  Interval& Find(const TemporalMoment& moment, const TemporalSettings& settings, Progress& progress,
+  Interval& Find(const TemporalInput& moment, const TemporalSettings& settings, Progress& progress,
     std::vector<std::string>& warnings);
-  Interval Make(const TemporalMoment& moment, const TemporalSettings& settings, Progress& progress);
+  Interval Make(const TemporalInput& moment, const TemporalSettings& settings, Progress& progress);
   void WriteParticles(const Interval& interval, const ImageGrid& geometry,
-    const SeriesMoment& moment, Progress& progress, const TemporalOutput& output);
+    const SeriesSnapshot& moment, Progress& progress, const TemporalOutput& output);
 
   std::list<Interval> Intervals; // the last one first
   SeriesTracks Tracked;

@@ -3,9 +3,9 @@
 
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/PolygonInput.h"
-#include "Surfaces/Mesh/Repair/RepairText.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"
+#include "Surfaces/Mesh/Repair/RepairText.h"
 #include "Surfaces/Solid/SolidPolygons.h"
 
 #include "vtkBoundingBox.h"

@@ -5,9 +5,9 @@
 
 #include "Bridge/Data/IntegerArrays.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Surfaces/Mesh/CutPolygons.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
+#include "Surfaces/Mesh/CutPolygons.h"
 
 #include "vtkCellArray.h"
 #include "vtkPolyData.h"

@@ -5,7 +5,7 @@
 #include "Bridge/Data/PointInput.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/ClosedSurface.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Geometry/Boxes/SolidGrid.h"
 #include "Core/Geometry/Distributed/TupleBoxes.h"
 #include "Core/Parallel/RankExchange.h"

@@ -2,7 +2,7 @@
 #include "Bridge/Triangles/SurfaceInput.h"
 
 #include "Bridge/Data/Cells/CellCheck.h"
-#include "Bridge/Data/CopiedTuples.h"
+#include "Bridge/Data/TupleCopy.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/PolygonInput.h"

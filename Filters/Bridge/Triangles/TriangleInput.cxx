@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Triangles/TriangleInput.h"
 
-#include "Bridge/Data/CopiedTuples.h"
 #include "Bridge/Data/GhostFlags.h"
+#include "Bridge/Data/TupleCopy.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Triangles/PolygonInput.h"
-#include "Surfaces/Mesh/Repair/TJunctions.h"
 #include "Core/Parallel/Stages.h"
+#include "Surfaces/Mesh/Repair/TJunctions.h"
 
 #include "vtkCellData.h"
 #include "vtkFieldData.h"
@@ -148,7 +148,7 @@ DiskTriangles TriangleInput::Disk(Progress& progress)
 
 // T-junctions are closed first, as the sides of an open one are boundaries, which part the surface
 // there.
-OpenedSurface TriangleInput::Opened(Progress& progress)
+CutOpenSurface TriangleInput::Opened(Progress& progress)
 {
   Stages stages(progress, { { "T-junctions", 5 }, { "seams", 95 } });
   withMemory({ "the edges of the surface's " + countOf(this->Triangles.Surface()),
@@ -161,13 +161,13 @@ OpenedSurface TriangleInput::Opened(Progress& progress)
   return withSurface({ "the seams of " + countOf(surface),
                        static_cast<double>(surface.NumberOfTriangles) * bytesOfTriangle +
                          static_cast<double>(surface.Points.size()) * bytesOfMappedPoint },
-    [&]() { return OpenedSurface(surface, options, stages["seams"]); });
+    [&]() { return CutOpenSurface(surface, options, stages["seams"]); });
 }
 
-WholeTriangles TriangleInput::Whole(Progress& progress)
+AllTriangles TriangleInput::Whole(Progress& progress)
 {
   const unsigned char* ghosts = ghostFlags(this->Surface, vtkDataObject::CELL, "input surface");
-  const WholeTriangles::IsLeftOut isGhost = [this, ghosts](std::int64_t triangle) {
+  const AllTriangles::IsLeftOut isGhost = [this, ghosts](std::int64_t triangle) {
     return (ghosts[this->CellOf(triangle)] & ghostCell) != 0;
   };
   const TriangleSurface surface = this->Triangles.Surface();
@@ -175,7 +175,7 @@ WholeTriangles TriangleInput::Whole(Progress& progress)
                        static_cast<double>(surface.NumberOfTriangles) * 80.0 +
                          static_cast<double>(surface.Points.size()) * 48.0 },
     [&]() {
-      return WholeTriangles(this->Triangles.TakePoints(), this->Triangles.TakeCorners(),
+      return AllTriangles(this->Triangles.TakePoints(), this->Triangles.TakeCorners(),
         ghosts ? isGhost : nullptr, progress);
     });
 }
@@ -225,7 +225,7 @@ vtkSmartPointer<vtkPolyData> TriangleInput::Triangulated(Progress& progress) con
 }
 
 void TriangleInput::CopyOpened(
-  const OpenedSurface& opened, Progress& progress, vtkPolyData* output) const
+  const CutOpenSurface& opened, Progress& progress, vtkPolyData* output) const
 {
   Stages stages(progress, { { "triangles", 2 }, { "opened triangles", 1 }, { "points", 2 } });
   const vtkSmartPointer<vtkPolyData> from = this->Triangulated(stages["triangles"]);

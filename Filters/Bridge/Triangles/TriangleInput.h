@@ -5,15 +5,15 @@
 #define RectifiedTransport_TriangleInput_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Surfaces/Mesh/DiskTriangles.h"
-#include "Surfaces/Mesh/Repair/RepairText.h"
-#include "Surfaces/Mesh/SurfaceTriangles.h"
-#include "Surfaces/Mesh/WholeTriangles.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
+#include "Surfaces/Mesh/AllTriangles.h"
+#include "Surfaces/Mesh/DiskTriangles.h"
+#include "Surfaces/Mesh/Repair/RepairText.h"
+#include "Surfaces/Mesh/SurfaceTriangles.h"
 #include "Surfaces/Parameterization/ConformalMap.h"
-#include "Surfaces/Seams/OpenedSurface.h"
+#include "Surfaces/Seams/CutOpenSurface.h"
 
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -59,10 +59,10 @@ public:
   // See DiskTriangles. Throws NoDiskSurface if the triangles are no disk.
   DiskTriangles Disk(Progress& progress);
   // Closes T-junctions and cuts the surface into disks.
-  OpenedSurface Opened(Progress& progress);
+  CutOpenSurface Opened(Progress& progress);
   // Ghost cells (duplicate, blanked or refined) are left out, and triangles with the places of one
   // before.
-  WholeTriangles Whole(Progress& progress);
+  AllTriangles Whole(Progress& progress);
 
   // The input itself if all polygons are triangles, and none was cut. Else its points, vertices,
   // lines and triangles, with all point and field data, and the cell data of the cells that they
@@ -72,7 +72,7 @@ public:
   LargeBuffer<std::int64_t> Corners(Progress& progress) const;
   // Makes the output the triangles of an opened surface, without the ids of points, which would no
   // longer be unique.
-  void CopyOpened(const OpenedSurface& opened, Progress& progress, vtkPolyData* output) const;
+  void CopyOpened(const CutOpenSurface& opened, Progress& progress, vtkPolyData* output) const;
 
   // A warning that counts what was changed in a disk or an opened surface, and T-junctions; empty
   // if nothing was.

@@ -6,7 +6,7 @@
 #include "Core/Cartogram/RegionValues.h"
 #include "Core/Cartogram/Sea.h"
 #include "Core/Flow/RectifiedFlow.h"
-#include "Core/Geometry/EqualPoints.h"
+#include "Core/Geometry/CoincidentPoints.h"
 #include "Core/Geometry/PointBounds.h"
 #include "Core/Parallel/Stages.h"
 
@@ -43,14 +43,14 @@ class CartogramRun
 {
 public:
   CartogramRun(RegionMap& map, const std::vector<double>& masses, const CartogramBox& box,
-    const CartogramOptions& options, FellowPoints& fellows, CartogramStart& start,
+    const CartogramOptions& options, OverlayPoints& overlays, CartogramStart& start,
     const Context& context)
     : Map(map)
     , Masses(masses)
     , Regions(static_cast<std::int32_t>(masses.size()))
     , Box(box)
     , Options(options)
-    , Fellows(fellows)
+    , Overlays(overlays)
     , Start(start)
     , Work(context)
   {
@@ -83,20 +83,20 @@ public:
     this->FillGrowth(*raster, stages["growth"]);
     // The edges are divided before the first pass, since a straight edge stays straight between its
     // end points.
-    this->Divide([this](const Point<2>& middle) { return this->Lengths().WhereItGrows(middle); },
+    this->Divide([this](const Point<2>& middle) { return this->Lengths().ExpansionAt(middle); },
       stages["edges"]);
     Rounds passes(stages["passes"], 1); // how many there are is not known
     // The flow's tolerance is refined to no less than this part of its first value.
     constexpr double finest = 1.0 / 64.0;
     double finer = 1.0;
     double stuckBefore = std::numeric_limits<double>::infinity();
-    double foretoldBefore = std::numeric_limits<double>::infinity();
+    double predictedBefore = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < this->Options.MaximumPasses; ++pass)
     {
       Stages parts(passes.Next(),
         { { "raster", pass > 0 ? 30.0 : 0.0 }, { "densities", 7 }, { "cells", 12 },
           { "edges", pass > 0 ? 3.0 : 0.0 }, { "tables", 15 }, { "points", 2 }, { "flow", 28 },
-          { "fellows", this->Fellows.empty() ? 0.0 : 3.0 } });
+          { "fellows", this->Overlays.empty() ? 0.0 : 3.0 } });
       if (pass > 0)
       {
         raster = this->RasterNow(parts["raster"]);
@@ -111,12 +111,12 @@ public:
       }
       const bool mayFollow = pass + 1 < this->Options.MaximumPasses;
       CartogramPass found;
-      found.ForetoldError = largestOf(values.Errors);
+      found.PredictedError = largestOf(values.Errors);
       const bool isCoarse =
-        mayFollow && (isTempered || (!values.Exponents.empty() && this->AreFarFromDone()));
+        mayFollow && (isTempered || (!values.Exponents.empty() && this->AreFarFromConverged()));
       FlowOptions options = this->Options.Flow;
       options.AreaTolerance = std::min(1.0, (isCoarse ? coarser : finer) * options.AreaTolerance);
-      if (this->Found.Overlap > leastOverlap && found.ForetoldError > this->Options.Tolerance)
+      if (this->Found.Overlap > leastOverlap && found.PredictedError > this->Options.Tolerance)
       {
         // Overlapping regions cannot all have their areas, so a more exact flow gains nothing.
         options.AreaTolerance = std::max(options.AreaTolerance, FlowOptions::UsualTolerance);
@@ -137,7 +137,7 @@ public:
       }
       // An error that the raster does not foretell comes from the flow, which gets a finer
       // tolerance.
-      if (!isCoarse && found.ForetoldError < 0.5 * this->Options.Tolerance)
+      if (!isCoarse && found.PredictedError < 0.5 * this->Options.Tolerance)
       {
         finer = std::max(finest, finer / coarser);
       }
@@ -149,15 +149,15 @@ public:
         (!isTempered && others <= tolerance && stuck > 0.5 * stuckBefore);
       // Overlapping regions end if the areas are what the raster foretells and do not improve by
       // half.
-      const bool isForetold = !isTempered && this->Found.Overlap > leastOverlap &&
-        found.ForetoldError > tolerance && found.ForetoldError > 0.5 * foretoldBefore &&
-        this->IsAsForetold(values);
-      if (isDone || isForetold || !mayFollow)
+      const bool isPredicted = !isTempered && this->Found.Overlap > leastOverlap &&
+        found.PredictedError > tolerance && found.PredictedError > 0.5 * predictedBefore &&
+        this->IsAsPredicted(values);
+      if (isDone || isPredicted || !mayFollow)
       {
         this->NameOutOfReach(values);
         break;
       }
-      foretoldBefore = isTempered ? foretoldBefore : found.ForetoldError;
+      predictedBefore = isTempered ? predictedBefore : found.PredictedError;
       stuckBefore = stuck > 0.0 ? stuck : std::numeric_limits<double>::infinity();
     }
     return std::move(this->Found);
@@ -179,7 +179,7 @@ private:
 
   // Returns whether the areas are those that the raster foretells for overlapping regions. They
   // cannot all be right, and another pass does not improve them.
-  bool IsAsForetold(const RegionValues& values) const
+  bool IsAsPredicted(const RegionValues& values) const
   {
     double total = 0.0;
     for (std::size_t i = 0; i < this->Masses.size(); ++i)
@@ -266,7 +266,7 @@ private:
   }
 
   // Returns whether errors are large and have fallen to less than half.
-  bool AreFarFromDone() const
+  bool AreFarFromConverged() const
   {
     constexpr double far = 10.0; // in tolerances
     const std::vector<CartogramPass>& passes = this->Found.Passes;
@@ -352,7 +352,7 @@ private:
       }
       options.NumberOfSteps = steps;
     }
-    this->MoveFellows(options, parts["fellows"]);
+    this->MoveOverlays(options, parts["fellows"]);
     this->Areas = this->Map.Areas(this->Regions);
     this->Found.Passes.push_back(pass);
     return true;
@@ -385,14 +385,14 @@ private:
   }
 
   // A point outside the box moves like the nearest point of its border, by the same displacement.
-  void MoveFellows(const FlowOptions& options, Progress& progress)
+  void MoveOverlays(const FlowOptions& options, Progress& progress)
   {
-    if (this->Fellows.empty())
+    if (this->Overlays.empty())
     {
       return;
     }
     const auto side = static_cast<double>(this->Box.Side);
-    std::vector<Point<2>> clamped = this->Fellows;
+    std::vector<Point<2>> clamped = this->Overlays;
     for (Point<2>& place : clamped)
     {
       place = { std::clamp(place[0], 0.0, side), std::clamp(place[1], 0.0, side) };
@@ -403,7 +403,7 @@ private:
     {
       for (std::size_t axis = 0; axis < 2; ++axis)
       {
-        this->Fellows[i][axis] = moved[i][axis] + (this->Fellows[i][axis] - clamped[i][axis]);
+        this->Overlays[i][axis] = moved[i][axis] + (this->Overlays[i][axis] - clamped[i][axis]);
       }
     }
   }
@@ -449,7 +449,7 @@ private:
   const std::int32_t Regions;
   const CartogramBox& Box;
   CartogramOptions Options;
-  FellowPoints& Fellows;
+  OverlayPoints& Overlays;
   CartogramStart& Start;
   Progress Work;
   std::vector<double> Areas; // areas of the regions, in cells
@@ -471,10 +471,10 @@ CartogramBox boxAround(const RegionMap& map, const CartogramOptions& options)
 }
 
 CartogramResult runCartogram(RegionMap& map, const std::vector<double>& masses,
-  const CartogramBox& box, const CartogramOptions& options, FellowPoints& fellows,
+  const CartogramBox& box, const CartogramOptions& options, OverlayPoints& overlays,
   CartogramStart& start, const Context& context)
 {
-  return CartogramRun(map, masses, box, options, fellows, start, context).Run();
+  return CartogramRun(map, masses, box, options, overlays, start, context).Run();
 }
 
 } // namespace RectifiedTransport

@@ -66,13 +66,13 @@ CartogramBox boxAround(const RegionMap& map, const CartogramOptions& options);
 
 // Points that move along, in index space. A point beyond the box moves as the nearest point of its
 // border.
-using FellowPoints = std::vector<Point<2>>;
+using OverlayPoints = std::vector<Point<2>>;
 
 struct CartogramPass
 {
   double LargestError = 0.0; // relative, of a region's share of the area
   std::int32_t Worst = 0;    // the region that has it
-  double ForetoldError = 0.0;
+  double PredictedError = 0.0;
   int NumberOfSteps = 0; // 0: Adaptive
 };
 
@@ -103,12 +103,12 @@ struct CartogramStart
 };
 
 // `map` has its points in the index space of the box, and areas above 0; `masses` of its regions
-// are above 0. The map's points are moved, the fellows, too. Runs passes until each region's error
+// are above 0. The map's points are moved, and the overlays. Runs passes until each region's error
 // is within the tolerance, until what is out of reach does not get better, or until MaximumPasses;
 // a pass that turns rings over is done again with twice as many steps, up to 4096, and left out in
 // the end. Throws InvalidDensity, std::bad_alloc and Cancelled.
 CartogramResult runCartogram(RegionMap& map, const std::vector<double>& masses,
-  const CartogramBox& box, const CartogramOptions& options, FellowPoints& fellows,
+  const CartogramBox& box, const CartogramOptions& options, OverlayPoints& overlays,
   CartogramStart& start, const Context& context = Context());
 
 // Raises masses below a share of their sum to it, or to an equal one if that is less. Returns how

@@ -23,7 +23,7 @@ struct EdgeLengths
 
   // Edges are short where regions grow: the cells have the ratio of density to mean, at least 1,
   // and lengths grow with its square root.
-  double WhereItGrows(const Point<2>& middle) const
+  double ExpansionAt(const Point<2>& middle) const
   {
     return this->Longest() / std::sqrt(std::max(1.0, this->CellsAbout(middle).second));
   }

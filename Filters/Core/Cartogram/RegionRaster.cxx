@@ -252,7 +252,7 @@ void RegionRaster::AddMixed(std::vector<CellShare>& mixed)
 }
 
 // With a set that covers the cell there is no rest, even if parts add up to less than 1.
-double restOf(std::int32_t set, const RegionRaster::Share* shares, std::int64_t count)
+double uncoveredPart(std::int32_t set, const RegionRaster::Share* shares, std::int64_t count)
 {
   double rest = set >= 0 ? 0.0 : 1.0;
   for (std::int64_t i = 0; i < count; ++i)
@@ -301,12 +301,12 @@ void RegionRaster::AddToRegions(
 }
 
 // Cells without an owner are empty or mixed; of the mixed ones only the rest counts.
-double RegionRaster::Rest() const
+double RegionRaster::UncoveredArea() const
 {
   double rest = static_cast<double>(std::count(this->Owners.begin(), this->Owners.end(), -1) -
     static_cast<std::ptrdiff_t>(this->Mixed.size()));
   this->VisitMixed([&](std::int32_t set, const Share* shares, std::int64_t count) {
-    rest += restOf(set, shares, count);
+    rest += uncoveredPart(set, shares, count);
   });
   return rest;
 }
@@ -358,7 +358,7 @@ void RegionRaster::Fill(const std::vector<double>& values, double around,
       // The densities of the set's regions count for the whole cell; otherwise the rest of the cell
       // has the density around.
       double value =
-        set >= 0 ? sums[static_cast<std::size_t>(set)] : around * restOf(set, shares, count);
+        set >= 0 ? sums[static_cast<std::size_t>(set)] : around * uncoveredPart(set, shares, count);
       for (std::int64_t k = 0; k < count; ++k)
       {
         value += shares[k].Part * values[static_cast<std::size_t>(shares[k].Region)];
@@ -456,7 +456,7 @@ double RegionRaster::MeanOnLand(const std::vector<double>& cells) const
   for (std::size_t i = 0; i < this->Mixed.size(); ++i)
   {
     const double part = 1.0 -
-      restOf(this->SetsOfMixed[i], this->Shares.data() + this->Begins[i],
+      uncoveredPart(this->SetsOfMixed[i], this->Shares.data() + this->Begins[i],
         this->Begins[i + 1] - this->Begins[i]);
     mass += part * cells[static_cast<std::size_t>(this->Mixed[i])];
     area += part;

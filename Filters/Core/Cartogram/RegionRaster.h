@@ -53,7 +53,7 @@ public:
   // All that regions cover, in cells.
   std::vector<double> Covered() const;
   // What no region covers, in cells.
-  double Rest() const;
+  double UncoveredArea() const;
   // The number of shares of all regions in mixed cells.
   std::int64_t NumberOfShares() const { return static_cast<std::int64_t>(this->Shares.size()); }
   // Calls visit(set, shares, count) for each mixed cell: a set whose regions cover it wholly, or
@@ -120,7 +120,7 @@ private:
 };
 
 // Returns the part of a cell that regions leave.
-double restOf(std::int32_t set, const RegionRaster::Share* shares, std::int64_t count);
+double uncoveredPart(std::int32_t set, const RegionRaster::Share* shares, std::int64_t count);
 
 } // namespace RectifiedTransport
 

@@ -24,8 +24,8 @@ using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
 
 struct System
 {
-  Matrix Common;            // M
-  std::vector<double> Rest; // the area, in cells, that each region shares with the rest
+  Matrix Common;                 // M
+  std::vector<double> Uncovered; // the area, in cells, that each region shares with the rest
 };
 
 // Builds M with M_ij = sum over cells of (signed part of i) * (part of j), so that (M d)_i + around
@@ -51,12 +51,12 @@ System systemOf(const RegionRaster& raster, Progress& progress)
   {
     cellsOf.push_back(static_cast<double>(raster.WholeCellsOfSet(set)));
   }
-  struct Beside // a share of a region in the cells of a set
+  struct SetShare // a share of a region in the cells of a set
   {
     double Part = 0.0;
     double Signed = 0.0;
   };
-  std::map<std::pair<std::int32_t, std::int32_t>, Beside> besides; // by set and region
+  std::map<std::pair<std::int32_t, std::int32_t>, SetShare> setShares; // by set and region
   // Along a border, cells mostly have the same regions as the previous cell, so pointers to their
   // entries are kept.
   std::vector<std::int32_t> regionsBefore;
@@ -79,21 +79,21 @@ System systemOf(const RegionRaster& raster, Progress& progress)
       }
     }
     // The part of the cell with the density around the regions.
-    const double rest = restOf(set, shares, count);
+    const double rest = uncoveredPart(set, shares, count);
     double* const* ofCell = entriesBefore.data();
     for (std::int64_t i = 0; i < count; ++i)
     {
       progress.Add(count);
-      system.Rest[static_cast<std::size_t>(shares[i].Region)] += shares[i].Signed * rest;
+      system.Uncovered[static_cast<std::size_t>(shares[i].Region)] += shares[i].Signed * rest;
       for (std::int64_t k = 0; k < count; ++k)
       {
         **ofCell++ += shares[i].Signed * shares[k].Part;
       }
       if (set >= 0)
       {
-        Beside& beside = besides[{ set, shares[i].Region }];
-        beside.Part += shares[i].Part;
-        beside.Signed += shares[i].Signed;
+        SetShare& setShare = setShares[{ set, shares[i].Region }];
+        setShare.Part += shares[i].Part;
+        setShare.Signed += shares[i].Signed;
       }
     }
     if (set >= 0)
@@ -110,11 +110,11 @@ System systemOf(const RegionRaster& raster, Progress& progress)
       sets.VisitRegions(set, [&](std::int32_t column) { entry(row, column) += cells; });
     });
   }
-  for (const auto& [place, beside] : besides)
+  for (const auto& [place, setShare] : setShares)
   {
     // A share beside a set meets each region of the set, whose part is 1.
     const std::int32_t region = place.second;
-    sets.VisitRegions(place.first, [&, &share = beside](std::int32_t other) {
+    sets.VisitRegions(place.first, [&, &share = setShare](std::int32_t other) {
       entry(other, region) += share.Part;
       entry(region, other) += share.Signed;
     });
@@ -159,7 +159,7 @@ public:
       [&](std::int32_t number, const RegionRaster::Share* shares, std::int64_t count) {
         const std::ptrdiff_t set = number >= 0 ? number - sets.First() : -1;
         double density = set >= 0 ? this->Sets[static_cast<std::size_t>(set)].Density
-                                  : targets.Around * restOf(number, shares, count);
+                                  : targets.Around * uncoveredPart(number, shares, count);
         for (std::int64_t i = 0; i < count; ++i)
         {
           const auto region = static_cast<std::size_t>(shares[i].Region);
@@ -319,7 +319,7 @@ double solveForDensities(const RegionRaster& raster, const RegionTargets& target
   const System system = systemOf(raster, progress);
   const auto regions = static_cast<std::size_t>(raster.Regions());
   const auto massOf = [&](std::size_t region) {
-    double mass = targets.Around * system.Rest[region];
+    double mass = targets.Around * system.Uncovered[region];
     for (Matrix::InnerIterator entry(system.Common, static_cast<Eigen::Index>(region)); entry;
          ++entry)
     {

@@ -48,7 +48,7 @@ Sea::Sea(const CartogramOptions& options, const CartogramBox& box, const RegionR
   }
   // The area of the box in cells, and the part that regions cover.
   const double all = static_cast<double>(box.Side) * static_cast<double>(box.Side);
-  const double rest = raster.Rest();
+  const double rest = raster.UncoveredArea();
   const double covered = all - rest;
   this->Land = sumAll(areas);
   this->Mass = rest * densityBefore(options, box, this->Mean, masses, areas);
@@ -61,7 +61,7 @@ double Sea::DensityOf(const RegionRaster& raster, const std::vector<double>& mas
   const std::vector<double>& areas, bool takesRoots) const
 {
   const double mean = sumAll(masses) / sumAll(areas);
-  const double rest = this->Options.Sea == SeaDensity::Mean ? 0.0 : raster.Rest();
+  const double rest = this->Options.Sea == SeaDensity::Mean ? 0.0 : raster.UncoveredArea();
   if (!(rest > 0.0))
   {
     return mean;

@@ -40,7 +40,7 @@ std::shared_ptr<Device> findOrOpen(const std::string& name, int number)
 
 } // namespace
 
-DeviceUse KeptDevice::Begin(const std::string& name, int number)
+DeviceUse CachedDevice::Begin(const std::string& name, int number)
 {
   if (this->Opened && name == this->Name && number == this->Number && !isLost(*this->Opened))
   {

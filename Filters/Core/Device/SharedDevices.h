@@ -14,7 +14,7 @@ namespace RectifiedTransport
 
 // What a filter keeps of its device between runs: to open one takes about a second, and what the
 // device keeps goes with its last owner.
-class KeptDevice
+class CachedDevice
 {
 public:
   // The device for a run, by a name and a number as those of openDevice (DeviceList.h): the one of

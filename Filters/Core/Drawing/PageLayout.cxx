@@ -13,7 +13,7 @@ namespace
 {
 
 // Leaves out the shortest axis, or the last one of those that are equally short.
-std::array<Eigen::Index, 2> longestAxes(const DrawnBounds& bounds)
+std::array<Eigen::Index, 2> longestAxes(const DrawingBounds& bounds)
 {
   Eigen::Index last = 0;
   // The search from the back finds the last of several shortest axes.
@@ -23,7 +23,7 @@ std::array<Eigen::Index, 2> longestAxes(const DrawnBounds& bounds)
 
 } // namespace
 
-PageLayout::PageLayout(const std::array<Eigen::Index, 2>& axes, const DrawnBounds& bounds,
+PageLayout::PageLayout(const std::array<Eigen::Index, 2>& axes, const DrawingBounds& bounds,
   double pageWidth, double margin)
   : Axes(axes)
   , Origin{ bounds.min()[axes[0]], bounds.min()[axes[1]] }
@@ -72,11 +72,11 @@ void PageSettings::CheckBounds() const
   }
 }
 
-PageLayout PageSettings::LayoutInBounds(const DrawnBounds& drawn) const
+PageLayout PageSettings::LayoutInBounds(const DrawingBounds& drawn) const
 {
   constexpr double farthest = 1e6; // millimetres, for numbers that all readers take
   const std::array<double, 6>& bounds = this->Bounds;
-  const DrawnBounds shown(Eigen::Vector3d(bounds[0], bounds[2], bounds[4]),
+  const DrawingBounds shown(Eigen::Vector3d(bounds[0], bounds[2], bounds[4]),
     Eigen::Vector3d(bounds[1], bounds[3], bounds[5]));
   const PageLayout layout(longestAxes(shown), shown, this->Width, this->Margin);
   // Both corners of the drawn shapes bound all their coordinates on the page.
@@ -94,7 +94,7 @@ PageLayout PageSettings::LayoutInBounds(const DrawnBounds& drawn) const
   return layout;
 }
 
-PageLayout PageSettings::Layout(const DrawnExtent& extent, double longestSide) const
+PageLayout PageSettings::Layout(const DrawingExtent& extent, double longestSide) const
 {
   // Strokes reach half their width beyond the points; given bounds are used as they are.
   const bool fitsStrokes = extent.HasStrokes && !this->HasBounds();
@@ -105,8 +105,8 @@ PageLayout PageSettings::Layout(const DrawnExtent& extent, double longestSide) c
       fitsStrokes ? ", twice PageMargin and the LineWidth" : ", twice PageMargin");
   }
   const PageLayout layout = this->HasBounds()
-    ? this->LayoutInBounds(extent.Rest)
-    : PageLayout(longestAxes(extent.Points), extent.Rest, this->Width, margin);
+    ? this->LayoutInBounds(extent.OtherShapes)
+    : PageLayout(longestAxes(extent.Points), extent.OtherShapes, this->Width, margin);
   const Point<2>& size = layout.Size();
   // Formats limit the size of a page.
   const double longest = std::max(size[0], size[1]);

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_PageLayout_h
 #define RectifiedTransport_PageLayout_h
 
-#include "Core/Drawing/DrawnExtent.h"
+#include "Core/Drawing/DrawingExtent.h"
 #include "Core/Geometry/Points.h"
 
 #include <array>
@@ -18,7 +18,7 @@ class PageLayout
 public:
   // `width` and `margin` in millimetres. Throws Failure if the lengths, or millimetres
   // for a unit of them, are past the largest double.
-  PageLayout(const std::array<Eigen::Index, 2>& axes, const DrawnBounds& bounds, double width,
+  PageLayout(const std::array<Eigen::Index, 2>& axes, const DrawingBounds& bounds, double width,
     double margin);
 
   // Millimetres for a unit of the data.
@@ -51,10 +51,10 @@ struct PageSettings
   void CheckBounds() const;
   // Returns a page in a format whose sides are at most `longestSide`. Throws Failure for margins
   // beyond the width, bounds that are too small for the drawn shapes, and pages that are too long.
-  PageLayout Layout(const DrawnExtent& extent, double longestSide) const;
+  PageLayout Layout(const DrawingExtent& extent, double longestSide) const;
 
 private:
-  PageLayout LayoutInBounds(const DrawnBounds& drawn) const;
+  PageLayout LayoutInBounds(const DrawingBounds& drawn) const;
 };
 
 } // namespace RectifiedTransport

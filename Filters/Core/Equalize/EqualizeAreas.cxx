@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Equalize/EqualizeAreas.h"
 
-#include "Core/Equalize/MoveLimits.h"
+#include "Core/Equalize/DisplacementLimiter.h"
 #include "Core/Grid/FaceSystem.h"
 
 #include <algorithm>
@@ -100,7 +100,7 @@ public:
       AreaSums moved = apply();
       for (int halving = 1; halving <= mostHalvings && !isBetter(moved); ++halving)
       {
-        this->Limits.HalveMoves(trials.Next());
+        this->Limits.HalveDisplacements(trials.Next());
         moved = apply();
       }
       if (!isBetter(moved))
@@ -268,7 +268,7 @@ private:
   CornerLattice<Dimension> Lattice;
   FaceSystem<Dimension> System;
   AreaProjection<Dimension> Projection;
-  MoveLimits<Dimension> Limits;
+  DisplacementLimiter<Dimension> Limits;
   LargeBuffer<float> Targets;
   const EqualizeKernels<Dimension> Kernels;
   Progress Work;
@@ -363,7 +363,7 @@ double equalizeAreasMemory(const GridSize<Dimension>& size)
   else
   {
     return CornerLattice<Dimension>::Memory(size) + FaceSystem<Dimension>::Memory(size) +
-      AreaProjection<Dimension>::Memory(size) + MoveLimits<Dimension>::Memory(size) +
+      AreaProjection<Dimension>::Memory(size) + DisplacementLimiter<Dimension>::Memory(size) +
       numberOfCells<Dimension>(size) * sizeof(float);
   }
 }

@@ -20,8 +20,8 @@ namespace
 {
 
 // Marks of a node: it met an empty box (set by the kernels); the edge along axis a bends too much.
-constexpr int isTroubled = 1;
-constexpr int isBent(int axis)
+constexpr int isUnresolvedNode = 1;
+constexpr int isCurved(int axis)
 {
   return 2 << axis;
 }
@@ -94,12 +94,12 @@ public:
   {
     // One axis after the other: the bend of the stencil of four nodes that starts at each node,
     // then the edge from each node to the next.
-    std::vector<float> bends(this->Marks.size()); // squared, 1 is the most
+    std::vector<float> differences(this->Marks.size()); // squared, 1 is the most
     for (int axis = 0; axis < Dimension; ++axis)
     {
       this->ForNodes(axis, progress, [&](std::int64_t node, std::int64_t place) {
-        bends[static_cast<std::size_t>(node)] =
-          place + 3 < this->Nodes[axis] ? this->Bend(node, this->Stride[axis]) : 0.0f;
+        differences[static_cast<std::size_t>(node)] =
+          place + 3 < this->Nodes[axis] ? this->SecondDifference(node, this->Stride[axis]) : 0.0f;
       });
       this->ForNodes(axis, progress, [&](std::int64_t node, std::int64_t place) {
         // The stencils of both cells that share the edge's ends, and its own.
@@ -109,10 +109,10 @@ public:
           const std::int64_t inside =
             std::min(std::max(first, std::int64_t{ 0 }), this->Nodes[axis] - 4);
           const std::int64_t start = node + (inside - place) * this->Stride[axis];
-          isStraight = isStraight && bends[static_cast<std::size_t>(start)] <= 1.0f;
+          isStraight = isStraight && differences[static_cast<std::size_t>(start)] <= 1.0f;
         }
         unsigned char& mark = this->Marks[static_cast<std::size_t>(node)];
-        mark = static_cast<unsigned char>(mark | (isStraight ? 0 : isBent(axis)));
+        mark = static_cast<unsigned char>(mark | (isStraight ? 0 : isCurved(axis)));
       });
     }
     return this->MarkCells(bad, progress);
@@ -152,7 +152,7 @@ private:
   // The squared third difference from a node on, over 16, in deviations that are allowed: about
   // what a cubic leaves out. Of the position x, and forwards also of x + (1 - t) v, where it would
   // end on a straight line: what an error of v does until time 1.
-  float Bend(std::int64_t node, std::int64_t stride) const
+  float SecondDifference(std::int64_t node, std::int64_t stride) const
   {
     const std::int64_t record = this->RecordSize();
     const float* first = this->Level.Records + node * record;
@@ -229,13 +229,13 @@ private:
       std::int64_t at = node;
       // The edges of the cell that start at this corner are those along axes on whose low side it
       // is.
-      int relevant = isTroubled;
+      int relevant = isUnresolvedNode;
       for (int axis = 0; axis < Dimension; ++axis)
       {
         // An edge along an axis is marked at its lower node.
         const bool upper = (corner >> axis & 1) != 0;
         at += upper ? this->Stride[axis] : 0;
-        relevant |= upper ? 0 : isBent(axis);
+        relevant |= upper ? 0 : isCurved(axis);
       }
       marks |= this->Marks[static_cast<std::size_t>(at)] & relevant;
     }

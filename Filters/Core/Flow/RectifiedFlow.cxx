@@ -4,7 +4,7 @@
 #include "Core/Flow/FlowArguments.h"
 #include "Core/Flow/FlowEngine.h"
 #include "Core/Flow/Steps/AutomaticSteps.h"
-#include "Core/Flow/Steps/KeptStepChoices.h"
+#include "Core/Flow/Steps/StepChoiceCache.h"
 #include "Core/Flow/Tiles/TiledEngine.h"
 #include "Core/Flow/WholeEngine.h"
 #include "Core/Parallel/RankExchange.h"
@@ -41,7 +41,7 @@ template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(const DensitySource<Dimension>& density, FlowTables tables,
   const Context& context, const TileLimits& limits)
   : Cells(density.Size)
-  , Steps(std::make_unique<KeptStepChoices>())
+  , Steps(std::make_unique<StepChoiceCache>())
 {
   check<Dimension>(density.Size, "a density");
   Progress progress(context);
@@ -65,7 +65,7 @@ template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(
   const DensitySource<Dimension>& density, RectifiedFlow&& previous, const Context& context)
   : Cells(density.Size)
-  , Steps(std::make_unique<KeptStepChoices>())
+  , Steps(std::make_unique<StepChoiceCache>())
 {
   check<Dimension>(density.Size, "a density");
   TableMemory memory;

@@ -34,7 +34,7 @@ namespace RectifiedTransport
 
 template <int Dimension>
 class FlowEngine;
-class KeptStepChoices;
+class StepChoiceCache;
 
 // The summed-area tables of one density and the flow that they define. Construction costs
 // O(cells), an advection O(particles * steps * 2^Dimension). Const members may run concurrently.
@@ -132,7 +132,7 @@ private:
 
   GridSize<Dimension> Cells;
   std::unique_ptr<FlowEngine<Dimension>> Engine;
-  std::unique_ptr<KeptStepChoices> Steps;
+  std::unique_ptr<StepChoiceCache> Steps;
 };
 
 // One-off: builds the tables, transports the points, releases the tables.

@@ -3,7 +3,7 @@
 
 #include "Core/Flow/FlowMapShape.h"
 #include "Core/Flow/RectifiedFlow.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Messages/Failure.h"
 
 namespace RectifiedTransport

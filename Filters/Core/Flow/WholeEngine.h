@@ -6,7 +6,7 @@
 #include "Core/Flow/AdvectionRun.h"
 #include "Core/Flow/Devices/DeviceAdvection.h"
 #include "Core/Flow/FlowEngine.h"
-#include "Core/Flow/KeptFlowMap.h"
+#include "Core/Flow/FlowMapCache.h"
 #include "Core/Flow/Particles/ParticleSource.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Tables/BoxShare.h"
@@ -159,7 +159,7 @@ private:
 
   const GridSize<Dimension> Size;
   SummedAreaTables<Dimension> Tables;
-  KeptFlowMaps<Dimension> Maps;
+  FlowMapCache<Dimension> Maps;
   DeviceFlow<Dimension> OnDevice;
 };
 

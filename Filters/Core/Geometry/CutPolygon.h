@@ -102,7 +102,7 @@ public:
   // Slabs begin at `begin`: what lies below it is left out.
   void Begin(const CutPolygon& polygon, double begin)
   {
-    this->Rest = &polygon;
+    this->Remainder = &polygon;
     this->Range = polygon.Range(Axis);
     this->Next = 0;
     if (this->Range[0] < begin)
@@ -116,13 +116,13 @@ public:
     if (this->Range[1] <= end)
     {
       this->Range = { HUGE_VAL, HUGE_VAL };
-      return *this->Rest;
+      return *this->Remainder;
     }
     this->Below.Size = 0;
     if (this->Range[0] <= end)
     {
-      cutPolygon<Axis>(*this->Rest, end, this->Below, this->Rests[this->Next]);
-      this->Rest = &this->Rests[this->Next];
+      cutPolygon<Axis>(*this->Remainder, end, this->Below, this->Remainders[this->Next]);
+      this->Remainder = &this->Remainders[this->Next];
       this->Next = 1 - this->Next;
     }
     return this->Below;
@@ -130,10 +130,10 @@ public:
   bool IsAtEnd() const { return this->Range[0] == HUGE_VAL; }
 
 private:
-  const CutPolygon* Rest;
+  const CutPolygon* Remainder;
   std::array<double, 2> Range; // range of the polygon along the axis
   CutPolygon Below;
-  std::array<CutPolygon, 2> Rests; // what is left, and memory for the next cut
+  std::array<CutPolygon, 2> Remainders; // what is left, and memory for the next cut
   std::size_t Next;
 };
 

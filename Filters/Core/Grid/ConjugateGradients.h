@@ -18,34 +18,34 @@ public:
   //   apply()          q = A p; returns p q
   //   advance(alpha)   x = x + alpha p, r = r - alpha q
   // Returns false, and leaves x as it is, if nothing but rounding is left.
-  template <class Precondition, class Turn, class Apply, class Advance>
-  bool Iterate(
-    const Precondition& precondition, const Turn& turn, const Apply& apply, const Advance& advance)
+  template <class Precondition, class NewDirection, class Apply, class Advance>
+  bool Iterate(const Precondition& precondition, const NewDirection& newDirection,
+    const Apply& apply, const Advance& advance)
   {
     const double product = precondition();
     if (!(product > 0.0))
     {
       return false;
     }
-    turn(this->Before > 0.0 ? product / this->Before : 0.0);
+    newDirection(this->LastProduct > 0.0 ? product / this->LastProduct : 0.0);
     const double curvature = apply();
     if (!(curvature > 0.0))
     {
       return false;
     }
     advance(product / curvature);
-    this->Before = product;
+    this->LastProduct = product;
     this->LastGain = product * product / curvature;
     return true;
   }
 
   // The next direction does not depend on the last one: r has been computed anew.
-  void Restart() { this->Before = 0.0; }
+  void Restart() { this->LastProduct = 0.0; }
   // Twice what the last iteration took from the energy x A x / 2 - b x.
   double Gain() const { return this->LastGain; }
 
 private:
-  double Before = 0.0; // r z of the last iteration
+  double LastProduct = 0.0; // r z of the last iteration
   double LastGain = 0.0;
 };
 

@@ -442,11 +442,11 @@ FaceSolution FaceSystem<Dimension>::Solve(double tolerance, int maximum, Progres
         return this->Kernels.Dot(r, z, first, last);
       });
     };
-    const auto turn = [&](double beta) {
+    const auto newDirection = [&](double beta) {
       this->For(
         finest.Cells,
         [&, z = finest.X.data()](std::int64_t first, std::int64_t last) {
-          this->Kernels.Turn(static_cast<float>(beta), z, first, last, p);
+          this->Kernels.NewDirection(static_cast<float>(beta), z, first, last, p);
         },
         round);
     };
@@ -460,7 +460,7 @@ FaceSolution FaceSystem<Dimension>::Solve(double tolerance, int maximum, Progres
         return this->Kernels.Advance(static_cast<float>(alpha), p, q, first, last, x, r);
       });
     };
-    if (!method.Iterate(precondition, turn, apply, advance))
+    if (!method.Iterate(precondition, newDirection, apply, advance))
     {
       break;
     }
@@ -476,7 +476,7 @@ FaceSolution FaceSystem<Dimension>::Solve(double tolerance, int maximum, Progres
       // Computes the residual b - A x anew: updates do not know what rounding lost. If it is above
       // the tolerance, the iteration restarts from it with beta = 0.
       now = sum(round, [&](std::int64_t first, std::int64_t last) {
-        return this->Kernels.Rest(system, x, b, first, last, r);
+        return this->Kernels.TrueResidual(system, x, b, first, last, r);
       });
       method.Restart();
     }

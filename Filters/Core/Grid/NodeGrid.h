@@ -103,11 +103,11 @@ struct CellPlace
 // The 2^Dimension nodes about a point of the box, given in cells of the nodes, and the values of
 // their hat functions there, which sum to 1.
 template <int Dimension>
-struct HatsAt
+struct HatWeights
 {
   static constexpr int Count = 1 << Dimension;
 
-  HatsAt(const double* point, const GridSize<Dimension>& cells)
+  HatWeights(const double* point, const GridSize<Dimension>& cells)
   {
     const CellPlace<Dimension> at(point, cells);
     this->Node[0] = 0;

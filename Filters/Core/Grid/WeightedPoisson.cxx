@@ -27,7 +27,7 @@ void WeightedPoisson<Dimension>::Solve(const double* masses, const double* densi
   int iterations, const Preconditioner& precondition, double* p, Progress& progress)
 {
   for (NodeValues* values :
-    { &this->Weights, &this->Rest, &this->Preconditioned, &this->Direction, &this->Image })
+    { &this->Weights, &this->Residual, &this->Preconditioned, &this->Direction, &this->Image })
   {
     if (values->size() == 0)
     {
@@ -38,16 +38,16 @@ void WeightedPoisson<Dimension>::Solve(const double* masses, const double* densi
   ConjugateGradients method;
   const double* z = this->Preconditioned.data();
   const double* image = this->Image.data();
-  double* rest = this->Rest.data();
+  double* rest = this->Residual.data();
   double* direction = this->Direction.data();
   // z = M r, and the product r . z.
   const auto solve = [&]() {
-    precondition(this->Rest.data(), this->Preconditioned.data());
+    precondition(this->Residual.data(), this->Preconditioned.data());
     return sumOverNodes(
       this->Grid, progress, [=](std::int64_t node) { return z[node] * rest[node]; });
   };
   // d = z + beta d.
-  const auto turn = [&](double beta) {
+  const auto newDirection = [&](double beta) {
     progress.ForEach(
       this->Nodes, this->Chunk, [=](std::int64_t i) { direction[i] = z[i] + beta * direction[i]; });
   };
@@ -60,8 +60,8 @@ void WeightedPoisson<Dimension>::Solve(const double* masses, const double* densi
       rest[i] -= alpha * image[i];
     });
   };
-  for (int iteration = 0; iteration < iterations && method.Iterate(solve, turn, apply, advance);
-       ++iteration)
+  for (int iteration = 0;
+       iteration < iterations && method.Iterate(solve, newDirection, apply, advance); ++iteration)
   {
   }
 }
@@ -88,7 +88,7 @@ void WeightedPoisson<Dimension>::Begin(
 {
   const std::int64_t cells = this->Grid.Cells[0];
   const double number = static_cast<double>(this->Grid.NumberOfCells());
-  double* rest = this->Rest.data();
+  double* rest = this->Residual.data();
   double* weights = this->Weights.data();
   double* direction = this->Direction.data();
   progress.For(this->Nodes, this->Chunk, [&](std::int64_t first, std::int64_t last) {

@@ -44,7 +44,7 @@ private:
   const std::int64_t Nodes;
   const std::int64_t Chunk;
   NodeValues Weights;
-  NodeValues Rest; // what is left of the masses
+  NodeValues Residual; // what is left of the masses
   NodeValues Preconditioned;
   NodeValues Direction;
   NodeValues Image;

@@ -19,7 +19,7 @@ bool isBlank(const std::string& text)
   return text.find_first_not_of(blanks) == std::string::npos;
 }
 
-std::optional<double> numberOfText(const std::string& text)
+std::optional<double> parseNumber(const std::string& text)
 {
   if (isBlank(text))
   {

@@ -13,7 +13,7 @@ bool isBlank(const std::string& text);
 
 // Returns the number that a text represents, in any locale with a dot as decimal separator and with
 // blanks around it; NaN and infinity are read by their names. Returns no value for other texts.
-std::optional<double> numberOfText(const std::string& text);
+std::optional<double> parseNumber(const std::string& text);
 
 // Returns the first 40 bytes, for a message.
 std::string shortened(const std::string& text);

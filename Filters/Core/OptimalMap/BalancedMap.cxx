@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/OptimalMap/BalancedMap.h"
 
+#include "Core/Grid/GradientField.h"
 #include "Core/Grid/NodeLevels.h"
-#include "Core/Grid/NodeMoves.h"
 #include "Core/Grid/NodePoisson.h"
 #include "Core/OptimalMap/ImageShares.h"
 #include "Core/OptimalMap/Masses/NodeMasses.h"
@@ -42,17 +42,17 @@ NodeValues findExcess(const CellDensity<Dimension>& source, const CellDensity<Di
 {
   constexpr bool withCosts = false;
   const auto shares = shareImages<Dimension>(source, target, corners, withCosts, progress);
-  NodeValues rest(target.NumberOfCells());
-  double* values = rest.data();
-  progress.ForEach(rest.size(), grain, [&](std::int64_t cell) {
-    values[cell] = static_cast<double>(shares.RestOf(cell, target)) / integerUnit;
+  NodeValues residual(target.NumberOfCells());
+  double* values = residual.data();
+  progress.ForEach(residual.size(), grain, [&](std::int64_t cell) {
+    values[cell] = static_cast<double>(shares.ResidualOf(cell, target)) / integerUnit;
   });
   return hatSums<Dimension>(values, target.Size(), nodes, progress);
 }
 
 // Moves the images of corners by the field at nodes, interpolated there, and keeps them in the box.
 template <int Dimension>
-void moveCorners(const NodeMoves<Dimension>& moves, const CellPlacement<Dimension>& toNodes,
+void moveCorners(const GradientField<Dimension>& moves, const CellPlacement<Dimension>& toNodes,
   NodeMap<Dimension>& corners, Progress& progress)
 {
   progress.ForEach(corners.Grid.NumberOfNodes(), grain, [&](std::int64_t corner) {
@@ -89,7 +89,7 @@ void balanceMap(const CellDensity<Dimension>& source, const CellDensity<Dimensio
   {
     const NodeValues excess = findExcess(source, target, corners, nodes, progress);
     poisson.SolveWeighted(excess.data(), wanted.data(), leastWeight, each, q.data(), progress);
-    moveCorners(NodeMoves<Dimension>(nodes, q.data(), progress), toNodes, corners, progress);
+    moveCorners(GradientField<Dimension>(nodes, q.data(), progress), toNodes, corners, progress);
   }
 }
 

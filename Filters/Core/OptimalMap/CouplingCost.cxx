@@ -4,7 +4,7 @@
 #include "Core/OptimalMap/BalancedMap.h"
 #include "Core/OptimalMap/ImageShares.h"
 #include "Core/OptimalMap/Masses/NodeMasses.h"
-#include "Core/OptimalMap/PassRest.h"
+#include "Core/OptimalMap/ResidualCoupling.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
@@ -93,7 +93,7 @@ CouplingCost couplingCost(const CellDensity<Dimension>& source,
   // threads.
   const double spread =
     static_cast<double>(shares.CostOfSpread) / integerUnit * shares.SquaredDiagonal;
-  return { passRest(shares, target, progress), spread };
+  return { coupleResidual(shares, target, progress), spread };
 }
 
 // The larger of two stages' needs: balancing the map, then sharing it.

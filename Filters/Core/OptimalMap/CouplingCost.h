@@ -22,10 +22,10 @@ struct CouplingCost
 
 // Follows the map from the source, whose images are corrected (BalancedMap.h) and then shared among
 // the target's cells (ImageShares.h); what a cell gets beyond its share goes on to cells nearby
-// that got too little, then along a space-filling curve (PassRest.h). Uniform parts of cells go by
-// translation, so that the cost of the coupling is known exactly; masses are integers, and what
-// their rounding leaves counts as if it had to cross the whole box. In the squared lengths of the
-// map's spacing; the nodes fill the box of the densities. Both densities have the same size.
+// that got too little, then along a space-filling curve (ResidualCoupling.h). Uniform parts of
+// cells go by translation, so that the cost of the coupling is known exactly; masses are integers,
+// and what rounding leaves counts as if it had to cross the whole box. In the squared lengths of
+// the map's spacing; the nodes fill the box of the densities. Both densities have the same size.
 //
 // The same bits for every number of threads. Adds about 15 units of work a cell on a line, 50 in
 // the plane and 30 in space, and those of two solutions of NodePoisson on nodes two cells apart.

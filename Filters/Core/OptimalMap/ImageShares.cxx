@@ -32,7 +32,8 @@ struct CellsAbout
 };
 
 // Deposits the parts of the source's cells in the target's. Each is the number of sums a cell: the
-// mass alone, or the mass and its first moments of the ways, which PassRest needs to update costs.
+// mass alone, or the mass and its first moments of the ways, which ResidualCoupling needs to update
+// costs.
 template <int Dimension, int Each>
 class Sharing
 {
@@ -181,7 +182,7 @@ private:
   }
 
   // Only cells with mass may get some, in the same proportions. If none has any, one of them gets
-  // all, and PassRest moves it on.
+  // all, and ResidualCoupling moves it on.
   void KeepFromVoids(double mass, CellsAbout<Dimension>& about) const
   {
     bool isChanged = false;

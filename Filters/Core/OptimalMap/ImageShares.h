@@ -22,7 +22,7 @@ struct CellShares
 {
   const std::int64_t* Got(std::int64_t cell) const { return this->Sums.data() + cell * this->Each; }
   // How much mass a cell got beyond its share; negative if it lacks some.
-  std::int64_t RestOf(std::int64_t cell, const CellDensity<Dimension>& target) const
+  std::int64_t ResidualOf(std::int64_t cell, const CellDensity<Dimension>& target) const
   {
     return this->Got(cell)[0] - toInteger(target.Share(cell) * integerUnit);
   }

@@ -2,14 +2,14 @@
 #include "Core/OptimalMap/OptimalMap.h"
 
 #include "Core/Flow/FlowArguments.h"
-#include "Core/Flow/Particles/StraightPaths.h"
+#include "Core/Flow/Particles/DisplacementInterpolation.h"
 #include "Core/OptimalMap/CorrectedMap.h"
 #include "Core/OptimalMap/CouplingCost.h"
+#include "Core/OptimalMap/FixedCells.h"
 #include "Core/OptimalMap/Masses/CellDensity.h"
 #include "Core/OptimalMap/Masses/FinishSamples.h"
 #include "Core/OptimalMap/PairSlack.h"
 #include "Core/OptimalMap/PotentialSolver.h"
-#include "Core/OptimalMap/StillCells.h"
 #include "Core/Parallel/SmallWork.h"
 #include "Core/Parallel/Stages.h"
 
@@ -127,7 +127,7 @@ struct OptimalMap<Dimension>::Implementation
   // mass stands still.
   struct Direction
   {
-    std::optional<StillCells<Dimension>> Still;
+    std::optional<FixedCells<Dimension>> Fixed;
     std::optional<CorrectedMap<Dimension>> Moving;
   };
   const Direction& MapFrom(int side, Progress& progress)
@@ -136,11 +136,11 @@ struct OptimalMap<Dimension>::Implementation
     const std::lock_guard<std::mutex> lock(this->Mutex);
     Direction& map = this->Maps[static_cast<std::size_t>(side)];
     const auto to = static_cast<std::size_t>(1 - side);
-    if (!map.Still)
+    if (!map.Fixed)
     {
-      map.Still.emplace(this->Solver, side, this->Densities[to], progress);
+      map.Fixed.emplace(this->Solver, side, this->Densities[to], progress);
     }
-    if (!map.Moving && !map.Still->AreAll())
+    if (!map.Moving && !map.Fixed->AreAll())
     {
       map.Moving.emplace(
         this->Solver, side, this->Densities[to], this->CellSides(to), this->Images(), progress);
@@ -168,7 +168,7 @@ struct OptimalMap<Dimension>::Implementation
   }
 
   // The map without corrected masses (CorrectMasses off), at all seeds.
-  FlowReport MovePlainly(int side, const FlowSeeds<Dimension>& seeds,
+  FlowReport MoveUncorrected(int side, const FlowSeeds<Dimension>& seeds,
     PointSpan<Dimension> positions, const Context& context);
   FlowReport Move(int side, const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions,
     const Context& context);
@@ -354,7 +354,7 @@ const GridSize<Dimension>& OptimalMap<Dimension>::Size() const
 
 // T at each seed, from one density's index space to the other's, without a correction of masses.
 template <int Dimension>
-FlowReport OptimalMap<Dimension>::Implementation::MovePlainly(int side,
+FlowReport OptimalMap<Dimension>::Implementation::MoveUncorrected(int side,
   const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions, const Context& context)
 {
   Progress progress(contextForSize(context, this->ValuesOf(positions)));
@@ -378,7 +378,7 @@ FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds
 {
   if (!this->Options.CorrectMasses)
   {
-    return this->MovePlainly(side, seeds, positions, context);
+    return this->MoveUncorrected(side, seeds, positions, context);
   }
   Progress progress(contextForSize(context, this->ValuesOf(positions)));
   Stages stages(progress, { { "map", 4 }, { "points", 6 } });
@@ -388,7 +388,7 @@ FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds
   // Only samples have counts that can be exact: other seeds may lie anywhere and in any number.
   const bool areFinished = seeds.AreSamples() && map.Moving;
   // What stands still is finished with the others, and then returns.
-  const bool returns = areFinished && !map.Still->AreNone();
+  const bool returns = areFinished && !map.Fixed->AreNone();
   LargeBuffer<double> starts(returns ? positions.size() * Dimension : 0);
   Stages steps(stages["points"], { { "images", 4 }, { "finish", areFinished ? 2.0 : 0.0 } });
   forParticles(source, steps["images"].Expect(source.Count()),
@@ -396,7 +396,7 @@ FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds
       Point<Dimension> image = point;
       // Finishing counts all samples, so those that stand still take part with their images under
       // the map.
-      if (areFinished || !map.Still->Keep(image.data()))
+      if (areFinished || !map.Fixed->Fix(image.data()))
       {
         image = map.Moving->At(point.data());
       }
@@ -411,7 +411,7 @@ FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds
   }
   if (returns)
   {
-    map.Still->Return(starts.data(), positions);
+    map.Fixed->RestoreFixed(starts.data(), positions);
   }
   return {};
 }
@@ -430,7 +430,7 @@ FlowReport OptimalMap<Dimension>::Implementation::Undo(
   forParticles(source, stages["points"].Expect(source.Count()),
     [&](std::int64_t index, const Point<Dimension>& point) {
       Point<Dimension> image = point;
-      if (!map.Still->KeepBack(image.data()))
+      if (!map.Fixed->FixBackward(image.data()))
       {
         // `back` is the gradient map of the target's potential, the inverse of the plain map.
         image = back.At(map.Moving->Uncorrected(point.data()).data());
@@ -466,7 +466,7 @@ FlowReport OptimalMap<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds,
   // The placements are affine maps between each index space and cells of the nodes.
   const auto& target = this->Self->Solver.Side(1).Placement;
   const auto& from = this->Self->Solver.Side(0).Placement;
-  return moveOnStraightPaths<Dimension>(
+  return interpolateDisplacement<Dimension>(
     *this, seeds, times, positions, context, [&](const Point<Dimension>& point) {
       return target.FromNodes(from.ToNodes(point.data()).data());
     });

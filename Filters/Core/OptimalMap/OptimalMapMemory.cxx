@@ -2,11 +2,11 @@
 // How much memory an optimal map takes.
 #include "Core/Grid/NodeLevels.h"
 #include "Core/OptimalMap/CouplingCost.h"
+#include "Core/OptimalMap/FixedCells.h"
 #include "Core/OptimalMap/Masses/FinishSamples.h"
 #include "Core/OptimalMap/Masses/MassCorrection.h"
 #include "Core/OptimalMap/OptimalMap.h"
 #include "Core/OptimalMap/PotentialSolver.h"
-#include "Core/OptimalMap/StillCells.h"
 
 #include <algorithm>
 #include <vector>
@@ -44,9 +44,9 @@ double OptimalMap<Dimension>::MemoryFor(const GridSize<Dimension>& source,
     std::max(nodes * PotentialSolver<Dimension>::BytesANode(threads), potentials + refined);
   // A map: two gradient maps and minimizers, and what samples and its correction take.
   const double gradients = nodes * real * (2.0 * Dimension + 1.0);
-  const double correcting = StillCells<Dimension>::MemoryFor(grid.Cells) +
+  const double correcting = FixedCells<Dimension>::MemoryFor(grid.Cells) +
     nodes * real * 2.0 * (Dimension + 1.0) + MassCorrection<Dimension>::MemoryFor(target, 1);
-  const double kept = StillCells<Dimension>::MemoryKept(target) + gradients +
+  const double kept = FixedCells<Dimension>::MemoryKept(target) + gradients +
     MassCorrection<Dimension>::MemoryKept(target, 1);
   const double coupling =
     use.UpperBound ? nodes * real * Dimension + memoryForCoupling<Dimension>(target, grid) : 0.0;

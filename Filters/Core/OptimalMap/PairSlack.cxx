@@ -34,8 +34,8 @@ void findSlack(const PotentialSolver<Dimension>& solver, ConstPointSpan<Dimensio
         const double part = place[axis] - std::floor(place[axis]);
         sum += 0.5 * h * h * part * (1.0 - part);
       }
-      sum -=
-        HatsAt<Dimension>(place.data(), grid.Cells).Interpolate(solver.Side(side).Potential.data());
+      sum -= HatWeights<Dimension>(place.data(), grid.Cells)
+               .Interpolate(solver.Side(side).Potential.data());
     }
     for (int axis = 0; axis < Dimension; ++axis)
     {

@@ -32,7 +32,7 @@ public:
   std::int64_t Count() const { return this->ShareCount; }
   // The values of this rank's share in order, from the values valueOf(i) of this rank's elements.
   template <class ValueOf>
-  auto Bring(const ValueOf& valueOf) const
+  auto Redistribute(const ValueOf& valueOf) const
   {
     using T = std::decay_t<decltype(valueOf(std::int64_t{ 0 }))>;
     std::vector<T> values(static_cast<std::size_t>(this->ShareCount));

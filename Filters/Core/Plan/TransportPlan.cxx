@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Plan/TransportPlan.h"
 
-#include "Core/Flow/Particles/StraightPaths.h"
+#include "Core/Flow/Particles/DisplacementInterpolation.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Parallel/LargeBuffer.h"
@@ -374,7 +374,7 @@ FlowReport TransportPlan<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds
   {
     return this->FlowOf(1, context).ForwardAt(seeds, times, positions, this->Chosen.Flow, context);
   }
-  return moveOnStraightPaths<Dimension>(*this, seeds, times, positions, context,
+  return interpolateDisplacement<Dimension>(*this, seeds, times, positions, context,
     [this](const Point<Dimension>& point) { return this->ToTarget(point); });
 }
 

@@ -146,20 +146,20 @@ void PowerDiagram::SetSites(ConstPointSpan<2> sites, Progress& progress)
 
 void PowerDiagram::Update(const double* weights, Progress& progress)
 {
-  // Doubt spreads by one ring of cells a round; a change of half of the diagram needs no more than
-  // eight. After them, all cells that remain are cut by all rivals.
+  // MarkInconsistent spreads by one ring of cells a round; a change of half of the diagram needs no
+  // more than eight. After them, all cells that remain are cut by all rivals.
   constexpr int mostRounds = 8;
   this->Tree.SetWeights(weights, progress);
   this->CutByKnown(weights, progress);
   for (int round = 0; round < mostRounds; ++round)
   {
     // Only cells that fail to fit their neighbours are cut again.
-    const std::vector<std::int64_t> doubtful = this->FindDoubtful(progress);
-    if (doubtful.empty())
+    const std::vector<std::int64_t> inconsistent = this->FindInconsistent(progress);
+    if (inconsistent.empty())
     {
       return;
     }
-    this->CutByAll(doubtful, weights, progress);
+    this->CutByAll(inconsistent, weights, progress);
   }
   this->CutByAll(this->SitesCutBy(CutBy::Known), weights, progress);
 }
@@ -188,7 +188,7 @@ void PowerDiagram::CutByKnown(const double* weights, Progress& progress)
 // and corner to corner, they cover the rectangle equally often everywhere. If also only four of
 // their corners are the rectangle's, they cover it once; since the true cells cover it once, too,
 // none of them is too large.
-std::vector<std::int64_t> PowerDiagram::FindDoubtful(Progress& progress)
+std::vector<std::int64_t> PowerDiagram::FindInconsistent(Progress& progress)
 {
   const std::int64_t corners = reduceChunks(
     progress, this->NumberOfCells(), cellsOfChunk, std::int64_t{ 0 },
@@ -201,8 +201,8 @@ std::vector<std::int64_t> PowerDiagram::FindDoubtful(Progress& progress)
       return count;
     },
     std::plus<>());
-  const std::vector<std::int64_t> doubtful = this->SitesCutBy(CutBy::Doubtful);
-  return doubtful.empty() && corners != 4 ? this->SitesCutBy(CutBy::Known) : doubtful;
+  const std::vector<std::int64_t> inconsistent = this->SitesCutBy(CutBy::Inconsistent);
+  return inconsistent.empty() && corners != 4 ? this->SitesCutBy(CutBy::Known) : inconsistent;
 }
 
 std::vector<std::int64_t> PowerDiagram::SitesCutBy(CutBy state)
@@ -219,7 +219,7 @@ std::vector<std::int64_t> PowerDiagram::SitesCutBy(CutBy state)
   return sites;
 }
 
-// Doubts a cell and its neighbours if they do not fit. Returns how many corners of the rectangle
+// Marks a cell and its neighbours if they do not fit. Returns how many corners of the rectangle
 // belong to the cell.
 std::int64_t PowerDiagram::Compare(std::int64_t site)
 {
@@ -227,7 +227,7 @@ std::int64_t PowerDiagram::Compare(std::int64_t site)
   const auto isNeighbour = [](const Corner& corner) { return corner.Neighbour >= 0; };
   if (this->NumberOfCells() > 1 && std::none_of(cell.First, cell.First + cell.Count, isNeighbour))
   {
-    this->Doubt(site);
+    this->MarkInconsistent(site);
   }
   std::int64_t corners = 0;
   // The previous corner: a corner between two sides on the border is one of the rectangle's.
@@ -252,19 +252,19 @@ std::int64_t PowerDiagram::Compare(std::int64_t site)
     const bool fits = same < other.Count && other.Before(same).Neighbour == cell.After(k).Neighbour;
     if (!fits)
     {
-      this->Doubt(site);
-      this->Doubt(j);
+      this->MarkInconsistent(site);
+      this->MarkInconsistent(j);
     }
   }
   return corners;
 }
 
-void PowerDiagram::Doubt(std::int64_t site)
+void PowerDiagram::MarkInconsistent(std::int64_t site)
 {
   // Several threads may doubt the same cell: only the state Known changes, once.
   CutBy known = CutBy::Known;
   this->StateOf(site).compare_exchange_strong(
-    known, CutBy::Doubtful, std::memory_order_relaxed, std::memory_order_relaxed);
+    known, CutBy::Inconsistent, std::memory_order_relaxed, std::memory_order_relaxed);
 }
 
 // Cuts cells by their known neighbours first, which makes them small, and then by all rivals that

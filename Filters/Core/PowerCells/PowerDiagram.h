@@ -101,8 +101,8 @@ private:
   // The sites that cut a cell.
   enum class CutBy : char
   {
-    Known,    // the neighbours of the last update
-    Doubtful, // the same, and the cell may be too large
+    Known,        // the neighbours of the last update
+    Inconsistent, // the same, and the cell may be too large
     All
   };
 
@@ -115,10 +115,10 @@ private:
     return this->States[static_cast<std::size_t>(site)];
   }
   void CutByKnown(const double* weights, Progress& progress);
-  std::vector<std::int64_t> FindDoubtful(Progress& progress);
+  std::vector<std::int64_t> FindInconsistent(Progress& progress);
   std::vector<std::int64_t> SitesCutBy(CutBy state);
   std::int64_t Compare(std::int64_t site);
-  void Doubt(std::int64_t site);
+  void MarkInconsistent(std::int64_t site);
   void CutByAll(const std::vector<std::int64_t>& sites, const double* weights, Progress& progress);
   void CutByNeighbours(
     const Cell& known, std::int64_t site, const double* weights, Cutter& cutter) const;

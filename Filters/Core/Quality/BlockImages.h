@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_BlockImages_h
 #define RectifiedTransport_BlockImages_h
 
-#include "Core/Quality/ItemsByLayer.h"
+#include "Core/Quality/LayerBins.h"
 #include "Core/Quality/MapBlocks.h"
 
 #include <algorithm>

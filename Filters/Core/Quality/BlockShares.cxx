@@ -43,10 +43,10 @@ GridBox<Dimension> joined(const GridBox<Dimension>& a, const GridBox<Dimension>&
 // Divides a rank's blocks into turns, each with one box of the density: a box of several blocks,
 // or of some layers of one large block.
 template <int Dimension>
-class BlockTurns
+class BlockBatches
 {
 public:
-  BlockTurns(const GridBlocks<Dimension>& blocks, std::int64_t first, std::int64_t count)
+  BlockBatches(const GridBlocks<Dimension>& blocks, std::int64_t first, std::int64_t count)
     : Blocks(blocks)
     , Next(first)
     , End(first + count)
@@ -55,7 +55,7 @@ public:
 
   bool HasMore() const { return this->Next < this->End; }
 
-  struct Turn
+  struct Batch
   {
     GridBox<Dimension> Box{};
     std::int64_t First = 0; // first block
@@ -65,52 +65,52 @@ public:
   };
 
   // An empty turn if there are no more.
-  Turn Take()
+  Batch Take()
   {
-    Turn turn;
-    turn.First = this->Next;
+    Batch batch;
+    batch.First = this->Next;
     if (!this->HasMore())
     {
-      return turn;
+      return batch;
     }
-    turn.Box = this->Blocks.Box(this->Next);
-    turn.Count = 1;
-    if (turn.Box.Cells() > mostCells)
+    batch.Box = this->Blocks.Box(this->Next);
+    batch.Count = 1;
+    if (batch.Box.Cells() > mostCells)
     {
-      this->TakePart(turn);
-      return turn;
+      this->TakePart(batch);
+      return batch;
     }
     // Blocks join the turn while the box around them stays within the bound.
-    for (++this->Next; this->HasMore(); ++this->Next, ++turn.Count)
+    for (++this->Next; this->HasMore(); ++this->Next, ++batch.Count)
     {
-      const GridBox<Dimension> larger = joined(turn.Box, this->Blocks.Box(this->Next));
+      const GridBox<Dimension> larger = joined(batch.Box, this->Blocks.Box(this->Next));
       if (larger.Cells() > mostCells)
       {
         break;
       }
-      turn.Box = larger;
+      batch.Box = larger;
     }
-    return turn;
+    return batch;
   }
 
 private:
   // Takes whole layers of a large block, at least one.
-  void TakePart(Turn& turn)
+  void TakePart(Batch& batch)
   {
     constexpr int last = Dimension - 1;
-    const std::int64_t end = turn.Box.High[last];
+    const std::int64_t end = batch.Box.High[last];
     // The number of cells in a layer of the box.
-    const double layer = turn.Box.Cells() / static_cast<double>(end - turn.Box.Low[last]);
+    const double layer = batch.Box.Cells() / static_cast<double>(end - batch.Box.Low[last]);
     // The box of this turn: the layers from those that are done, as many as the bound allows.
-    turn.IsPart = true;
-    turn.IsFirst = this->Layers == 0;
-    turn.Box.Low[last] += this->Layers;
-    const std::int64_t layers = std::min(end - turn.Box.Low[last],
+    batch.IsPart = true;
+    batch.IsFirst = this->Layers == 0;
+    batch.Box.Low[last] += this->Layers;
+    const std::int64_t layers = std::min(end - batch.Box.Low[last],
       std::max<std::int64_t>(1, static_cast<std::int64_t>(mostCells / layer)));
-    turn.Box.High[last] = turn.Box.Low[last] + layers;
+    batch.Box.High[last] = batch.Box.Low[last] + layers;
     this->Layers += layers;
     // The block is done with its last layer.
-    if (turn.Box.High[last] == end)
+    if (batch.Box.High[last] == end)
     {
       this->Layers = 0;
       ++this->Next;
@@ -135,23 +135,23 @@ void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dime
   };
   progress.Expect(count);
   // The number of turns differs between ranks, because their densities and blocks do.
-  BlockTurns<Dimension> turns(blocks, first, count);
+  BlockBatches<Dimension> batches(blocks, first, count);
   // Ranks with fewer turns take empty ones, because preparing shares is collective.
-  while (!onAllRanks(progress.Group(), !turns.HasMore()))
+  while (!onAllRanks(progress.Group(), !batches.HasMore()))
   {
-    const auto turn = turns.Take();
+    const auto batch = batches.Take();
     // Makes tables of the box where the flow has none of the whole density. Collective.
-    flow.PrepareShares(turn.Box.Low, turn.Box.High);
-    double* found = shares + (turn.First - first);
-    if (turn.IsPart)
+    flow.PrepareShares(batch.Box.Low, batch.Box.High);
+    double* found = shares + (batch.First - first);
+    if (batch.IsPart)
     {
       // The share of a large block is the sum of those of its parts.
-      *found = shareIn(turn.Box) + (turn.IsFirst ? 0.0 : *found);
-      progress.EndSlice(turn.IsFirst ? 1 : 0);
+      *found = shareIn(batch.Box) + (batch.IsFirst ? 0.0 : *found);
+      progress.EndSlice(batch.IsFirst ? 1 : 0);
       continue;
     }
     progress.ForEach(
-      turn.Count, grain, [&](std::int64_t i) { found[i] = shareIn(blocks.Box(turn.First + i)); },
+      batch.Count, grain, [&](std::int64_t i) { found[i] = shareIn(blocks.Box(batch.First + i)); },
       16 * grain);
   }
 }

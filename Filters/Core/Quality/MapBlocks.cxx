@@ -8,7 +8,7 @@
 #include "Core/Quality/BlockImages.h"
 #include "Core/Quality/BoundaryIntegrals.h"
 #include "Core/Quality/DensityRows.h"
-#include "Core/Quality/ItemsByLayer.h"
+#include "Core/Quality/LayerBins.h"
 
 #include <algorithm>
 #include <array>
@@ -65,7 +65,7 @@ public:
     // both of its blocks.
     if constexpr (Dimension < 3)
     {
-      std::vector<ItemsByLayer> faces;
+      std::vector<LayerBins> faces;
       for (int axis = 0; axis < Dimension; ++axis)
       {
         faces.push_back(this->FacesByLayer(axis, cells, stages["cells"]));
@@ -179,7 +179,7 @@ private:
   // Sorts items by the layers of the grid that they lie in; `samplesOf` gives an item's samples. If
   // one batch has all layers, every item is in it. In 1D the mass below a layer counts, too.
   template <class SamplesOf>
-  ItemsByLayer ByLayer(std::int64_t count, const LatticePart<Dimension>& cells,
+  LayerBins ByLayer(std::int64_t count, const LatticePart<Dimension>& cells,
     const SamplesOf& samplesOf, Progress& progress)
   {
     std::vector<LayerSpan> spans(
@@ -191,10 +191,10 @@ private:
         spans[static_cast<std::size_t>(i)] = this->Images.LayersOf(samplesOf(i), this->Size[Last]);
       });
     }
-    return ItemsByLayer(std::move(spans));
+    return LayerBins(std::move(spans));
   }
 
-  ItemsByLayer FacesByLayer(int axis, const LatticePart<Dimension>& cells, Progress& progress)
+  LayerBins FacesByLayer(int axis, const LatticePart<Dimension>& cells, Progress& progress)
   {
     const LatticePart<Dimension>& faces = this->Faces[axis];
     const auto samplesOf = [&, axis](std::int64_t i) {
@@ -286,7 +286,7 @@ private:
       return MapBlocks<Dimension>::SamplesOf({ this->Blocks.CellOf(number), oneBlock() });
     };
     Stages stages(progress, { { "order", 1 }, { "masses", 99 } });
-    ItemsByLayer items =
+    LayerBins items =
       this->ByLayer(static_cast<std::int64_t>(blocks.size()), cells, samplesOf, stages["order"]);
     this->InLayers(cells, stages["masses"], [&](const LayerSpan& batch, Progress& work) {
       std::vector<std::int64_t> found = items.In(batch);

@@ -111,7 +111,7 @@ private:
       return sum;
     }
     // Each rank gets a part of the order, and the running sum goes from rank to rank.
-    const std::vector<double> share = this->Order->Bring(value);
+    const std::vector<double> share = this->Order->Redistribute(value);
     return sumInTurn(this->Group, sum,
       [&](double& running) { running = std::accumulate(share.begin(), share.end(), running); });
   }
@@ -209,7 +209,7 @@ private:
     std::vector<std::vector<BlockTerm>> received(static_cast<std::size_t>(this->Group.Count()));
     {
       // Terms go to the ranks that own their blocks, without those of particles outside.
-      std::vector<BlockTerm> terms = this->Order->Bring([this](std::int64_t i) {
+      std::vector<BlockTerm> terms = this->Order->Redistribute([this](std::int64_t i) {
         return BlockTerm{ this->Block.data()[i], this->Share(i) };
       });
       terms.erase(std::remove_if(terms.begin(), terms.end(),
@@ -313,7 +313,7 @@ private:
       std::int64_t Related = 0;
     };
     const std::vector<double> brought = this->Order
-      ? this->Order->Bring([this](std::int64_t i) { return this->Spacing.data()[i]; })
+      ? this->Order->Redistribute([this](std::int64_t i) { return this->Spacing.data()[i]; })
       : std::vector<double>();
     const double* all = this->Order ? brought.data() : this->Spacing.data();
     const std::int64_t count = this->Order ? this->Order->Count() : this->Count;

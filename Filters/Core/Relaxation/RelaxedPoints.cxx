@@ -4,7 +4,7 @@
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/Polls.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Relaxation/ReachTree.h"
+#include "Core/Relaxation/NeighbourTree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -103,8 +103,8 @@ void RelaxedPoints<Dimension>::MoveAside(std::int64_t point, double distance, st
   }
 }
 
-// Points in the order of a ReachTree are near each other in memory. All spacings are 1: the tree
-// then divides by position alone.
+// Points in the order of a NeighbourTree are near each other in memory. All spacings are 1: the
+// tree then divides by position alone.
 template <int Dimension>
 void RelaxedPoints<Dimension>::Arrange(Progress& progress)
 {
@@ -113,7 +113,7 @@ void RelaxedPoints<Dimension>::Arrange(Progress& progress)
   {
     points[i] = scaledPoint<Dimension>(this->At(static_cast<std::int64_t>(i)), 1.0, 1.0);
   }
-  ReachTree<Dimension> sorted;
+  NeighbourTree<Dimension> sorted;
   sorted.Build(points, progress);
   this->Order.assign(sorted.Order(), sorted.Order() + sorted.Size());
   for (std::int64_t i = 0; i < sorted.Size(); ++i)

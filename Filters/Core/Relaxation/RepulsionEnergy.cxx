@@ -42,7 +42,7 @@ RepulsionEnergy<Dimension>::RepulsionEnergy(const RectifiedFlow<Dimension>& flow
 // masses of its 2^D parts are exact (from summed-area tables); each part's centroid is taken to be
 // its centre, at 1/4 or 3/4 of the leaf.
 template <int Dimension>
-ReachTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progress) const
+NeighbourTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progress) const
 {
   std::vector<ScaledPoint<Dimension>> sources(static_cast<std::size_t>(this->Tree.Leaves()));
   progress.ForEach(
@@ -93,7 +93,7 @@ ReachTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progress)
                   [](const ScaledPoint<Dimension>& source) { return !(source.Mass > 0.0); }),
     sources.end());
   progress.Check();
-  ReachTree<Dimension> tree;
+  NeighbourTree<Dimension> tree;
   tree.BuildInOrder(sources, progress);
   return tree;
 }
@@ -103,9 +103,9 @@ ReachTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progress)
 // dh/dx.
 template <int Dimension>
 typename SpacingTree<Dimension>::Field RepulsionEnergy<Dimension>::SumAttraction(
-  const ReachTree<Dimension>& sources, Progress& progress) const
+  const NeighbourTree<Dimension>& sources, Progress& progress) const
 {
-  ReachTree<Dimension> targets;
+  NeighbourTree<Dimension> targets;
   {
     std::vector<ScaledPoint<Dimension>> nodes(static_cast<std::size_t>(this->Tree.Nodes()));
     for (std::size_t node = 0; node < nodes.size(); ++node)
@@ -120,11 +120,11 @@ typename SpacingTree<Dimension>::Field RepulsionEnergy<Dimension>::SumAttraction
   progress.For(
     targets.Blocks(), blockGrain,
     [&](std::int64_t first, std::int64_t last) {
-      InReach found;
+      Neighbourhood found;
       RepulsionBlock<Dimension> block;
       for (std::int64_t i = first; i < last; ++i)
       {
-        sources.FindInReach(targets, i, last, this->Reach, found);
+        sources.FindNearby(targets, i, last, this->Reach, found);
         const int count = targets.Fill(i, block);
         this->Kernels.Sum(this->Shape, sources.Points(), found.Points.data(), found.Count, block);
         for (int lane = 0; lane < count; ++lane)
@@ -154,7 +154,7 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
 {
   typename SpacingTree<Dimension>::Field attraction;
   {
-    const ReachTree<Dimension> sources = this->FindSources(progress);
+    const NeighbourTree<Dimension> sources = this->FindSources(progress);
     attraction = this->SumAttraction(sources, progress);
     this->Tree.FindMixed(attraction, false, progress);
     progress.Check();
@@ -253,11 +253,11 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
   progress.For(
     this->Particles.Blocks(), blockGrain,
     [&](std::int64_t first, std::int64_t last) {
-      InReach found;
+      Neighbourhood found;
       RepulsionBlock<Dimension> block;
       for (std::int64_t i = first; i < last; ++i)
       {
-        this->Particles.FindInReach(this->Particles, i, last, this->Reach, found);
+        this->Particles.FindNearby(this->Particles, i, last, this->Reach, found);
         const int filled = this->Particles.Fill(i, block);
         this->Kernels.Sum(
           this->Shape, this->Particles.Points(), found.Points.data(), found.Count, block);

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_RepulsionEnergy_h
 #define RectifiedTransport_RepulsionEnergy_h
 
-#include "Core/Relaxation/ReachTree.h"
+#include "Core/Relaxation/NeighbourTree.h"
 #include "Core/Relaxation/RelaxationEnergy.h"
 #include "Core/Relaxation/SpacingTree.h"
 
@@ -43,10 +43,10 @@ public:
 
 private:
   // Returns the masses of the leaves, at their centroids.
-  ReachTree<Dimension> FindSources(Progress& progress) const;
+  NeighbourTree<Dimension> FindSources(Progress& progress) const;
   // Values and first derivatives of A at the nodes.
   typename SpacingTree<Dimension>::Field SumAttraction(
-    const ReachTree<Dimension>& sources, Progress& progress) const;
+    const NeighbourTree<Dimension>& sources, Progress& progress) const;
   // Computes A at the nodes (Fields) and the integral of n A (Constant).
   void FindAttraction(Progress& progress);
 
@@ -60,7 +60,7 @@ private:
   // The spacing h and the attraction A at the nodes of the tree.
   typename SpacingTree<Dimension>::template FieldOf<ValuePair> Fields;
   double Constant = 0.0;
-  ReachTree<Dimension> Particles;
+  NeighbourTree<Dimension> Particles;
   // For each point in the order of Particles: h and A there, and the leaf that contains it.
   std::vector<HermiteData<Dimension, ValuePair>> AtPoints;
   std::vector<std::int64_t> Leaves;

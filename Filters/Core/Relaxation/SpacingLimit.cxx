@@ -2,7 +2,7 @@
 #include "Core/Relaxation/SpacingLimit.h"
 
 #include "Core/Parallel/Progress.h"
-#include "Core/Relaxation/ReachTree.h"
+#include "Core/Relaxation/NeighbourTree.h"
 
 #include <algorithm>
 #include <limits>
@@ -27,16 +27,16 @@ double affordableNeighbours(std::int64_t points)
 
 // The mean over a sample of at most 64 blocks, evenly spaced in the order of the tree.
 template <int Dimension>
-double meanNeighbours(const ReachTree<Dimension>& tree, double reach, Progress& progress)
+double meanNeighbours(const NeighbourTree<Dimension>& tree, double reach, Progress& progress)
 {
   constexpr std::int64_t most = 64;
   const std::int64_t taken = std::min(most, tree.Blocks());
-  InReach found;
+  Neighbourhood found;
   double sum = 0.0;
   for (std::int64_t i = 0; i < taken; ++i)
   {
     const std::int64_t block = i * tree.Blocks() / taken;
-    tree.FindInReach(tree, block, block + 1, reach, found);
+    tree.FindNearby(tree, block, block + 1, reach, found);
     sum += static_cast<double>(found.Count);
     progress.Check();
   }
@@ -64,7 +64,7 @@ double affordableSpacing(const SpacingTree<Dimension>& tree, ConstPointSpan<Dime
       scaled[static_cast<std::size_t>(i)] = scaledPoint<Dimension>(x, spacing, 1.0);
     },
     16 * grain);
-  ReachTree<Dimension> neighbours;
+  NeighbourTree<Dimension> neighbours;
   neighbours.Build(scaled, progress);
   // Lowers the largest spacing by 30 % a round, until the sample has an affordable number of
   // neighbours. At the mean spacing, 1, it ends.

@@ -10,7 +10,7 @@ namespace RectifiedTransport
 {
 
 // The largest spacing, at least 1, with which points have an affordable number of neighbours on
-// average; infinity if none is too large. `reach` is that of ReachTree.
+// average; infinity if none is too large. `reach` is that of NeighbourTree.
 template <int Dimension>
 double affordableSpacing(const SpacingTree<Dimension>& tree, ConstPointSpan<Dimension> points,
   double reach, Progress& progress);

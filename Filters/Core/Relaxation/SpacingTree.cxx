@@ -3,7 +3,7 @@
 
 #include "Core/Geometry/LatticePart.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Relaxation/NodeNumbers.h"
+#include "Core/Relaxation/NodeNumbering.h"
 
 #include <algorithm>
 #include <cmath>
@@ -248,7 +248,7 @@ template <int Dimension>
 void SpacingTree<Dimension>::Number(Progress& progress)
 {
   // There are about as many nodes as leaves.
-  NodeNumbers<Dimension> numbers(this->LeafBoxes.size());
+  NodeNumbering<Dimension> numbers(this->LeafBoxes.size());
   for (Leaf& box : this->LeafBoxes)
   {
     for (int corner = 0; corner < hermiteCorners<Dimension>; ++corner)

@@ -74,7 +74,7 @@ std::size_t RegionRows::RowOf(double y) const
 // weights that sum to `weight`. The piece's ends may be crossings, so that its point is projected
 // on the edge.
 void RegionRows::SetEnds(
-  const RegionBatch::Edge& edge, double part, double weight, int at, MeshPlace& found) const
+  const RegionBatch::Edge& edge, double part, double weight, int at, MeshLocation& found) const
 {
   const RegionShape& shape = this->Batch.ShapeOf(edge);
   const OutlineEdge& piece = this->Batch.At(edge);
@@ -95,7 +95,7 @@ void RegionRows::SetEnds(
 
 // Even-odd rule along the horizontal line through x: inside if an odd number of edges is to its
 // left. The value is linear between the nearest edges to the left and to the right.
-bool RegionRows::FindInside(const Point<2>& x, MeshPlace& found) const
+bool RegionRows::FindInside(const Point<2>& x, MeshLocation& found) const
 {
   if (x[1] < this->Box.Low[1] || x[1] > this->Box.High[1])
   {
@@ -142,7 +142,7 @@ bool RegionRows::FindInside(const Point<2>& x, MeshPlace& found) const
 }
 
 // Edges in the rows of y - 1 to y + 1: no others are within a grid cell of x.
-void RegionRows::FindNearest(const Point<2>& x, MeshPlace& found) const
+void RegionRows::FindNearest(const Point<2>& x, MeshLocation& found) const
 {
   RegionBatch::Edge nearest{ -1, 0 };
   double best = 2.0 + 1e-9; // squared diagonal of a grid cell
@@ -171,9 +171,9 @@ void RegionRows::FindNearest(const Point<2>& x, MeshPlace& found) const
   }
 }
 
-MeshPlace RegionRows::Find(const Point<2>& x) const
+MeshLocation RegionRows::Find(const Point<2>& x) const
 {
-  MeshPlace found{};
+  MeshLocation found{};
   found.Distance = infinity;
   if (!this->FindInside(x, found))
   {

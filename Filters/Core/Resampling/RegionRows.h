@@ -12,7 +12,7 @@ namespace RectifiedTransport
 {
 
 // Points of cells around a place.
-struct MeshPlace
+struct MeshLocation
 {
   double Distance; // squared, in grid cells; infinite while there is none
   std::int64_t Cell;
@@ -35,14 +35,14 @@ public:
   // A place in the region is between the outline to its left and to its right. Any other place is
   // at the nearest point of the outline; infinitely far if that is farther than the diagonal of a
   // grid cell.
-  MeshPlace Find(const Point<2>& x) const;
+  MeshLocation Find(const Point<2>& x) const;
 
 private:
   std::size_t RowOf(double y) const;
   void SetEnds(
-    const RegionBatch::Edge& edge, double part, double weight, int at, MeshPlace& found) const;
-  bool FindInside(const Point<2>& x, MeshPlace& found) const;
-  void FindNearest(const Point<2>& x, MeshPlace& found) const;
+    const RegionBatch::Edge& edge, double part, double weight, int at, MeshLocation& found) const;
+  bool FindInside(const Point<2>& x, MeshLocation& found) const;
+  void FindNearest(const Point<2>& x, MeshLocation& found) const;
 
   const RegionBatch& Batch;
   Bounds<2> Box; // bounds of the edges

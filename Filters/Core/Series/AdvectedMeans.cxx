@@ -14,7 +14,7 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 // The moment of a particle is mass * value; moments and masses are splatted alike, and their
 // quotient is the mean by mass.
 void writeMoments(
-  const AdvectedValues& values, const SeriesMoment& moment, Progress& progress, double* moments)
+  const AdvectedValues& values, const SeriesSnapshot& moment, Progress& progress, double* moments)
 {
   const double* masses = moment.Masses();
   progress.ForEach(moment.Count(), grain, [&](std::int64_t i) {

@@ -30,7 +30,7 @@ struct AdvectedValues
 
 // Writes the values of the particles at a moment times their masses. Throws Cancelled.
 void writeMoments(
-  const AdvectedValues& values, const SeriesMoment& moment, Progress& progress, double* moments);
+  const AdvectedValues& values, const SeriesSnapshot& moment, Progress& progress, double* moments);
 
 // Divides the sums of these in a part of an image by the masses. Cells without mass get the values
 // in place. Throws Cancelled.

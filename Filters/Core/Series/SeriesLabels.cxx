@@ -107,7 +107,7 @@ void SeriesLabels::AddTuples(
 // Each part of a cloud votes with its mass for its tuples; a tracked particle divides the vote
 // between both steps by the time.
 template <int D>
-void SeriesLabels::Find(const SeriesMoment& moment, const ImageGrid& grid,
+void SeriesLabels::Find(const SeriesSnapshot& moment, const ImageGrid& grid,
   const LatticePart<D>& wanted, const std::vector<std::vector<std::int64_t>>& equal,
   Progress& progress, const Take& take) const
 {
@@ -186,11 +186,11 @@ std::int64_t SeriesLabels::InPlace(
   return cellAt<D>(step, index) + (isFirst ? 0 : this->TuplesOfFirst());
 }
 
-template void SeriesLabels::Find<1>(const SeriesMoment&, const ImageGrid&, const LatticePart<1>&,
+template void SeriesLabels::Find<1>(const SeriesSnapshot&, const ImageGrid&, const LatticePart<1>&,
   const std::vector<std::vector<std::int64_t>>&, Progress&, const Take&) const;
-template void SeriesLabels::Find<2>(const SeriesMoment&, const ImageGrid&, const LatticePart<2>&,
+template void SeriesLabels::Find<2>(const SeriesSnapshot&, const ImageGrid&, const LatticePart<2>&,
   const std::vector<std::vector<std::int64_t>>&, Progress&, const Take&) const;
-template void SeriesLabels::Find<3>(const SeriesMoment&, const ImageGrid&, const LatticePart<3>&,
+template void SeriesLabels::Find<3>(const SeriesSnapshot&, const ImageGrid&, const LatticePart<3>&,
   const std::vector<std::vector<std::int64_t>>&, Progress&, const Take&) const;
 
 } // namespace RectifiedTransport

@@ -46,7 +46,7 @@ public:
   // Takes the tuples at a moment, for each of several arrays; equal[array] is that of findEqual.
   // Collective. Throws std::bad_alloc and Cancelled.
   template <int D>
-  void Find(const SeriesMoment& moment, const ImageGrid& grid, const LatticePart<D>& wanted,
+  void Find(const SeriesSnapshot& moment, const ImageGrid& grid, const LatticePart<D>& wanted,
     const std::vector<std::vector<std::int64_t>>& equal, Progress& progress,
     const Take& take) const;
 

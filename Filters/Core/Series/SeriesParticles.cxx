@@ -35,9 +35,9 @@ bool writeVelocities(
 }
 
 // At the ends of the interval, particles of the other step have no mass and are left out.
-SeriesMoment::SeriesMoment(const SeriesParticles& particles, double part)
+SeriesSnapshot::SeriesSnapshot(const SeriesParticles& particles, double part)
   : Particles(particles)
-  , PartOfWay(part)
+  , TimeFraction(part)
   , Begin(!particles.AreTracked && part >= 1.0 ? particles.OfFirst : 0)
   , Places(nullptr, (part <= 0.0 ? particles.OfFirst : particles.Count()) - this->Begin)
 {
@@ -45,9 +45,9 @@ SeriesMoment::SeriesMoment(const SeriesParticles& particles, double part)
 
 // Straight ways, x(s) = (1 - s) from + s to: displacement interpolation. Masses fade by 1 - s and
 // grow by s.
-void SeriesMoment::Write(double mass, PointSpan<3> points, double* masses, Progress& progress)
+void SeriesSnapshot::Write(double mass, PointSpan<3> points, double* masses, Progress& progress)
 {
-  const double part = this->PartOfWay;
+  const double part = this->TimeFraction;
   const std::int64_t count = this->Count();
   // Positions at both ends of the way, with the weights 1 - s and s.
   const std::vector<WeightedPositions> ends = {
@@ -70,16 +70,16 @@ void SeriesMoment::Write(double mass, PointSpan<3> points, double* masses, Progr
   this->MassesOfPoints = masses;
 }
 
-const std::int64_t* SeriesMoment::Numbers() const
+const std::int64_t* SeriesSnapshot::Numbers() const
 {
   const std::vector<std::int64_t>& numbers = this->Particles.Numbers;
   return numbers.empty() ? nullptr : numbers.data() + this->Begin;
 }
 
 template <int D>
-ScaledClouds<D> SeriesMoment::CloudsIn(const ImageGrid& grid) const
+ScaledClouds<D> SeriesSnapshot::CloudsIn(const ImageGrid& grid) const
 {
-  ScaledClouds<D> clouds{ this->Places, this->MassesOfPoints, {}, this->PartOfWay, {},
+  ScaledClouds<D> clouds{ this->Places, this->MassesOfPoints, {}, this->TimeFraction, {},
     this->Particles.OfFirst - this->Begin };
   for (std::size_t end = 0; end < 2 && !this->Particles.Clouds[0].empty(); ++end)
   {
@@ -90,8 +90,8 @@ ScaledClouds<D> SeriesMoment::CloudsIn(const ImageGrid& grid) const
   return clouds;
 }
 
-template ScaledClouds<1> SeriesMoment::CloudsIn<1>(const ImageGrid&) const;
-template ScaledClouds<2> SeriesMoment::CloudsIn<2>(const ImageGrid&) const;
-template ScaledClouds<3> SeriesMoment::CloudsIn<3>(const ImageGrid&) const;
+template ScaledClouds<1> SeriesSnapshot::CloudsIn<1>(const ImageGrid&) const;
+template ScaledClouds<2> SeriesSnapshot::CloudsIn<2>(const ImageGrid&) const;
+template ScaledClouds<3> SeriesSnapshot::CloudsIn<3>(const ImageGrid&) const;
 
 } // namespace RectifiedTransport

@@ -71,14 +71,14 @@ bool writeVelocities(
   const SeriesParticles& particles, double time, PointSpan<3> velocities, Progress& progress);
 
 // The particles of an interval that have mass at a moment: at its ends those of one step alone.
-class SeriesMoment
+class SeriesSnapshot
 {
 public:
   // `part` is the part of the way that is done. The particles must outlive this object.
-  SeriesMoment(const SeriesParticles& particles, double part);
+  SeriesSnapshot(const SeriesParticles& particles, double part);
 
   const SeriesParticles& All() const { return this->Particles; }
-  double Part() const { return this->PartOfWay; }
+  double Part() const { return this->TimeFraction; }
   std::int64_t First() const { return this->Begin; } // among all
   std::int64_t Count() const { return this->Places.size(); }
 
@@ -96,7 +96,7 @@ public:
 
 private:
   const SeriesParticles& Particles;
-  const double PartOfWay;
+  const double TimeFraction;
   const std::int64_t Begin;
   ConstPointSpan<3> Places;
   const double* MassesOfPoints = nullptr;

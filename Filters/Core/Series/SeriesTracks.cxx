@@ -6,7 +6,7 @@
 namespace RectifiedTransport
 {
 
-void SeriesTracks::SetSettings(const MovingSettings& settings, int ranks)
+void SeriesTracks::SetSettings(const TrackSettings& settings, int ranks)
 {
   if (!(this->Chosen == settings) || this->NumberOfRanks != ranks)
   {

@@ -11,12 +11,12 @@
 namespace RectifiedTransport
 {
 
-struct MovingSettings
+struct TrackSettings
 {
   int ParticlesPerCell;
   bool IsOptimal;
 
-  bool operator==(const MovingSettings& other) const
+  bool operator==(const TrackSettings& other) const
   {
     return this->ParticlesPerCell == other.ParticlesPerCell && this->IsOptimal == other.IsOptimal;
   }
@@ -28,8 +28,8 @@ public:
   using Name = std::vector<std::uint64_t>; // the same numbers for equal densities alone
 
   // Forgets positions that other settings made.
-  void SetSettings(const MovingSettings& settings, int ranks);
-  const MovingSettings& Settings() const { return this->Chosen; }
+  void SetSettings(const TrackSettings& settings, int ranks);
+  const TrackSettings& Settings() const { return this->Chosen; }
   // Returns the number of steps, from the first one on, at which positions are known.
   int Count() const { return this->Checked; }
   // The steps may have changed: each has to be given again to Knows, which keeps the positions up
@@ -54,7 +54,7 @@ public:
   const TrackedParticles& Particles() const { return this->Tracked; }
 
 private:
-  MovingSettings Chosen{ 0, true };
+  TrackSettings Chosen{ 0, true };
   int NumberOfRanks = 0;
   TrackedParticles Tracked;
   std::vector<Name> Names; // name of each step

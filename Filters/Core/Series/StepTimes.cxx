@@ -16,9 +16,9 @@ StepTimes::StepTimes(const double* times, std::size_t count)
   this->Times.erase(std::unique(this->Times.begin(), this->Times.end()), this->Times.end());
 }
 
-TimePlace StepTimes::Find(double time) const
+TimeInterval StepTimes::Find(double time) const
 {
-  TimePlace place;
+  TimeInterval place;
   if (this->Count() < 2)
   {
     return place;

@@ -10,7 +10,7 @@ namespace RectifiedTransport
 {
 
 // A time within an interval between two consecutive steps; of one step, both are that one.
-struct TimePlace
+struct TimeInterval
 {
   int First = 0;
   int Second = 0;
@@ -35,7 +35,7 @@ public:
   double operator[](int step) const { return this->Times[static_cast<std::size_t>(step)]; }
   // There is at least one step. A time before the first one or after the last one is that one; at a
   // step, the place is in the interval that begins there, if there is one.
-  TimePlace Find(double time) const;
+  TimeInterval Find(double time) const;
   double Clamp(double time) const;
   // Returns the times of `each` equal parts of every interval.
   std::vector<double> Resampled(int each) const;

@@ -5,7 +5,7 @@
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/EqualMasses/EqualizeSiteMasses.h"
-#include "Core/SiteCells/EqualMasses/JoinSpecks.h"
+#include "Core/SiteCells/EqualMasses/MergeComponents.h"
 #include "Core/SiteCells/EqualMasses/SplitSharedPixels.h"
 #include "Core/SiteCells/SiteDensity.h"
 
@@ -89,14 +89,14 @@ void equalize(const SiteGroups& groups, const PixelMasses<Dimension>& masses,
   constexpr int mostRounds = 8;
   Stages stages(progress, { { "specks", 5 }, { "rounds", 30 } });
   // The labels of the flow have isolated pixels, which no border could move.
-  joinSpecks<Dimension>(groups, masses, labels, stages["specks"]);
+  mergeComponents<Dimension>(groups, masses, labels, stages["specks"]);
   Rounds rounds(stages["rounds"], 1);
   for (int round = 0; round < mostRounds; ++round)
   {
     Stages steps(rounds.Next(), { { "masses", 9 }, { "specks", 1 } });
     equalizeSiteMasses<Dimension>(groups, masses, places, spacing, labels, steps["masses"]);
     if (round + 1 == mostRounds ||
-      joinSpecks<Dimension>(groups, masses, labels, steps["specks"]) == 0)
+      mergeComponents<Dimension>(groups, masses, labels, steps["specks"]) == 0)
     {
       return;
     }

@@ -19,10 +19,10 @@ namespace RectifiedTransport
 
 // Reads the cells of a part under their numbers in it: whole rows, or pieces of rows.
 template <int Dimension>
-class PartOfDensity final : public DensityValues
+class DensityPart final : public DensityValues
 {
 public:
-  PartOfDensity(const DensityValues& density, const GridSize<Dimension>& size,
+  DensityPart(const DensityValues& density, const GridSize<Dimension>& size,
     const LatticePart<Dimension>& part)
     : Density(density)
     , Whole(LatticePart<Dimension>::WholeOf(size))
@@ -93,7 +93,7 @@ public:
     setGrid<Dimension>(part, cells);
     const std::int64_t doubles = layOut(cells, part.Levels[0].Stride);
     part.Levels[0].Nodes = this->Nodes.data();
-    const PartOfDensity<Dimension> values(density, size, { low, cells });
+    const DensityPart<Dimension> values(density, size, { low, cells });
     DensitySummary found;
     progress.Expect(cells[Dimension - 1]);
     buildTables(TableBuild<Dimension>{ ScaledDensity(values, this->Scaling), progress, part,

@@ -24,7 +24,7 @@ DiskTriangles::DiskTriangles(SurfaceTriangles& triangles, Progress& progress)
     defect = found;
   }
   // A cut that makes the surface a disk stays open.
-  const TJunctionScope scope = defect ? TJunctionScope::All : TJunctionScope::OfFlatTriangles;
+  const TJunctionScope scope = defect ? TJunctionScope::All : TJunctionScope::OfDegenerateTriangles;
   const bool isCut = (defect || this->Mesh->Repairs().FlatTriangles > 0) &&
     triangles.CloseTJunctions(scope, stages["T-junctions"]);
   if (defect && !isCut)

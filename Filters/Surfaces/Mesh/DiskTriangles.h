@@ -4,9 +4,9 @@
 #define RectifiedTransport_DiskTriangles_h
 
 #include "Core/Parallel/Progress.h"
-#include "Surfaces/Mesh/PlacedTriangles.h"
 #include "Surfaces/Mesh/Repair/RepairedDisk.h"
 #include "Surfaces/Mesh/SurfaceTriangles.h"
+#include "Surfaces/Mesh/TriangleDomain.h"
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace RectifiedTransport
 {
 
 // "Given" are the triangles before they are cut.
-class DiskTriangles final : public PlacedTriangles
+class DiskTriangles final : public TriangleDomain
 {
 public:
   // They are no disk.

@@ -100,7 +100,7 @@ constexpr int mostRings = 14;        // rings of triangles around flipped ones, 
 constexpr double distant = 0.05; // deviation of 95 % of the area where a flow is better than sweeps
 
 // The root mean square to be reached: small, and small beside what a conformal map has.
-double goalFor(const MapDistortion& conformal)
+double targetFor(const MapDistortion& conformal)
 {
   constexpr double largest = 0.02;
   constexpr double smallest = 5e-4; // below nothing is gained
@@ -139,7 +139,7 @@ AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& confo
   // Collapsed triangles miss their whole share s: their deviation |0 - 1| alone makes the root mean
   // square sqrt(sum of s), which no sweep can undercut.
   const CollapsedTriangles collapsed = findCollapsed(disk, conformal);
-  const double goal = std::hypot(goalFor(map.Distortion), std::sqrt(collapsed.AreaShare));
+  const double goal = std::hypot(targetFor(map.Distortion), std::sqrt(collapsed.AreaShare));
   AreaFlow flow(disk, conformal, options.Resolution);
   const bool isKept = isNear(map.Distortion, goal) && map.Distortion.Flipped <= collapsed.Count;
   if (!options.Polish || !isKept) // the integrator's error may be larger than what there is to mend

@@ -3,7 +3,7 @@
 
 #include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/Stages.h"
-#include "Surfaces/Mesh/FlatShape.h"
+#include "Surfaces/Mesh/TriangleShape.h"
 
 #include <Eigen/Geometry>
 
@@ -33,7 +33,7 @@ bool isNeedle(const TriangleSurface& surface, std::int64_t triangle)
 {
   const std::int64_t* corners = surface.Triangles + 3 * triangle;
   const auto at = [&](int i) { return pointAt(surface.Points, corners[i]); };
-  const FlatShape shape(at(0), at(1), at(2));
+  const TriangleShape shape(at(0), at(1), at(2));
   return shape.Height < MapDistortion::NeedleHeight * shape.Length;
 }
 

@@ -3,7 +3,7 @@
 
 #include "Core/Parallel/KeySort.h"
 #include "Core/Parallel/Progress.h"
-#include "Surfaces/Mesh/Trees.h"
+#include "Surfaces/Mesh/DisjointSets.h"
 #include "Surfaces/Seams/SeamSearch.h"
 
 #include <limits>
@@ -149,7 +149,7 @@ private:
       {
         bridges.push_back(keyed.Side);
       }
-      joinTrees(trees.data(), a, b);
+      uniteSets(trees.data(), a, b);
       progress.Add(1);
     }
     return bridges;

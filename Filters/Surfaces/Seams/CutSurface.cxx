@@ -4,10 +4,10 @@
 #include "Core/Geometry/PointBounds.h"
 #include "Core/Geometry/Vectors.h"
 #include "Core/Parallel/Stages.h"
-#include "Surfaces/Mesh/FlatShape.h"
 #include "Surfaces/Mesh/Repair/SurfaceRepair.h"
+#include "Surfaces/Mesh/TriangleShape.h"
+#include "Surfaces/Seams/CutOpenComponent.h"
 #include "Surfaces/Seams/HoleFans.h"
-#include "Surfaces/Seams/OpenedComponent.h"
 #include "Surfaces/Seams/SeamMesh.h"
 #include "Surfaces/Seams/SurfaceParts.h"
 
@@ -144,7 +144,7 @@ private:
       progress.CheckEvery(polled, triangle);
       const std::int64_t* ids = surface.Triangles + 3 * triangle;
       const auto at = [&](int i) { return pointAt(surface.Points, ids[i]) / this->Unit; };
-      if (FlatShape(at(0), at(1), at(2)).Height > 0.0)
+      if (TriangleShape(at(0), at(1), at(2)).Height > 0.0)
       {
         this->Repaired.push_back(triangle);
         this->Triangles.insert(this->Triangles.end(), ids, ids + 3);
@@ -177,7 +177,7 @@ private:
   {
     Stages stages(progress, { { "mesh", 1 }, { "seams", 9 } });
     SeamMesh mesh = this->MeshOf(component, stages["mesh"]);
-    OpenedDisk opened = openComponent(mesh, static_cast<std::int64_t>(component.Triangles.size()),
+    CutOpenDisk opened = cutComponent(mesh, static_cast<std::int64_t>(component.Triangles.size()),
       options.MaximumRounds, stages["seams"]);
     CutDisk& disk = opened.Disk;
     // Points of disks are numbered one disk after the other.
@@ -237,7 +237,7 @@ private:
   }
 
   // Whether the normals of a given triangle and of the disk's triangle that is part of it disagree.
-  unsigned char IsTurned(std::int64_t given, ConstPointSpan<3> points, const OpenedDisk& opened,
+  unsigned char IsTurned(std::int64_t given, ConstPointSpan<3> points, const CutOpenDisk& opened,
     std::int64_t triangle, const std::int64_t* kept) const
   {
     const auto normalOf = [](ConstPointSpan<3> places, std::array<std::int64_t, 3> ids) {

@@ -4,10 +4,10 @@
 #include "Core/Geometry/PointBounds.h"
 #include "Core/Geometry/Vectors.h"
 #include "Core/Parallel/Stages.h"
-#include "Surfaces/Mesh/FlatShape.h"
-#include "Surfaces/Parameterization/EvenEmbedding.h"
+#include "Surfaces/Mesh/TriangleShape.h"
 #include "Surfaces/Parameterization/LocalMap.h"
 #include "Surfaces/Parameterization/SquareCorners.h"
+#include "Surfaces/Parameterization/TutteEmbedding.h"
 #include "Surfaces/Seams/SquareAtlas.h"
 
 #include <algorithm>
@@ -90,7 +90,7 @@ public:
     Stages stages(progress, { { "first map", 1 }, { "other map", 1 } });
     // Unevenness of conformal maps; below, an embedding gains no angles.
     constexpr double uneven = 1.3;
-    const bool isUneven = areaUnevenness(this->Disk, this->Conformal.Positions) >= uneven;
+    const bool isUneven = areaDistortion(this->Disk, this->Conformal.Positions) >= uneven;
     AreaPreservingMap found = this->MapFrom(isUneven, stages["first map"]);
     constexpr double wrong = 0.05; // deviation of 95 % of the area, at which the filter warns
     if (this->FlipsOf(found) > 0 || found.Distortion.Area95 > wrong)
@@ -120,7 +120,7 @@ private:
       return mapAreaPreserving(this->Disk, this->Conformal, this->Options, progress);
     }
     Stages stages(progress, { { "embedding", 1 }, { "map", 1 } });
-    const SquareMap even = embedEvenly(this->Disk, this->Conformal, stages["embedding"]);
+    const SquareMap even = tutteEmbedding(this->Disk, this->Conformal, stages["embedding"]);
     return mapAreaPreserving(this->Disk, even, this->Options, stages["map"]);
   }
 
@@ -210,7 +210,7 @@ CutTriangles::CutTriangles(const CutSurface& cut, const TriangleSurface& given)
       const std::int64_t point = given.Triangles[3 * triangle + static_cast<int>(i)];
       places[i] = pointAt(given.Points, point) / largest;
     }
-    const FlatShape shape(places[0], places[1], places[2]);
+    const TriangleShape shape(places[0], places[1], places[2]);
     const double area = 0.5 * shape.Length * shape.Height;
     if (!(area > 0.0))
     {

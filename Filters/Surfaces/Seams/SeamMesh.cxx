@@ -3,7 +3,7 @@
 
 #include "Core/Geometry/Vectors.h"
 #include "Core/Parallel/Stages.h"
-#include "Surfaces/Mesh/Trees.h"
+#include "Surfaces/Mesh/DisjointSets.h"
 
 #include <cmath>
 #include <numeric>
@@ -125,7 +125,7 @@ SeamMesh::Cut SeamMesh::MakeCut(Progress& progress) const
     if (this->IsFirst(side) && !this->IsSeam(side))
     {
       joinCorners(this->Triangles.data(), side, this->Other(side),
-        [&](std::int64_t a, std::int64_t b) { joinTrees(corners.data(), a, b); });
+        [&](std::int64_t a, std::int64_t b) { uniteSets(corners.data(), a, b); });
     }
   });
   std::vector<std::int64_t> numbers(corners.size());

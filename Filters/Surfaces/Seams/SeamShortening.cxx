@@ -2,7 +2,7 @@
 #include "Surfaces/Seams/CutGraph.h"
 
 #include "Core/Parallel/Progress.h"
-#include "Surfaces/Mesh/Trees.h"
+#include "Surfaces/Mesh/DisjointSets.h"
 #include "Surfaces/Seams/SeamSearch.h"
 
 #include <algorithm>
@@ -142,7 +142,7 @@ private:
         const std::int64_t from = this->Mesh.From(side);
         if (this->Mesh.IsSeam(side))
         {
-          joinTrees(trees, side, nextSide(side));
+          uniteSets(trees, side, nextSide(side));
         }
         else
         {
@@ -151,7 +151,7 @@ private:
           const bool isOpposite = this->Mesh.From(other) != from;
           const std::int64_t own = side == corner ? side : nextSide(side);
           const std::int64_t opposite = (side == corner) == isOpposite ? nextSide(other) : other;
-          joinTrees(trees, own, opposite);
+          uniteSets(trees, own, opposite);
         }
       }
     });

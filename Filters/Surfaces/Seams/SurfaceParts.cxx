@@ -2,9 +2,9 @@
 #include "Surfaces/Seams/SurfaceParts.h"
 
 #include "Core/Parallel/Stages.h"
+#include "Surfaces/Mesh/DisjointSets.h"
 #include "Surfaces/Mesh/SurfaceEdges.h"
 #include "Surfaces/Mesh/SurfaceOrientation.h"
-#include "Surfaces/Mesh/Trees.h"
 #include "Surfaces/Seams/SeamMesh.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ SurfaceParts::SurfaceParts(const TriangleSurface& surface, const Context& contex
       if (edges.Other(side) > side)
       {
         joinCorners(surface.Triangles, side, edges.Other(side),
-          [&](std::int64_t a, std::int64_t b) { joinTrees(trees.data(), a, b); });
+          [&](std::int64_t a, std::int64_t b) { uniteSets(trees.data(), a, b); });
       }
       points.Add(1);
     }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Surfaces/Solid/ClosedMesh.h"
 
-#include "Core/Geometry/EqualPoints.h"
+#include "Core/Geometry/CoincidentPoints.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/PointBounds.h"
 #include "Core/Parallel/Stages.h"
 #include "Surfaces/Mesh/Repair/MergePoints.h"
 #include "Surfaces/Mesh/Repair/SplitSurface.h"
 #include "Surfaces/Mesh/Repair/TJunctions.h"
+#include "Surfaces/Solid/DuplicateTriangles.h"
 #include "Surfaces/Solid/OrientedBodies.h"
-#include "Surfaces/Solid/RepeatedTriangles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -321,7 +321,7 @@ void ClosedMesh::CountEdgesAlone(const Context& context)
 // first of all if none does.
 void ClosedMesh::DropRepeated(const Context& context)
 {
-  const std::array<std::vector<std::int64_t>, 3> ways = findRepeated(this->Surface(), *this->Edges);
+  const std::array<std::vector<std::int64_t>, 3> ways = findDropped(this->Surface(), *this->Edges);
   if (ways.back().empty())
   {
     return;

@@ -3,8 +3,8 @@
 
 #include "Core/Geometry/Vectors.h"
 #include "Core/Parallel/Stages.h"
+#include "Surfaces/Mesh/DisjointSets.h"
 #include "Surfaces/Mesh/SurfaceOrientation.h"
-#include "Surfaces/Mesh/Trees.h"
 
 #include <algorithm>
 #include <array>
@@ -153,7 +153,7 @@ private:
   }
 
   Index RootOf(Index patch) { return rootOf(this->Roots.data(), patch); }
-  void Join(Index a, Index b) { joinTrees(this->Roots.data(), a, b); }
+  void Join(Index a, Index b) { uniteSets(this->Roots.data(), a, b); }
 
   // Joins patches into bodies of which each is closed. At an edge, sides that pass it one way are
   // paired with sides that pass it the other way: first those of the same body, then the rest.

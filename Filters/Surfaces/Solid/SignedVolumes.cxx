@@ -99,12 +99,12 @@ SignedVolumes::CellSums* SignedVolumes::RowOf(std::int64_t row)
 void SignedVolumes::WriteRow(std::int64_t row, double rounding, double* volumes) const
 {
   const CellSums* sums = this->Sums.get() + row * (this->Columns + 1);
-  OrderlessSum before{};
+  ReproducibleSum before{};
   std::int64_t areas = 0;
   for (std::int64_t i = 0; i < this->Columns; ++i)
   {
     before.Add(sums[i].Beyond);
-    OrderlessSum volume = before;
+    ReproducibleSum volume = before;
     volume.Add(sums[i].Own);
     areas += sums[i].Areas;
     const double value = volume.Value();

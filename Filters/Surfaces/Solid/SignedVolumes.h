@@ -17,8 +17,8 @@ namespace RectifiedTransport
 
 // A sum of doubles up to about 1 that does not depend on their order: each is rounded to a
 // multiple of 2^-72, and these are added as integers. A value is split into high 2^-36 + low 2^-72.
-// Valid for at least 2^27 values. OrderlessSum{} is 0.
-class OrderlessSum
+// Valid for at least 2^27 values. ReproducibleSum{} is 0.
+class ReproducibleSum
 {
 public:
   void Add(double value)
@@ -28,7 +28,7 @@ public:
     this->High += high;
     this->Low += static_cast<std::int64_t>((scaled - static_cast<double>(high)) * Unit);
   }
-  void Add(const OrderlessSum& other)
+  void Add(const ReproducibleSum& other)
   {
     this->High += other.High;
     this->Low += other.Low;
@@ -73,9 +73,9 @@ private:
   // The sums of one cell of a row.
   struct CellSums
   {
-    OrderlessSum Own;    // volumes of prisms that begin in the cell
-    OrderlessSum Beyond; // areas of prisms that begin in the cell before
-    std::int64_t Areas;  // absolute areas of prisms that begin in the cell, in AreaUnit
+    ReproducibleSum Own;    // volumes of prisms that begin in the cell
+    ReproducibleSum Beyond; // areas of prisms that begin in the cell before
+    std::int64_t Areas;     // absolute areas of prisms that begin in the cell, in AreaUnit
   };
 
   static constexpr double AreaUnit = 0x1p-40; // in faces of a cell

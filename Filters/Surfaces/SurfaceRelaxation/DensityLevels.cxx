@@ -2,7 +2,7 @@
 #include "Surfaces/SurfaceRelaxation/DensityLevels.h"
 
 #include "Core/Parallel/Stages.h"
-#include "Surfaces/Mesh/Trees.h"
+#include "Surfaces/Mesh/DisjointSets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,12 +35,12 @@ struct Part
 class LevelsRun
 {
 public:
-  LevelsRun(WalkedSurface& surface, const SurfaceDensity& density, double massOfDot, double* levels)
-    : Surface(surface)
+  LevelsRun(GeodesicTracer& tracer, const SurfaceDensity& density, double massOfDot, double* levels)
+    : Tracer(tracer)
     , Density(density)
     , MassOfDot(massOfDot)
     , Levels(levels)
-    , Count(surface.NumberOfTriangles())
+    , Count(tracer.NumberOfTriangles())
     , PartOf(this->Count)
   {
   }
@@ -59,7 +59,7 @@ public:
       hasJumps = hasJumps || isJump;
       if (!isJump)
       {
-        joinTrees(this->PartOf.data(), side / 3, other / 3);
+        uniteSets(this->PartOf.data(), side / 3, other / 3);
       }
     });
     stages["roots"].ForEachInOrder(this->Count, grain,
@@ -88,7 +88,7 @@ private:
     progress.ForEachInOrder(this->Count, grain, [&](std::int64_t t) {
       for (std::int64_t side = 3 * t; side < 3 * t + 3; ++side)
       {
-        const std::int64_t other = this->Surface.Across(side);
+        const std::int64_t other = this->Tracer.Across(side);
         if (other > side)
         {
           visit(side, other);
@@ -120,12 +120,12 @@ private:
   // Three times the centre of a triangle.
   Point<3> SumOfCorners(std::int64_t t) const
   {
-    return this->Surface.Corner(t, 0) + this->Surface.Corner(t, 1) + this->Surface.Corner(t, 2);
+    return this->Tracer.Corner(t, 0) + this->Tracer.Corner(t, 1) + this->Tracer.Corner(t, 2);
   }
 
   double LengthOf(std::int64_t side) const
   {
-    const Point<3> edge = this->Surface.Edge(side);
+    const Point<3> edge = this->Tracer.Edge(side);
     return std::sqrt(dot(edge, edge));
   }
 
@@ -135,7 +135,7 @@ private:
     this->Parts = { this->Count, Part{} };
     progress.ForEachInOrder(this->Count, grain, [&](std::int64_t t) {
       Part& part = this->Parts.data()[this->PartOf.data()[t]];
-      const double area = this->Surface.Area(t);
+      const double area = this->Tracer.Area(t);
       part.Area += area;
       part.Mass += area * this->Levels[t];
     });
@@ -149,7 +149,7 @@ private:
         if (this->PartOf.data()[sides[i] / 3] != this->PartOf.data()[beside])
         {
           Part& part = this->Parts.data()[this->PartOf.data()[sides[i] / 3]];
-          const double area = this->Surface.Area(beside);
+          const double area = this->Tracer.Area(beside);
           part.Border += this->LengthOf(side);
           part.AreaAround += area;
           part.MassAround += area * this->Levels[beside];
@@ -192,15 +192,15 @@ private:
       const std::int64_t a = side / 3;
       const std::int64_t b = other / 3;
       // A side is closed where two wide parts meet, or one meets itself, across a jump.
-      if (this->InWide(a) && this->InWide(b) && this->Surface.Area(a) > 0.0 &&
-        this->Surface.Area(b) > 0.0 && this->IsJump(side, other) &&
+      if (this->InWide(a) && this->InWide(b) && this->Tracer.Area(a) > 0.0 &&
+        this->Tracer.Area(b) > 0.0 && this->IsJump(side, other) &&
         (this->PartOf.data()[a] != this->PartOf.data()[b] ||
           this->JumpsAround(side, other, progress)))
       {
         const bool isEmpty = this->Levels[a] == 0.0 || this->Levels[b] == 0.0;
-        const std::int64_t with = isEmpty ? WalkedSurface::Boundary : WalkedSurface::Wall;
-        this->Surface.Close(side, with);
-        this->Surface.Close(other, with);
+        const std::int64_t with = isEmpty ? GeodesicTracer::Boundary : GeodesicTracer::Wall;
+        this->Tracer.Close(side, with);
+        this->Tracer.Close(other, with);
       }
     });
   }
@@ -236,12 +236,12 @@ private:
          ++next)
     {
       const std::int64_t t = this->Queue[next];
-      const double own = this->Surface.Area(t);
+      const double own = this->Tracer.Area(t);
       area += own;
       mass += own * this->Levels[t];
       for (std::int64_t side = 3 * t; side < 3 * t + 3; ++side)
       {
-        const std::int64_t other = this->Surface.Across(side);
+        const std::int64_t other = this->Tracer.Across(side);
         if (other >= 0 && this->SeenBy.data()[other / 3] != mark && isWay(side, other))
         {
           this->SeenBy.data()[other / 3] = mark;
@@ -294,7 +294,7 @@ private:
     });
   }
 
-  WalkedSurface& Surface;
+  GeodesicTracer& Tracer;
   const SurfaceDensity& Density;
   const double MassOfDot;
   double* Levels; // by triangles; at first mean densities
@@ -309,10 +309,10 @@ private:
 } // namespace
 
 DensityLevels::DensityLevels(
-  WalkedSurface& surface, const SurfaceDensity& density, double massOfDot, Progress& progress)
-  : Levels(surface.NumberOfTriangles())
+  GeodesicTracer& tracer, const SurfaceDensity& density, double massOfDot, Progress& progress)
+  : Levels(tracer.NumberOfTriangles())
 {
-  LevelsRun(surface, density, massOfDot, this->Levels.data()).Run(progress);
+  LevelsRun(tracer, density, massOfDot, this->Levels.data()).Run(progress);
 }
 
 double DensityLevels::MemoryFor(std::int64_t triangles)

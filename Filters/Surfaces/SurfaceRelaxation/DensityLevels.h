@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_DensityLevels_h
 #define RectifiedTransport_DensityLevels_h
 
+#include "Surfaces/SurfaceRelaxation/GeodesicTracer.h"
 #include "Surfaces/SurfaceRelaxation/SurfaceDensity.h"
-#include "Surfaces/SurfaceRelaxation/WalkedSurface.h"
 
 #include <cstdint>
 
@@ -26,7 +26,7 @@ public:
   static constexpr double Given = -1.0;
 
   DensityLevels(
-    WalkedSurface& surface, const SurfaceDensity& density, double massOfDot, Progress& progress);
+    GeodesicTracer& tracer, const SurfaceDensity& density, double massOfDot, Progress& progress);
   static double MemoryFor(std::int64_t triangles);
 
   const double* data() const { return this->Levels.data(); }

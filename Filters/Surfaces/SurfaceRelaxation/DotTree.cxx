@@ -64,7 +64,7 @@ void DotTree::Update(const ScaledDot* dots, Progress& progress)
 }
 
 // For a group of blocks at once: their common bounds find all blocks that may push any of them.
-void DotTree::FindInReach(
+void DotTree::FindNearby(
   std::int64_t first, std::int64_t last, std::vector<std::int64_t>& found) const
 {
   const DotBox target = this->Tree.BoundsOf(first, last);

@@ -38,7 +38,7 @@ public:
 
   const DotBox& BoxOf(std::int64_t block) const { return this->Tree[block]; }
   // The blocks with dots that may push those of the blocks [first, last), in their order.
-  void FindInReach(std::int64_t first, std::int64_t last, std::vector<std::int64_t>& found) const;
+  void FindNearby(std::int64_t first, std::int64_t last, std::vector<std::int64_t>& found) const;
   // Those of some blocks with dots that may push those of one.
   void Select(const std::vector<std::int64_t>& from, std::int64_t block,
     std::vector<std::int64_t>& found) const;

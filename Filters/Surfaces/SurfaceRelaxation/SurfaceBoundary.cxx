@@ -18,16 +18,16 @@ constexpr std::int64_t sidesOfLeaf = 16;
 
 } // namespace
 
-SurfaceBoundary::SurfaceBoundary(const WalkedSurface& surface, Progress& progress)
-  : Surface(surface)
+SurfaceBoundary::SurfaceBoundary(const GeodesicTracer& tracer, Progress& progress)
+  : Tracer(tracer)
 {
   // Counted first, so that the memory is what they need.
   const auto forSides = [&](const auto& visit) {
-    for (std::int64_t triangle = 0; triangle < surface.NumberOfTriangles(); ++triangle)
+    for (std::int64_t triangle = 0; triangle < tracer.NumberOfTriangles(); ++triangle)
     {
       for (std::int64_t side = 3 * triangle; side < 3 * triangle + 3; ++side)
       {
-        if (surface.Across(side) == WalkedSurface::Boundary && surface.Area(triangle) > 0.0)
+        if (tracer.Across(side) == GeodesicTracer::Boundary && tracer.Area(triangle) > 0.0)
         {
           visit(side);
         }
@@ -42,13 +42,13 @@ SurfaceBoundary::SurfaceBoundary(const WalkedSurface& surface, Progress& progres
   forSides([&](std::int64_t side) { sides.push_back(side); });
   this->Sides.emplace(
     std::move(sides), sidesOfLeaf,
-    [&surface](std::int64_t side, PointBounds& box) {
-      box.Add(surface.Start(side).data());
-      box.Add(surface.Start(nextSide(side)).data());
+    [&tracer](std::int64_t side, PointBounds& box) {
+      box.Add(tracer.Start(side).data());
+      box.Add(tracer.Start(nextSide(side)).data());
     },
-    [&surface](std::int64_t side, std::size_t axis) {
+    [&tracer](std::int64_t side, std::size_t axis) {
       // Sides are divided by their middles.
-      return 0.5 * (surface.Start(side)[axis] + surface.Start(nextSide(side))[axis]);
+      return 0.5 * (tracer.Start(side)[axis] + tracer.Start(nextSide(side))[axis]);
     },
     progress);
 }
@@ -86,8 +86,8 @@ Point<3> SurfaceBoundary::FromNearest(
   Point<3> nearest{ least, least, least };
   for (const std::int64_t side : sides)
   {
-    const Point<3> from = x - this->Surface.Start(side);
-    const Point<3> edge = this->Surface.Edge(side);
+    const Point<3> from = x - this->Tracer.Start(side);
+    const Point<3> edge = this->Tracer.Edge(side);
     // The nearest point of a side is start + place edge, place = from . edge / |edge|^2 within [0,
     // 1].
     const double place = std::clamp(dot(from, edge) / dot(edge, edge), 0.0, 1.0);

@@ -5,7 +5,7 @@
 
 #include "Core/Geometry/Trees/ItemTree.h"
 #include "Surfaces/SurfaceRelaxation/DotTree.h"
-#include "Surfaces/SurfaceRelaxation/WalkedSurface.h"
+#include "Surfaces/SurfaceRelaxation/GeodesicTracer.h"
 
 #include <cstdint>
 #include <optional>
@@ -21,7 +21,7 @@ class SurfaceBoundary
 {
 public:
   // Keeps a view of the surface. Throws std::bad_alloc and Cancelled.
-  SurfaceBoundary(const WalkedSurface& surface, Progress& progress);
+  SurfaceBoundary(const GeodesicTracer& tracer, Progress& progress);
   // Bytes that it takes at most, about, for a number of sides.
   static double MemoryFor(double sides);
 
@@ -31,7 +31,7 @@ public:
   Point<3> FromNearest(const std::vector<std::int64_t>& sides, const Point<3>& x) const;
 
 private:
-  const WalkedSurface& Surface;
+  const GeodesicTracer& Tracer;
   std::optional<ItemTree> Sides; // ids of sides
 };
 

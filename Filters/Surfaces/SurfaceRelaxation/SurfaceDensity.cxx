@@ -45,8 +45,8 @@ void summarize(const TriangleSurface& surface, const SurfaceDensityValues& value
 } // namespace
 
 SurfaceDensity::SurfaceDensity(
-  const WalkedSurface& surface, const SurfaceDensityValues& values, Progress& progress)
-  : Surface(surface)
+  const GeodesicTracer& tracer, const SurfaceDensityValues& values, Progress& progress)
+  : Tracer(tracer)
   , Values(values)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
@@ -56,9 +56,9 @@ SurfaceDensity::SurfaceDensity(
   }
   // Only values that triangles have are checked; points of no triangle may have any.
   const DensitySummary summary = reduceEach(
-    progress, surface.Given().NumberOfTriangles, grain, DensitySummary(),
+    progress, tracer.Given().NumberOfTriangles, grain, DensitySummary(),
     [&](std::int64_t triangle, DensitySummary& part) {
-      summarize(surface.Given(), this->Values, triangle, part);
+      summarize(tracer.Given(), this->Values, triangle, part);
     },
     [](DensitySummary all, const DensitySummary& more) {
       merge(more, all);
@@ -83,11 +83,11 @@ std::array<double, 3> SurfaceDensity::AtCornersOfPart(std::int64_t triangle) con
     // The corner in the given triangle's barycentric coordinates.
     PlaceOnTriangle corner{ triangle, { 0.0, 0.0, 0.0 } };
     corner.Weights[i] = 1.0;
-    const PlaceOnTriangle given = this->Surface.GivenPlace(corner);
+    const PlaceOnTriangle given = this->Tracer.GivenPlace(corner);
     for (std::size_t j = 0; j < 3; ++j)
     {
       const std::int64_t point =
-        this->Surface.Given().Triangles[3 * given.Triangle + static_cast<std::int64_t>(j)];
+        this->Tracer.Given().Triangles[3 * given.Triangle + static_cast<std::int64_t>(j)];
       values[i] += given.Weights[j] * (this->Values.AtPoints[point] / this->Maximum);
     }
   }

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_SurfaceDensity_h
 #define RectifiedTransport_SurfaceDensity_h
 
+#include "Surfaces/SurfaceRelaxation/GeodesicTracer.h"
 #include "Surfaces/SurfaceRelaxation/SurfaceRelaxation.h"
-#include "Surfaces/SurfaceRelaxation/WalkedSurface.h"
 
 #include <array>
 #include <cstdint>
@@ -21,7 +21,7 @@ public:
   // Keeps views of the surface and the values. Throws InvalidDensity for values that are
   // negative or not finite, or 0 everywhere.
   SurfaceDensity(
-    const WalkedSurface& surface, const SurfaceDensityValues& values, Progress& progress);
+    const GeodesicTracer& tracer, const SurfaceDensityValues& values, Progress& progress);
 
   bool IsUniform() const { return !this->Values.AtPoints && !this->Values.OfTriangles; }
   bool IsLinear() const { return this->Values.AtPoints != nullptr; }
@@ -31,11 +31,11 @@ public:
   std::array<double, 3> AtCorners(std::int64_t triangle) const
   {
     std::array<double, 3> values{ 1.0, 1.0, 1.0 };
-    if (this->Values.AtPoints && this->Surface.IsPart(triangle))
+    if (this->Values.AtPoints && this->Tracer.IsPart(triangle))
     {
       return this->AtCornersOfPart(triangle);
     }
-    const std::int64_t* points = this->Surface.Triangle(triangle);
+    const std::int64_t* points = this->Tracer.Triangle(triangle);
     for (std::size_t i = 0; i < 3; ++i)
     {
       if (this->Values.AtPoints)
@@ -44,7 +44,7 @@ public:
       }
       else if (this->Values.OfTriangles)
       {
-        values[i] = this->Values.OfTriangles[this->Surface.GivenTriangle(triangle)] / this->Maximum;
+        values[i] = this->Values.OfTriangles[this->Tracer.GivenTriangle(triangle)] / this->Maximum;
       }
     }
     return values;
@@ -56,13 +56,13 @@ public:
   }
   double MassOf(std::int64_t triangle) const
   {
-    return this->Surface.Area(triangle) * this->MeanOf(triangle);
+    return this->Tracer.Area(triangle) * this->MeanOf(triangle);
   }
 
 private:
   std::array<double, 3> AtCornersOfPart(std::int64_t triangle) const;
 
-  const WalkedSurface& Surface;
+  const GeodesicTracer& Tracer;
   SurfaceDensityValues Values;
   double Maximum = 1.0; // largest value; all others are relative to it
 };

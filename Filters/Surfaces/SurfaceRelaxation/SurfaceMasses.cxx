@@ -66,7 +66,7 @@ void requireValid(const DensitySummary& found, const ReadDensity& density)
 
 // Validates and scales the density, then multiplies areas by it, then sums.
 SurfaceMasses::SurfaceMasses(
-  const PlacedTriangles& surface, const ReadDensity& density, Progress& progress)
+  const TriangleDomain& surface, const ReadDensity& density, Progress& progress)
   : OnPoints(density.OnPoints)
 {
   if (density.Values)

@@ -33,7 +33,7 @@ public:
   // linear interpolation, or times the density of its cell. Ghost cells have no mass. Throws
   // Failure for densities that are negative or not finite and for a total mass that is
   // zero or not finite, std::bad_alloc and Cancelled.
-  SurfaceMasses(const PlacedTriangles& surface, const ReadDensity& density, Progress& progress);
+  SurfaceMasses(const TriangleDomain& surface, const ReadDensity& density, Progress& progress);
 
   // The masses of the triangles, up to a factor.
   const double* Values() const { return this->Masses.Masses.data(); }

@@ -7,10 +7,10 @@
 #include "Core/Tables/Density.h"
 #include "Surfaces/SurfaceRelaxation/DensityLevels.h"
 #include "Surfaces/SurfaceRelaxation/DotTree.h"
-#include "Surfaces/SurfaceRelaxation/StratifiedStart.h"
+#include "Surfaces/SurfaceRelaxation/GeodesicTracer.h"
+#include "Surfaces/SurfaceRelaxation/StratifiedSampling.h"
 #include "Surfaces/SurfaceRelaxation/SurfaceBoundary.h"
 #include "Surfaces/SurfaceRelaxation/SurfaceDensity.h"
-#include "Surfaces/SurfaceRelaxation/WalkedSurface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ struct Sum
   double Mass = 0.0;
 };
 
-Sum measure(const WalkedSurface& surface, const SurfaceDensity& density, Progress& progress)
+Sum measure(const GeodesicTracer& surface, const SurfaceDensity& density, Progress& progress)
 {
   return reduceEach(
     progress, surface.NumberOfTriangles(), grain, Sum(),
@@ -68,7 +68,7 @@ Sum measure(const WalkedSurface& surface, const SurfaceDensity& density, Progres
 class DotRelaxation
 {
 public:
-  DotRelaxation(const WalkedSurface& surface, const SurfaceDensity& density, const double* levels,
+  DotRelaxation(const GeodesicTracer& surface, const SurfaceDensity& density, const double* levels,
     double massOfDot, LargeBuffer<SurfacePlace> start, Progress& progress)
     : Surface(surface)
     , Density(density)
@@ -117,7 +117,7 @@ public:
         for (std::int64_t group = first; group < last; group += blocksOfGroup)
         {
           const std::int64_t end = std::min(group + blocksOfGroup, last);
-          this->Tree.FindInReach(group, end, scratch.InReachOfGroup);
+          this->Tree.FindNearby(group, end, scratch.InReachOfGroup);
           for (std::int64_t block = group; block < end; ++block)
           {
             this->Move(block, scratch);
@@ -141,7 +141,7 @@ private:
   struct Scratch
   {
     std::vector<std::int64_t> InReachOfGroup; // blocks
-    std::vector<std::int64_t> InReach;
+    std::vector<std::int64_t> Neighbourhood;
     std::vector<std::int64_t> Sides;
     DotBlock Block;
   };
@@ -200,9 +200,9 @@ private:
       // The layout of the kernel: coordinates by axes, a lane for each dot.
       own.Square[lane] = dot.Square;
     }
-    this->Tree.Select(scratch.InReachOfGroup, block, scratch.InReach);
-    const DotsInReach inReach{ this->Dots.data(), this->Dots.size(), scratch.InReach.data(),
-      static_cast<std::int64_t>(scratch.InReach.size()) };
+    this->Tree.Select(scratch.InReachOfGroup, block, scratch.Neighbourhood);
+    const DotNeighbourhood inReach{ this->Dots.data(), this->Dots.size(),
+      scratch.Neighbourhood.data(), static_cast<std::int64_t>(scratch.Neighbourhood.size()) };
     this->Sum(inReach, own);
     const DotBox& box = this->Tree.BoxOf(block);
     // A mirror image is twice as far as the boundary.
@@ -222,7 +222,7 @@ private:
       {
         step = (longestStep / std::sqrt(squared)) * step;
       }
-      this->Surface.Walk(this->Places.data()[first + lane], step, this->Levels);
+      this->Surface.Trace(this->Places.data()[first + lane], step, this->Levels);
       // The mean of the neighbours' squared spacings, weighted by b.
       this->Squares.data()[first + lane] = own.Mean[lane] / own.Weight[lane];
       double& share = this->Shares.data()[first + lane];
@@ -246,7 +246,7 @@ private:
     return (mirrorWeight * fourth * fourth * at.Root) * gap;
   }
 
-  const WalkedSurface& Surface;
+  const GeodesicTracer& Surface;
   const SurfaceDensity& Density;
   const double* Levels; // null for a uniform density
   const double MassOfDot;
@@ -287,7 +287,7 @@ SurfaceRelaxation relaxOnSurface(const TriangleSurface& given, const SurfaceDens
   Stages stages(progress,
     { { "surface", 10 }, { "density", 1 }, { "sums", 1 }, { "levels", 3 }, { "start", 15 },
       { "boundary", 2 }, { "iterations", 66 }, { "places", 2 } });
-  WalkedSurface surface(given, options.Rounding, stages["surface"]);
+  GeodesicTracer surface(given, options.Rounding, stages["surface"]);
   const SurfaceDensity density(surface, values, stages["density"]);
   const Sum sum = measure(surface, density, stages["sums"]);
   if (!(sum.Area > 0.0))
@@ -315,7 +315,7 @@ SurfaceRelaxation relaxOnSurface(const TriangleSurface& given, const SurfaceDens
   {
     levels = std::make_unique<DensityLevels>(surface, density, massOfDot, stages["levels"]);
   }
-  LargeBuffer<SurfacePlace> start = startDots(surface, density, sum.Mass, options, stages["start"]);
+  LargeBuffer<SurfacePlace> start = drawDots(surface, density, sum.Mass, options, stages["start"]);
   DotRelaxation relaxation(surface, density, levels ? levels->data() : nullptr, massOfDot,
     std::move(start), stages["boundary"]);
   Parts iterations(stages["iterations"], options.Iterations);
@@ -340,8 +340,8 @@ double memoryForSurfaceRelaxation(
     DotTree::MemoryFor(samples) + SurfaceBoundary::MemoryFor(3.0 * static_cast<double>(triangles));
   constexpr double rounding = 0x1p23; // to whole huge pages
   return rounding +
-    std::max(WalkedSurface::MemoryFor(points, triangles),
-      kept + std::max({ levels, memoryForStart(triangles, samples), dots }));
+    std::max(GeodesicTracer::MemoryFor(points, triangles),
+      kept + std::max({ levels, memoryForDots(triangles, samples), dots }));
 }
 
 } // namespace RectifiedTransport

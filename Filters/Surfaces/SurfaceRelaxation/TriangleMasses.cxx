@@ -13,7 +13,7 @@ namespace
 
 // The mean of a linear density is its value at the centre; for a part of a triangle, that of the
 // centre in the given triangle.
-double meanOf(const PlacedTriangles& surface, const double* values, std::int64_t triangle)
+double meanOf(const TriangleDomain& surface, const double* values, std::int64_t triangle)
 {
   if (surface.IsPart(triangle))
   {
@@ -33,7 +33,7 @@ double meanOf(const PlacedTriangles& surface, const double* values, std::int64_t
 } // namespace
 
 // mass = share of the area times mean density
-TriangleMasses massesOf(const PlacedTriangles& surface, const SurfaceDensityValues& density,
+TriangleMasses massesOf(const TriangleDomain& surface, const SurfaceDensityValues& density,
   const std::function<bool(std::int64_t)>& isEmpty, Progress& progress)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;

@@ -5,7 +5,7 @@
 
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
-#include "Surfaces/Mesh/PlacedTriangles.h"
+#include "Surfaces/Mesh/TriangleDomain.h"
 #include "Surfaces/SurfaceRelaxation/SurfaceRelaxation.h"
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct TriangleMasses
 // The density at points is that at given points; its mean over a triangle is exact for linear
 // interpolation. Triangles that are `isEmpty`, which may be null, have no mass. Throws
 // std::bad_alloc and Cancelled.
-TriangleMasses massesOf(const PlacedTriangles& surface, const SurfaceDensityValues& density,
+TriangleMasses massesOf(const TriangleDomain& surface, const SurfaceDensityValues& density,
   const std::function<bool(std::int64_t)>& isEmpty, Progress& progress);
 
 } // namespace RectifiedTransport

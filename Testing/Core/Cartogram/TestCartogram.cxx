@@ -34,7 +34,7 @@ struct Made
 };
 
 Made make(RegionMap map, const std::vector<double>& masses, const CartogramOptions& options,
-  FellowPoints* fellows = nullptr, const Context& context = Context())
+  OverlayPoints* overlays = nullptr, const Context& context = Context())
 {
   Made made;
   made.Box = boxAround(map, options);
@@ -44,10 +44,10 @@ Made make(RegionMap map, const std::vector<double>& masses, const CartogramOptio
   }
   made.Map = std::move(map);
   made.Before = made.Map.Areas(static_cast<std::int32_t>(masses.size()));
-  FellowPoints none;
+  OverlayPoints none;
   CartogramStart start;
   made.Result =
-    runCartogram(made.Map, masses, made.Box, options, fellows ? *fellows : none, start, context);
+    runCartogram(made.Map, masses, made.Box, options, overlays ? *overlays : none, start, context);
   return made;
 }
 
@@ -192,26 +192,26 @@ TEST(Cartogram, Seas)
 }
 
 // Points move as the map's points in the same places.
-TEST(Cartogram, FellowPoints)
+TEST(Cartogram, OverlayPoints)
 {
   const std::vector<double> masses = masses16(50.0);
   const CartogramOptions options = coarse();
   RegionMap map = squares(4);
   const CartogramBox box = boxAround(map, options);
-  FellowPoints fellows;
+  OverlayPoints overlays;
   for (const Point<2>& place : map.Points())
   {
-    fellows.push_back(box.ToIndex(place));
+    overlays.push_back(box.ToIndex(place));
   }
-  const std::size_t corners = fellows.size();
-  fellows.push_back({ -3.0, 200.0 }); // beyond the corner, which does not move
-  const Made made = make(std::move(map), masses, options, &fellows);
+  const std::size_t corners = overlays.size();
+  overlays.push_back({ -3.0, 200.0 }); // beyond the corner, which does not move
+  const Made made = make(std::move(map), masses, options, &overlays);
   for (std::size_t i = 0; i < corners; ++i)
   {
-    EXPECT_EQ(fellows[i], made.Map.Points()[i]);
+    EXPECT_EQ(overlays[i], made.Map.Points()[i]);
   }
-  EXPECT_NEAR(fellows.back()[0], -3.0, 0.05);
-  EXPECT_NEAR(fellows.back()[1], 200.0, 0.05);
+  EXPECT_NEAR(overlays.back()[0], -3.0, 0.05);
+  EXPECT_NEAR(overlays.back()[1], 200.0, 0.05);
 }
 
 TEST(Cartogram, SameForThreads)
@@ -374,7 +374,7 @@ TEST(Cartogram, DiscsOnEachOther)
   int missed = 0;
   for (const CartogramPass& pass : made.Result.Passes)
   {
-    const bool isMissed = pass.ForetoldError > coarse().Tolerance;
+    const bool isMissed = pass.PredictedError > coarse().Tolerance;
     missed += isMissed ? 1 : 0;
     EXPECT_TRUE(!isMissed || pass.NumberOfSteps <= 256) << pass.NumberOfSteps;
   }

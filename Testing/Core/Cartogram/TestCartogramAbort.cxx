@@ -153,9 +153,9 @@ TEST(CartogramAbort, WholeRuns)
     {
       place = box.ToIndex(place);
     }
-    FellowPoints fellows(5000, { 100.0, 120.0 });
+    OverlayPoints overlays(5000, { 100.0, 120.0 });
     CartogramStart start;
-    runCartogram(map, masses, box, options, fellows, start, context);
+    runCartogram(map, masses, box, options, overlays, start, context);
   };
   Polls polls(never);
   std::vector<double> atPolls;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Maps in space: their plane and projection, what moves along, and what is refused or warned of.
-#include "Core/Cartogram/MapFellows.h"
+#include "Core/Cartogram/MapOverlays.h"
 #include "Core/Cartogram/MapWarnings.h"
 #include "Core/Cartogram/RegionChecks.h"
 #include "Core/Cartogram/RegionList.h"
@@ -134,20 +134,20 @@ TEST(MapTexts, OverlaysMoveAlong)
   map.AddPoint({ 32.0, 32.0 });
   const MapPlace place{ MapProjection(), PlaneFrame({ 0, 0, 0 }, { 0, 0, 1 }),
     { { 0.0, 0.0 }, 1.0, 32 }, 0.5 };
-  MapFellows fellows(place, map);
+  MapOverlays overlays(place, map);
   // 17 lines each way, of two parts in each of 16 squares.
-  ASSERT_EQ(fellows.LineEnds().size(), 34u);
-  EXPECT_EQ(fellows.LineEnds().back(), 34u * 33u);
-  fellows.AddOverlay({ { 1, 2, 5 } });
-  fellows.AddOverlay({ { 3, 4, 0 }, { 5, 6, 0 } });
-  ASSERT_EQ(fellows.Points().size(), 34u * 33u + 3u);
-  EXPECT_EQ(fellows.OverlayPoint(2), (Point<3>{ 5, 6, 0 }));
-  for (Point<2>& point : fellows.Points())
+  ASSERT_EQ(overlays.LineEnds().size(), 34u);
+  EXPECT_EQ(overlays.LineEnds().back(), 34u * 33u);
+  overlays.AddOverlay({ { 1, 2, 5 } });
+  overlays.AddOverlay({ { 3, 4, 0 }, { 5, 6, 0 } });
+  ASSERT_EQ(overlays.Points().size(), 34u * 33u + 3u);
+  EXPECT_EQ(overlays.OverlayPoint(2), (Point<3>{ 5, 6, 0 }));
+  for (Point<2>& point : overlays.Points())
   {
     point[0] += 2.0;
   }
-  EXPECT_EQ(fellows.OverlayPoint(0), (Point<3>{ 2, 2, 5 })) << "half of the way";
-  EXPECT_EQ(fellows.GraticulePoint(0), (Point<3>{ 1, 0, 0 }));
+  EXPECT_EQ(overlays.OverlayPoint(0), (Point<3>{ 2, 2, 5 })) << "half of the way";
+  EXPECT_EQ(overlays.GraticulePoint(0), (Point<3>{ 1, 0, 0 }));
 }
 
 } // namespace

@@ -51,7 +51,7 @@ TEST(RegionRaster, CoversAreas)
     EXPECT_GT(raster.WholeCells(region), 10.0);
   }
   raster.VisitMixed([&](std::int32_t set, const RegionRaster::Share* shares, std::int64_t count) {
-    double sum = restOf(set, shares, count);
+    double sum = uncoveredPart(set, shares, count);
     for (std::int64_t i = 0; i < count; ++i)
     {
       covered[static_cast<std::size_t>(shares[i].Region)] += shares[i].Part;
@@ -178,7 +178,7 @@ TEST(RegionRaster, SetsOfRegions)
     sum += inside;
   }
   const double land = areas[0] + 4.3; // of the last region, what the first leaves
-  EXPECT_NEAR(raster.Rest(), side * side - land, 1e-9);
+  EXPECT_NEAR(raster.UncoveredArea(), side * side - land, 1e-9);
   std::vector<double> overlaps;
   EXPECT_NEAR(raster.Overlap(overlaps), sum - land, 1e-9);
   // A cell has the sum of the values of its regions.
@@ -188,13 +188,13 @@ TEST(RegionRaster, SetsOfRegions)
   EXPECT_NEAR(cells[15 * side + 20], 36.0 + 0.1 * 9.0, 1e-12);
   EXPECT_EQ(cells[19 * side + 20], 55.0);
   EXPECT_DOUBLE_EQ(cells[19 * side + 19], 50.0);
-  double expected = 0.5 * raster.Rest();
+  double expected = 0.5 * raster.UncoveredArea();
   for (std::size_t i = 0; i < values.size(); ++i)
   {
     expected += values[i] * covered[i];
   }
   EXPECT_NEAR(std::accumulate(cells.begin(), cells.end(), 0.0), expected, 1e-9);
-  EXPECT_NEAR(raster.MeanOnLand(cells), (expected - 0.5 * raster.Rest()) / land, 0.02);
+  EXPECT_NEAR(raster.MeanOnLand(cells), (expected - 0.5 * raster.UncoveredArea()) / land, 0.02);
 }
 
 // The integral of the raster over each region: cell by cell, with the parts that each region has.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pages of SVG and PDF in files, and what is joined to one area.
 #include "Core/Drawing/DrawingFormats.h"
-#include "Core/Drawing/FilledAreas.h"
 #include "Core/Drawing/OutputFile.h"
+#include "Core/Drawing/PolygonBatch.h"
 
 #include <gtest/gtest.h>
 
@@ -122,7 +122,7 @@ TEST(Drawings, PolygonsOfOneColourAreOneArea)
   const PagePath left{ { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 } };
   const PagePath right{ { 0.0, 0.0 }, { 0.0, 1.0 }, { 1.0, 0.0 } };
   FillCounter page;
-  FilledAreas areas(page);
+  PolygonBatch areas(page);
   areas.Add(left, black);
   areas.Add(right, black);
   areas.Add(left, red);

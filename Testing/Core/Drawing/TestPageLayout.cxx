@@ -16,9 +16,9 @@ namespace
 constexpr double farthest = 5080.0;
 
 // A rectangle of 4 x 2 in the plane of y and z.
-DrawnExtent rectangle()
+DrawingExtent rectangle()
 {
-  DrawnExtent extent;
+  DrawingExtent extent;
   extent.Include(Point<3>{ 1.0, 2.0, 3.0 }.data(), 0, 0.0);
   extent.Include(Point<3>{ 1.0, 6.0, 5.0 }.data(), 1, 0.0);
   return extent;
@@ -49,7 +49,7 @@ TEST(PageLayout, FillsTheWidth)
 
 TEST(PageLayout, RadiiAndStrokesFitOnThePage)
 {
-  DrawnExtent extent = rectangle();
+  DrawingExtent extent = rectangle();
   extent.HasStrokes = true;
   for (const Point<3>& corner : { Point<3>{ 1.0, 2.0, 3.0 }, { 1.0, 6.0, 5.0 } })
   {
@@ -72,7 +72,7 @@ TEST(PageLayout, ShowsTheBounds)
 
 TEST(PageLayout, RefusesWhatHasNoPlace)
 {
-  const DrawnExtent extent = rectangle();
+  const DrawingExtent extent = rectangle();
   EXPECT_EQ(errorOf([&]() {
     PageSettings{ 10.0, 5.0, {}, 1.0 }.Layout(extent, farthest);
   }),
@@ -93,7 +93,7 @@ TEST(PageLayout, RefusesWhatHasNoPlace)
 
 TEST(PageLayout, RefusesWhatIsNotFinite)
 {
-  DrawnExtent extent;
+  DrawingExtent extent;
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(errorOf([&]() {
     extent.IncludeDot(Point<3>{ 0.0, infinity, 0.0 }.data(), 7);
@@ -101,7 +101,7 @@ TEST(PageLayout, RefusesWhatIsNotFinite)
     "The input has a point that is NaN or infinite, at index 7; all coordinates must be finite");
   EXPECT_EQ(errorOf([&]() { extent.Include(Point<3>{}.data(), 3, -1.0); }),
     "RadiusArray has the value -1 at index 3; every radius must be finite and not negative");
-  EXPECT_TRUE(extent.Rest.isEmpty());
+  EXPECT_TRUE(extent.OtherShapes.isEmpty());
 }
 
 } // namespace

@@ -139,7 +139,7 @@ PassResult sharedPass(const KernelInputs& inputs, const Points<RT_D>& seeds, int
     if (pass < 0)
     {
       const int level = -1 - pass;
-      if (!enterMap(&inputs.Tables, &inputs.Levels, level, &state))
+      if (!advanceToHandOver(&inputs.Tables, &inputs.Levels, level, &state))
       {
         result.Unresolved[i] = 1;
         continue;
@@ -148,7 +148,7 @@ PassResult sharedPass(const KernelInputs& inputs, const Points<RT_D>& seeds, int
     }
     else
     {
-      leaveSeed(&inputs.Tables, &state);
+      advanceStraightStart(&inputs.Tables, &state);
     }
     stepForward(&inputs.Tables, weights.data(), count, first, count, 0, &state);
     finishForward(&inputs.Tables, &weights.back(), &state);
@@ -263,7 +263,7 @@ TEST(RT_SUITE, Backward)
       {
         ParticleState state = {};
         placeParticle(&inputs.Tables, points[i].data(), &state);
-        leaveEnd(&inputs.Tables, &state);
+        startBackward(&inputs.Tables, &state);
         stepBackward(&inputs.Tables, &inputs.Levels, weights.data(), count, 0, count, &state);
         EXPECT_TRUE(state.IsDone);
         std::copy_n(state.End, RT_D, found.Positions[i].begin());
@@ -338,7 +338,7 @@ private:
     };
     const std::vector<StepWeights>& weights = this->Weights[static_cast<std::size_t>(parent + 1)];
     const std::int64_t to = parent < 0 ? this->View.Steps : this->View.Levels[parent].HandOver;
-    return returnNode(&this->Given.Tables, &this->Given.Levels, weights.data(),
+    return advanceNodeBackward(&this->Given.Tables, &this->Given.Levels, weights.data(),
              static_cast<Int64>(weights.size()), parent,
              timeAt(this->View.Levels[this->Level].HandOver), timeAt(to), &state) != 0;
   }

@@ -112,7 +112,7 @@ TYPED_TEST(TilesOnRanks, LatticesHaveTheBitsOfOneRank)
 }
 
 // The second time the map is kept on one of the ranks alone: all make it again.
-TYPED_TEST(TilesOnRanks, AgreeOnKeptMaps)
+TYPED_TEST(TilesOnRanks, AgreeOnCachedMaps)
 {
   constexpr int D = TypeParam::value;
   const TestDensity<D> density = twoGaussians<D>(manyTilesSize<D>());

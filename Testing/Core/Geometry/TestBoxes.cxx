@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The boxes of images: common ones, those of given sizes, around solids, joined from parts.
+#include "Core/Geometry/Boxes/BoxUnion.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
-#include "Core/Geometry/Boxes/JoinedBoxes.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Geometry/Boxes/SolidGrid.h"
 #include "Core/Geometry/InverseMatrix.h"
 #include "Core/Messages/Failure.h"
@@ -112,22 +112,22 @@ TEST(Boxes, TheFirstBoxGivesSharedValues)
 {
   const LatticePart<3> all{ {}, { 3, 1, 1 } };
   const unsigned char flags[] = { 0, 1 };
-  const JoinedBox first{ 0, { {}, { 2, 1, 1 } }, nullptr, 1 };
-  const JoinedBox second{ 1, { { 1, 0, 0 }, { 2, 1, 1 } }, nullptr, 1 };
-  const JoinedBox ghosts{ 1, { { 1, 0, 0 }, { 2, 1, 1 } }, flags, 1 };
-  const auto givers = [&](const JoinedBox& other, bool areSame) {
-    ValueGivers found{ std::vector<std::int64_t>(3), std::vector<std::int32_t>(3, -1) };
+  const UnionBox first{ 0, { {}, { 2, 1, 1 } }, nullptr, 1 };
+  const UnionBox second{ 1, { { 1, 0, 0 }, { 2, 1, 1 } }, nullptr, 1 };
+  const UnionBox ghosts{ 1, { { 1, 0, 0 }, { 2, 1, 1 } }, flags, 1 };
+  const auto owners = [&](const UnionBox& other, bool areSame) {
+    ValueOwners found{ std::vector<std::int64_t>(3), std::vector<std::int32_t>(3, -1) };
     const auto same = [&](
-                        std::size_t giver, std::int64_t value, std::size_t box, std::int64_t own) {
-      EXPECT_TRUE(giver == 0 && value == 1 && box == 1 && own == 0);
+                        std::size_t owner, std::int64_t value, std::size_t box, std::int64_t own) {
+      EXPECT_TRUE(owner == 0 && value == 1 && box == 1 && own == 0);
       return areSame;
     };
-    return findGivers({ first, other }, all, same, found) ? found.Boxes
-                                                          : std::vector<std::int32_t>();
+    return findValueOwners({ first, other }, all, same, found) ? found.Boxes
+                                                               : std::vector<std::int32_t>();
   };
-  EXPECT_EQ(givers(second, true), (std::vector<std::int32_t>{ 0, 0, 1 }));
-  EXPECT_TRUE(givers(second, false).empty());
-  EXPECT_EQ(givers(ghosts, true), (std::vector<std::int32_t>{ 0, 0, -1 }));
+  EXPECT_EQ(owners(second, true), (std::vector<std::int32_t>{ 0, 0, 1 }));
+  EXPECT_TRUE(owners(second, false).empty());
+  EXPECT_EQ(owners(ghosts, true), (std::vector<std::int32_t>{ 0, 0, -1 }));
 }
 
 } // namespace

@@ -31,14 +31,14 @@ TEST(Texts, AreUtf8)
 
 TEST(Texts, MayBeNumbers)
 {
-  EXPECT_EQ(numberOfText(" +1.5\n"), 1.5);
-  EXPECT_EQ(numberOfText("-3e2"), -300.0);
-  EXPECT_EQ(numberOfText("1e400"), HUGE_VAL);
-  EXPECT_EQ(numberOfText("1e-400"), 0.0);
-  EXPECT_TRUE(std::isnan(numberOfText("nan").value()));
+  EXPECT_EQ(parseNumber(" +1.5\n"), 1.5);
+  EXPECT_EQ(parseNumber("-3e2"), -300.0);
+  EXPECT_EQ(parseNumber("1e400"), HUGE_VAL);
+  EXPECT_EQ(parseNumber("1e-400"), 0.0);
+  EXPECT_TRUE(std::isnan(parseNumber("nan").value()));
   for (const char* const text : { "", " ", "+-1", "1,5", "1 2", "n/a" })
   {
-    EXPECT_EQ(numberOfText(text), std::nullopt) << text;
+    EXPECT_EQ(parseNumber(text), std::nullopt) << text;
   }
   EXPECT_TRUE(isBlank(" \t"));
   EXPECT_FALSE(isBlank(" 0"));

@@ -90,7 +90,8 @@ void check(int ranks, std::int64_t count, std::int64_t grain, bool hasKeys,
     Progress progress{ Context(serial) };
     const RankOrder order(static_cast<std::int64_t>(keys.size()), hasKeys ? keys.data() : nullptr,
       grain, group, progress);
-    brought[own] = order.Bring([&](std::int64_t i) { return values[static_cast<std::size_t>(i)]; });
+    brought[own] =
+      order.Redistribute([&](std::int64_t i) { return values[static_cast<std::size_t>(i)]; });
     const std::vector<double>& share = brought[own];
     EXPECT_EQ(order.Count(), static_cast<std::int64_t>(share.size()));
     EXPECT_EQ(sumChunks(share.data(), order.Count(), grain, group), chunks);

@@ -350,19 +350,19 @@ void expectPointsInReach()
   constexpr double reach = 1.7;
   const auto points = randomScaledPoints<Dimension>(301, 12.0);
   Progress work{ Context() };
-  ReachTree<Dimension> tree;
-  ReachTree<Dimension> targets;
+  NeighbourTree<Dimension> tree;
+  NeighbourTree<Dimension> targets;
   tree.Build(points, work);
   targets.BuildInOrder(randomScaledPoints<Dimension>(21, 2.0), work);
-  InReach together;
+  Neighbourhood together;
   for (const bool isAlone : { false, true })
   {
     for (std::int64_t block = 0; block < targets.Blocks(); ++block)
     {
-      InReach alone;
-      InReach& found = isAlone ? alone : together;
+      Neighbourhood alone;
+      Neighbourhood& found = isAlone ? alone : together;
       const std::int64_t last = isAlone ? block + 1 : targets.Blocks();
-      tree.FindInReach(targets, block, last, reach, found);
+      tree.FindNearby(targets, block, last, reach, found);
       ASSERT_TRUE(std::is_sorted(found.Points.data(), found.Points.data() + found.Count));
       for (std::int64_t i = 0; i < tree.Size(); ++i)
       {
@@ -402,7 +402,7 @@ template <int Dimension>
 void expectSameBits(InstructionSet set)
 {
   Progress work{ Context() };
-  ReachTree<Dimension> tree;
+  NeighbourTree<Dimension> tree;
   tree.Build(randomScaledPoints<Dimension>(101, 3.0), work);
   std::vector<std::int64_t> blocks(static_cast<std::size_t>(tree.Blocks()));
   std::iota(blocks.begin(), blocks.end(), 0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells on grids: which carry mass, exact means over grid cells, regions within outlines, and
 // places among the cells' points.
+#include "Core/Resampling/CellLocator.h"
 #include "Core/Resampling/CellSums.h"
-#include "Core/Resampling/PlacesInCells.h"
 #include "Core/Resampling/RegionShapes.h"
 #include "Core/Resampling/RingValues.h"
 
@@ -198,13 +198,13 @@ TEST(RingValues, PlaneOfSquare)
   EXPECT_EQ(plane.At({ 9.0, 9.0 }), 13.0);
 }
 
-TEST(PlacesInCells, OnTriangles)
+TEST(CellLocator, OnTriangles)
 {
   const CellValues values = valuesOf(twoTriangles(), { 2, false }, false, { 5, 7 });
   const std::vector<Point<3>> places{ { 2, 0.5, 0 }, { 0.5, 1.5, 0 }, { 1.5, 2.5, 0 },
     { 1.5, 5, 0 } };
   Progress progress{ Context() };
-  const auto found = findPlaces({ values }, unitGrid(3, 6), places, progress);
+  const auto found = locateInCells({ values }, unitGrid(3, 6), places, progress);
   EXPECT_EQ(found.data()[0].Cell, 0);
   EXPECT_EQ(found.data()[1].Cell, 1);
   EXPECT_EQ(found.data()[2].Cell, 1); // beyond its edge

@@ -78,7 +78,7 @@ struct MovingBox
 
 struct Placed
 {
-  SeriesMoment Moment;
+  SeriesSnapshot Moment;
   std::vector<Point<3>> Points;
   std::vector<double> Masses;
 

@@ -32,7 +32,7 @@ TEST(StepTimes, FindTheInterval)
 {
   const StepTimes times = timesOf({ 0.0, 1.0, 3.0 });
   const auto check = [&](double time, int first, double part) {
-    const TimePlace place = times.Find(time);
+    const TimeInterval place = times.Find(time);
     EXPECT_EQ(place.First, first) << time;
     EXPECT_EQ(place.Second, first + 1) << time;
     EXPECT_EQ(place.Part, part) << time;

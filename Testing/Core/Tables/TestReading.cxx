@@ -5,9 +5,9 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/Reading/DensityFailure.h"
 #include "Core/Tables/Reading/DensityReader.h"
-#include "Core/Tables/Reading/FilledCells.h"
-#include "Core/Tables/Reading/GrownValues.h"
 #include "Core/Tables/Reading/IdNames.h"
+#include "Core/Tables/Reading/OccupiedCells.h"
+#include "Core/Tables/Reading/PaddedValues.h"
 
 #include <gtest/gtest.h>
 
@@ -70,8 +70,8 @@ TEST(Reading, TakesAComponent)
   const Table table{ { 3.0, 4.0, 1e200, 0.0 }, 2 };
   EXPECT_EQ(read(Reader(&table, rulesOf(1)), 0, 2), (Doubles{ 4.0, 0.0 }));
   EXPECT_EQ(read(Reader(&table, rulesOf(Magnitude)), 0, 2), (Doubles{ 5.0, 1e200 }));
-  EXPECT_EQ(takenComponent("density array 'a'", AutoComponent, Magnitude, 2), Magnitude);
-  EXPECT_THROW(takenComponent("density array 'a'", 2, Magnitude, 2), Failure);
+  EXPECT_EQ(resolveComponent("density array 'a'", AutoComponent, Magnitude, 2), Magnitude);
+  EXPECT_THROW(resolveComponent("density array 'a'", 2, Magnitude, 2), Failure);
 }
 
 TEST(Reading, GreyHasItsOwnLuminance)
@@ -126,21 +126,21 @@ TEST(Reading, EmptyCellsCountAsTheRuleSays)
 {
   const double values[] = { 1.0, 3.0, 8.0, -1.0 };
   const unsigned char empty[] = { 0, 0, 1, 0 };
-  FilledCells filled;
+  OccupiedCells filled;
   filled.Add(values, empty, 4);
   EXPECT_EQ(densityOfEmptyCells({ EmptyCells::Zero, 0.0 }, filled), 0.0);
   EXPECT_EQ(densityOfEmptyCells({ EmptyCells::Mean, 0.0 }, filled), 2.0);
   EXPECT_EQ(densityOfEmptyCells({ EmptyCells::Minimum, 0.0 }, filled), 1.0);
   EXPECT_EQ(densityOfEmptyCells({ EmptyCells::Value, 5.0 }, filled), 5.0);
-  EXPECT_EQ(densityOfEmptyCells({ EmptyCells::Value, 5.0 }, FilledCells()), 0.0);
+  EXPECT_EQ(densityOfEmptyCells({ EmptyCells::Value, 5.0 }, OccupiedCells()), 0.0);
 }
 
-TEST(Reading, GrownValuesSurroundABox)
+TEST(Reading, PaddedValuesSurroundABox)
 {
   const double inner[] = { 1.0, 2.0, 3.0, 4.0 };
   const auto values =
     std::make_shared<const DensityArray<3, double>>(inner, GridSize<3>{ 2, 2, 1 });
-  const GrownValues grown(values, { { 1, 1, 0 }, { 2, 2, 1 } }, { 4, 4, 1 }, 0.5);
+  const PaddedValues grown(values, { { 1, 1, 0 }, { 2, 2, 1 } }, { 4, 4, 1 }, 0.5);
   const Doubles expected{ 0.5, 0.5, 0.5, 0.5, 0.5, 1.0, 2.0, 0.5, 0.5, 3.0, 4.0, 0.5, 0.5, 0.5, 0.5,
     0.5 };
   EXPECT_EQ(read(grown, 0, 16), expected);
@@ -152,7 +152,7 @@ TEST(Reading, GrownValuesSurroundABox)
 
 TEST(Reading, TellsOfAValueThatCarriesMostOfTheMass)
 {
-  UnusualValues values;
+  SuspectValues values;
   values.Found.Maximum = 9999.0;
   values.Found.Maxima = 1;
   values.Found.FirstMaximum = 4;
@@ -161,14 +161,14 @@ TEST(Reading, TellsOfAValueThatCarriesMostOfTheMass)
   values.Found.Total = 10017.0;
   const std::string name = "density array 'a'";
   const std::vector<std::string> lines =
-    describeUnusual(values, { name, name, name, "cells", 10, false, false, {} });
+    describeSuspect(values, { name, name, name, "cells", 10, false, false, {} });
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0],
     "The value 9999 of the density array 'a', in 1 of 10 cells (index 4), carries 99.8 % of the "
     "mass; if it marks missing data, ValidRange = -1e+299 3 leaves it out");
   values.Found.Maximum = 4.0;
   values.Found.Total = 20.0;
-  EXPECT_TRUE(describeUnusual(values, { name, name, name, "cells", 10, false, false, {} }).empty());
+  EXPECT_TRUE(describeSuspect(values, { name, name, name, "cells", 10, false, false, {} }).empty());
 }
 
 TEST(Reading, NamesOfIdsAreNoDensities)

@@ -156,7 +156,7 @@ void checkEmptyInput(Checks& checks)
 // Whether there is a device. Where RT_OPENCL says so, there has to be one.
 bool hasDevice(Checks& checks)
 {
-  KeptDevice kept;
+  CachedDevice kept;
   const DeviceUse use = kept.Begin("", 0);
   checks.That(use.Serves() || !std::getenv("RT_OPENCL"), "a device", __LINE__, use.Fault());
   return use.Serves();
@@ -188,11 +188,11 @@ void checkSharing(Checks& checks)
   {
     return;
   }
-  KeptDevice one;
-  KeptDevice other;
+  CachedDevice one;
+  CachedDevice other;
   CHECK(checks, one.Begin("", 0).Serves());
   const std::weak_ptr<const Device> opened = one.Get();
-  const auto is = [&opened](const KeptDevice& kept) {
+  const auto is = [&opened](const CachedDevice& kept) {
     return !opened.expired() && kept.Get() == opened.lock();
   };
   CHECK(checks, is(one));
@@ -231,7 +231,7 @@ void checkSharing(Checks& checks)
 // Drivers would end the program.
 void checkLittleMemory(Checks& checks)
 {
-  KeptDevice kept;
+  CachedDevice kept;
   std::string fault;
   fault.reserve(200);
   {
@@ -261,7 +261,7 @@ void checkKeeping(Checks& checks)
     sampler->Update();
     std::weak_ptr<const Device> opened;
     {
-      KeptDevice same;
+      CachedDevice same;
       CHECK(checks, same.Begin("", 0).Serves());
       opened = same.Get();
     }
@@ -289,10 +289,10 @@ void checkThreads(Checks& checks)
   {
     return;
   }
-  std::vector<KeptDevice> kept(4);
+  std::vector<CachedDevice> kept(4);
   std::vector<std::thread> threads;
   threads.reserve(kept.size());
-  for (KeptDevice& each : kept)
+  for (CachedDevice& each : kept)
   {
     threads.emplace_back([&each]() { each.Begin("", 0); });
   }
@@ -300,7 +300,7 @@ void checkThreads(Checks& checks)
   {
     thread.join();
   }
-  for (const KeptDevice& each : kept)
+  for (const CachedDevice& each : kept)
   {
     CHECK(checks, each.Get() != nullptr && each.Get() == kept.front().Get());
   }

@@ -36,7 +36,7 @@ Lines printed(vtkAlgorithm* filter)
 }
 
 // The numbers of a text; none if there is anything else in it.
-std::vector<double> numbersOf(const std::string& text)
+std::vector<double> parseNumbers(const std::string& text)
 {
   std::istringstream words(text);
   std::vector<double> numbers;
@@ -55,8 +55,8 @@ std::vector<double> numbersOf(const std::string& text)
 // Whether two texts are as many numbers and, but for rounding, the same; or not numbers both.
 bool agree(const std::string& one, const std::string& other)
 {
-  const std::vector<double> a = numbersOf(one);
-  const std::vector<double> b = numbersOf(other);
+  const std::vector<double> a = parseNumbers(one);
+  const std::vector<double> b = parseNumbers(other);
   bool same = true;
   for (std::size_t i = 0; a.size() == b.size() && i < a.size(); ++i)
   {

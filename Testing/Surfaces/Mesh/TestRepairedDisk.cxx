@@ -297,7 +297,7 @@ TEST(RepairedDisk, PointsOnSidesAnywhere)
   }
 }
 
-TEST(RepairedDisk, FlatTrianglesOfTheBoundary)
+TEST(RepairedDisk, DegenerateTrianglesOfTheBoundary)
 {
   Mesh mesh = makeSquare(3);
   const std::int64_t inside = addPoint(mesh, between(mesh, 0, 1, 0.5));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What makes a closed surface of polygons: equal points, edges of two triangles, one orientation.
-#include "Core/Geometry/EqualPoints.h"
+#include "Core/Geometry/CoincidentPoints.h"
 #include "SolidSurfaces.h"
 #include "Surfaces/Mesh/Repair/MergePoints.h"
 #include "Surfaces/Mesh/SurfaceOrientation.h"

@@ -79,7 +79,7 @@ void expectCapsAreCut(const Mesh& plain, TJunctionScope scope, std::size_t every
 
 TEST(TJunctionRepair, FlatTriangles)
 {
-  for (const TJunctionScope scope : { TJunctionScope::All, TJunctionScope::OfFlatTriangles })
+  for (const TJunctionScope scope : { TJunctionScope::All, TJunctionScope::OfDegenerateTriangles })
   {
     for (const std::size_t every : { 1, 3 })
     {
@@ -94,11 +94,11 @@ TEST(TJunctionRepair, FlatTriangles)
 }
 
 // On the boundary they are left as they are: nothing is across.
-TEST(TJunctionRepair, FlatTrianglesOnTheBoundary)
+TEST(TJunctionRepair, DegenerateTrianglesOnTheBoundary)
 {
   Mesh square = makeQuads(2, 2, [](double u, double v) { return Point<3>{ u, v, 0.0 }; });
   square.Triangles.push_back({ 0, 2, 1 });
-  for (const TJunctionScope scope : { TJunctionScope::All, TJunctionScope::OfFlatTriangles })
+  for (const TJunctionScope scope : { TJunctionScope::All, TJunctionScope::OfDegenerateTriangles })
   {
     EXPECT_FALSE(repairTJunctions(square.Surface(), scope).Parts);
   }
@@ -108,7 +108,7 @@ TEST(TJunctionRepair, FlatTrianglesOnTheBoundary)
 TEST(TJunctionRepair, Scope)
 {
   const Mesh zigzag = makeZigzag({ 0.2, 0.4, 0.7 }, { 0.3, 0.6, 0.8 });
-  EXPECT_FALSE(repairTJunctions(zigzag.Surface(), TJunctionScope::OfFlatTriangles).Parts);
+  EXPECT_FALSE(repairTJunctions(zigzag.Surface(), TJunctionScope::OfDegenerateTriangles).Parts);
   const TJunctionRepair repair = repairTJunctions(zigzag.Surface(), TJunctionScope::All);
   EXPECT_EQ(repair.TJunctions, 6);
   const RepairedDisk disk(repairedMesh(zigzag, repair).Surface(), 0.0);

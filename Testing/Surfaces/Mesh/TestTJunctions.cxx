@@ -3,7 +3,7 @@
 // their areas, and what is no T-junction.
 #include "Surfaces/Mesh/Repair/TJunctions.h"
 
-#include "Core/Geometry/EqualPoints.h"
+#include "Core/Geometry/CoincidentPoints.h"
 #include "Core/Geometry/Vectors.h"
 #include "Core/Parallel/Progress.h"
 #include "HangingNodes.h"

@@ -4,8 +4,8 @@
 #include "DiskSurfaces.h"
 #include "RecordingContext.h"
 #include "SeamSurfaces.h"
-#include "Surfaces/Parameterization/EvenEmbedding.h"
 #include "Surfaces/Parameterization/MapDistortion.h"
+#include "Surfaces/Parameterization/TutteEmbedding.h"
 #include "Surfaces/Seams/CutSurface.h"
 #include "ThreadsExecutor.h"
 
@@ -368,8 +368,8 @@ TEST(CutSurface, CornersAreTheMostEvenOnes)
   {
     const CutSurface cut(mesh.Surface());
     const DiskMesh& disk = *cut.Disks()[0].Mesh;
-    const double found = areaUnevenness(disk, cut.Disks()[0].Conformal->Square.Positions);
-    const double chosen = areaUnevenness(disk, mapped(disk).Square.Positions);
+    const double found = areaDistortion(disk, cut.Disks()[0].Conformal->Square.Positions);
+    const double chosen = areaDistortion(disk, mapped(disk).Square.Positions);
     EXPECT_LE(found, chosen);
   }
 }

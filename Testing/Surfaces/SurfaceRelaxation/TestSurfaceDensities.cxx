@@ -279,7 +279,7 @@ TEST(SurfaceDensities, SquaresOfFewDots)
   for (const double dots : { 5.0, 20.0 }) // in a sparse square
   {
     Progress progress{ Context() };
-    WalkedSurface surface(box.Surface(), 0.0, progress);
+    GeodesicTracer surface(box.Surface(), 0.0, progress);
     const SurfaceDensity density(surface, byTriangles(values), progress);
     double square = 0.0; // its mass
     for (std::int64_t t = 0; t < surface.NumberOfTriangles(); ++t)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The masses of a surface that was read: of points, of cells, without ghosts; what is refused.
-#include "Surfaces/Mesh/WholeTriangles.h"
+#include "Surfaces/Mesh/AllTriangles.h"
 #include "Surfaces/SurfaceRelaxation/SurfaceMasses.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ public:
 
 private:
   Progress Work{ Context() };
-  WholeTriangles Surface;
+  AllTriangles Surface;
 };
 
 ReadDensity densityOf(const std::vector<double>& values, bool onPoints)

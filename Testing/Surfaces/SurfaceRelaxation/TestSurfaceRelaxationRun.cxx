@@ -108,7 +108,7 @@ TEST(SurfaceRelaxationRun, Kernels)
     block.Square[lane] = dots[static_cast<std::size_t>(lane)].Square;
   }
   const std::vector<std::int64_t> blocks{ 0, 1, 3 };
-  const DotsInReach inReach{ dots.data(), 29, blocks.data(), 3 };
+  const DotNeighbourhood inReach{ dots.data(), 29, blocks.data(), 3 };
   DotBlock sums = block;
   dotKernel(InstructionSet::SSE2)(inReach, sums);
   for (int lane = 0; lane < dotBlock; ++lane)

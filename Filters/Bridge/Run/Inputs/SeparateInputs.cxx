@@ -239,46 +239,46 @@ void SeparateInputs::Update(vtkAlgorithm* filter, vtkInformationVector** inputVe
   {
     return;
   }
-  this->ForgetKeptSteps(branches);
+  this->InvalidateCachedSteps(branches);
   this->UpdateEach(branches);
   if (this->ForgetWrongTimes(branches))
   {
     this->UpdateEach(branches);
-    this->Untold.clear();
+    this->UntimedOutputs.clear();
     for (const Output& output : WrongOutputs(branches))
     {
-      this->Untold[output] = StateOf(output);
+      this->UntimedOutputs[output] = StateOf(output);
     }
   }
-  for (auto& [keeper, time] : this->Keepers)
+  for (auto& [cachingFilter, time] : this->CachingFilters)
   {
-    time = keeper->GetOutputDataObject(0)->GetUpdateTime();
+    time = cachingFilter->GetOutputDataObject(0)->GetUpdateTime();
   }
 }
 
 // Filters that make data of several time steps, as Temporal Interpolator does, keep these steps,
 // and do not tell what their data are made of. They begin again where another filter has updated
 // them.
-void SeparateInputs::ForgetKeptSteps(const std::vector<Branch>& branches)
+void SeparateInputs::InvalidateCachedSteps(const std::vector<Branch>& branches)
 {
-  std::map<vtkAlgorithm*, vtkMTimeType> keepers;
+  std::map<vtkAlgorithm*, vtkMTimeType> cachingFilters;
   for (const Branch& branch : branches)
   {
     for (vtkAlgorithm* filter : branch.Upstream)
     {
       vtkDataObject* data =
         filter->IsA("vtkMultiTimeStepAlgorithm") ? filter->GetOutputDataObject(0) : nullptr;
-      if (data && keepers.emplace(filter, 0).second)
+      if (data && cachingFilters.emplace(filter, 0).second)
       {
-        const auto known = this->Keepers.find(filter);
-        if (known == this->Keepers.end() || known->second != data->GetUpdateTime())
+        const auto found = this->CachingFilters.find(filter);
+        if (found == this->CachingFilters.end() || found->second != data->GetUpdateTime())
         {
           filter->Modified();
         }
       }
     }
   }
-  this->Keepers = keepers;
+  this->CachingFilters = cachingFilters;
 }
 
 void SeparateInputs::UpdateEach(const std::vector<Branch>& branches)
@@ -321,8 +321,8 @@ bool SeparateInputs::ForgetWrongTimes(const std::vector<Branch>& branches)
 {
   const std::set<Output> wrong = WrongOutputs(branches);
   const auto isKnown = [this](const Output& output) {
-    const auto known = this->Untold.find(output);
-    return known != this->Untold.end() && known->second == StateOf(output);
+    const auto found = this->UntimedOutputs.find(output);
+    return found != this->UntimedOutputs.end() && found->second == StateOf(output);
   };
   if (std::all_of(wrong.begin(), wrong.end(), isKnown))
   {

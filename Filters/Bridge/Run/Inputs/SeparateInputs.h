@@ -70,15 +70,15 @@ private:
   static std::set<Output> WrongOutputs(const std::vector<Branch>& branches);
   static State StateOf(const Output& output);
   void UpdateEach(const std::vector<Branch>& branches);
-  void ForgetKeptSteps(const std::vector<Branch>& branches);
+  void InvalidateCachedSteps(const std::vector<Branch>& branches);
   bool ForgetWrongTimes(const std::vector<Branch>& branches);
 
   std::vector<Made> Data;
-  std::string Failed;             // the error message; empty if all inputs were made
-  std::map<Output, State> Untold; // whose data have another time even if made separately
+  std::string Failed;                     // the error message; empty if all inputs were made
+  std::map<Output, State> UntimedOutputs; // whose data have another time even if made separately
 
   // Filters that keep steps, and when their data were made last.
-  std::map<vtkAlgorithm*, vtkMTimeType> Keepers;
+  std::map<vtkAlgorithm*, vtkMTimeType> CachingFilters;
   std::vector<vtkSmartPointer<vtkInformationVector>> Vectors;
   std::vector<vtkInformationVector*> Pointers;
 };

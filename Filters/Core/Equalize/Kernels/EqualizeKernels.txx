@@ -44,7 +44,7 @@ RT_INLINE Vector3 sumOfFour(const Vector3& a, const Vector3& b, const Vector3& c
 }
 
 #include "Core/Equalize/Kernels/CellAreas.txx"
-#include "Core/Equalize/Kernels/CornerMoves.txx"
+#include "Core/Equalize/Kernels/CornerDisplacements.txx"
 
 } // namespace
 

@@ -70,7 +70,7 @@ public:
 
 private:
   class Implementation;
-  const std::unique_ptr<Implementation> Kept;
+  const std::unique_ptr<Implementation> Cached;
 };
 
 } // namespace RectifiedTransport

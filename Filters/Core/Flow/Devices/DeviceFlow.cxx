@@ -30,7 +30,7 @@ std::function<bool()> stopsOf(Progress& progress)
 // What a device keeps of one flow: its tables, a copy of its flow map in each direction, and
 // weights of steps.
 template <int Dimension>
-struct KeptOnDevice
+struct DeviceCache
 {
   struct Map
   {
@@ -56,14 +56,14 @@ struct KeptOnDevice
   std::shared_ptr<const DeviceMap<Dimension>> MapOn(
     Device& device, const std::shared_ptr<const FlowMap<Dimension>>& map, bool backward)
   {
-    Map& kept = this->Maps[backward ? 1 : 0];
-    if (map && kept.Of.lock() != map)
+    Map& cached = this->Maps[backward ? 1 : 0];
+    if (map && cached.Of.lock() != map)
     {
-      kept = {}; // two side by side would double the peak
-      kept.Copy = std::make_shared<const DeviceMap<Dimension>>(device, map->View(), backward);
-      kept.Of = map;
+      cached = {}; // two side by side would double the peak
+      cached.Copy = std::make_shared<const DeviceMap<Dimension>>(device, map->View(), backward);
+      cached.Of = map;
     }
-    return map ? kept.Copy : nullptr;
+    return map ? cached.Copy : nullptr;
   }
 };
 
@@ -211,21 +211,21 @@ public:
   Implementation& operator=(const Implementation&) = delete;
 
   // To be called by the user of the device, who has locked it.
-  std::shared_ptr<KeptOnDevice<Dimension>> On(Device& device)
+  std::shared_ptr<DeviceCache<Dimension>> On(Device& device)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    // Another device, or one that has forgotten this flow, starts with nothing kept.
-    std::shared_ptr<KeptOnDevice<Dimension>> kept = this->Kept.lock();
-    if (!kept || this->Where.lock().get() != &device)
+    // Another device, or one that has forgotten this flow, starts with nothing cached.
+    std::shared_ptr<DeviceCache<Dimension>> cached = this->Cached.lock();
+    if (!cached || this->Where.lock().get() != &device)
     {
       this->Leave();
-      kept = std::make_shared<KeptOnDevice<Dimension>>();
-      device.Keep(this, kept);
-      this->Kept = kept;
+      cached = std::make_shared<DeviceCache<Dimension>>();
+      device.Keep(this, cached);
+      this->Cached = cached;
       // Weak references: a flow keeps neither the device open nor its own copies alive.
       this->Where = device.weak_from_this();
     }
-    return kept;
+    return cached;
   }
 
 private:
@@ -239,14 +239,14 @@ private:
     this->Where.reset();
   }
 
-  std::mutex Mutex; // guards Where and Kept: flows run on several threads
+  std::mutex Mutex; // guards Where and Cached: flows run on several threads
   std::weak_ptr<Device> Where;
-  std::weak_ptr<KeptOnDevice<Dimension>> Kept;
+  std::weak_ptr<DeviceCache<Dimension>> Cached;
 };
 
 template <int Dimension>
 DeviceFlow<Dimension>::DeviceFlow()
-  : Kept(std::make_unique<Implementation>())
+  : Cached(std::make_unique<Implementation>())
 {
 }
 
@@ -307,7 +307,7 @@ void DeviceFlow<Dimension>::MakeTables(DeviceUse& use, const DensitySource<Dimen
     }
     use.Run(
       [&](Device& device) {
-        this->Kept->On(device)->Tables = std::make_shared<const DeviceTables<Dimension>>(
+        this->Cached->On(device)->Tables = std::make_shared<const DeviceTables<Dimension>>(
           device, flowProgram(device, Dimension), tables.View(), values);
       },
       stops);
@@ -333,11 +333,11 @@ std::unique_ptr<DeviceAdvection<Dimension>> DeviceFlow<Dimension>::Begin(DeviceU
   {
     use.Run(
       [&](Device& device) {
-        const auto kept = this->Kept->On(device);
-        auto tables = kept->TablesOn(device, job.Job.Tables);
+        const auto cached = this->Cached->On(device);
+        auto tables = cached->TablesOn(device, job.Job.Tables);
         advection = std::make_unique<Advection<Dimension>>(use, job,
           std::make_unique<KernelRun<Dimension>>(device, flowProgram(device, Dimension), job,
-            std::move(tables), kept->MapOn(device, map, job.Job.Backward), kept->Weights),
+            std::move(tables), cached->MapOn(device, map, job.Job.Backward), cached->Weights),
           device.IsGpu());
       },
       stopsOf(progress));
@@ -360,7 +360,7 @@ DeviceNodes<Dimension> DeviceFlow<Dimension>::BeginNodes(
       if (!use.Run(
             [&](Device& device) {
               run = std::make_unique<NodeRun<Dimension>>(device, flowProgram(device, Dimension),
-                job.Job, this->Kept->On(device)->TablesOn(device, job.Job.Tables), map, level);
+                job.Job, this->Cached->On(device)->TablesOn(device, job.Job.Tables), map, level);
             },
             stops))
       {

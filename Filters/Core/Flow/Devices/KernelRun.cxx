@@ -104,18 +104,18 @@ KernelRun<Dimension>::KernelRun(Device& device, const DeviceProgram& program,
 std::shared_ptr<const DeviceBuffer> DeviceWeights::Of(
   Device& device, std::int64_t steps, FlowDirection direction)
 {
-  constexpr std::int64_t mostKept = std::int64_t{ 1 } << 14; // steps: 1 MiB
-  const auto found = this->Kept.find({ steps, direction });
-  if (found != this->Kept.end())
+  constexpr std::int64_t mostCached = std::int64_t{ 1 } << 14; // steps: 1 MiB
+  const auto found = this->Cache.find({ steps, direction });
+  if (found != this->Cache.end())
   {
     return found->second;
   }
   // The host computes the weights, so that they have its bits.
   const std::vector<StepWeights> weights = multistepWeightsOf(steps, direction);
   auto made = std::make_shared<const DeviceBuffer>(upload(device, weights, "weights of steps"));
-  if (steps <= mostKept)
+  if (steps <= mostCached)
   {
-    this->Kept.emplace(std::make_pair(steps, direction), made);
+    this->Cache.emplace(std::make_pair(steps, direction), made);
   }
   return made;
 }

@@ -44,7 +44,7 @@ public:
     Device& device, std::int64_t steps, FlowDirection direction);
 
 private:
-  std::map<std::pair<std::int64_t, FlowDirection>, std::shared_ptr<const DeviceBuffer>> Kept;
+  std::map<std::pair<std::int64_t, FlowDirection>, std::shared_ptr<const DeviceBuffer>> Cache;
 };
 
 // The most steps that so many particles take in one run of a kernel.

@@ -102,7 +102,7 @@ struct NodeBlock
   int Count;
   const StepWeights* Weights; // forwards from scratch of startSteps, backwards of nodeSteps
   unsigned char* Deferred;    // a node of the block
-  unsigned char* Troubled;    // a node of the lattice
+  unsigned char* Unresolved;  // a node of the lattice
 };
 
 // Makes the records of nodes of a level from those of the level `parent` of the job's map, which is

@@ -190,7 +190,7 @@ std::int64_t advanceForwardNodes(const FlowJob<Dimension>& job,
       continue;
     }
     // A node that met an empty box has a record, but the cells around it will be bad.
-    block.Troubled[block.Index[i]] = lanes.Unresolved[i] > 0.0 ? 1 : 0;
+    block.Unresolved[block.Index[i]] = lanes.Unresolved[i] > 0.0 ? 1 : 0;
     float* state = level.Records + block.Index[i] * record;
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -254,7 +254,7 @@ std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
   const double end = timeAt(to);
   int left = block.Count;
   // Boxes may be whole at the level's time already.
-  finishWhole<Dimension>(job, block.Count, lanes.Position, begin, active, left, write);
+  finishStraight<Dimension>(job, block.Count, lanes.Position, begin, active, left, write);
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
@@ -279,7 +279,7 @@ std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
       evaluations += left;
       markActive();
     }
-    finishWhole<Dimension>(job, block.Count, lanes.Position, time, active, left, write);
+    finishStraight<Dimension>(job, block.Count, lanes.Position, time, active, left, write);
   }
   // Nodes to which the parent gives no seed are deferred, to the next coarser level.
   if (parent >= 0)
@@ -290,7 +290,7 @@ std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
   for (int i = 0; i < block.Count; ++i)
   {
     block.Deferred[i] = active[i] ? 1 : 0;
-    block.Troubled[block.Index[i]] = lanes.Unresolved[i] > 0.0 ? 1 : 0;
+    block.Unresolved[block.Index[i]] = lanes.Unresolved[i] > 0.0 ? 1 : 0;
   }
   return evaluations;
 }

@@ -24,7 +24,7 @@ template <int Dimension>
 RT_INLINE double seedOf(
   const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x, int lane, double t, int axis)
 {
-  return seedBefore(x[axis][lane], t, job.Tables.Size[axis], job.Tables.Centroid[axis]);
+  return seedOfStraight(x[axis][lane], t, job.Tables.Size[axis], job.Tables.Centroid[axis]);
 }
 
 // Writes the seed of a lane to the place `index` of the output.
@@ -91,7 +91,7 @@ RT_INLINE void stepBackward(const FlowJob<Dimension>& job, const StepWeights& we
 // Lanes whose box is the whole domain at `time`: their seed is known in closed form. Writes it, and
 // marks the lanes as done.
 template <int Dimension, class Write>
-RT_INLINE void finishWhole(const FlowJob<Dimension>& job, int count,
+RT_INLINE void finishStraight(const FlowJob<Dimension>& job, int count,
   const LaneVectors<Dimension>& x, double time, bool* active, int& left, const Write& write)
 {
   for (int i = 0; i < count; ++i)
@@ -175,7 +175,7 @@ std::int64_t multistepBackward(const FlowJob<Dimension>& job, const double* seed
       }
       --level;
     }
-    finishWhole<Dimension>(job, count, lanes.Position, time, active, left, write);
+    finishStraight<Dimension>(job, count, lanes.Position, time, active, left, write);
   }
   return evaluations;
 }

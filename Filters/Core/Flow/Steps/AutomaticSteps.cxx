@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/Steps/AutomaticSteps.h"
 
-#include "Core/Flow/Steps/LittleContrast.h"
+#include "Core/Flow/Steps/LowContrast.h"
 #include "Core/Flow/Steps/ProbeBlocks.h"
 #include "Core/Flow/Steps/StepBudget.h"
 #include "Core/Flow/Steps/SweptMass.h"
-#include "Core/Geometry/EqualPoints.h"
+#include "Core/Geometry/CoincidentPoints.h"
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/RankShare.h"
@@ -31,15 +31,15 @@ constexpr int lastCompared = 1024; // steps, with twice as many
 // The error that 99.9 % of the blocks keep is that of the worst after one in a thousand.
 constexpr std::size_t oneIn = 1000;
 
-// A choice is judged by the worse half of the blocks, each time with more points on their sides. Of
-// those with the largest changes, `Kept` for each that may be worse stay.
-struct Judgement
+// A choice is verified by the worse half of the blocks, each time with more points on their sides.
+// Among those with the largest changes, `Kept` for each that may be worse stay.
+struct Verification
 {
   int Parts;  // of a side
   int Factor; // so many times the steps
   std::size_t Kept;
 };
-constexpr Judgement judgements[] = { { 1, 2, 32 }, { 2, 2, 8 }, { 4, 4, 0 } };
+constexpr Verification verifications[] = { { 1, 2, 32 }, { 2, 2, 8 }, { 4, 4, 0 } };
 
 // What an error falls by with x times the steps: x^(7/4), by square roots alone, which have the
 // same bits everywhere. Measured orders are 1.5 to 2.1.
@@ -138,8 +138,7 @@ public:
   {
     // Forward the flow expands where it is fast, and no step is too long for that.
     if (this->Used.empty() ||
-      (this->IsMap() && !this->IsBackward() &&
-        hasLittleContrast<Dimension>(this->Engine, this->Work)))
+      (this->IsMap() && !this->IsBackward() && hasLowContrast<Dimension>(this->Engine, this->Work)))
     {
       return {};
     }
@@ -157,8 +156,8 @@ public:
       const bool isKept = now.Error <= this->Options.AreaTolerance;
       if (before.Steps == 0 && !isKept)
       {
-        std::vector<std::size_t> worst = this->KeepWorst(errors, (errors.size() + 1) / 2);
-        // The half with larger errors is what a judgement looks at again.
+        std::vector<std::size_t> worst = this->SelectWorst(errors, (errors.size() + 1) / 2);
+        // The half with larger errors is what a verification looks at again.
         this->Worse = this->Used;
         // Further comparisons take the worst blocks alone: errors of others are smaller, and fall
         // too.
@@ -171,7 +170,7 @@ public:
       if (isKept || now.Steps >= most || now.Steps == lastCompared)
       {
         StepChoice choice = this->ChoiceFrom(before, now, most);
-        if (this->IsJudged() && before.Steps > 0 && options.LeastSteps <= choice.NumberOfSteps)
+        if (this->IsVerified() && before.Steps > 0 && options.LeastSteps <= choice.NumberOfSteps)
         {
           this->Judge(choice, most, options);
         }
@@ -188,7 +187,7 @@ private:
 
   bool IsBackward() const { return this->Direction == FlowDirection::Backward; }
   bool IsMap() const { return this->IsBackward() || this->Options.Particles == 0.0; }
-  bool IsJudged() const { return this->IsMap() && this->Options.NeedsEstimate; }
+  bool IsVerified() const { return this->IsMap() && this->Options.NeedsEstimate; }
 
   // Where few blocks count, mass is in a small part of the domain: the forward flow leads to it.
   void ProbeMass()
@@ -283,7 +282,7 @@ private:
   }
 
   // Only blocks with the largest errors stay in use. Returns which of them, in that order.
-  std::vector<std::size_t> KeepWorst(const std::vector<double>& errors, std::size_t most)
+  std::vector<std::size_t> SelectWorst(const std::vector<double>& errors, std::size_t most)
   {
     std::vector<std::size_t> order(errors.size());
     std::iota(order.begin(), order.end(), std::size_t{ 0 });
@@ -329,17 +328,17 @@ private:
     {
       return FlowOptions::MostSteps;
     }
-    typename StepBudget<Dimension>::Choosing choosing{ this->Spent,
+    typename StepBudget<Dimension>::ChoiceCost choosing{ this->Spent,
       static_cast<double>(this->Distinct(this->PointsOf(this->Used)).Places().size()), 0.0 };
-    if (this->IsJudged())
+    if (this->IsVerified())
     {
       std::size_t points = this->Distinct(this->PointsOf(this->Worse)).Places().size();
-      for (const Judgement& judgement : judgements)
+      for (const Verification& verification : verifications)
       {
-        // A judgement moves its points with the chosen steps and with `Factor` times as many.
-        choosing.Judged += static_cast<double>((judgement.Factor + 1) * points);
-        const BlockSurface<Dimension> next(2 * judgement.Parts);
-        points = judgement.Kept * (this->Worst() + 1) * next.Count();
+        // A verification moves its points with the chosen steps and with `Factor` times as many.
+        choosing.Verified += static_cast<double>((verification.Factor + 1) * points);
+        const BlockSurface<Dimension> next(2 * verification.Parts);
+        points = verification.Kept * (this->Worst() + 1) * next.Count();
       }
     }
     const int most = this->BudgetOf(options).MostSteps(choosing, isSmooth);
@@ -400,17 +399,17 @@ private:
         choice.Of(options), this->Size, this->Direction, numberOfCells<Dimension>(this->Size));
     }
     this->Used = this->Worse;
-    for (const Judgement& judgement : judgements)
+    for (const Verification& verification : verifications)
     {
-      this->Surface = BlockSurface<Dimension>(judgement.Parts);
+      this->Surface = BlockSurface<Dimension>(verification.Parts);
       std::swap(taken, this->Options);
       const Images images = this->Move(choice.NumberOfSteps);
       std::swap(taken, this->Options);
       const int more =
-        std::min(judgement.Factor * choice.NumberOfSteps, FlowOptions::MaximumNumberOfSteps);
+        std::min(verification.Factor * choice.NumberOfSteps, FlowOptions::MaximumNumberOfSteps);
       const std::vector<double> errors = this->ErrorsOf(images, this->Move(more));
       choice.AreaError = this->OfNearlyAll(errors);
-      this->KeepWorst(errors, judgement.Kept * (this->Worst() + 1));
+      this->SelectWorst(errors, verification.Kept * (this->Worst() + 1));
     }
     this->TakeMore(choice, most);
   }

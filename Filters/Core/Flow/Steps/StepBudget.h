@@ -44,17 +44,17 @@ public:
   }
 
   // What choosing costs.
-  struct Choosing
+  struct ChoiceCost
   {
     double Spent;    // velocities of the first comparison
     double Compared; // how many points take each number of steps after it,
-    double Judged;   // how many once the steps that are chosen
+    double Verified; // how many once the steps that are chosen
   };
 
   // The most steps, a multiple of 8, with which a run and the choice of its steps cost no more than
   // 8 times what a run with the fewest steps costs. In smooth densities flow maps serve nearly all
   // particles.
-  int MostSteps(const Choosing& choosing, bool isSmooth) const
+  int MostSteps(const ChoiceCost& choosing, bool isSmooth) const
   {
     int kept = FlowOptions::FewestSteps;
     int missed = 8 * FlowOptions::FewestSteps * 2;
@@ -62,7 +62,7 @@ public:
     {
       const int middle = (kept + missed) / (2 * stepUnit) * stepUnit;
       // Until `middle` is between two numbers of steps that are compared.
-      double choice = choosing.Spent + middle * choosing.Judged;
+      double choice = choosing.Spent + middle * choosing.Verified;
       for (int last = 4 * FlowOptions::FewestSteps; last < 4 * middle; last *= 2)
       {
         choice += last * choosing.Compared;

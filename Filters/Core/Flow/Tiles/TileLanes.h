@@ -4,7 +4,7 @@
 #define RectifiedTransport_TileLanes_h
 
 #include "Core/Flow/Kernels/FlowKernels.h"
-#include "Core/Flow/Tiles/TileEntries.h"
+#include "Core/Flow/Tiles/TileBins.h"
 #include "Core/Geometry/Points.h"
 
 #include <algorithm>

@@ -5,9 +5,9 @@
 #define RectifiedTransport_TileRounds_h
 
 #include "Core/Flow/Tiles/GridTiles.h"
-#include "Core/Flow/Tiles/TileEntries.h"
+#include "Core/Flow/Tiles/TileBins.h"
+#include "Core/Flow/Tiles/TileExchange.h"
 #include "Core/Flow/Tiles/TileSchedule.h"
-#include "Core/Flow/Tiles/TileVisitors.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Tables/Density.h"
@@ -56,7 +56,7 @@ public:
   //   Serve(bytes, progress)          what visitors that came from one rank get: as many bytes each
   //   Take(bytes, index, particle)    of one that comes back
   template <class Item, class Task>
-  void Run(const ByTile<Item>& items, Task&& task, Progress& progress)
+  void Run(const TileBins<Item>& items, Task&& task, Progress& progress)
   {
     if (this->Density.IsDistributed())
     {
@@ -101,7 +101,7 @@ private:
   // In rounds: in each, every rank has the tables of one tile at most, for its own particles and
   // those of others that visit it, which are sent back.
   template <class Item, class Task>
-  void RunOnRanks(const ByTile<Item>& items, Task& task, Progress& progress)
+  void RunOnRanks(const TileBins<Item>& items, Task& task, Progress& progress)
   {
     const Ranks& ranks = this->Group;
     // The same on all ranks, which compute it from the same counts.
@@ -137,7 +137,7 @@ private:
       }
       // Particles of other ranks, in parts that bound the memory: out, through the kernels there,
       // and back.
-      TileVisitors<Item> visitors(items, units, round, ranks);
+      TileExchange<Item> visitors(items, units, round, ranks);
       while (visitors.HaveMore())
       {
         std::vector<Bytes> parts = ranks.Exchange(visitors.Leave(task));
@@ -154,7 +154,7 @@ private:
   // tables cost as much as those of its largest possible size, in items.
   template <class Item>
   std::vector<std::vector<TileUnit>> Schedule(
-    const ByTile<Item>& items, double cell, const Ranks& ranks) const
+    const TileBins<Item>& items, double cell, const Ranks& ranks) const
   {
     // This rank's items of each tile, and those of all ranks.
     std::vector<TileCount> own;
@@ -171,7 +171,7 @@ private:
     {
       all.push_back(fromBytes<TileCount>(bytes));
     }
-    const double particlesOfItem = TileVisitors<Item>::ParticlesOfItem;
+    const double particlesOfItem = TileExchange<Item>::ParticlesOfItem;
     return scheduleTiles(
       all, cell * numberOfCells<Dimension>(this->Tiles.MostCells()) / particlesOfItem);
   }

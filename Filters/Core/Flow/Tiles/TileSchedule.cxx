@@ -86,7 +86,7 @@ public:
     for (const Rank& rank : this->Units)
     {
       sorted.emplace_back();
-      for (const auto& [tile, visits] : rank.ByTile)
+      for (const auto& [tile, visits] : rank.TileBins)
       {
         sorted.back().push_back({ tile, visits });
       }
@@ -102,7 +102,7 @@ private:
   // What a rank has so far.
   struct Rank
   {
-    std::map<std::int64_t, std::vector<TileVisit>> ByTile;
+    std::map<std::int64_t, std::vector<TileVisit>> TileBins;
     std::int64_t Items = 0;
     double Cost = 0.0; // with that of the tables
   };
@@ -152,7 +152,7 @@ private:
     {
       least = cheaper(rank, least) ? rank : least;
       const bool serves =
-        this->Units[rank].ByTile.count(tile) > 0 && this->Units[rank].Items < this->Most;
+        this->Units[rank].TileBins.count(tile) > 0 && this->Units[rank].Items < this->Most;
       if (serves && (best == this->Units.size() || cheaper(rank, best)))
       {
         best = rank;
@@ -169,7 +169,7 @@ private:
   void Give(std::size_t rank, std::int64_t tile, const TileVisit& visit)
   {
     Rank& given = this->Units[rank];
-    std::vector<TileVisit>& visits = given.ByTile[tile];
+    std::vector<TileVisit>& visits = given.TileBins[tile];
     given.Cost += static_cast<double>(visit.Count()) + (visits.empty() ? this->CostOfTables : 0.0);
     given.Items += visit.Count();
     visits.push_back(visit);

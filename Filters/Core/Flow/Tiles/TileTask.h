@@ -4,7 +4,7 @@
 #define RectifiedTransport_TileTask_h
 
 #include "Core/Flow/AdvectionRun.h"
-#include "Core/Flow/Tiles/TileEntries.h"
+#include "Core/Flow/Tiles/TileBins.h"
 #include "Core/Flow/Tiles/TileLanes.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
@@ -40,7 +40,7 @@ public:
 
   // `tables` are those of the tile that is worked on.
   TileTask(const TileStage<Dimension>& stage, const TableView<Dimension>& tables,
-    const ByTile<Item>& items, const GiveItem& giveItem)
+    const TileBins<Item>& items, const GiveItem& giveItem)
     : Stage(stage)
     , Tables(tables)
     , Items(items)
@@ -140,7 +140,7 @@ private:
 
   const TileStage<Dimension>& Stage;
   const TableView<Dimension>& Tables;
-  const ByTile<Item>& Items;
+  const TileBins<Item>& Items;
   const GiveItem& GiveParticles;
 };
 

@@ -16,7 +16,7 @@
 #include "Core/Flow/AdvectionRun.h"
 #include "Core/Flow/NodeAdvance.h"
 #include "Core/Flow/Particles/ParticleSource.h"
-#include "Core/Flow/Tiles/TileEntries.h"
+#include "Core/Flow/Tiles/TileBins.h"
 #include "Core/Flow/Tiles/TilePlan.h"
 #include "Core/Flow/Tiles/TileRounds.h"
 #include "Core/Flow/Tiles/TileTask.h"
@@ -105,7 +105,7 @@ private:
     if (hasEntries)
     {
       // Which particles are in which tile, then all tiles that have any.
-      const ByTile<Entry> entries = this->FindTiles(source, length, left, stages["map"]);
+      const TileBins<Entry> entries = this->FindTiles(source, length, left, stages["map"]);
       // The kernels take them from the map forwards, to it backwards, in the pass of its finest
       // level.
       const FlowMapView<Dimension> map = this->MapOfEntries();
@@ -162,7 +162,7 @@ private:
   }
 
   // The entries of all particles, but those that the map does not serve: these are `left`.
-  ByTile<Entry> FindTiles(const ParticleSource<Dimension>& source, std::int64_t length,
+  TileBins<Entry> FindTiles(const ParticleSource<Dimension>& source, std::int64_t length,
     ParticleMask& left, Progress& progress)
   {
     const std::int64_t blocks = left.Blocks();
@@ -212,7 +212,7 @@ private:
         }
       },
       grain);
-    return ByTile<Entry>(
+    return TileBins<Entry>(
       found, this->Plan.Tiles.Count(), [](const Entry& entry) { return entry.Tile; });
   }
 
@@ -265,9 +265,9 @@ private:
   // Particles of a pass that are taken to the hand-over by themselves.
   struct Extra
   {
-    std::vector<std::int64_t> Particle;  // their numbers in the row of particles
-    LargeBuffer<float> Records;          // [particle][record] at the hand-over, as of lattices
-    std::vector<unsigned char> Troubled; // 1 where a box was empty on the way
+    std::vector<std::int64_t> Particle;    // their numbers in the row of particles
+    LargeBuffer<float> Records;            // [particle][record] at the hand-over, as of lattices
+    std::vector<unsigned char> Unresolved; // 1 where a box was empty on the way
   };
 
   // Takes all that is in `given` from the seeds, with 2^pass times as many steps; what is still
@@ -316,7 +316,7 @@ private:
     const int record = isBackward ? backward : forward;
     const auto count = static_cast<std::int64_t>(extra.Particle.size());
     extra.Records = LargeBuffer<float>(count * record);
-    extra.Troubled.resize(static_cast<std::size_t>(count));
+    extra.Unresolved.resize(static_cast<std::size_t>(count));
 
     // The particles are the nodes of a level without a lattice, which ends at the hand-over. In
     // pass 0 they start from the coarser lattices where these are good; with more steps the times
@@ -341,7 +341,7 @@ private:
       return extra.Particle[static_cast<std::size_t>(number)];
     };
     this->Count.Evaluations += NodeAdvance<Dimension>(job, level, stages["hand-over"])
-                                 .Run(0, count, parents, extra.Troubled.data(),
+                                 .Run(0, count, parents, extra.Unresolved.data(),
                                    [&](const std::int64_t* numbers, int length, double* places) {
                                      for (int i = 0; i < length; ++i)
                                      {
@@ -367,7 +367,7 @@ private:
     numbers[0].reserve(static_cast<std::size_t>(count));
     for (std::int64_t i = 0; i < count; ++i)
     {
-      if (extra.Troubled[static_cast<std::size_t>(i)] && pass < this->LastPass)
+      if (extra.Unresolved[static_cast<std::size_t>(i)] && pass < this->LastPass)
       {
         left.Add(particle(i));
       }
@@ -378,7 +378,7 @@ private:
     }
     // Each particle goes to the tile of its place at the hand-over, and on from its state there:
     // one level, whose pass is -1.
-    const ByTile<std::int64_t> byTile(numbers, this->Plan.Tiles.Count(), [&](std::int64_t number) {
+    const TileBins<std::int64_t> bins(numbers, this->Plan.Tiles.Count(), [&](std::int64_t number) {
       double place[Dimension];
       std::copy_n(level.Records + number * record, Dimension, place);
       return this->Plan.TileOf(place);
@@ -396,7 +396,7 @@ private:
       give(state, index, particle(number));
     };
     this->Rounds.Run(
-      byTile, TileTask(stage, this->Rounds.Tables(), byTile, giveNumber), stages["tiles"]);
+      bins, TileTask(stage, this->Rounds.Tables(), bins, giveNumber), stages["tiles"]);
   }
 
   // The seeds that the records have, clamped to the domain.

@@ -4,7 +4,7 @@
 #define RectifiedTransport_TiledEngine_h
 
 #include "Core/Flow/FlowEngine.h"
-#include "Core/Flow/KeptFlowMap.h"
+#include "Core/Flow/FlowMapCache.h"
 #include "Core/Flow/Particles/ParticleSource.h"
 #include "Core/Flow/Tiles/TiledAdvection.h"
 #include "Core/Flow/Tiles/TiledShares.h"
@@ -137,7 +137,7 @@ private:
   std::shared_ptr<const DensityValues> Prepared; // for Share
   const TileLimits Limits;
   const GradedTables<Dimension> Graded;
-  KeptFlowMaps<Dimension> Maps;
+  FlowMapCache<Dimension> Maps;
 };
 
 } // namespace RectifiedTransport

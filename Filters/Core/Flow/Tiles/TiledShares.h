@@ -5,7 +5,7 @@
 #define RectifiedTransport_TiledShares_h
 
 #include "Core/Flow/Tiles/GridTiles.h"
-#include "Core/Flow/Tiles/TileEntries.h"
+#include "Core/Flow/Tiles/TileBins.h"
 #include "Core/Flow/Tiles/TilePlan.h"
 #include "Core/Flow/Tiles/TileRounds.h"
 #include "Core/Parallel/RankExchange.h"
@@ -69,7 +69,7 @@ public:
   void Run(ConstPointSpan<Dimension> centres, const double* shares, double* measures)
   {
     Stages stages(this->Work, { { "sort", 5 }, { "boxes", 95 } });
-    const ByTile<std::int64_t> items = this->FindTiles(centres, shares, measures, stages["sort"]);
+    const TileBins<std::int64_t> items = this->FindTiles(centres, shares, measures, stages["sort"]);
     this->Rounds.Run(items, Solution{ *this, items, centres, shares, measures }, stages["boxes"]);
     this->Work.EndSlice(1);
   }
@@ -136,7 +136,7 @@ private:
     }
 
     TiledShares& Parent;
-    const ByTile<std::int64_t>& Items;
+    const TileBins<std::int64_t>& Items;
     const ConstPointSpan<Dimension> Centres;
     const double* const Shares;
     double* const Measures;
@@ -158,7 +158,7 @@ private:
 
   // The boxes by the tile of their centre. Those without a share need no tables. Each range fills a
   // list of its own: the order does not depend on threads.
-  ByTile<std::int64_t> FindTiles(
+  TileBins<std::int64_t> FindTiles(
     ConstPointSpan<Dimension> centres, const double* shares, double* measures, Progress& progress)
   {
     const std::int64_t count = centres.size();

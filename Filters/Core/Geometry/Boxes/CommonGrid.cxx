@@ -2,7 +2,7 @@
 #include "Core/Geometry/Boxes/CommonGrid.h"
 
 #include "Core/Geometry/Boxes/BoxAdvice.h"
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Geometry/InverseMatrix.h"
 #include "Core/Messages/PropertyCheck.h"
 

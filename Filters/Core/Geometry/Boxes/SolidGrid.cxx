@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Geometry/Boxes/SolidGrid.h"
 
-#include "Core/Geometry/Boxes/SizedGrids.h"
+#include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Messages/PropertyCheck.h"
 
 #include <algorithm>

@@ -34,15 +34,15 @@ struct FaceKernels
   double (*Apply)(const FaceWeights<Dimension>& system, const float* x, std::int64_t first,
     std::int64_t last, float* output);
   // r = b - A x; returns the sum of r^2.
-  double (*Rest)(const FaceWeights<Dimension>& system, const double* x, const float* b,
+  double (*TrueResidual)(const FaceWeights<Dimension>& system, const double* x, const float* b,
     std::int64_t first, std::int64_t last, float* r);
   // Returns the sum of a * b.
   double (*Dot)(const float* a, const float* b, std::int64_t first, std::int64_t last);
   // x += factor * p, r -= factor * q; returns the sum of r^2.
   double (*Advance)(float factor, const float* p, const float* q, std::int64_t first,
     std::int64_t last, double* x, float* r);
-  // p = z + factor * p
-  void (*Turn)(float factor, const float* z, std::int64_t first, std::int64_t last, float* p);
+  // p = z + beta * p
+  void (*NewDirection)(float beta, const float* z, std::int64_t first, std::int64_t last, float* p);
 };
 
 // Compiled for each instruction set.

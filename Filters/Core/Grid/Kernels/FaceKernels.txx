@@ -116,7 +116,7 @@ double apply(const FaceWeights<Dimension>& given, const float* x, std::int64_t f
 
 // r = b - A x with x in double precision; returns |r|^2.
 template <int Dimension>
-double rest(const FaceWeights<Dimension>& given, const double* x, const float* b,
+double trueResidual(const FaceWeights<Dimension>& given, const double* x, const float* b,
   std::int64_t first, std::int64_t last, float* __restrict r)
 {
   const FaceWeights<Dimension> system = given;
@@ -145,12 +145,13 @@ double advance(float factor, const float* p, const float* q, std::int64_t first,
 }
 
 // p = z + beta p.
-void turn(float factor, const float* z, std::int64_t first, std::int64_t last, float* __restrict p)
+void newDirection(
+  float beta, const float* z, std::int64_t first, std::int64_t last, float* __restrict p)
 {
 #pragma omp simd
   for (std::int64_t i = first; i < last; ++i)
   {
-    p[i] = z[i] + factor * p[i];
+    p[i] = z[i] + beta * p[i];
   }
 }
 
@@ -159,13 +160,13 @@ void turn(float factor, const float* z, std::int64_t first, std::int64_t last, f
 template <>
 FaceKernels<2> faceKernelsOf<2, RECTIFIEDTRANSPORT_SET>()
 {
-  return { &residual<2>, &relax<2>, &apply<2>, &rest<2>, &dot, &advance, &turn };
+  return { &residual<2>, &relax<2>, &apply<2>, &trueResidual<2>, &dot, &advance, &newDirection };
 }
 
 template <>
 FaceKernels<3> faceKernelsOf<3, RECTIFIEDTRANSPORT_SET>()
 {
-  return { &residual<3>, &relax<3>, &apply<3>, &rest<3>, &dot, &advance, &turn };
+  return { &residual<3>, &relax<3>, &apply<3>, &trueResidual<3>, &dot, &advance, &newDirection };
 }
 
 } // namespace RectifiedTransport

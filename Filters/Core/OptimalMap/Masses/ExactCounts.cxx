@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/OptimalMap/Masses/ExactCounts.h"
 
-#include "Core/OptimalMap/Masses/HalvingTree.h"
+#include "Core/OptimalMap/Masses/KdTree.h"
 #include "Core/Parallel/Polls.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct Particle
 template <int Dimension>
 struct BoxOfParticles
 {
-  HalvingBox<Dimension> Box;
+  KdBox<Dimension> Box;
   std::int64_t First;
   std::int64_t Last;
 
@@ -65,7 +65,7 @@ class Halving
 public:
   using Part = BoxOfParticles<Dimension>;
 
-  Halving(const HalvingTree<Dimension>& tree, Particle<Dimension>* particles,
+  Halving(const KdTree<Dimension>& tree, Particle<Dimension>* particles,
     PointSpan<Dimension> results, Progress& progress)
     : Tree(tree)
     , Particles(particles)
@@ -144,7 +144,7 @@ private:
   // Moves the `number` cheapest particles of a box across a plane into the box on the other side,
   // each to its mirror image: then the density across the plane stays as smooth as it was.
   void Cross(
-    const Part& from, std::int64_t number, int axis, double plane, const HalvingBox<Dimension>& to)
+    const Part& from, std::int64_t number, int axis, double plane, const KdBox<Dimension>& to)
   {
     // A layer that would hold the wanted number if the density were even, with a factor 4 and 8
     // particles to spare: particles are seldom far denser away from the plane. If it holds too few,
@@ -183,7 +183,7 @@ private:
   // image is in a void. Returns whether these are sure to include the nearest `number` ones: only
   // those that stay nearer than `near` with that addition count.
   bool FindCandidates(const Part& from, std::int64_t number, int axis, double plane,
-    const HalvingBox<Dimension>& to, double near)
+    const KdBox<Dimension>& to, double near)
   {
     this->Candidates.clear();
     std::int64_t sure = 0;
@@ -205,7 +205,7 @@ private:
   }
 
   // The mirror image of a coordinate at the plane, kept inside of the box beyond it.
-  static double Mirrored(double at, int axis, double plane, const HalvingBox<Dimension>& to)
+  static double Mirrored(double at, int axis, double plane, const KdBox<Dimension>& to)
   {
     constexpr double inside = PlaceInCell<Dimension>::Inside;
     return std::clamp(2.0 * plane - at, static_cast<double>(to.Low[axis]) + inside,
@@ -238,7 +238,7 @@ private:
     ++this->MovesMade;
   }
 
-  const HalvingTree<Dimension>& Tree;
+  const KdTree<Dimension>& Tree;
   Particle<Dimension>* Particles;
   PointSpan<Dimension> Results;
   Polls Work;
@@ -256,7 +256,7 @@ std::int64_t makeCountsExact(const CellDensity<Dimension>& density, const Point<
   // The work is a level of boxes at a time, then whole subtrees: both are independent of
   // threads.
   const std::int64_t number = particles.size();
-  const HalvingTree<Dimension> tree(density, sides, progress);
+  const KdTree<Dimension> tree(density, sides, progress);
   LargeBuffer<Particle<Dimension>> sorted(number);
   progress.Threads().For(
     number, std::int64_t{ 1 } << 14, [&](std::int64_t first, std::int64_t last) {
@@ -325,7 +325,7 @@ std::int64_t makeCountsExact(const CellDensity<Dimension>& density, const Point<
 template <int Dimension>
 double memoryForExactCounts(const GridSize<Dimension>& size, std::int64_t particles)
 {
-  return HalvingTree<Dimension>::MemoryFor(size) +
+  return KdTree<Dimension>::MemoryFor(size) +
     static_cast<double>(particles) * sizeof(Particle<Dimension>) +
     static_cast<double>(particles) * sizeof(Candidate);
 }

@@ -3,7 +3,7 @@
 
 #include "Core/OptimalMap/Masses/ExactCounts.h"
 #include "Core/OptimalMap/Masses/MassCorrection.h"
-#include "Core/OptimalMap/Masses/SpreadInCells.h"
+#include "Core/OptimalMap/Masses/SlabEqualization.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 
@@ -40,7 +40,7 @@ void finishAll(const CellDensity<Dimension>& density, const Point<Dimension>& si
       density, sides, samplesCellsANode, samples, nullptr, stages["masses"]);
   }
   makeCountsExact<Dimension>(density, sides, samples, stages["counts"]);
-  spreadInCells<Dimension>(
+  equalizeInSlabs<Dimension>(
     density.Size(), samples, stages["spread"].Expect(2 * Dimension * samples.size()));
 }
 
@@ -80,7 +80,7 @@ double memoryForFinishing(const GridSize<Dimension>& size, double samples, bool 
     ? MassCorrection<Dimension>::MemoryFor(size, samplesCellsANode)
     : 0.0;
   const double ofSteps = std::max({ ofMasses, memoryForExactCounts<Dimension>(size, count),
-    memoryForSpreading<Dimension>(size, count) });
+    memoryForSlabEqualization<Dimension>(size, count) });
   return ofSteps + (onSeveralRanks ? samples * Dimension * sizeof(double) : 0.0);
 }
 

@@ -63,7 +63,7 @@ MassCorrection<Dimension>::MassCorrection(const CellDensity<Dimension>& target,
     poisson.SolveWeighted(
       excess.data(), wanted.data(), leastWeight, iterations, q.data(), progress);
     this->Moves.emplace_back(grid, q.data(), progress);
-    const NodeMoves<Dimension>& moves = this->Moves.back();
+    const GradientField<Dimension>& moves = this->Moves.back();
     progress.ForEach(images.size(), std::int64_t{ 1 } << 11,
       [&](std::int64_t i) { this->Step(moves, images[i]); });
   }
@@ -71,7 +71,7 @@ MassCorrection<Dimension>::MassCorrection(const CellDensity<Dimension>& target,
 
 // Moves one image, unless it ended in a void. The whole move is tried first, then halves of it.
 template <int Dimension>
-void MassCorrection<Dimension>::Step(const NodeMoves<Dimension>& moves, double* point) const
+void MassCorrection<Dimension>::Step(const GradientField<Dimension>& moves, double* point) const
 {
   const Point<Dimension> at = this->Placement.ToNodes(point);
   const Point<Dimension> move = moves.At(at.data());
@@ -96,7 +96,7 @@ void MassCorrection<Dimension>::Step(const NodeMoves<Dimension>& moves, double* 
 template <int Dimension>
 void MassCorrection<Dimension>::Move(double* point) const
 {
-  for (const NodeMoves<Dimension>& moves : this->Moves)
+  for (const GradientField<Dimension>& moves : this->Moves)
   {
     this->Step(moves, point);
   }

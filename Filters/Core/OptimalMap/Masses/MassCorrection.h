@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_MassCorrection_h
 #define RectifiedTransport_MassCorrection_h
 
+#include "Core/Grid/GradientField.h"
 #include "Core/Grid/NodeGrid.h"
-#include "Core/Grid/NodeMoves.h"
 #include "Core/OptimalMap/Masses/CellDensity.h"
 #include "Core/OptimalMap/Masses/NodeMasses.h"
 
@@ -42,11 +42,11 @@ public:
   static double MemoryKept(const GridSize<Dimension>& target, int cellsANode);
 
 private:
-  void Step(const NodeMoves<Dimension>& moves, double* point) const;
+  void Step(const GradientField<Dimension>& moves, double* point) const;
 
   const CellDensity<Dimension>& Target;
   CellPlacement<Dimension> Placement;
-  std::vector<NodeMoves<Dimension>> Moves; // one for each step, at the nodes
+  std::vector<GradientField<Dimension>> Moves; // one for each step, at the nodes
 };
 
 } // namespace RectifiedTransport

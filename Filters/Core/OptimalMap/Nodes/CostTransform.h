@@ -18,7 +18,7 @@ void costTransform(
   const NodeGrid<Dimension>& grid, const double* from, double* to, Progress& progress);
 
 // For each node y the number of the x that attains the minimum, the first one of several. Nodes
-// with from(x) = -infinity do not serve; at least one other must exist.
+// with from(x) = -infinity do not count; at least one other must exist.
 template <int Dimension>
 void costMinimizers(const NodeGrid<Dimension>& grid, const double* from, std::int64_t* minimizers,
   Progress& progress);

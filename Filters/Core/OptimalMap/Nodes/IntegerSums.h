@@ -60,7 +60,7 @@ public:
       , Own(sums.Take())
     {
     }
-    ~Part() { this->Sums.GiveBack(this->Own); }
+    ~Part() { this->Sums.Recycle(this->Own); }
     Part(const Part&) = delete;
     Part& operator=(const Part&) = delete;
 
@@ -123,7 +123,7 @@ private:
     {
       LargeBuffer<std::int64_t> made(this->Count);
       std::fill_n(made.data(), this->Count, 0);
-      this->Free.reserve(static_cast<std::size_t>(this->Most)); // GiveBack does not throw
+      this->Free.reserve(static_cast<std::size_t>(this->Most)); // Recycle does not throw
       this->Arrays.reserve(static_cast<std::size_t>(this->Most));
       this->Free.push_back(made.data());
       this->Arrays.push_back(std::move(made));
@@ -133,7 +133,7 @@ private:
     this->Free.pop_back();
     return values;
   }
-  void GiveBack(std::int64_t* values)
+  void Recycle(std::int64_t* values)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     this->Free.push_back(values);

@@ -38,7 +38,7 @@ struct NodeMap
   // The multilinear interpolant of the images.
   Point<Dimension> At(const double* point) const
   {
-    const HatsAt<Dimension> hats(point, this->Grid.Cells);
+    const HatWeights<Dimension> hats(point, this->Grid.Cells);
     Point<Dimension> image;
     for (int axis = 0; axis < Dimension; ++axis)
     {

@@ -83,15 +83,15 @@ std::vector<std::string> describeLost(
 // Findings of all sets as one: the largest density, the white and the lowest value each with the
 // array that has it. The share of the mass at the largest value needs an integral, which is
 // computed only if it is reported.
-std::vector<std::string> describeUnusual(const std::vector<CellValues>& sets,
+std::vector<std::string> describeSuspect(const std::vector<CellValues>& sets,
   const std::vector<SetFindings>& findings, ValuePlaces places, const ImageGrid& grid,
   Progress& progress)
 {
   // The values of all sets together.
-  UnusualValues all;
+  SuspectValues all;
   for (const SetFindings& set : findings)
   {
-    const UnusualValues& known = set.Known;
+    const SuspectValues& known = set.Known;
     addSet(set.Array, known.Found, &DensitySummary::FirstMaximum,
       known.Found.Maximum > all.Found.Maximum, all.Found, places.Largest);
     addSet(set.Array, known.White, &LargestValue::First, known.White.Value > all.White.Value,
@@ -103,7 +103,7 @@ std::vector<std::string> describeUnusual(const std::vector<CellValues>& sets,
   {
     places.All += cells.NumberOfValues();
   }
-  return describeUnusual(all, places, [&]() {
+  return describeSuspect(all, places, [&]() {
     std::vector<CellValues> only;
     for (const CellValues& cells : sets)
     {

@@ -19,7 +19,7 @@ std::vector<std::string> describeLost(
 
 // A line for each finding about the values of all sets. `places` have no names of arrays and no
 // number of values yet. Throws Cancelled.
-std::vector<std::string> describeUnusual(const std::vector<CellValues>& sets,
+std::vector<std::string> describeSuspect(const std::vector<CellValues>& sets,
   const std::vector<SetFindings>& findings, ValuePlaces places, const ImageGrid& grid,
   Progress& progress);
 

@@ -19,7 +19,7 @@ namespace RectifiedTransport
 struct SetFindings
 {
   std::string Array;                                      // its name in messages
-  UnusualValues Known;                                    // with the white of this set
+  SuspectValues Known;                                    // with the white of this set
   double Least = std::numeric_limits<double>::infinity(); // value of counted cells
 };
 

@@ -217,8 +217,8 @@ private:
         const SiteCellBorder& border = this->Borders[face.Border];
         if (border.Flow != 0)
         {
-          const bool isGiving = this->Owners[face.Pixel] == Giver(border);
-          add(static_cast<std::size_t>(face.Border), isGiving ? face.Pixel : face.Other);
+          const bool isDonor = this->Owners[face.Pixel] == Donor(border);
+          add(static_cast<std::size_t>(face.Border), isDonor ? face.Pixel : face.Other);
         }
       }
     });
@@ -241,7 +241,7 @@ private:
     return isMoved;
   }
 
-  static std::int64_t Giver(const SiteCellBorder& border)
+  static std::int64_t Donor(const SiteCellBorder& border)
   {
     return border.Flow > 0 ? border.Low : border.High;
   }
@@ -251,7 +251,7 @@ private:
   // collects many such remainders.
   bool MoveOver(const SiteCellBorder& border, const Bins<std::int64_t>::Range& candidates)
   {
-    const std::int64_t from = Giver(border);
+    const std::int64_t from = Donor(border);
     const std::int64_t to = border.Flow > 0 ? border.High : border.Low;
     this->Planned[from] += std::abs(border.Flow);
     this->Planned[to] -= std::abs(border.Flow);

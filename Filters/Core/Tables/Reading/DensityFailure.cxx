@@ -8,7 +8,7 @@
 namespace RectifiedTransport
 {
 
-int takenComponent(const std::string& name, int component, int automatic, int count)
+int resolveComponent(const std::string& name, int component, int automatic, int count)
 {
   const int wanted = component == AutoComponent ? automatic : component;
   const bool mayBeColour = count <= MostColorComponents;

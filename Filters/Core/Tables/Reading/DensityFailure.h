@@ -14,7 +14,7 @@ namespace RectifiedTransport
 // Returns what the property Component selects from an array with `count` components, of which Auto
 // takes `automatic`: an index, Luminance or Magnitude. Throws Failure if the array does not have
 // it.
-int takenComponent(const std::string& name, int component, int automatic, int count);
+int resolveComponent(const std::string& name, int component, int automatic, int count);
 
 // Throws the Failure for values that are no density; `hasEmpty` is part of the reason.
 [[noreturn]] void throwInvalidDensity(const std::string& name, const DensitySummary& summary,

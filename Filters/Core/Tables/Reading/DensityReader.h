@@ -5,8 +5,8 @@
 
 #include "Core/Tables/Density.h"
 #include "Core/Tables/Reading/DensityRules.h"
+#include "Core/Tables/Reading/SuspectValues.h"
 #include "Core/Tables/Reading/TupleDensities.h"
-#include "Core/Tables/Reading/UnusualValues.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Surfaces/Mesh/Repair/MergePoints.h"
 
-#include "Core/Geometry/EqualPoints.h"
+#include "Core/Geometry/CoincidentPoints.h"
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Geometry/Trees/Bins.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"
-#include "Surfaces/Mesh/Trees.h"
+#include "Surfaces/Mesh/DisjointSets.h"
 
 #include <algorithm>
 #include <array>

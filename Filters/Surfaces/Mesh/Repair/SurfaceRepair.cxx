@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Surfaces/Mesh/Repair/SurfaceRepair.h"
 
-#include "Core/Geometry/EqualPoints.h"
+#include "Core/Geometry/CoincidentPoints.h"
 #include "Core/Geometry/PointBounds.h"
 #include "Core/Parallel/Stages.h"
-#include "Surfaces/Mesh/FlatShape.h"
-#include "Surfaces/Mesh/FlatTriangles.h"
+#include "Surfaces/Mesh/DegenerateTriangles.h"
+#include "Surfaces/Mesh/DisjointSets.h"
 #include "Surfaces/Mesh/Repair/MergePoints.h"
 #include "Surfaces/Mesh/SurfaceOrientation.h"
-#include "Surfaces/Mesh/Trees.h"
+#include "Surfaces/Mesh/TriangleShape.h"
 
 #include <algorithm>
 #include <array>
@@ -32,7 +32,7 @@ bool isSamePlace(const double* a, const double* b, double rounding)
     std::abs(a[2] - b[2]) <= rounding;
 }
 
-FlatShape shapeOf(const TriangleSurface& surface, double scale, std::int64_t triangle)
+TriangleShape shapeOf(const TriangleSurface& surface, double scale, std::int64_t triangle)
 {
   const auto corner = [&](int i) {
     return scale * pointAt(surface.Points, surface.Triangles[3 * triangle + i]);
@@ -65,7 +65,7 @@ public:
     this->KeepTriangles(stages["triangles"]);
     this->LeaveOutRepeated(stages["repeated triangles"]);
     this->Orient(stages["orientation"]);
-    this->RemoveFlat(stages["flat triangles"]);
+    this->RemoveDegenerate(stages["flat triangles"]);
     this->NumberPoints(stages["points"]);
     this->CountRepairs();
     stages["counts"].EndSlice(1);
@@ -111,7 +111,7 @@ private:
     }
     for (std::int64_t i = 0; i < points; ++i)
     {
-      joinTrees(this->Roots.data(), i, merged.data()[i]);
+      uniteSets(this->Roots.data(), i, merged.data()[i]);
     }
   }
 
@@ -120,7 +120,7 @@ private:
   {
     if (isSamePlace(this->Given.Points[a], this->Given.Points[b], this->Options.Rounding))
     {
-      joinTrees(this->Roots.data(), a, b);
+      uniteSets(this->Roots.data(), a, b);
     }
   }
 
@@ -210,7 +210,7 @@ private:
   }
 
   // Scaled coordinates keep the squares in heights from overflow and underflow.
-  void RemoveFlat(const Context& context)
+  void RemoveDegenerate(const Context& context)
   {
     const std::int64_t points = this->Given.Points.size();
     this->Nearest = { points, -1 };
@@ -219,8 +219,8 @@ private:
     {
       scaled.data()[i] = this->Scale * this->Given.Points.data()[i];
     }
-    removeFlatTriangles({ { scaled.data(), points }, this->Triangles.data(), this->Corners.data(),
-                          this->Origins.data(), this->Count },
+    removeDegenerateTriangles({ { scaled.data(), points }, this->Triangles.data(),
+                                this->Corners.data(), this->Origins.data(), this->Count },
       this->Scale * this->Options.Rounding, this->Nearest.data(), context);
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Surfaces/Mesh/Repair/TJunctionRepair.h"
 
-#include "Core/Geometry/EqualPoints.h"
+#include "Core/Geometry/CoincidentPoints.h"
 #include "Core/Parallel/Stages.h"
 #include "Surfaces/Mesh/PlaceOnSide.h"
 #include "Surfaces/Mesh/Repair/MergePoints.h"
@@ -114,7 +114,7 @@ private:
     std::vector<OpenSide> sides = isLeftOut
       ? openSidesOf(this->Surface, { this->Merged, isLeftOut }, stages["open sides"])
       : this->Open;
-    if (this->Scope == TJunctionScope::OfFlatTriangles)
+    if (this->Scope == TJunctionScope::OfDegenerateTriangles)
     {
       std::vector<OpenSide> opened;
       // Sides that are open only without the flat triangles.

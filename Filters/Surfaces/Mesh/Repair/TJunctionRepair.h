@@ -17,7 +17,7 @@ namespace RectifiedTransport
 enum class TJunctionScope
 {
   All,
-  OfFlatTriangles // that these leave; all edges that were open stay open
+  OfDegenerateTriangles // that these leave; all edges that were open stay open
 };
 
 struct TJunctionRepair

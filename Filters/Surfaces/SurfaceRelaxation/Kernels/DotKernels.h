@@ -33,7 +33,7 @@ constexpr double mostOfSquares = 2.0;
 constexpr int dotBlock = 8;
 
 // The dots of some blocks, all of which have dotBlock dots, except the last of all blocks.
-struct DotsInReach
+struct DotNeighbourhood
 {
   const ScaledDot* Dots; // all
   std::int64_t NumberOfDots;
@@ -54,11 +54,11 @@ struct DotBlock
 };
 
 // Each place sums over the dots in their order.
-using SumDots = void (*)(const DotsInReach& inReach, DotBlock& block);
+using SumDots = void (*)(const DotNeighbourhood& inReach, DotBlock& block);
 
 // The kernel; one specialization is compiled for each instruction set.
 template <InstructionSet Set>
-void sumDots(const DotsInReach& inReach, DotBlock& block);
+void sumDots(const DotNeighbourhood& inReach, DotBlock& block);
 
 // All compute the same bits.
 SumDots dotKernel(InstructionSet set = instructionSet());

@@ -41,7 +41,7 @@ RT_INLINE void store(const Lanes& v, double* to)
 // Sums over all dots in reach for `registers` registers of places. For each dot y: d^2 = |x - y|^2,
 // b = max(0, 1 - d^2 / (R^2 h k)), and the push (x - y) sqrt(1 / k) b^8; the factor of the place's
 // own spacing is applied later. A dot pushes itself by 0.
-RT_INLINE void sumLanes(const DotsInReach& inReach, DotBlock& block, int lane)
+RT_INLINE void sumLanes(const DotNeighbourhood& inReach, DotBlock& block, int lane)
 {
   Lanes x[3][registers];
   Lanes push[3][registers];
@@ -109,7 +109,7 @@ RT_INLINE void sumLanes(const DotsInReach& inReach, DotBlock& block, int lane)
 } // namespace
 
 template <>
-void sumDots<RECTIFIEDTRANSPORT_SET>(const DotsInReach& inReach, DotBlock& block)
+void sumDots<RECTIFIEDTRANSPORT_SET>(const DotNeighbourhood& inReach, DotBlock& block)
 {
   for (int lane = 0; lane < dotBlock; lane += registers * lanes)
   {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What data sets on several ranks have in common: arrays, points, images, properties.
 #include "Core/Geometry/Distributed/ArrayKinds.h"
+#include "Core/Geometry/Distributed/DuplicatePoints.h"
 #include "Core/Geometry/Distributed/ImagePiece.h"
-#include "Core/Geometry/Distributed/PropertyLines.h"
-#include "Core/Geometry/Distributed/RepeatedPoints.h"
+#include "Core/Geometry/Distributed/PropertyDifference.h"
 
 #include "ThreadRanks.h"
 
@@ -46,11 +46,11 @@ TEST(ArrayKinds, AreCommonToAllLists)
 }
 
 // Rank r has the points r to r + 3, once each.
-TEST(RepeatedPoints, BelongToTheLowestRank)
+TEST(DuplicatePoints, BelongToTheLowestRank)
 {
   runOnRanks(3, [](const Ranks& ranks) {
     const auto first = static_cast<std::uint64_t>(ranks.Own());
-    const std::vector<unsigned char> repeated = repeatedPoints(
+    const std::vector<unsigned char> repeated = duplicatePoints(
       4,
       [first](std::int64_t i) {
         return PointIdentity{ first + static_cast<std::uint64_t>(i), 7, 0 };
@@ -104,7 +104,7 @@ TEST(ImagePieces, AreWithoutMarkedTuples)
   EXPECT_TRUE(boxWithout(all, std::vector<unsigned char>(6, 1).data(), 1).IsEmpty());
 }
 
-TEST(PropertyLines, MustBeTheSame)
+TEST(PropertyDifference, MustBeTheSame)
 {
   std::string common;
   EXPECT_EQ(differenceOfTexts({ "", "a", "", "a" }, common), "");

@@ -114,7 +114,7 @@ __kernel __attribute__((reqd_work_group_size(64, 1, 1))) void advectForward(RT_T
     {
       placeParticle(&tables, seed, &s);
       // In a bad cell of this level nothing is read, and the next pass tries a wider one.
-      s.IsUnresolved = fromMap && !enterMap(&tables, &map, -1 - pass, &s);
+      s.IsUnresolved = fromMap && !advanceToHandOver(&tables, &map, -1 - pass, &s);
       if (s.IsUnresolved)
       {
         continue;
@@ -122,7 +122,7 @@ __kernel __attribute__((reqd_work_group_size(64, 1, 1))) void advectForward(RT_T
       begin = fromMap ? all - levels[-1 - pass].HandOver : 0;
       if (!fromMap)
       {
-        leaveSeed(&tables, &s);
+        advanceStraightStart(&tables, &s);
       }
     }
     stepForward(&tables, w, all, begin, fromMap ? all : last, mayGiveUp, &s);
@@ -164,7 +164,7 @@ __kernel __attribute__((reqd_work_group_size(64, 1, 1))) void advectBackward(RT_
     s.Evaluations = 0;
     // At time 1 the velocity is x - S/2, and the seed is found on the way back.
     placeParticle(&tables, point, &s);
-    leaveEnd(&tables, &s);
+    startBackward(&tables, &s);
   }
   stepBackward(&tables, &map, weights, steps, first, last, &s);
   if (last < steps)

@@ -35,7 +35,7 @@ __kernel __attribute__((reqd_work_group_size(64, 1, 1))) void advanceNodes(RT_TA
     placeParticle(&tables, place, &s);
     if (input->Backward)
     {
-      isMade = returnNode(
+      isMade = advanceNodeBackward(
         &tables, &map, weights + own.First, own.Steps, parent, own.Begin, own.End, &s);
     }
     else if (parent >= 0)

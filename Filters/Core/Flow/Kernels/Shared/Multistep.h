@@ -66,7 +66,7 @@ RT_FUNCTION int isWhole(double x, double t, double size)
   return !(size - x < t * size || x < t * size);
 }
 
-RT_FUNCTION double seedBefore(double x, double t, double size, double centroid)
+RT_FUNCTION double seedOfStraight(double x, double t, double size, double centroid)
 {
   const double seed = (x - t * centroid) / (1.0 - t);
   return smaller(larger(seed, 0.0), size);

@@ -11,7 +11,7 @@ RT_FUNCTION void startNode(const TableInput* tables, RT_GLOBAL const StepWeights
   Int64 steps, double time0, double time1, double time2, ParticleState* s)
 {
   ParticleBox box;
-  leaveSeed(tables, s);
+  advanceStraightStart(tables, s);
   const double span = time0 - s->Start;
   for (Int64 step = 0; step < steps; ++step)
   {
@@ -40,7 +40,7 @@ RT_FUNCTION void startNode(const TableInput* tables, RT_GLOBAL const StepWeights
 RT_FUNCTION int continueNode(const TableInput* tables, const MapInput* map,
   RT_GLOBAL const StepWeights* weights, int parent, Int64 handOver, ParticleState* s)
 {
-  if (!enterMap(tables, map, parent, s))
+  if (!advanceToHandOver(tables, map, parent, s))
   {
     return 0;
   }
@@ -58,12 +58,12 @@ RT_FUNCTION int continueNode(const TableInput* tables, const MapInput* map,
 
 // Backwards in graded steps from the time `begin` of its level to `end`, that of a coarser one or
 // 0. End is the seed, if IsDone. Returns that: else a still coarser level must serve.
-RT_FUNCTION int returnNode(const TableInput* tables, const MapInput* map,
+RT_FUNCTION int advanceNodeBackward(const TableInput* tables, const MapInput* map,
   RT_GLOBAL const StepWeights* graded, Int64 steps, int parent, double begin, double end,
   ParticleState* s)
 {
   // Boxes may be whole at the level's time already.
-  finishWhole(tables, begin, s);
+  finishStraight(tables, begin, s);
   ParticleBox box;
   if (!s->IsDone)
   {
@@ -77,7 +77,7 @@ RT_FUNCTION int returnNode(const TableInput* tables, const MapInput* map,
     const double time = step + 1 == steps ? end : begin + span * graded[step].Time;
     takeGradedStep(tables, graded + step, span, time, s, &box);
     s->IsUnresolved |= box.IsVoid > 0.0;
-    finishWhole(tables, time, s);
+    finishStraight(tables, time, s);
   }
   if (!s->IsDone && parent >= 0)
   {

@@ -230,7 +230,7 @@ RT_FUNCTION void placeParticle(const TableInput* tables, const double* seed, Par
 }
 
 // From its seed to the end of its straight start.
-RT_FUNCTION void leaveSeed(const TableInput* tables, ParticleState* s)
+RT_FUNCTION void advanceStraightStart(const TableInput* tables, ParticleState* s)
 {
   double time = 1.0;
   for (int axis = 0; axis < RT_D; ++axis)
@@ -303,7 +303,8 @@ RT_FUNCTION int readMap(
 
 // To the hand-over of a level of the map. Returns whether its cell may be read: else nothing is
 // changed.
-RT_FUNCTION int enterMap(const TableInput* tables, const MapInput* map, int level, ParticleState* s)
+RT_FUNCTION int advanceToHandOver(
+  const TableInput* tables, const MapInput* map, int level, ParticleState* s)
 {
   Float4 parts[RT_D];
   if (!readMap(map, level, s->X, RT_FORWARD_RECORD, RT_D, parts))
@@ -412,7 +413,7 @@ RT_FUNCTION void finishForward(
 }
 
 // Where particles of the way back start: at time 1, whose velocity is x - S/2.
-RT_FUNCTION void leaveEnd(const TableInput* tables, ParticleState* s)
+RT_FUNCTION void startBackward(const TableInput* tables, ParticleState* s)
 {
   for (int axis = 0; axis < RT_D; ++axis)
   {
@@ -421,7 +422,7 @@ RT_FUNCTION void leaveEnd(const TableInput* tables, ParticleState* s)
 }
 
 // If the box is the whole domain, End becomes the seed.
-RT_FUNCTION void finishWhole(const TableInput* tables, double time, ParticleState* s)
+RT_FUNCTION void finishStraight(const TableInput* tables, double time, ParticleState* s)
 {
   RT_CONSTANT const FlowInput* input = tables->Input;
   int whole = 1;
@@ -434,7 +435,7 @@ RT_FUNCTION void finishWhole(const TableInput* tables, double time, ParticleStat
     for (int axis = 0; axis < RT_D; ++axis)
     {
       // x0 = (x - t M) / (1 - t): the path is straight while the box is the whole domain.
-      s->End[axis] = seedBefore(s->X[axis], time, input->Size[axis], input->Centroid[axis]);
+      s->End[axis] = seedOfStraight(s->X[axis], time, input->Size[axis], input->Centroid[axis]);
     }
     s->IsDone = 1;
   }
@@ -475,7 +476,7 @@ RT_FUNCTION void stepBackward(const TableInput* tables, const MapInput* map,
     }
     if (!s->IsDone)
     {
-      finishWhole(tables, time, s);
+      finishStraight(tables, time, s);
     }
   }
 }

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Drawing/DrawingLayer.h"
+
+#include "Core/Drawing/PolygonBatch.h"
+
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <cstddef>
+
+namespace RectifiedTransport::Bridge
+{
+
+namespace
+{
+
+// Draws one data set onto a page. Polygons with given colours are collected in PolygonBatch and
+// drawn before the next shape of another kind, because what comes later lies on top.
+class LayerPainter
+{
+public:
+  LayerPainter(const DrawingLayer& layer, const PageLayout& layout, Drawing& drawing)
+    : Painted(layer)
+    , Layout(layout)
+    , Page(drawing)
+    , Areas(drawing)
+  {
+  }
+
+  // All outlines of a region are one path, filled by the even-odd rule: an outline within another
+  // one is a hole.
+  void PaintRegions()
+  {
+    std::vector<vtkIdType> points;
+    std::vector<PagePath> area;
+    for (const std::vector<Outline>& region : this->Painted.Regions)
+    {
+      area.clear();
+      points.clear();
+      for (const Outline& outline : region)
+      {
+        this->SetPath(outline.Points.data(), static_cast<vtkIdType>(outline.Points.size()));
+        area.push_back(this->Path);
+        points.insert(points.end(), outline.Points.begin(), outline.Points.end());
+      }
+      const auto count = static_cast<vtkIdType>(points.size());
+      this->Page.FillPolygons(area, FillRule::Odd,
+        this->Painted.Colours.Of({ ShapeKind::Polygon, points.data(), count, region[0].Cell }));
+    }
+  }
+
+  void Paint(const Shape& shape)
+  {
+    const Colour colour = this->Painted.Colours.Of(shape);
+    this->SetPath(shape.Points, shape.Count);
+    if (shape.Kind == ShapeKind::Polygon && this->Painted.Colours.AreGiven())
+    {
+      this->Areas.Add(this->Path, colour);
+      return;
+    }
+    this->Areas.Draw();
+    if (shape.Kind == ShapeKind::Dot)
+    {
+      const double radius = this->Layout.Scale() * this->Painted.RadiusAt(shape.Points[0]);
+      if (radius > 0.0)
+      {
+        this->Page.FillDisc(this->Path.front(), radius, colour);
+      }
+    }
+    else if (shape.Kind == ShapeKind::Line)
+    {
+      this->PaintLine(shape, colour);
+    }
+    else
+    {
+      this->Page.Stroke(this->Path, true, colour);
+    }
+  }
+
+  // Call it after the last shape.
+  void End() { this->Areas.Draw(); }
+
+private:
+  void SetPath(const vtkIdType* points, vtkIdType count)
+  {
+    this->Path.clear();
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      this->Path.push_back(this->Layout.At(this->Painted.At(points[i])));
+    }
+  }
+
+  // With colours on points each segment has its own.
+  void PaintLine(const Shape& line, Colour colour)
+  {
+    if (this->Painted.IsOutline(line.Cell))
+    {
+      this->Path.pop_back();
+      this->Page.Stroke(this->Path, true, {});
+      return;
+    }
+    if (!this->Painted.Colours.AreOnPoints())
+    {
+      this->Page.Stroke(this->Path, false, colour);
+      return;
+    }
+    PagePath segment;
+    for (vtkIdType i = 0; i + 1 < line.Count; ++i)
+    {
+      const auto first = this->Path.begin() + i;
+      segment.assign(first, first + 2);
+      this->Page.Stroke(
+        segment, false, this->Painted.Colours.Of({ line.Kind, line.Points + i, 2, line.Cell }));
+    }
+  }
+
+  const DrawingLayer& Painted;
+  const PageLayout& Layout;
+  Drawing& Page;
+  PolygonBatch Areas;
+  PagePath Path;
+};
+
+} // namespace
+
+DrawingLayer::DrawingLayer(
+  const LayerData& data, bool fillsOutlines, vtkScalarsToColors* table, Progress& progress)
+  : Shapes(data.Shapes)
+  , Points(data.Shapes.Data()->GetPoints()->GetData(), progress)
+{
+  if (data.Colours)
+  {
+    this->Colours = ShapeColours(data.Colours, data.HasColoursOnPoints, table);
+  }
+  if (data.Radii)
+  {
+    this->Radii.emplace(data.Radii, progress);
+  }
+  if (fillsOutlines && this->Colours.AreGiven())
+  {
+    this->Regions = findOutlineRegions(this->Shapes.Data()).Regions;
+    this->Outlines.assign(static_cast<std::size_t>(this->Shapes.Data()->GetNumberOfCells()), 0);
+    for (const std::vector<Outline>& region : this->Regions)
+    {
+      for (const Outline& outline : region)
+      {
+        this->Outlines[static_cast<std::size_t>(outline.Cell)] = 1;
+      }
+    }
+  }
+}
+
+void DrawingLayer::Draw(const PageLayout& layout, Drawing& drawing, Progress& progress) const
+{
+  LayerPainter painter(*this, layout, drawing);
+  painter.PaintRegions(); // below the rest
+  this->Shapes.ForEach(progress, [&](const Shape& shape) { painter.Paint(shape); });
+  painter.End();
+}
+
+} // namespace RectifiedTransport::Bridge
