@@ -53,6 +53,7 @@
 #define vtkDensityAlgorithm_h
 
 #include "vtkCollectiveAlgorithm.h"
+#include "vtkRectifiedTransportCommonModule.h" // for the export macro
 
 #include <memory> // for std::unique_ptr
 

@@ -28,6 +28,7 @@
 #define vtkTransportAlgorithm_h
 
 #include "vtkDensityAlgorithm.h"
+#include "vtkRectifiedTransportCommonModule.h" // for the export macro
 
 #include <memory> // for std::unique_ptr
 #include <string> // for texts

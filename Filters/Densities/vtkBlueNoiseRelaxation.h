@@ -75,6 +75,7 @@
 
 #include "vtkDensityAlgorithm.h"
 #include "vtkPointSet.h"
+#include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;

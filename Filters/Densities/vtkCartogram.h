@@ -44,6 +44,7 @@
 #include "vtkCollectiveAlgorithm.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
+#include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 
 #include <memory> // for std::unique_ptr
 

@@ -57,6 +57,7 @@
 #define vtkDensityEqualizingWarp_h
 
 #include "vtkPointSet.h"
+#include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 #include "vtkTransportAlgorithm.h"
 
 VTK_ABI_NAMESPACE_BEGIN

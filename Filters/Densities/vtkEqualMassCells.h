@@ -107,6 +107,7 @@
 #include "vtkImageData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
+#include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 #include "vtkTransportAlgorithm.h"
 
 #include <memory> // for std::unique_ptr

@@ -66,6 +66,7 @@
 
 #include "vtkCollectiveAlgorithm.h"
 #include "vtkImageData.h"
+#include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;

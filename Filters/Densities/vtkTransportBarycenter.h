@@ -22,6 +22,7 @@
 #ifndef vtkTransportBarycenter_h
 #define vtkTransportBarycenter_h
 
+#include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 #include "vtkTransportBlend.h"
 
 VTK_ABI_NAMESPACE_BEGIN

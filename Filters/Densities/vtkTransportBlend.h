@@ -51,6 +51,7 @@
 
 #include "vtkImageData.h"
 #include "vtkPolyData.h"
+#include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 #include "vtkTransportAlgorithm.h"
 
 #include <vector> // for the inputs

@@ -50,6 +50,7 @@
 #define vtkTransportDistance_h
 
 #include "vtkDensityAlgorithm.h"
+#include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 #include "vtkTable.h"
 
 #include <memory> // for std::unique_ptr

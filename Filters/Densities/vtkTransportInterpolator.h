@@ -32,6 +32,7 @@
 #ifndef vtkTransportInterpolator_h
 #define vtkTransportInterpolator_h
 
+#include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 #include "vtkTransportBlend.h"
 
 VTK_ABI_NAMESPACE_BEGIN

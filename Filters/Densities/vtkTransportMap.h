@@ -105,6 +105,7 @@
 #define vtkTransportMap_h
 
 #include "vtkImageData.h"
+#include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 #include "vtkTransportAlgorithm.h"
 
 namespace RectifiedTransport

@@ -65,6 +65,7 @@
 #define vtkTransportQuality_h
 
 #include "vtkDensityAlgorithm.h"
+#include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 #include "vtkTable.h"
 
 VTK_ABI_NAMESPACE_BEGIN

@@ -62,6 +62,7 @@
 #define vtkTransportSampler_h
 
 #include "vtkPolyData.h"
+#include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 #include "vtkTransportAlgorithm.h"
 
 VTK_ABI_NAMESPACE_BEGIN

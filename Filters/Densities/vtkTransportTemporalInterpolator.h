@@ -53,6 +53,7 @@
 #include "vtkDensityAlgorithm.h"
 #include "vtkImageData.h"
 #include "vtkPolyData.h"
+#include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 
 #include <memory> // for std::unique_ptr
 
@@ -67,7 +68,8 @@ struct TemporalStep;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
-class VTKRECTIFIEDTRANSPORTDENSITIES_EXPORT vtkTransportTemporalInterpolator : public vtkDensityAlgorithm
+class VTKRECTIFIEDTRANSPORTDENSITIES_EXPORT vtkTransportTemporalInterpolator
+  : public vtkDensityAlgorithm
 {
 public:
   static vtkTransportTemporalInterpolator* New();

@@ -35,6 +35,7 @@
 
 #include "vtkCollectiveAlgorithm.h"
 #include "vtkPolyData.h"
+#include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 
 VTK_ABI_NAMESPACE_BEGIN
 class VTKRECTIFIEDTRANSPORTDENSITIES_EXPORT vtkUniformSeedSource : public vtkCollectiveAlgorithm

@@ -20,6 +20,7 @@
 #define vtkTransportDotRadius_h
 
 #include "vtkCollectiveAlgorithm.h"
+#include "vtkRectifiedTransportDrawingModule.h" // for the export macro
 #include "vtkTable.h"
 
 VTK_ABI_NAMESPACE_BEGIN

@@ -19,6 +19,7 @@
 #ifndef vtkTransportPDFWriter_h
 #define vtkTransportPDFWriter_h
 
+#include "vtkRectifiedTransportDrawingModule.h" // for the export macro
 #include "vtkTransportVectorWriter.h"
 
 VTK_ABI_NAMESPACE_BEGIN

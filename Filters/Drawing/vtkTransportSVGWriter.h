@@ -18,6 +18,7 @@
 #ifndef vtkTransportSVGWriter_h
 #define vtkTransportSVGWriter_h
 
+#include "vtkRectifiedTransportDrawingModule.h" // for the export macro
 #include "vtkTransportVectorWriter.h"
 
 VTK_ABI_NAMESPACE_BEGIN

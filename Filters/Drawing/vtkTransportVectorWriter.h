@@ -36,6 +36,7 @@
 #define vtkTransportVectorWriter_h
 
 #include "vtkCollectiveAlgorithm.h"
+#include "vtkRectifiedTransportDrawingModule.h" // for the export macro
 
 namespace RectifiedTransport
 {

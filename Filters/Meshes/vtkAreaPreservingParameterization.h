@@ -85,6 +85,7 @@
 
 #include "vtkDiskAlgorithm.h"
 #include "vtkPolyData.h"
+#include "vtkRectifiedTransportMeshesModule.h" // for the export macro
 
 VTK_ABI_NAMESPACE_BEGIN
 class VTKRECTIFIEDTRANSPORTMESHES_EXPORT vtkAreaPreservingParameterization : public vtkDiskAlgorithm

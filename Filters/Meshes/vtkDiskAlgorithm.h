@@ -16,6 +16,7 @@
 
 #include "vtkCollectiveAlgorithm.h"
 #include "vtkPolyData.h"
+#include "vtkRectifiedTransportMeshesModule.h" // for the export macro
 
 #include <memory> // for std::unique_ptr
 

@@ -57,6 +57,7 @@
 
 #include "vtkCollectiveAlgorithm.h"
 #include "vtkImageData.h"
+#include "vtkRectifiedTransportMeshesModule.h" // for the export macro
 
 VTK_ABI_NAMESPACE_BEGIN
 class VTKRECTIFIEDTRANSPORTMESHES_EXPORT vtkSolidDensity : public vtkCollectiveAlgorithm

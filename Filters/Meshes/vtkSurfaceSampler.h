@@ -80,6 +80,7 @@
 #define vtkSurfaceSampler_h
 
 #include "vtkDiskAlgorithm.h"
+#include "vtkRectifiedTransportMeshesModule.h" // for the export macro
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
