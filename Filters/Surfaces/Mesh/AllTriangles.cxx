@@ -23,6 +23,8 @@ namespace RectifiedTransport
 namespace
 {
 
+// Points or triangles in a range; it does not depend on the number of threads, so that sums over
+// ranges do not, either.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 
 } // namespace

@@ -36,6 +36,7 @@ public:
     Progress progress(context);
     Stages stages(progress, { { "edges", 1 }, { "triangles", 1 } });
     {
+      // Only the other side of each side is kept from the edges; flips and removals update it.
       const SurfaceEdges edges(
         { this->Edited.Positions, this->Edited.Points, this->Edited.Count }, stages["edges"]);
       for (std::int64_t side = 0; side < this->Others.size(); ++side)
@@ -57,6 +58,7 @@ private:
   Point<3> At(std::int64_t point) const { return pointAt(this->Edited.Positions, point); }
   bool IsRemoved(std::int64_t triangle) { return this->Edited.Points[3 * triangle] < 0; }
 
+  // The longest side and the height over it, by the points that the triangle has at this moment.
   TriangleShape ShapeOf(std::int64_t triangle) const
   {
     const std::int64_t* points = this->Edited.Points + 3 * triangle;

@@ -17,10 +17,12 @@ namespace RectifiedTransport
 namespace
 {
 
+// Points or triangles between two polls for cancellation.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 constexpr std::int64_t randomAccess = std::int64_t{ 1 } << 16; // units of a first slice
 constexpr std::size_t fewestBoundaryPoints = 4;                // one for each corner of the square
 
+// A number and its noun, as "1 handle" or "2 handles".
 std::string counted(std::int64_t count, const char* one, const char* many)
 {
   return std::to_string(count) + " " + (count == 1 ? one : many);
@@ -72,6 +74,7 @@ std::string describe(DiskDefect defect, std::int64_t count, std::int64_t first)
   }
 }
 
+// The area of a triangle in space, |(b - a) x (c - a)| / 2.
 double areaOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
 {
   return 0.5 * (b - a).cross(c - a).norm();
@@ -87,6 +90,9 @@ NotADisk::NotADisk(DiskDefect defect, std::int64_t count, std::int64_t first)
 {
 }
 
+// The order of the checks is that of DiskDefect: each one assumes what those before it have
+// checked, and the first that fails is the error. Edges need triangles of three different points,
+// which a positive area implies; the boundary walk needs manifold edges and one orientation.
 DiskMesh::DiskMesh(const TriangleSurface& surface, const Context& context)
   : Coordinates(3 * surface.Points.size())
   , Triangles(3 * surface.NumberOfTriangles)
@@ -143,6 +149,8 @@ void DiskMesh::CopyPoints(ConstPointSpan<3> points, Progress& progress)
   });
 }
 
+// Copies three points a triangle. cornerPoint() throws for points that do not exist, so that later
+// steps may use the numbers as indices.
 void DiskMesh::CopyTriangles(const TriangleSurface& surface, Progress& progress)
 {
   if (surface.NumberOfTriangles == 0)
@@ -187,6 +195,7 @@ void DiskMesh::FindAreas(Progress& progress)
 // A point in no triangle would have no place in the map.
 void DiskMesh::RequireUsedPoints(Progress& progress) const
 {
+  // By points: 1 if a triangle has the point.
   std::vector<unsigned char> used(static_cast<std::size_t>(this->NumberOfPoints()), 0);
   const std::int64_t* corners = this->Triangles.data();
   progress.ForEachInOrder(
@@ -204,6 +213,7 @@ void DiskMesh::RequireUsedPoints(Progress& progress) const
 // with one side are refused.
 void DiskMesh::Orient(const Context& context)
 {
+  // This is read first, because orientSurface writes the triangles in place.
   const std::int64_t reversed = this->Sides->Reversed();
   const SurfaceOrientation found =
     orientSurface(this->Surface(), *this->Sides, this->Triangles.data(), context);
@@ -223,6 +233,8 @@ void DiskMesh::Orient(const Context& context)
 }
 
 // Scales the shares before `first` to 1 - share together, the others to `share`.
+// For triangles that close holes: they take part in the map, but their area means nothing, so that
+// they get a small share of the square.
 void DiskMesh::SetShareFrom(std::int64_t first, double share)
 {
   double* const shares = this->Shares.data();
@@ -286,6 +298,8 @@ void DiskMesh::FindBoundary(Progress& progress)
     throw NotADisk(DiskDefect::NonManifoldPoints, pinched, firstPinched);
   }
 
+  // Every point has one fan from here on, so that at most one open side leaves it, and the loops
+  // are disjoint.
   Progress& search = stages["loops"].Expect(sides);
   std::int64_t loops = 0;
   std::int64_t open = 0;

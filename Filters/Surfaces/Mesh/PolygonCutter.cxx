@@ -44,6 +44,7 @@ void PolygonCutter::ReadPlaces(const Corners& corners)
   this->Size = bounds.Length(bounds.Longest());
 }
 
+// Fewer than three corners give no triangle and are no error; three are the triangle itself.
 bool PolygonCutter::Cut(const Corners& corners)
 {
   this->Made.clear();
@@ -129,6 +130,7 @@ bool PolygonCutter::IsCutFromOne() const
   {
     return isWithin(1);
   }
+  // Both diagonals are within it, or none: the shorter one gives the better shapes.
   const double zero = squaredDistance(at[0], at[2]);
   const double one = squaredDistance(at[1], at[3]);
   if (zero != one)
@@ -197,6 +199,7 @@ PolygonCutter::Ring PolygonCutter::WithoutStraight(const Ring& ring) const
   return kept;
 }
 
+// Along each axis, as the points of a surface are merged.
 bool PolygonCutter::IsSamePlace(std::size_t a, std::size_t b) const
 {
   const Point<3> way = this->Places[a] - this->Places[b];

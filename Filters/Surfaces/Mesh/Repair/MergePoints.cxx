@@ -22,6 +22,7 @@ namespace
 // A box of a lattice whose boxes are twice the distance wide.
 using Box = std::array<std::int64_t, 3>;
 
+// All bits of the three numbers are mixed, as neighbouring boxes differ only in their last bits.
 std::uint64_t hash(const Box& box)
 {
   std::uint64_t mixed = 0;
@@ -83,6 +84,7 @@ public:
   }
 
 private:
+  // The numbers of a point's box, floor(x / width) along each axis.
   Box BoxOf(std::int64_t point) const
   {
     Box box;
@@ -140,6 +142,7 @@ bool mergeNearPoints(
     progress, { { "equal", 3 }, { "clusters", 2 }, { "neighbours", 4 }, { "firsts", 1 } });
   mergePoints<3>(points, firsts, stages["equal"]);
   // Points with equal coordinates are merged first: only one of them enters the table.
+  // These are marked before the clusters change the same array.
   LargeBuffer<bool> isDistinct(count);
   for (std::int64_t i = 0; i < count; ++i)
   {
@@ -160,6 +163,7 @@ bool mergeNearPoints(
   };
   forDistinct(stages["clusters"], &Clusters::Enter);
   forDistinct(stages["neighbours"], &Clusters::JoinBeside);
+  // At last each entry is its root instead of a parent.
   bool isMerged = false;
   stages["firsts"].ForEachInOrder(
     count, grain,
@@ -213,6 +217,7 @@ std::vector<RepeatedTriangle> findRepeatedTriangles(
       }
       std::sort(group.begin(), group.end());
       auto first = group.begin();
+      // Equal triples follow each other, the lowest triangle first.
       for (auto next = group.begin(); next != group.end(); ++next)
       {
         // The first triangle of a group of equal triples.

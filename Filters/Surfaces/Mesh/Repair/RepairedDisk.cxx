@@ -61,6 +61,7 @@ RepairedDisk::RepairedDisk(const TriangleSurface& surface, double rounding, cons
   const double least = roundingOfDoubles(surface.Points);
   const double most = std::max(least, rounding);
   Rounds rounds(progress, 1);
+  // Each attempt is a round of the progress, as their number is not known in advance.
   const auto isDisk = [&](const SurfaceRepairOptions& options) {
     return this->Try(surface, options, rounds.Next());
   };
@@ -74,6 +75,7 @@ RepairedDisk::RepairedDisk(const TriangleSurface& surface, double rounding, cons
     // cracks between points at one place. A cut that makes the surface a disk stays open.
     if (this->Repairs().FlatTriangles > 0)
     {
+      // The disk without merging is the result if merging makes no disk.
       std::optional<RepairedSurface> repaired = std::move(this->Repaired);
       std::optional<DiskMesh> disk = std::move(this->Disk);
       if (!isDiskWith(true))
@@ -115,6 +117,8 @@ bool RepairedDisk::Try(
   return this->TryAs(surface, std::move(made), stages["repaired"]);
 }
 
+// An empty `repaired` says that the given surface is tried. The error of a failed attempt is kept
+// in Defect, in the numbers of given points and triangles, because the user knows only these.
 bool RepairedDisk::TryAs(
   const TriangleSurface& surface, std::optional<RepairedSurface> repaired, const Context& context)
 {
@@ -160,6 +164,7 @@ GivenTriangles::GivenTriangles(const RepairedDisk& disk, const std::int64_t* giv
   {
     last = std::max(last, disk.GivenTriangle(triangle));
   }
+  // A given triangle that was cut into parts is written once, with its own corners.
   std::vector<unsigned char> isDone(static_cast<std::size_t>(last + 1), 0);
   for (std::int64_t triangle = 0; triangle < disk.Mesh().NumberOfTriangles(); ++triangle)
   {

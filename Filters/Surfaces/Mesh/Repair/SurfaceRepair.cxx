@@ -23,15 +23,19 @@ namespace RectifiedTransport
 namespace
 {
 
+// Triangles or points between two polls for cancellation.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 constexpr std::int64_t randomAccess = std::int64_t{ 1 } << 16; // units of a first slice
 
+// Compares along each axis, as mergeNearPoints does: no square can underflow.
 bool isSamePlace(const double* a, const double* b, double rounding)
 {
   return std::abs(a[0] - b[0]) <= rounding && std::abs(a[1] - b[1]) <= rounding &&
     std::abs(a[2] - b[2]) <= rounding;
 }
 
+// The longest side and the height over it of a triangle whose coordinates are multiplied by
+// `scale`, so that the squares in them stay within the range of double.
 TriangleShape shapeOf(const TriangleSurface& surface, double scale, std::int64_t triangle)
 {
   const auto corner = [&](int i) {
@@ -55,6 +59,9 @@ public:
   {
   }
 
+  // The order matters. Merging makes triangles with a point twice, which have no edges and must go
+  // first. Repeated triangles make edges of more than two triangles, at which no orientation passes
+  // from one to the other, so that they go before it. Flips need an orientation.
   RepairedSurface Run(const Context& context)
   {
     Progress progress(context);
@@ -76,6 +83,8 @@ private:
   std::int64_t RootOf(std::int64_t point) { return rootOf(this->Roots.data(), point); }
 
   // Finds for each point the first one that it is merged with, as trees.
+  // The trees have one root for each cluster, its lowest given point: uniteSets joins to the lower
+  // root.
   void FindRoots(Progress& progress)
   {
     const std::int64_t points = this->Given.Points.size();
@@ -97,6 +106,8 @@ private:
   }
 
   // By place, whether an edge joins the points or not.
+  // Closes cracks between points at one place, as between faces that have points of their own. With
+  // a tolerance it takes the clusters of mergeNearPoints, else only equal coordinates.
   void MergePlaces(const Context& context)
   {
     const std::int64_t points = this->Given.Points.size();
@@ -125,6 +136,8 @@ private:
   }
 
   // Keeps the triangles of three different points.
+  // A triangle whose corners have one root has become an edge or a point, without an area. What is
+  // left is compacted: triangle t has three entries in Triangles and Corners, one in Origins.
   void KeepTriangles(Progress& progress)
   {
     const std::int64_t count = this->Given.NumberOfTriangles;
@@ -149,6 +162,7 @@ private:
   }
 
   // If triangles have the same points, the first one stays.
+  // A face that a file has twice would make all its edges non-manifold.
   void LeaveOutRepeated(const Context& context)
   {
     const std::vector<RepeatedTriangle> repeated = findRepeatedTriangles(this->Kept(), context);
@@ -190,6 +204,7 @@ private:
   {
     Progress progress(context);
     Stages stages(progress, { { "edges", 7 }, { "orientation", 3 } });
+    // An edge is reversed if its two triangles pass it in the same direction.
     const SurfaceEdges edges(this->Kept(), stages["edges"]);
     // Most surfaces are oriented already.
     if (edges.Reversed() == 0)
@@ -200,6 +215,7 @@ private:
     orientSurface(this->Kept(), edges, oriented.data(), stages["orientation"]);
     for (std::int64_t triangle = 0; triangle < this->Count; ++triangle)
     {
+      // orientSurface swaps corners 1 and 2 of what it turns; the given corners must follow.
       if (oriented.data()[3 * triangle + 1] != this->Triangles.data()[3 * triangle + 1])
       {
         std::swap(
@@ -213,6 +229,7 @@ private:
   void RemoveDegenerate(const Context& context)
   {
     const std::int64_t points = this->Given.Points.size();
+    // -1: the point has not lost a triangle.
     this->Nearest = { points, -1 };
     LargeBuffer<double> scaled(3 * points);
     for (std::int64_t i = 0; i < 3 * points; ++i)
@@ -225,6 +242,8 @@ private:
   }
 
   // Numbers the points that are left in their order, and moves the triangles that are together.
+  // A removed triangle has -1 as its points. Positions stay those of the given points, not scaled,
+  // so that what needs no repair keeps its bits.
   void NumberPoints(Progress& progress)
   {
     const std::int64_t points = this->Given.Points.size();
@@ -251,6 +270,7 @@ private:
     }
     progress.Check();
     RepairedSurface& made = this->Made;
+    // The result owns its arrays: 3 coordinates a point, 3 points and 3 corners a triangle.
     made.Positions = LargeBuffer<double>(3 * used);
     made.FirstGiven = LargeBuffer<std::int64_t>(used);
     made.NewPoints = LargeBuffer<std::int64_t>(points);
@@ -289,6 +309,7 @@ private:
   }
 
   // A given triangle without any part has no area, unless it is repeated.
+  // The array serves twice: first by given points, then by given triangles.
   void CountRepairs()
   {
     const std::int64_t points = this->Given.Points.size();

@@ -17,6 +17,8 @@ namespace RectifiedTransport
 namespace
 {
 
+// openSidesOf lists sides in ascending order, so that searches and differences of lists take their
+// numbers alone.
 bool isBefore(const OpenSide& one, const OpenSide& other)
 {
   return one.Side < other.Side;
@@ -72,6 +74,7 @@ private:
     constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
     const std::int64_t count = this->Surface.NumberOfTriangles;
     PointBounds bounds;
+    // Points of no triangle have no part in the tolerance.
     progress.ForEachInOrder(3 * count, grain, [&](std::int64_t corner) {
       bounds.Add(this->Surface.Points[this->Surface.Triangles[corner]]);
     });
@@ -128,6 +131,8 @@ private:
     {
       return;
     }
+    // This follows the search, which compares merged points, and precedes the cut, which takes
+    // points as the triangles have them.
     this->Unmerge(sides, junctions);
     this->Made.Parts.emplace(this->Surface, junctions, stages["parts"], isLeftOut);
     this->Made.TJunctions = std::count_if(junctions.begin(), junctions.end(),

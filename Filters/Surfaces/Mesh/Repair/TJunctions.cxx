@@ -35,6 +35,7 @@ bool passes(const PointBounds& box, const double* from, const double* to, double
     const double low = box.Low[axis] - margin - from[axis];
     const double high = box.High[axis] + margin - from[axis];
     const double by = to[axis] - from[axis];
+    // Parallel to the slab, the segment is within it everywhere or nowhere.
     if (by == 0.0)
     {
       if (low > 0.0 || high < 0.0)
@@ -80,6 +81,7 @@ public:
   {
   }
 
+  // Without open sides there are no ends, and nothing is found: closed surfaces cost nothing more.
   std::vector<TJunction> Run(double rounding, Progress& progress)
   {
     std::vector<std::int64_t> ends;
@@ -103,6 +105,8 @@ public:
       bounds.Add(this->Points[end]);
     }
     const PlaceOnSide placeOnSide(bounds, rounding);
+    // The tree bisects the ends at medians of their coordinates; a segment visits only the boxes
+    // that it passes within the tolerance.
     const ItemTree tree(
       std::move(ends), pointsOfLeaf,
       [this](std::int64_t end, PointBounds& box) { box.Add(this->Points[end]); },
@@ -140,6 +144,8 @@ private:
         this->All.push_back({ { side.Side, point, place }, number });
       }
     });
+    // Points at one place along the side are ordered by their numbers, as the tree's order is
+    // arbitrary.
     std::sort(this->All.begin() + static_cast<std::ptrdiff_t>(first), this->All.end(),
       [](const Found& a, const Found& b) {
         return std::tie(a.Junction.Place, a.Junction.Point) <
@@ -160,6 +166,7 @@ private:
       const OpenSide& side = this->OpenSides[number];
       std::int64_t begin = side.From;
       std::size_t before = noJunction;
+      // One part goes from the last T-junction, or the side's begin, to the next one or the end.
       const auto add = [&](std::int64_t end, std::size_t after) {
         parts.push_back(
           { std::min(begin, end), std::max(begin, end), side.Side / 3, before, after });
@@ -173,6 +180,8 @@ private:
       add(side.To, noJunction);
       progress.Add(1);
     }
+    // Ends are ordered low to high, because the two triangles of an edge pass it in opposite
+    // directions.
     std::sort(parts.begin(), parts.end(), [](const SidePart& a, const SidePart& b) {
       return std::tie(a.Low, a.High, a.Triangle) < std::tie(b.Low, b.High, b.Triangle);
     });
@@ -246,6 +255,7 @@ struct CoordinateRange
         static_cast<double>(static_cast<float>(x[axis])) == x[axis];
     }
   }
+  // The maximum and the conjunction are associative and exact: the same for any number of threads.
   static CoordinateRange Union(const CoordinateRange& one, const CoordinateRange& more)
   {
     return { std::max(one.Farthest, more.Farthest), one.AreFloats && more.AreFloats };
@@ -265,8 +275,11 @@ struct CoordinateRange
 
 } // namespace
 
+// Only points of triangles count. A stray point far away would raise the tolerance, and one with
+// more digits would hide that the others are floats.
 double roundingOfCorners(const TriangleSurface& surface, Progress& progress)
 {
+  // Triangles in one of the fixed ranges of the reduction.
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   const CoordinateRange all = reduceEach(
     progress, surface.NumberOfTriangles, grain, CoordinateRange(),
@@ -290,6 +303,7 @@ double roundingOfPoints(ConstPointSpan<3> points)
   return all.Rounding();
 }
 
+// Merged points and left out triangles are passed as functions, so that the surface is not copied.
 std::vector<OpenSide> openSidesOf(
   const TriangleSurface& surface, const SideOptions& options, Progress& progress)
 {
@@ -297,6 +311,7 @@ std::vector<OpenSide> openSidesOf(
     const std::int64_t point = surface.Triangles[corner];
     return options.Merged ? options.Merged[point] : point;
   };
+  // After merging, a triangle may have a point twice: its sides are no edges of a surface.
   const auto isLeftOut = [&pointOf, &options](std::int64_t triangle) {
     const std::int64_t a = pointOf(3 * triangle);
     const std::int64_t b = pointOf(3 * triangle + 1);
@@ -310,6 +325,7 @@ std::vector<OpenSide> openSidesOf(
       // Visits are on any thread, and each writes to a side of its own.
       isOpen.data()[sides[0]] = number == 1 ? 1 : 0;
     });
+  // In the order of the sides, whatever the order in which threads visited the edges.
   std::vector<OpenSide> open;
   for (std::int64_t side = 0; side < count; ++side)
   {
