@@ -38,6 +38,7 @@ bool isCollapsed(const DiskMesh& disk, const SquareMap& square, std::int64_t tri
   return false;
 }
 
+// Callers tell users how much of the surface the choice of corners loses.
 CollapsedTriangles findCollapsed(const DiskMesh& disk, const SquareMap& square)
 {
   CollapsedTriangles collapsed;
@@ -115,6 +116,7 @@ LocalMap::LocalMap(const MapParts& parts, const std::vector<std::int64_t>& point
   }
 }
 
+// The system is sparse: each triangle has entries for its own six coordinates alone.
 LocalSystem LocalMap::MakeSystem() const
 {
   // The places of each triangle's six coordinates among the unknowns: x and y of corner 0, 1, 2.

@@ -27,6 +27,7 @@ constexpr std::size_t rotations = 256; // number of starts that are tried for th
 class BoundaryPlaces
 {
 public:
+  // The lengths are those of the polygon's edges, in the mesh's unit.
   explicit BoundaryPlaces(const DiskMesh& disk)
     : Loop(disk.Boundary())
     , Places(static_cast<std::size_t>(disk.NumberOfPoints()), -1)
@@ -73,6 +74,7 @@ public:
   // curve.
   std::int64_t Nearest(double length) const
   {
+    // The entry of the whole length is left out: it is place 0 again.
     const auto above = std::lower_bound(this->Lengths.begin(), this->Lengths.end() - 1, length);
     const std::int64_t high = (above - this->Lengths.begin()) % this->Count();
     const std::int64_t low = (high + this->Count() - 1) % this->Count();
@@ -109,6 +111,7 @@ std::vector<BoundaryArc> smallestArcs(const DiskMesh& disk, const BoundaryPlaces
   std::vector<BoundaryArc> arcs;
   for (std::int64_t side = 0; side < 3 * disk.NumberOfTriangles(); ++side)
   {
+    // Edges of the boundary cut off nothing.
     if (disk.Edges().Other(side) < 0)
     {
       continue;
@@ -116,6 +119,7 @@ std::vector<BoundaryArc> smallestArcs(const DiskMesh& disk, const BoundaryPlaces
     const std::int64_t* triangle = disk.Triangle(side / 3);
     const std::int64_t from = places.PlaceOf(triangle[side % 3]);
     const std::int64_t to = places.PlaceOf(triangle[(side + 1) % 3]);
+    // An inner edge between two boundary points.
     if (from >= 0 && to >= 0)
     {
       arcs.push_back({ from, to }); // the other arc is that of the other side
@@ -153,8 +157,10 @@ std::vector<BoundaryArc> smallestArcs(const DiskMesh& disk, const BoundaryPlaces
   return smallest;
 }
 
+// The places of the square's corners on the boundary.
 using CornerPlaces = std::array<std::int64_t, 4>;
 
+// Whether some corner is strictly inside an arc, so that what the arc's edge cuts off has an area.
 bool hasCorner(const BoundaryPlaces& places, const BoundaryArc& arc, const CornerPlaces& corners)
 {
   return std::any_of(corners.begin(), corners.end(),
@@ -221,6 +227,7 @@ void moveCornerTo(const BoundaryPlaces& places, const std::vector<BoundaryArc>& 
 CornerPlaces cornersFrom(
   const BoundaryPlaces& places, const std::vector<BoundaryArc>& arcs, std::int64_t start)
 {
+  // Quarter q is at s + q L / 4 along the boundary of the length L, modulo L.
   std::array<double, 4> quarters;
   CornerPlaces corners;
   for (std::size_t q = 0; q < corners.size(); ++q)
@@ -229,6 +236,7 @@ CornerPlaces cornersFrom(
       places.LengthAt(start) + 0.25 * static_cast<double>(q) * places.Total(), places.Total());
     corners[q] = places.Nearest(quarters[q]);
   }
+  // Longer arcs come first, and keep their corners when later ones need some.
   for (const BoundaryArc& arc : arcs)
   {
     if (!hasCorner(places, arc, corners))
@@ -293,6 +301,7 @@ std::vector<std::int64_t> sharpPlaces(const DiskMesh& disk, const BoundaryPlaces
   return sharp;
 }
 
+// The points at four places.
 SquareCorners pointsAt(const BoundaryPlaces& places, const CornerPlaces& corners)
 {
   SquareCorners points;
@@ -303,6 +312,9 @@ SquareCorners pointsAt(const BoundaryPlaces& places, const CornerPlaces& corners
 
 } // namespace
 
+// Four sharp corners of the surface become those of the square, if they do not leave an arc without
+// one. Otherwise starts are tried, evenly by the boundary's points: all of a short boundary, 256 to
+// 511 of a long one. They bound the cost, and finer ones would hardly make sides more even.
 SquareCorners chooseCorners(const DiskMesh& disk)
 {
   const BoundaryPlaces places(disk);
@@ -322,6 +334,7 @@ SquareCorners chooseCorners(const DiskMesh& disk)
   constexpr double rounding = 1e-12; // differences that must not decide
   const auto step =
     std::max<std::int64_t>(1, places.Count() / static_cast<std::int64_t>(rotations));
+  // These are valid for every boundary of four points and more, so that there always is a result.
   CornerPlaces best{ 0, 1, 2, 3 };
   auto fewest = countMissed(places, arcs, best);
   double least = unevenness(places, best);
@@ -342,6 +355,7 @@ SquareCorners chooseCorners(const DiskMesh& disk)
   return pointsAt(places, best);
 }
 
+// A conformal map depends on its corners: callers compare the distortions of several turns.
 SquareCorners turnCorners(const DiskMesh& disk, const SquareCorners& corners, double part)
 {
   const BoundaryPlaces places(disk);
@@ -357,6 +371,8 @@ SquareCorners turnCorners(const DiskMesh& disk, const SquareCorners& corners, do
   return isBetter ? pointsAt(places, turned) : corners;
 }
 
+// The messages are predicates of a sentence whose subject is the corners. The first point stays the
+// first, to let users choose which corner of the square it goes to.
 SquareCorners orderCorners(const DiskMesh& disk, const std::vector<std::int64_t>& points,
   const std::vector<std::int64_t>& names)
 {
@@ -396,6 +412,7 @@ SquareCorners orderCorners(const DiskMesh& disk, const std::vector<std::int64_t>
   return pointsAt(places, corners);
 }
 
+// O(points + triangles): marks the sides of each boundary point, then compares them by triangles.
 std::int64_t countCollapsed(const DiskMesh& disk, const SquareCorners& corners)
 {
   const BoundaryPlaces places(disk);

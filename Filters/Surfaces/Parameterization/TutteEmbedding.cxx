@@ -41,6 +41,7 @@ void placeByLength(const DiskMesh& disk, const SquareMap& square, std::vector<Po
                   .norm();
       at = next;
     }
+    // The side's first point is a corner of the square, and `end` is the next one.
     const Point<2> from = square.Positions[side[0].first];
     const Point<2> to = square.Positions[static_cast<std::size_t>(end)];
     for (const auto& [point, before] : side)
@@ -68,6 +69,7 @@ std::vector<WeightedEdge> findEdges(
   // The weights to begin with are the cotangent weights (cot alpha + cot beta) / 2, clamped.
   const TriangleSurface surface = disk.Surface();
   // The cotangent of the angle opposite to a side: dot product by cross product of the sides there.
+  // A triangle without area cannot occur: a disk has none.
   const auto cotangent = [&](std::int64_t side) {
     const auto corner = [&](std::int64_t at) {
       return Eigen::Map<const Eigen::Vector3d>(surface.Points[surface.Triangles[at]]);
@@ -126,6 +128,8 @@ public:
   // share a factor.
   bool Solve(Progress& progress)
   {
+    // The Laplacian of a connected graph with fixed boundary points and positive weights is
+    // symmetric and positive definite.
     const SparseCholesky::Matrix matrix = this->MakeMatrix();
     progress.Check();
     if (!this->IsAnalyzed)
@@ -179,6 +183,7 @@ public:
       const auto point = static_cast<std::size_t>(id);
       return std::clamp(images[point] / areas[point], 1.0 / most, most);
     };
+    // Two factors of at most `most` under the root: an edge's weight changes by at most that much.
     for (WeightedEdge& edge : this->Edges)
     {
       edge.Weight *= std::sqrt(stretch(edge.Ends[0]) * stretch(edge.Ends[1]));
@@ -255,6 +260,7 @@ double areaDistortion(const DiskMesh& disk, const std::vector<Point<2>>& positio
   double sum = 0.0;
   for (std::int64_t t = 0; t < disk.NumberOfTriangles(); ++t)
   {
+    // 1 where the map keeps the area: both sums are 1.
     const double change = imageArea(disk, positions, t) / disk.AreaShare(t);
     const double logarithm = std::log(std::max(change, smallest));
     sum += disk.AreaShare(t) * logarithm * logarithm;
@@ -282,6 +288,7 @@ SquareMap tutteEmbedding(const DiskMesh& disk, const SquareMap& conformal, const
       break;
     }
     const double distortion = areaDistortion(disk, embedding.Result());
+    // Less than 5 % better is not worth another factorization.
     const bool isLast = !(distortion < enough * least);
     if (distortion < least)
     {

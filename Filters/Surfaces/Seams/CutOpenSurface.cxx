@@ -15,6 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Corners in a slice that looks for cancellation.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 constexpr std::int64_t randomAccess = std::int64_t{ 1 } << 16; // units of a first slice
 
@@ -123,6 +124,7 @@ void CutOpenSurface::PlaceDegenerate(ConstPointSpan<2> positions)
     {
       continue;
     }
+    // The triangle then has the copies on one side of a seam, not edges across the square.
     double least = std::numeric_limits<double>::infinity();
     std::array<std::int64_t, 3> nearest{};
     for (const std::int64_t a : this->PlacesOf(corner))
@@ -143,6 +145,7 @@ void CutOpenSurface::PlaceDegenerate(ConstPointSpan<2> positions)
     for (std::size_t i = 0; i < 3; ++i)
     {
       this->Corners.data()[corner + static_cast<std::int64_t>(i)] =
+        // A merged corner may get a place that its own point has no copy at.
         this->CopyAt(given[i], nearest[i]);
     }
   }

@@ -50,6 +50,7 @@ void requireTriangles(const TriangleSurface& surface)
 // Merges with the smallest rounding that leaves no more edges open than a larger one.
 RepairedSurface repaired(const TriangleSurface& surface, double rounding, Progress& progress)
 {
+  // Open edges measure how well a rounding merges: a crack has some on both sides.
   const auto openEdges = [](const RepairedSurface& made, Progress& stage) {
     return SurfaceEdges(made.Surface(), stage).Open();
   };
@@ -89,6 +90,8 @@ public:
   {
   }
 
+  // The result is written in the numbers of the given triangles and points, through the repair's
+  // and the parts' numbers.
   void Run(const SeamOptions& options, const Context& context)
   {
     requireTriangles(this->Surface);
@@ -110,6 +113,7 @@ public:
     counts.NonManifoldEdges = parts.NonManifoldEdges();
 
     this->Prepare(repair);
+    // A component's share of the progress is its number of triangles.
     std::vector<double> sizes;
     for (const std::vector<std::int64_t>& component : parts.Components())
     {
@@ -122,12 +126,15 @@ public:
       this->CutOpen({ kept, parts, component, repair }, options, cuts[number++]);
     }
     progress.EndSlice(1);
+    // This comes after all components, because the triangle that a repeated one lies on may be in
+    // any.
     this->PlaceRepeated(repair);
     for (std::int64_t point = 0; point < this->Surface.Points.size(); ++point)
     {
       const std::int64_t place = repair.NewPoint(point);
       this->Made.PointsOf.data()[point] = place < 0 ? -1 : this->FirstCopies.data()[place];
     }
+    // What is in no disk then has no area: removed by the repair or not kept after it.
     counts.FlatTriangles = std::count(
       this->Made.DisksOf.data(), this->Made.DisksOf.data() + this->Made.DisksOf.size(), -1);
   }
@@ -144,6 +151,7 @@ private:
       progress.CheckEvery(polled, triangle);
       const std::int64_t* ids = surface.Triangles + 3 * triangle;
       const auto at = [&](int i) { return pointAt(surface.Points, ids[i]) / this->Unit; };
+      // The repair leaves some triangles without area, where removing them would join edges.
       if (TriangleShape(at(0), at(1), at(2)).Height > 0.0)
       {
         this->Repaired.push_back(triangle);
@@ -156,6 +164,8 @@ private:
   void Prepare(const RepairedSurface& repair)
   {
     const std::int64_t triangles = this->Surface.NumberOfTriangles;
+    // By given triangles, their corners and given points; FirstCopies is by points of the repaired
+    // surface.
     this->Made.DisksOf = { triangles, -1 };
     this->Made.Corners = { 3 * triangles, -1 };
     this->Made.PointsOf = LargeBuffer<std::int64_t>(this->Surface.Points.size());
@@ -240,6 +250,7 @@ private:
   unsigned char IsTurned(std::int64_t given, ConstPointSpan<3> points, const CutOpenDisk& opened,
     std::int64_t triangle, const std::int64_t* kept) const
   {
+    // Unit normals, scaled so that products of tiny or large sides neither vanish nor overflow.
     const auto normalOf = [](ConstPointSpan<3> places, std::array<std::int64_t, 3> ids) {
       const auto at = [&](std::size_t i) {
         return Eigen::Map<const Eigen::Vector3d>(places[ids[i]]);
@@ -295,6 +306,7 @@ private:
       origins.push_back(
         component.Repair.GivenTriangle(this->Repaired[static_cast<std::size_t>(triangle)]));
     }
+    // Triangles that close holes come after the component's own; their origins are below 0.
     SeamMesh mesh(std::move(points), std::move(triangles), std::move(origins), progress);
     const HoleFans fans = closeManyHoles(mesh, progress);
     return fans.Points.empty() ? std::move(mesh)

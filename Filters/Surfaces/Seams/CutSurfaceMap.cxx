@@ -113,6 +113,7 @@ private:
     return std::max<std::int64_t>(map.Distortion.Flipped - this->Collapsed, 0);
   }
 
+  // The area-preserving flow begins with Tutte's embedding or with the conformal map.
   AreaPreservingMap MapFrom(bool embedding, Progress& progress)
   {
     if (!embedding)
@@ -130,6 +131,7 @@ private:
   const std::int64_t Collapsed;
 };
 
+// A disk that was not cut begins with the conformal map, as in the paper (Section 5.4).
 AreaPreservingMap mapDisk(
   const CutDisk& disk, const AreaPreservingOptions& options, const Context& context)
 {
@@ -154,6 +156,7 @@ CutSurfaceMap mapCutSurface(
   }
   const std::vector<AtlasSquare> squares = arrangeSquares(areas);
 
+  // Arrays are by points of the cut surface; each disk fills its own range of them.
   CutSurfaceMap map;
   map.Conformal.resize(static_cast<std::size_t>(cut.NumberOfPoints()));
   map.Positions.resize(map.Conformal.size());
@@ -199,6 +202,7 @@ CutTriangles::CutTriangles(const CutSurface& cut, const TriangleSurface& given)
       continue;
     }
     const std::int64_t* corners = cut.CornersOf(triangle);
+    // Triangles without area are in no disk.
     if (std::min({ corners[0], corners[1], corners[2] }) < 0)
     {
       continue;
@@ -210,6 +214,7 @@ CutTriangles::CutTriangles(const CutSurface& cut, const TriangleSurface& given)
       const std::int64_t point = given.Triangles[3 * triangle + static_cast<int>(i)];
       places[i] = pointAt(given.Points, point) / largest;
     }
+    // The area is length times height / 2.
     const TriangleShape shape(places[0], places[1], places[2]);
     const double area = 0.5 * shape.Length * shape.Height;
     if (!(area > 0.0))
@@ -221,6 +226,7 @@ CutTriangles::CutTriangles(const CutSurface& cut, const TriangleSurface& given)
     {
       this->Points[static_cast<std::size_t>(ids[i])] = places[i];
     }
+    // All triangles of a disk then turn alike, so that a negative image area is a flip.
     if (cut.IsTurned(triangle))
     {
       std::swap(ids[1], ids[2]);

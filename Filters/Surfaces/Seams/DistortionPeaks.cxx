@@ -56,6 +56,9 @@ public:
     }
   }
 
+  // Only points that are squeezed enough enter, so that the areas of regions are those that are
+  // squeezed about a peak. Equal keys keep the order of the points: peaks do not depend on anything
+  // else.
   std::vector<DistortionPeak> Find(const PeakLimits& limits)
   {
     this->Run.Check();
@@ -130,6 +133,7 @@ private:
   void End(
     std::int64_t peak, double pass, const PeakLimits& limits, std::vector<DistortionPeak>& found)
   {
+    // A region that no higher one has ended has the pass 0, and is prominent.
     const double density = this->DensityAt(peak);
     if (density >= limits.Prominence * pass && this->AreaOf(peak) >= limits.AreaShare)
     {

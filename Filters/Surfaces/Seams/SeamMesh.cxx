@@ -65,6 +65,7 @@ SeamMesh SeamMesh::With(const std::vector<Point<3>>& points,
     joined(this->Origins, origins), context };
 }
 
+// In the unit of the points, which CutSurface divides by the largest coordinate.
 double SeamMesh::Length(std::int64_t side) const
 {
   return std::sqrt(
@@ -121,6 +122,7 @@ SeamMesh::Cut SeamMesh::MakeCut(Progress& progress) const
       progress.CheckEvery(polled, side);
     }
   };
+  // Each inner edge that is no seam joins the corners at both of its ends, once.
   forSides([&](std::int64_t side) {
     if (this->IsFirst(side) && !this->IsSeam(side))
     {
@@ -128,6 +130,7 @@ SeamMesh::Cut SeamMesh::MakeCut(Progress& progress) const
         [&](std::int64_t a, std::int64_t b) { uniteSets(corners.data(), a, b); });
     }
   });
+  // Roots have their numbers before other corners of their trees, as they are the lowest.
   std::vector<std::int64_t> numbers(corners.size());
   forSides([&](std::int64_t side) {
     const std::int64_t root = rootOf(corners.data(), side); // the lowest corner of its tree

@@ -52,6 +52,7 @@ void SeamSearch::Enter(std::int64_t point, double distance, std::int64_t side)
   }
 }
 
+// Costs O(log n) an item; each edge adds at most one item for each of its ends.
 std::int64_t SeamSearch::Next()
 {
   while (!this->Queue.empty())
@@ -118,6 +119,7 @@ bool joinToSeams(SeamMesh& mesh, SeamSearch& search, std::int64_t point, double 
   }
   search.Clear();
   search.Enter(point, 0.0, -1);
+  // The cheapest path to a seam so far; `last` is its last edge, which ends on the seam.
   double cost = infinity;
   std::vector<std::int64_t> path;
   for (std::int64_t next = search.Next(); next >= 0 && search.Distance(next) < cost;
@@ -138,6 +140,7 @@ bool joinToSeams(SeamMesh& mesh, SeamSearch& search, std::int64_t point, double 
       path = search.PathTo(next);
       path.push_back(last);
     }
+    // Points on seams are not entered: paths end there.
     search.EnterNeighbours(next);
   }
   // A path that is too short would not open anything.

@@ -38,6 +38,7 @@ public:
   bool Pass(std::size_t most)
   {
     std::vector<std::pair<double, std::int64_t>> seams = this->FindSeams();
+    // Long seams have most to gain, and equal lengths keep the order of their sides.
     std::stable_sort(
       seams.begin(), seams.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     seams.resize(std::min(seams.size(), most));
@@ -135,6 +136,7 @@ private:
         }
       }
     };
+    // Only corners at points on seams are set; entries of others are from earlier calls.
     visitSeamCorners([&](std::int64_t corner) { trees[corner] = corner; });
     visitSeamCorners([&](std::int64_t corner) {
       for (const std::int64_t side : { corner, lastSide(corner) })
@@ -227,6 +229,7 @@ private:
     }
     if (end >= 0)
     {
+      // The edges are in order from the end to the start; their set alone matters.
       const Seam rest = this->Search.PathTo(end);
       join.Sides.insert(join.Sides.end(), rest.begin(), rest.end());
     }
@@ -260,6 +263,7 @@ private:
       // The largest ratio of costs that is worth while; above, rounding.
       constexpr double least = 1.0 - 1e-9;
       const double cost = least * this->CostOf(seam, this->StartOf(seam));
+      // The seam is taken off while the path is sought, so that the new one may run along it.
       const Join join = this->FindJoin(loops[0], loops[1], cost);
       if (!join.Sides.empty())
       {

@@ -29,6 +29,7 @@ public:
     , Given(surface.Bodies)
     , Parents(this->Given ? this->Surface.NumberOfTriangles : this->Surface.Points.size())
   {
+    // Given numbers are below the number of triangles, which therefore is enough for the array.
     std::iota(this->Parents.data(), this->Parents.data() + this->Parents.size(), Index{ 0 });
     Stages stages(progress, { { "trees", this->Given ? 0.0 : 3.0 }, { "numbers", 1 } });
     Progress& trees = stages["trees"].Expect(this->Surface.NumberOfTriangles);
@@ -39,6 +40,7 @@ public:
       trees.Add(1);
     }
     Progress& numbers = stages["numbers"].Expect(this->Surface.NumberOfTriangles);
+    // Bodies are numbered in the order of their first triangles.
     for (Index i = 0; i < this->Surface.NumberOfTriangles; ++i)
     {
       const Index root = this->RootOf(this->NodeOf(i));
@@ -75,6 +77,7 @@ private:
     }
     return parents[node];
   }
+  // Both are roots without numbers; the lower one becomes the root.
   Index Join(Index a, Index b)
   {
     const Index root = std::min(a, b);
@@ -95,6 +98,7 @@ struct Place
   Corner Centre{};
 };
 
+// The projected area is half of component 0 of (t1 - t0) x (t2 - t0); the centre is the centroid.
 Place placeOf(const std::array<Corner, 3>& t)
 {
   Place place;
@@ -172,6 +176,7 @@ public:
   {
   }
 
+  // There are two passes, because the outermost triangles are compared with the largest ones.
   void Choose(Progress& progress)
   {
     Stages stages(progress, { { "largest", 1 }, { "outermost", 1 } });
@@ -190,6 +195,8 @@ public:
         }
       }
     });
+    // The line passes its own triangle at the centroid, where rounding is least likely to miss it.
+    // Probes without a triangle, or whose triangle the line misses, are removed.
     const auto isNone = [this](Probe& probe) {
       if (probe.Triangle >= 0)
       {
@@ -228,6 +235,8 @@ public:
     }
   }
 
+  // The weights by bodies. Votes are summed, so that few probes on places where bodies touch or
+  // intersect do not decide.
   std::vector<signed char> Weights()
   {
     // Each probe votes on its body. Its side is +1 where the line enters an outward body; after -
@@ -248,6 +257,8 @@ public:
   }
 
 private:
+  // Calls visit(probes, triangle, place) with the probes of the triangle's body. A triangle
+  // parallel to axis 0 has no projected area, and no line along the axis passes it.
   template <class Visit>
   void ForTriangles(Progress& progress, const Visit& visit)
   {
@@ -289,6 +300,7 @@ private:
         }
       });
   }
+  // Coordinates beyond those of the probes are in the boxes at the border.
   Index BoxOf(std::size_t axis, double coordinate) const
   {
     const double box = (coordinate - this->Low[axis]) * this->Scale[axis];
@@ -318,6 +330,7 @@ private:
     const Index first =
       this->BoxOf(2, std::min({ triangle[0][2], triangle[1][2], triangle[2][2] }));
     const Index last = this->BoxOf(2, std::max({ triangle[0][2], triangle[1][2], triangle[2][2] }));
+    // No probe is there.
     if (rows[1] < 0.0 || rows[0] > static_cast<double>(this->Boxes))
     {
       return;
@@ -330,6 +343,7 @@ private:
       }
       return;
     }
+    // From the lowest row up: `below` is the triangle's part in the row, `rest` what is above it.
     CutPolygon rest = whole;
     CutPolygon below;
     CutPolygon above;
@@ -385,6 +399,8 @@ LargeBuffer<signed char> weighBodies(const SolidSurface& solid, const Context& c
   Bodies bodies(solid, stages["bodies"]);
   if (bodies.Count() < 2)
   {
+    // A single body needs no probes, only the sign of its volume. Without triangles nothing is
+    // written.
     const signed char weight = bodies.Count() == 1 ? weightOfOne(surface, stages["weights"]) : 1;
     std::fill_n(weights.data(), surface.NumberOfTriangles, weight);
     return weights;

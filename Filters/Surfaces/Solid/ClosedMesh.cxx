@@ -31,6 +31,7 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 // Units of a slice of work with random memory access.
 constexpr std::int64_t slow = std::int64_t{ 1 } << 16;
 
+// Copies three coordinates a point. Sorts and hashes of later steps assume finite ones.
 void copyPoints(ConstPointSpan<3> points, double* copy, Progress& progress)
 {
   progress.ForEachInOrder(points.size(), grain, [=](std::int64_t i) {
@@ -70,6 +71,8 @@ double farthestIn(const std::array<double, 6>& bounds)
 double lastPlacesIn(const std::array<double, 6>& bounds)
 {
   const double farthest = farthestIn(bounds);
+  // The last place of a double of the exponent e is 2^(e - 52). A power of two lets coordinates be
+  // divided by it exactly. Where it would be subnormal, coordinates are not rounded.
   const double places = farthest > 0.0 ? std::ldexp(1.0, std::ilogb(farthest) - 50) : 0.0;
   return places >= std::numeric_limits<double>::min() ? places : 0.0;
 }
@@ -104,6 +107,8 @@ ClosingDistances::ClosingDistances(const std::array<double, 6>& bounds, bool are
   const double near = ClosedMesh::NearDistance * longest;
   this->Near = { std::isfinite(near) ? near : 0.0,
     areFloats ? units * farthestIn(bounds) * std::numeric_limits<float>::epsilon() : 0.0 };
+  // Each is ten times the one before: the first that closes the surface bends it least. A gap that
+  // is wider than the last one counts as a hole.
   this->Gaps = { 1e-5 * longest, 1e-4 * longest, 1e-3 * longest, 1e-2 * longest };
 }
 
@@ -132,6 +137,7 @@ ClosedMesh::ClosedMesh(LargeBuffer<double> coordinates, const Context& context)
   this->Merge(context);
 }
 
+// Writes for each point the first one with equal coordinates, to Firsts.
 void ClosedMesh::Merge(const Context& context)
 {
   const ConstPointSpan<3> points = this->Points();
@@ -163,6 +169,8 @@ std::string ClosedMesh::Close(
   Parts gaps(stages["gaps"], static_cast<std::int64_t>(distances.Gaps.size()));
   for (std::size_t i = 0; i < distances.Gaps.size() && !this->ClosedGaps; ++i)
   {
+    // A try that fails leaves the mesh unchanged, so that the next one begins from the same
+    // triangles.
     this->ClosedGaps = this->CloseWithin(distances.Gaps[i], gaps[static_cast<std::int64_t>(i)]);
   }
   return this->ClosedGaps ? std::string() : problem;
@@ -174,6 +182,7 @@ std::string ClosedMesh::Fill(const AddFaces& add, Progress& progress)
 {
   Stages stages(progress, { { "triangles", 1 }, { "edges", 1 } });
   add(*this, stages["triangles"]);
+  // This is read before edges are counted, because pairs of opposite triangles may cancel all.
   const bool hasTriangles = this->NumberOfTriangles > 0;
   this->CountEdges(stages["edges"]);
   if (!hasTriangles)
@@ -205,12 +214,15 @@ bool ClosedMesh::CloseNear(const AddFaces& add, double distance, Progress& progr
   return this->CloseWithin(distance, stages["T-junctions"]);
 }
 
+// Without triangles nothing closes the surface. Bounds near the largest double may have an infinite
+// side, and then no distance.
 bool ClosedMesh::CloseWithin(double distance, Progress& progress)
 {
   return this->NumberOfTriangles > 0 && distance > 0.0 && std::isfinite(distance) &&
     this->CloseTJunctions(distance, progress);
 }
 
+// The text for users: how many edges are wrong, and which filters close a surface.
 std::string ClosedMesh::Openness() const
 {
   const std::int64_t open = this->NumberOpen;
@@ -231,6 +243,7 @@ std::string ClosedMesh::Openness() const
   return message.str();
 }
 
+// x' = (x - origin) / spacing along each axis; cells are cubes, so that one spacing serves all.
 void ClosedMesh::MoveToCells(
   const ImageGrid& grid, const std::array<double, 6>& bounds, const Context& context)
 {
@@ -250,6 +263,8 @@ void ClosedMesh::MoveToCells(
   });
 }
 
+// The triangles are forgotten, because they have points that may be merged further; the caller adds
+// them again.
 bool ClosedMesh::MergeNear(double distance, const Context& context)
 {
   const ConstPointSpan<3> points = this->Points();
@@ -277,11 +292,13 @@ double ClosedMesh::LongestSide() const
   return std::max(0.0, bounds.Length(bounds.Longest()));
 }
 
+// Allocates three points a triangle; Add() does not check that there is room.
 void ClosedMesh::Reserve(std::int64_t triangles)
 {
   this->Triangles = LargeBuffer<std::int64_t>(3 * triangles);
 }
 
+// Merged corners make a triangle an edge or a point, which encloses nothing.
 void ClosedMesh::Add(const std::array<std::int64_t, 3>& corners)
 {
   const std::int64_t a = this->FirstOf(corners[0]);
@@ -296,6 +313,7 @@ void ClosedMesh::Add(const std::array<std::int64_t, 3>& corners)
   }
 }
 
+// Repeated triangles are looked for only if edges have more than two triangles, as theirs do.
 void ClosedMesh::CountEdges(const Context& context)
 {
   this->Firsts = {}; // its memory is needed now
@@ -309,6 +327,7 @@ void ClosedMesh::CountEdges(const Context& context)
   this->Closed = this->NumberOpen == 0 && this->NumberNonManifold == 0;
 }
 
+// An edge of four or another even number of triangles is closed, as where two cubes touch.
 void ClosedMesh::CountEdgesAlone(const Context& context)
 {
   this->Edges.reset(); // frees its memory first
@@ -322,6 +341,7 @@ void ClosedMesh::CountEdgesAlone(const Context& context)
 void ClosedMesh::DropRepeated(const Context& context)
 {
   const std::array<std::vector<std::int64_t>, 3> ways = findDropped(this->Surface(), *this->Edges);
+  // The third way drops all but one of each group; if it drops none, nothing is repeated.
   if (ways.back().empty())
   {
     return;
@@ -330,6 +350,7 @@ void ClosedMesh::DropRepeated(const Context& context)
   Parts tries(progress, static_cast<std::int64_t>(ways.size()) + 1);
   std::int64_t next = 0;
   const std::int64_t number = this->NumberOfTriangles;
+  // Each way begins from a copy of all triangles, as dropTriangles overwrites the mesh's.
   LargeBuffer<std::int64_t> all(3 * number);
   std::copy_n(this->Triangles.data(), 3 * number, all.data());
   const auto drop = [&](const std::vector<std::int64_t>& dropped) {
@@ -388,6 +409,8 @@ bool ClosedMesh::CloseTJunctions(double distance, const Context& context)
   return false;
 }
 
+// Turns the triangles in place, after which the edges are not theirs any more. Later calls return
+// the first answer.
 bool ClosedMesh::Orient(const Context& context)
 {
   if (this->Closed && this->Edges)

@@ -53,6 +53,8 @@ public:
   {
   }
 
+  // Turns triangles in place. Without edges of more than two triangles each patch is a body; else
+  // fans decide how patches are turned, and then which of them enclose a body together.
   OrientedBodies Run(Index* triangles, Progress& progress)
   {
     Stages stages(progress,
@@ -78,6 +80,8 @@ public:
     for (Index i = 0; i < this->Surface.NumberOfTriangles; ++i)
     {
       Index& patch = this->Patches.data()[i];
+      // A triangle is turned if exactly one of the two asks for it: its patch's own orientation, or
+      // the turn of the patch. The array of patches becomes the result.
       if (this->Signs.data()[i] * this->Turns[static_cast<std::size_t>(patch)] < 0)
       {
         std::swap(triangles[3 * i + 1], triangles[3 * i + 2]);
@@ -114,6 +118,8 @@ private:
     progress.Expect(this->Surface.NumberOfTriangles);
     for (Index side = 0; side < 3 * this->Surface.NumberOfTriangles; ++side)
     {
+      // A closed surface has no open edges, so that -1 says that the edge has more than two
+      // triangles.
       if (this->Edges.Other(side) < 0)
       {
         const Index from = this->Surface.Triangles[side];
@@ -159,6 +165,7 @@ private:
   // paired with sides that pass it the other way: first those of the same body, then the rest.
   void JoinPatches()
   {
+    // TurnUnbalanced has joined whole groups in this array, which are too coarse for bodies.
     std::iota(this->Roots.begin(), this->Roots.end(), Index{ 0 });
     this->ForFans([&](FanSide* begin, FanSide* end) {
       std::vector<std::array<Index, 2>> sums; // roots, with 1 or -1 for the direction
@@ -314,6 +321,7 @@ private:
   // balanced.
   bool TurnAsRelated(std::vector<Relation>& relations)
   {
+    // Sorted by patches, a binary search finds the neighbours of each.
     std::sort(relations.begin(), relations.end(),
       [](const Relation& a, const Relation& b) { return a.Patch < b.Patch; });
     std::vector<bool> isFound(this->Areas.size(), false);

@@ -47,6 +47,8 @@ public:
   }
 
   // A range kernel over the layers of the part.
+  // Each layer writes to its own part of Coverage, so that threads share only the list of idle
+  // memory and the number of open lines, an integer sum.
   void CoverLayers(Index first, Index last)
   {
     std::unique_ptr<LayerWork> layerWork = this->TakeWork();
@@ -125,6 +127,8 @@ private:
       double* row = this->Coverage + (layer * this->Part.Cells[1] + j) * columns;
       const bool hasVolumes = layerWork.Volumes.HasRow(j);
       const bool hasLines = layerWork.Lines.HasRow(j);
+      // A line along axis 0 that enters a closed surface passes a triangle; those beyond the grid
+      // count as on its border. A row without triangles is therefore outside.
       if (!hasVolumes && !hasLines)
       {
         std::fill_n(row, columns, 0.0);
@@ -169,6 +173,8 @@ CoverageReport coverSolid(const SolidSurface& surface, const GridSize<3>& cells,
     surface, cells, LatticePart<3>::WholeOf(cells), supersampling, coverage, context);
 }
 
+// Weights are found from all triangles, also for a part of the grid: all parts, and the ranks that
+// have them, then agree. Layers are listed, and volumes summed, for the part alone.
 CoverageReport coverPartOfSolid(const SolidSurface& surface, const GridSize<3>& cells,
   const LatticePart<3>& part, int supersampling, double* coverage, const Context& context)
 {
@@ -184,6 +190,7 @@ CoverageReport coverPartOfSolid(const SolidSurface& surface, const GridSize<3>& 
   Progress& work = stages["cells"];
   CoverageRun run(
     surface.Triangles, layers, weights.data(), cells, part, supersampling, coverage, work);
+  // A layer is a range, as layers differ in cost.
   work.For(
     part.Cells[2], 1, [&run](Index first, Index last) { run.CoverLayers(first, last); }, 1);
   return { run.OpenLines() };

@@ -8,6 +8,8 @@
 namespace RectifiedTransport
 {
 
+// Lines are at the half-integers of axes 1 and 2 in units of squares. First has one entry more than
+// there are lines: the end of the last one's crossings.
 SolidLines::SolidLines(const TriangleSurface& surface, const TriangleLayers& layers,
   const signed char* weights, const GridSize<3>& cells, const LatticePart<3>& part,
   int supersampling)
@@ -43,6 +45,7 @@ void SolidLines::FindCrossings(std::int64_t layer, Progress& progress)
   {
     first[line] += first[line - 1];
   }
+  // The memory only grows, as it is used for layer after layer.
   if (first[lines] > this->Crossings.size())
   {
     this->Crossings = LargeBuffer<Crossing>(first[lines]);
@@ -147,6 +150,8 @@ std::int64_t SolidLines::CorrectRow(std::int64_t row, double* values)
   return open;
 }
 
+// Crossings at one place may be in any order: the intervals between them have no length, and the
+// sums behind them are the same.
 void SolidLines::SortCrossings(std::int64_t line)
 {
   const std::int64_t* first = this->First.data() + line;
@@ -198,6 +203,7 @@ void RowLengths::Add(double begin, double end, std::int64_t counted, bool isCove
   }
   const auto columns = static_cast<std::int64_t>(this->Parts.size());
   const auto length = static_cast<double>(columns);
+  // Crossings beyond the grid count as on its border.
   begin = std::max(0.0, std::min(begin, length));
   end = std::max(0.0, std::min(end, length));
   const std::int64_t from = std::min(static_cast<std::int64_t>(begin), columns - 1);
@@ -227,6 +233,7 @@ void RowLengths::Add(double begin, double end, std::int64_t counted, bool isCove
 // difference, a mean over the lines, is added.
 void RowLengths::Correct(std::int64_t lines, double* values) const
 {
+  // The running sum of the difference array is the number of intervals that cover the whole cell.
   Counts whole{ 0, 0 };
   for (std::size_t i = 0; i < this->Parts.size(); ++i)
   {
