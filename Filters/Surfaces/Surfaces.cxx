@@ -64,6 +64,9 @@ ImageGrid gridAround(
 
 } // namespace
 
+// The map of the paper's Section 5.4 for any topology: seams make disks, each disk is mapped to a
+// square with areas kept, and the distortion of the result is measured. The weights of the stages
+// are estimates of their time.
 Parameterization parameterize(
   const TriangleSurface& surface, const ParameterizationOptions& options, const Context& context)
 {
@@ -71,12 +74,16 @@ Parameterization parameterize(
   Stages stages(progress, { { "seams", 40 }, { "map", 55 }, { "distortion", 5 } });
   CutOpenSurface opened(surface, options.Seams, stages["seams"]);
   const CutSurfaceMap map = mapCutSurface(opened.Cut(), options.Map, stages["map"]);
+  // Triangles without area are in no disk. They get those copies of their points that are nearest
+  // to each other in the map. This may add copies, and precedes all that is read from `opened`.
   opened.PlaceDegenerate(map.Positions);
 
   Parameterization flat;
   flat.Coverage = map.Coverage;
   for (std::int64_t i = 0; i < opened.NumberOfPoints(); ++i)
   {
+    // The point in the cut surface; -1 if no triangle with area is there, which has no place in the
+    // map.
     const std::int64_t point = opened.PointOf(i);
     flat.Origins.push_back(opened.OriginOf(i));
     flat.Positions.push_back(
@@ -87,12 +94,15 @@ Parameterization parameterize(
   {
     flat.Disks.push_back(opened.Cut().DiskOf(triangle));
   }
+  // Distortions compare shares of the surface with shares of the square that it covers.
   const CutTriangles triangles(opened.Cut(), surface);
   flat.Distortion =
     measureDistortion(triangles.Measured(), scaledToUnitArea(map), stages["distortion"]);
   return flat;
 }
 
+// relaxOnSurface checks the options. Its rounding stays that of double, as the coordinates are
+// doubles.
 std::vector<PlaceOnTriangle> sample(const TriangleSurface& surface, std::int64_t count,
   const SurfaceDensityValues& density, const SurfaceSampleOptions& options, const Context& context)
 {
@@ -104,6 +114,7 @@ std::vector<PlaceOnTriangle> sample(const TriangleSurface& surface, std::int64_t
   return { relaxed.Places.data(), relaxed.Places.data() + relaxed.Places.size() };
 }
 
+// The density of a solid (paper, Section 5.2): a closed mesh, oriented, covers cells in part.
 SolidCells solid(const TriangleSurface& surface, int resolution, const SolidOptions& options,
   const Context& context)
 {
@@ -118,9 +129,11 @@ SolidCells solid(const TriangleSurface& surface, int resolution, const SolidOpti
   const std::array<double, 6> bounds = boundsOf(surface);
   const ImageGrid grid = gridAround(bounds, resolution, options);
   const std::int64_t corners = 3 * surface.Points.size();
+  // The mesh owns and moves its points, so that it gets a copy: three coordinates a point.
   LargeBuffer<double> coordinates(corners);
   std::copy_n(surface.Points.data(), corners, coordinates.data());
   ClosedMesh mesh(std::move(coordinates), stages["points"]);
+  // The points are doubles: distances for coordinates rounded to float are not tried.
   const std::string problem = mesh.Close(
     [&](ClosedMesh& faces, Progress&) {
       faces.Reserve(surface.NumberOfTriangles);
@@ -135,6 +148,8 @@ SolidCells solid(const TriangleSurface& surface, int resolution, const SolidOpti
   {
     throw std::invalid_argument("the surface " + problem);
   }
+  // Coverage needs index coordinates and one orientation. Points are moved first, because moving
+  // rounds them: orientations then follow from the same bits as volumes.
   mesh.MoveToCells(grid, bounds, stages["orientation"]);
   if (!mesh.Orient(stages["orientation"]))
   {
@@ -144,6 +159,7 @@ SolidCells solid(const TriangleSurface& surface, int resolution, const SolidOpti
   std::copy_n(grid.Origin().data(), 3, covered.Low.begin());
   covered.CellSide = grid.Spacing()[0];
   covered.Cells = grid.Size<3>();
+  // One value a cell, axis 0 fastest; coverSolid writes all of them.
   covered.Values.resize(static_cast<std::size_t>(numberOfCells<3>(covered.Cells)));
   coverSolid(
     mesh.Solid(), covered.Cells, options.Supersampling, covered.Values.data(), stages["coverage"]);

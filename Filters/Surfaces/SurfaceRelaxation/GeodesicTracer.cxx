@@ -123,6 +123,8 @@ double GeodesicTracer::Area(std::int64_t triangle) const
 }
 
 // Finds for each side the one across. Points at one place count as one.
+// Each side is written by the thread that visits its edge alone; counts are atomic integers, so
+// that nothing depends on threads.
 void GeodesicTracer::PairSides(const std::int64_t* welded, std::int64_t points, Progress& progress)
 {
   this->Sides = { 3 * this->Count, Boundary };
@@ -368,6 +370,7 @@ void GeodesicTracer::Trace(SurfacePlace& place, const Point<3>& by, const double
     Point<3> edge = this->Along(side);
     // Unfolding keeps the component along the side, and turns the one across it into the next
     // triangle's plane.
+    // left^2 = along^2 + across^2; rounding may make the difference negative.
     const double along = dot(left, edge);
     const double across = std::sqrt(std::max(0.0, dot(left, left) - along * along));
     const std::int64_t beyond = this->Beyond(side, place.X);

@@ -28,6 +28,7 @@ std::int64_t samplesOfDot(std::int64_t dots)
   return dots < many ? 8 : 4;
 }
 
+// Three axes fill 30 bits of a 32-bit key: boxes of 1/1024 of the surface's.
 constexpr int bitsOfAxis = 10;
 
 // The bits of a coordinate in [-1/2, 1/2], with two free ones after each, for a Morton number:
@@ -174,6 +175,9 @@ private:
   Point<3> BC;
 };
 
+// Draws `count` samples in proportion to mass, which are grouped by triangles in Morton order. Each
+// triangle has random numbers of its own, by its number, so that threads may fill them in any
+// order.
 LargeBuffer<SurfacePlace> makeSamples(const GeodesicTracer& tracer, const SurfaceDensity& density,
   double total, std::int64_t count, std::uint64_t seed, Progress& progress)
 {
@@ -321,6 +325,7 @@ public:
   }
 
 private:
+  // Calls visit(i) for each range, on any thread.
   template <class Visit>
   void For(Progress& progress, const std::vector<DotRange>& ranges, const Visit& visit)
   {
@@ -328,8 +333,10 @@ private:
       static_cast<std::int64_t>(ranges.size()), 1, [&](std::int64_t i) { visit(i); }, 1);
   }
 
+  // The first of a dot's samples: ofDot of them are contiguous.
   SurfacePlace* At(std::int64_t dot) const { return this->Samples + dot * this->OfDot; }
 
+  // Polls for cancellation within a selection, which may take long at the first levels.
   static void countComparison(int& comparisons, Progress& progress)
   {
     constexpr int interval = 1 << 17;

@@ -86,6 +86,7 @@ void FlatLocator::ReadTriangles(Progress& progress)
   }
 }
 
+// Boxes are in depth-first order, so that the first child follows its parent and needs no index.
 void FlatLocator::Build(Progress& progress)
 {
   this->Boxes = makeBoxTree<Box>(
@@ -174,6 +175,7 @@ std::int64_t FlatLocator::FirstContaining(
   const double* point, std::int64_t box, std::int64_t best) const
 {
   const Box& at = this->Boxes[static_cast<std::size_t>(box)];
+  // Boxes are bounds without rounding: a point beyond them is in none of their triangles.
   if (point[0] < at.Low[0] || point[0] > at.High[0] || point[1] < at.Low[1] ||
     point[1] > at.High[1])
   {
@@ -208,6 +210,7 @@ double FlatLocator::Gap(const double* point, std::int64_t box) const
   return squared;
 }
 
+// The squared distance of a place on a triangle from a point, in units of the lengths.
 double FlatLocator::SquaredDistance(const PlaceOnTriangle& place, const double* point) const
 {
   double squared = 0.0;
@@ -244,6 +247,7 @@ PlaceOnTriangle FlatLocator::NearestPlace(std::int64_t triangle, const double* p
       along += (b[r] - a[r]) * scale * ((point[r] - a[r]) * scale);
       length += (b[r] - a[r]) * scale * ((b[r] - a[r]) * scale);
     }
+    // (b - a) . (x - a) / |b - a|^2, within the side; its begin if the side has no length.
     const double share = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
     PlaceOnTriangle place{ triangle, {} };
     place.Weights[side] = 1.0 - share;
@@ -286,6 +290,7 @@ void FlatLocator::FindNearest(const double* point, std::int64_t box, Nearest& be
   }
 }
 
+// First the triangles that contain the point, then, only if there are none, the nearest edge.
 PlaceOnTriangle FlatLocator::Locate(const Point<2>& point) const
 {
   constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
@@ -297,6 +302,7 @@ PlaceOnTriangle FlatLocator::Locate(const Point<2>& point) const
     const double* b = this->Corner(triangle, 1);
     const double* c = this->Corner(triangle, 2);
     // Twice the areas opposite to the corners.
+    // They are not negative, and one of them is positive: Contains() has tested their signs.
     return placeOf(triangle, turnOf(b, c, x), turnOf(c, a, x), turnOf(a, b, x));
   }
   Nearest best;

@@ -63,6 +63,8 @@ SurfaceSamples sampleMap(const DiskMesh& disk, const FlatMap& map, const double*
   Stages stages(progress,
     { { "flow", 25 }, { "seeds", 5 }, { "map", 30 }, { "locator", 15 }, { "places", 20 },
       { "error", 5 } });
+  // Two coordinates a particle; the flow moves them in place, and its tables are freed before the
+  // locator is built.
   LargeBuffer<double> coordinates(2 * count);
   const PointSpan<2> points(coordinates.data(), count);
   {
