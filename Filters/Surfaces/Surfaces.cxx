@@ -82,8 +82,8 @@ Parameterization parameterize(
   flat.Coverage = map.Coverage;
   for (std::int64_t i = 0; i < opened.NumberOfPoints(); ++i)
   {
-    // The point in the cut surface; -1 if no triangle with area is there, which has no place in the
-    // map.
+    // This is the point in the cut surface; -1 if no triangle with area is there, so that the map
+    // has no place for it.
     const std::int64_t point = opened.PointOf(i);
     flat.Origins.push_back(opened.OriginOf(i));
     flat.Positions.push_back(

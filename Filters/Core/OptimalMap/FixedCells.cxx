@@ -77,6 +77,7 @@ public:
     this->Most = mostSlack * shortest * shortest + rounding * this->Grid.SquaredDiagonal();
   }
 
+  // Most maps move everything: without a candidate no map of the nodes is written.
   void Find()
   {
     this->Classify();
@@ -138,6 +139,7 @@ private:
     }
     return node;
   }
+  // A corner of the cell of a lowest node: bit a of `corner` goes up along axis a.
   std::int64_t CornerOf(std::int64_t node, int corner) const
   {
     for (int axis = 0; axis < Dimension; ++axis)
@@ -325,6 +327,7 @@ bool FixedCells<Dimension>::IsFixedAt(const double* image) const
 {
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // Points beyond the grid do not stand still, nor do those that are NaN.
     if (!(image[axis] >= 0.0 && image[axis] <= static_cast<double>(this->Size[axis])))
     {
       return false;

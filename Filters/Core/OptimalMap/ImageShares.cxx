@@ -90,6 +90,7 @@ public:
               this->ShareImage(place, sample.Mass * scale, image, part.Values(), own);
             });
         }
+        // Costs are integers, too: their sum does not depend on the order of the threads.
         cost.fetch_add(own.All, std::memory_order_relaxed);
         spread.fetch_add(own.OfSpread, std::memory_order_relaxed);
       },

@@ -160,6 +160,7 @@ BlockBounds<Dimension> NeighbourTree<Dimension>::BoundsOf(std::int64_t number) c
   return bounds;
 }
 
+// Point i is lane i mod 8 of block i / 8: coordinates are arrays by axes within a block.
 template <int Dimension>
 ScaledPoint<Dimension> NeighbourTree<Dimension>::Get(std::int64_t i) const
 {
@@ -190,6 +191,8 @@ void NeighbourTree<Dimension>::Set(std::int64_t i, const ScaledPoint<Dimension>&
   block.Mass[lane] = point.Mass;
 }
 
+// Points may have moved: this renews the boxes of the blocks, then those of the nodes above them,
+// but not the order.
 template <int Dimension>
 void NeighbourTree<Dimension>::Update()
 {

@@ -46,6 +46,7 @@ RelaxationDescent<Dimension>::RelaxationDescent(RelaxationEnergy<Dimension>& ene
     PointsOf(this->X), PointsOf(this->Gradient), this->Spacings.data(), progress);
 }
 
+// The report has the energy before the first step and after each; the last step may gain little.
 template <int Dimension>
 RelaxationReport RelaxationDescent<Dimension>::Run(
   const RelaxationOptions& options, Progress& progress)
@@ -189,6 +190,7 @@ bool RelaxationDescent<Dimension>::Search(bool hasAims, Progress& progress)
   return false;
 }
 
+// Takes the projected step: x + part d, clamped to the domain, then to what the energy allows.
 template <int Dimension>
 double RelaxationDescent<Dimension>::Move(double part, Progress& progress)
 {
@@ -212,6 +214,7 @@ double RelaxationDescent<Dimension>::Move(double part, Progress& progress)
   return slope;
 }
 
+// Vectors are swapped, not copied: what was Next becomes memory for the next trial.
 template <int Dimension>
 void RelaxationDescent<Dimension>::Accept(double found, Progress& progress)
 {

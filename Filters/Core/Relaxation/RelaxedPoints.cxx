@@ -49,12 +49,15 @@ RelaxedPoints<Dimension>::RelaxedPoints(
   this->Given = this->X;
 }
 
+// Coordinates are interleaved, Dimension a point, in lengths of the frame.
 template <int Dimension>
 Point<Dimension> RelaxedPoints<Dimension>::At(std::int64_t point) const
 {
   return pointAt<Dimension>(this->X.data() + point * Dimension);
 }
 
+// Coincident points have the gradient 0 with respect to each other and would stay together for
+// ever.
 template <int Dimension>
 void RelaxedPoints<Dimension>::Separate(
   const std::function<double(const Point<Dimension>&)>& spacing, Progress& progress)
@@ -122,6 +125,7 @@ void RelaxedPoints<Dimension>::Arrange(Progress& progress)
   }
 }
 
+// Writes index coordinates in the order of the given points, whatever order Arrange() has made.
 template <int Dimension>
 void RelaxedPoints<Dimension>::Write(
   const GridSize<Dimension>& size, PointSpan<Dimension> points) const

@@ -203,6 +203,9 @@ void RepulsionEnergy<Dimension>::Sort(ConstPointSpan<Dimension> points, Progress
   this->Parts.resize(static_cast<std::size_t>(this->Particles.Blocks()));
 }
 
+// E(x) = (sum over i, j of K(x_i, x_j) - 2 sum over i of A(x_i) + constant) / N, the squared
+// distance of two sums of Gaussians, with its gradient. It takes two passes, because the kernel
+// between two points needs the spacings of both.
 template <int Dimension>
 double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
   PointSpan<Dimension> gradient, double* spacings, Progress& progress)

@@ -16,6 +16,7 @@ constexpr std::int64_t firstSlice = 16 * grain; // a few milliseconds
 
 } // namespace
 
+// Differences read the field by multilinear interpolation, as derivatives are not known yet.
 template <int Dimension>
 double SpacingTree<Dimension>::Linear(
   const Field& field, int entry, const Point<Dimension>& x) const
@@ -60,6 +61,7 @@ void SpacingTree<Dimension>::Join(Field& field) const
 template <int Dimension>
 void SpacingTree<Dimension>::FindMixed(Field& field, bool first, Progress& progress) const
 {
+  // Nodes read their neighbours' entries while others are written: all read the field as it was.
   const Field given = field;
   progress.ForEach(
     this->Nodes(), grain,
@@ -102,6 +104,8 @@ void SpacingTree<Dimension>::FindMixed(Field& field, bool first, Progress& progr
   }
 }
 
+// Finds the values, then the first derivatives, then the mixed ones, which are differences of the
+// first ones.
 template <int Dimension>
 void SpacingTree<Dimension>::FindSpacing(Progress& progress)
 {

@@ -79,6 +79,7 @@ double SpacingTree<Dimension>::ExactSpacing(const Point<Dimension>& x) const
     index[axis] = std::clamp(
       x[axis] / this->Frame.CellSides[axis], 0.0, static_cast<double>(this->Flow.Size()[axis]));
   }
+  // Far from all mass the cube would be huge, and is bounded by Largest.
   const double side = this->Frame.SideOfCells(
     this->Flow.MeasureOfShare(index, this->Aspect, 1.0 / static_cast<double>(this->Points)));
   return std::min(side, this->Largest);
@@ -102,6 +103,7 @@ bool SpacingTree<Dimension>::IsSpacingBelow(double side, const Point<Dimension>&
     low[axis] = (x[axis] - 0.5 * side) / this->Frame.CellSides[axis];
     high[axis] = (x[axis] + 0.5 * side) / this->Frame.CellSides[axis];
   }
+  // Within this part of the share 1 the search decides, so that both ways give the same tree.
   constexpr double doubt = 1e-6; // more than the error of the search
   // A cube that is cut by the domain's border has no simple relation to the definition, so the
   // exact spacing decides.
@@ -323,6 +325,7 @@ std::int64_t SpacingTree<Dimension>::WidestLeafAt(const Node& node) const
       fixed[axis] = at % width;
       root = root * this->Roots[axis] + at / width;
     }
+    // Among equally wide leaves the first one in the order of the sides is taken.
     if (isInside)
     {
       const std::int64_t leaf = this->LeafIn(root, fixed);
@@ -333,6 +336,7 @@ std::int64_t SpacingTree<Dimension>::WidestLeafAt(const Node& node) const
   return widest;
 }
 
+// Converts units of the finest leaf to lengths. Rounding must not put a node beyond the domain.
 template <int Dimension>
 Point<Dimension> SpacingTree<Dimension>::PointOf(const Node& node) const
 {
@@ -358,6 +362,7 @@ Point<Dimension> SpacingTree<Dimension>::LeafLow(std::int64_t leaf) const
   return this->PointOf(this->LeafBox(leaf).Low);
 }
 
+// Finds the root in the lattice of roots, then descends by bits.
 template <int Dimension>
 typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
   const Point<Dimension>& x) const
@@ -366,6 +371,7 @@ typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
   return this->PlaceIn(in, this->LeafIn(in.Root, in.Fixed));
 }
 
+// Points move little between two evaluations, so that the leaf of the one before is mostly right.
 template <int Dimension>
 typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
   const Point<Dimension>& x, std::int64_t guess) const

@@ -21,6 +21,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// A range has so many pixels or sites.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
 // Scales points from the index space of one grid to that of another one on the same domain.
@@ -137,6 +138,8 @@ DensitySiteCells<Dimension>::DensitySiteCells(ConstPointSpan<3> sites, const Ima
   }
 }
 
+// Groups are equalized before they are split, because sites of one pixel have no borders between
+// them. Empty pixels lose their labels at the end: until then they connect what belongs together.
 template <int Dimension>
 FlowReport DensitySiteCells<Dimension>::Label(const RectifiedFlow<Dimension>& flow,
   std::int64_t* labels, const FlowOptions& options, const Context& context) const

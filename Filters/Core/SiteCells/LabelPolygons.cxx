@@ -105,6 +105,8 @@ private:
     });
   }
 
+  // Where two polygons claim a pixel by rounding, the one with the higher number gets it: polygons
+  // are listed in their order.
   void FillBand(std::int64_t band)
   {
     const std::int64_t begin = band * rowsOfBand;

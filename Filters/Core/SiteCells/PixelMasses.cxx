@@ -34,6 +34,7 @@ public:
   // The part of a cell that the pixel covers.
   double Part(std::int64_t pixel, std::int64_t cell) const
   {
+    // The intervals of the cell and of the pixel have integer ends in this unit.
     const std::int64_t low = std::max(cell * this->Pixels, pixel * this->Cells);
     const std::int64_t high = std::min((cell + 1) * this->Pixels, (pixel + 1) * this->Cells);
     return static_cast<double>(high - low) / static_cast<double>(this->Pixels);

@@ -252,6 +252,7 @@ std::vector<Point<3>> PowerSiteCells::PhysicalCorners() const
   return corners;
 }
 
+// Each polygon has corners of its own; neighbours do not share points.
 SiteCellPolygons PowerSiteCells::Polygons() const
 {
   SiteCellPolygons polygons;
@@ -264,6 +265,7 @@ SiteCellPolygons PowerSiteCells::Polygons() const
   return polygons;
 }
 
+// Writes the sides of the same polygons, two corners each, cell by cell.
 SiteCellOutlines<2> PowerSiteCells::Outlines() const
 {
   SiteCellOutlines<2> outlines;

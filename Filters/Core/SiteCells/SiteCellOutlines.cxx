@@ -134,6 +134,7 @@ private:
     }
     // The right-handed order about the axis faces outwards for the cell below, and the reverse
     // order for the cell above.
+    // Both labels use the same points, in opposite orders.
     std::int64_t corners[Corners];
     this->FindCorners(cell, axis, corners);
     // A mirrored grid reverses the orientation of all faces.
@@ -201,6 +202,7 @@ private:
     std::int64_t& point = plane[static_cast<std::size_t>(number)];
     if (point == none)
     {
+      // A node's indices are its coordinates in index space.
       double index[Dimension];
       std::copy_n(node, Dimension, index);
       Point<3> x;

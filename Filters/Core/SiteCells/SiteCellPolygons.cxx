@@ -56,6 +56,8 @@ Node headOf(const Edge& edge)
   return { edge.X + (edge.Side < 2 ? 1 : 0), edge.Y + (edge.Side == 1 || edge.Side == 2 ? 1 : 0) };
 }
 
+// Traces the borders of site cells as rings of pixels' sides, counter-clockwise around pixels. Cuts
+// along rows join holes to the rings around them, as polygons have one ring each.
 class Polygons
 {
 public:
@@ -171,6 +173,7 @@ private:
       rows);
   }
 
+  // Walks around one ring from an edge below a pixel back to it, and decides whether it is a hole.
   void FindRing(const Edge& begin)
   {
     // The signed area is the integral of x dy around the ring.
@@ -255,6 +258,7 @@ private:
              [this](const Edge& side) { return this->IsBorder(side); }) > 2;
   }
 
+  // Polygons share the point of a node, which is made when the first one has a corner there.
   void AddCorner(const Node& node)
   {
     std::int64_t& point = this->PointIds.data()[node.Y * (this->Size[0] + 1) + node.X];

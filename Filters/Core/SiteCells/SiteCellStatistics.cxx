@@ -99,6 +99,7 @@ void addPixels(const ImageGrid& grid, const std::int64_t* labels, ConstPointSpan
       const double* site = sites[label];
       const double d[3] = { x[0] - site[0], x[1] - site[1], x[2] - site[2] };
       CellSum<Dimension>& sum = sums[label];
+      // The sums are the mass, the first moments in index space, and the cost.
       const double weight = weightOf(pixel);
       sum.Weight += weight;
       for (int axis = 0; axis < Dimension; ++axis)
@@ -177,6 +178,7 @@ void requireCost(double cost, const CostNorm& norm)
 
 } // namespace
 
+// All pixels weigh the same. Every site has at least one, so that its mean exists.
 template <int Dimension>
 double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* labels,
   const CostNorm& norm, const SiteCellStatistics& statistics, const Context& context)
@@ -225,6 +227,7 @@ double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* l
   return total;
 }
 
+// Pixels weigh as much as their part of the mass; those without mass have the label -1.
 template <int Dimension>
 double measureSiteCells(const DensitySiteCells<Dimension>& cells, const std::int64_t* labels,
   double totalMass, const CostNorm& norm, const SiteCellStatistics& statistics,

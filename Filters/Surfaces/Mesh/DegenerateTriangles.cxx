@@ -58,7 +58,7 @@ private:
   Point<3> At(std::int64_t point) const { return pointAt(this->Edited.Positions, point); }
   bool IsRemoved(std::int64_t triangle) { return this->Edited.Points[3 * triangle] < 0; }
 
-  // The longest side and the height over it, by the points that the triangle has at this moment.
+  // Measures a triangle with the points that it has at this moment: flips change them.
   TriangleShape ShapeOf(std::int64_t triangle) const
   {
     const std::int64_t* points = this->Edited.Points + 3 * triangle;

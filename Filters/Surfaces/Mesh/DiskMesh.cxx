@@ -17,12 +17,12 @@ namespace RectifiedTransport
 namespace
 {
 
-// Points or triangles between two polls for cancellation.
+// Loops poll for cancellation after so many points or triangles.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 constexpr std::int64_t randomAccess = std::int64_t{ 1 } << 16; // units of a first slice
 constexpr std::size_t fewestBoundaryPoints = 4;                // one for each corner of the square
 
-// A number and its noun, as "1 handle" or "2 handles".
+// Returns a number with its noun, as "1 handle" or "2 handles".
 std::string counted(std::int64_t count, const char* one, const char* many)
 {
   return std::to_string(count) + " " + (count == 1 ? one : many);
@@ -74,7 +74,7 @@ std::string describe(DiskDefect defect, std::int64_t count, std::int64_t first)
   }
 }
 
-// The area of a triangle in space, |(b - a) x (c - a)| / 2.
+// Returns the area of a triangle in space, |(b - a) x (c - a)| / 2.
 double areaOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
 {
   return 0.5 * (b - a).cross(c - a).norm();

@@ -199,7 +199,7 @@ PolygonCutter::Ring PolygonCutter::WithoutStraight(const Ring& ring) const
   return kept;
 }
 
-// Along each axis, as the points of a surface are merged.
+// Compares along each axis, as the points of a surface are merged.
 bool PolygonCutter::IsSamePlace(std::size_t a, std::size_t b) const
 {
   const Point<3> way = this->Places[a] - this->Places[b];

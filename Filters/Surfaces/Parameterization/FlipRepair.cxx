@@ -83,7 +83,7 @@ double residualOf(double q)
   return q < 1.0 ? q - 1.0 : std::log(q);
 }
 
-// The triangles of a patch without a positive area, except those that no move can give one.
+// Counts the triangles without a positive area, except those that no move can give one.
 std::int64_t countFlipped(const LocalMap& map)
 {
   std::int64_t count = 0;

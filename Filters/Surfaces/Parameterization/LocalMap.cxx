@@ -38,7 +38,7 @@ bool isCollapsed(const DiskMesh& disk, const SquareMap& square, std::int64_t tri
   return false;
 }
 
-// Callers tell users how much of the surface the choice of corners loses.
+// The area that these miss bounds how well any polish can keep areas.
 CollapsedTriangles findCollapsed(const DiskMesh& disk, const SquareMap& square)
 {
   CollapsedTriangles collapsed;

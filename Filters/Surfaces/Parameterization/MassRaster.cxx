@@ -209,7 +209,7 @@ private:
       this->MassAt(centre.Cells(0, this->Size[0])[0], centre.Cells(1, this->Size[1])[0]) += mass;
       return;
     }
-    // The columns and rows of the triangle's bounds, also outside of this band.
+    // These are the columns and rows of the triangle's bounds, also outside of this band.
     const auto columns = rest.Cells(0, this->Size[0]);
     auto rows = rest.Cells(1, this->Size[1]);
     // Most triangles of fine meshes are in one cell: no cuts, and the exact mass.
@@ -257,7 +257,7 @@ private:
     this->MassAt(columns[1], row) += density * rest.Area();
   }
 
-  // The mass of a cell, axis 0 fastest.
+  // Cells are numbered with axis 0 fastest.
   double& MassAt(std::int64_t column, std::int64_t row) const
   {
     return this->Masses[row * this->Size[0] + column];

@@ -119,7 +119,7 @@ std::vector<BoundaryArc> smallestArcs(const DiskMesh& disk, const BoundaryPlaces
     const std::int64_t* triangle = disk.Triangle(side / 3);
     const std::int64_t from = places.PlaceOf(triangle[side % 3]);
     const std::int64_t to = places.PlaceOf(triangle[(side + 1) % 3]);
-    // An inner edge between two boundary points.
+    // The edge is an inner one and joins two boundary points.
     if (from >= 0 && to >= 0)
     {
       arcs.push_back({ from, to }); // the other arc is that of the other side
@@ -157,7 +157,7 @@ std::vector<BoundaryArc> smallestArcs(const DiskMesh& disk, const BoundaryPlaces
   return smallest;
 }
 
-// The places of the square's corners on the boundary.
+// These are the places of the square's corners on the boundary.
 using CornerPlaces = std::array<std::int64_t, 4>;
 
 // Whether some corner is strictly inside an arc, so that what the arc's edge cuts off has an area.
@@ -301,7 +301,7 @@ std::vector<std::int64_t> sharpPlaces(const DiskMesh& disk, const BoundaryPlaces
   return sharp;
 }
 
-// The points at four places.
+// Returns the points at four places.
 SquareCorners pointsAt(const BoundaryPlaces& places, const CornerPlaces& corners)
 {
   SquareCorners points;

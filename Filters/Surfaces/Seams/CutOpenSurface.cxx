@@ -15,7 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Corners in a slice that looks for cancellation.
+// Loops poll for cancellation after so many corners.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 constexpr std::int64_t randomAccess = std::int64_t{ 1 } << 16; // units of a first slice
 

@@ -164,8 +164,8 @@ private:
   void Prepare(const RepairedSurface& repair)
   {
     const std::int64_t triangles = this->Surface.NumberOfTriangles;
-    // By given triangles, their corners and given points; FirstCopies is by points of the repaired
-    // surface.
+    // The result is by given triangles, their corners and given points; FirstCopies is by points of
+    // the repaired surface.
     this->Made.DisksOf = { triangles, -1 };
     this->Made.Corners = { 3 * triangles, -1 };
     this->Made.PointsOf = LargeBuffer<std::int64_t>(this->Surface.Points.size());
@@ -250,7 +250,8 @@ private:
   unsigned char IsTurned(std::int64_t given, ConstPointSpan<3> points, const CutOpenDisk& opened,
     std::int64_t triangle, const std::int64_t* kept) const
   {
-    // Unit normals, scaled so that products of tiny or large sides neither vanish nor overflow.
+    // Normals get the length 1, so that products of tiny or large sides neither vanish nor
+    // overflow.
     const auto normalOf = [](ConstPointSpan<3> places, std::array<std::int64_t, 3> ids) {
       const auto at = [&](std::size_t i) {
         return Eigen::Map<const Eigen::Vector3d>(places[ids[i]]);

@@ -21,7 +21,7 @@ using Loop = std::vector<std::int64_t>; // points of a boundary in order
 // Up to so many holes of a component are left open.
 constexpr std::size_t mostOpen = 8;
 
-// The position of a point, in units of the largest coordinate.
+// Returns the position of a point, in units of the largest coordinate.
 Vector3d at(const SeamMesh& mesh, std::int64_t point)
 {
   return Vector3d(mesh.Position(point).data());

@@ -65,7 +65,7 @@ SeamMesh SeamMesh::With(const std::vector<Point<3>>& points,
     joined(this->Origins, origins), context };
 }
 
-// In the unit of the points, which CutSurface divides by the largest coordinate.
+// The unit is that of the points, which CutSurface divides by the largest coordinate.
 double SeamMesh::Length(std::int64_t side) const
 {
   return std::sqrt(

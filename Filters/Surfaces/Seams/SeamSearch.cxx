@@ -119,7 +119,7 @@ bool joinToSeams(SeamMesh& mesh, SeamSearch& search, std::int64_t point, double 
   }
   search.Clear();
   search.Enter(point, 0.0, -1);
-  // The cheapest path to a seam so far; `last` is its last edge, which ends on the seam.
+  // The search keeps the cheapest path to a seam so far, with its cost.
   double cost = infinity;
   std::vector<std::int64_t> path;
   for (std::int64_t next = search.Next(); next >= 0 && search.Distance(next) < cost;

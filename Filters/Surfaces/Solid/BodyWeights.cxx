@@ -235,8 +235,8 @@ public:
     }
   }
 
-  // The weights by bodies. Votes are summed, so that few probes on places where bodies touch or
-  // intersect do not decide.
+  // Returns the weights by bodies. Votes are summed, so that a few probes at places where bodies
+  // touch or intersect do not decide.
   std::vector<signed char> Weights()
   {
     // Each probe votes on its body. Its side is +1 where the line enters an outward body; after -

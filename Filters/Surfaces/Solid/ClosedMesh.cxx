@@ -222,7 +222,7 @@ bool ClosedMesh::CloseWithin(double distance, Progress& progress)
     this->CloseTJunctions(distance, progress);
 }
 
-// The text for users: how many edges are wrong, and which filters close a surface.
+// Tells users how many edges are wrong, and which filters close a surface.
 std::string ClosedMesh::Openness() const
 {
   const std::int64_t open = this->NumberOpen;

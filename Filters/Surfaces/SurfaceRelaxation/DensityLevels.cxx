@@ -125,7 +125,7 @@ private:
     return this->Tracer.Corner(t, 0) + this->Tracer.Corner(t, 1) + this->Tracer.Corner(t, 2);
   }
 
-  // The length of a side in the tracer's frame, where the surface is in a unit box.
+  // Returns the length of a side in the tracer's frame, where the surface is in a unit box.
   double LengthOf(std::int64_t side) const
   {
     const Point<3> edge = this->Tracer.Edge(side);

@@ -333,7 +333,7 @@ private:
       static_cast<std::int64_t>(ranges.size()), 1, [&](std::int64_t i) { visit(i); }, 1);
   }
 
-  // The first of a dot's samples: ofDot of them are contiguous.
+  // Returns the first of a dot's samples, which are contiguous.
   SurfacePlace* At(std::int64_t dot) const { return this->Samples + dot * this->OfDot; }
 
   // Polls for cancellation within a selection, which may take long at the first levels.

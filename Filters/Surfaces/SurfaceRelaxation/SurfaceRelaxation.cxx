@@ -47,7 +47,7 @@ struct Sum
   double Mass = 0.0;
 };
 
-// Over fixed chunks: the total mass, and all that follows, has the same bits for any number of
+// Sums over fixed chunks: the total mass, and all that follows, has the same bits for any number of
 // threads.
 Sum measure(const GeodesicTracer& surface, const SurfaceDensity& density, Progress& progress)
 {

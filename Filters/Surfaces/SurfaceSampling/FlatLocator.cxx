@@ -210,7 +210,7 @@ double FlatLocator::Gap(const double* point, std::int64_t box) const
   return squared;
 }
 
-// The squared distance of a place on a triangle from a point, in units of the lengths.
+// Returns the squared distance of a place on a triangle from a point, in units of the lengths.
 double FlatLocator::SquaredDistance(const PlaceOnTriangle& place, const double* point) const
 {
   double squared = 0.0;
@@ -305,6 +305,7 @@ PlaceOnTriangle FlatLocator::Locate(const Point<2>& point) const
     // They are not negative, and one of them is positive: Contains() has tested their signs.
     return placeOf(triangle, turnOf(b, c, x), turnOf(c, a, x), turnOf(a, b, x));
   }
+  // The map does not cover the point, or rounding has put the point beside the square.
   Nearest best;
   this->FindNearest(x, 0, best);
   return best.Place;

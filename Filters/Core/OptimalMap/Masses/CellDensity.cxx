@@ -119,6 +119,8 @@ void CellDensity<Dimension>::MoveToMass(double* point, const Point<Dimension>& s
       part.Cells[axis] = end - part.Low[axis];
       isAll = isAll && part.Cells[axis] == this->Cells[axis];
     }
+    // If several cells are equally near, the first one in the part's order is taken, axis 0
+    // fastest.
     double least = std::numeric_limits<double>::infinity();
     GridSize<Dimension> best = own;
     for (std::int64_t i = 0; i < part.Count(); ++i)

@@ -285,6 +285,8 @@ std::int64_t makeCountsExact(const CellDensity<Dimension>& density, const Point<
   sort({ tree.Whole(), 0, number });
   while (!open.empty())
   {
+    // The boxes of a level have separate ranges of particles, so that they can be halved in any
+    // order.
     std::vector<std::array<Part, 2>> halves(open.size());
     progress.Threads().For(
       static_cast<std::int64_t>(open.size()), 1, [&](std::int64_t first, std::int64_t last) {

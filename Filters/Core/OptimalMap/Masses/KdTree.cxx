@@ -191,6 +191,7 @@ void KdTree<Dimension>::Search(const KdBox<Dimension>& box, Nearest& nearest) co
   }
   const KdSplit halves = this->Halves(box);
   const bool isLow = nearest.From[halves.Axis] < halves.High.Low[halves.Axis];
+  // The mass of a kept box is read, not summed: empty halves cost nothing.
   for (const KdBox<Dimension>& half :
     { isLow ? halves.Low : halves.High, isLow ? halves.High : halves.Low })
   {

@@ -110,6 +110,7 @@ NodeValues sumInBins(CellValues values, GridSize<Dimension> size,
         }
       },
       std::max<std::int64_t>(1, firstValues / std::min(before, columns) / bins));
+    // The next axis reads these sums; those of the axis before are freed.
     last = std::move(sums);
     values = { last.data() };
     size[axis] = bins;
@@ -195,6 +196,7 @@ NodeValues hatMasses(const CellDensity<Dimension>& density,
   return sumInBins<Dimension>(sharesOf(density), density.Size(), placement, grid, true, progress);
 }
 
+// The values need not be masses; they are not scaled.
 template <int Dimension>
 NodeValues hatSums(const double* values, const GridSize<Dimension>& size,
   const NodeGrid<Dimension>& grid, Progress& progress)
@@ -208,6 +210,8 @@ template <int Dimension>
 NodeValues hatMasses(const double* cells, const GridSize<Dimension>& size,
   const NodeGrid<Dimension>& grid, Progress& progress)
 {
+  // Masses of mean 1 sum to the number of cells, by which the sums over hats are divided
+  // afterwards.
   const CellValues values{ cells, 1.0 };
   NodeValues masses = sumInBins<Dimension>(
     values, size, CellPlacement<Dimension>::Filling(size, grid.Cells), grid, true, progress);
@@ -226,6 +230,8 @@ NodeValues cellMasses(const CellDensity<Dimension>& density,
   return values;
 }
 
+// The masses are exact also if the numbers of cells are no multiples of each other: a fine cell is
+// divided by length.
 template <int Dimension>
 NodeValues coarserCells(const double* cells, const GridSize<Dimension>& size,
   const NodeGrid<Dimension>& coarser, Progress& progress)

@@ -86,6 +86,7 @@ void smoothLines(double* values, std::int64_t nodes, std::int64_t stride, std::i
 {
   std::array<double, mostLines> before;
   std::copy_n(values, lines, before.data());
+  // The first and the last node keep their values: an average there would pull the image inwards.
   for (std::int64_t node = 1; node + 1 < nodes; ++node)
   {
     double* own = values + node * stride;
@@ -187,6 +188,7 @@ SampleFineness limitFineness(
       break;
     }
     const double part = std::pow(most / each, 1.0 / Dimension);
+    // Both fall by the same factor, so that light cells keep fewer samples than others.
     fineness.Each *= part;
     fineness.OfLightCells *= part;
   }

@@ -36,6 +36,7 @@ RT_INLINE void store(const Lanes& v, double* to)
   __builtin_memcpy(to, &v, sizeof(v));
 }
 
+// Returns the minimum, lane by lane, and b where a is NaN.
 RT_INLINE Lanes lesser(const Lanes& a, double b)
 {
   const Lanes all = b - Lanes{};
@@ -52,6 +53,7 @@ RT_INLINE double squareRoot(double a)
   return __builtin_sqrt(a);
 }
 
+// Roots are rounded correctly by IEEE 754, so that all instruction sets give the same bits.
 RT_INLINE Lanes squareRoot(const Lanes& a)
 {
   Lanes root;

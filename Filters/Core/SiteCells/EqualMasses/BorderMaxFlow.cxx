@@ -18,6 +18,7 @@ constexpr std::int64_t unreached = std::numeric_limits<std::int64_t>::max() - 1;
 
 } // namespace
 
+// Each round of the callers begins without borders, as those of the round before have moved.
 void BorderMaxFlow::Clear()
 {
   this->Borders.clear();
@@ -168,6 +169,8 @@ bool BorderMaxFlow::FindPath(std::int64_t start)
   return true;
 }
 
+// An edge of the level graph leads one border nearer to a sink. It needs residual capacity, and its
+// cell needs pixels to send.
 bool BorderMaxFlow::IsAdmissible(std::int64_t cell, const Neighbour& to) const
 {
   return this->Distance[to.Cell] + 1 == this->Distance[cell] && this->Movable[cell] > 0 &&

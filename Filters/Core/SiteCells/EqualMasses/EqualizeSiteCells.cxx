@@ -21,6 +21,9 @@ constexpr int mostRounds = 1000;
 // Ends after this many consecutive rounds without a new minimum of the pixels in excess.
 constexpr int mostIdleRounds = 64;
 
+// Makes the numbers of pixels of site cells equal: in each round a maximum flow plans how many
+// pixels pass each border, and those that cost least move. A round may move fewer than planned,
+// because borders change with every pixel; the next round plans again.
 template <int Dimension>
 class Balance
 {
@@ -165,6 +168,7 @@ private:
     }
   }
 
+  // The excess is positive where a cell has too many pixels; all excesses sum to 0.
   std::int64_t TotalExcess() const
   {
     return std::accumulate(this->Excess.begin(), this->Excess.end(), std::int64_t{ 0 },

@@ -25,6 +25,8 @@ constexpr int idleRounds = 3;
 constexpr int moreIdleRounds = 10;
 constexpr int mostIdleRounds = 64;
 
+// Makes the masses of groups equal, as EqualizeSiteCells.cxx does with numbers of pixels. Pixels
+// have different masses and are indivisible, so that the rounds end when they gain nothing more.
 template <int Dimension>
 class MassBalance
 {

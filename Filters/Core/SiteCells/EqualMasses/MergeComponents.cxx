@@ -125,6 +125,7 @@ private:
   };
 
   template <class Visit>
+  // Visits are on this thread, in order: union-find needs the pixels before a pixel.
   void VisitPixels(const Visit& visit)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
@@ -189,6 +190,7 @@ std::int64_t mergeComponents(const SiteGroups& groups, const PixelMasses<Dimensi
   std::int64_t* owners, Progress& progress)
 {
   // A part with more than a tenth of a site's mass stays where it is.
+  // Smaller ones are isolated pixels of the flow's labels, or what moved borders have cut off.
   constexpr std::int64_t tenth = 10;
   CellParts<Dimension> parts(masses, owners, progress);
   return parts.FindSpecks(groups.NumberOfGroups(), masses.Total() / tenth / groups.NumberOfSites())

@@ -130,6 +130,7 @@ private:
     }
   }
 
+  // Low and High are the lowest and highest coordinates of the pixels, both included.
   Box FindBox(const std::int64_t* pixels, std::int64_t count)
   {
     Box box;
@@ -274,6 +275,8 @@ private:
   LargeBuffer<std::int64_t> Upper; // pixels of the upper part; as many as the largest site cell has
 };
 
+// Divides the pixels of each group among its sites. Owners are groups before and sites afterwards;
+// a group of one site only gets that site's number.
 template <int Dimension>
 void split(const SiteGroups& groups, const GridSize<Dimension>& size,
   ConstPointSpan<Dimension> coordinates, const Point<Dimension>& spacing,
@@ -294,6 +297,7 @@ void split(const SiteGroups& groups, const GridSize<Dimension>& size,
   {
     first[cell + 1] += first[cell];
   }
+  // A counting sort lists the pixels by groups: those of each group ascend, as bisection requires.
   LargeBuffer<std::int64_t> members(first.back());
   Numbers next(first);
   stages["pixels"].ForEachInOrder(pixels, sliceOfPixels, [&](std::int64_t pixel) {

@@ -84,7 +84,7 @@ public:
   }
 
 private:
-  // The numbers of a point's box, floor(x / width) along each axis.
+  // Returns the numbers of a point's box, floor(x / width) along each axis.
   Box BoxOf(std::int64_t point) const
   {
     Box box;

@@ -23,7 +23,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Triangles or points between two polls for cancellation.
+// Loops poll for cancellation after so many triangles or points.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 constexpr std::int64_t randomAccess = std::int64_t{ 1 } << 16; // units of a first slice
 
@@ -34,8 +34,8 @@ bool isSamePlace(const double* a, const double* b, double rounding)
     std::abs(a[2] - b[2]) <= rounding;
 }
 
-// The longest side and the height over it of a triangle whose coordinates are multiplied by
-// `scale`, so that the squares in them stay within the range of double.
+// Returns the longest side and the height over it of a triangle. Coordinates are multiplied by
+// `scale`, so that their squares stay within the range of double.
 TriangleShape shapeOf(const TriangleSurface& surface, double scale, std::int64_t triangle)
 {
   const auto corner = [&](int i) {

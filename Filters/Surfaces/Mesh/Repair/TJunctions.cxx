@@ -279,7 +279,7 @@ struct CoordinateRange
 // more digits would hide that the others are floats.
 double roundingOfCorners(const TriangleSurface& surface, Progress& progress)
 {
-  // Triangles in one of the fixed ranges of the reduction.
+  // The reduction has fixed ranges of so many triangles.
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   const CoordinateRange all = reduceEach(
     progress, surface.NumberOfTriangles, grain, CoordinateRange(),
