@@ -111,7 +111,7 @@ public:
       const auto begin = static_cast<std::int64_t>(std::floor(low[axis] + rounding));
       const auto end = static_cast<std::int64_t>(std::ceil(high[axis] - rounding));
       box.Low[axis] = std::clamp<std::int64_t>(begin, 0, last);
-      box.Cells[axis] = std::clamp<std::int64_t>(end, begin + 1, last + 1) - box.Low[axis];
+      box.Cells[axis] = std::clamp(end, box.Low[axis] + 1, last + 1) - box.Low[axis];
     }
     for (std::int64_t i = 0; i < box.Count(); ++i)
     {

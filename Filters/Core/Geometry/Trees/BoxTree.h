@@ -52,7 +52,7 @@ std::vector<Box> makeBoxTree(std::int64_t count, const Make& make, const Divide&
 
 // Partitions items about the median of a sample of their values: those below it before the others,
 // or, if there are none, those equal to it before those above. Returns where the second part
-// begins: `first` or `last` if all values are equal. Adds the items that it reads to the progress.
+// begins: `last` if all values are equal. Adds the items that it reads to the progress.
 // Throws Cancelled.
 template <class Item, class Value>
 std::int64_t partitionAboutMedian(

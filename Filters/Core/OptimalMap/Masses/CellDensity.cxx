@@ -134,7 +134,7 @@ void CellDensity<Dimension>::MoveToMass(double* point, const Point<Dimension>& s
         square += way * way;
         number = number * this->Cells[axis] + cell[axis];
       }
-      if (square<least&& this->Share(number)> 0.0)
+      if (least > square && this->Share(number) > 0.0)
       {
         least = square;
         best = cell;
