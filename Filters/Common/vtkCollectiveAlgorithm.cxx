@@ -37,6 +37,7 @@ using namespace RectifiedTransport::Bridge;
 
 namespace
 {
+// Gives an output of the type vtkPointSet the input's type, as vtkPointSetAlgorithm does.
 void makeOutputLike(vtkPointSet* input, vtkInformationVector* outputVector, int port)
 {
   vtkPointSet* output = vtkPointSet::GetData(outputVector, port);
@@ -74,6 +75,8 @@ void vtkCollectiveAlgorithm::SetInputData(int port, vtkDataObject* input)
 }
 
 //------------------------------------------------------------------------------
+// A fork() copies only the calling thread. VTK's own classes, too, run serially in such a child: a
+// pool of threads that is not there would let them wait forever.
 vtkTypeBool vtkCollectiveAlgorithm::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -95,6 +98,8 @@ vtkTypeBool vtkCollectiveAlgorithm::ProcessCaught(
     }
     if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
     {
+      // The executive has copied times and arrays of the first input; RequestInformation starts
+      // from what holds for all inputs, and may replace it.
       publishTimes(inputVector, this->GetNumberOfInputPorts(), outputVector);
       removeArrayInformation(outputVector);
       return this->ProcessInformation(request, inputVector, outputVector);
@@ -109,6 +114,8 @@ vtkTypeBool vtkCollectiveAlgorithm::ProcessCaught(
     }
     if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
     {
+      // Record reads the requested piece, on which the requests of the inputs depend.
+      // UpdateSeparately comes last: it updates inputs with the complete requests.
       this->Whole->Record(this, request, inputVector, outputVector);
       const int result = this->RequestUpdateExtent(request, inputVector, outputVector);
       this->Whole->UpdateSeparately(this, inputVector, outputVector);
@@ -122,6 +129,9 @@ vtkTypeBool vtkCollectiveAlgorithm::ProcessCaught(
   }
   catch (...)
   {
+    // The next request has to find the members as after a run without errors, wherever this one
+    // stopped. The other ranks learn of the failure from the run, in handleException, which also
+    // ends it.
     this->IsAlone = false;
     this->HasNextPass = false;
     this->EndPasses();
@@ -137,6 +147,8 @@ int vtkCollectiveAlgorithm::ProcessInformation(
 {
   try
   {
+    // RequestInformation may update producers. What other consumers have requested upstream is
+    // restored when this leaves the scope.
     const RequestedTimes kept(this);
     this->Whole->RequestFirstTimes(this, inputVector, outputVector);
     const int result = this->RequestInformation(request, inputVector, outputVector);
@@ -150,6 +162,8 @@ int vtkCollectiveAlgorithm::ProcessInformation(
   }
   catch (const Failure& failure)
   {
+    // The others would wait for this rank's next exchange: they end with FailedElsewhere. The
+    // request itself succeeds, with empty extents, so that the executive goes on to RequestData.
     if (const std::unique_ptr<RankRun> run = std::move(this->Run))
     {
       run->Fail(failure.what());
@@ -160,6 +174,9 @@ int vtkCollectiveAlgorithm::ProcessInformation(
 }
 
 //------------------------------------------------------------------------------
+// Runs passes until RequestData asks for no more; each one requests other data from port 0, such as
+// the next time step. VTK's executives would send the filter's own requests again only with
+// CONTINUE_EXECUTING, which RequestNextPass avoids.
 int vtkCollectiveAlgorithm::ProcessData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -177,10 +194,15 @@ int vtkCollectiveAlgorithm::ProcessData(
     }
     result = this->ProcessPass(request, inputVector, outputVector);
   }
+  // An image may hold less than was requested, as where the extent follows from the data. Filters
+  // downstream that cannot be told must not execute: they would read past its end.
   return clearUnmetRequests(outputVector) ? result : 0;
 }
 
 //------------------------------------------------------------------------------
+// One pass. BeginRun is where ranks meet; exchanges before it would have no partner. The properties
+// are compared first, because with different ones ranks would take different branches of
+// RequestData and wait for each other. Extents are checked before anything counts points by them.
 int vtkCollectiveAlgorithm::ProcessPass(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -194,6 +216,8 @@ int vtkCollectiveAlgorithm::ProcessPass(
   requireExtents(this, inputs);
   this->Whole->Require(this, inputs, this->Run.get());
   int result = 1;
+  // Ranks gather the data on the first one, or share the work. A process that runs alone has
+  // everything in piece 0: other pieces stay empty, so that a union of pieces has each point once.
   if (this->Run && !this->Gathered.empty())
   {
     result = this->GatherAndRun(request, inputs, outputVector);
@@ -221,6 +245,8 @@ int vtkCollectiveAlgorithm::MakeOutputs(
 void vtkCollectiveAlgorithm::EndPasses() {}
 
 //------------------------------------------------------------------------------
+// The first rank runs RequestData for all, of the data of all ranks. IsAlone makes it the only rank
+// that GetRanks returns: an exchange within RequestData would wait for ranks that are not there.
 int vtkCollectiveAlgorithm::GatherAndRun(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -263,6 +289,7 @@ void vtkCollectiveAlgorithm::EndRun()
 
 //------------------------------------------------------------------------------
 // The inputs are now at the requested time, which they were not in RequestInformation.
+// The executive sends this request after RequestUpdateTime, if an early update has asked for it.
 int vtkCollectiveAlgorithm::ProcessTimeDependentInformation(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -274,6 +301,8 @@ int vtkCollectiveAlgorithm::ProcessTimeDependentInformation(
   const ImageGrid before = announcedGrid(output, true);
   this->Early->Clear();
   const int result = this->ProcessInformation(request, inputVector, outputVector);
+  // Filters downstream have copied the extent of the other time in REQUEST_INFORMATION. They are
+  // told again, and Modified() makes this filter execute for the new extent.
   if (result && !(announcedGrid(output, true) == before))
   {
     this->Modified();
@@ -336,6 +365,8 @@ int vtkCollectiveAlgorithm::RequestUpdateTime(
 int vtkCollectiveAlgorithm::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  // Ports are requested whole first; a partitioned one then asks for this rank's piece instead, of
+  // the whole extent that the executive divides.
   this->Whole->RequestOutputs(request, outputVector);
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {

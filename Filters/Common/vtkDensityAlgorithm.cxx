@@ -101,6 +101,8 @@ std::unique_ptr<InputDensity> vtkDensityAlgorithm::ReadDensity(
 }
 
 //------------------------------------------------------------------------------
+// Checks the properties of reading. The choice is valid while this filter lives: it calls the
+// filter's methods when blocks are read.
 DensityChoice vtkDensityAlgorithm::GetDensityChoice(int arrayIndex)
 {
   requireChoice("NegativeValues", this->NegativeValues, NegativeValuesTexts);
@@ -124,6 +126,9 @@ DensityChoice vtkDensityAlgorithm::GetDensityChoice(int arrayIndex)
 }
 
 //------------------------------------------------------------------------------
+// VTK's default is the active scalars, which may be ids or flags: without a name these are not
+// taken, and defaultArray looks for another array. An array that is chosen by its name is taken as
+// it is.
 vtkAbstractArray* vtkDensityAlgorithm::FindDensityArray(
   vtkDataSet* data, int arrayIndex, int& association)
 {
@@ -171,6 +176,8 @@ ImageGrid vtkDensityAlgorithm::FindDensityGrid(vtkDataObject* data, int arrayInd
 }
 
 //------------------------------------------------------------------------------
+// Data that are there tell the association. Without them the announced scalars do, points before
+// cells as in POINTS_THEN_CELLS; without any, the values count as point data.
 bool vtkDensityAlgorithm::IsDensityOnPoints(vtkInformation* inputInformation, int arrayIndex)
 {
   int association =

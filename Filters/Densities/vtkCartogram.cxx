@@ -24,6 +24,8 @@ using namespace RectifiedTransport::Bridge;
 
 namespace
 {
+// The name of a chosen array; empty for none. The mass of a region is one value, and a point is in
+// several regions: an array that is chosen among points or field data is an error.
 std::string arrayName(vtkInformation* choice, const char* title)
 {
   const char* name = choice->Get(vtkDataObject::FIELD_NAME());
@@ -38,12 +40,14 @@ std::string arrayName(vtkInformation* choice, const char* title)
   return name ? name : "";
 }
 
+// The optional overlay, which has no information object without a connection.
 vtkDataObject* overlayOf(vtkInformationVector* port)
 {
   return port->GetNumberOfInformationObjects() > 0 ? vtkDataObject::GetData(port) : nullptr;
 }
 } // namespace
 
+// What depends on the shapes of the regions alone is kept: another array of masses reuses it.
 struct vtkCartogram::vtkInternals
 {
   MapCache Cache;
@@ -78,6 +82,8 @@ const char* vtkCartogram::GetEmptyCellsAsString()
 }
 
 //------------------------------------------------------------------------------
+// Output 2 has the type of the overlay, which the executive cannot know. An object of that type
+// stays. The other outputs are of the types of their ports.
 int vtkCartogram::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -96,6 +102,7 @@ int vtkCartogram::RequestDataObject(
 }
 
 //------------------------------------------------------------------------------
+// The ports are gathered: with several ranks the first one runs this on the regions of all of them.
 int vtkCartogram::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -128,6 +135,7 @@ int vtkCartogram::RequestData(
   AlgorithmProgress progress(this, this->Threading);
   Stages stages(progress, { { "reading", 1 }, { "cartogram", 99 } });
 
+  // An input without regions, as after an abort upstream, gives empty outputs and no error.
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   const std::vector<DensityBlock> blocks =
     input ? densityBlocks(input, nullptr, &stages["reading"]) : std::vector<DensityBlock>();

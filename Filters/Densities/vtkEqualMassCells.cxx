@@ -37,10 +37,13 @@ using namespace RectifiedTransport::Bridge;
 
 namespace
 {
+// Both are indexed by the enumerations of the class.
 constexpr const char* ShapeTexts[] = { "Flow", "Power" };
 constexpr const char* MeasureTexts[] = { "Uniform", "Density" };
 } // namespace
 
+// The division into sites' cells is kept between executions: an execution that changes only the
+// exponents of the cost measures the same labels again.
 struct vtkEqualMassCells::vtkInternals
 {
   StoreSlot Labels;
@@ -75,6 +78,9 @@ const char* vtkEqualMassCells::GetMeasureAsString()
 }
 
 //------------------------------------------------------------------------------
+// Announces the grid of Labels before the data, as image filters downstream need it. The grid is
+// that of the Domain; without one it surrounds the sites, whose bounds are in no information, so
+// that the producer of the points is updated here.
 int vtkEqualMassCells::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -88,6 +94,8 @@ int vtkEqualMassCells::RequestInformation(
     vtkDataObject* domain = vtkDataObject::GetData(information);
     if (this->Measure == DENSITY)
     {
+      // An unknown grid stays empty here, and the box that the information announces stands in for
+      // it.
       const ImageGrid density = this->AnnouncedDensityGrid(information);
       grid = density.IsEmpty() ? density : pixels.On(density);
     }
@@ -106,6 +114,8 @@ int vtkEqualMassCells::RequestInformation(
     const Ranks& ranks = this->UpdateInputOnRanks(0, inputVector, outputVector);
     vtkPointSet* sites = vtkPointSet::GetData(inputVector[0]);
     const auto count = sumOverRanks<std::int64_t>(ranks, sites ? sites->GetNumberOfPoints() : 0);
+    // One site has bounds without volume: the domain is then a unit square, a placeholder for an
+    // execution that reports an error or that has no sites.
     const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };
     grid = count > 1 ? pixels.Around(sites, ranks)
                      : gridWithResolution(gridOfBox(unit), this->Resolution, "Resolution");
@@ -116,6 +126,8 @@ int vtkEqualMassCells::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
+// The first rank has divided the whole image; each rank gets the extent that is requested of it.
+// The sites and the polygons remain on the first rank.
 void vtkEqualMassCells::ShareOutputs(const Ranks& ranks, vtkInformationVector* outputVector)
 {
   distributeImage(
@@ -123,6 +135,8 @@ void vtkEqualMassCells::ShareOutputs(const Ranks& ranks, vtkInformationVector* o
 }
 
 //------------------------------------------------------------------------------
+// Both ports are gathered: with several ranks only the first one runs this, on all data, and
+// nothing in it is collective.
 int vtkEqualMassCells::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -133,6 +147,8 @@ int vtkEqualMassCells::RequestData(
   requireResolution("Resolution", this->Resolution);
   requireChoice("Shape", this->Shape, ShapeTexts);
   requireChoice("Measure", this->Measure, MeasureTexts);
+  // A power diagram is optimal for the squared Euclidean distance alone, where both exponents are
+  // 2.
   if (this->Shape == SHAPE_POWER)
   {
     constexpr const char* rule = "2, which Shape Power needs";
@@ -158,6 +174,8 @@ int vtkEqualMassCells::RequestData(
 
   vtkPointSet* input = pointSetOf(inputVector[0]);
   requireReadableCells(input, "input");
+  // The connection is tested apart from its data: without data, as after an abort upstream, the
+  // outputs are empty; without a connection, Measure Density cannot be what the user means.
   vtkDataObject* domain = vtkDataObject::GetData(inputVector[1], 0);
   if (this->Measure == DENSITY && inputVector[1]->GetNumberOfInformationObjects() == 0)
   {
@@ -184,6 +202,8 @@ int vtkEqualMassCells::RequestData(
   }
   else
   {
+    // Measure Uniform needs no tables of a density; those of an earlier execution would stay in
+    // memory.
     this->GetFlowCache().Release();
     if (!input || input->GetNumberOfPoints() == 0 ||
       (domain && LabelGrid{ this->Resolution }.On(domain).IsEmpty()))
@@ -192,12 +212,14 @@ int vtkEqualMassCells::RequestData(
     }
     report = cells.Run(input, domain, this->Internals->Labels, stages["cells"], outputs);
   }
+  // Colours come last, because they compare the neighbours among the final cells.
   addSiteColors(labels, outputs.Polygons, input->GetNumberOfPoints(), stages["colours"]);
   // Without a Domain the grid may not be known before the data.
   if (!this->RunsForAllRanks()) // else ShareOutputs does so
   {
     announceGrid(gridOf(labels, false), outputVector->GetInformationObject(0));
   }
+  // All four outputs have the figures of the run, so that each can be used alone.
   const std::int64_t sites = input->GetNumberOfPoints();
   for (vtkDataObject* output : outputs.All())
   {
@@ -208,6 +230,8 @@ int vtkEqualMassCells::RequestData(
       addSteps(output, { report.Flow });
     }
   }
+  // The flow of sites has at least this many steps, whatever NumberOfSteps says: the warning has to
+  // compare with what was taken.
   FlowOptions taken = cells.Flow;
   taken.LeastSteps = leastStepsOfSiteCells;
   this->WarnOnFirstRank(stepWarning(report.Flow, taken, FlowDirection::Backward));

@@ -28,8 +28,10 @@ namespace
 using namespace RectifiedTransport;
 using namespace RectifiedTransport::Bridge;
 
+// The enumeration of the class indexes this.
 const char* const BoundaryTexts[] = { "Renormalize", "Drop" };
 
+// RequestInformation checks Dimensions, too: it makes a grid of them before RequestData does.
 void requireDimensions(const int dimensions[3])
 {
   if (*std::min_element(dimensions, dimensions + 3) < 1)
@@ -50,6 +52,9 @@ MassSplatter splatterOf(vtkMassSplatter& filter)
   return splatter;
 }
 
+// The mass array that SetInputArrayToProcess(0, ...) chooses, by its name or as an active
+// attribute. It is nullptr without a choice: points then weigh 1 each. The result may be a new
+// array, made of text that holds numbers, so that the caller shares its ownership.
 vtkSmartPointer<vtkDataArray> chosenMasses(vtkInformation* choice, vtkPointSet* points)
 {
   const int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
@@ -95,6 +100,9 @@ const char* vtkMassSplatter::GetBoundaryAsString()
 }
 
 //------------------------------------------------------------------------------
+// Announces the image before the data. The grid of a Reference is announced by its producer; a grid
+// on the points' bounds needs the points, so that their producer is updated here, on all ranks,
+// whose bounds are joined. Without points there is no grid, and the image is empty.
 int vtkMassSplatter::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -129,16 +137,21 @@ int vtkMassSplatter::RequestData(
   requireChoice("Boundary", this->Boundary, BoundaryTexts);
   splatter.Splat = splatOptions(this->Kernel, this->Radius);
   splatter.Splat.Boundary = static_cast<SplatBoundary>(this->Boundary);
+  // Ranks share the work: each one reads its own points and reference, and writes its part of the
+  // image.
   AlgorithmProgress progress(this, this->Threading, this->GetRanks());
 
   vtkPointSet* input = pointSetOf(inputVector[0]);
   auto* reference = requireBlock<vtkImageData>(
     vtkDataObject::GetData(inputVector[1]), "The Reference", "a vtkImageData");
+  // A rank without points may lack the array as well: this is no error.
   const vtkSmartPointer<vtkDataArray> masses = input && input->GetNumberOfPoints() > 0
     ? chosenMasses(this->GetInputArrayInformation(0), input)
     : nullptr;
   vtkImageData* output = vtkImageData::GetData(outputVector);
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
+  // The connection decides, not its data: a rank may have no part of the Reference and has to take
+  // part in the same exchanges as the others.
   const bool hasReference = inputVector[1]->GetNumberOfInformationObjects() > 0;
   const MassSplatter::Report report =
     splatter.Run(input, masses, { hasReference, reference, outputInformation }, progress, output);

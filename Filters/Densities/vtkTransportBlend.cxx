@@ -33,6 +33,7 @@ namespace
 using namespace RectifiedTransport;
 using namespace RectifiedTransport::Bridge;
 
+// The enumeration of the class indexes these.
 const char* const MassModeTexts[] = { "Linear", "Geometric", "Source", "Normalize" };
 
 // The property Weights: one weight an input, with the sum 1; equal ones for an empty list. Throws
@@ -53,6 +54,7 @@ std::vector<double> normalizedWeights(const std::vector<double>& list, std::size
   }
   for (std::size_t i = 0; i < list.size(); ++i)
   {
+    // The negation refuses NaN, too.
     if (!(list[i] >= 0.0) || std::isinf(list[i]))
     {
       message << "Weight " << i << " of the Weights is " << list[i]
@@ -106,6 +108,7 @@ const char* vtkTransportBlend::GetKernelAsString()
 }
 
 //------------------------------------------------------------------------------
+// Checks the properties before inputs are read, and gives them to the worker.
 RectifiedTransport::Bridge::BlendSettings vtkTransportBlend::GetBlendSettings()
 {
   requireThat(this->ParticlesPerCell >= 0, "ParticlesPerCell", this->ParticlesPerCell,
@@ -125,6 +128,8 @@ RectifiedTransport::Bridge::BlendSettings vtkTransportBlend::GetBlendSettings()
 }
 
 //------------------------------------------------------------------------------
+// Announces the smallest box that holds all inputs before the data. Images announce their grids;
+// other data have to be read for theirs. Unless all grids are known, nothing is announced here.
 int vtkTransportBlend::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -144,6 +149,8 @@ int vtkTransportBlend::RequestInformation(
       // The information of other data has no extents.
       this->UpdateInputBeforeData(port, inputVector, outputVector, i);
       const auto blocks = gatherBlocks(vtkDataObject::GetData(input), this->BlocksAreInputs);
+      // The numbers are those that ReadInputs gives the same blocks, so that what is read for the
+      // grid is kept for the run.
       for (const ConnectedInput& block : blocks.All)
       {
         const int number = static_cast<int>(grids.size());
@@ -151,6 +158,7 @@ int vtkTransportBlend::RequestInformation(
       }
     }
   }
+  // The limit OfTheLargest keeps a fine spacing of one input from filling the box of another one.
   const bool areKnown = std::none_of(
     grids.begin(), grids.end(), [](const NamedGrid& grid) { return grid.Grid.IsEmpty(); });
   if (areKnown && !grids.empty())
@@ -162,6 +170,9 @@ int vtkTransportBlend::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
+// Reads all densities, in the order of ports, connections and blocks. Ranks must have the same
+// number of them, because reading is collective. Returns no inputs if one of them has no points: a
+// blend of the others would be wrong. `names` are those of ports in messages, nullptr for numbers.
 std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inputVector,
   const char* const* names, RectifiedTransport::Progress& progress)
 {
@@ -198,6 +209,7 @@ void vtkTransportBlend::BlendInputs(vtkInformationVector** inputVector,
   vtkInformationVector* outputVector, const BlendSettings& settings, const char* const* names,
   const std::vector<double>& weights)
 {
+  // The device is opened before the progress, which hands it on to the loops.
   DeviceUse device = this->BeginDevice();
   AlgorithmProgress progress(this, this->Threading, this->GetRanks(), &device);
   Stages stages(progress, { { "reading", 5 }, { "blend", 95 } });
@@ -206,6 +218,7 @@ void vtkTransportBlend::BlendInputs(vtkInformationVector** inputVector,
   {
     return;
   }
+  // Weights are checked after the inputs are read, because blocks decide how many inputs there are.
   const std::vector<double> normalized = normalizedWeights(weights, inputs.size());
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {

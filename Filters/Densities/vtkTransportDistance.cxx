@@ -33,12 +33,17 @@ using namespace RectifiedTransport;
 using namespace RectifiedTransport::Bridge;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
+// The enumerations of the class index these.
 const char* const MethodTexts[] = { "Linearized", "Certified" };
 const char* const MassDifferenceTexts[] = { "Normalize", "Error" };
 
+// This bounds the columns of the table of coordinates, which hosts display.
 constexpr int MaximumNumberOfCoordinates = 100;
+// Inputs that are not time steps have no time: NaN leaves the column Time out of the table.
 constexpr double NoTime = std::numeric_limits<double>::quiet_NaN();
 
+// The time steps that the input announces. A range of times without steps gives none: there is no
+// finite number of densities to compare.
 std::vector<double> stepsOf(vtkInformationVector* input)
 {
   vtkInformation* info = input->GetInformationObject(0);
@@ -113,6 +118,8 @@ vtkIdType vtkTransportDistance::GetNumberOfSolutions()
 }
 
 //------------------------------------------------------------------------------
+// OverTime takes a pass for each step; the passes begin again with the first one when the pipeline
+// has changed.
 int vtkTransportDistance::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -125,6 +132,9 @@ int vtkTransportDistance::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
+// Requests the step of this pass, after the superclass has requested the extents. Without OverTime
+// the inputs keep the time that is requested downstream. Each pass reports an equal part of the
+// progress.
 int vtkTransportDistance::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -155,14 +165,19 @@ int vtkTransportDistance::RequestData(
   requireThat(
     this->NumberOfCoordinates >= 1 && this->NumberOfCoordinates <= MaximumNumberOfCoordinates,
     "NumberOfCoordinates", this->NumberOfCoordinates, rule.c_str());
+  // Progress and abort are collective from here on: ranks throw Cancelled together.
   AlgorithmProgress progress(this, this->Threading, this->GetRanks());
   Stages stages(progress, { { "inputs", 50 }, { "pairs", 48 }, { "tables", 2 } });
   DensityDistances& distances = this->Internals->Distances;
+  // The first pass forgets the densities of the last execution, but not their maps and pairs, which
+  // are found again by the content of the densities.
   if (this->Internals->Step == 0)
   {
     distances.Begin(static_cast<DistanceMethod>(this->Method));
     this->Internals->HasAll = true;
   }
+  // Reading adds the densities of this pass. More time steps make more passes, and the tables are
+  // written in the last one.
   if (this->OverTime ? !this->AddStep(inputVector, stages["inputs"])
                      : !this->AddInputs(inputVector, stages["inputs"]))
   {
@@ -170,6 +185,7 @@ int vtkTransportDistance::RequestData(
     return 1;
   }
   const std::vector<DistanceInput>& inputs = distances.Inputs();
+  // A density without points, as after an abort upstream, has no distances: the tables are empty.
   if (!this->Internals->HasAll)
   {
     return 1;
@@ -181,6 +197,7 @@ int vtkTransportDistance::RequestData(
   }
   this->CheckMasses();
   const std::vector<DistancePair> pairs = distances.Find(stages["pairs"]);
+  // All ranks have all pairs; the tables are on the first rank alone, and the field data on all.
   if (this->GetRanks().IsFirst())
   {
     writeDistances(inputs, pairs, vtkTable::GetData(outputVector, 0));
@@ -199,6 +216,8 @@ void vtkTransportDistance::EndPasses()
 }
 
 //------------------------------------------------------------------------------
+// Adds the densities of all connections and blocks, in their order. Ranks must agree on their
+// number, because each of them takes part in reading every one. Always the last pass: returns true.
 bool vtkTransportDistance::AddInputs(
   vtkInformationVector** inputVector, RectifiedTransport::Progress& progress)
 {
@@ -210,6 +229,7 @@ bool vtkTransportDistance::AddInputs(
   for (std::size_t i = 0; i < connected.All.size() && this->Internals->HasAll; ++i)
   {
     const ConnectedInput& input = connected.All[i];
+    // A block's own name goes before the name of its connection, which several blocks may share.
     const std::string number = std::to_string(i + 1);
     const std::string named = this->GetInputName(input.Connection);
     const std::string name = !input.Block.empty() ? input.Block : named;
@@ -222,6 +242,8 @@ bool vtkTransportDistance::AddInputs(
 }
 
 //------------------------------------------------------------------------------
+// Adds the density of the time step of this pass. Returns whether it was the last one; the next
+// execution then begins with the first step.
 bool vtkTransportDistance::AddStep(
   vtkInformationVector** inputVector, RectifiedTransport::Progress& progress)
 {
@@ -250,6 +272,10 @@ bool vtkTransportDistance::AddStep(
 }
 
 //------------------------------------------------------------------------------
+// Reads one density and gives it to the distances, which may compute maps of those that wait, so
+// that few densities are in memory at a time. Returns false for data without points. `number` tells
+// the inputs apart for what vtkDensityAlgorithm keeps of each; the steps of a series share the
+// number 0.
 bool vtkTransportDistance::Add(vtkDataObject* data, const std::string& title,
   const std::string& name, int number, double time, RectifiedTransport::Progress& progress)
 {
@@ -275,9 +301,13 @@ bool vtkTransportDistance::Add(vtkDataObject* data, const std::string& title,
 }
 
 //------------------------------------------------------------------------------
+// W2 is a distance between measures of equal mass. Each density is divided by its mass, of which
+// the user learns where this changes more than rounding.
 void vtkTransportDistance::CheckMasses()
 {
+  // Values that were rounded to single precision, by 6e-8 each, have masses that differ by less.
   constexpr double rounding = 1e-6;
+  // A warning of less than one percent would only distract.
   constexpr double worthWarning = 0.01;
   const std::vector<DistanceInput>& inputs = this->Internals->Distances.Inputs();
   std::vector<double> masses;
@@ -298,6 +328,7 @@ void vtkTransportDistance::CheckMasses()
   {
     throw Failure(text + "; MassDifference Normalize divides each by its mass");
   }
+  // The same masses get no second warning, as where only another property changes.
   if (excess > worthWarning && masses != this->Internals->Told)
   {
     this->WarnOnFirstRank(text + "; each is divided by its mass");

@@ -29,6 +29,7 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 // Bounds the list of time steps, which hosts display.
 constexpr int MaximumNumberOfTimeSteps = 1000000;
 
+// RequestInformation leaves out a number that RequestData refuses, with its message.
 bool isNumberOfTimeSteps(int count)
 {
   return count >= 2 && count <= MaximumNumberOfTimeSteps;
@@ -62,6 +63,9 @@ int vtkTransportInterpolator::RequestUpdateTime(
 }
 
 //------------------------------------------------------------------------------
+// With PublishTime, the time that is requested downstream is the parameter of the blend, from 0 to
+// 1. Requesting it from the inputs would read other data for each parameter: their first time
+// stands for the data, the first step or, without steps, the begin of the range.
 void vtkTransportInterpolator::RequestFirstTime(vtkInformationVector** inputVector)
 {
   if (!this->PublishTime)
@@ -118,6 +122,7 @@ int vtkTransportInterpolator::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
+// The pipeline's time, clamped to [0, 1], if it is published and requested; else the property.
 double vtkTransportInterpolator::FindParameter(
   vtkInformation* request, vtkInformationVector* outputVector)
 {
@@ -140,6 +145,8 @@ int vtkTransportInterpolator::RequestData(
     this->Parameter >= 0.0 && this->Parameter <= 1.0, "Parameter", this->Parameter, "from 0 to 1");
   requireThat(isNumberOfTimeSteps(this->NumberOfTimeSteps), "NumberOfTimeSteps",
     this->NumberOfTimeSteps, "from 2 to 1000000");
+  // Linear weights 1 - s and s of the two maps from the uniform measure give the blend at s
+  // (Section 3.4).
   const double parameter = this->FindParameter(request, outputVector);
   BlendSettings settings = this->GetBlendSettings();
   settings.ComparesEnds = true;

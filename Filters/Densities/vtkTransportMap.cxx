@@ -35,11 +35,14 @@ namespace
 using namespace RectifiedTransport;
 using namespace RectifiedTransport::Bridge;
 
+// The enumeration of the class indexes these.
 const char* const DirectionTexts[] = { "UniformToDensity", "DensityToUniform" };
 
 // What messages call the inputs of a map to a target.
 const char* const InputNames[] = { "Source", "Target" };
 
+// The connection decides whether the map leads to a target: its data may be missing after an abort
+// upstream, and the outputs are then empty rather than those of another map.
 bool hasTarget(vtkInformationVector** inputVector)
 {
   return inputVector[1]->GetNumberOfInformationObjects() > 0;
@@ -80,6 +83,9 @@ void vtkTransportMap::SetInputArrayToProcess(
 }
 
 //------------------------------------------------------------------------------
+// Announces the grid of the samples before the data: image filters downstream request extents of
+// it. Only images announce their grid themselves; the producers of other data are updated on all
+// ranks.
 int vtkTransportMap::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -93,6 +99,7 @@ int vtkTransportMap::RequestInformation(
   }
   announceSubExtents(outputInformation);
   const ImageGrid inputGrid = this->AnnouncedDensityGrid(inputInformation, port, port);
+  // An unknown grid is announced as empty: nothing is requested downstream of it.
   announceGrid(inputGrid, outputInformation);
   if (inputGrid.IsEmpty())
   {
@@ -115,6 +122,8 @@ int vtkTransportMap::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
+// Reads the densities of both ports, on ranks collectively: the second one is read even if the
+// first one has no points, because another rank might have some. Returns whether both have points.
 bool vtkTransportMap::ReadPair(vtkInformationVector** inputVector,
   RectifiedTransport::Progress& progress, std::unique_ptr<InputDensity>* densities)
 {
@@ -138,6 +147,7 @@ int vtkTransportMap::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireChoice("Direction", this->Direction, DirectionTexts);
+  // All properties are checked before anything is read, so that a wrong value is an error at once.
   TransportMap map{};
   map.Tables = tableSetting(this->Tables);
   map.Flow = this->GetFlowOptions();
@@ -146,10 +156,14 @@ int vtkTransportMap::RequestData(
   map.EqualizeAreas = this->EqualizeAreas != 0;
   std::copy_n(this->SampleDimensions, 3, map.SampleDimensions.begin());
   const Ranks& ranks = this->GetRanks();
+  // The device is opened before the progress, which hands it on to the loops; EndDevice warns after
+  // the run if it did not serve.
   DeviceUse device = this->BeginDevice();
   AlgorithmProgress progress(this, this->Threading, ranks, &device);
   Stages stages(progress, { { "reading", 5 }, { "map", 95 } });
 
+  // These are by port. Without a target the second one stays nullptr, and what an earlier target
+  // left in memory is released.
   std::array<std::unique_ptr<InputDensity>, 2> densities;
   const bool isToTarget = hasTarget(inputVector);
   if (!isToTarget)
@@ -165,6 +179,7 @@ int vtkTransportMap::RequestData(
   {
     this->ToTarget = std::make_unique<TargetCache>();
   }
+  // DENSITY_TO_UNIFORM exchanges the ends of a map between two densities: it begins at the target.
   const int first = isToTarget && map.Backward ? 1 : 0;
   InputDensity* density = densities[first].get();
   if (!density)
@@ -173,6 +188,7 @@ int vtkTransportMap::RequestData(
   }
   vtkImageData* output = vtkImageData::GetData(outputVector);
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
+  // Each rank makes only the samples that it gives downstream.
   const Extent wanted = extentToGive(map.SampleGrid(*density).Extent(), outputInformation, ranks);
   std::optional<TargetDensity> goal;
   if (isToTarget)
@@ -195,6 +211,8 @@ int vtkTransportMap::RequestData(
   // The association of the density may not be known before the data.
   announceGrid(result.Grid, outputInformation);
   this->WarnOnFirstRank(result.Transport.Warning);
+  // A map between two densities goes back along the flow of the one to the uniform measure and
+  // forth along that of the other: the first report is of a backward flow.
   for (std::size_t i = 0; i < result.Flows.size(); ++i)
   {
     const bool isBack = isToTarget ? i == 0 : map.Backward;
@@ -211,12 +229,16 @@ int vtkTransportMap::RequestData(
     this->WarnOfAreas();
   }
   const auto samples = static_cast<std::int64_t>(result.Samples);
+  // A sample that ends in an empty cell has been moved to mass; field data count these, too, where
+  // they are too few for a warning.
   if (isWorthWarning(result.MovedToMass, samples))
   {
     this->WarnOnFirstRank(std::to_string(result.MovedToMass) + " of " + std::to_string(samples) +
       " samples in empty cells moved to the nearest cell with mass" +
       result.Transport.WithSteps(" (more NumberOfSteps may spare them that)"));
   }
+  // A fold has a Jacobian that is not positive: there the map is no bijection, and its inverse and
+  // the push-forward by it are wrong. The advice names what helps in each direction.
   if (result.ShowsFolds)
   {
     this->WarnOnFirstRank(describePart(result.Folded, samples, "samples") +

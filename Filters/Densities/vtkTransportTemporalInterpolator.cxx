@@ -70,6 +70,9 @@ double requestedTime(
 }
 } // namespace
 
+// An execution takes several passes, because the input has one time step at a time: each pass
+// requests a step that is missing, and the last one interpolates. These members carry on from pass
+// to pass.
 struct vtkTransportTemporalInterpolator::vtkInternals
 {
   StepTimes Times;       // the times of the input, as announced
@@ -121,6 +124,9 @@ vtkIdType vtkTransportTemporalInterpolator::GetNumberOfMaps()
 }
 
 //------------------------------------------------------------------------------
+// Announces the times and the grid. Without ResampleFactor there is a range alone, within which any
+// time may be requested; with it, each interval is divided into so many steps. A list that would be
+// too long is left out here, and RequestData reports it. A series that changes may warn again.
 int vtkTransportTemporalInterpolator::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -146,6 +152,8 @@ int vtkTransportTemporalInterpolator::RequestInformation(
     // The information of other data has no extents.
     this->UpdateInputBeforeData(0, inputVector, outputVector);
   }
+  // The cached steps have the numbers from 0 to Most - 1; the data before any pass have the next
+  // one.
   const ImageGrid grid = this->AnnouncedDensityGrid(input, 0, StepCache::Most);
   if (!grid.IsEmpty())
   {
@@ -182,6 +190,10 @@ int vtkTransportTemporalInterpolator::MissingStep(double time)
 }
 
 //------------------------------------------------------------------------------
+// Requests the step of this pass: the one that ranks agreed on, in the first pass the first one
+// that is missing here. The executive asks twice, for the time and for the extent, and must get one
+// answer. Steps are dropped only before the first pass, because the passes' own requests change the
+// pipeline.
 void vtkTransportTemporalInterpolator::RequestStep(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -219,6 +231,8 @@ int vtkTransportTemporalInterpolator::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
+// Runs a pass. After the last one the cache takes the pipeline's state as its own: what the
+// requests of this execution changed upstream makes no step outdated.
 int vtkTransportTemporalInterpolator::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -255,6 +269,7 @@ RectifiedTransport::Bridge::TemporalSettings vtkTransportTemporalInterpolator::G
   requireThat(
     this->ParticlesPerCell >= 1, "ParticlesPerCell", this->ParticlesPerCell, "at least 1");
   TemporalSettings settings{};
+  // These decide which intervals and tracked particles can be reused.
   settings.Moving = { this->ParticlesPerCell, this->Method == OPTIMAL };
   settings.TracksParticles = this->TrackParticles != 0;
   settings.AdvectsArrays = this->AdvectArrays != 0;
@@ -263,6 +278,9 @@ RectifiedTransport::Bridge::TemporalSettings vtkTransportTemporalInterpolator::G
 }
 
 //------------------------------------------------------------------------------
+// Stores the step that was requested, and finds the next one that is missing on any rank. If there
+// is one, this asks for another pass; else it extends the tracks up to the requested time, and
+// interpolates. All ranks take the same branch: each decision is gathered from all of them.
 void vtkTransportTemporalInterpolator::RunPass(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -273,6 +291,8 @@ void vtkTransportTemporalInterpolator::RunPass(
   requireThat(!std::isnan(time), "The pipeline's time", time, "a number");
   SeriesTracks& tracks = own.Interpolation.Tracks();
   tracks.SetSettings(settings.Moving, ranks.Count());
+  // Data without time steps are of the time that is requested; there is one step, and no mass
+  // moves.
   if (!own.IsSeries)
   {
     own.Times = StepTimes(time);
@@ -282,6 +302,7 @@ void vtkTransportTemporalInterpolator::RunPass(
   const vtkMTimeType changed = this->GetMTime();
   own.Changed = own.Changed || (own.Passes == 0 && changed != own.ChangedTime);
   own.ChangedTime = changed;
+  // After a change on any rank, every tracked step is compared with what was tracked.
   if (!onAllRanks(ranks, own.IsSeries && !own.Changed))
   {
     tracks.Recheck();
@@ -378,6 +399,8 @@ bool vtkTransportTemporalInterpolator::ExtendTracks(
 
 //------------------------------------------------------------------------------
 void vtkTransportTemporalInterpolator::Interpolate(
+  // The lowest missing step of all ranks is requested by all of them, as reading a step is
+  // collective. Each step that is tracked needs the next one, which may be missing in turn.
   double time, RectifiedTransport::Progress& progress, vtkInformationVector* outputVector)
 {
   vtkInternals& own = *this->Internals;
@@ -392,6 +415,7 @@ void vtkTransportTemporalInterpolator::Interpolate(
   {
     return;
   }
+  // A series of one step has no interval: both ends are the same density.
   if (place.Second == place.First)
   {
     moment.Second = moment.First;
@@ -408,6 +432,7 @@ void vtkTransportTemporalInterpolator::Interpolate(
   }
   const TemporalOutput output{ outputVector->GetInformationObject(0),
     vtkImageData::GetData(outputVector, 0), vtkPolyData::GetData(outputVector, 1) };
+  // Views draw the extent that was announced before; a grid that changes with time has another one.
   const std::array<int, 6> announced = announcedGrid(output.Announced, true).Extent();
   this->WarnOnFirstRank(
     own.Interpolation.Run(moment, this->GetSettings(), stages["interpolation"], output));
